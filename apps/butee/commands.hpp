@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "session.hpp"
+
+namespace butee::app {
+
+/// Exit statuses of the program.
+enum Exit : int { kDone = 0, kFailed = 1, kBadInput = 2 };
+
+struct RunArguments {
+  ModelArguments model;
+  std::string folder;  ///< empty: "<model stem>-results"
+  int repeat = 1;
+  std::string progress = "auto";
+};
+
+int run_command(const RunArguments& arguments);
+
+struct PluginsArguments {
+  std::string name;
+  std::string write_manifest;  ///< a module whose manifest is wanted beside it
+  std::vector<std::string> plugins;
+};
+
+int plugins_command(const PluginsArguments& arguments);
+
+}  // namespace butee::app

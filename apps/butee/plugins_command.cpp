@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+#include <butee/config/toml.hpp>
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
+#include <butee/plugin/catalogue.hpp>
+#include <butee/plugin/module.hpp>
+
+#include "commands.hpp"
+
+namespace butee::app {
+namespace {
+
+using config::Parameter;
+
+struct Row {
+  const char* kind;
+  std::string name, aliases, summary;
+  const std::vector<Parameter>* parameters;
+  std::string module;
+};
+
+std::vector<Row> rows_of(const plugin::Catalogue& catalogue) {
+  std::vector<Row> rows;
+  for (const auto& entry : catalogue.integrators()) {
+    const auto& type = entry.declaration;
+    rows.push_back({"integrator", type.name, join(type.aliases), type.summary, &type.parameters, entry.module});
+  }
+  const model::ModelTypes& types = catalogue.types();
+  const auto add = [&rows](const char* kind, const auto& list) {
+    for (const auto& type : list) rows.push_back({kind, type.name, "", type.summary, &type.parameters, ""});
+  };
+  add("element", types.elements);
+  add("section", types.sections);
+  add("law", types.laws);
+  add("load", types.loads);
+  return rows;
+}
+
+void print_list(const std::vector<Row>& rows) {
+  const char* kind = "";
+  for (const Row& row : rows) {
+    if (std::string_view(kind) != row.kind) std::printf("%s%ss\n", *kind != '\0' ? "\n" : "", row.kind);
+    kind = row.kind;
+    std::printf("  %-26s %-6s %s\n", row.name.c_str(), row.aliases.c_str(), row.summary.c_str());
+  }
+}
+
+std::string default_text(const Parameter& parameter) {
+  if (parameter.fallback) return config::to_toml(*parameter.fallback);
+  return parameter.required ? "required" : "optional";
+}
+
+void print_details(const Row& row) {
+  std::printf("%s %s%s\n  %s\n", row.kind, row.name.c_str(),
+              row.aliases.empty() ? "" : (" (alias " + row.aliases + ")").c_str(), row.summary.c_str());
+  if (!row.module.empty()) std::printf("  module %s\n", row.module.c_str());
+  std::vector<std::vector<std::string>> cells = {{"parameter", "unit", "default", "allowed", "meaning"}};
+  for (const Parameter& p : *row.parameters) cells.push_back({p.name, p.unit, default_text(p), p.describe(), p.help});
+  if (cells.size() == 1) return;
+  std::vector<std::size_t> widths(cells[0].size());
+  for (const auto& line : cells)
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  std::printf("\n");
+  for (const auto& line : cells) {
+    std::string text = " ";
+    for (std::size_t i = 0; i < line.size(); ++i)
+      text += " " + line[i] + (i + 1 < line.size() ? std::string(widths[i] - line[i].size() + 1, ' ') : "");
+    std::printf("%s\n", text.c_str());
+  }
+}
+
+bool answers_to(const Row& row, const std::string& name) {
+  return row.name == name || row.aliases == name ||
+         (", " + row.aliases + ",").find(", " + name + ",") != std::string::npos;
+}
+
+void write_manifest(const std::string& module) {
+  const std::string path = plugin::manifest_path(module);
+  std::ofstream file(path, std::ios::binary);
+  file << plugin::write_manifest(plugin::load_module(module).integrators());
+  file.close();
+  if (!file) throw RunError(path + ": cannot be written");
+}
+
+}  // namespace
+
+int plugins_command(const PluginsArguments& arguments) {
+  if (!arguments.write_manifest.empty()) {
+    write_manifest(arguments.write_manifest);
+    return kDone;
+  }
+  const auto catalogue = plugin::Catalogue::with_plugins(arguments.plugins);
+  const auto rows = rows_of(catalogue);
+  if (arguments.name.empty()) {
+    print_list(rows);
+    return kDone;
+  }
+  bool found = false;
+  std::vector<std::string> known;
+  for (const Row& row : rows) {
+    known.push_back(row.name);
+    if (!answers_to(row, arguments.name)) continue;
+    if (found) std::printf("\n");
+    print_details(row);
+    found = true;
+  }
+  if (!found)
+    throw InputError("there is no \"" + arguments.name + "\"" + suggestion(arguments.name, known) +
+                     "; `butee plugins` lists all");
+  return kDone;
+}
+
+}  // namespace butee::app

@@ -1,0 +1,13 @@
+#include "elements/elements.hpp"
+
+#include "elements/beam.hpp"
+#include "elements/mass.hpp"
+#include "elements/spring.hpp"
+
+namespace butee::elements {
+
+std::vector<model::ElementType> element_types() {
+  return {beam_type(), mass_type(), spring_type()};
+}
+
+}  // namespace butee::elements

@@ -1,0 +1,81 @@
+#include "elements/spring.hpp"
+
+#include <array>
+
+namespace butee::elements {
+
+using config::Parameters;
+using model::NodalDof;
+using model::NodeId;
+
+namespace {
+
+std::unique_ptr<model::Element> make_spring(const Parameters& p, model::ElementContext& context) {
+  const DofKind kind = p.text("dof") == "u" ? DofKind::u : DofKind::theta;
+  std::vector<NodeId> a, b;
+  if (p.has("node")) {
+    const auto node = context.node(p, "node");
+    if (!node) return nullptr;
+    a = {*node};
+  } else {
+    const auto ends = context.nodes(p, "nodes");
+    if (!ends) return nullptr;
+    const std::size_t half = ends->size() / 2;
+    if (p.texts("nodes").size() != 2 || ends->size() % 2 != 0) {
+      p.complain(context.diagnostics(), "nodes",
+                 "must name two nodes, such as [\"rotor:4\", \"casing:4\"], or two ranges of equal length");
+      return nullptr;
+    }
+    a.assign(ends->begin(), ends->begin() + static_cast<std::ptrdiff_t>(half));
+    b.assign(ends->begin() + static_cast<std::ptrdiff_t>(half), ends->end());
+  }
+  return std::make_unique<Spring>(std::move(a), std::move(b), kind, p.number("stiffness"), p.number("damping"));
+}
+
+}  // namespace
+
+Spring::Spring(std::vector<NodeId> a, std::vector<NodeId> b, DofKind kind, double stiffness, double damping)
+    : a_(std::move(a)), b_(std::move(b)), kind_(kind), stiffness_(stiffness), damping_(damping) {}
+
+void Spring::claim(model::DofTable& dofs) const {
+  for (const NodeId node : a_) dofs.claim({node, kind_}, false);
+  for (const NodeId node : b_) dofs.claim({node, kind_}, false);
+}
+
+void Spring::assemble(model::MatrixSink& sink) const {
+  const bool grounded = b_.empty();
+  model::ElementMatrices matrices(grounded ? 1 : 2);
+  if (grounded)
+    matrices.stiffness << 1.0;
+  else
+    matrices.stiffness << 1.0, -1.0, -1.0, 1.0;
+  matrices.damping = damping_ * matrices.stiffness;
+  matrices.stiffness *= stiffness_;
+  for (std::size_t i = 0; i < a_.size(); ++i) {
+    if (grounded)
+      sink.add(std::array{NodalDof{a_[i], kind_}}, matrices);
+    else
+      sink.add(std::array{NodalDof{a_[i], kind_}, NodalDof{b_[i], kind_}}, matrices);
+  }
+}
+
+model::ElementType spring_type() {
+  using config::number, config::text;
+  return {"spring",
+          "spring and parallel dashpot, to ground (node) or between two nodes (nodes)",
+          {text("node", "the node of a spring to ground").optional(),
+           config::texts("nodes", "the two nodes, or two equally long ranges joined pair by pair").optional(),
+           text("dof", "the degree of freedom").one_of({"u", "theta"}).or_else("u"),
+           number("stiffness", "N/m", "the stiffness (N m/rad on theta)").at_least(0),
+           number("damping", "N s/m", "the dashpot (N m s/rad on theta)").at_least(0).or_else(0.0)},
+          [](const Parameters& p, config::Diagnostics& diagnostics) -> model::ElementType::Nodes {
+            if (p.has("node") == p.has("nodes"))
+              p.complain(diagnostics, p.has("node") ? "nodes" : "node",
+                         p.has("node") ? "stands beside node; give one of them"
+                                       : "missing; give node (to ground) or nodes (between two)");
+            return std::nullopt;
+          },
+          make_spring};
+}
+
+}  // namespace butee::elements

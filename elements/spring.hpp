@@ -1,0 +1,26 @@
+#pragma once
+
+#include "butee/model/types.hpp"
+
+namespace butee::elements {
+
+/// Springs with parallel dashpots, to ground or between nodes pair by pair, on one kind of DOF.
+///
+///     F_a = -k (x_a - x_b) - c (v_a - v_b),   F_b = -F_a
+class Spring final : public model::Element {
+ public:
+  /// `b` is empty (to ground) or as long as `a`. Stiffness N/m and damping N s/m, or N m/rad and N m s/rad on theta.
+  Spring(std::vector<model::NodeId> a, std::vector<model::NodeId> b, DofKind kind, double stiffness, double damping);
+
+  void claim(model::DofTable& dofs) const override;
+  void assemble(model::MatrixSink& sink) const override;
+
+ private:
+  std::vector<model::NodeId> a_, b_;
+  DofKind kind_;
+  double stiffness_, damping_;
+};
+
+model::ElementType spring_type();
+
+}  // namespace butee::elements

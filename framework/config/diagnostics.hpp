@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "butee/config/value.hpp"
+
+namespace butee::config {
+
+/// Collects every mistake of a model file, so that a user sees all of them in one go.
+///
+/// A message reads `FILE:LINE: KEY = VALUE: what is wrong and what is allowed`.
+class BUTEE_EXPORT Diagnostics {
+ public:
+  explicit Diagnostics(const Document& document) : document_(&document) {}
+
+  /// A mistake in the value of `key`.
+  void error(const std::string& key, const Value& value, const std::string& complaint);
+  /// A mistake about `key` as a whole, such as its absence from the table at `at`.
+  void error(const std::string& key, Location at, const std::string& complaint);
+  void warning(const std::string& key, Location at, const std::string& complaint);
+
+  std::size_t error_count() const { return errors_.size(); }
+  const std::vector<std::string>& errors() const { return errors_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  const Document& document() const { return *document_; }
+
+  /// Throws InputError with all messages, a line each, in the order of the file, where there is any.
+  void throw_if_any() const;
+
+ private:
+  const Document* document_;
+  std::vector<std::string> errors_, warnings_;
+  std::vector<Location> places_;
+};
+
+}  // namespace butee::config

@@ -1,0 +1,95 @@
+#include "butee/config/override.hpp"
+
+#include <charconv>
+
+#include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+
+namespace butee::config {
+namespace {
+
+struct Step {
+  std::string key;
+  std::vector<std::size_t> indices;
+};
+
+[[noreturn]] void refuse(const std::string& assignment, const std::string& reason) {
+  throw InputError("--set " + assignment + ": " + reason);
+}
+
+/// "contact[0]" -> {contact, [0]}
+Step parse_step(const std::string& text, const std::string& assignment) {
+  const auto bracket = text.find('[');
+  Step step{text.substr(0, bracket), {}};
+  if (!is_plain_name(step.key))
+    refuse(assignment, "write KEY=VALUE with a dotted key, such as integrator.time_step=1e-6");
+  for (auto open = bracket; open != std::string::npos;) {
+    const auto close = text.find(']', open);
+    std::size_t index = 0;
+    const char* const end = text.data() + std::min(close, text.size());
+    const auto parsed = std::from_chars(text.data() + open + 1, end, index);
+    if (close == std::string::npos || parsed.ec != std::errc() || parsed.ptr != end)
+      refuse(assignment, "an index is a whole number in brackets, such as contact[0]");
+    step.indices.push_back(index);
+    open = close + 1 < text.size() ? close + 1 : std::string::npos;
+    if (open != std::string::npos && text[open] != '[') refuse(assignment, "a dot is missing after ]");
+  }
+  return step;
+}
+
+std::vector<Step> parse_path(const std::string& path, const std::string& assignment) {
+  std::vector<Step> steps;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const auto dot = std::min(path.find('.', begin), path.size());
+    steps.push_back(parse_step(path.substr(begin, dot - begin), assignment));
+    begin = dot + 1;
+  }
+  return steps;
+}
+
+Value& descend(Value& from, const Step& step, const std::string& assignment) {
+  Table* table = from.table();
+  if (table == nullptr) refuse(assignment, "\"" + step.key + "\" cannot be set inside " + from.kind());
+  Value* value = &(*table)[step.key];
+  for (const std::size_t index : step.indices) {
+    Array* array = value->array();
+    const std::size_t size = array != nullptr ? array->size() : 0;
+    if (index >= size)
+      refuse(assignment, "there is no " + step.key + "[" + std::to_string(index) + "]; the file has " +
+                             std::to_string(size) + " of them");
+    value = &(*array)[index];
+  }
+  return *value;
+}
+
+void relocate(Value& value, Location at) {
+  value.at = at;
+  if (Array* array = value.array())
+    for (Value& item : *array) relocate(item, at);
+  if (Table* table = value.table())
+    for (auto& entry : table->entries) relocate(entry.second, at);
+}
+
+}  // namespace
+
+void apply_override(Document& document, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos) refuse(assignment, "write KEY=VALUE, such as integrator.time_step=1e-6");
+  const std::vector<Step> path = parse_path(assignment.substr(0, equals), assignment);
+  const std::string text = assignment.substr(equals + 1);
+
+  document.sources.push_back("--set " + assignment);
+  const Location at{static_cast<std::int32_t>(document.sources.size() - 1), 0};
+  Value given = parse_toml_value(text).value_or(Value(text));
+  relocate(given, at);
+
+  Value* target = &document.root;
+  for (const Step& step : path) {
+    target = &descend(*target, step, assignment);
+    if (const Table* table = target->table(); table != nullptr && table->entries.empty()) target->at = at;
+  }
+  *target = std::move(given);
+}
+
+}  // namespace butee::config

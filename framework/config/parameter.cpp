@@ -1,0 +1,185 @@
+#include "butee/config/parameter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "butee/config/parameters.hpp"
+#include "butee/core/text.hpp"
+
+namespace butee::config {
+namespace {
+
+Parameter declare(Parameter::Kind kind, std::string name, std::string unit, std::string help) {
+  Parameter parameter;
+  parameter.kind = kind;
+  parameter.name = std::move(name);
+  parameter.unit = std::move(unit);
+  parameter.help = std::move(help);
+  return parameter;
+}
+
+std::string bounds_text(const Parameter& parameter) {
+  std::string text;
+  if (std::isfinite(parameter.lower)) text += (parameter.lower_open ? " > " : " >= ") + to_short_text(parameter.lower);
+  if (std::isfinite(parameter.upper)) text += (text.empty() ? " <= " : " and <= ") + to_short_text(parameter.upper);
+  return text;
+}
+
+std::string quoted_choices(const Parameter& parameter) {
+  return "\"" + join(parameter.choices, "\", \"") + "\"";
+}
+
+std::string number_complaint(const Parameter& parameter, const Value& value) {
+  const auto number = as_number(value);
+  if (!number) return std::string("must be a number, not ") + value.kind();
+  const bool inside = std::isfinite(*number) && *number <= parameter.upper &&
+                      (parameter.lower_open ? *number > parameter.lower : *number >= parameter.lower);
+  if (inside) return "";
+  const std::string unit = parameter.unit.empty() || parameter.unit == "1" ? "" : " (" + parameter.unit + ")";
+  if (!std::isfinite(*number)) return "must be a finite number" + unit;
+  return "must be" + bounds_text(parameter) + unit;
+}
+
+std::string text_complaint(const Parameter& parameter, const Value& value) {
+  const std::string* text = value.text();
+  if (text == nullptr) return std::string("must be a string, not ") + value.kind();
+  if (parameter.choices.empty() ||
+      std::find(parameter.choices.begin(), parameter.choices.end(), *text) != parameter.choices.end())
+    return "";
+  return "must be one of " + quoted_choices(parameter) + suggestion(*text, parameter.choices);
+}
+
+template <class Complaint>
+std::string array_complaint(const Parameter& parameter, const Value& value, const char* of, Complaint complaint) {
+  const Array* array = value.array();
+  if (array == nullptr) return std::string("must be an array of ") + of + ", not " + value.kind();
+  if (parameter.length && array->size() != *parameter.length)
+    return "must hold " + std::to_string(*parameter.length) + " values, not " + std::to_string(array->size());
+  for (std::size_t i = 0; i < array->size(); ++i)
+    if (const std::string wrong = complaint((*array)[i]); !wrong.empty())
+      return "entry " + std::to_string(i) + " (counted from 0): " + wrong;
+  return "";
+}
+
+bool is_tables(const Value& value) {
+  const Array* array = value.array();
+  return value.table() != nullptr ||
+         (array != nullptr &&
+          std::all_of(array->begin(), array->end(), [](const Value& item) { return item.table() != nullptr; }));
+}
+
+}  // namespace
+
+Parameter Parameter::at_least(double bound) const {
+  Parameter copy = *this;
+  copy.lower = bound;
+  copy.lower_open = false;
+  return copy;
+}
+Parameter Parameter::above(double bound) const {
+  Parameter copy = *this;
+  copy.lower = bound;
+  copy.lower_open = true;
+  return copy;
+}
+Parameter Parameter::at_most(double bound) const {
+  Parameter copy = *this;
+  copy.upper = bound;
+  return copy;
+}
+Parameter Parameter::or_else(Value::Data value) const {
+  Parameter copy = *this;
+  copy.fallback = Value(std::move(value));
+  copy.required = false;
+  return copy;
+}
+Parameter Parameter::optional() const {
+  Parameter copy = *this;
+  copy.required = false;
+  return copy;
+}
+Parameter Parameter::one_of(std::vector<std::string> names) const {
+  Parameter copy = *this;
+  copy.choices = std::move(names);
+  return copy;
+}
+Parameter Parameter::of_length(std::size_t wanted) const {
+  Parameter copy = *this;
+  copy.length = wanted;
+  return copy;
+}
+
+std::string Parameter::describe() const {
+  switch (kind) {
+    case Kind::number:
+      return "number" + bounds_text(*this);
+    case Kind::integer:
+      return "integer" + bounds_text(*this);
+    case Kind::boolean:
+      return "true or false";
+    case Kind::text:
+      return choices.empty() ? "text" : quoted_choices(*this);
+    case Kind::numbers:
+      return (length ? std::to_string(*length) + " numbers" : std::string("numbers")) + bounds_text(*this);
+    case Kind::texts:
+      return choices.empty() ? "text or list of texts" : "list of " + quoted_choices(*this);
+    case Kind::table:
+      return "table";
+  }
+  return "";
+}
+
+std::string Parameter::complaint(const Value& value) const {
+  switch (kind) {
+    case Kind::number:
+      return number_complaint(*this, value);
+    case Kind::integer:
+      if (!std::holds_alternative<std::int64_t>(value.data))
+        return std::string("must be an integer, not ") + value.kind();
+      return number_complaint(*this, value);
+    case Kind::boolean:
+      return std::holds_alternative<bool>(value.data) ? "" : std::string("must be true or false, not ") + value.kind();
+    case Kind::text:
+      return text_complaint(*this, value);
+    case Kind::numbers:
+      return array_complaint(*this, value, "numbers",
+                             [this](const Value& item) { return number_complaint(*this, item); });
+    case Kind::texts:
+      if (value.text() != nullptr) return text_complaint(*this, value);
+      return array_complaint(*this, value, "strings",
+                             [this](const Value& item) { return text_complaint(*this, item); });
+    case Kind::table:
+      return is_tables(value) ? "" : std::string("must be a table, not ") + value.kind();
+  }
+  return "";
+}
+
+Parameter number(std::string name, std::string unit, std::string help) {
+  return declare(Parameter::Kind::number, std::move(name), std::move(unit), std::move(help));
+}
+Parameter integer(std::string name, std::string help) {
+  return declare(Parameter::Kind::integer, std::move(name), "1", std::move(help));
+}
+Parameter boolean(std::string name, std::string help) {
+  return declare(Parameter::Kind::boolean, std::move(name), "", std::move(help));
+}
+Parameter text(std::string name, std::string help) {
+  return declare(Parameter::Kind::text, std::move(name), "", std::move(help));
+}
+Parameter numbers(std::string name, std::string unit, std::string help) {
+  return declare(Parameter::Kind::numbers, std::move(name), std::move(unit), std::move(help));
+}
+Parameter texts(std::string name, std::string help) {
+  return declare(Parameter::Kind::texts, std::move(name), "", std::move(help));
+}
+Parameter table(std::string name, std::string help) {
+  return declare(Parameter::Kind::table, std::move(name), "", std::move(help));
+}
+
+std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+}  // namespace butee::config

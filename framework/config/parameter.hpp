@@ -1,0 +1,67 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "butee/config/diagnostics.hpp"
+#include "butee/config/value.hpp"
+
+namespace butee::config {
+
+/// The declaration of one key: what may be written there, in which unit, and what it means.
+///
+/// A declaration is plain data: it validates a scene, fills `butee plugins NAME`, the manifests and the tables of the
+/// documents, and is written once, by the type that reads the key:
+///
+///     number("gap", "m", "free play on each side").at_least(0)
+///     number("beta", "1", "Newmark's beta").or_else(0.25)
+struct BUTEE_EXPORT Parameter {
+  enum class Kind { number, integer, boolean, text, numbers, texts, table };
+
+  Parameter at_least(double bound) const;
+  Parameter above(double bound) const;
+  Parameter at_most(double bound) const;
+  /// The default; without one a key is required.
+  Parameter or_else(Value::Data value) const;
+  /// May be absent and then has no value at all.
+  Parameter optional() const;
+  /// The only texts allowed.
+  Parameter one_of(std::vector<std::string> names) const;
+  /// The exact length of an array.
+  Parameter of_length(std::size_t length) const;
+
+  /// "number >= 0, m", for tables and messages.
+  std::string describe() const;
+  /// What is wrong with `value`, or "".
+  std::string complaint(const Value& value) const;
+
+  std::string name;
+  Kind kind = Kind::number;
+  std::string unit;
+  std::string help;
+  bool required = true;
+  std::optional<Value> fallback;
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false;
+  std::vector<std::string> choices;
+  std::optional<std::size_t> length;
+};
+
+/// A finite real number; integers are taken too.
+BUTEE_EXPORT Parameter number(std::string name, std::string unit, std::string help);
+BUTEE_EXPORT Parameter integer(std::string name, std::string help);
+BUTEE_EXPORT Parameter boolean(std::string name, std::string help);
+BUTEE_EXPORT Parameter text(std::string name, std::string help);
+/// An array of finite real numbers.
+BUTEE_EXPORT Parameter numbers(std::string name, std::string unit, std::string help);
+/// An array of strings; a single string stands for an array of one.
+BUTEE_EXPORT Parameter texts(std::string name, std::string help);
+/// A table or an array of tables, read further by its owner.
+BUTEE_EXPORT Parameter table(std::string name, std::string help);
+
+BUTEE_EXPORT std::vector<std::string> names_of(const std::vector<Parameter>& parameters);
+
+}  // namespace butee::config

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <butee/export.hpp>
+
+namespace butee {
+
+/// The entry of `known` nearest to `given` in edit distance, or "" where none is near.
+BUTEE_EXPORT std::string closest_name(std::string_view given, const std::vector<std::string>& known);
+
+/// ` (did you mean "x"?)` where a near name is known, else "".
+BUTEE_EXPORT std::string suggestion(std::string_view given, const std::vector<std::string>& known);
+
+/// "a, b, c"
+BUTEE_EXPORT std::string join(const std::vector<std::string>& parts, std::string_view separator = ", ");
+
+/// The shortest decimal that reads back as the same double, always a TOML float: "1.0", "2.5e-06".
+BUTEE_EXPORT std::string to_text(double value);
+
+/// `value` with 6 significant digits, for messages.
+BUTEE_EXPORT std::string to_short_text(double value);
+
+/// True for a non-empty text of [A-Za-z0-9_-] alone.
+BUTEE_EXPORT bool is_plain_name(std::string_view text);
+
+}  // namespace butee

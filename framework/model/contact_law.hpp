@@ -1,0 +1,52 @@
+#pragma once
+
+#include <span>
+
+#include <butee/export.hpp>
+
+namespace butee::model {
+
+/// The law of an elastic stop as stateless functions of the penetration g (m; negative while open).
+///
+///     F = K_c(g) g,   dF/dg,   V(g) with dV/dg = F and V(0) = 0
+///
+/// F pushes the body back when positive. Sides and signs are the stop's business, not the law's.
+class BUTEE_EXPORT ContactLaw {
+ public:
+  virtual ~ContactLaw() = default;
+
+  virtual double secant(double g) const = 0;   ///< K_c(g), N/m
+  virtual double tangent(double g) const = 0;  ///< d(K_c g)/dg, N/m
+  virtual double energy(double g) const = 0;   ///< V(g), J
+
+  /// K_c for many stops at once.
+  virtual void secants(std::span<const double> g, std::span<double> secant) const = 0;
+  /// K_c and the tangent for many stops at once.
+  virtual void tangents(std::span<const double> g, std::span<double> secant, std::span<double> tangent) const = 0;
+
+  /// The stiffness of the closed stop, N/m, for step-size bounds.
+  virtual double closed_stiffness() const = 0;
+
+  /// The largest force that a stop further open than a few boundary layers still exerts, N (0: none).
+  virtual double far_force() const { return 0.0; }
+};
+
+/// Gives a law its loops over many stops: `class Mine final : public BatchedLaw<Mine>`.
+template <class Law>
+class BatchedLaw : public ContactLaw {
+ public:
+  void secants(std::span<const double> g, std::span<double> secant) const final {
+    for (std::size_t i = 0; i < g.size(); ++i) secant[i] = law().Law::secant(g[i]);
+  }
+  void tangents(std::span<const double> g, std::span<double> secant, std::span<double> tangent) const final {
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      secant[i] = law().Law::secant(g[i]);
+      tangent[i] = law().Law::tangent(g[i]);
+    }
+  }
+
+ private:
+  const Law& law() const { return static_cast<const Law&>(*this); }
+};
+
+}  // namespace butee::model

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "butee/model/contact_law.hpp"
+#include "butee/model/dofs.hpp"
+#include "butee/model/element.hpp"
+#include "butee/model/nodes.hpp"
+#include "butee/model/time_function.hpp"
+
+namespace butee::model {
+
+enum class Sides { both, positive, negative };
+
+/// Elastic stops of one law and gap. With displacement w (of node a to ground, or u_a - u_b):
+/// one side s = +1 or -1: g = s w - gap, F = -s K_c(g) g for every w;
+/// both sides: g = |w| - gap, F = -sign(w) K_c(g) g with sign(0) = 0.
+struct StopGroup {
+  std::unique_ptr<ContactLaw> law;
+  double gap = 0.0;  ///< m, free play on each side
+  Sides sides = Sides::both;
+  std::vector<NodeId> a;
+  std::vector<NodeId> b;  ///< empty: stops to ground; else as long as `a`
+};
+
+/// A load pattern (N or N m per unit of the time function) times a function of time.
+struct Load {
+  std::vector<NodalValue> pattern;
+  std::unique_ptr<TimeFunction> in_time;
+};
+
+/// Rayleigh damping: C = mass_proportional M + stiffness_proportional K, dashpots beside it.
+struct Damping {
+  double mass_proportional = 0.0;       ///< 1/s
+  double stiffness_proportional = 0.0;  ///< s
+};
+
+/// What a scene describes, before assembly. Built by read_model() or in code.
+struct Model {
+  std::string title;
+  NodeTable nodes;
+  std::vector<std::unique_ptr<Element>> elements;
+  std::vector<NodalDof> fixed;
+  std::vector<StopGroup> stops;
+  std::vector<Load> loads;
+  Damping damping;
+  std::vector<NodalValue> initial_displacement;
+  std::vector<NodalValue> initial_velocity;
+};
+
+/// The DOFs that the elements claim, with the supports applied, numbered.
+BUTEE_EXPORT DofTable number_dofs(const Model& model);
+
+}  // namespace butee::model

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <butee/export.hpp>
+
+#include "butee/core/types.hpp"
+
+namespace butee::model {
+
+using NodeId = std::int32_t;
+
+/// The nodes of one element: a chain with coordinates, or a lone node.
+struct NodeGroup {
+  std::string name;
+  NodeId first = 0;
+  std::vector<double> coordinates;  ///< m, along the beam; empty for a lone node
+
+  bool lone() const { return coordinates.empty(); }
+  NodeId size() const { return lone() ? 1 : static_cast<NodeId>(coordinates.size()); }
+};
+
+/// The nodes a selector names, or the reason why it names none.
+struct Selection {
+  std::vector<NodeId> nodes;
+  std::string problem;
+};
+
+/// All nodes of a model by name. Nodes of several elements can be joined into one.
+class BUTEE_EXPORT NodeTable {
+ public:
+  /// Adds a chain of nodes (or a lone node where `coordinates` is empty) and returns the first.
+  NodeId add(const std::string& name, std::vector<double> coordinates = {});
+
+  /// Makes two nodes one and the same.
+  void join(NodeId a, NodeId b);
+
+  /// The node that stands for `node` and all that were joined to it.
+  NodeId canonical(NodeId node) const;
+
+  /// `name`, `beam:first|last|middle|all`, `beam:17`, `beam:3..9`, `beam@17.5`.
+  Selection select(std::string_view selector) const;
+
+  NodeId size() const { return static_cast<NodeId>(root_.size()); }
+  const NodeGroup* find(std::string_view name) const;
+  const NodeGroup& group_of(NodeId node) const;
+  /// "string:17" or "rotor".
+  std::string name(NodeId node) const;
+  std::vector<std::string> group_names() const;
+
+ private:
+  std::vector<NodeGroup> groups_;
+  std::vector<NodeId> root_;
+};
+
+}  // namespace butee::model

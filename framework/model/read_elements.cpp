@@ -1,0 +1,104 @@
+#include <algorithm>
+
+#include "butee/core/text.hpp"
+#include "butee/model/scene_reader.hpp"
+
+namespace butee::model {
+
+using config::Parameters;
+using config::Value;
+
+/// Answers an element type's questions from the scene that is being read.
+class ReadingContext final : public ElementContext {
+ public:
+  ReadingContext(SceneReader& reader, NodeId own_node) : reader_(reader), own_node_(own_node) {}
+
+  NodeId own_node() const override { return own_node_; }
+  std::optional<NodeId> node(const Parameters& parameters, const std::string& key) override {
+    return reader_.select_one(parameters, key);
+  }
+  std::optional<std::vector<NodeId>> nodes(const Parameters& parameters, const std::string& key) override {
+    return reader_.select(parameters, key);
+  }
+  std::optional<Material> material(const Parameters& parameters, const std::string& key) override {
+    return look_up(reader_.materials_, "material", parameters, key);
+  }
+  std::optional<Section> section(const Parameters& parameters, const std::string& key) override {
+    return look_up(reader_.sections_, "section", parameters, key);
+  }
+  void join(NodeId a, NodeId b) override { reader_.model_.nodes.join(a, b); }
+  config::Diagnostics& diagnostics() override { return reader_.diagnostics_; }
+
+ private:
+  template <class Item>
+  std::optional<Item> look_up(const std::map<std::string, std::optional<Item>>& items, const std::string& what,
+                              const Parameters& parameters, const std::string& key) {
+    const std::string& name = parameters.text(key);
+    const auto found = items.find(name);
+    if (found != items.end()) return found->second;
+    std::vector<std::string> known;
+    for (const auto& item : items) known.push_back(item.first);
+    parameters.complain(reader_.diagnostics_, key,
+                        "there is no [" + what + "." + name + "]" + suggestion(name, known) +
+                            (known.empty() ? "" : "; known: " + butee::join(known)));
+    return std::nullopt;
+  }
+
+  SceneReader& reader_;
+  NodeId own_node_;
+};
+
+void SceneReader::read_elements() {
+  std::vector<PendingElement> pending;
+  for (const auto& [entry, path] : entries("element")) {
+    auto element = read_element(*entry, path);
+    if (element) {
+      pending.push_back(std::move(*element));
+    } else if (const config::Table* table = entry->table()) {
+      const Value* name = table->find("name");
+      broken_names_.insert(name != nullptr && name->text() != nullptr ? *name->text() : "");
+    }
+  }
+  if (root_.table()->find("element") == nullptr)
+    diagnostics_.error("element", root_.at, "missing; a scene has at least one [[element]]");
+  for (PendingElement& waiting : pending) {
+    ReadingContext context(*this, waiting.own_node);
+    auto element = waiting.type->make(waiting.parameters, context);
+    if (element == nullptr) {
+      broken_names_.insert("");
+      continue;
+    }
+    element_places_.emplace_back(waiting.parameters.path(), waiting.parameters.at());
+    if (waiting.parameters.has("name")) named_elements_.emplace_back(waiting.parameters.text("name"), element.get());
+    model_.elements.push_back(std::move(element));
+  }
+}
+
+std::optional<SceneReader::PendingElement> SceneReader::read_element(const Value& entry, const std::string& path) {
+  const auto type_name = type_of(entry, path, "type", type_names(types_.elements));
+  if (!type_name) return std::nullopt;
+  const ElementType& type = *find_type(types_.elements, *type_name);
+
+  std::vector<config::Parameter> declared = type.parameters;
+  declared.insert(declared.begin(), config::text("name", "the name of the element").optional());
+  auto parameters = read_parameters(entry, path, declared, diagnostics_, {"type"});
+  if (!parameters) return std::nullopt;
+
+  const std::size_t errors_before = diagnostics_.error_count();
+  const auto coordinates = type.nodes(*parameters, diagnostics_);
+  const bool named = parameters->has("name");
+  if (named && !is_plain_name(parameters->text("name")))
+    parameters->complain(diagnostics_, "name", "a name is made of letters, digits, _ and -");
+  if (!named && coordinates)
+    diagnostics_.error(path + ".name", entry.at, "missing; give the name by which its nodes are selected");
+  const auto same_name = [&](const auto& other) { return named && other == parameters->text("name"); };
+  if (std::any_of(element_names_.begin(), element_names_.end(), same_name))
+    parameters->complain(diagnostics_, "name", "is taken by another element; names are unique");
+  if (diagnostics_.error_count() > errors_before) return std::nullopt;
+
+  if (named) element_names_.push_back(parameters->text("name"));
+  const NodeId own_node = coordinates ? model_.nodes.add(parameters->text("name"), *coordinates) : -1;
+  return PendingElement{&type, std::move(*parameters), own_node};
+}
+
+}  // namespace butee::model

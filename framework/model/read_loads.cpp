@@ -1,0 +1,81 @@
+#include <algorithm>
+
+#include "butee/core/text.hpp"
+#include "butee/model/scene_reader.hpp"
+
+namespace butee::model {
+
+using config::Parameters;
+using config::Value;
+
+void SceneReader::read_loads() {
+  for (const auto& [entry, path] : entries("load")) read_load(*entry, path);
+}
+
+void SceneReader::read_load(const Value& entry, const std::string& path) {
+  std::vector<std::string> known = type_names(types_.loads);
+  known.emplace_back("distributed");
+  const auto type = type_of(entry, path, "type", known);
+  if (!type) return;
+  if (*type == "distributed") return read_distributed(entry, path);
+
+  auto in_time = read_in_time(entry, path, {"node", "dof"});
+  std::vector<std::string> in_time_keys;
+  for (const auto& [key, value] : entry.table()->entries)
+    if (key != "node" && key != "dof") in_time_keys.push_back(key);
+  const auto p =
+      read_parameters(entry, path,
+                      {config::text("node", "the loaded node"),
+                       config::text("dof", "the loaded degree of freedom").one_of({"u", "theta"}).or_else("u")},
+                      diagnostics_, in_time_keys);
+  if (!p) return;
+  const auto node = select_one(*p, "node");
+  if (!node) return;
+  const NodalDof dof{*node, p->text("dof") == "u" ? DofKind::u : DofKind::theta};
+  check_free(*p, "node", dof, "a load");
+  if (in_time != nullptr) model_.loads.push_back({{{dof, 1.0}}, std::move(in_time)});
+}
+
+void SceneReader::read_distributed(const Value& entry, const std::string& path) {
+  const auto p =
+      read_parameters(entry, path,
+                      {config::text("beam", "the loaded beam"), config::number("value", "N/m", "the load per length"),
+                       config::table("in_time", "a factor in time").optional()},
+                      diagnostics_, {"type"});
+  if (!p) return;
+  std::unique_ptr<TimeFunction> in_time;
+  if (p->has("in_time")) {
+    in_time = read_in_time(p->value("in_time"), path + ".in_time", {});
+  } else {
+    config::Table unity;
+    unity["value"] = Value(1.0);
+    in_time = find_type(types_.loads, "constant")
+                  ->make(config::make_parameters(find_type(types_.loads, "constant")->parameters, unity), diagnostics_);
+  }
+  const std::string& name = p->text("beam");
+  if (broken_names_.count(name) > 0) return;
+  const auto named = std::find_if(named_elements_.begin(), named_elements_.end(),
+                                  [&](const auto& element) { return element.first == name; });
+  std::vector<NodalValue> pattern;
+  if (named == named_elements_.end()) {
+    std::vector<std::string> known;
+    for (const auto& element : named_elements_) known.push_back(element.first);
+    return p->complain(diagnostics_, "beam", "there is no such beam" + suggestion(name, known));
+  }
+  if (!named->second->add_line_load(pattern)) return p->complain(diagnostics_, "beam", "is not a beam");
+  for (NodalValue& nodal : pattern) nodal.value *= p->number("value");
+  if (in_time != nullptr) model_.loads.push_back({std::move(pattern), std::move(in_time)});
+}
+
+std::unique_ptr<TimeFunction> SceneReader::read_in_time(const Value& entry, const std::string& path,
+                                                        const std::vector<std::string>& ignored) {
+  const auto name = type_of(entry, path, "type", type_names(types_.loads));
+  if (!name) return nullptr;
+  const LoadType& type = *find_type(types_.loads, *name);
+  std::vector<std::string> skipped = ignored;
+  skipped.emplace_back("type");
+  const auto p = read_parameters(entry, path, type.parameters, diagnostics_, skipped);
+  return p ? type.make(*p, diagnostics_) : nullptr;
+}
+
+}  // namespace butee::model

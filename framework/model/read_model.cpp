@@ -1,0 +1,270 @@
+#include "butee/model/read_model.hpp"
+
+#include <algorithm>
+
+#include "butee/core/text.hpp"
+#include "butee/model/scene_reader.hpp"
+
+namespace butee::model {
+
+using config::Diagnostics;
+using config::number;
+using config::Parameters;
+using config::Value;
+
+std::vector<std::string> model_keys() {
+  return {"schema", "title", "material", "section", "element", "support", "contact", "load", "damping", "initial"};
+}
+
+Model read_model(const Value& root, const ModelTypes& types, Diagnostics& diagnostics) {
+  return SceneReader(root, types, diagnostics).read();
+}
+
+std::optional<std::vector<NodeId>> read_nodes(const NodeTable& nodes, const Parameters& parameters,
+                                              const std::string& key, Diagnostics& diagnostics) {
+  std::vector<NodeId> all;
+  bool ok = true;
+  for (const std::string& selector : parameters.texts(key)) {
+    Selection selection = nodes.select(selector);
+    if (!selection.problem.empty()) {
+      parameters.complain(diagnostics, key, "\"" + selector + "\": " + selection.problem);
+      ok = false;
+    }
+    all.insert(all.end(), selection.nodes.begin(), selection.nodes.end());
+  }
+  if (!ok) return std::nullopt;
+  if (all.empty()) {
+    parameters.complain(diagnostics, key, "names no node");
+    return std::nullopt;
+  }
+  std::vector<std::pair<NodeId, NodeId>> sorted;
+  for (const NodeId node : all) sorted.emplace_back(nodes.canonical(node), node);
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice =
+      std::adjacent_find(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (twice != sorted.end()) {
+    const std::string first = nodes.name(twice->second), second = nodes.name((twice + 1)->second);
+    parameters.complain(diagnostics, key,
+                        first == second ? "names " + first + " twice"
+                                        : "names one node twice: " + first + " and " + second + " are joined");
+    return std::nullopt;
+  }
+  return all;
+}
+
+std::optional<NodeId> read_node(const NodeTable& nodes, const Parameters& parameters, const std::string& key,
+                                Diagnostics& diagnostics) {
+  const auto selected = read_nodes(nodes, parameters, key, diagnostics);
+  if (!selected) return std::nullopt;
+  if (selected->size() != 1) {
+    parameters.complain(diagnostics, key,
+                        "names " + std::to_string(selected->size()) + " nodes; exactly one is wanted");
+    return std::nullopt;
+  }
+  return selected->front();
+}
+
+Model SceneReader::read() {
+  read_header();
+  read_materials();
+  read_sections();
+  read_elements();
+  read_supports();
+  dofs_.emplace(number_dofs(model_));
+  if (diagnostics_.error_count() == 0) check_dofs();
+  read_contacts();
+  read_loads();
+  read_damping();
+  read_initial();
+  return std::move(model_);
+}
+
+void SceneReader::read_header() {
+  constexpr std::int64_t kSchema = 1;
+  const Value* schema = root_.table()->find("schema");
+  if (schema == nullptr)
+    diagnostics_.error("schema", root_.at, "missing; a model file starts with schema = 1");
+  else if (const auto* version = std::get_if<std::int64_t>(&schema->data); version == nullptr || *version != kSchema)
+    diagnostics_.error("schema", *schema, "must be 1, the only schema that this version reads");
+  if (const Value* title = root_.table()->find("title")) {
+    if (title->text() == nullptr)
+      diagnostics_.error("title", *title, std::string("must be a string, not ") + title->kind());
+    else
+      model_.title = *title->text();
+  }
+}
+
+void SceneReader::read_materials() {
+  const Value* tables = root_.table()->find("material");
+  if (tables == nullptr) return;
+  if (tables->table() == nullptr) return diagnostics_.error("material", *tables, "must be tables [material.NAME]");
+  for (const auto& [name, entry] : tables->table()->entries) {
+    const auto p = read_parameters(
+        entry, "material." + name,
+        {number("young_modulus", "Pa", "Young's modulus").above(0), number("density", "kg/m3", "the density").above(0)},
+        diagnostics_);
+    materials_[name] = p ? std::optional(Material{p->number("young_modulus"), p->number("density")}) : std::nullopt;
+  }
+}
+
+void SceneReader::read_sections() {
+  const Value* tables = root_.table()->find("section");
+  if (tables == nullptr) return;
+  if (tables->table() == nullptr) return diagnostics_.error("section", *tables, "must be tables [section.NAME]");
+  for (const auto& [name, entry] : tables->table()->entries) {
+    const std::string path = "section." + name;
+    auto& section = sections_[name];
+    const auto shape = type_of(entry, path, "shape", type_names(types_.sections));
+    if (!shape) continue;
+    const SectionType& type = *find_type(types_.sections, *shape);
+    if (const auto p = read_parameters(entry, path, type.parameters, diagnostics_, {"shape"}))
+      section = type.make(*p, diagnostics_);
+  }
+}
+
+void SceneReader::read_supports() {
+  const DofTable dofs = number_dofs(model_);
+  for (const auto& [entry, path] : entries("support")) {
+    const auto p = read_parameters(*entry, path,
+                                   {config::texts("nodes", "the nodes held"),
+                                    config::texts("fix", "the displacements held").one_of({"u", "theta"})},
+                                   diagnostics_);
+    if (!p) continue;
+    const auto nodes = select(*p, "nodes");
+    if (!nodes) continue;
+    for (const std::string& kind : p->texts("fix"))
+      for (const NodeId node : *nodes) {
+        const NodalDof dof{node, kind == "u" ? DofKind::u : DofKind::theta};
+        if (dofs.exists(dof))
+          model_.fixed.push_back(dof);
+        else if (broken_names_.empty())
+          p->complain(diagnostics_, "fix", model_.nodes.name(node) + " has no " + kind + ": no element there uses it");
+      }
+  }
+}
+
+void SceneReader::check_dofs() {
+  for (const NodalDof& dof : dofs_->free()) {
+    if (dofs_->has_mass(dof)) continue;
+    for (std::size_t i = 0; i < model_.elements.size(); ++i) {
+      DofTable claims(model_.nodes);
+      model_.elements[i]->claim(claims);
+      if (!claims.exists(dof)) continue;
+      diagnostics_.error(
+          element_places_[i].first, element_places_[i].second,
+          "the free " + dofs_->name(dof) + " has no mass, so its motion is undetermined: give the node a mass" +
+              (dof.kind == DofKind::theta ? " with rotary_inertia" : "") + ", or fix it with a [[support]]");
+      break;
+    }
+  }
+  if (dofs_->free_count() == 0)
+    diagnostics_.error("element", root_.at, "nothing can move: the scene has no free degree of freedom");
+}
+
+void SceneReader::read_damping() {
+  const Value* table = root_.table()->find("damping");
+  if (table == nullptr) return;
+  const auto p = read_parameters(
+      *table, "damping",
+      {number("mass_proportional", "1/s", "Rayleigh damping by the mass matrix").at_least(0).or_else(0.0),
+       number("stiffness_proportional", "s", "Rayleigh damping by the stiffness matrix").at_least(0).or_else(0.0)},
+      diagnostics_);
+  if (p) model_.damping = {p->number("mass_proportional"), p->number("stiffness_proportional")};
+}
+
+void SceneReader::read_initial() {
+  const Value* table = root_.table()->find("initial");
+  if (table == nullptr) return;
+  const auto lists = read_parameters(*table, "initial",
+                                     {config::table("displacement", "initial displacements").optional(),
+                                      config::table("velocity", "initial velocities").optional()},
+                                     diagnostics_);
+  if (!lists) return;
+  for (const std::string key : {"displacement", "velocity"}) {
+    if (!lists->has(key)) continue;
+    std::vector<NodalValue>& target = key == "displacement" ? model_.initial_displacement : model_.initial_velocity;
+    const Value& value = lists->value(key);
+    const config::Array single{value};
+    const config::Array& list = value.array() != nullptr ? *value.array() : single;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto p = read_parameters(list[i], "initial." + key + "[" + std::to_string(i) + "]",
+                                     {config::texts("nodes", "the nodes"),
+                                      config::text("dof", "the degree of freedom").one_of({"u", "theta"}).or_else("u"),
+                                      number("value", key == "displacement" ? "m" : "m/s", "the value")},
+                                     diagnostics_);
+      if (!p) continue;
+      const auto nodes = select(*p, "nodes");
+      if (!nodes) continue;
+      for (const NodeId node : *nodes) {
+        const NodalDof dof{node, p->text("dof") == "u" ? DofKind::u : DofKind::theta};
+        check_free(*p, "nodes", dof, "an initial value");
+        target.push_back({dof, p->number("value")});
+      }
+    }
+  }
+}
+
+void SceneReader::check_free(const Parameters& parameters, const std::string& key, NodalDof dof, const char* what) {
+  if (!dofs_->exists(dof)) {
+    if (broken_names_.empty())
+      parameters.complain(diagnostics_, key, dofs_->name(dof) + " does not exist: no element there uses it");
+  } else if (dofs_->is_fixed(dof)) {
+    parameters.complain(
+        diagnostics_, key,
+        dofs_->name(dof) + " is fixed by a [[support]], so " + what + " there has no effect; remove one of the two");
+  }
+}
+
+std::vector<std::pair<const Value*, std::string>> SceneReader::entries(const std::string& key) {
+  std::vector<std::pair<const Value*, std::string>> list;
+  const Value* value = root_.table()->find(key);
+  if (value == nullptr) return list;
+  const config::Array* array = value->array();
+  if (array == nullptr) {
+    diagnostics_.error(key, value->at, "must be an array of tables: write [[" + key + "]]");
+    return list;
+  }
+  for (std::size_t i = 0; i < array->size(); ++i) list.emplace_back(&(*array)[i], key + "[" + std::to_string(i) + "]");
+  return list;
+}
+
+std::optional<std::string> SceneReader::type_of(const Value& entry, const std::string& path, const std::string& key,
+                                                const std::vector<std::string>& known, const char* fallback) {
+  if (entry.table() == nullptr) {
+    diagnostics_.error(path, entry, std::string("must be a table, not ") + entry.kind());
+    return std::nullopt;
+  }
+  const Value* value = entry.table()->find(key);
+  if (value == nullptr && fallback != nullptr) return fallback;
+  const std::string choices = "one of \"" + join(known, "\", \"") + "\"";
+  if (value == nullptr) {
+    diagnostics_.error(path + "." + key, entry.at, "missing; give " + choices);
+    return std::nullopt;
+  }
+  const std::string* name = value->text();
+  if (name == nullptr || std::find(known.begin(), known.end(), *name) == known.end()) {
+    diagnostics_.error(path + "." + key, *value,
+                       "must be " + choices + (name != nullptr ? suggestion(*name, known) : ""));
+    return std::nullopt;
+  }
+  return *name;
+}
+
+bool SceneReader::is_broken(const Parameters& parameters, const std::string& key) const {
+  const auto selectors = parameters.texts(key);
+  return std::any_of(selectors.begin(), selectors.end(), [this](const std::string& selector) {
+    return broken_names_.count(selector.substr(0, selector.find_first_of(":@"))) > 0;
+  });
+}
+
+std::optional<std::vector<NodeId>> SceneReader::select(const Parameters& parameters, const std::string& key) {
+  if (is_broken(parameters, key)) return std::nullopt;
+  return read_nodes(model_.nodes, parameters, key, diagnostics_);
+}
+
+std::optional<NodeId> SceneReader::select_one(const Parameters& parameters, const std::string& key) {
+  if (is_broken(parameters, key)) return std::nullopt;
+  return read_node(model_.nodes, parameters, key, diagnostics_);
+}
+
+}  // namespace butee::model

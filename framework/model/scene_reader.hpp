@@ -1,0 +1,69 @@
+#pragma once
+
+#include <map>
+#include <set>
+
+#include "butee/model/read_model.hpp"
+
+namespace butee::model {
+
+/// The state shared by the readers of a scene's tables. Private to the framework.
+class SceneReader {
+ public:
+  SceneReader(const config::Value& root, const ModelTypes& types, config::Diagnostics& diagnostics)
+      : root_(root), types_(types), diagnostics_(diagnostics) {}
+
+  Model read();
+
+ private:
+  friend class ReadingContext;
+
+  struct PendingElement {
+    const ElementType* type;
+    config::Parameters parameters;
+    NodeId own_node;
+  };
+
+  void read_header();
+  void read_materials();
+  void read_sections();
+  void read_elements();
+  std::optional<PendingElement> read_element(const config::Value& entry, const std::string& path);
+  void read_supports();
+  void read_contacts();
+  void read_contact(const config::Value& entry, const std::string& path);
+  void read_pairs(const config::Parameters& parameters, StopGroup& group);
+  void read_loads();
+  void read_load(const config::Value& entry, const std::string& path);
+  void read_distributed(const config::Value& entry, const std::string& path);
+  std::unique_ptr<TimeFunction> read_in_time(const config::Value& entry, const std::string& path,
+                                             const std::vector<std::string>& ignored);
+  void read_damping();
+  void read_initial();
+  void check_dofs();
+  void check_free(const config::Parameters& parameters, const std::string& key, NodalDof dof, const char* what);
+
+  /// The entries of an array of tables at the root, each with its path ("contact[0]").
+  std::vector<std::pair<const config::Value*, std::string>> entries(const std::string& key);
+  /// The value of `type` (or another naming key) if it is one of `known`; reports it otherwise.
+  std::optional<std::string> type_of(const config::Value& entry, const std::string& path, const std::string& key,
+                                     const std::vector<std::string>& known, const char* fallback = nullptr);
+  std::optional<std::vector<NodeId>> select(const config::Parameters& parameters, const std::string& key);
+  std::optional<NodeId> select_one(const config::Parameters& parameters, const std::string& key);
+  /// True where the selector names something whose own mistake was reported already.
+  bool is_broken(const config::Parameters& parameters, const std::string& key) const;
+
+  const config::Value& root_;
+  const ModelTypes& types_;
+  config::Diagnostics& diagnostics_;
+  Model model_;
+  std::optional<DofTable> dofs_;
+  std::map<std::string, std::optional<Material>> materials_;
+  std::map<std::string, std::optional<Section>> sections_;
+  std::vector<std::string> element_names_;
+  std::set<std::string> broken_names_;  ///< elements with a mistake of their own; "" for one without a name
+  std::vector<std::pair<std::string, const Element*>> named_elements_;
+  std::vector<std::pair<std::string, config::Location>> element_places_;
+};
+
+}  // namespace butee::model

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+
+#include "butee/model/types.hpp"
+
+namespace butee::model {
+namespace {
+
+using config::Diagnostics;
+using config::number;
+using config::numbers;
+using config::Parameters;
+
+/// amplitude cos(angular_frequency t + phase)
+class Harmonic final : public TimeFunction {
+ public:
+  Harmonic(double amplitude, double angular_frequency, double phase)
+      : amplitude_(amplitude), angular_frequency_(angular_frequency), phase_(phase) {}
+
+  double value(double t) const override { return amplitude_ * std::cos(angular_frequency_ * t + phase_); }
+  bool vanishes() const override { return amplitude_ == 0.0; }
+
+ private:
+  double amplitude_, angular_frequency_, phase_;
+};
+
+/// Piecewise linear through (times, values), constant before the first and after the last.
+class PiecewiseLinear final : public TimeFunction {
+ public:
+  PiecewiseLinear(std::vector<double> times, std::vector<double> values)
+      : times_(std::move(times)), values_(std::move(values)) {}
+
+  double value(double t) const override {
+    const auto after = std::upper_bound(times_.begin(), times_.end(), t) - times_.begin();
+    if (after == 0) return values_.front();
+    if (after == std::ssize(times_)) return values_.back();
+    const auto i = static_cast<std::size_t>(after);
+    const double s = (t - times_[i - 1]) / (times_[i] - times_[i - 1]);
+    return (1.0 - s) * values_[i - 1] + s * values_[i];
+  }
+  bool vanishes() const override {
+    return std::all_of(values_.begin(), values_.end(), [](double v) { return v == 0.0; });
+  }
+  std::vector<double> kinks() const override { return times_.size() > 1 ? times_ : std::vector<double>{}; }
+
+ private:
+  std::vector<double> times_, values_;
+};
+
+LoadType harmonic() {
+  return {"harmonic",
+          "amplitude cos(angular_frequency t + phase)",
+          {number("amplitude", "N", "the amplitude (N m on theta)"),
+           number("angular_frequency", "rad/s", "the angular frequency").at_least(0),
+           number("phase", "rad", "the phase at t = 0").or_else(0.0)},
+          [](const Parameters& p, Diagnostics&) -> std::unique_ptr<TimeFunction> {
+            return std::make_unique<Harmonic>(p.number("amplitude"), p.number("angular_frequency"), p.number("phase"));
+          }};
+}
+
+LoadType unbalance() {
+  return {"unbalance",
+          "moment speed^2 cos(speed t + phase)",
+          {number("moment", "kg m", "mass times eccentricity"),
+           number("speed", "rad/s", "the speed of rotation").at_least(0),
+           number("phase", "rad", "the phase at t = 0").or_else(0.0)},
+          [](const Parameters& p, Diagnostics&) -> std::unique_ptr<TimeFunction> {
+            const double speed = p.number("speed");
+            return std::make_unique<Harmonic>(p.number("moment") * speed * speed, speed, p.number("phase"));
+          }};
+}
+
+LoadType constant() {
+  return {"constant",
+          "the same value at all times",
+          {number("value", "N", "the value (N m on theta)")},
+          [](const Parameters& p, Diagnostics&) -> std::unique_ptr<TimeFunction> {
+            return std::make_unique<PiecewiseLinear>(std::vector{0.0}, std::vector{p.number("value")});
+          }};
+}
+
+LoadType ramp() {
+  return {"ramp",
+          "`from` until start, linear to `to` at end, `to` from then on",
+          {number("from", "N", "the value before the ramp (N m on theta)").or_else(0.0),
+           number("to", "N", "the value after the ramp (N m on theta)"),
+           number("start", "s", "where the ramp begins").or_else(0.0), number("end", "s", "where the ramp ends")},
+          [](const Parameters& p, Diagnostics& diagnostics) -> std::unique_ptr<TimeFunction> {
+            const double start = p.number("start"), end = p.number("end");
+            if (!(end > start)) {
+              p.complain(diagnostics, "end", "must be later than start");
+              return nullptr;
+            }
+            return std::make_unique<PiecewiseLinear>(std::vector{start, end},
+                                                     std::vector{p.number("from"), p.number("to")});
+          }};
+}
+
+LoadType table() {
+  return {"table",
+          "piecewise linear through (times, values), constant outside",
+          {numbers("times", "s", "the instants, ascending"), numbers("values", "N", "the values there (N m on theta)")},
+          [](const Parameters& p, Diagnostics& diagnostics) -> std::unique_ptr<TimeFunction> {
+            auto times = p.numbers("times");
+            auto values = p.numbers("values");
+            if (times.empty()) {
+              p.complain(diagnostics, "times", "must hold at least one instant");
+              return nullptr;
+            }
+            if (values.size() != times.size()) {
+              p.complain(diagnostics, "values",
+                         "must hold as many values as there are times (" + std::to_string(times.size()) + ")");
+              return nullptr;
+            }
+            if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end()) {
+              p.complain(diagnostics, "times", "must ascend: every instant later than the one before");
+              return nullptr;
+            }
+            return std::make_unique<PiecewiseLinear>(std::move(times), std::move(values));
+          }};
+}
+
+}  // namespace
+
+std::vector<LoadType> standard_load_types() {
+  return {harmonic(), constant(), ramp(), table(), unbalance()};
+}
+
+}  // namespace butee::model

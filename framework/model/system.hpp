@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "butee/model/model.hpp"
+
+namespace butee::model {
+
+/// Stops of one law on free DOFs, as arrays. Stop i acts on w_i = x[a_i] - x[b_i].
+struct FreeStops {
+  static constexpr Index kGround = -1;
+
+  const ContactLaw* law = nullptr;
+  double gap = 0.0;
+  Sides sides = Sides::both;
+  std::vector<Index> a;  ///< index into x, or kGround where that end is fixed
+  std::vector<Index> b;  ///< likewise
+
+  std::size_t size() const { return a.size(); }
+};
+
+/// A load on free DOFs: F[dof_i] += weight_i * in_time(t).
+struct FreeLoad {
+  std::vector<Index> dofs;
+  std::vector<double> weights;
+  const TimeFunction* in_time = nullptr;
+};
+
+/// The semi-discrete system M a + C v + K x = F(t) + F_c(x) on the n free DOFs,
+/// C = mass_proportional M + stiffness_proportional K + D.
+///
+/// M, K (and D where there are dashpots, else 0 x 0) are symmetric, stored in full, with one common pattern that holds
+/// the diagonal and the places of stops between nodes. The Model must outlive its System.
+struct System {
+  explicit System(DofTable table) : dofs(std::move(table)) {}
+
+  Index size() const { return mass.rows(); }
+
+  DofTable dofs;
+  SparseMatrix mass, stiffness, dashpots;
+  Damping damping;
+  std::vector<FreeLoad> loads;
+  std::vector<FreeStops> stops;
+  Vector initial_displacement, initial_velocity;
+  Index skipped_stops = 0;  ///< stops whose ends are all fixed
+  Index skipped_loads = 0;  ///< loads that vanish at all times
+};
+
+/// Assembles the model. Throws InputError that names the node where a free DOF has no mass, a loaded DOF is fixed or
+/// absent, or nothing is free to move.
+BUTEE_EXPORT System assemble(const Model& model);
+
+}  // namespace butee::model

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include <butee/export.hpp>
+
+namespace butee::model {
+
+/// The course of a load in time, in N (on u) or N m (on theta), or a plain factor under `in_time`.
+class BUTEE_EXPORT TimeFunction {
+ public:
+  virtual ~TimeFunction() = default;
+
+  /// The value at time `t`, s.
+  virtual double value(double t) const = 0;
+
+  /// True where it is zero at all times, so that the load can be left out.
+  virtual bool vanishes() const { return false; }
+
+  /// The instants at which the value or one of its derivatives jumps, ascending.
+  virtual std::vector<double> kinks() const { return {}; }
+};
+
+}  // namespace butee::model

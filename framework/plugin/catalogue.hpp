@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "butee/model/types.hpp"
+#include "butee/plugin/manifest.hpp"
+
+namespace butee::plugin {
+
+/// A method that a scene may name, and where its code is.
+struct IntegratorEntry {
+  time::IntegratorType declaration;  ///< from the manifest; without a maker
+  std::string module;                ///< the shared object's path
+};
+
+/// All the types that a scene may name. Integrators are known by the manifests beside their modules; a module is loaded
+/// when one of its methods is made.
+class BUTEE_EXPORT Catalogue {
+ public:
+  /// The standard elements, laws and loads; no integrator yet.
+  Catalogue();
+
+  /// The standard modules, those of BUTEE_PLUGIN_PATH (folders parted by ':'), and `extra` files or folders.
+  static Catalogue with_plugins(const std::vector<std::string>& extra = {});
+
+  /// Adds a module, or every module of a folder (files *.so with a manifest). A single file without a manifest is
+  /// loaded to learn its names. Throws RunError for a broken module and where a name is taken, naming both files.
+  void add(const std::string& file_or_folder);
+
+  const model::ModelTypes& types() const { return types_; }
+  const std::vector<IntegratorEntry>& integrators() const { return integrators_; }
+
+  /// The entry of a name or an alias, or nullptr.
+  const IntegratorEntry* find(std::string_view name) const;
+  /// All names, and behind them all aliases.
+  std::vector<std::string> integrator_names() const;
+
+  /// Loads the module of `name` (or an alias) where it is not loaded yet, and gives its type with its maker.
+  const time::IntegratorType& load(std::string_view name);
+
+ private:
+  void add_module(const std::string& path, bool must_have_manifest);
+  void add_folder(const std::string& path);
+
+  model::ModelTypes types_;
+  std::vector<IntegratorEntry> integrators_;
+};
+
+}  // namespace butee::plugin

@@ -1,0 +1,71 @@
+#include "butee/plugin/module.hpp"
+
+#include <dlfcn.h>
+#include <filesystem>
+
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+#include "butee/plugin/abi.hpp"
+
+namespace butee::plugin {
+namespace {
+
+std::string last_error() {
+  const char* message = dlerror();
+  return message != nullptr ? message : "no reason given";
+}
+
+template <class Function>
+Function symbol(void* handle, const char* name, const std::string& path) {
+  auto* address = dlsym(handle, name);
+  if (address == nullptr) throw RunError(path + ": is no butee module: it has no " + name + " (" + last_error() + ")");
+  return reinterpret_cast<Function>(address);
+}
+
+std::string differences(const butee_abi_tag& theirs) {
+  const butee_abi_tag ours = abi_tag();
+  std::vector<std::string> found;
+  const auto compare = [&](const char* what, std::uint32_t expected, std::uint32_t given) {
+    if (expected != given)
+      found.push_back(std::string(what) + " " + std::to_string(given) + " instead of " + std::to_string(expected));
+  };
+  compare("tag size", ours.size, theirs.size);
+  if (!found.empty()) return join(found);
+  compare("interface version", ours.interface_version, theirs.interface_version);
+  compare("Eigen version", ours.eigen_version, theirs.eigen_version);
+  compare("Eigen alignment (EIGEN_MAX_ALIGN_BYTES)", ours.eigen_alignment, theirs.eigen_alignment);
+  compare("C++11 ABI (_GLIBCXX_USE_CXX11_ABI)", ours.cxx11_abi, theirs.cxx11_abi);
+  compare("checked standard library (_GLIBCXX_DEBUG)", ours.checked_library, theirs.checked_library);
+  compare("AddressSanitizer", ours.sanitizers, theirs.sanitizers);
+  compare("pointer size", ours.pointer_bytes, theirs.pointer_bytes);
+  return join(found);
+}
+
+}  // namespace
+
+Registrar load_module(const std::string& path) {
+  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (handle == nullptr) throw RunError(path + ": cannot be loaded: " + last_error());
+  const auto tag = symbol<const butee_abi_tag* (*)()>(handle, "butee_plugin_abi", path);
+  const auto enter = symbol<void (*)(Registrar*)>(handle, "butee_plugin_register", path);
+  if (const std::string found = differences(*tag()); !found.empty())
+    throw RunError(path + ": was built for another butee: " + found +
+                   "; build it again with this version's headers and flags");
+  Registrar registrar;
+  try {
+    enter(&registrar);
+  } catch (const std::exception& error) {
+    throw RunError(path + ": failed while registering: " + error.what());
+  }
+  return registrar;
+}
+
+std::string standard_plugin_folder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&standard_plugin_folder), &info) == 0 || info.dli_fname == nullptr)
+    return "";
+  const std::filesystem::path library = std::filesystem::weakly_canonical(info.dli_fname);
+  return (library.parent_path() / "butee" / "plugins").string();
+}
+
+}  // namespace butee::plugin

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "butee/plugin/registrar.hpp"
+
+namespace butee::plugin {
+
+/// Opens a shared object, compares its ABI tag field by field and lets it register its types.
+///
+/// A module is never unloaded: objects of its types may outlive everything that knows of it. Throws RunError with the
+/// file's name, what was expected and what was found.
+BUTEE_EXPORT Registrar load_module(const std::string& path);
+
+/// The folder of the modules that come with butee, beside the library of the framework.
+BUTEE_EXPORT std::string standard_plugin_folder();
+
+}  // namespace butee::plugin

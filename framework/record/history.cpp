@@ -1,0 +1,110 @@
+#include "butee/record/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace butee::record {
+namespace {
+
+/// An output time that misses end_time by this fraction of an interval is end_time.
+constexpr double kSameInstant = 1e-9;
+
+/// The requested quantities and u of every probe.
+std::vector<ProbeRequest> peak_requests(std::vector<ProbeRequest> requests, const model::DofTable& dofs) {
+  for (ProbeRequest& request : requests) {
+    auto& list = request.quantities;
+    const bool has_u = std::find(list.begin(), list.end(), Quantity::u) != list.end();
+    if (!has_u && dofs.exists({request.node, DofKind::u})) list.push_back(Quantity::u);
+  }
+  return requests;
+}
+
+}  // namespace
+
+HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, solve::Dynamics& dynamics,
+                                 CsvWriter* writer)
+    : end_time_(end_time),
+      interval_(request.interval.value_or(0.0)),
+      every_(request.interval ? 0 : request.every),
+      probes_(request.probes, dynamics),
+      peak_probes_(peak_requests(request.probes, dynamics.system().dofs), dynamics),
+      writer_(writer),
+      peak_values_(peak_probes_.columns().size(), 0.0) {}
+
+std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) {
+  std::vector<std::string> all = {"t"};
+  for (const ProbeRequest& probe : request.probes)
+    for (const Quantity quantity : probe.quantities) all.push_back(probe.label + "." + name_of(quantity));
+  all.emplace_back("h");
+  return all;
+}
+
+double HistoryRecorder::time_of_row() const {
+  const double t = static_cast<double>(rows_) * interval_;
+  if (t < end_time_ - kSameInstant * interval_) return t;
+  const double before = static_cast<double>(rows_ - 1) * interval_;
+  return before < end_time_ - kSameInstant * interval_ ? end_time_ : std::numeric_limits<double>::infinity();
+}
+
+void HistoryRecorder::start(const time::State& state) {
+  values_.clear();
+  probes_.append(state, values_);
+  first_row_ = values_;
+  update_peaks(state);
+  rows_ = 0;
+  steps_ = 0;
+}
+
+void HistoryRecorder::step(const time::AcceptedStep& step) {
+  if (rows_ == 0) {
+    values_ = first_row_;
+    write_row(step.from.t, step.h);
+  }
+  ++steps_;
+  update_peaks(step.to);
+  if (every_ > 0) {
+    if (steps_ % every_ != 0 && step.to.t < end_time_) return;
+    values_.clear();
+    probes_.append(step.to, values_);
+    return write_row(step.to.t, step.h);
+  }
+  while (next_row_ <= step.to.t) {
+    values_.clear();
+    probes_.append(step, next_row_, values_);
+    write_row(next_row_, step.h);
+  }
+}
+
+void HistoryRecorder::write_row(double t, double h) {
+  ++rows_;
+  if (every_ == 0) next_row_ = time_of_row();
+  if (writer_ == nullptr) return;
+  row_.assign(1, t);
+  row_.insert(row_.end(), values_.begin(), values_.end());
+  row_.push_back(h);
+  writer_->row(row_);
+}
+
+void HistoryRecorder::finish() {
+  if (rows_ == 0) {
+    values_ = first_row_;
+    write_row(0.0, 0.0);
+  }
+  if (writer_ != nullptr) writer_->flush();
+}
+
+void HistoryRecorder::update_peaks(const time::State& state) {
+  if (peak_values_.empty()) return;
+  values_.clear();
+  peak_probes_.append(state, values_);
+  for (std::size_t i = 0; i < values_.size(); ++i) peak_values_[i] = std::max(peak_values_[i], std::abs(values_[i]));
+}
+
+std::map<std::string, double> HistoryRecorder::peaks() const {
+  std::map<std::string, double> peaks;
+  for (std::size_t i = 0; i < peak_values_.size(); ++i) peaks[peak_probes_.columns()[i]] = peak_values_[i];
+  return peaks;
+}
+
+}  // namespace butee::record

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+
+#include "butee/record/csv_writer.hpp"
+#include "butee/record/probes.hpp"
+
+namespace butee::record {
+
+/// Samples the probes at the output times, whatever the steps, and follows their peaks over all accepted steps.
+///
+/// A row at time t is interpolated in the accepted step (t_n, t_n+1] that holds it, the row at t = 0 in the first.
+class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
+ public:
+  /// Rows go to `writer`, or nowhere where it is nullptr. Everything given must outlive the recorder.
+  HistoryRecorder(const OutputRequest& request, double end_time, solve::Dynamics& dynamics, CsvWriter* writer);
+
+  void start(const time::State& state) override;
+  void step(const time::AcceptedStep& step) override;
+  void finish() override;
+  double file_seconds() const override { return writer_ != nullptr ? writer_->seconds() : 0.0; }
+
+  /// "t", the probes' columns, "h"
+  static std::vector<std::string> columns(const OutputRequest& request);
+
+  /// Largest |value| by column over t = 0 and all accepted steps; u of every probe is always among them.
+  std::map<std::string, double> peaks() const;
+
+ private:
+  double time_of_row() const;
+  void write_row(double t, double h);
+  void update_peaks(const time::State& state);
+
+  double end_time_, interval_;
+  std::int64_t every_;
+  Probes probes_, peak_probes_;
+  CsvWriter* writer_;
+  std::int64_t rows_ = 0, steps_ = 0;
+  double next_row_ = 0.0;
+  std::vector<double> row_, values_, peak_values_;
+  std::vector<double> first_row_;
+};
+
+}  // namespace butee::record

@@ -1,0 +1,90 @@
+#include "butee/record/probes.hpp"
+
+#include <algorithm>
+
+namespace butee::record {
+
+Probes::Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics) : dynamics_(dynamics) {
+  const model::DofTable& table = dynamics.system().dofs;
+  for (const ProbeRequest& request : requests)
+    for (const Quantity quantity : request.quantities) {
+      const bool turns = quantity == Quantity::theta || quantity == Quantity::theta_v || quantity == Quantity::theta_a;
+      const Index dof = table.index({request.node, turns ? DofKind::theta : DofKind::u});
+      Column column{quantity, slot(dof), stops_.size(), stops_.size()};
+      if (quantity == Quantity::contact_force && dof >= 0) add_stops(dof);
+      column.last_stop = stops_.size();
+      needs_v_ = needs_v_ || quantity == Quantity::v || quantity == Quantity::theta_v;
+      needs_a_ = needs_a_ || quantity == Quantity::a || quantity == Quantity::theta_a;
+      columns_.push_back(request.label + "." + name_of(quantity));
+      sources_.push_back(column);
+    }
+  x_.resize(dofs_.size());
+  v_.resize(needs_v_ ? dofs_.size() : 0);
+  a_.resize(needs_a_ ? dofs_.size() : 0);
+}
+
+std::size_t Probes::slot(Index dof) {
+  if (dof < 0) return kFixed;
+  const auto found = std::find(dofs_.begin(), dofs_.end(), dof);
+  if (found == dofs_.end()) {
+    dofs_.push_back(dof);
+    return dofs_.size() - 1;
+  }
+  return static_cast<std::size_t>(found - dofs_.begin());
+}
+
+void Probes::add_stops(Index dof) {
+  const solve::Contact& contact = dynamics_.contact();
+  for (Index i = 0; i < contact.size(); ++i) {
+    const Index a = contact.dof_a(i), b = contact.dof_b(i);
+    if (a != dof && b != dof) continue;
+    stops_.push_back({i, slot(a), slot(b), a == dof ? 1.0 : -1.0});
+  }
+}
+
+void Probes::append(const time::AcceptedStep& step, double t, std::vector<double>& row) {
+  if (t == step.to.t) return append(step.to, row);
+  step.integrator.interpolate(step.from, step.to, t, dofs_, {x_, v_, a_});
+  append_sampled(row);
+}
+
+void Probes::append(const time::State& state, std::vector<double>& row) {
+  for (std::size_t i = 0; i < dofs_.size(); ++i) {
+    x_[i] = state.x[dofs_[i]];
+    if (needs_v_) v_[i] = state.v[dofs_[i]];
+    if (needs_a_) a_[i] = state.a[dofs_[i]];
+  }
+  append_sampled(row);
+}
+
+void Probes::append_sampled(std::vector<double>& row) {
+  const auto at = [](const std::vector<double>& values, std::size_t slot) {
+    return slot == kFixed ? 0.0 : values[slot];
+  };
+  for (const Column& column : sources_) {
+    switch (column.quantity) {
+      case Quantity::u:
+      case Quantity::theta:
+        row.push_back(at(x_, column.slot));
+        break;
+      case Quantity::v:
+      case Quantity::theta_v:
+        row.push_back(at(v_, column.slot));
+        break;
+      case Quantity::a:
+      case Quantity::theta_a:
+        row.push_back(at(a_, column.slot));
+        break;
+      case Quantity::contact_force: {
+        double force = 0.0;
+        for (std::size_t i = column.first_stop; i < column.last_stop; ++i) {
+          const ProbedStop& stop = stops_[i];
+          force += stop.sign * dynamics_.contact().force_of(stop.stop, at(x_, stop.slot_a) - at(x_, stop.slot_b));
+        }
+        row.push_back(force);
+      }
+    }
+  }
+}
+
+}  // namespace butee::record

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "butee/record/output_request.hpp"
+#include "butee/time/simulation.hpp"
+
+namespace butee::record {
+
+/// Evaluates the probes of a run: of the DOFs and stops that they need and no others.
+class BUTEE_EXPORT Probes {
+ public:
+  /// `dynamics` must outlive it.
+  Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics);
+
+  /// "mid.u", one for each column.
+  const std::vector<std::string>& columns() const { return columns_; }
+
+  /// The values at `t` in the step, appended to `row`.
+  void append(const time::AcceptedStep& step, double t, std::vector<double>& row);
+  /// The values in a state, appended to `row`.
+  void append(const time::State& state, std::vector<double>& row);
+
+ private:
+  /// Where a column's value comes from: place `slot` of the sampled DOFs, or the stops [begin, end).
+  struct Column {
+    Quantity quantity;
+    std::size_t slot;
+    std::size_t first_stop, last_stop;
+  };
+  /// One stop on a probed node; slots of its two ends, and the sign with which it acts there.
+  struct ProbedStop {
+    Index stop;
+    std::size_t slot_a, slot_b;
+    double sign;
+  };
+
+  static constexpr std::size_t kFixed = static_cast<std::size_t>(-1);
+
+  std::size_t slot(Index dof);
+  void add_stops(Index dof);
+  void append_sampled(std::vector<double>& row);
+
+  solve::Dynamics& dynamics_;
+  std::vector<std::string> columns_;
+  std::vector<Column> sources_;
+  std::vector<ProbedStop> stops_;
+  std::vector<Index> dofs_;
+  std::vector<double> x_, v_, a_;
+  bool needs_v_ = false, needs_a_ = false;
+};
+
+}  // namespace butee::record

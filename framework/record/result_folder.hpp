@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include <butee/export.hpp>
+
+namespace butee::record {
+
+/// The folder of a run's results. A folder is ours where its model.toml starts with our mark; of such a folder our own
+/// files are replaced and nothing else is touched. Any other folder that is not empty is refused.
+class BUTEE_EXPORT ResultFolder {
+ public:
+  explicit ResultFolder(std::string path) : path_(std::move(path)) {}
+
+  /// Throws InputError where the folder is not ours to write. Writes nothing.
+  void check() const;
+
+  /// Makes the folder, takes away our files of an earlier run and writes model.toml. Throws RunError.
+  void prepare(const std::string& model_text) const;
+
+  /// Writes a whole file, first beside its place, then in one move. Throws RunError.
+  void write(const std::string& name, const std::string& text) const;
+
+  std::string file(const std::string& name) const;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace butee::record

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "butee/record/energy.hpp"
+
+namespace butee::record {
+
+/// Everything that summary.json holds.
+struct Summary {
+  time::RunReport report;
+  std::string integrator;
+  solve::Counters counters;
+  double setup_seconds = 0.0;
+  Index dofs = 0, contacts = 0;
+  std::map<std::string, double> peaks;
+  Energy energy;
+  struct Followed {
+    double work, dissipated, balance_error;
+  };
+  std::optional<Followed> followed;
+};
+
+/// The summary as JSON; a number that is not finite becomes null.
+BUTEE_EXPORT std::string to_json(const Summary& summary);
+
+}  // namespace butee::record

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include "butee/model/system.hpp"
+#include "butee/solve/counters.hpp"
+
+namespace butee::solve {
+
+/// The stops of a system, evaluated in stop space: displacements w = S x (m stops), forces F_c = S^T f.
+///
+/// S picks u_a, or u_a - u_b for a stop between two nodes. All vectors here have one entry per stop.
+class BUTEE_EXPORT Contact {
+ public:
+  /// `system` and `counters` must outlive it.
+  Contact(const model::System& system, Counters& counters);
+
+  Index size() const { return static_cast<Index>(a_.size()); }
+
+  /// w := S x
+  void displacement(ConstVectorRef x, VectorRef w) const;
+  /// F += S^T f
+  void scatter(ConstVectorRef f, VectorRef force) const;
+
+  /// f(w), N
+  void force(ConstVectorRef w, VectorRef f);
+  /// f(w) and k = -df/dw, N/m
+  void tangent(ConstVectorRef w, VectorRef f, VectorRef k);
+  /// k and c with f = -k w + c by the secant stiffness at w
+  void secant(ConstVectorRef w, VectorRef k, VectorRef c);
+  /// Sum over the stops of U(w) = -int_0^w f dw, J
+  double energy(ConstVectorRef w) const;
+  /// f(w) of stop i alone, N
+  double force_of(Index i, double w);
+  /// The gap and the sides of stop i
+  double gap_of(Index i) const { return group_of(i).gap; }
+  model::Sides sides_of(Index i) const { return group_of(i).sides; }
+  /// The penetration g of every stop on its nearer side, m; negative while open
+  void penetration(ConstVectorRef w, VectorRef g) const;
+
+  /// The free DOFs of stop i; FreeStops::kGround for a fixed end.
+  Index dof_a(Index i) const { return a_[static_cast<std::size_t>(i)]; }
+  Index dof_b(Index i) const { return b_[static_cast<std::size_t>(i)]; }
+  /// The stiffness of each stop when closed, N/m.
+  Vector closed_stiffness() const;
+
+ private:
+  struct Group {
+    const model::ContactLaw* law;
+    double gap;
+    model::Sides sides;
+    Index begin, count;
+  };
+
+  const Group& group_of(Index i) const;
+  void count_evaluation();
+  /// Fills penetration_ and side_ (+1, -1 or 0) of all stops.
+  void locate(ConstVectorRef w);
+
+  Counters* counters_;
+  std::vector<Group> groups_;
+  std::vector<Index> a_, b_;
+  Vector penetration_, side_, secant_;
+};
+
+}  // namespace butee::solve

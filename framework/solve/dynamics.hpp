@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+
+#include "butee/solve/contact.hpp"
+#include "butee/solve/effective_solver.hpp"
+
+namespace butee::solve {
+
+/// What an integrator may ask of the system M a + C v + K x = F(t) + F_c(x).
+///
+/// Matrices, factorizations and caches live here, never in an integrator. Each is made at its first use, so that a
+/// method pays for nothing it does not ask for. Vectors have size(): displacements m or rad, forces N or N m. Not for
+/// several threads at once; a simulation of its own for each.
+class BUTEE_EXPORT Dynamics {
+ public:
+  /// `system` must outlive it.
+  explicit Dynamics(const model::System& system);
+
+  const model::System& system() const { return system_; }
+  Index size() const { return system_.size(); }
+  Index stop_count() const { return contact_.size(); }
+  bool has_damping() const { return has_damping_; }
+  Contact& contact() { return contact_; }
+  Counters& counters() { return counters_; }
+  const Counters& counters() const { return counters_; }
+
+  /// F := F(t)
+  void external_force(double t, VectorRef force) const;
+  /// F += F_c(x)
+  void add_contact_force(ConstVectorRef x, VectorRef force);
+  /// y := K x
+  void elastic_force(ConstVectorRef x, VectorRef y) const;
+  /// y := C v
+  void damping_force(ConstVectorRef v, VectorRef y);
+  /// y := M a
+  void inertia_force(ConstVectorRef a, VectorRef y) const;
+
+  /// a := M^-1 (F(t) + F_c(x) - C v - K x)
+  void acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a);
+
+  /// The effective equations of an implicit method.
+  EffectiveSolver& effective();
+
+  /// "u of string:17"
+  std::string dof_name(Index dof) const;
+
+ private:
+  SymmetricFactor& mass_factor();
+
+  const model::System& system_;
+  Counters counters_;
+  Contact contact_;
+  bool has_damping_;
+  std::optional<SymmetricFactor> mass_factor_;
+  std::optional<EffectiveSolver> effective_;
+  Vector work_, other_, stop_displacement_, stop_force_;
+};
+
+}  // namespace butee::solve

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include <butee/export.hpp>
+
+#include "butee/core/types.hpp"
+#include "butee/solve/counters.hpp"
+
+namespace butee::solve {
+
+/// A sparse Cholesky factorization (CHOLMOD), analysed once, factorized for many matrices of one pattern.
+///
+/// The better of the natural and the approximate minimum degree ordering is taken. solve() allocates only at first use.
+class BUTEE_EXPORT SymmetricFactor {
+ public:
+  /// Analyses the pattern of `matrix` (symmetric, stored in full). `counters` must outlive the factor.
+  SymmetricFactor(const SparseMatrix& matrix, Counters& counters);
+  ~SymmetricFactor();
+  SymmetricFactor(SymmetricFactor&&) noexcept;
+  SymmetricFactor& operator=(SymmetricFactor&&) noexcept;
+
+  /// Factorizes a matrix of the analysed pattern; false where it is not positive definite.
+  [[nodiscard]] bool factorize(const SparseMatrix& matrix);
+
+  /// b := A^-1 b for one vector or several columns. After a successful factorize().
+  void solve(Eigen::Ref<Eigen::MatrixXd> b);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace butee::solve

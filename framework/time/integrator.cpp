@@ -1,0 +1,56 @@
+#include "butee/time/integrator.hpp"
+
+#include "butee/core/error.hpp"
+
+namespace butee::time {
+namespace {
+
+/// The cubic through (y0, d0) at s = 0 and (y1, d1) at s = 1, slopes with respect to t.
+double hermite(double s, double h, double y0, double d0, double y1, double d1) {
+  const double r = 1.0 - s;
+  return r * r * ((1.0 + 2.0 * s) * y0 + s * h * d0) + s * s * ((3.0 - 2.0 * s) * y1 - r * h * d1);
+}
+
+}  // namespace
+
+void Integrator::start(State& state) {
+  require(state.x.size() == dynamics_.size() && state.v.size() == dynamics_.size(), "a state of another size");
+  state.a.resize(state.x.size());
+  dynamics_.acceleration(state.t, state.x, state.v, state.a);
+  do_start(state);
+}
+
+StepReport Integrator::step(const State& from, const Step& step, State& to) {
+  require(step.h > 0.0 && &from != &to, "a step of positive length into another state");
+  require(from.a.size() == from.x.size(), "start() comes before step()");
+  to.x.resize(from.x.size());
+  to.v.resize(from.v.size());
+  to.a.resize(from.a.size());
+  to.memory.resize(from.memory.size());
+  to.t = step.t_end;
+  StepReport report = do_step(from, step, to);
+  if (report.status == StepStatus::ok && !(to.x.allFinite() && to.v.allFinite() && to.a.allFinite()))
+    report.status = StepStatus::not_finite;
+  return report;
+}
+
+void Integrator::interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
+                             Interpolated out) const {
+  require(to.t > from.t && t >= from.t && t <= to.t, "interpolation within a step");
+  do_interpolate(from, to, t, dofs, out);
+}
+
+void Integrator::do_start(State&) {}
+
+void Integrator::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
+                                Interpolated out) const {
+  const double h = to.t - from.t, s = (t - from.t) / h;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const Index d = dofs[i];
+    if (!out.x.empty()) out.x[i] = hermite(s, h, from.x[d], from.v[d], to.x[d], to.v[d]);
+    if (!out.v.empty()) out.v[i] = hermite(s, h, from.v[d], from.a[d], to.v[d], to.a[d]);
+    if (!out.a.empty()) out.a[i] = (1.0 - s) * from.a[d] + s * to.a[d];
+  }
+}
+
+}  // namespace butee::time

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "butee/config/parameters.hpp"
+#include "butee/solve/dynamics.hpp"
+#include "butee/time/state.hpp"
+#include "butee/time/step_controller.hpp"
+
+namespace butee::time {
+
+/// Where interpolate() writes: one entry per DOF asked for; an empty span is not computed.
+struct Interpolated {
+  std::span<double> x, v, a;
+};
+
+/// A time integration method: takes State over a Step.
+///
+/// A step is a pure function of (state, step): what a method remembers is in the state, so that a rejected step needs
+/// no undoing and a restart is bit-identical. The method asks its Dynamics for accelerations and effective solves and
+/// owns no matrix. To write one, derive and override do_step(); the public functions check and call the private ones.
+class BUTEE_EXPORT Integrator {
+ public:
+  /// `dynamics` must outlive it.
+  explicit Integrator(solve::Dynamics& dynamics) : dynamics_(dynamics) {}
+  virtual ~Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  /// Completes a state of which t, x and v are given: a = M^-1 (F + F_c - C v - K x), and the method's memory.
+  void start(State& state);
+
+  /// Computes the state at the end of the step. `to` is of no use where the report's status is not ok.
+  StepReport step(const State& from, const Step& step, State& to);
+
+  /// The motion of `dofs` at `t` in [from.t, to.t] of an accepted step.
+  void interpolate(const State& from, const State& to, double t, std::span<const Index> dofs, Interpolated out) const;
+
+  /// The judge of an adaptive method; nullptr for fixed steps.
+  virtual const StepController* controller() const { return nullptr; }
+
+ protected:
+  solve::Dynamics& dynamics() const { return dynamics_; }
+
+ private:
+  virtual void do_start(State& state);
+  virtual StepReport do_step(const State& from, const Step& step, State& to) = 0;
+  /// Default: cubic Hermite for x from (x, v) and for v from (v, a), linear for a.
+  virtual void do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
+                              Interpolated out) const;
+
+  solve::Dynamics& dynamics_;
+};
+
+/// A registered method: its names, parameters and maker. `time_step` and `end_time` are read for it.
+struct IntegratorType {
+  std::string name;
+  std::vector<std::string> aliases;
+  std::string summary;
+  std::vector<config::Parameter> parameters;
+  std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make;
+  /// Reports values that are each allowed but do not go together. May be empty.
+  std::function<void(const config::Parameters&, config::Diagnostics&)> check;
+};
+
+}  // namespace butee::time

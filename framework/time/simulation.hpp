@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "butee/time/integrator.hpp"
+
+namespace butee::time {
+
+/// An accepted step, as observers see it.
+struct AcceptedStep {
+  const State& from;
+  const State& to;
+  double h;  ///< s
+  const Integrator& integrator;
+};
+
+/// Watches a run.
+class BUTEE_EXPORT Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void start(const State& state) { (void)state; }
+  virtual void step(const AcceptedStep& step) = 0;
+  /// After the last step, of a failed run too.
+  virtual void finish() {}
+  /// Seconds spent on files so far, which do not count as integration.
+  virtual double file_seconds() const { return 0.0; }
+};
+
+struct SimulationOptions {
+  double time_step = 0.0;  ///< s; the first step of an adaptive method
+  double end_time = 0.0;   ///< s
+};
+
+/// What a run came to.
+struct RunReport {
+  bool completed = false;
+  std::string message;  ///< why it failed
+  double t_end = 0.0;   ///< s, where it stopped
+  std::int64_t steps = 0, rejected = 0, newton_iterations = 0, newton_failures = 0;
+  double wall_seconds = 0.0;  ///< the steps alone, without files
+};
+
+/// Takes a system from its initial state to end_time, with fixed steps or as the method's controller decides.
+///
+/// A step that is not finite, or in which Newton failed, is never accepted: an adaptive method tries half of it, a
+/// fixed one fails with a diagnosis. Both rejections in a row and the smallest step are bounded, so that a run always
+/// ends.
+class BUTEE_EXPORT Simulation {
+ public:
+  /// `dynamics` and `integrator` must outlive it; the integrator is one of this dynamics.
+  Simulation(solve::Dynamics& dynamics, Integrator& integrator, SimulationOptions options);
+
+  /// `observer` must outlive the simulation.
+  void add(Observer& observer) { observers_.push_back(&observer); }
+
+  /// Completes the initial state (a_0, and what the method needs for it). Every other function does so where it is
+  /// still due.
+  void start();
+
+  /// Takes steps until end_time or a failure.
+  const RunReport& run();
+
+  /// Takes one accepted step; false where the run is over, completed or failed (see report()).
+  bool advance();
+
+  const State& state() const { return state_; }
+  const RunReport& report() const { return report_; }
+
+ private:
+  Step propose() const;
+  bool is_last(const Step& step) const { return step.t_end >= options_.end_time; }
+  void accept(const Step& step);
+  void fail(const Step& step, const std::string& reason);
+  std::string diagnosis(const StepReport& report) const;
+
+  solve::Dynamics& dynamics_;
+  Integrator& integrator_;
+  SimulationOptions options_;
+  std::vector<Observer*> observers_;
+  State state_, next_;
+  RunReport report_;
+  double next_h_;
+  bool started_ = false, over_ = false;
+};
+
+}  // namespace butee::time

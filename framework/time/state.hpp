@@ -1,0 +1,38 @@
+#pragma once
+
+#include "butee/core/types.hpp"
+
+namespace butee::time {
+
+/// The state of a run: everything that the next step depends on.
+struct State {
+  double t = 0.0;  ///< s
+  Vector x;        ///< displacements, m or rad
+  Vector v;        ///< velocities
+  Vector a;        ///< accelerations; of Newmark methods the algorithmic ones
+  Vector memory;   ///< what a method carries beyond that, if anything
+};
+
+/// A step to take: its length and the instant it ends at (a fixed step counts n h, so t_end is not t + h to the last
+/// bit).
+struct Step {
+  double h = 0.0;      ///< s
+  double t_end = 0.0;  ///< s
+};
+
+enum class StepStatus {
+  ok,
+  not_finite,     ///< a NaN or an infinity came up
+  newton_failed,  ///< Newton's iteration did not meet its tolerances
+  singular        ///< an effective matrix was not positive definite
+};
+
+/// What became of a step.
+struct StepReport {
+  StepStatus status = StepStatus::ok;
+  double error = 0.0;         ///< the method's own measure, for its StepController
+  int newton_iterations = 0;  ///< linear solves of Newton's iteration
+  bool kept_failure = false;  ///< went on although Newton failed
+};
+
+}  // namespace butee::time

@@ -1,0 +1,146 @@
+#include "integrators/newmark.hpp"
+
+#include <cmath>
+
+#include "integrators/methods.hpp"
+
+namespace butee::integrators {
+
+using config::number;
+using config::Parameter;
+using config::Parameters;
+using time::IntegratorType;
+using time::State;
+using time::StepReport;
+using time::StepStatus;
+
+std::vector<Parameter> NewmarkParameters::declare() {
+  return {
+      number("beta", "1", "Newmark's beta").at_least(0).at_most(1).or_else(0.25),
+      number("gamma", "1", "Newmark's gamma; below 1/2 every step gains energy").at_least(0.5).at_most(1).or_else(0.5)};
+}
+
+NewmarkParameters NewmarkParameters::read(const Parameters& p) {
+  return {p.number("beta"), p.number("gamma")};
+}
+
+Newmark::Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
+                 std::unique_ptr<ZienkiewiczXie> controller)
+    : Integrator(dynamics), parameters_(parameters), newton_(newton), controller_(std::move(controller)) {
+  load_ = residual_ = force_ = Vector::Zero(dynamics.size());
+  stop_displacement_ = stop_force_ = stop_tangent_ = Vector::Zero(dynamics.stop_count());
+}
+
+StepReport Newmark::do_step(const State& from, const time::Step& step, State& to) {
+  const double h = step.h;
+  dynamics().external_force(step.t_end, load_);
+  to.a = from.a;
+  to.x = from.x + h * from.v + 0.5 * h * h * from.a;
+  to.v = from.v + h * from.a;
+  StepReport report = iterate(h, to);
+  if (controller_ != nullptr && report.status == StepStatus::ok) report.error = controller_->error(from, to, h);
+  return report;
+}
+
+StepReport Newmark::iterate(double h, State& to) {
+  const double on_v = parameters_.gamma * h, on_x = parameters_.beta * h * h;
+  solve::EffectiveSolver& effective = dynamics().effective();
+  effective.set_factors(on_v, on_x);
+  StepReport report;
+  double increment = 0.0;
+  while (true) {
+    const double scale = evaluate_residual(to);
+    if (!std::isfinite(scale)) {
+      report.status = StepStatus::not_finite;
+      return report;
+    }
+    const bool converged = residual_.norm() <= newton_.residual_tolerance * scale &&
+                           increment <= newton_.increment_tolerance * to.x.norm();
+    if (converged) return report;
+    if (report.newton_iterations == newton_.max_iterations) break;
+    if (!effective.solve(stop_tangent_, residual_)) {
+      report.status = StepStatus::singular;
+      return report;
+    }
+    ++report.newton_iterations;
+    to.a += residual_;
+    to.v += on_v * residual_;
+    to.x += on_x * residual_;
+    increment = on_x * residual_.norm();
+  }
+  report.kept_failure = newton_.keep_failures;
+  report.status = newton_.keep_failures ? StepStatus::ok : StepStatus::newton_failed;
+  return report;
+}
+
+double Newmark::evaluate_residual(const State& at) {
+  double scale = load_.norm();
+  residual_ = load_;
+  if (dynamics().stop_count() > 0) {
+    solve::Contact& contact = dynamics().contact();
+    contact.displacement(at.x, stop_displacement_);
+    contact.tangent(stop_displacement_, stop_force_, stop_tangent_);
+    force_.setZero();
+    contact.scatter(stop_force_, force_);
+    residual_ += force_;
+    scale += force_.norm();
+  }
+  dynamics().inertia_force(at.a, force_);
+  residual_ -= force_;
+  scale += force_.norm();
+  if (dynamics().has_damping()) {
+    dynamics().damping_force(at.v, force_);
+    residual_ -= force_;
+    scale += force_.norm();
+  }
+  dynamics().elastic_force(at.x, force_);
+  residual_ -= force_;
+  return scale + force_.norm();
+}
+
+namespace {
+
+std::vector<Parameter> newton_parameters() {
+  std::vector<Parameter> all = NewmarkParameters::declare();
+  all.push_back(number("residual_tolerance", "1", "eps_r, relative to the sum of the force norms").above(0));
+  all.push_back(number("increment_tolerance", "1", "eps_delta, relative to the norm of the displacements").above(0));
+  all.push_back(config::integer("max_iterations", "i_max, the most linear solves of a step").at_least(1).at_most(1000));
+  all.push_back(config::text("on_newton_failure", "what happens where they do not suffice")
+                    .one_of({"stop", "keep"})
+                    .or_else("stop"));
+  return all;
+}
+
+NewtonOptions newton_options(const Parameters& p) {
+  return {p.number("residual_tolerance"), p.number("increment_tolerance"),
+          static_cast<int>(p.integer("max_iterations")), p.text("on_newton_failure") == "keep"};
+}
+
+}  // namespace
+
+IntegratorType newmark_type() {
+  return {"newmark",
+          {"NM1"},
+          "Newmark with Newton-Raphson, fixed steps",
+          newton_parameters(),
+          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<Newmark>(dynamics, NewmarkParameters::read(p), newton_options(p));
+          },
+          {}};
+}
+
+IntegratorType newmark_adaptive_type() {
+  std::vector<Parameter> parameters = newton_parameters();
+  for (const Parameter& parameter : ZienkiewiczXie::parameters()) parameters.push_back(parameter);
+  return {"newmark_adaptive",
+          {"NM2"},
+          "Newmark with Newton-Raphson, steps by Zienkiewicz and Xie's error",
+          std::move(parameters),
+          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<Newmark>(dynamics, NewmarkParameters::read(p), newton_options(p),
+                                             ZienkiewiczXie::make(p));
+          },
+          ZienkiewiczXie::check};
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "butee/time/integrator.hpp"
+#include "integrators/zienkiewicz_xie.hpp"
+
+namespace butee::integrators {
+
+/// Newmark's parameters: x_{n+1} = x_n + h v_n + h^2 [(1/2 - beta) a_n + beta a_{n+1}],
+/// v_{n+1} = v_n + h [(1 - gamma) a_n + gamma a_{n+1}].
+struct NewmarkParameters {
+  double beta = 0.25;
+  double gamma = 0.5;
+
+  static std::vector<config::Parameter> declare();
+  static NewmarkParameters read(const config::Parameters& parameters);
+};
+
+struct NewtonOptions {
+  double residual_tolerance;   ///< eps_r, relative to |F| + |F_c| + |M a| + |C v| + |K x|
+  double increment_tolerance;  ///< eps_delta, relative to |x|
+  int max_iterations;          ///< i_max linear solves
+  bool keep_failures;          ///< goes on where they did not suffice
+};
+
+/// newmark (NM1) and, with a controller, newmark_adaptive (NM2): Newmark with Newton-Raphson.
+///
+/// Predictor a_{n+1} = a_n, then A da = r with A = M + gamma h C + beta h^2 (K + K_tangent) until
+/// |r| <= eps_r (|F| + |F_c| + |M a| + |C v| + |K x|) and, after the first solve, |dx| <= eps_delta |x|.
+///
+/// Order 2 at gamma = 1/2; unconditionally stable for linear motion at beta >= gamma/2 >= 1/4; across a stop energy is
+/// not conserved. One factorization and solve an iteration where there are stops. Checked in tests/conformance.
+/// Source: N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.
+class Newmark final : public time::Integrator {
+ public:
+  Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
+          std::unique_ptr<ZienkiewiczXie> controller = nullptr);
+
+  const time::StepController* controller() const override { return controller_.get(); }
+
+ private:
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+  time::StepReport iterate(double h, time::State& to);
+  /// Fills residual_ and the stops' tangents at (x, v, a); returns the scale of the residual's tolerance.
+  double evaluate_residual(const time::State& at);
+
+  NewmarkParameters parameters_;
+  NewtonOptions newton_;
+  std::unique_ptr<ZienkiewiczXie> controller_;
+  Vector load_, residual_, force_;
+  Vector stop_displacement_, stop_force_, stop_tangent_;
+};
+
+}  // namespace butee::integrators

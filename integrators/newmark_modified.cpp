@@ -1,0 +1,80 @@
+#include "integrators/newmark_modified.hpp"
+
+#include "integrators/methods.hpp"
+
+namespace butee::integrators {
+
+using config::Parameters;
+using time::IntegratorType;
+using time::State;
+using time::StepReport;
+
+ModifiedNewmark::ModifiedNewmark(solve::Dynamics& dynamics, NewmarkParameters parameters,
+                                 std::unique_ptr<ZienkiewiczXie> controller)
+    : Integrator(dynamics), parameters_(parameters), controller_(std::move(controller)) {
+  force_ = Vector::Zero(dynamics.size());
+  stop_displacement_ = secant_ = offset_ = Vector::Zero(dynamics.stop_count());
+}
+
+StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, State& to) {
+  const double h = step.h, beta = parameters_.beta, gamma = parameters_.gamma;
+  const double on_v = gamma * h, on_x = beta * h * h;
+  to.x = from.x + h * from.v + (0.5 - beta) * h * h * from.a;
+  to.v = from.v + (1.0 - gamma) * h * from.a;
+
+  dynamics().external_force(step.t_end, to.a);
+  if (dynamics().stop_count() > 0) add_secant_force(from, to);
+  dynamics().elastic_force(to.x, force_);
+  to.a -= force_;
+  if (dynamics().has_damping()) {
+    dynamics().damping_force(to.v, force_);
+    to.a -= force_;
+  }
+
+  solve::EffectiveSolver& effective = dynamics().effective();
+  effective.set_factors(on_v, on_x);
+  StepReport report;
+  if (!effective.solve(secant_, to.a)) {
+    report.status = time::StepStatus::singular;
+    return report;
+  }
+  to.x += on_x * to.a;
+  to.v += on_v * to.a;
+  if (controller_ != nullptr) report.error = controller_->error(from, to, h);
+  return report;
+}
+
+void ModifiedNewmark::add_secant_force(const State& from, State& to) {
+  solve::Contact& contact = dynamics().contact();
+  contact.displacement(from.x, stop_displacement_);
+  contact.secant(stop_displacement_, secant_, offset_);
+  contact.displacement(to.x, stop_displacement_);
+  offset_ -= secant_.cwiseProduct(stop_displacement_);
+  contact.scatter(offset_, to.a);
+}
+
+IntegratorType newmark_modified_type() {
+  return {"newmark_modified",
+          {"NMM1"},
+          "Newmark with the stops' secant stiffness of the last step instead of Newton, fixed steps",
+          NewmarkParameters::declare(),
+          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p));
+          },
+          {}};
+}
+
+IntegratorType newmark_modified_adaptive_type() {
+  std::vector<config::Parameter> parameters = NewmarkParameters::declare();
+  for (const config::Parameter& parameter : ZienkiewiczXie::parameters()) parameters.push_back(parameter);
+  return {"newmark_modified_adaptive",
+          {"NMM2"},
+          "Newmark with the stops' secant stiffness of the last step, steps by Zienkiewicz and Xie's error",
+          std::move(parameters),
+          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p), ZienkiewiczXie::make(p));
+          },
+          ZienkiewiczXie::check};
+}
+
+}  // namespace butee::integrators

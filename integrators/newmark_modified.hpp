@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "integrators/newmark.hpp"
+
+namespace butee::integrators {
+
+/// newmark_modified (NMM1) and, with a controller, newmark_modified_adaptive (NMM2): Newmark without Newton.
+///
+/// The stops at t_{n+1} act with their secant stiffness at t_n, F_c = -K_c(u_n) u_{n+1} + K_c(u_n) j sign(u_n), so that
+/// one linear solve with A = M + gamma h C + beta h^2 (K + K_c(u_n)) makes a step.
+///
+/// Order 2 while no stop changes; a stop that opens or closes during a step acts one step late, which is a force of
+/// O(h) for a time O(h): order 1 or 2 across contact, as measured in tests/conformance.
+/// Source: C. Duran et al., IMechE VIRM10, London, 2012.
+class ModifiedNewmark final : public time::Integrator {
+ public:
+  ModifiedNewmark(solve::Dynamics& dynamics, NewmarkParameters parameters,
+                  std::unique_ptr<ZienkiewiczXie> controller = nullptr);
+
+  const time::StepController* controller() const override { return controller_.get(); }
+
+ private:
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+  /// to.a += F_c by the secant stiffness at from.x and the predicted displacements to.x; fills secant_.
+  void add_secant_force(const time::State& from, time::State& to);
+
+  NewmarkParameters parameters_;
+  std::unique_ptr<ZienkiewiczXie> controller_;
+  Vector force_, stop_displacement_, secant_, offset_;
+};
+
+}  // namespace butee::integrators
