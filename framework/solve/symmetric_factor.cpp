@@ -1,5 +1,6 @@
 #include "butee/solve/symmetric_factor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -14,9 +15,7 @@ struct SymmetricFactor::Implementation {
   explicit Implementation(Counters& shared) : counters(&shared) {
     cholmod_start(&common);
     common.print = 0;
-    common.nmethods = 2;
-    common.method[0].ordering = CHOLMOD_NATURAL;
-    common.method[1].ordering = CHOLMOD_AMD;
+    common.nmethods = 1;
   }
   ~Implementation() {
     cholmod_free_dense(&solution, &common);
@@ -38,7 +37,18 @@ struct SymmetricFactor::Implementation {
 
 namespace {
 
-/// CHOLMOD reads the lower triangle of the full matrix.
+/// Up to this bandwidth, that of chains of beams, the natural order has hardly any fill-in and spares a permutation.
+constexpr int kNarrowBand = 8;
+
+int bandwidth(const SparseMatrix& matrix) {
+  int band = 0;
+  for (Index j = 0; j < matrix.cols(); ++j)
+    if (matrix.outerIndexPtr()[j + 1] > matrix.outerIndexPtr()[j])
+      band = std::max(band, static_cast<int>(j) - matrix.innerIndexPtr()[matrix.outerIndexPtr()[j]]);
+  return band;
+}
+
+/// CHOLMOD reads the upper triangle of the full matrix, which it takes as it is where nothing is permuted.
 cholmod_sparse view(const SparseMatrix& matrix) {
   cholmod_sparse view{};
   view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
@@ -46,7 +56,7 @@ cholmod_sparse view(const SparseMatrix& matrix) {
   view.p = const_cast<int*>(matrix.outerIndexPtr());
   view.i = const_cast<int*>(matrix.innerIndexPtr());
   view.x = const_cast<double*>(matrix.valuePtr());
-  view.stype = -1;
+  view.stype = 1;
   view.itype = CHOLMOD_INT;
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
@@ -60,6 +70,9 @@ cholmod_sparse view(const SparseMatrix& matrix) {
 SymmetricFactor::SymmetricFactor(const SparseMatrix& matrix, Counters& counters)
     : implementation_(std::make_unique<Implementation>(counters)) {
   require(matrix.rows() == matrix.cols() && matrix.isCompressed(), "a factorization takes a compressed square matrix");
+  const bool narrow = bandwidth(matrix) <= kNarrowBand;
+  implementation_->common.method[0].ordering = narrow ? CHOLMOD_NATURAL : CHOLMOD_AMD;
+  implementation_->common.postorder = narrow ? 0 : 1;
   cholmod_sparse a = view(matrix);
   implementation_->factor = cholmod_analyze(&a, &implementation_->common);
   if (implementation_->factor == nullptr) throw std::bad_alloc();
