@@ -1,9 +1,16 @@
 #pragma once
 
+#include <limits>
+#include <numbers>
+
 #include "butee/time/integrator.hpp"
 
 /// The declarations of all methods of this folder; each is registered by a module of its own in plugins/.
 namespace butee::integrators {
+
+/// Stability of classical Runge-Kutta on the imaginary axis: h omega <= 2 sqrt 2.
+inline constexpr double kRungeKutta4Limit = 2.0 * std::numbers::sqrt2;
+inline constexpr double kUnconditional = std::numeric_limits<double>::infinity();
 
 time::IntegratorType rk4_type();
 time::IntegratorType rk4_fixed_factors_type();

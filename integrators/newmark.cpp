@@ -123,6 +123,7 @@ IntegratorType newmark_type() {
           {"NM1"},
           "Newmark with Newton-Raphson, fixed steps",
           newton_parameters(),
+          kUnconditional,
           [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Newmark>(dynamics, NewmarkParameters::read(p), newton_options(p));
           },
@@ -136,6 +137,7 @@ IntegratorType newmark_adaptive_type() {
           {"NM2"},
           "Newmark with Newton-Raphson, steps by Zienkiewicz and Xie's error",
           std::move(parameters),
+          kUnconditional,
           [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Newmark>(dynamics, NewmarkParameters::read(p), newton_options(p),
                                              ZienkiewiczXie::make(p));

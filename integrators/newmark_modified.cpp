@@ -58,6 +58,7 @@ IntegratorType newmark_modified_type() {
           {"NMM1"},
           "Newmark with the stops' secant stiffness of the last step instead of Newton, fixed steps",
           NewmarkParameters::declare(),
+          kUnconditional,
           [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p));
           },
@@ -71,6 +72,7 @@ IntegratorType newmark_modified_adaptive_type() {
           {"NMM2"},
           "Newmark with the stops' secant stiffness of the last step, steps by Zienkiewicz and Xie's error",
           std::move(parameters),
+          kUnconditional,
           [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p), ZienkiewiczXie::make(p));
           },

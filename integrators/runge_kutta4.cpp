@@ -36,6 +36,7 @@ time::IntegratorType rk4_type() {
           {"RK4-1"},
           "classical Runge-Kutta of order 4, fixed steps",
           {},
+          kRungeKutta4Limit,
           [](const config::Parameters&, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<RungeKutta4>(dynamics);
           },

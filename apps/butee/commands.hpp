@@ -18,6 +18,8 @@ struct RunArguments {
 
 int run_command(const RunArguments& arguments);
 
+int check_command(const ModelArguments& arguments);
+
 struct PluginsArguments {
   std::string name;
   std::string write_manifest;  ///< a module whose manifest is wanted beside it

@@ -41,6 +41,11 @@ int parse_and_run(int argc, char** argv) {
   auto* quiet_flag = run_app->add_flag("-q,--quiet", quiet, "say nothing but warnings and errors");
   run_app->add_flag("-v,--verbose", verbose, "say more")->excludes(quiet_flag);
 
+  ModelArguments check;
+  CLI::App* check_app =
+      program.add_subcommand("check", "what a model holds, what it skips, its frequencies and critical steps");
+  add_model_arguments(*check_app, check);
+
   PluginsArguments plugins;
   CLI::App* plugins_app =
       program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, loads");
@@ -59,6 +64,7 @@ int parse_and_run(int argc, char** argv) {
   if (quiet) butee::log::set_level(butee::log::Level::quiet);
   if (verbose) butee::log::set_level(butee::log::Level::verbose);
   if (run_app->parsed()) return run_command(run);
+  if (check_app->parsed()) return check_command(check);
   return plugins_command(plugins);
 }
 

@@ -93,6 +93,7 @@ std::string write_manifest(const std::vector<time::IntegratorType>& integrators)
     table["name"] = Value(type.name);
     table["aliases"] = text_array(type.aliases);
     table["summary"] = Value(type.summary);
+    table["stability_limit"] = Value(type.stability_limit);
     Array parameters;
     for (const Parameter& parameter : type.parameters) parameters.push_back(to_value(parameter));
     table["parameter"] = Value(std::move(parameters));
@@ -114,6 +115,7 @@ Manifest read_manifest(const std::string& path) {
       type.name = get<std::string>(*item.table(), "name");
       type.aliases = texts(*item.table(), "aliases");
       type.summary = get<std::string>(*item.table(), "summary");
+      type.stability_limit = get<double>(*item.table(), "stability_limit");
       for (const Value& parameter : get<Array>(*item.table(), "parameter"))
         if (parameter.table() != nullptr) type.parameters.push_back(to_parameter(*parameter.table()));
       manifest.integrators.push_back(std::move(type));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -62,6 +63,8 @@ struct IntegratorType {
   std::vector<std::string> aliases;
   std::string summary;
   std::vector<config::Parameter> parameters;
+  /// The largest h omega at which undamped oscillation stays bounded; infinite for unconditionally stable methods.
+  double stability_limit = std::numeric_limits<double>::infinity();
   std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make;
   /// Reports values that are each allowed but do not go together. May be empty.
   std::function<void(const config::Parameters&, config::Diagnostics&)> check;

@@ -1,0 +1,153 @@
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <Eigen/SparseCholesky>
+#include <butee/core/log.hpp>
+#include <butee/core/text.hpp>
+#include <butee/solve/frequencies.hpp>
+
+#include "commands.hpp"
+
+namespace butee::app {
+namespace {
+
+/// The arctan law's pull is warned of where it moves the structure by more than this fraction of the gap.
+constexpr double kNoticeablePull = 1e-6;
+
+/// A frequency below this fraction of the highest is zero within the rounding of the eigenvalue solver.
+constexpr double kZeroFrequency = 1e-6;
+
+std::string text(double value) {
+  return to_short_text(value);
+}
+
+void print_contents(const model::Model& model, const model::System& system) {
+  std::size_t loads = model.loads.size();
+  Index stops = 0;
+  for (const auto& group : system.stops) stops += static_cast<Index>(group.size());
+  std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : model.title.c_str());
+  std::printf("elements   %zu on %d nodes\n", model.elements.size(), model.nodes.size());
+  std::printf("DOFs       %td free, %td fixed\n", system.size(), system.dofs.fixed_count());
+  std::printf("stops      %td on free DOFs\n", stops);
+  std::printf("loads      %zu\n", loads);
+}
+
+void print_skipped(const model::System& system, bool has_stops) {
+  const auto say = [](const std::string& line) { std::printf("skips      %s\n", line.c_str()); };
+  if (system.skipped_stops > 0)
+    say(std::to_string(system.skipped_stops) + " stops whose ends are all fixed: they can never act");
+  if (system.skipped_loads > 0)
+    say(std::to_string(system.skipped_loads) + " loads that are zero at all times or act on fixed DOFs alone");
+  if (!has_stops) say("contact: the scene has no stops, so an implicit method factorizes once for each step size");
+  if (system.damping.mass_proportional == 0.0 && system.damping.stiffness_proportional == 0.0 &&
+      system.dashpots.size() == 0)
+    say("damping: C is zero");
+  else if (system.dashpots.size() == 0)
+    say("a damping matrix: C is Rayleigh's, made of M and K");
+}
+
+void print_range(const char* label, const std::optional<solve::FrequencyRange>& range) {
+  constexpr double kTwoPi = 6.283185307179586;
+  if (!range) {
+    std::printf("%s (the eigenvalue solver did not converge)\n", label);
+    return;
+  }
+  std::printf("%s %s ... %s rad/s (%s ... %s Hz)\n", label, text(range->lowest).c_str(), text(range->highest).c_str(),
+              text(range->lowest / kTwoPi).c_str(), text(range->highest / kTwoPi).c_str());
+}
+
+void print_step(const plugin::IntegratorChoice& choice, const time::IntegratorType& type, double open, double closed) {
+  const double h = choice.options.time_step;
+  constexpr double kRungeKutta4 = 2.8284271247461903, kCentralDifferences = 2.0;
+  std::printf(
+      "critical   step of classical Runge-Kutta %s s (stops open), %s s (all closed); of central differences %s s, %s "
+      "s\n",
+      text(kRungeKutta4 / open).c_str(), text(kRungeKutta4 / closed).c_str(), text(kCentralDifferences / open).c_str(),
+      text(kCentralDifferences / closed).c_str());
+  std::printf("method     %s, time_step %s s\n", choice.name.c_str(), text(h).c_str());
+  if (std::isinf(type.stability_limit)) {
+    std::printf(
+        "           stable at every step for linear motion; %s steps in the shortest period with all stops closed\n",
+        text(6.283185307179586 / (closed * h)).c_str());
+  } else if (h > type.stability_limit / closed) {
+    log::warning("time_step = " + text(h) + " s is larger than the critical step of " + choice.name + ", " +
+                 text(type.stability_limit / closed) + " s with all stops closed" +
+                 (h > type.stability_limit / open ? " and also with all stops open" : "") +
+                 ": the solution would grow without bound; take a smaller step or an implicit method");
+  } else {
+    std::printf("           below its critical step by a factor of %s\n",
+                text(type.stability_limit / (closed * h)).c_str());
+  }
+}
+
+/// The largest displacement that the pull of all open stops together gives the structure at rest; nothing where K is
+/// singular.
+std::optional<double> pull_displacement(const model::System& system) {
+  Vector force = Vector::Zero(system.size());
+  for (const auto& stops : system.stops)
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      if (stops.a[i] >= 0) force[stops.a[i]] += stops.law->far_force();
+      if (stops.b[i] >= 0) force[stops.b[i]] -= stops.law->far_force();
+    }
+  const Eigen::SimplicialLDLT<SparseMatrix> factor(system.stiffness);
+  if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0.0) return std::nullopt;
+  return factor.solve(force).lpNorm<Eigen::Infinity>();
+}
+
+void warn_of_pull(const model::System& system) {
+  double pull = 0.0, smallest_gap = std::numeric_limits<double>::infinity();
+  bool at_rest = false;
+  for (const auto& stops : system.stops) {
+    if (stops.law->far_force() == 0.0) continue;
+    pull = std::max(pull, stops.law->far_force());
+    smallest_gap = std::min(smallest_gap, stops.gap);
+    for (std::size_t i = 0; i < stops.size() && stops.sides == model::Sides::both; ++i) {
+      const double ua = stops.a[i] >= 0 ? system.initial_displacement[stops.a[i]] : 0.0;
+      const double ub = stops.b[i] >= 0 ? system.initial_displacement[stops.b[i]] : 0.0;
+      at_rest = at_rest || ua == ub;
+    }
+  }
+  if (pull == 0.0) return;
+  const auto moved = pull_displacement(system);
+  if (!moved || *moved > kNoticeablePull * smallest_gap)
+    log::warning("the arctan law pulls every open stop with up to " + text(pull) + " N however far it is open" +
+                 (moved ? "; all together move the structure at rest by " + text(*moved) + " m, " +
+                              text(*moved / smallest_gap) + " of the gap"
+                        : "") +
+                 ". A larger regularization weakens it, law = \"linear\" has none");
+  if (at_rest)
+    log::warning("with the arctan law the force of a stop on both sides jumps by " + text(2.0 * pull) +
+                 " N at u = 0, where this scene starts: which way it is pulled is decided by rounding, and answers are "
+                 "reproducible "
+                 "only so far. law = \"linear\" has no jump");
+}
+
+}  // namespace
+
+int check_command(const ModelArguments& arguments) {
+  Session session = open_session(arguments);
+  const model::System system = assemble(session.scene.model);
+  const bool has_stops = !system.stops.empty();
+  print_contents(session.scene.model, system);
+  print_skipped(system, has_stops);
+
+  const auto open = frequency_range(system, solve::StopState::open);
+  const auto closed = has_stops ? frequency_range(system, solve::StopState::closed) : open;
+  print_range(has_stops ? "frequency  all stops open:  " : "frequency ", open);
+  if (has_stops) print_range("           all stops closed:", closed);
+  if (open && closed) {
+    const plugin::IntegratorChoice& choice = session.scene.integrator;
+    print_step(choice, session.catalogue.find(choice.name)->declaration, open->highest, closed->highest);
+    if (open->lowest < kZeroFrequency * open->highest)
+      std::printf(
+          "free       with all stops open the structure can move as a rigid body or a mechanism (lowest frequency ~ "
+          "0)\n");
+  }
+  std::fflush(stdout);
+  warn_of_pull(system);
+  for (const std::string& warning : session.warnings) log::warning(warning);
+  return kDone;
+}
+
+}  // namespace butee::app

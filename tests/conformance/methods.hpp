@@ -1,0 +1,32 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace butee::test {
+
+/// One method with what the suite must know of it, and the keys that make it run.
+struct MethodCase {
+  std::string name;
+  std::string keys;  ///< TOML lines of [integrator] beside time_step and end_time
+  double order;      ///< of the smooth problem, in x and v; 0 for adaptive methods
+};
+
+inline void PrintTo(const MethodCase& method, std::ostream* out) {
+  *out << method.name;
+}
+
+/// Every method of the catalogue; a test asserts that none is missing.
+inline std::vector<MethodCase> method_cases() {
+  const std::string newton = "residual_tolerance = 1e-13\nincrement_tolerance = 1e-13\nmax_iterations = 20\n";
+  return {{"rk4", "", 4.0},
+          {"newmark", newton, 2.0},
+          {"newmark_modified", "", 2.0},
+          {"rk4_fixed_factors", "tolerance = 1e-7\nshrink = 1.5\ngrow = 1.5\n", 0.0},
+          {"rk4_error_scaled", "tolerance = 1e-7\nsafety = 0.9\n", 0.0},
+          {"newmark_adaptive", newton + "target_error = 1e-5\n", 0.0},
+          {"newmark_modified_adaptive", "target_error = 1e-5\n", 0.0}};
+}
+
+}  // namespace butee::test
