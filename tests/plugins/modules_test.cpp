@@ -1,0 +1,126 @@
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include <butee/core/error.hpp>
+#include <butee/plugin/catalogue.hpp>
+#include <butee/plugin/module.hpp>
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string broken(const std::string& name) {
+  return std::string(BUTEE_TEST_BROKEN) + "/" + name + ".so";
+}
+
+std::string complaint(const std::string& module) {
+  try {
+    plugin::load_module(module);
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_mentions(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" in: " << text;
+}
+
+/// The shared objects of the plugin folder that the dynamic linker opened.
+std::set<std::string> opened_modules(const std::string& linker_log) {
+  std::set<std::string> modules;
+  std::istringstream lines(linker_log);
+  for (std::string line; std::getline(lines, line);) {
+    const auto at = line.find(BUTEE_TEST_PLUGINS);
+    if (at == std::string::npos) continue;
+    const auto end = line.find(".so", at);
+    if (end != std::string::npos) modules.insert(fs::path(line.substr(at, end + 3 - at)).stem().string());
+  }
+  return modules;
+}
+
+TEST(Modules, ARunLoadsTheOneItNamesAndNoOther) {
+  const TemporaryFolder folder;
+  const auto outcome = run_program({"run", model_path("oscillator"), "--set", "integrator.type=RK4-3", "--set",
+                                    "integrator.end_time=1e-3", "--set", "output.interval=1e-4", "-q"},
+                                   folder.path(), {"LD_DEBUG=files"});
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_EQ(opened_modules(outcome.errors), std::set<std::string>{"rk4_error_scaled"});
+}
+
+TEST(Modules, ListingAndDescribingLoadNone) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"plugins"}, {"plugins", "NM2"}}) {
+    const auto outcome = run_program(arguments, folder.path(), {"LD_DEBUG=files"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_TRUE(opened_modules(outcome.errors).empty());
+    EXPECT_NE(outcome.output.find("newmark_adaptive"), std::string::npos);
+  }
+}
+
+TEST(Modules, ManifestsSayWhatTheModulesDeclare) {
+  int compared = 0;
+  for (const auto& file : fs::directory_iterator(BUTEE_TEST_PLUGINS)) {
+    if (file.path().extension() != ".so") continue;
+    const auto written = plugin::read_manifest(plugin::manifest_path(file.path().string())).integrators;
+    const auto declared = plugin::load_module(file.path().string()).integrators();
+    EXPECT_EQ(plugin::write_manifest(written), plugin::write_manifest(declared));
+    ++compared;
+  }
+  EXPECT_EQ(compared, 7);
+}
+
+TEST(Modules, BrokenOnesAreRefusedWithTheReason) {
+  expect_mentions(complaint(broken("no_door")), {"no_door.so", "no butee module", "butee_plugin_abi"});
+  expect_mentions(complaint(broken("other_interface")), {"other_interface.so", "built for another butee",
+                                                         "interface version", "Eigen alignment", "16 instead of 64"});
+  expect_mentions(complaint(broken("throwing")), {"throwing.so", "no licence for this machine"});
+  const TemporaryFolder folder;
+  folder.write("text.so", "this is no shared object");
+  expect_mentions(complaint(folder.file("text.so")), {"text.so", "cannot be loaded"});
+  expect_mentions(complaint(folder.file("absent.so")), {"absent.so", "cannot be loaded"});
+}
+
+TEST(Modules, AThrowingOneRegistersNothing) {
+  plugin::Catalogue catalogue;
+  EXPECT_THROW(catalogue.add(broken("throwing")), RunError);
+  EXPECT_EQ(catalogue.find("half_registered"), nullptr);
+}
+
+TEST(Modules, ANameTakenTwiceIsRefusedWithBothFiles) {
+  plugin::Catalogue catalogue;
+  catalogue.add(BUTEE_TEST_PLUGINS);
+  const std::size_t before = catalogue.integrators().size();
+  try {
+    catalogue.add(broken("duplicate"));
+    FAIL() << "a second RK4-1 was taken";
+  } catch (const RunError& error) {
+    expect_mentions(error.what(), {"RK4-1", "rk4.so", "duplicate.so"});
+  }
+  EXPECT_EQ(catalogue.integrators().size(), before);
+}
+
+TEST(Modules, AFolderOfModulesIsFoundByEnvironmentAndOption) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("more"));
+  fs::copy_file(broken("duplicate"), folder.file("more/duplicate.so"));
+  const auto without = run_program({"plugins", "mine"}, folder.path());
+  EXPECT_EQ(without.status, 2);
+  // Without a manifest a module in a folder is left out with a warning; named as a file it is loaded, and refused here.
+  const auto by_folder = run_program({"plugins"}, folder.path(), {"BUTEE_PLUGIN_PATH=" + folder.file("more")});
+  EXPECT_EQ(by_folder.status, 0);
+  expect_mentions(by_folder.errors, {"duplicate.so", "no manifest"});
+  const auto by_file = run_program({"plugins", "--plugin", folder.file("more/duplicate.so")}, folder.path());
+  EXPECT_EQ(by_file.status, 1);
+  expect_mentions(by_file.errors, {"registered twice", "rk4.so"});
+}
+
+}  // namespace
+}  // namespace butee::test

@@ -1,0 +1,105 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+#include "verification/methods.hpp"
+
+namespace butee::test {
+namespace {
+
+/// Momentum is a linear invariant and grows linearly under a constant force, which every method here keeps but for
+/// rounding (and Newton's tolerance) over some thousand steps.
+constexpr double kMomentum = 1e-8;
+/// Newton's stopping rule and rounding, relative to the motion.
+constexpr double kRigid = 1e-8;
+
+constexpr double kLength = 2.0, kMass = 8000.0 * 2e-3 * kLength, kInertia = kMass * kLength * kLength / 12;
+constexpr double kEnd = 0.02;
+
+/// A free beam. Source: Newton and Euler: the centre of mass moves with F/m, the moment of momentum grows with the
+/// moment of the force; a uniform force does not bend the beam at all.
+std::string free_beam(const std::string& load) {
+  return R"(
+schema = 1
+
+[material.steel]
+young_modulus = 2.0e11
+density       = 8000.0
+
+[section.bar]
+shape         = "general"
+area          = 2.0e-3
+second_moment = 1.0e-8
+
+[[element]]
+type        = "beam"
+name        = "rod"
+material    = "steel"
+section     = "bar"
+coordinates = [0.0, 0.3, 0.8, 1.2, 1.5, 2.0]
+
+[integrator]
+end_time = 0.02
+
+[[load]]
+)" + load;
+}
+
+/// All nodes moved or turned about the middle as one.
+struct RigidModes {
+  explicit RigidModes(const SceneRun& scene) : shift(Vector::Zero(scene.system().size())), turn(shift) {
+    const double x[] = {0.0, 0.3, 0.8, 1.2, 1.5, 2.0};
+    for (int i = 0; i < 6; ++i) {
+      const std::string node = "rod:" + std::to_string(i);
+      shift[scene.dof(node)] = 1.0;
+      turn[scene.dof(node)] = x[i] - 0.5 * kLength;
+      turn[scene.dof(node, DofKind::theta)] = 1.0;
+    }
+  }
+  Vector shift, turn;
+};
+
+class RigidMotion : public testing::TestWithParam<Method> {
+ protected:
+  /// The beam's fastest mode wants smaller steps of the explicit method than the oscillator.
+  static std::vector<std::string> overrides() {
+    auto all = GetParam().overrides();
+    if (GetParam().name == "rk4") all.emplace_back("integrator.time_step=2e-5");
+    return all;
+  }
+};
+
+TEST_P(RigidMotion, a_uniform_force_moves_the_beam_without_bending_it) {
+  constexpr double kLoad = 500.0;
+  SceneRun scene(free_beam("type = \"distributed\"\nbeam = \"rod\"\nvalue = 500.0\n"), overrides());
+  const RigidModes modes(scene);
+  const time::RunReport& report = scene.run();
+  ASSERT_TRUE(report.completed) << report.message;
+  const double acceleration = kLoad * kLength / kMass, speed = acceleration * kEnd, way = 0.5 * speed * kEnd;
+  const time::State& state = scene.simulation().state();
+  EXPECT_LE((state.x - way * modes.shift).lpNorm<Eigen::Infinity>(), kRigid * way);
+  EXPECT_LE((state.v - speed * modes.shift).lpNorm<Eigen::Infinity>(), kRigid * speed);
+}
+
+TEST_P(RigidMotion, a_force_at_the_end_moves_the_centre_of_mass_and_turns_the_beam) {
+  constexpr double kForce = 300.0;
+  SceneRun scene(free_beam("type = \"constant\"\nnode = \"rod:last\"\nvalue = 300.0\n"), overrides());
+  const RigidModes modes(scene);
+  const time::RunReport& report = scene.run();
+  ASSERT_TRUE(report.completed) << report.message;
+  const time::State& state = scene.simulation().state();
+  const Vector momenta = scene.system().mass * state.v, places = scene.system().mass * state.x;
+  const double momentum = kForce * kEnd, spin = kForce * 0.5 * kLength * kEnd;
+  EXPECT_NEAR(modes.shift.dot(momenta), momentum, kMomentum * momentum);
+  EXPECT_NEAR(modes.turn.dot(momenta), spin, kMomentum * spin);
+  const double way = 0.5 * kForce / kMass * kEnd * kEnd, angle = 0.5 * kForce * 0.5 * kLength / kInertia * kEnd * kEnd;
+  EXPECT_NEAR(modes.shift.dot(places) / kMass, way, kMomentum * way);
+  EXPECT_NEAR(modes.turn.dot(places) / kInertia, angle, kMomentum * angle);
+}
+
+INSTANTIATE_TEST_SUITE_P(methods, RigidMotion, testing::ValuesIn(all_methods()),
+                         [](const auto& instance) { return instance.param.name; });
+
+}  // namespace
+}  // namespace butee::test
