@@ -146,6 +146,7 @@ std::string Parameter::complaint(const Value& value) const {
                              [this](const Value& item) { return number_complaint(*this, item); });
     case Kind::texts:
       if (value.text() != nullptr) return text_complaint(*this, value);
+      if (value.array() == nullptr) return std::string("must be a string or an array of strings, not ") + value.kind();
       return array_complaint(*this, value, "strings",
                              [this](const Value& item) { return text_complaint(*this, item); });
     case Kind::table:

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 
 #include <toml.hpp>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 
 namespace butee::config {
 namespace {
@@ -17,10 +19,28 @@ using Parsed = toml::basic_value<toml::discard_comments, std::map, std::vector>;
 /// toml11 counts lines from the start of the text for every location asked for, so long arrays share their array's.
 constexpr std::size_t kLongArray = 256;
 
-Value convert(const Parsed& from, const Location* shared);
+Value convert(const Parsed& from, const std::string& key, const Location* shared);
 
 Location location_of(const Parsed& value) {
   return {0, static_cast<std::int32_t>(value.location().line())};
+}
+
+/// Refuses what is TOML but cannot be kept as a Value.
+[[noreturn]] void refuse(const Parsed& value, const std::string& key, const std::string& complaint) {
+  const auto where = value.location();
+  throw InputError(":" + std::to_string(where.line()) + ": " + key + " = " +
+                   where.line_str().substr(where.column() - 1, where.region()) + ": " + complaint);
+}
+
+/// toml11 replaces a number that does not fit by the largest one.
+template <class Number>
+Number fitting(Number number, const Parsed& from, const std::string& key) {
+  using Limits = std::numeric_limits<Number>;
+  if (number == Limits::max() || number == Limits::lowest())
+    refuse(from, key,
+           std::string("is too large for ") + (Limits::is_integer ? "an integer of 64 bits" : "a number") +
+               "; the magnitude must be below " + to_short_text(static_cast<double>(Limits::max())));
+  return number;
 }
 
 Table convert_table(const Parsed& from) {
@@ -31,7 +51,7 @@ Table convert_table(const Parsed& from) {
   std::vector<Placed> placed;
   for (const auto& [key, value] : from.as_table()) {
     const auto where = value.location();
-    placed.push_back({where.line(), where.column(), {key, convert(value, nullptr)}});
+    placed.push_back({where.line(), where.column(), {key, convert(value, key, nullptr)}});
   }
   std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
@@ -41,33 +61,35 @@ Table convert_table(const Parsed& from) {
   return table;
 }
 
-Value convert(const Parsed& from, const Location* shared) {
+Value convert(const Parsed& from, const std::string& key, const Location* shared) {
   const Location at = shared != nullptr ? *shared : location_of(from);
   switch (from.type()) {
     case toml::value_t::boolean:
       return {from.as_boolean(), at};
     case toml::value_t::integer:
-      return {std::int64_t{from.as_integer()}, at};
+      return {fitting(std::int64_t{from.as_integer()}, from, key), at};
     case toml::value_t::floating:
-      return {double{from.as_floating()}, at};
+      return {fitting(double{from.as_floating()}, from, key), at};
     case toml::value_t::string:
       return {std::string(from.as_string().str), at};
     case toml::value_t::array: {
       Array array;
       const Location* same = from.as_array().size() > kLongArray ? &at : nullptr;
-      for (const Parsed& item : from.as_array()) array.push_back(convert(item, same));
+      for (const Parsed& item : from.as_array()) array.push_back(convert(item, key, same));
       return {std::move(array), at};
     }
     case toml::value_t::table:
       return {convert_table(from), at};
     default:
-      throw InputError("line " + std::to_string(at.line) + ": dates and times have no place in a model file");
+      refuse(from, key, "dates and times have no place in a model file");
   }
 }
 
-/// toml11's messages are drawings of several lines with " --> file" and "line | text"; this keeps sentence and line.
+/// toml11's messages are drawings of several lines with " --> file" and "line | text"; this keeps sentence and
+/// line, of two definitions the second's.
 std::string shorten(const std::string& what, const std::string& name) {
   std::string sentence = what.substr(0, what.find('\n'));
+  const bool defined_twice = sentence.find("insert_value") != std::string::npos;
   if (const auto bracket = sentence.find("] "); sentence.rfind("[error]", 0) == 0 && bracket != std::string::npos)
     sentence = sentence.substr(bracket + 2);
   if (const auto colon = sentence.find(": "); sentence.rfind("toml::", 0) == 0 && colon != std::string::npos)
@@ -80,12 +102,41 @@ std::string shorten(const std::string& what, const std::string& name) {
     if (bar == std::string::npos || digits >= bar) continue;
     const std::string number = row.substr(digits, bar - digits);
     if (number.find_first_not_of("0123456789") == std::string::npos) line = number;
-    if (!line.empty()) break;
+    if (!line.empty() && !defined_twice) break;
   }
   return name + ":" + (line.empty() ? "1" : line) + ": not valid TOML: " + sentence;
 }
 
+/// toml11 recurses for every bracket, so the depth is bounded before it may use up the stack.
+void check_nesting(const std::string& text) {
+  constexpr int kDeepest = 100;
+  int depth = 0, line = 1;
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      quote = 0;
+      ++line;
+    } else if (quote != 0) {
+      if (c == '\\' && quote == '"') ++i;
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+    if (depth > kDeepest)
+      throw InputError(":" + std::to_string(line) + ": more than " + std::to_string(kDeepest) +
+                       " brackets stand in one another");
+  }
+}
+
 Parsed parse(const std::string& text, const std::string& name) {
+  check_nesting(text);
   std::istringstream stream(text);
   return toml::parse<toml::discard_comments, std::map, std::vector>(stream, name);
 }
@@ -95,9 +146,9 @@ Parsed parse(const std::string& text, const std::string& name) {
 Document parse_toml(const std::string& text, const std::string& name) {
   try {
     const Parsed parsed = text.empty() ? Parsed(toml::table{}) : parse(text, name);
-    return {{name}, {convert_table(parsed), {0, 0}}};
+    return {{name}, {convert_table(parsed), {0, 1}}};
   } catch (const InputError& error) {
-    throw InputError(name + ": " + error.what());
+    throw InputError(name + error.what());
   } catch (const std::exception& error) {
     throw InputError(shorten(error.what(), name));
   }
@@ -105,10 +156,10 @@ Document parse_toml(const std::string& text, const std::string& name) {
 
 Document load_toml(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
+  file.peek();  // An empty file is good after this; what opens but cannot be read, such as a folder, is not.
+  if (!file) throw InputError(path + ": cannot be read; check the name and its permissions");
   std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-    if (!file || file.peek() != std::ifstream::traits_type::eof())
-      throw InputError(path + ": cannot be read; check the name and its permissions");
+  text << file.rdbuf();
   return parse_toml(text.str(), path);
 }
 
@@ -116,7 +167,7 @@ std::optional<Value> parse_toml_value(const std::string& text) {
   if (text.find('\n') != std::string::npos) return std::nullopt;
   try {
     const Parsed parsed = parse("value = " + text + "\n", "value");
-    return convert(parsed.at("value"), nullptr);
+    return convert(parsed.at("value"), "value", nullptr);
   } catch (const std::exception&) {
     return std::nullopt;
   }

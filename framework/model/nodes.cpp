@@ -31,7 +31,7 @@ Selection range(const NodeGroup& group, NodeId begin, NodeId end) {
 }
 
 Selection refuse(std::string problem) {
-  return {{}, std::move(problem)};
+  return {{}, std::move(problem), false};
 }
 
 std::string forms(const NodeGroup& group) {
@@ -43,7 +43,8 @@ std::string forms(const NodeGroup& group) {
 
 Selection select_at(const NodeGroup& group, std::string_view text) {
   const auto wanted = parse<double>(text);
-  if (!wanted) return refuse("\"" + std::string(text) + "\" is not a coordinate in m");
+  if (!wanted || !std::isfinite(*wanted))
+    return refuse(group.name + "@" + std::string(text) + " is not a coordinate in m");
   const auto& x = group.coordinates;
   const double tolerance = kCoordinateTolerance * (x.back() - x.front());
   const auto above = std::lower_bound(x.begin(), x.end(), *wanted);
@@ -66,7 +67,8 @@ Selection select_by_index(const NodeGroup& group, std::string_view text) {
   if (text == "middle") {
     if (size % 2 == 0)
       return refuse(group.name + " has an even number of nodes (" + std::to_string(size) +
-                    ") and so none in the middle; name one by its index or coordinate");
+                    ") and so none in the middle; the two nearest are " + group.name + ":" +
+                    std::to_string(size / 2 - 1) + " and " + group.name + ":" + std::to_string(size / 2));
     return range(group, size / 2, size / 2 + 1);
   }
   const auto dots = text.find("..");
@@ -75,8 +77,12 @@ Selection select_by_index(const NodeGroup& group, std::string_view text) {
   if (!begin || !end)
     return refuse("\"" + std::string(text) + "\" is no part of a beam" +
                   suggestion(text, {"all", "first", "last", "middle"}) + "; write " + forms(group));
-  if (*begin < 0 || *end >= size || *begin > *end)
+  if (std::min(*begin, *end) < 0 || std::max(*begin, *end) >= size)
     return refuse(group.name + " has the nodes 0 ... " + std::to_string(size - 1));
+  if (*begin > *end)
+    return refuse("the range runs backwards; write " + group.name + ":" + std::to_string(*end) + ".." +
+                  std::to_string(*begin) + " (" + group.name + " has the nodes 0 ... " + std::to_string(size - 1) +
+                  ")");
   return range(group, *begin, *end + 1);
 }
 
@@ -107,6 +113,7 @@ Selection NodeTable::select(std::string_view selector) const {
   const std::string name(selector.substr(0, mark));
   const NodeGroup* group = find(name);
   if (group == nullptr) {
+    if (excused_.contains(name) || excused_.contains("")) return {{}, "", true};
     const auto known = group_names();
     return refuse("there is no node or beam \"" + name + "\"" + suggestion(name, known) +
                   (known.empty() ? "" : "; known: " + butee::join(known)));

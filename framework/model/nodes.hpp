@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,7 @@ struct NodeGroup {
 struct Selection {
   std::vector<NodeId> nodes;
   std::string problem;
+  bool excused = false;  ///< names something whose own mistake was reported already; then there is no problem
 };
 
 /// All nodes of a model by name. Nodes of several elements can be joined into one.
@@ -40,6 +42,9 @@ class BUTEE_EXPORT NodeTable {
   /// The node that stands for `node` and all that were joined to it.
   NodeId canonical(NodeId node) const;
 
+  /// Marks a name whose element could not be read. An empty one excuses every name that is not known.
+  void excuse(const std::string& name) { excused_.insert(name); }
+
   /// `name`, `beam:first|last|middle|all`, `beam:17`, `beam:3..9`, `beam@17.5`.
   Selection select(std::string_view selector) const;
 
@@ -53,6 +58,7 @@ class BUTEE_EXPORT NodeTable {
  private:
   std::vector<NodeGroup> groups_;
   std::vector<NodeId> root_;
+  std::set<std::string, std::less<>> excused_;
 };
 
 }  // namespace butee::model

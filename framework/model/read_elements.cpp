@@ -36,6 +36,8 @@ class ReadingContext final : public ElementContext {
     const std::string& name = parameters.text(key);
     const auto found = items.find(name);
     if (found != items.end()) return found->second;
+    const Value* tables = reader_.root_.table()->find(what);
+    if (tables != nullptr && tables->table() == nullptr) return std::nullopt;
     std::vector<std::string> known;
     for (const auto& item : items) known.push_back(item.first);
     parameters.complain(reader_.diagnostics_, key,
@@ -54,24 +56,38 @@ void SceneReader::read_elements() {
     auto element = read_element(*entry, path);
     if (element) {
       pending.push_back(std::move(*element));
-    } else if (const config::Table* table = entry->table()) {
-      const Value* name = table->find("name");
-      broken_names_.insert(name != nullptr && name->text() != nullptr ? *name->text() : "");
+    } else {
+      excuse_names_of(*entry);
     }
   }
-  if (root_.table()->find("element") == nullptr)
-    diagnostics_.error("element", root_.at, "missing; a scene has at least one [[element]]");
+  const Value* list = root_.table()->find("element");
+  const bool is_empty = list == nullptr || (list->array() != nullptr && list->array()->empty());
+  if (is_empty)
+    diagnostics_.error("element", list != nullptr ? list->at : root_.at,
+                       "missing; a scene has at least one [[element]]");
+  if (is_empty || list->array() == nullptr) excuse_names_of(Value());
   for (PendingElement& waiting : pending) {
     ReadingContext context(*this, waiting.own_node);
     auto element = waiting.type->make(waiting.parameters, context);
     if (element == nullptr) {
-      broken_names_.insert("");
+      lacks_elements_ = true;
       continue;
     }
     element_places_.emplace_back(waiting.parameters.path(), waiting.parameters.at());
     if (waiting.parameters.has("name")) named_elements_.emplace_back(waiting.parameters.text("name"), element.get());
     model_.elements.push_back(std::move(element));
   }
+}
+
+/// An element that sits on nodes of others may lack a name; any other without one may be what a selector means.
+void SceneReader::excuse_names_of(const Value& entry) {
+  lacks_elements_ = true;
+  const config::Table* table = entry.table();
+  const Value* name = table != nullptr ? table->find("name") : nullptr;
+  if (name != nullptr && name->text() != nullptr)
+    model_.nodes.excuse(*name->text());
+  else if (table == nullptr || (table->find("node") == nullptr && table->find("nodes") == nullptr))
+    model_.nodes.excuse("");
 }
 
 std::optional<SceneReader::PendingElement> SceneReader::read_element(const Value& entry, const std::string& path) {

@@ -16,18 +16,17 @@ void SceneReader::read_load(const Value& entry, const std::string& path) {
   std::vector<std::string> known = type_names(types_.loads);
   known.emplace_back("distributed");
   const auto type = type_of(entry, path, "type", known);
-  if (!type) return;
-  if (*type == "distributed") return read_distributed(entry, path);
+  if (entry.table() == nullptr) return;
+  if (type == "distributed") return read_distributed(entry, path);
 
-  auto in_time = read_in_time(entry, path, {"node", "dof"});
+  auto in_time = type ? read_in_time(entry, path, {"node", "dof"}) : nullptr;
   std::vector<std::string> in_time_keys;
   for (const auto& [key, value] : entry.table()->entries)
     if (key != "node" && key != "dof") in_time_keys.push_back(key);
-  const auto p =
-      read_parameters(entry, path,
-                      {config::text("node", "the loaded node"),
-                       config::text("dof", "the loaded degree of freedom").one_of({"u", "theta"}).or_else("u")},
-                      diagnostics_, in_time_keys);
+  const auto p = read_table(entry, path,
+                            {config::text("node", "the loaded node"),
+                             config::text("dof", "the loaded degree of freedom").one_of({"u", "theta"}).or_else("u")},
+                            in_time_keys);
   if (!p) return;
   const auto node = select_one(*p, "node");
   if (!node) return;
@@ -53,16 +52,20 @@ void SceneReader::read_distributed(const Value& entry, const std::string& path) 
                   ->make(config::make_parameters(find_type(types_.loads, "constant")->parameters, unity), diagnostics_);
   }
   const std::string& name = p->text("beam");
-  if (broken_names_.count(name) > 0) return;
   const auto named = std::find_if(named_elements_.begin(), named_elements_.end(),
                                   [&](const auto& element) { return element.first == name; });
   std::vector<NodalValue> pattern;
-  if (named == named_elements_.end()) {
-    std::vector<std::string> known;
-    for (const auto& element : named_elements_) known.push_back(element.first);
-    return p->complain(diagnostics_, "beam", "there is no such beam" + suggestion(name, known));
+  const bool is_read = named != named_elements_.end();
+  if (!is_read || !named->second->add_line_load(pattern)) {
+    const bool was_reported = !is_read && (model_.nodes.find(name) != nullptr || model_.nodes.select(name).excused);
+    if (was_reported) return;
+    std::vector<std::string> beams;
+    for (const auto& [beam, element] : named_elements_)
+      if (std::vector<NodalValue> any; element->add_line_load(any)) beams.push_back(beam);
+    return p->complain(diagnostics_, "beam",
+                       (is_read ? "is not a beam" : "there is no such beam" + suggestion(name, beams)) +
+                           (beams.empty() ? "" : "; known: " + butee::join(beams)));
   }
-  if (!named->second->add_line_load(pattern)) return p->complain(diagnostics_, "beam", "is not a beam");
   for (NodalValue& nodal : pattern) nodal.value *= p->number("value");
   if (in_time != nullptr) model_.loads.push_back({std::move(pattern), std::move(in_time)});
 }

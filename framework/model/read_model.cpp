@@ -26,10 +26,8 @@ std::optional<std::vector<NodeId>> read_nodes(const NodeTable& nodes, const Para
   bool ok = true;
   for (const std::string& selector : parameters.texts(key)) {
     Selection selection = nodes.select(selector);
-    if (!selection.problem.empty()) {
-      parameters.complain(diagnostics, key, "\"" + selector + "\": " + selection.problem);
-      ok = false;
-    }
+    if (!selection.problem.empty()) parameters.complain(diagnostics, key, "\"" + selector + "\": " + selection.problem);
+    ok = ok && selection.problem.empty() && !selection.excused;
     all.insert(all.end(), selection.nodes.begin(), selection.nodes.end());
   }
   if (!ok) return std::nullopt;
@@ -125,19 +123,19 @@ void SceneReader::read_sections() {
 void SceneReader::read_supports() {
   const DofTable dofs = number_dofs(model_);
   for (const auto& [entry, path] : entries("support")) {
-    const auto p = read_parameters(*entry, path,
-                                   {config::texts("nodes", "the nodes held"),
-                                    config::texts("fix", "the displacements held").one_of({"u", "theta"})},
-                                   diagnostics_);
+    const auto p = read_table(*entry, path,
+                              {config::texts("nodes", "the nodes held"),
+                               config::texts("fix", "the displacements held").one_of({"u", "theta"})});
     if (!p) continue;
     const auto nodes = select(*p, "nodes");
+    if (p->texts("fix").empty()) p->complain(diagnostics_, "fix", "holds nothing; name \"u\", \"theta\" or both");
     if (!nodes) continue;
     for (const std::string& kind : p->texts("fix"))
       for (const NodeId node : *nodes) {
         const NodalDof dof{node, kind == "u" ? DofKind::u : DofKind::theta};
         if (dofs.exists(dof))
           model_.fixed.push_back(dof);
-        else if (broken_names_.empty())
+        else if (!lacks_elements_)
           p->complain(diagnostics_, "fix", model_.nodes.name(node) + " has no " + kind + ": no element there uses it");
       }
   }
@@ -179,19 +177,19 @@ void SceneReader::read_initial() {
                                      {config::table("displacement", "initial displacements").optional(),
                                       config::table("velocity", "initial velocities").optional()},
                                      diagnostics_);
-  if (!lists) return;
+  if (!lists && table->table() == nullptr) return;
   for (const std::string key : {"displacement", "velocity"}) {
-    if (!lists->has(key)) continue;
+    const Value* given = table->table()->find(key);
+    if (given == nullptr || !config::table(key, "").complaint(*given).empty()) continue;
     std::vector<NodalValue>& target = key == "displacement" ? model_.initial_displacement : model_.initial_velocity;
-    const Value& value = lists->value(key);
+    const Value& value = *given;
     const config::Array single{value};
     const config::Array& list = value.array() != nullptr ? *value.array() : single;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const auto p = read_parameters(list[i], "initial." + key + "[" + std::to_string(i) + "]",
-                                     {config::texts("nodes", "the nodes"),
-                                      config::text("dof", "the degree of freedom").one_of({"u", "theta"}).or_else("u"),
-                                      number("value", key == "displacement" ? "m" : "m/s", "the value")},
-                                     diagnostics_);
+      const auto p = read_table(list[i], "initial." + key + "[" + std::to_string(i) + "]",
+                                {config::texts("nodes", "the nodes"),
+                                 config::text("dof", "the degree of freedom").one_of({"u", "theta"}).or_else("u"),
+                                 number("value", key == "displacement" ? "m" : "m/s", "the value")});
       if (!p) continue;
       const auto nodes = select(*p, "nodes");
       if (!nodes) continue;
@@ -206,8 +204,9 @@ void SceneReader::read_initial() {
 
 void SceneReader::check_free(const Parameters& parameters, const std::string& key, NodalDof dof, const char* what) {
   if (!dofs_->exists(dof)) {
-    if (broken_names_.empty())
-      parameters.complain(diagnostics_, key, dofs_->name(dof) + " does not exist: no element there uses it");
+    if (!lacks_elements_)
+      parameters.complain(diagnostics_, parameters.given("dof") ? "dof" : key,
+                          dofs_->name(dof) + " does not exist: no element there uses it");
   } else if (dofs_->is_fixed(dof)) {
     parameters.complain(
         diagnostics_, key,
@@ -221,7 +220,7 @@ std::vector<std::pair<const Value*, std::string>> SceneReader::entries(const std
   if (value == nullptr) return list;
   const config::Array* array = value->array();
   if (array == nullptr) {
-    diagnostics_.error(key, value->at, "must be an array of tables: write [[" + key + "]]");
+    diagnostics_.error(key, *value, "must be an array of tables: write [[" + key + "]]");
     return list;
   }
   for (std::size_t i = 0; i < array->size(); ++i) list.emplace_back(&(*array)[i], key + "[" + std::to_string(i) + "]");
@@ -250,20 +249,28 @@ std::optional<std::string> SceneReader::type_of(const Value& entry, const std::s
   return *name;
 }
 
-bool SceneReader::is_broken(const Parameters& parameters, const std::string& key) const {
-  const auto selectors = parameters.texts(key);
-  return std::any_of(selectors.begin(), selectors.end(), [this](const std::string& selector) {
-    return broken_names_.count(selector.substr(0, selector.find_first_of(":@"))) > 0;
-  });
+std::optional<Parameters> SceneReader::read_table(const Value& entry, const std::string& path,
+                                                  const std::vector<config::Parameter>& declared,
+                                                  const std::vector<std::string>& ignored) {
+  auto p = read_parameters(entry, path, declared, diagnostics_, ignored);
+  if (p || entry.table() == nullptr) return p;
+  for (const config::Parameter& parameter : declared) {
+    const Value* given = entry.table()->find(parameter.name);
+    if (given == nullptr || !parameter.complaint(*given).empty()) continue;
+    Parameters alone;
+    alone.place(path, entry.at);
+    alone.set(parameter.name, *given, true);
+    if (parameter.name == "node") select_one(alone, "node");
+    if (parameter.name == "nodes") select(alone, "nodes");
+  }
+  return std::nullopt;
 }
 
 std::optional<std::vector<NodeId>> SceneReader::select(const Parameters& parameters, const std::string& key) {
-  if (is_broken(parameters, key)) return std::nullopt;
   return read_nodes(model_.nodes, parameters, key, diagnostics_);
 }
 
 std::optional<NodeId> SceneReader::select_one(const Parameters& parameters, const std::string& key) {
-  if (is_broken(parameters, key)) return std::nullopt;
   return read_node(model_.nodes, parameters, key, diagnostics_);
 }
 

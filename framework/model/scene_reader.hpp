@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 
 #include "butee/model/read_model.hpp"
 
@@ -29,6 +28,7 @@ class SceneReader {
   void read_sections();
   void read_elements();
   std::optional<PendingElement> read_element(const config::Value& entry, const std::string& path);
+  void excuse_names_of(const config::Value& entry);
   void read_supports();
   void read_contacts();
   void read_contact(const config::Value& entry, const std::string& path);
@@ -50,8 +50,10 @@ class SceneReader {
                                      const std::vector<std::string>& known, const char* fallback = nullptr);
   std::optional<std::vector<NodeId>> select(const config::Parameters& parameters, const std::string& key);
   std::optional<NodeId> select_one(const config::Parameters& parameters, const std::string& key);
-  /// True where the selector names something whose own mistake was reported already.
-  bool is_broken(const config::Parameters& parameters, const std::string& key) const;
+  /// read_parameters(); where a value is wrong, the selectors of the table are checked all the same.
+  std::optional<config::Parameters> read_table(const config::Value& entry, const std::string& path,
+                                               const std::vector<config::Parameter>& declared,
+                                               const std::vector<std::string>& ignored = {});
 
   const config::Value& root_;
   const ModelTypes& types_;
@@ -61,7 +63,7 @@ class SceneReader {
   std::map<std::string, std::optional<Material>> materials_;
   std::map<std::string, std::optional<Section>> sections_;
   std::vector<std::string> element_names_;
-  std::set<std::string> broken_names_;  ///< elements with a mistake of their own; "" for one without a name
+  bool lacks_elements_ = false;  ///< an element has a mistake of its own, so DOFs may be missing for its sake
   std::vector<std::pair<std::string, const Element*>> named_elements_;
   std::vector<std::pair<std::string, config::Location>> element_places_;
 };

@@ -46,22 +46,16 @@ class ChoiceReader {
     const IntegratorEntry* chosen = chosen_entry();
     read_method_tables();
     check_direct_keys(chosen);
-    if (chosen == nullptr) return std::nullopt;
-
-    Table merged;
-    if (const auto found = method_tables_.find(chosen); found != method_tables_.end()) merged = *found->second->table();
-    for (const auto& [key, value] : table_.entries)
-      if (key != "type" && value.table() == nullptr) merged[key] = value;
-    if (diagnostics_.error_count() > errors_before) {
-      report_missing(merged);
-      return std::nullopt;
-    }
-    auto parameters =
-        read_parameters(Value(std::move(merged), at_), "integrator", parameters_of(*chosen), diagnostics_);
-    if (!parameters) return std::nullopt;
+    auto parameters = read_merged(chosen);
+    if (chosen == nullptr || diagnostics_.error_count() > errors_before) return std::nullopt;
     const double time_step = parameters->number("time_step"), end_time = parameters->number("end_time");
     if (time_step > end_time) {
       parameters->complain(diagnostics_, "time_step", "must not be larger than end_time = " + to_text(end_time) + " s");
+      return std::nullopt;
+    }
+    if (end_time + time_step == end_time) {
+      parameters->complain(diagnostics_, "time_step",
+                           "is lost in rounding beside end_time = " + to_text(end_time) + " s; make it larger");
       return std::nullopt;
     }
     return IntegratorChoice{chosen->declaration.name, {time_step, end_time}, std::move(*parameters)};
@@ -79,16 +73,26 @@ class ChoiceReader {
     const std::string* name = type->text();
     const IntegratorEntry* entry = name != nullptr ? catalogue_.find(*name) : nullptr;
     if (entry == nullptr)
-      diagnostics_.error(
-          "integrator.type", *type,
-          "there is no such integrator" + (name != nullptr ? suggestion(*name, known) : "") + "; " + choices);
+      diagnostics_.error("integrator.type", *type,
+                         (name != nullptr ? "there is no such integrator" + suggestion(*name, known)
+                                          : std::string("must be a string, not ") + type->kind()) +
+                             "; " + choices);
     return entry;
+  }
+
+  /// A table is a method's, unless its key is that of a parameter, which may then have a wrong value.
+  bool is_method_table(const Table::Entry& entry) const {
+    const auto common = names_of(common_parameters());
+    return entry.second.table() != nullptr && entry.first != "type" &&
+           std::find(common.begin(), common.end(), entry.first) == common.end() &&
+           owners_of(entry.first, catalogue_).empty();
   }
 
   /// [integrator.NAME]: each is checked, chosen or not; required keys may stand in [integrator] instead.
   void read_method_tables() {
-    for (const auto& [key, value] : table_.entries) {
-      if (value.table() == nullptr) continue;
+    for (const Table::Entry& item : table_.entries) {
+      if (!is_method_table(item)) continue;
+      const auto& [key, value] = item;
       const std::string path = "integrator." + key;
       const IntegratorEntry* entry = catalogue_.find(key);
       if (entry == nullptr) {
@@ -113,9 +117,9 @@ class ChoiceReader {
 
   void check_direct_keys(const IntegratorEntry* chosen) {
     const auto known = names_of(chosen != nullptr ? parameters_of(*chosen) : common_parameters());
-    for (const auto& [key, value] : table_.entries) {
-      if (key == "type" || value.table() != nullptr || std::find(known.begin(), known.end(), key) != known.end())
-        continue;
+    for (const Table::Entry& item : table_.entries) {
+      const auto& [key, value] = item;
+      if (key == "type" || is_method_table(item) || std::find(known.begin(), known.end(), key) != known.end()) continue;
       const auto owners = owners_of(key, catalogue_);
       if (chosen == nullptr && !owners.empty()) continue;
       std::string complaint = "unknown key" + suggestion(key, known);
@@ -126,11 +130,23 @@ class ChoiceReader {
     }
   }
 
-  /// After other mistakes the merged table is not read as a whole, but what every method needs is still asked for.
-  void report_missing(const Table& merged) {
-    for (const Parameter& parameter : common_parameters())
-      if (merged.find(parameter.name) == nullptr)
-        diagnostics_.error("integrator." + parameter.name, at_, "missing; give " + parameter.help);
+  /// The chosen method's parameters, or those that all methods have: direct keys win over its table's, whose mistakes
+  /// were reported already.
+  std::optional<config::Parameters> read_merged(const IntegratorEntry* chosen) {
+    const auto found = method_tables_.find(chosen);
+    const Table* own = found != method_tables_.end() ? found->second->table() : nullptr;
+    std::vector<Parameter> declared;
+    Table merged;
+    for (const Parameter& parameter : chosen != nullptr ? parameters_of(*chosen) : common_parameters()) {
+      const Value* value = table_.find(parameter.name);
+      if (value == nullptr && own != nullptr) {
+        value = own->find(parameter.name);
+        if (value != nullptr && !parameter.complaint(*value).empty()) continue;
+      }
+      if (value != nullptr) merged[parameter.name] = *value;
+      declared.push_back(parameter);
+    }
+    return read_parameters(Value(std::move(merged), at_), "integrator", declared, diagnostics_);
   }
 
   const Table& table_;

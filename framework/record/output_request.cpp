@@ -69,6 +69,10 @@ class OutputReader {
                          config::texts("formats", "the file formats").one_of({"csv"}).optional(),
                          config::table("probe", "the recorded nodes: [[output.probe]]").optional()},
                         diagnostics_);
+    if (const Value* probes = table.table() != nullptr ? table.table()->find("probe") : nullptr)
+      read_probes(*probes, request);
+    else if (complete_)
+      request.probes = default_probes(model_);
     if (!p) return request;
     if (p->has("interval") && p->has("every"))
       p->complain(diagnostics_, "every", "stands beside interval; give one of them");
@@ -81,17 +85,14 @@ class OutputReader {
                   "gives more than 1e9 rows until end_time = " + to_text(end_time_) + " s; make it larger");
     request.energy = p->flag("energy");
     request.impacts = p->flag("impacts");
-    if (p->has("probe"))
-      read_probes(p->value("probe"), request);
-    else if (complete_)
-      request.probes = default_probes(model_);
     return request;
   }
 
  private:
   void read_probes(const Value& list, OutputRequest& request) {
-    if (list.array() == nullptr)
+    if (list.table() != nullptr)
       return diagnostics_.error("output.probe", list, "must be an array of tables: write [[output.probe]]");
+    if (!config::table("probe", "").complaint(list).empty()) return;
     for (std::size_t i = 0; i < list.array()->size(); ++i) {
       const auto p =
           read_parameters((*list.array())[i], "output.probe[" + std::to_string(i) + "]",
@@ -109,8 +110,7 @@ class OutputReader {
   }
 
   void read_probe_node(const Parameters& p, OutputRequest& request) {
-    // After other mistakes a node may be missing for their sake alone.
-    if (!complete_ && model_.nodes.select(p.text("node")).nodes.size() != 1) return;
+    if (!complete_ && model_.nodes.size() == 0) return;
     const auto node = read_node(model_.nodes, p, "node", diagnostics_);
     if (!node) return;
     ProbeRequest probe{p.text("label"), *node, {}};
