@@ -127,9 +127,9 @@ void warn_of_pull(const model::System& system) {
 
 int check_command(const ModelArguments& arguments) {
   Session session = open_session(arguments);
-  const model::System system = assemble(session.scene.model);
+  const model::System system = assemble(session.model);
   const bool has_stops = !system.stops.empty();
-  print_contents(session.scene.model, system);
+  print_contents(session.model, system);
   print_skipped(system, has_stops);
 
   const auto open = frequency_range(system, solve::StopState::open);
@@ -137,7 +137,7 @@ int check_command(const ModelArguments& arguments) {
   print_range(has_stops ? "frequency  all stops open:  " : "frequency ", open);
   if (has_stops) print_range("           all stops closed:", closed);
   if (open && closed) {
-    const plugin::IntegratorChoice& choice = session.scene.integrator;
+    const plugin::IntegratorChoice& choice = session.integrator;
     print_step(choice, session.catalogue.find(choice.name)->declaration, open->highest, closed->highest);
     if (open->lowest < kZeroFrequency * open->highest)
       std::printf(

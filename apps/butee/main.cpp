@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -5,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+#include <butee/core/text.hpp>
 #include <butee/version.hpp>
 
 #include "commands.hpp"
@@ -56,6 +58,10 @@ int parse_and_run(int argc, char** argv) {
   plugins_app->add_option("--write-manifest", plugins.write_manifest, "write the manifest of a module beside it")
       ->type_name("FILE");
 
+  const std::vector<std::string> known = {"run", "check", "plugins"};
+  if (argc > 1 && argv[1][0] != '-' && std::find(known.begin(), known.end(), argv[1]) == known.end())
+    throw butee::InputError("butee " + std::string(argv[1]) + ": there is no such command" +
+                            butee::suggestion(argv[1], known) + "; known: " + butee::join(known));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

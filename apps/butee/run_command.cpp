@@ -25,62 +25,67 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// One integration from assembly to the end, its files written where `folder` is given.
+/// One integration from assembly to the end.
 class Run {
  public:
-  Run(Session& session, const record::ResultFolder* folder, bool with_progress)
-      : session_(session), folder_(folder), with_progress_(with_progress) {}
+  /// Assembles and takes the first factorization; nothing is written yet. Throws InputError where the scene cannot be
+  /// run.
+  Run(Session& session, bool with_progress) : session_(session), with_progress_(with_progress), begin_(Clock::now()) {
+    const plugin::IntegratorChoice& choice = session.integrator;
+    system_.emplace(assemble(session.model));
+    dynamics_.emplace(*system_);
+    integrator_ = session.catalogue.load(choice.name).make(choice.parameters, *dynamics_);
+    simulation_.emplace(*dynamics_, *integrator_, choice.options);
+    simulation_->start();
+    summary_.setup_seconds = seconds_since(begin_);
+  }
 
-  record::Summary perform() {
-    const auto begin = Clock::now();
-    const model::System system = assemble(session_.scene.model);
-    solve::Dynamics dynamics(system);
-    const plugin::IntegratorChoice& choice = session_.scene.integrator;
-    const auto integrator = session_.catalogue.load(choice.name).make(choice.parameters, dynamics);
-    time::Simulation simulation(dynamics, *integrator, choice.options);
-    attach_observers(simulation, dynamics);
-    simulation.start();
-    summary_.setup_seconds = seconds_since(begin);
-
-    summary_.report = simulation.run();
-    summarize(simulation, dynamics);
-    if (folder_ != nullptr) write_files();
+  /// Integrates; the files go to `folder` where one is given.
+  record::Summary perform(const record::ResultFolder* folder) {
+    attach_observers(folder);
+    summary_.report = simulation_->run();
+    summarize();
+    if (folder != nullptr) write_files(*folder);
     return std::move(summary_);
   }
 
  private:
-  void attach_observers(time::Simulation& simulation, solve::Dynamics& dynamics) {
+  void attach_observers(const record::ResultFolder* folder) {
     const record::OutputRequest& output = session_.output;
-    const double end_time = session_.scene.integrator.options.end_time;
-    if (folder_ != nullptr) writer_.emplace(folder_->file("history.csv"), record::HistoryRecorder::columns(output));
-    history_.emplace(output, end_time, dynamics, writer_ ? &*writer_ : nullptr);
-    simulation.add(*history_);
-    if (output.energy) simulation.add(energy_.emplace(dynamics));
-    if (output.impacts) simulation.add(impacts_.emplace(dynamics));
-    if (with_progress_) simulation.add(progress_.emplace(end_time));
+    const double end_time = session_.integrator.options.end_time;
+    if (folder != nullptr) writer_.emplace(folder->file("history.csv"), record::HistoryRecorder::columns(output));
+    history_.emplace(output, end_time, *dynamics_, writer_ ? &*writer_ : nullptr);
+    simulation_->add(*history_);
+    if (output.energy) simulation_->add(energy_.emplace(*dynamics_));
+    if (output.impacts) simulation_->add(impacts_.emplace(*dynamics_));
+    if (with_progress_) simulation_->add(progress_.emplace(end_time));
   }
 
-  void summarize(const time::Simulation& simulation, solve::Dynamics& dynamics) {
-    summary_.integrator = session_.scene.integrator.name;
-    summary_.counters = dynamics.counters();
-    summary_.dofs = dynamics.size();
-    summary_.contacts = dynamics.stop_count();
+  void summarize() {
+    summary_.integrator = session_.integrator.name;
+    summary_.counters = dynamics_->counters();
+    summary_.dofs = dynamics_->size();
+    summary_.contacts = dynamics_->stop_count();
     summary_.peaks = history_->peaks();
-    summary_.energy = record::energy_of(simulation.state(), dynamics);
+    summary_.energy = record::energy_of(simulation_->state(), *dynamics_);
     if (energy_) summary_.followed = {energy_->work(), energy_->dissipated(), energy_->balance_error()};
   }
 
-  void write_files() {
+  void write_files(const record::ResultFolder& folder) {
     writer_->close();
     if (!impacts_) return;
-    record::CsvWriter writer(folder_->file("impacts.csv"), record::ImpactRecorder::columns());
+    record::CsvWriter writer(folder.file("impacts.csv"), record::ImpactRecorder::columns());
     for (const record::Impact& impact : impacts_->impacts()) writer.line(record::ImpactRecorder::csv_line(impact));
     writer.close();
   }
 
   Session& session_;
-  const record::ResultFolder* folder_;
   bool with_progress_;
+  Clock::time_point begin_;
+  std::optional<model::System> system_;
+  std::optional<solve::Dynamics> dynamics_;
+  std::unique_ptr<time::Integrator> integrator_;
+  std::optional<time::Simulation> simulation_;
   record::Summary summary_;
   std::optional<record::CsvWriter> writer_;
   std::optional<record::HistoryRecorder> history_;
@@ -91,7 +96,7 @@ class Run {
 
 void print(const record::Summary& summary, const Session& session, const std::string& folder) {
   const auto& report = summary.report;
-  if (!session.scene.model.title.empty()) std::printf("%s\n", session.scene.model.title.c_str());
+  if (!session.model.title.empty()) std::printf("%s\n", session.model.title.c_str());
   std::printf("  %s, %td free DOFs, %td stops\n", summary.integrator.c_str(), summary.dofs, summary.contacts);
   std::printf("  %s at t = %s s: %lld steps, %lld rejected, %lld Newton iterations\n",
               report.completed ? "completed" : "FAILED", to_short_text(report.t_end).c_str(),
@@ -116,13 +121,14 @@ int run_command(const RunArguments& arguments) {
                                       : std::filesystem::path(arguments.model.model).stem().string() + "-results";
   const record::ResultFolder folder(folder_name);
   folder.check();
-  folder.prepare(config::write_toml(*session.document.root.table()));
 
   const bool with_progress =
       arguments.progress == "always" || (arguments.progress == "auto" && record::has_terminal() && !log::is_quiet());
-  record::Summary best = Run(session, &folder, with_progress).perform();
+  Run first(session, with_progress);
+  folder.prepare(config::write_toml(*session.document.root.table()));
+  record::Summary best = first.perform(&folder);
   for (int i = 1; i < arguments.repeat && best.report.completed; ++i) {
-    const record::Summary next = Run(session, nullptr, with_progress).perform();
+    const record::Summary next = Run(session, with_progress).perform(nullptr);
     best.setup_seconds = std::min(best.setup_seconds, next.setup_seconds);
     best.report.wall_seconds = std::min(best.report.wall_seconds, next.report.wall_seconds);
   }

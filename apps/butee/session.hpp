@@ -20,12 +20,16 @@ struct ModelArguments {
 struct Session {
   config::Document document;
   plugin::Catalogue catalogue;
-  plugin::Scene scene;
+  model::Model model;
+  plugin::IntegratorChoice integrator;
   record::OutputRequest output;
   std::vector<std::string> warnings;
 };
 
-/// Reads the scene with its overrides, and loads the one module that it names. Throws InputError with every mistake.
+/// Reads the scene, and loads the one module that it names. Throws InputError with every mistake.
+Session read_session(config::Document document, plugin::Catalogue catalogue);
+
+/// The same from files and overrides.
 Session open_session(const ModelArguments& arguments);
 
 }  // namespace butee::app

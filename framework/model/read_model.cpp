@@ -196,6 +196,11 @@ void SceneReader::read_initial() {
       for (const NodeId node : *nodes) {
         const NodalDof dof{node, p->text("dof") == "u" ? DofKind::u : DofKind::theta};
         check_free(*p, "nodes", dof, "an initial value");
+        const auto same = [&](const NodalValue& other) {
+          return other.dof.kind == dof.kind && model_.nodes.canonical(other.dof.node) == model_.nodes.canonical(node);
+        };
+        if (std::any_of(target.begin(), target.end(), same))
+          p->complain(diagnostics_, "nodes", "gives " + dofs_->name(dof) + " a second initial " + key);
         target.push_back({dof, p->number("value")});
       }
     }

@@ -110,7 +110,6 @@ class OutputReader {
   }
 
   void read_probe_node(const Parameters& p, OutputRequest& request) {
-    if (!complete_ && model_.nodes.size() == 0) return;
     const auto node = read_node(model_.nodes, p, "node", diagnostics_);
     if (!node) return;
     ProbeRequest probe{p.text("label"), *node, {}};

@@ -30,7 +30,7 @@ struct OutputRequest {
 };
 
 /// Reads [output]; without it 1000 equal intervals and a probe of u on every loaded node. Mistakes go to `diagnostics`.
-/// `model` need not be complete where there were mistakes before, and may be empty: nodes are then not looked up.
+/// `model` need not be complete where there were mistakes before.
 BUTEE_EXPORT OutputRequest read_output(const config::Value& root, const model::Model& model, double end_time,
                                        config::Diagnostics& diagnostics);
 

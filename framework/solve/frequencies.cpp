@@ -16,7 +16,8 @@ namespace butee::solve {
 namespace {
 
 constexpr Index kDense = 200;
-/// Of the eigenvectors; a Ritz value is accurate to its square, where the highest eigenvalues of a long beam lie too close for more.
+/// Of the eigenvectors; a Ritz value is accurate to its square, where the highest eigenvalues of a long beam lie too
+/// close for more.
 constexpr double kLanczosTolerance = 1e-4;
 constexpr int kLanczosVectors = 30;
 constexpr int kLanczosRestarts = 200;

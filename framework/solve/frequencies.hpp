@@ -14,8 +14,8 @@ struct FrequencyRange {
 
 enum class StopState { open, closed };
 
-/// The range with all stops open or all of them closed (K + S^T k_c S). Dense for small systems, Lanczos for large ones (relative
-/// accuracy about 1e-6); nothing where Lanczos did not converge.
+/// The range with all stops open or all of them closed (K + S^T k_c S). Dense for small systems, Lanczos for large ones
+/// (relative accuracy about 1e-6); nothing where Lanczos did not converge.
 BUTEE_EXPORT std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops);
 
 /// K, or K + S^T k_c S with all stops closed.

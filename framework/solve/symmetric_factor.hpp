@@ -11,7 +11,8 @@ namespace butee::solve {
 
 /// A sparse Cholesky factorization (CHOLMOD), analysed once, factorized for many matrices of one pattern.
 ///
-/// Chains keep their natural order, everything else gets an approximate minimum degree ordering. solve() allocates only at first use.
+/// Chains keep their natural order, everything else gets an approximate minimum degree ordering. solve() allocates only
+/// at first use.
 class BUTEE_EXPORT SymmetricFactor {
  public:
   /// Analyses the pattern of `matrix` (symmetric, stored in full). `counters` must outlive the factor.

@@ -42,6 +42,12 @@ Step Simulation::propose() const {
   return {divides ? h : end - state_.t, end};
 }
 
+void Simulation::add(Observer& observer) {
+  require(report_.steps == 0, "observers are added before the first step");
+  observers_.push_back(&observer);
+  if (started_) observer.start(state_);
+}
+
 void Simulation::start() {
   if (started_) return;
   started_ = true;

@@ -52,8 +52,8 @@ class BUTEE_EXPORT Simulation {
   /// `dynamics` and `integrator` must outlive it; the integrator is one of this dynamics.
   Simulation(solve::Dynamics& dynamics, Integrator& integrator, SimulationOptions options);
 
-  /// `observer` must outlive the simulation.
-  void add(Observer& observer) { observers_.push_back(&observer); }
+  /// `observer` must outlive the simulation. Before the first step.
+  void add(Observer& observer);
 
   /// Completes the initial state (a_0, and what the method needs for it). Every other function does so where it is
   /// still due.

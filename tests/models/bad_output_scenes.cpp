@@ -36,6 +36,10 @@ std::vector<BadScene> bad_output_scenes() {
        {"output.probe[0].quantities = [\"u\", \"contact_forces\"]: entry 1 (counted from 0): must be one of \"u\", "
         "\"v\", "
         "\"a\", \"theta\", \"theta_v\", \"theta_a\", \"contact_force\" (did you mean \"contact_force\"?)"}},
+      {"probe of no node beside another mistake",
+       {{"node = \"string:middle\"\n" + quantities, "node = \"string:centre\" #!\n" + quantities},
+        {"gap = 0.01", "gap = -1 #!"}},
+       {"string:centre", "contact[0].gap = -1: must be >= 0 (m)"}},
       {"quantity twice", {{quantities, "quantities = [\"u\", \"u\"] #!"}}, {"names u twice"}},
       {"no quantity", {{quantities, "quantities = [] #!"}}, {"quantities = []: must name at least one quantity"}},
       {"turning of a lone mass",

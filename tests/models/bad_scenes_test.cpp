@@ -7,11 +7,9 @@
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
-#include <butee/plugin/catalogue.hpp>
-#include <butee/plugin/scene.hpp>
-#include <butee/record/output_request.hpp>
 #include <gtest/gtest.h>
 
+#include "apps/butee/session.hpp"
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
@@ -116,19 +114,11 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 /// What `butee run` would say of the scene: a line for each mistake.
 std::vector<std::string> messages_of(const std::string& toml, const std::vector<std::string>& overrides) {
-  static plugin::Catalogue catalogue = plugin::Catalogue::with_plugins({BUTEE_TEST_PLUGINS});
+  static const plugin::Catalogue catalogue = plugin::Catalogue::with_plugins({BUTEE_TEST_PLUGINS});
   try {
     config::Document document = config::parse_toml(toml, kFile);
     for (const std::string& assignment : overrides) config::apply_override(document, assignment);
-    config::Diagnostics diagnostics(document);
-    const auto scene = plugin::read_scene(document, catalogue, diagnostics);
-    const model::Model nothing;
-    record::read_output(document.root, scene ? scene->model : nothing, scene ? scene->integrator.options.end_time : 1.0,
-                        diagnostics);
-    if (scene)
-      if (const auto& check = catalogue.load(scene->integrator.name).check)
-        check(scene->integrator.parameters, diagnostics);
-    diagnostics.throw_if_any();
+    app::read_session(std::move(document), catalogue);
   } catch (const InputError& error) {
     return lines_of(error.what());
   }
@@ -176,7 +166,7 @@ TEST(BadScenes, say_where_what_and_what_is_allowed) {
     for (const std::string& part : scene.says) EXPECT_TRUE(holds(all, part)) << "wanted " << part << "\n" << all;
     ++scenes;
   }
-  EXPECT_EQ(scenes, 193U);
+  EXPECT_EQ(scenes, 195U);
 }
 
 TEST(BadScenes, end_the_program_with_2_and_nothing_written) {

@@ -13,9 +13,8 @@
 namespace butee::test {
 namespace {
 
-/// The catalogue keeps modules loaded and is the same for all tests of a process.
-plugin::Catalogue& catalogue() {
-  static plugin::Catalogue instance = [] {
+const plugin::Catalogue& catalogue() {
+  static const plugin::Catalogue instance = [] {
     plugin::Catalogue made;
     made.add(BUTEE_TEST_PLUGINS);
     return made;
@@ -33,7 +32,9 @@ std::vector<std::string> split(const std::string& line) {
 
 }  // namespace
 
-std::string model_path(const std::string& stem) { return std::string(BUTEE_TEST_MODELS) + "/" + stem + ".toml"; }
+std::string model_path(const std::string& stem) {
+  return std::string(BUTEE_TEST_MODELS) + "/" + stem + ".toml";
+}
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -43,20 +44,15 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-SceneRun::SceneRun(const std::string& toml, const std::vector<std::string>& overrides) : parts_(new Parts) {
-  parts_->document = config::parse_toml(toml, "scene.toml");
-  for (const std::string& assignment : overrides) config::apply_override(parts_->document, assignment);
-  config::Diagnostics diagnostics(parts_->document);
-  auto scene = plugin::read_scene(parts_->document, catalogue(), diagnostics);
-  diagnostics.throw_if_any();
-  parts_->scene = std::move(*scene);
-  const auto& choice = parts_->scene.integrator;
-  const auto& type = catalogue().load(choice.name);
-  if (type.check) type.check(choice.parameters, diagnostics);
-  diagnostics.throw_if_any();
-  parts_->system = std::make_unique<model::System>(assemble(parts_->scene.model));
+SceneRun::SceneRun(const std::string& toml, const std::vector<std::string>& overrides) {
+  config::Document document = config::parse_toml(toml, "scene.toml");
+  for (const std::string& assignment : overrides) config::apply_override(document, assignment);
+  parts_.reset(new Parts{app::read_session(std::move(document), catalogue()), {}, {}, {}, {}});
+  app::Session& session = parts_->session;
+  const auto& choice = session.integrator;
+  parts_->system = std::make_unique<model::System>(assemble(session.model));
   parts_->dynamics = std::make_unique<solve::Dynamics>(*parts_->system);
-  parts_->integrator = type.make(choice.parameters, *parts_->dynamics);
+  parts_->integrator = session.catalogue.load(choice.name).make(choice.parameters, *parts_->dynamics);
   parts_->simulation = std::make_unique<time::Simulation>(*parts_->dynamics, *parts_->integrator, choice.options);
 }
 

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include <butee/plugin/scene.hpp>
 #include <butee/record/energy.hpp>
 #include <butee/record/impacts.hpp>
 #include <butee/time/simulation.hpp>
+
+#include "apps/butee/session.hpp"
 
 namespace butee::test {
 
@@ -15,8 +16,8 @@ namespace butee::test {
 std::string model_path(const std::string& stem);
 std::string read_file(const std::string& path);
 
-/// A scene ready to run inside the test: read from TOML text with overrides ("integrator.type=NM1"), modules from the build tree.
-/// Throws InputError where the program would refuse the scene.
+/// A scene ready to run inside the test: read from TOML text with overrides ("integrator.type=NM1"), modules from the
+/// build tree. Throws InputError where the program would refuse the scene.
 class SceneRun {
  public:
   explicit SceneRun(const std::string& toml, const std::vector<std::string>& overrides = {});
@@ -24,7 +25,7 @@ class SceneRun {
 
   solve::Dynamics& dynamics() { return *parts_->dynamics; }
   const model::System& system() const { return *parts_->system; }
-  const model::Model& model() const { return parts_->scene.model; }
+  const model::Model& model() const { return parts_->session.model; }
   time::Integrator& integrator() { return *parts_->integrator; }
   time::Simulation& simulation() { return *parts_->simulation; }
   /// The free DOF of a selector that names one node.
@@ -35,8 +36,7 @@ class SceneRun {
 
  private:
   struct Parts {
-    config::Document document;
-    plugin::Scene scene;
+    app::Session session;
     std::unique_ptr<model::System> system;
     std::unique_ptr<solve::Dynamics> dynamics;
     std::unique_ptr<time::Integrator> integrator;
