@@ -4,6 +4,34 @@
 
 namespace butee::contact {
 
+void Arctan::secants(std::span<const double> g, std::span<double> secant) const {
+  bool any_near = false;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    const double x = slope_ * g[i], y = std::abs(x), open = far_fraction(y);
+    any_near |= y <= kFar;
+    secant[i] = stiffness_ * (x < 0.0 ? open : 1.0 - open);
+  }
+  if (!any_near) return;
+  for (std::size_t i = 0; i < g.size(); ++i)
+    if (std::abs(slope_ * g[i]) <= kFar) secant[i] = Arctan::secant(g[i]);
+}
+
+void Arctan::tangents(std::span<const double> g, std::span<double> secant, std::span<double> tangent) const {
+  bool any_near = false;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    const double x = slope_ * g[i], y = std::abs(x), open = far_fraction(y), open_tangent = far_tangent_fraction(y);
+    any_near |= y <= kFar;
+    secant[i] = stiffness_ * (x < 0.0 ? open : 1.0 - open);
+    tangent[i] = stiffness_ * (x < 0.0 ? open_tangent : 1.0 - open_tangent);
+  }
+  if (!any_near) return;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    if (std::abs(slope_ * g[i]) > kFar) continue;
+    secant[i] = Arctan::secant(g[i]);
+    tangent[i] = Arctan::tangent(g[i]);
+  }
+}
+
 model::LawType arctan_type() {
   return {"arctan",
           "regularised stop: F = k_c/2 [2/pi atan(pi lambda g) + 1] g",

@@ -13,7 +13,7 @@ namespace butee::contact {
 /// from |x| > 1e4 as two terms of its series in 1/|x| (relative error below 1/(5 x^4) = 2e-17), without a
 /// transcendental function. The law keeps a constant pull of k_c/(pi^2 lambda) towards the stop however far it is open.
 /// Checked by differences over 1e-9 ... 1 m in tests/unit/contact_law_test.cpp.
-class Arctan final : public model::BatchedLaw<Arctan> {
+class Arctan final : public model::ContactLaw {
  public:
   /// `stiffness` k_c in N/m, `regularization` lambda in 1/m.
   Arctan(double stiffness, double regularization) : stiffness_(stiffness), slope_(std::numbers::pi * regularization) {}
@@ -38,32 +38,40 @@ class Arctan final : public model::BatchedLaw<Arctan> {
     return x < 0.0 ? stiffness_ * open : stiffness_ * (0.5 * g * g - open);
   }
 
+  /// Far stops first, all of them in one vectorised pass; then those within the transition, one by one.
+  void secants(std::span<const double> g, std::span<double> secant) const override;
+  void tangents(std::span<const double> g, std::span<double> secant, std::span<double> tangent) const override;
+
   double closed_stiffness() const override { return stiffness_; }
   double far_force() const override { return stiffness_ / (std::numbers::pi * slope_); }
 
  private:
-  static constexpr double kFar = 1e4;
+  /// Beyond this |x| the series below are exact to rounding: their first dropped terms are 1/(13 x^12) and 7/(15 x^12).
+  static constexpr double kFar = 20.0;
+
+  /// atan(1/y)/pi for y > kFar.
+  static double far_fraction(double y) {
+    const double r = 1.0 / y, q = r * r;
+    return r * (1.0 - q * (1.0 / 3 - q * (1.0 / 5 - q * (1.0 / 7 - q * (1.0 / 9 - q * (1.0 / 11)))))) *
+           std::numbers::inv_pi;
+  }
+  /// [atan(1/y) - y/(1 + y^2)]/pi for y > kFar.
+  static double far_tangent_fraction(double y) {
+    const double r = 1.0 / y, q = r * r;
+    return 2.0 * r * q * (1.0 / 3 - q * (2.0 / 5 - q * (3.0 / 7 - q * (4.0 / 9 - q * (5.0 / 11 - q * (6.0 / 13)))))) *
+           std::numbers::inv_pi;
+  }
 
   /// atan(1/y)/pi for y >= 0: the part of k_c that an open stop keeps at x = -y.
   static double open_fraction(double y) {
-    if (y > kFar) {
-      const double r = 1.0 / y;
-      return r * (1.0 - r * r / 3.0) * std::numbers::inv_pi;
-    }
+    if (y > kFar) return far_fraction(y);
     return y > 0.0 ? std::atan(1.0 / y) * std::numbers::inv_pi : 0.5;
   }
-
-  /// [atan(1/y) - y/(1 + y^2)]/pi, the tangent's part; its series 2/(3 y^3) - 4/(5 y^5) + 6/(7 y^7) - ... from y > 20.
+  /// The same part of the tangent.
   static double open_tangent_fraction(double y) {
-    if (y > kNear) {
-      const double r = 1.0 / y, q = r * r;
-      return 2.0 * r * q *
-             (1.0 / 3.0 - q * (2.0 / 5.0 - q * (3.0 / 7.0 - q * (4.0 / 9.0 - q * (5.0 / 11.0 - q * 6.0 / 13.0))))) *
-             std::numbers::inv_pi;
-    }
+    if (y > kFar) return far_tangent_fraction(y);
     return open_fraction(y) - y / (1.0 + y * y) * std::numbers::inv_pi;
   }
-  static constexpr double kNear = 20.0;
 
   /// s^2 V/k_c at x = -y, V(0) = 0: [y^2 atan(1/y) + y - atan(y)]/(2 pi).
   static double open_energy(double y) {

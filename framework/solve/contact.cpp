@@ -34,16 +34,21 @@ std::span<double> part(double* v, Index begin, Index count) {
 
 }  // namespace
 
-Contact::Contact(const model::System& system, Counters& counters) : counters_(&counters) {
+Contact::Contact(const model::System& system, Counters& counters) : counters_(&counters), system_size_(system.size()) {
   for (const FreeStops& stops : system.stops) {
     groups_.push_back({stops.law, stops.gap, stops.sides, size(), static_cast<Index>(stops.size())});
     a_.insert(a_.end(), stops.a.begin(), stops.a.end());
     b_.insert(b_.end(), stops.b.begin(), stops.b.end());
   }
+  for (std::size_t i = 0; i < a_.size(); ++i) grounded_ = grounded_ && a_[i] >= 0 && b_[i] == FreeStops::kGround;
   penetration_ = side_ = secant_ = Vector::Zero(size());
 }
 
 void Contact::displacement(ConstVectorRef x, VectorRef w) const {
+  if (grounded_) {
+    for (std::size_t i = 0; i < a_.size(); ++i) w[static_cast<Index>(i)] = x[a_[i]];
+    return;
+  }
   for (std::size_t i = 0; i < a_.size(); ++i) {
     const double ua = a_[i] >= 0 ? x[a_[i]] : 0.0;
     const double ub = b_[i] >= 0 ? x[b_[i]] : 0.0;
@@ -52,6 +57,10 @@ void Contact::displacement(ConstVectorRef x, VectorRef w) const {
 }
 
 void Contact::scatter(ConstVectorRef f, VectorRef force) const {
+  if (grounded_) {
+    for (std::size_t i = 0; i < a_.size(); ++i) force[a_[i]] += f[static_cast<Index>(i)];
+    return;
+  }
   for (std::size_t i = 0; i < a_.size(); ++i) {
     const double value = f[static_cast<Index>(i)];
     if (a_[i] >= 0) force[a_[i]] += value;
@@ -60,12 +69,19 @@ void Contact::scatter(ConstVectorRef f, VectorRef force) const {
 }
 
 void Contact::locate(ConstVectorRef w) {
-  for (const Group& group : groups_)
-    for (Index i = group.begin; i < group.begin + group.count; ++i) {
-      const Place at = place(w[i], group.gap, group.sides);
-      penetration_[i] = at.penetration;
-      side_[i] = at.side;
+  for (const Group& group : groups_) {
+    const auto part = w.segment(group.begin, group.count).array();
+    auto penetration = penetration_.segment(group.begin, group.count).array();
+    auto side = side_.segment(group.begin, group.count).array();
+    if (group.sides == Sides::both) {
+      penetration = part.abs() - group.gap;
+      side = part.sign();
+    } else {
+      const double s = group.sides == Sides::positive ? 1.0 : -1.0;
+      penetration = s * part - group.gap;
+      side = s;
     }
+  }
 }
 
 void Contact::count_evaluation() {

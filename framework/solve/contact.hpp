@@ -16,6 +16,8 @@ class BUTEE_EXPORT Contact {
   Contact(const model::System& system, Counters& counters);
 
   Index size() const { return static_cast<Index>(a_.size()); }
+  /// n, the free DOFs of the system.
+  Index system_size() const { return system_size_; }
 
   /// w := S x
   void displacement(ConstVectorRef x, VectorRef w) const;
@@ -60,6 +62,8 @@ class BUTEE_EXPORT Contact {
   Counters* counters_;
   std::vector<Group> groups_;
   std::vector<Index> a_, b_;
+  Index system_size_;
+  bool grounded_ = true;  ///< every stop acts on one free DOF a, to ground
   Vector penetration_, side_, secant_;
 };
 

@@ -3,31 +3,19 @@
 #include "butee/core/error.hpp"
 
 namespace butee::solve {
-namespace {
-
-/// y := A x for a symmetric A stored in full: its columns are its rows.
-void multiply(const SparseMatrix& matrix, ConstVectorRef x, VectorRef y) {
-  const int* start = matrix.outerIndexPtr();
-  const int* index = matrix.innerIndexPtr();
-  const double* value = matrix.valuePtr();
-  for (Index i = 0; i < matrix.outerSize(); ++i) {
-    double sum = 0.0;
-    for (int k = start[i]; k < start[i + 1]; ++k) sum += value[k] * x[index[k]];
-    y[i] = sum;
-  }
-}
-
-}  // namespace
-
 Dynamics::Dynamics(const model::System& system)
     : system_(system),
       contact_(system, counters_),
       has_damping_(system.damping.mass_proportional != 0.0 || system.damping.stiffness_proportional != 0.0 ||
                    system.dashpots.size() > 0),
+      mass_product_(system.mass),
+      stiffness_product_(system.stiffness),
       work_(Vector::Zero(system.size())),
       other_(work_),
       stop_displacement_(Vector::Zero(contact_.size())),
-      stop_force_(stop_displacement_) {}
+      stop_force_(stop_displacement_) {
+  if (system.dashpots.size() > 0) dashpot_product_ = SymmetricProduct(system.dashpots);
+}
 
 void Dynamics::external_force(double t, VectorRef force) const {
   force.setZero();
@@ -45,26 +33,26 @@ void Dynamics::add_contact_force(ConstVectorRef x, VectorRef force) {
 }
 
 void Dynamics::elastic_force(ConstVectorRef x, VectorRef y) const {
-  multiply(system_.stiffness, x, y);
+  stiffness_product_.multiply(x.data(), y.data());
 }
 void Dynamics::inertia_force(ConstVectorRef a, VectorRef y) const {
-  multiply(system_.mass, a, y);
+  mass_product_.multiply(a.data(), y.data());
 }
 
 void Dynamics::damping_force(ConstVectorRef v, VectorRef y) {
   const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
   if (on_mass != 0.0) {
-    multiply(system_.mass, v, y);
+    mass_product_.multiply(v.data(), y.data());
     y *= on_mass;
   } else {
     y.setZero();
   }
   if (on_stiffness != 0.0) {
-    multiply(system_.stiffness, v, other_);
+    stiffness_product_.multiply(v.data(), other_.data());
     y += on_stiffness * other_;
   }
   if (system_.dashpots.size() > 0) {
-    multiply(system_.dashpots, v, other_);
+    dashpot_product_.multiply(v.data(), other_.data());
     y += other_;
   }
 }
@@ -76,26 +64,26 @@ void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, Vector
   add_contact_force(x, a);
   if (on_stiffness != 0.0) {
     other_ = x + on_stiffness * v;
-    multiply(system_.stiffness, other_, work_);
+    stiffness_product_.multiply(other_.data(), work_.data());
   } else {
-    multiply(system_.stiffness, x, work_);
+    stiffness_product_.multiply(x.data(), work_.data());
   }
   a -= work_;
   if (system_.dashpots.size() > 0) {
-    multiply(system_.dashpots, v, work_);
+    dashpot_product_.multiply(v.data(), work_.data());
     a -= work_;
   }
-  mass_factor().solve(a);
+  mass_solver().solve(a);
   if (on_mass != 0.0) a -= on_mass * v;
 }
 
-SymmetricFactor& Dynamics::mass_factor() {
-  if (!mass_factor_) {
-    mass_factor_.emplace(system_.mass, counters_);
-    if (!mass_factor_->factorize(system_.mass))
+LinearSolver& Dynamics::mass_solver() {
+  if (!mass_solver_) {
+    mass_solver_.emplace(system_.mass, counters_);
+    if (!mass_solver_->factorize(system_.mass))
       throw InputError("the mass matrix is not positive definite: check the masses and the sections of the scene");
   }
-  return *mass_factor_;
+  return *mass_solver_;
 }
 
 EffectiveSolver& Dynamics::effective() {

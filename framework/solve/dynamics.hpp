@@ -4,6 +4,7 @@
 
 #include "butee/solve/contact.hpp"
 #include "butee/solve/effective_solver.hpp"
+#include "butee/solve/symmetric_product.hpp"
 
 namespace butee::solve {
 
@@ -46,13 +47,14 @@ class BUTEE_EXPORT Dynamics {
   std::string dof_name(Index dof) const;
 
  private:
-  SymmetricFactor& mass_factor();
+  LinearSolver& mass_solver();
 
   const model::System& system_;
   Counters counters_;
   Contact contact_;
   bool has_damping_;
-  std::optional<SymmetricFactor> mass_factor_;
+  SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
+  std::optional<LinearSolver> mass_solver_;
   std::optional<EffectiveSolver> effective_;
   Vector work_, other_, stop_displacement_, stop_force_;
 };

@@ -7,6 +7,9 @@
 namespace butee::solve {
 namespace {
 
+/// An adaptive method goes back and forth between few step sizes; each kept one costs a factor's memory.
+constexpr std::size_t kSlots = 4;
+
 Index place_of(const SparseMatrix& matrix, Index row, Index column) {
   if (row < 0 || column < 0) return -1;
   const int* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column];
@@ -19,51 +22,94 @@ Index place_of(const SparseMatrix& matrix, Index row, Index column) {
 }  // namespace
 
 EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters)
-    : system_(system),
-      base_(system.mass),
-      effective_(system.mass),
-      factor_(system.mass, counters),
-      has_stops_(contact.size() > 0) {
-  locate_stops(contact);
-}
+    : EffectiveSolver(system, contact, counters,
+                      contact.size() <= LocalContact::kMostStops && (system.size() > 1 || contact.size() == 0)
+                          ? Contacts::local
+                          : Contacts::factorized) {}
 
-void EffectiveSolver::locate_stops(const Contact& contact) {
-  for (Index i = 0; i < contact.size(); ++i) {
-    const Index a = contact.dof_a(i), b = contact.dof_b(i);
+EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters,
+                                 Contacts contacts)
+    : system_(system), contact_(contact), counters_(counters), contacts_(contacts), base_(system.mass) {}
+
+void EffectiveSolver::prepare_factorized() {
+  effective_ = base_;
+  factor_.emplace(base_, counters_);
+  for (Index i = 0; i < contact_.size(); ++i) {
+    const Index a = contact_.dof_a(i), b = contact_.dof_b(i);
     places_.push_back({place_of(base_, a, a), place_of(base_, b, b), place_of(base_, a, b), place_of(base_, b, a)});
   }
 }
 
-void EffectiveSolver::set_factors(double damping, double stiffness) {
-  if (damping == damping_factor_ && stiffness == stiffness_factor_) return;
-  damping_factor_ = damping;
-  stiffness_factor_ = stiffness;
-  factorized_ = false;
+void EffectiveSolver::assemble_base(double damping, double stiffness) {
   const double on_mass = 1.0 + damping * system_.damping.mass_proportional;
   const double on_stiffness = stiffness + damping * system_.damping.stiffness_proportional;
   base_.coeffs() = on_mass * system_.mass.coeffs() + on_stiffness * system_.stiffness.coeffs();
   if (system_.dashpots.size() > 0) base_.coeffs() += damping * system_.dashpots.coeffs();
 }
 
+void EffectiveSolver::set_factors(double damping, double stiffness) {
+  if (damping == damping_factor_ && stiffness == stiffness_factor_) return;
+  damping_factor_ = damping;
+  stiffness_factor_ = stiffness;
+  if (contacts_ == Contacts::factorized) return assemble_base(damping, stiffness);
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    if (slots_[i]->damping == damping && slots_[i]->stiffness == stiffness) {
+      current_ = i;
+      return;
+    }
+  if (slots_.size() < kSlots) {
+    current_ = slots_.size();
+    slots_.push_back(std::make_unique<Slot>(Slot{-1.0, -1.0, false, LinearSolver(base_, counters_), std::nullopt}));
+    if (contact_.size() > 0) slots_.back()->local.emplace(contact_);
+  } else {
+    current_ = oldest_;
+    oldest_ = (oldest_ + 1) % kSlots;
+  }
+  Slot& slot = *slots_[current_];
+  slot.damping = damping;
+  slot.stiffness = stiffness;
+  assemble_base(damping, stiffness);
+  slot.usable = slot.base.factorize(base_);
+  if (slot.usable && slot.local) slot.local->set_base(slot.base);
+}
+
 bool EffectiveSolver::solve(ConstVectorRef kappa, VectorRef b) {
   require(stiffness_factor_ >= 0.0, "set_factors() comes before solve()");
-  if (has_stops_) {
-    effective_.coeffs() = base_.coeffs();
-    double* values = effective_.valuePtr();
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      const double k = stiffness_factor_ * kappa[static_cast<Index>(i)];
-      const auto [aa, bb, ab, ba] = places_[i];
-      if (aa >= 0) values[aa] += k;
-      if (bb >= 0) values[bb] += k;
-      if (ab >= 0) values[ab] -= k;
-      if (ba >= 0) values[ba] -= k;
-    }
-    if (!factor_.factorize(effective_)) return false;
-  } else if (!factorized_) {
-    if (!factor_.factorize(base_)) return false;
-    factorized_ = true;
+  if (contacts_ == Contacts::factorized)
+    return system_.size() == 1 ? solve_scalar(kappa, b) : solve_factorized(kappa, b);
+  Slot& slot = *slots_[current_];
+  if (!slot.usable) return false;
+  if (!(kappa.array() >= 0.0).all()) {
+    assemble_base(damping_factor_, stiffness_factor_);
+    return solve_factorized(kappa, b);
   }
-  factor_.solve(b);
+  slot.base.solve(b);
+  return !slot.local || slot.local->correct(slot.base, stiffness_factor_, kappa, b);
+}
+
+bool EffectiveSolver::solve_scalar(ConstVectorRef kappa, VectorRef b) {
+  ++counters_.factorizations;
+  ++counters_.solves;
+  const double a = base_.coeffs()[0] + stiffness_factor_ * kappa.sum();
+  if (!(a > 0.0)) return false;
+  b[0] /= a;
+  return true;
+}
+
+bool EffectiveSolver::solve_factorized(ConstVectorRef kappa, VectorRef b) {
+  if (!factor_) prepare_factorized();
+  effective_.coeffs() = base_.coeffs();
+  double* values = effective_.valuePtr();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const double k = stiffness_factor_ * kappa[static_cast<Index>(i)];
+    const auto [aa, bb, ab, ba] = places_[i];
+    if (aa >= 0) values[aa] += k;
+    if (bb >= 0) values[bb] += k;
+    if (ab >= 0) values[ab] -= k;
+    if (ba >= 0) values[ba] -= k;
+  }
+  if (!factor_->factorize(effective_)) return false;
+  factor_->solve(b);
   return true;
 }
 

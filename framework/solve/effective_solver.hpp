@@ -1,10 +1,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <vector>
 
-#include "butee/solve/contact.hpp"
-#include "butee/solve/symmetric_factor.hpp"
+#include "butee/solve/local_contact.hpp"
 
 namespace butee::solve {
 
@@ -13,28 +14,56 @@ namespace butee::solve {
 ///     (M + c C + k (K + S^T diag(kappa) S)) y = b,     C = c_m M + c_k K + D
 ///
 /// with the feedback factors c (s) and k (s2) of the method (gamma h and beta h^2 for Newmark) and the stiffnesses
-/// kappa (N/m) of the stops, zero where open. The result is a function of (system, c, k, kappa) alone.
+/// kappa (N/m) of the stops, zero where open.
+///
+/// A_0 = M + c C + k K is factorized once for each (c, k), of which the last few are kept; the stops are taken care of
+/// by LocalContact. Systems of one DOF, for which that is a detour, and those with very many stops are
+/// factorized anew for every kappa, as is any with a negative kappa. The result is a function of (system, c, k, kappa)
+/// alone, whatever was solved before.
 class BUTEE_EXPORT EffectiveSolver {
  public:
-  /// `system` and `counters` must outlive it; `contact` is of the same system.
-  EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters);
+  enum class Contacts {
+    local,      ///< a small system on the stops
+    factorized  ///< a new factorization for every kappa
+  };
 
-  /// Sets the feedback factors; work is done only where they change.
+  /// `system`, `contact` and `counters` must outlive it; the way to treat contacts is chosen by their number.
+  EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters);
+  /// With a way of one's own, for comparisons.
+  EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters, Contacts contacts);
+
+  /// Sets the feedback factors; work is done only where they are new.
   void set_factors(double damping, double stiffness);
 
   /// b := y. `kappa` has an entry per stop. False where the matrix is not positive definite.
   [[nodiscard]] bool solve(ConstVectorRef kappa, VectorRef b);
 
  private:
-  void locate_stops(const Contact& contact);
+  /// What is kept of one pair of factors.
+  struct Slot {
+    double damping = -1.0, stiffness = -1.0;
+    bool usable = false;
+    LinearSolver base;
+    std::optional<LocalContact> local;
+  };
+
+  void assemble_base(double damping, double stiffness);
+  bool solve_factorized(ConstVectorRef kappa, VectorRef b);
+  bool solve_scalar(ConstVectorRef kappa, VectorRef b);
+  void prepare_factorized();
 
   const model::System& system_;
+  const Contact& contact_;
+  Counters& counters_;
+  Contacts contacts_;
+  SparseMatrix base_;  ///< M + c C + k K
+  std::vector<std::unique_ptr<Slot>> slots_;
+  std::size_t current_ = 0, oldest_ = 0;
   double damping_factor_ = -1.0, stiffness_factor_ = -1.0;
-  SparseMatrix base_;       ///< M + c C + k K
-  SparseMatrix effective_;  ///< with the stops
-  SymmetricFactor factor_;
-  bool has_stops_;
-  bool factorized_ = false;
+
+  // Where factorized for every kappa.
+  SparseMatrix effective_;
+  std::optional<SymmetricFactor> factor_;
   /// Places of stop i in the value array: (a,a), (b,b), (a,b), (b,a), -1 where an end is fixed.
   std::vector<std::array<Index, 4>> places_;
 };

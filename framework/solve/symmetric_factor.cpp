@@ -8,6 +8,7 @@
 #include <suitesparse/cholmod.h>
 
 #include "butee/core/error.hpp"
+#include "butee/solve/symmetric_product.hpp"
 
 namespace butee::solve {
 
@@ -38,15 +39,7 @@ struct SymmetricFactor::Implementation {
 namespace {
 
 /// Up to this bandwidth, that of chains of beams, the natural order has hardly any fill-in and spares a permutation.
-constexpr int kNarrowBand = 8;
-
-int bandwidth(const SparseMatrix& matrix) {
-  int band = 0;
-  for (Index j = 0; j < matrix.cols(); ++j)
-    if (matrix.outerIndexPtr()[j + 1] > matrix.outerIndexPtr()[j])
-      band = std::max(band, static_cast<int>(j) - matrix.innerIndexPtr()[matrix.outerIndexPtr()[j]]);
-  return band;
-}
+constexpr Index kNarrowBand = 8;
 
 /// CHOLMOD reads the upper triangle of the full matrix, which it takes as it is where nothing is permuted.
 cholmod_sparse view(const SparseMatrix& matrix) {

@@ -1,5 +1,7 @@
 #include "butee/time/integrator.hpp"
 
+#include <cmath>
+
 #include "butee/core/error.hpp"
 
 namespace butee::time {
@@ -9,6 +11,12 @@ namespace {
 double hermite(double s, double h, double y0, double d0, double y1, double d1) {
   const double r = 1.0 - s;
   return r * r * ((1.0 + 2.0 * s) * y0 + s * h * d0) + s * s * ((3.0 - 2.0 * s) * y1 - r * h * d1);
+}
+
+/// A finite sum has finite terms; the terms are looked at one by one only where it is not.
+bool is_finite(const State& state) {
+  if (std::isfinite(state.x.sum() + state.v.sum() + state.a.sum())) return true;
+  return state.x.allFinite() && state.v.allFinite() && state.a.allFinite();
 }
 
 }  // namespace
@@ -29,8 +37,7 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
   to.memory.resize(from.memory.size());
   to.t = step.t_end;
   StepReport report = do_step(from, step, to);
-  if (report.status == StepStatus::ok && !(to.x.allFinite() && to.v.allFinite() && to.a.allFinite()))
-    report.status = StepStatus::not_finite;
+  if (report.status == StepStatus::ok && !is_finite(to)) report.status = StepStatus::not_finite;
   return report;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -75,6 +76,36 @@ TEST(EffectiveSolver, solves_what_the_dense_matrix_says) {
     }
   EXPECT_EQ(cases, 9U);
   EXPECT_EQ(scene.dynamics().counters().solves, 9);
+}
+
+TEST(EffectiveSolver, gives_the_same_with_local_contact_as_with_full_factorization) {
+  // Relative to the largest entry; both are direct solutions of one well-conditioned system.
+  constexpr double kSame = 1e-12;
+  using Contacts = solve::EffectiveSolver::Contacts;
+  SceneRun scene(coupled_scene());
+  const solve::Contact& contact = scene.dynamics().contact();
+  solve::Counters local_counters, full_counters;
+  solve::EffectiveSolver local(scene.system(), contact, local_counters, Contacts::local);
+  solve::EffectiveSolver full(scene.system(), contact, full_counters, Contacts::factorized);
+  Vector kappa(contact.size()), right(scene.system().size());
+  for (Index i = 0; i < right.size(); ++i) right[i] = std::cos(1.0 + static_cast<double>(i));
+  std::size_t cases = 0;
+  for (const double h : {1e-5, 1e-4, 1e-3, 1e-2})
+    for (int pattern = 0; pattern < 32; ++pattern) {
+      // Closed, nearly closed, far open as the arctan law leaves it, and wide open.
+      for (Index i = 0; i < kappa.size(); ++i)
+        kappa[i] = std::array{1e7, 3e3, 0.14, 0.0}[static_cast<std::size_t>((pattern >> (i % 4)) + i) % 4];
+      Vector x = right, y = right;
+      local.set_factors(0.5 * h, 0.25 * h * h);
+      full.set_factors(0.5 * h, 0.25 * h * h);
+      ASSERT_TRUE(local.solve(kappa, x));
+      ASSERT_TRUE(full.solve(kappa, y));
+      EXPECT_LE((x - y).lpNorm<Eigen::Infinity>(), kSame * y.lpNorm<Eigen::Infinity>());
+      ++cases;
+    }
+  EXPECT_EQ(cases, 128U);
+  EXPECT_EQ(local_counters.factorizations, 4);
+  EXPECT_EQ(full_counters.factorizations, 128);
 }
 
 TEST(EffectiveSolver, says_where_the_matrix_is_not_positive_definite) {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "butee/solve/contact.hpp"
+#include "butee/solve/linear_solver.hpp"
+
+namespace butee::solve {
+
+/// Corrects a solution of A_0 y = b for the stiffness of the stops, without a factorization of the size of the system:
+///
+///     (A_0 + k S^T diag(kappa) S) x = b,    x = y - k W q,    q = kappa z,    z = S y - k G q,
+///     W = A_0^-1 S^T,    G = S A_0^-1 S^T
+///
+/// Stops that matter (k kappa G_ii > 1e-3: closed or nearly so) are solved by a small dense Cholesky factorization, the
+/// tiny stiffnesses that open stops of a regularised law keep by sweeps in stop space, to rounding. Checked against a
+/// full factorization in tests/unit/solver_test.cpp.
+class BUTEE_EXPORT LocalContact {
+ public:
+  /// With more stops than this a full factorization of a sparse system is the better way.
+  static constexpr Index kMostStops = 256;
+
+  explicit LocalContact(const Contact& contact);
+
+  /// Takes a new A_0: G, and W where the solver has the dense inverse.
+  void set_base(LinearSolver& base);
+
+  /// y := x. `stiffness_factor` is k. False where the sweeps did not converge or the small system is not positive
+  /// definite.
+  [[nodiscard]] bool correct(LinearSolver& base, double stiffness_factor, ConstVectorRef kappa, VectorRef y);
+
+ private:
+  bool find_forces(double k, ConstVectorRef kappa);
+  void divide(double k, ConstVectorRef kappa);
+  bool factorize_near(double k, ConstVectorRef kappa);
+  void apply(LinearSolver& base, double k, VectorRef y);
+
+  const Contact& contact_;
+  void multiply_compliance(const Vector& force, Vector& displacement) const;
+
+  Eigen::MatrixXd compliance_;    ///< G, m x m
+  DenseProduct fast_compliance_;  ///< the same, for few stops
+  DenseProduct influence_;        ///< W, n x m, or empty
+  double row_sum_ = 0.0;          ///< the largest sum of |G| over a row
+  Eigen::MatrixXd near_matrix_;   ///< G_NN + diag(1/(k kappa_N)) and its factor
+  Vector free_, force_, far_force_, sum_, near_, work_;
+  std::vector<Index> near_stops_;
+  bool far_acts_ = false;
+};
+
+}  // namespace butee::solve

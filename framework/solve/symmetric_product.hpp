@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include <butee/export.hpp>
+
+#include "butee/core/types.hpp"
+
+namespace butee::solve {
+
+/// y = A x for a symmetric sparse A. Narrow bands, those of chains of beams, are kept by diagonals, which needs no
+/// indices and vectorises; everything else by rows. Allocates nothing after construction.
+class BUTEE_EXPORT SymmetricProduct {
+ public:
+  SymmetricProduct() = default;
+  /// Takes a symmetric matrix stored in full; by rows it refers to `matrix`, which must outlive it.
+  explicit SymmetricProduct(const SparseMatrix& matrix);
+
+  /// y := A x; x and y have size() and do not overlap.
+  void multiply(const double* x, double* y) const;
+
+ private:
+  void multiply_band(const double* x, double* y) const;
+  void multiply_rows(const double* x, double* y) const;
+
+  Index size_ = 0;
+  const SparseMatrix* rows_ = nullptr;
+  /// diagonals_[k][i] = A(i, i + k), k = 0 ... band; empty where kept by rows.
+  std::vector<Vector> diagonals_;
+};
+
+/// The largest distance of an entry from the diagonal.
+Index bandwidth(const SparseMatrix& matrix);
+
+}  // namespace butee::solve
