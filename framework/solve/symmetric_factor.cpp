@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <new>
 
 #include <suitesparse/cholmod.h>
@@ -17,11 +16,9 @@ struct SymmetricFactor::Implementation {
     cholmod_start(&common);
     common.print = 0;
     common.nmethods = 1;
+    common.supernodal = CHOLMOD_SIMPLICIAL;
   }
   ~Implementation() {
-    cholmod_free_dense(&solution, &common);
-    cholmod_free_dense(&forward, &common);
-    cholmod_free_dense(&backward, &common);
     cholmod_free_factor(&factor, &common);
     cholmod_finish(&common);
   }
@@ -29,10 +26,12 @@ struct SymmetricFactor::Implementation {
   Implementation& operator=(const Implementation&) = delete;
 
   bool has_positive_pivots() const;
+  /// x := (L D L^T)^-1 x
+  void substitute(double* x) const;
 
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  cholmod_dense *solution = nullptr, *forward = nullptr, *backward = nullptr;
+  Vector permuted;  ///< empty where nothing is permuted
   Counters* counters;
 };
 
@@ -69,6 +68,7 @@ SymmetricFactor::SymmetricFactor(const SparseMatrix& matrix, Counters& counters)
   cholmod_sparse a = view(matrix);
   implementation_->factor = cholmod_analyze(&a, &implementation_->common);
   if (implementation_->factor == nullptr) throw std::bad_alloc();
+  if (!narrow) implementation_->permuted.resize(matrix.rows());
 }
 
 SymmetricFactor::~SymmetricFactor() = default;
@@ -84,33 +84,37 @@ bool SymmetricFactor::factorize(const SparseMatrix& matrix) {
 }
 
 bool SymmetricFactor::Implementation::has_positive_pivots() const {
-  if (factor->is_ll) return factor->minor >= factor->n;
-  const auto* column = static_cast<const int*>(factor->p);
+  const auto* start = static_cast<const int*>(factor->p);
   const auto* values = static_cast<const double*>(factor->x);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < factor->n; ++j) {
-    const double pivot = values[column[j]];
-    if (!(pivot > 0.0)) return false;
-    smallest = std::min(smallest, pivot);
-  }
-  return std::isfinite(smallest);
+  for (std::size_t j = 0; j < factor->n; ++j)
+    if (!(values[start[j]] > 0.0) || !std::isfinite(values[start[j]])) return false;
+  return true;
 }
 
-void SymmetricFactor::solve(Eigen::Ref<Eigen::MatrixXd> b) {
-  Implementation& own = *implementation_;
-  cholmod_dense right{};
-  right.nrow = static_cast<std::size_t>(b.rows());
-  right.ncol = static_cast<std::size_t>(b.cols());
-  right.d = static_cast<std::size_t>(b.outerStride());
-  right.nzmax = right.d * right.ncol;
-  right.x = b.data();
-  right.xtype = CHOLMOD_REAL;
-  right.dtype = CHOLMOD_DOUBLE;
-  own.counters->solves += b.cols();
-  cholmod_solve2(CHOLMOD_A, own.factor, &right, nullptr, &own.solution, nullptr, &own.forward, &own.backward,
-                 &own.common);
-  if (own.common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-  b = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(own.solution->x), b.rows(), b.cols());
+void SymmetricFactor::solve(VectorRef b) {
+  ++implementation_->counters->solves;
+  if (implementation_->permuted.size() == 0) return implementation_->substitute(b.data());
+  const auto* order = static_cast<const int*>(implementation_->factor->Perm);
+  Vector& permuted = implementation_->permuted;
+  for (Index i = 0; i < b.size(); ++i) permuted[i] = b[order[i]];
+  implementation_->substitute(permuted.data());
+  for (Index i = 0; i < b.size(); ++i) b[order[i]] = permuted[i];
+}
+
+void SymmetricFactor::Implementation::substitute(double* x) const {
+  const auto* start = static_cast<const int*>(factor->p);
+  const auto* count = static_cast<const int*>(factor->nz);
+  const auto* row = static_cast<const int*>(factor->i);
+  const auto* value = static_cast<const double*>(factor->x);
+  const auto n = static_cast<int>(factor->n);
+  // Each column holds its pivot D(j, j) first, then L(i, j) of the rows i > j.
+  for (int j = 0; j < n; ++j)
+    for (int p = start[j] + 1; p < start[j] + count[j]; ++p) x[row[p]] -= value[p] * x[j];
+  for (int j = n - 1; j >= 0; --j) {
+    double sum = x[j] / value[start[j]];
+    for (int p = start[j] + 1; p < start[j] + count[j]; ++p) sum -= value[p] * x[row[p]];
+    x[j] = sum;
+  }
 }
 
 }  // namespace butee::solve

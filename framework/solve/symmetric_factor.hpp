@@ -11,8 +11,9 @@ namespace butee::solve {
 
 /// A sparse Cholesky factorization (CHOLMOD), analysed once, factorized for many matrices of one pattern.
 ///
-/// Chains keep their natural order, everything else gets an approximate minimum degree ordering. solve() allocates only
-/// at first use.
+/// A is kept as P^T L D L^T P. Chains keep their natural order, everything else gets an approximate minimum degree
+/// ordering; beams and springs fill in so little that columns are never gathered into supernodes. solve() substitutes
+/// in place, without allocating.
 class BUTEE_EXPORT SymmetricFactor {
  public:
   /// Analyses the pattern of `matrix` (symmetric, stored in full). `counters` must outlive the factor.
@@ -24,8 +25,8 @@ class BUTEE_EXPORT SymmetricFactor {
   /// Factorizes a matrix of the analysed pattern; false where it is not positive definite.
   [[nodiscard]] bool factorize(const SparseMatrix& matrix);
 
-  /// b := A^-1 b for one vector or several columns. After a successful factorize().
-  void solve(Eigen::Ref<Eigen::MatrixXd> b);
+  /// b := A^-1 b. After a successful factorize().
+  void solve(VectorRef b);
 
  private:
   struct Implementation;
