@@ -4,7 +4,18 @@
 
 namespace butee::contact {
 
+namespace {
+
+/// Fewer stops than this are quicker one by one.
+constexpr std::size_t kFew = 4;
+
+}  // namespace
+
 void Arctan::secants(std::span<const double> g, std::span<double> secant) const {
+  if (g.size() < kFew) {
+    for (std::size_t i = 0; i < g.size(); ++i) secant[i] = Arctan::secant(g[i]);
+    return;
+  }
   bool any_near = false;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const double x = slope_ * g[i], y = std::abs(x), open = far_fraction(y);
@@ -17,6 +28,13 @@ void Arctan::secants(std::span<const double> g, std::span<double> secant) const 
 }
 
 void Arctan::tangents(std::span<const double> g, std::span<double> secant, std::span<double> tangent) const {
+  if (g.size() < kFew) {
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      secant[i] = Arctan::secant(g[i]);
+      tangent[i] = Arctan::tangent(g[i]);
+    }
+    return;
+  }
   bool any_near = false;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const double x = slope_ * g[i], y = std::abs(x), open = far_fraction(y), open_tangent = far_tangent_fraction(y);

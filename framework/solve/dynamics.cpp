@@ -1,5 +1,7 @@
 #include "butee/solve/dynamics.hpp"
 
+#include <limits>
+
 #include "butee/core/error.hpp"
 
 namespace butee::solve {
@@ -10,6 +12,8 @@ Dynamics::Dynamics(const model::System& system)
                    system.dashpots.size() > 0),
       mass_product_(system.mass),
       stiffness_product_(system.stiffness),
+      load_time_(std::numeric_limits<double>::quiet_NaN()),
+      load_values_(system.loads.size()),
       work_(Vector::Zero(system.size())),
       other_(work_),
       stop_displacement_(Vector::Zero(contact_.size())),
@@ -17,10 +21,15 @@ Dynamics::Dynamics(const model::System& system)
   if (system.dashpots.size() > 0) dashpot_product_ = SymmetricProduct(system.dashpots);
 }
 
-void Dynamics::external_force(double t, VectorRef force) const {
+void Dynamics::external_force(double t, VectorRef force) {
+  if (t != load_time_) {
+    for (std::size_t i = 0; i < load_values_.size(); ++i) load_values_[i] = system_.loads[i].in_time->value(t);
+    load_time_ = t;
+  }
   force.setZero();
-  for (const model::FreeLoad& load : system_.loads) {
-    const double value = load.in_time->value(t);
+  for (std::size_t j = 0; j < load_values_.size(); ++j) {
+    const model::FreeLoad& load = system_.loads[j];
+    const double value = load_values_[j];
     for (std::size_t i = 0; i < load.dofs.size(); ++i) force[load.dofs[i]] += load.weights[i] * value;
   }
 }

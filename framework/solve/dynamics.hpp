@@ -27,7 +27,7 @@ class BUTEE_EXPORT Dynamics {
   const Counters& counters() const { return counters_; }
 
   /// F := F(t)
-  void external_force(double t, VectorRef force) const;
+  void external_force(double t, VectorRef force);
   /// F += F_c(x)
   void add_contact_force(ConstVectorRef x, VectorRef force);
   /// y := K x
@@ -56,6 +56,8 @@ class BUTEE_EXPORT Dynamics {
   SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
   std::optional<LinearSolver> mass_solver_;
   std::optional<EffectiveSolver> effective_;
+  double load_time_;
+  std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant
   Vector work_, other_, stop_displacement_, stop_force_;
 };
 
