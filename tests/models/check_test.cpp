@@ -1,0 +1,73 @@
+#include <cmath>
+
+#include <butee/solve/frequencies.hpp>
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
+}
+
+Outcome check(const std::string& model, const std::vector<std::string>& more = {}) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"check", model_path(model)};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Outcome outcome = run_program(arguments, folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_TRUE(folder.entries().empty());
+  return outcome;
+}
+
+TEST(Check, FindsTheFrequenciesOfTheOscillator) {
+  // sqrt(1e9/100) and sqrt(1.1e10/100) rad/s.
+  const Outcome outcome = check("oscillator");
+  expect_holds(outcome.output, {"1 free", "stops open:   3162.28", "stops closed: 10488.1", "0.00026968 s"});
+  expect_holds(outcome.errors, {"14.4745 N", "jumps by 28.9489 N at u = 0", "decided by rounding"});
+}
+
+TEST(Check, SaysWhatTheBeamHoldsAndSkips) {
+  const Outcome outcome = check("beam1");
+  expect_holds(outcome.output, {"35 nodes", "68 free, 2 fixed", "33 on free DOFs", "2 stops whose ends are all fixed",
+                                "1.47255 ... 8658.21 rad/s", "0.000326676 s"});
+  expect_holds(outcome.errors, {"0.00144745 N", "of the gap"});
+}
+
+TEST(Check, WarnsOfAStepBeyondTheCriticalOne) {
+  const Outcome large = check("beam1", {"--set", "integrator.type=rk4", "--set", "integrator.time_step=4e-4"});
+  expect_holds(large.errors, {"larger than the critical step of rk4, 0.000326676 s"});
+  const Outcome small = check("beam1", {"--set", "integrator.type=rk4"});
+  EXPECT_EQ(small.errors.find("critical step"), std::string::npos);
+  expect_holds(small.output, {"below its critical step by a factor of 32.6676"});
+}
+
+/// A pinned steel bar of 0.1 m x 0.2 m, its elements 25 mm long.
+solve::FrequencyRange range_of_bar(int elements) {
+  SceneRun run(
+      "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 8000\n[section.r]\nshape = \"rectangle\"\nwidth = "
+      "0.1\n"
+      "height = 0.2\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"r\"\nlength = " +
+      std::to_string(0.025 * elements) + "\nelements = " + std::to_string(elements) +
+      "\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n"
+      "[integrator]\ntype = \"rk4\"\ntime_step = 1e-6\nend_time = 1e-5\n");
+  return solve::frequency_range(run.system(), solve::StopState::open).value();
+}
+
+TEST(Check, LargeSystemsGoThroughLanczosWithTheSameAnswer) {
+  constexpr double kPi = 3.141592653589793;
+  // Lanczos is asked for 1e-4 of the eigenvector, which is 1e-8 of the eigenvalue; the mesh errs by less.
+  constexpr double kLowest = 1e-6;
+  // The shortest wave of an even mesh hardly feels the ends, so that 60 elements (dense) know it for 400 (Lanczos).
+  constexpr double kHighest = 1e-3;
+  const auto large = range_of_bar(400), small = range_of_bar(60);
+  const double exact = kPi * kPi * std::sqrt(2e11 * 0.2 * 0.2 / 12.0 / 8000.0) / 100.0;
+  EXPECT_NEAR(large.lowest, exact, kLowest * exact);
+  EXPECT_NEAR(large.highest, small.highest, kHighest * small.highest);
+}
+
+}  // namespace
+}  // namespace butee::test
