@@ -16,13 +16,13 @@ void Arctan::secants(std::span<const double> g, std::span<double> secant) const 
     for (std::size_t i = 0; i < g.size(); ++i) secant[i] = Arctan::secant(g[i]);
     return;
   }
-  bool any_near = false;
+  int near = 0;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const double x = slope_ * g[i], y = std::abs(x), open = far_fraction(y);
-    any_near |= y <= kFar;
+    near += y <= kFar ? 1 : 0;
     secant[i] = stiffness_ * (x < 0.0 ? open : 1.0 - open);
   }
-  if (!any_near) return;
+  if (near == 0) return;
   for (std::size_t i = 0; i < g.size(); ++i)
     if (std::abs(slope_ * g[i]) <= kFar) secant[i] = Arctan::secant(g[i]);
 }
@@ -35,14 +35,14 @@ void Arctan::tangents(std::span<const double> g, std::span<double> secant, std::
     }
     return;
   }
-  bool any_near = false;
+  int near = 0;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const double x = slope_ * g[i], y = std::abs(x), open = far_fraction(y), open_tangent = far_tangent_fraction(y);
-    any_near |= y <= kFar;
+    near += y <= kFar ? 1 : 0;
     secant[i] = stiffness_ * (x < 0.0 ? open : 1.0 - open);
     tangent[i] = stiffness_ * (x < 0.0 ? open_tangent : 1.0 - open_tangent);
   }
-  if (!any_near) return;
+  if (near == 0) return;
   for (std::size_t i = 0; i < g.size(); ++i) {
     if (std::abs(slope_ * g[i]) > kFar) continue;
     secant[i] = Arctan::secant(g[i]);

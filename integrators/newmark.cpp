@@ -27,7 +27,7 @@ NewmarkParameters NewmarkParameters::read(const Parameters& p) {
 Newmark::Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
                  std::unique_ptr<ZienkiewiczXie> controller)
     : Integrator(dynamics), parameters_(parameters), newton_(newton), controller_(std::move(controller)) {
-  load_ = residual_ = force_ = Vector::Zero(dynamics.size());
+  load_ = residual_ = Vector::Zero(dynamics.size());
   stop_displacement_ = stop_force_ = stop_tangent_ = Vector::Zero(dynamics.stop_count());
 }
 
@@ -49,7 +49,9 @@ StepReport Newmark::iterate(double h, State& to) {
   StepReport report;
   double increment = 0.0;
   while (true) {
-    const double scale = evaluate_residual(to);
+    // The first look always leads to a solve, except at rest; later ones seldom do, and ask for the tangent then.
+    const bool first = report.newton_iterations == 0;
+    const double scale = evaluate_residual(to, first);
     if (!std::isfinite(scale)) {
       report.status = StepStatus::not_finite;
       return report;
@@ -58,6 +60,7 @@ StepReport Newmark::iterate(double h, State& to) {
                            increment <= newton_.increment_tolerance * to.x.norm();
     if (converged) return report;
     if (report.newton_iterations == newton_.max_iterations) break;
+    if (!first && dynamics().stop_count() > 0) dynamics().contact().tangent(stop_displacement_, stop_force_, stop_tangent_);
     if (!effective.solve(stop_tangent_, residual_)) {
       report.status = StepStatus::singular;
       return report;
@@ -73,29 +76,16 @@ StepReport Newmark::iterate(double h, State& to) {
   return report;
 }
 
-double Newmark::evaluate_residual(const State& at) {
-  double scale = load_.norm();
-  residual_ = load_;
+double Newmark::evaluate_residual(const State& at, bool with_tangent) {
   if (dynamics().stop_count() > 0) {
     solve::Contact& contact = dynamics().contact();
     contact.displacement(at.x, stop_displacement_);
-    contact.tangent(stop_displacement_, stop_force_, stop_tangent_);
-    force_.setZero();
-    contact.scatter(stop_force_, force_);
-    residual_ += force_;
-    scale += force_.norm();
+    if (with_tangent)
+      contact.tangent(stop_displacement_, stop_force_, stop_tangent_);
+    else
+      contact.force(stop_displacement_, stop_force_);
   }
-  dynamics().inertia_force(at.a, force_);
-  residual_ -= force_;
-  scale += force_.norm();
-  if (dynamics().has_damping()) {
-    dynamics().damping_force(at.v, force_);
-    residual_ -= force_;
-    scale += force_.norm();
-  }
-  dynamics().elastic_force(at.x, force_);
-  residual_ -= force_;
-  return scale + force_.norm();
+  return dynamics().residual(load_, stop_force_, at.x, at.v, at.a, residual_);
 }
 
 namespace {

@@ -43,13 +43,13 @@ class Newmark final : public time::Integrator {
  private:
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   time::StepReport iterate(double h, time::State& to);
-  /// Fills residual_ and the stops' tangents at (x, v, a); returns the scale of the residual's tolerance.
-  double evaluate_residual(const time::State& at);
+  /// Fills residual_ and, where asked for, the stops' tangents at (x, v, a); returns the scale of its tolerance.
+  double evaluate_residual(const time::State& at, bool with_tangent);
 
   NewmarkParameters parameters_;
   NewtonOptions newton_;
   std::unique_ptr<ZienkiewiczXie> controller_;
-  Vector load_, residual_, force_;
+  Vector load_, residual_;
   Vector stop_displacement_, stop_force_, stop_tangent_;
 };
 

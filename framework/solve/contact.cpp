@@ -70,16 +70,20 @@ void Contact::scatter(ConstVectorRef f, VectorRef force) const {
 
 void Contact::locate(ConstVectorRef w) {
   for (const Group& group : groups_) {
-    const auto part = w.segment(group.begin, group.count).array();
-    auto penetration = penetration_.segment(group.begin, group.count).array();
-    auto side = side_.segment(group.begin, group.count).array();
+    const double gap = group.gap, fixed_side = group.sides == Sides::positive ? 1.0 : -1.0;
+    const double* displacement = w.data() + group.begin;
+    double* penetration = penetration_.data() + group.begin;
+    double* side = side_.data() + group.begin;
     if (group.sides == Sides::both) {
-      penetration = part.abs() - group.gap;
-      side = part.sign();
+      for (Index i = 0; i < group.count; ++i) {
+        penetration[i] = std::abs(displacement[i]) - gap;
+        side[i] = displacement[i] > 0.0 ? 1.0 : displacement[i] < 0.0 ? -1.0 : 0.0;
+      }
     } else {
-      const double s = group.sides == Sides::positive ? 1.0 : -1.0;
-      penetration = s * part - group.gap;
-      side = s;
+      for (Index i = 0; i < group.count; ++i) {
+        penetration[i] = fixed_side * displacement[i] - gap;
+        side[i] = fixed_side;
+      }
     }
   }
 }
@@ -91,6 +95,12 @@ void Contact::count_evaluation() {
 
 void Contact::force(ConstVectorRef w, VectorRef f) {
   count_evaluation();
+  if (size() == 1) {
+    const Group& group = groups_.front();
+    const Place at = place(w[0], group.gap, group.sides);
+    f[0] = -at.side * group.law->secant(at.penetration) * at.penetration;
+    return;
+  }
   locate(w);
   for (const Group& group : groups_)
     group.law->secants(part(penetration_, group.begin, group.count), part(secant_.data(), group.begin, group.count));
@@ -99,6 +109,13 @@ void Contact::force(ConstVectorRef w, VectorRef f) {
 
 void Contact::tangent(ConstVectorRef w, VectorRef f, VectorRef k) {
   count_evaluation();
+  if (size() == 1) {
+    const Group& group = groups_.front();
+    const Place at = place(w[0], group.gap, group.sides);
+    f[0] = -at.side * group.law->secant(at.penetration) * at.penetration;
+    k[0] = group.law->tangent(at.penetration);
+    return;
+  }
   locate(w);
   for (const Group& group : groups_)
     group.law->tangents(part(penetration_, group.begin, group.count), part(secant_.data(), group.begin, group.count),
@@ -108,6 +125,13 @@ void Contact::tangent(ConstVectorRef w, VectorRef f, VectorRef k) {
 
 void Contact::secant(ConstVectorRef w, VectorRef k, VectorRef c) {
   count_evaluation();
+  if (size() == 1) {
+    const Group& group = groups_.front();
+    const Place at = place(w[0], group.gap, group.sides);
+    k[0] = group.law->secant(at.penetration);
+    c[0] = group.gap * at.side * k[0];
+    return;
+  }
   locate(w);
   for (const Group& group : groups_) {
     group.law->secants(part(penetration_, group.begin, group.count), part(k.data(), group.begin, group.count));

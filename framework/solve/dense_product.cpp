@@ -1,49 +1,68 @@
 #include "butee/solve/dense_product.hpp"
 
 #include <array>
-#include <cstring>
 #include <utility>
 
 #include "butee/core/error.hpp"
+#include "butee/solve/lanes.hpp"
 
 namespace butee::solve {
 namespace {
 
-/// Eight doubles, which the compiler maps to the registers there are.
-using Lane = double __attribute__((vector_size(64)));
-constexpr Index kLaneSize = 8;
 constexpr std::size_t kMostLanes = DenseProduct::kMostRows / kLaneSize;
 
 template <std::size_t lanes>
-void multiply_lanes(const double* matrix, Index columns, const double* x, double* y, std::size_t rows) {
+inline void add_column(const double* matrix, Index j, double factor, std::array<Lane, lanes>& sums) {
+  const auto* column = reinterpret_cast<const Lane*>(matrix + j * static_cast<Index>(lanes) * kLaneSize);
+  for (std::size_t i = 0; i < lanes; ++i) sums[i] += column[i] * factor;
+}
+
+struct Chosen {
+  static constexpr auto pick = [](const Index* columns, Index j) { return columns[j]; };
+};
+struct All {
+  static constexpr auto pick = [](const Index*, Index j) { return j; };
+};
+
+/// y := the sum of `count` columns times their entries of x.
+template <std::size_t lanes, class Columns>
+void multiply_lanes(const double* matrix, const Index* columns, Index count, const double* x, double* y,
+                    std::size_t rows) {
   std::array<Lane, lanes> sums{};
-  for (Index j = 0; j < columns; ++j) {
-    const auto* column = reinterpret_cast<const Lane*>(matrix + j * static_cast<Index>(lanes) * kLaneSize);
-    for (std::size_t i = 0; i < lanes; ++i) sums[i] += column[i] * x[j];
+  for (Index k = 0; k < count; ++k) {
+    const Index j = Columns::pick(columns, k);
+    add_column(matrix, j, x[j], sums);
   }
-  std::memcpy(y, sums.data(), rows * sizeof(double));
+  for (std::size_t i = 0; i + 1 < lanes; ++i) store(sums[i], y + i * static_cast<std::size_t>(kLaneSize));
+  for (std::size_t i = (lanes - 1) * static_cast<std::size_t>(kLaneSize), k = 0; i < rows; ++i, ++k) y[i] = sums[lanes - 1][k];
 }
 
-using Kernel = void (*)(const double*, Index, const double*, double*, std::size_t);
+using Kernel = void (*)(const double*, const Index*, Index, const double*, double*, std::size_t);
 
-template <std::size_t... lanes>
+template <class Columns, std::size_t... lanes>
 constexpr std::array<Kernel, sizeof...(lanes)> kernels(std::index_sequence<lanes...>) {
-  return {&multiply_lanes<lanes + 1>...};
+  return {&multiply_lanes<lanes + 1, Columns>...};
 }
 
-constexpr auto kKernels = kernels(std::make_index_sequence<kMostLanes>{});
+constexpr auto kAll = kernels<All>(std::make_index_sequence<kMostLanes>{});
+constexpr auto kChosen = kernels<Chosen>(std::make_index_sequence<kMostLanes>{});
 
 }  // namespace
 
 DenseProduct::DenseProduct(const Eigen::MatrixXd& matrix)
-    : rows_(matrix.rows()), columns_(matrix.cols()), lanes_((matrix.rows() + kLaneSize - 1) / kLaneSize) {
+    : rows_(matrix.rows()), columns_(matrix.cols()), lanes_(lanes_for(matrix.rows())) {
   require(rows_ >= 1 && rows_ <= kMostRows, "a dense product is for small matrices");
   padded_ = Eigen::MatrixXd::Zero(lanes_ * kLaneSize, columns_);
   padded_.topRows(rows_) = matrix;
 }
 
 void DenseProduct::multiply(const double* x, double* y) const {
-  kKernels[static_cast<std::size_t>(lanes_ - 1)](padded_.data(), columns_, x, y, static_cast<std::size_t>(rows_));
+  kAll[static_cast<std::size_t>(lanes_ - 1)](padded_.data(), nullptr, columns_, x, y, static_cast<std::size_t>(rows_));
+}
+
+void DenseProduct::multiply(std::span<const Index> columns, const double* x, double* y) const {
+  kChosen[static_cast<std::size_t>(lanes_ - 1)](padded_.data(), columns.data(), static_cast<Index>(columns.size()), x, y,
+                                                static_cast<std::size_t>(rows_));
 }
 
 }  // namespace butee::solve

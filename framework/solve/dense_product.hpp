@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include <butee/export.hpp>
 
@@ -21,6 +21,8 @@ class BUTEE_EXPORT DenseProduct {
   bool empty() const { return columns_ == 0; }
   /// y := A x; y has the rows and x the columns of A; they do not overlap.
   void multiply(const double* x, double* y) const;
+  /// The same where only these entries of x are not zero; the others are not looked at.
+  void multiply(std::span<const Index> columns, const double* x, double* y) const;
 
  private:
   Index rows_ = 0, columns_ = 0, lanes_ = 0;

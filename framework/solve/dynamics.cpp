@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "butee/core/error.hpp"
+#include "butee/solve/force_balance.hpp"
 
 namespace butee::solve {
 Dynamics::Dynamics(const model::System& system)
@@ -16,9 +17,15 @@ Dynamics::Dynamics(const model::System& system)
       load_values_(system.loads.size()),
       work_(Vector::Zero(system.size())),
       other_(work_),
+      inertia_(work_),
+      damping_(work_),
+      contact_force_(work_),
       stop_displacement_(Vector::Zero(contact_.size())),
       stop_force_(stop_displacement_) {
   if (system.dashpots.size() > 0) dashpot_product_ = SymmetricProduct(system.dashpots);
+  for (std::size_t j = 0; j < system.loads.size(); ++j)
+    for (std::size_t i = 0; i < system.loads[j].dofs.size(); ++i)
+      loaded_dofs_.push_back({system.loads[j].dofs[i], system.loads[j].weights[i], j});
 }
 
 void Dynamics::external_force(double t, VectorRef force) {
@@ -27,11 +34,7 @@ void Dynamics::external_force(double t, VectorRef force) {
     load_time_ = t;
   }
   force.setZero();
-  for (std::size_t j = 0; j < load_values_.size(); ++j) {
-    const model::FreeLoad& load = system_.loads[j];
-    const double value = load_values_[j];
-    for (std::size_t i = 0; i < load.dofs.size(); ++i) force[load.dofs[i]] += load.weights[i] * value;
-  }
+  for (const LoadedDof& part : loaded_dofs_) force[part.dof] += part.weight * load_values_[part.load];
 }
 
 void Dynamics::add_contact_force(ConstVectorRef x, VectorRef force) {
@@ -64,6 +67,21 @@ void Dynamics::damping_force(ConstVectorRef v, VectorRef y) {
     dashpot_product_.multiply(v.data(), other_.data());
     y += other_;
   }
+}
+
+double Dynamics::residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v,
+                          ConstVectorRef a, VectorRef r) {
+  const bool has_stops = stop_count() > 0;
+  if (has_stops) {
+    contact_force_.setZero();
+    contact_.scatter(stop_force, contact_force_);
+  }
+  inertia_force(a, inertia_);
+  if (has_damping_) damping_force(v, damping_);
+  elastic_force(x, work_);
+  return force_balance({load.data(), has_stops ? contact_force_.data() : nullptr, inertia_.data(),
+                        has_damping_ ? damping_.data() : nullptr, work_.data()},
+                       size(), r.data());
 }
 
 void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a) {

@@ -37,6 +37,11 @@ class BUTEE_EXPORT Dynamics {
   /// y := M a
   void inertia_force(ConstVectorRef a, VectorRef y) const;
 
+  /// r := F + F_c - M a - C v - K x with the forces of `load` and, in stop space, of `stop_force`; returns
+  /// |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), against which |r| is small or not.
+  double residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
+                  VectorRef r);
+
   /// a := M^-1 (F(t) + F_c(x) - C v - K x)
   void acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a);
 
@@ -47,6 +52,12 @@ class BUTEE_EXPORT Dynamics {
   std::string dof_name(Index dof) const;
 
  private:
+  struct LoadedDof {
+    Index dof;
+    double weight;
+    std::size_t load;
+  };
+
   LinearSolver& mass_solver();
 
   const model::System& system_;
@@ -56,9 +67,10 @@ class BUTEE_EXPORT Dynamics {
   SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
   std::optional<LinearSolver> mass_solver_;
   std::optional<EffectiveSolver> effective_;
+  std::vector<LoadedDof> loaded_dofs_;
   double load_time_;
   std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant
-  Vector work_, other_, stop_displacement_, stop_force_;
+  Vector work_, other_, inertia_, damping_, contact_force_, stop_displacement_, stop_force_;
 };
 
 }  // namespace butee::solve

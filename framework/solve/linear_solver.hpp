@@ -2,18 +2,20 @@
 
 #include <optional>
 
+#include "butee/solve/band_factor.hpp"
 #include "butee/solve/dense_product.hpp"
 #include "butee/solve/symmetric_factor.hpp"
 
 namespace butee::solve {
 
-/// Solves A x = b for a symmetric positive definite A: small ones by their dense inverse, which costs one dense
-/// product, all others by sparse Cholesky. The choice depends on the size alone. Allocates nothing after the first
-/// solve.
+/// Solves A x = b for a symmetric positive definite A: tiny and small ones without a narrow band by their inverse, which
+/// costs one dense product, narrow bands from both ends, all others by sparse Cholesky (CHOLMOD). The choice depends on
+/// the pattern alone. Allocates nothing after the first solve.
 class BUTEE_EXPORT LinearSolver {
  public:
-  /// Systems up to this size are inverted.
+  /// Systems up to this size are inverted; with a narrow band only those up to kTiny.
   static constexpr Index kLargestInverse = DenseProduct::kMostRows;
+  static constexpr Index kTiny = 16;
 
   /// Analyses the pattern of `matrix`; `counters` must outlive the solver.
   LinearSolver(const SparseMatrix& matrix, Counters& counters);
@@ -24,14 +26,12 @@ class BUTEE_EXPORT LinearSolver {
   /// b := A^-1 b. After a successful factorize().
   void solve(VectorRef b);
 
-  /// A^-1 of a small system, else 0 x 0.
-  const Eigen::MatrixXd& inverse() const { return inverse_; }
-
  private:
   Counters* counters_;
   std::optional<SymmetricFactor> factor_;
-  Eigen::MatrixXd inverse_;
-  DenseProduct product_;
+  std::optional<BandFactor> band_;
+  double reciprocal_ = 0.0;  ///< of a single equation
+  DenseProduct inverse_;
   Vector right_;
 };
 

@@ -8,44 +8,37 @@
 namespace butee::solve {
 namespace {
 
-/// A stop is near where its stiffness changes its own displacement by more than this.
+/// A stop is near where its stiffness changes displacements by more than this.
 constexpr double kNear = 1e-3;
-/// Sweeps contract by about kNear or better; this many mean that they do not.
-constexpr int kMostSweeps = 40;
-/// Sweeps end where one more would change the forces by less than a few rounding errors of the largest: those of near
-/// stops follow the last change of the far ones, and without near stops the next change is smaller by the contraction.
-constexpr double kRounding = 1e-15;
+/// Relative changes of displacements below this are lost in rounding.
+constexpr double kRounding = 1e-17;
 
 }  // namespace
 
 LocalContact::LocalContact(const Contact& contact)
     : contact_(contact), compliance_(contact.size(), contact.size()), near_matrix_(compliance_) {
-  free_ = force_ = far_force_ = sum_ = near_ = Vector::Zero(contact.size());
+  free_ = force_ = sum_ = near_ = Vector::Zero(contact.size());
   near_stops_.reserve(static_cast<std::size_t>(contact.size()));
 }
 
 void LocalContact::set_base(LinearSolver& base) {
   const Index m = contact_.size(), n = contact_.system_size();
-  const bool dense = base.inverse().size() > 0;
-  Eigen::MatrixXd influence(dense ? n : 0, dense ? m : 0);
-  Vector unit = Vector::Zero(m), column;
+  const bool small = n <= DenseProduct::kMostRows;
+  Eigen::MatrixXd influence(small ? n : 0, small ? m : 0);
+  Vector unit = Vector::Zero(m), column(n);
   for (Index j = 0; j < m; ++j) {
-    column.setZero(n);
+    column.setZero();
     unit[j] = 1.0;
     contact_.scatter(unit, column);
     unit[j] = 0.0;
-    if (dense) {
-      influence.col(j).noalias() = base.inverse() * column;
-      column = influence.col(j);
-    } else {
-      base.solve(column);
-    }
+    base.solve(column);
+    if (small) influence.col(j) = column;
     contact_.displacement(column, sum_);
     compliance_.col(j) = sum_;
   }
-  if (dense) influence_ = DenseProduct(influence);
+  if (small) influence_ = DenseProduct(influence);
   if (m <= DenseProduct::kMostRows) fast_compliance_ = DenseProduct(compliance_);
-  row_sum_ = compliance_.cwiseAbs().rowwise().sum().maxCoeff();
+  row_sums_ = compliance_.cwiseAbs().rowwise().sum();
   work_.resize(n);
 }
 
@@ -58,20 +51,24 @@ void LocalContact::multiply_compliance(const Vector& force, Vector& displacement
 
 bool LocalContact::correct(LinearSolver& base, double stiffness_factor, ConstVectorRef kappa, VectorRef y) {
   contact_.displacement(y, free_);
+  divide(stiffness_factor, kappa);
+  if (near_stops_.empty() && contraction_ == 0.0) return true;
   if (!find_forces(stiffness_factor, kappa)) return false;
-  if (!near_stops_.empty() || far_acts_) apply(base, stiffness_factor, y);
+  apply(base, stiffness_factor, y);
   return true;
 }
 
 void LocalContact::divide(double k, ConstVectorRef kappa) {
   near_stops_.clear();
-  far_acts_ = false;
+  double largest = 0.0;
   for (Index i = 0; i < kappa.size(); ++i) {
-    if (k * kappa[i] * compliance_(i, i) > kNear)
+    const double reach = k * kappa[i] * row_sums_[i];
+    if (reach > kNear)
       near_stops_.push_back(i);
-    else if (kappa[i] != 0.0)
-      far_acts_ = true;
+    else
+      largest = std::max(largest, reach);
   }
+  contraction_ = largest > kRounding ? largest : 0.0;
 }
 
 bool LocalContact::factorize_near(double k, ConstVectorRef kappa) {
@@ -88,61 +85,75 @@ bool LocalContact::factorize_near(double k, ConstVectorRef kappa) {
 }
 
 bool LocalContact::find_forces(double k, ConstVectorRef kappa) {
-  divide(k, kappa);
+  if (!near_stops_.empty() && !factorize_near(k, kappa)) return false;
+  far_is_spread_ = false;
+  sum_.setZero();
+  solve_near(k);
+  if (contraction_ == 0.0) return true;
+  update_far(k, kappa);
+  // A far force is wrong by its relative error times the contraction where it acts on displacements, a near one,
+  // which answers the far ones, by the error itself.
+  double error = near_stops_.empty() ? contraction_ * contraction_ : contraction_;
+  for (; error > kRounding; error *= contraction_) {
+    spread_far();
+    solve_near(k);
+    update_far(k, kappa);
+  }
+  return true;
+}
+
+void LocalContact::spread_far() {
+  if (influence_.empty()) return multiply_compliance(force_, sum_);
+  influence_.multiply(force_.data(), work_.data());
+  contact_.displacement(work_, sum_);
+  far_is_spread_ = true;
+}
+
+void LocalContact::solve_near(double k) {
   const auto size = static_cast<Index>(near_stops_.size());
-  if (size > 0 && !factorize_near(k, kappa)) return false;
-  const auto solve_near = [&] {
-    for (Index i = 0; i < size; ++i) {
-      const Index stop = near_stops_[static_cast<std::size_t>(i)];
-      near_[i] = free_[stop] / k - sum_[stop];
-    }
+  for (Index i = 0; i < size; ++i) {
+    const Index stop = near_stops_[static_cast<std::size_t>(i)];
+    near_[i] = free_[stop] / k - sum_[stop];
+  }
+  if (size == 1) {
+    near_[0] /= near_matrix_(0, 0);
+  } else if (size > 1) {
     auto right = near_.head(size);
-    if (size == 1) {
-      right[0] /= near_matrix_(0, 0);
-    } else {
-      const auto factor = near_matrix_.topLeftCorner(size, size);
-      factor.triangularView<Eigen::Lower>().solveInPlace(right);
-      factor.triangularView<Eigen::Lower>().transpose().solveInPlace(right);
-    }
-  };
-  if (!far_acts_) {
-    sum_.setZero();
-    force_.setZero();
-    if (size > 0) solve_near();
-    for (Index i = 0; i < size; ++i) force_[near_stops_[static_cast<std::size_t>(i)]] = near_[i];
-    return true;
+    const auto factor = near_matrix_.topLeftCorner(size, size);
+    factor.triangularView<Eigen::Lower>().solveInPlace(right);
+    factor.triangularView<Eigen::Lower>().transpose().solveInPlace(right);
   }
-  far_force_ = kappa;
-  for (const Index stop : near_stops_) far_force_[stop] = 0.0;
-  const double contraction = k * far_force_.maxCoeff() * row_sum_;
-  far_force_.array() *= free_.array();
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    multiply_compliance(far_force_, sum_);
-    if (size > 0) solve_near();
-    for (Index i = 0; i < size; ++i) sum_ += near_[i] * compliance_.col(near_stops_[static_cast<std::size_t>(i)]);
-    force_ = kappa.cwiseProduct(free_ - k * sum_);
-    for (const Index stop : near_stops_) force_[stop] = 0.0;
-    const double change = (force_ - far_force_).lpNorm<Eigen::Infinity>();
-    const double largest =
-        std::max(force_.lpNorm<Eigen::Infinity>(), size > 0 ? near_.head(size).lpNorm<Eigen::Infinity>() : 0.0);
-    far_force_ = force_;
-    if ((size > 0 ? change : contraction * change) <= kRounding * largest) {
-      for (Index i = 0; i < size; ++i) force_[near_stops_[static_cast<std::size_t>(i)]] = near_[i];
-      return true;
-    }
-  }
-  return false;
+}
+
+void LocalContact::update_far(double k, ConstVectorRef kappa) {
+  for (std::size_t i = 0; i < near_stops_.size(); ++i)
+    sum_ += near_[static_cast<Index>(i)] * compliance_.col(near_stops_[i]);
+  force_ = kappa.cwiseProduct(free_ - k * sum_);
+  for (const Index stop : near_stops_) force_[stop] = 0.0;
 }
 
 void LocalContact::apply(LinearSolver& base, double k, VectorRef y) {
-  if (!influence_.empty()) {
-    influence_.multiply(force_.data(), work_.data());
-  } else {
+  if (contraction_ == 0.0) force_.setZero();
+  if (influence_.empty()) {
+    take_near_forces();
     work_.setZero();
     contact_.scatter(force_, work_);
     base.solve(work_);
+    y -= k * work_;
+    return;
   }
+  if (contraction_ > 0.0) {
+    if (!far_is_spread_) influence_.multiply(force_.data(), work_.data());
+    y -= k * work_;
+  }
+  if (near_stops_.empty()) return;
+  take_near_forces();
+  influence_.multiply(near_stops_, force_.data(), work_.data());
   y -= k * work_;
+}
+
+void LocalContact::take_near_forces() {
+  for (std::size_t i = 0; i < near_stops_.size(); ++i) force_[near_stops_[i]] = near_[static_cast<Index>(i)];
 }
 
 }  // namespace butee::solve

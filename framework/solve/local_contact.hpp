@@ -12,9 +12,9 @@ namespace butee::solve {
 ///     (A_0 + k S^T diag(kappa) S) x = b,    x = y - k W q,    q = kappa z,    z = S y - k G q,
 ///     W = A_0^-1 S^T,    G = S A_0^-1 S^T
 ///
-/// Stops that matter (k kappa G_ii > 1e-3: closed or nearly so) are solved by a small dense Cholesky factorization, the
-/// tiny stiffnesses that open stops of a regularised law keep by sweeps in stop space, to rounding. Checked against a
-/// full factorization in tests/unit/solver_test.cpp.
+/// Stops that matter (k kappa_i sum_j |G_ij| > 1e-3: closed or nearly so) are solved by a small dense Cholesky
+/// factorization, the tiny stiffnesses that open stops of a regularised law keep by sweeps in stop space, to rounding;
+/// those that rounding hides are left out. Checked against a full factorization in tests/unit/solver_test.cpp.
 class BUTEE_EXPORT LocalContact {
  public:
   /// With more stops than this a full factorization of a sparse system is the better way.
@@ -22,30 +22,35 @@ class BUTEE_EXPORT LocalContact {
 
   explicit LocalContact(const Contact& contact);
 
-  /// Takes a new A_0: G, and W where the solver has the dense inverse.
+  /// Takes a new A_0: G, and W where the system is small.
   void set_base(LinearSolver& base);
 
-  /// y := x. `stiffness_factor` is k. False where the sweeps did not converge or the small system is not positive
-  /// definite.
+  /// y := x. `stiffness_factor` is k. False where the small system is not positive definite.
   [[nodiscard]] bool correct(LinearSolver& base, double stiffness_factor, ConstVectorRef kappa, VectorRef y);
 
  private:
   bool find_forces(double k, ConstVectorRef kappa);
   void divide(double k, ConstVectorRef kappa);
   bool factorize_near(double k, ConstVectorRef kappa);
+  void solve_near(double k);
+  /// force_ of the far stops, given near_ and sum_ = G (far forces) so far; adds the near ones' part to sum_.
+  void update_far(double k, ConstVectorRef kappa);
+  /// sum_ := G force_, and work_ := W force_ where W is kept.
+  void spread_far();
+  void take_near_forces();
+  void multiply_compliance(const Vector& force, Vector& displacement) const;
   void apply(LinearSolver& base, double k, VectorRef y);
 
   const Contact& contact_;
-  void multiply_compliance(const Vector& force, Vector& displacement) const;
-
   Eigen::MatrixXd compliance_;    ///< G, m x m
   DenseProduct fast_compliance_;  ///< the same, for few stops
   DenseProduct influence_;        ///< W, n x m, or empty
-  double row_sum_ = 0.0;          ///< the largest sum of |G| over a row
+  Vector row_sums_;               ///< of |G|
   Eigen::MatrixXd near_matrix_;   ///< G_NN + diag(1/(k kappa_N)) and its factor
-  Vector free_, force_, far_force_, sum_, near_, work_;
+  Vector free_, force_, sum_, near_, work_;
   std::vector<Index> near_stops_;
-  bool far_acts_ = false;
+  bool far_is_spread_ = false;  ///< work_ holds the far forces' part
+  double contraction_ = 0.0;  ///< of a sweep over the far stops: the largest k kappa_i sum_j |G_ij| of them
 };
 
 }  // namespace butee::solve

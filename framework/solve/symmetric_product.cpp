@@ -4,35 +4,106 @@
 #include <array>
 #include <utility>
 
+#include "butee/solve/lanes.hpp"
+
 namespace butee::solve {
 namespace {
 
 /// A chain of beams has band 3, one with nodes joined to neighbours a little more.
-constexpr std::size_t kWidestBand = 8;
-/// One row near an end, where diagonals run out.
-double end_row(const double* const* d, Index band, Index size, const double* x, Index i) {
-  double sum = d[0][i] * x[i];
-  for (Index k = 1; k <= band; ++k) {
-    if (i + k < size) sum += d[k][i] * x[i + k];
-    if (i >= k) sum += d[k][i - k] * x[i - k];
+constexpr std::size_t kWidestBand = kLaneSize;
+/// Zeros before the first entry of a stored diagonal.
+constexpr Index kPadding = kLaneSize;
+/// Up to this size the diagonals below are kept as well, so that every load is aligned; for large matrices reading more
+/// memory costs more than that gains.
+constexpr Index kInCache = 2048;
+
+/// Entries from k places further on in (here, next), or further back in (before, here).
+template <int k>
+inline void shift_on(const Lane& here, const Lane& next, Lane& to) {
+  to = __builtin_shufflevector(here, next, k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7);
+}
+template <int k>
+inline void shift_back(const Lane& before, const Lane& here, Lane& to) {
+  to = __builtin_shufflevector(before, here, 8 - k, 9 - k, 10 - k, 11 - k, 12 - k, 13 - k, 14 - k, 15 - k);
+}
+
+/// Where the diagonals begin: above[k][i] = A(i, i + k), below[k][i] = A(i, i - k), zero where there is no such entry.
+template <std::size_t band>
+struct Diagonals {
+  Diagonals(const double* const* all_above, const double* const* all_below) {
+    for (std::size_t k = 0; k <= band; ++k) {
+      above[k] = all_above[k];
+      below[k] = all_below[k];
+    }
   }
-  return sum;
+  std::array<const double*, band + 1> above, below;
+};
+
+/// Rows i to i + 7; before, here and next are lanes of x in a row, the middle one that of the rows.
+template <std::size_t band, std::size_t... k>
+inline void multiply_lane(const Diagonals<band>& d, Index i, const Lane& before, const Lane& here, const Lane& next,
+                          Lane& sum, std::index_sequence<k...>) {
+  Lane entry, value, other{};
+  load(d.above[0] + i, entry);
+  sum = entry * here;
+  ((load(d.above[k + 1] + i, entry), shift_on<static_cast<int>(k) + 1>(here, next, value), sum += entry * value,
+    load(d.below[k + 1] + i, entry), shift_back<static_cast<int>(k) + 1>(before, here, value), other += entry * value),
+   ...);
+  sum += other;
+}
+
+/// x and y have three lanes or more.
+template <std::size_t band>
+void multiply_lanes(const Diagonals<band>& d, Index size, const double* x, double* y) {
+  constexpr auto kDistances = std::make_index_sequence<band>{};
+  Lane before{}, here, next, sum;
+  const auto row = [&](Index i) {
+    multiply_lane(d, i, before, here, next, sum, kDistances);
+    store(sum, y + i);
+  };
+  load(x, here);
+  for (Index i = 0; i + 2 * kLaneSize <= size; i += kLaneSize) {
+    load(x + i + kLaneSize, next);
+    row(i);
+    before = here;
+    here = next;
+  }
+  // The last rows, some of them once more.
+  const Index last = size - kLaneSize;
+  load(x + last - 2 * kLaneSize, before);
+  load(x + last - kLaneSize, here);
+  load(x + last, next);
+  row(last - kLaneSize);
+  before = here;
+  here = next;
+  next = Lane{};
+  row(last);
+}
+
+/// Systems with fewer rows than three lanes are taken row by row.
+constexpr Index kFew = 3 * kLaneSize;
+
+template <std::size_t band>
+void multiply_few(const Diagonals<band>& d, Index size, const double* x, double* y) {
+  for (Index i = 0; i < size; ++i) {
+    double sum = d.above[0][i] * x[i];
+    for (std::size_t k = 1; k <= band; ++k) {
+      const auto distance = static_cast<Index>(k);
+      if (i + distance < size) sum += d.above[k][i] * x[i + distance];
+      if (i >= distance) sum += d.below[k][i] * x[i - distance];
+    }
+    y[i] = sum;
+  }
 }
 
 template <std::size_t band>
-void multiply_diagonals(const double* const* d, Index size, const double* __restrict x, double* __restrict y) {
-  constexpr auto kBand = static_cast<Index>(band);
-  const Index inner_begin = std::min(kBand, size), inner_end = std::max(inner_begin, size - kBand);
-  for (Index i = 0; i < inner_begin; ++i) y[i] = end_row(d, kBand, size, x, i);
-  for (Index i = inner_begin; i < inner_end; ++i) {
-    double sum = d[0][i] * x[i];
-    for (Index k = 1; k <= kBand; ++k) sum += d[k][i] * x[i + k] + d[k][i - k] * x[i - k];
-    y[i] = sum;
-  }
-  for (Index i = inner_end; i < size; ++i) y[i] = end_row(d, kBand, size, x, i);
+void multiply_diagonals(const double* const* above, const double* const* below, Index size, const double* x,
+                        double* y) {
+  const Diagonals<band> diagonals(above, below);
+  size < kFew ? multiply_few(diagonals, size, x, y) : multiply_lanes(diagonals, size, x, y);
 }
 
-using BandKernel = void (*)(const double* const*, Index, const double*, double*);
+using BandKernel = void (*)(const double* const*, const double* const*, Index, const double*, double*);
 
 template <std::size_t... bands>
 constexpr std::array<BandKernel, sizeof...(bands)> band_kernels(std::index_sequence<bands...>) {
@@ -49,19 +120,27 @@ Index bandwidth(const SparseMatrix& matrix) {
   return band;
 }
 
-SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix) : size_(matrix.rows()) {
+SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix)
+    : size_(matrix.rows()), first_(size_ > 0 ? matrix.coeff(0, 0) : 0.0) {
   const Index band = bandwidth(matrix);
   if (band > static_cast<Index>(kWidestBand)) {
     rows_ = &matrix;
     return;
   }
-  for (Index k = 0; k <= band; ++k) diagonals_.push_back(Vector::Zero(size_ - std::min(k, size_)));
+  const Index padded = kPadding + lanes_for(size_) * kLaneSize;
+  for (Index k = 0; k <= band; ++k) above_.push_back(Vector::Zero(padded));
   for (Index j = 0; j < matrix.cols(); ++j)
     for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
-      if (entry.row() <= j) diagonals_[static_cast<std::size_t>(j - entry.row())][entry.row()] = entry.value();
+      if (entry.row() <= j) above_[static_cast<std::size_t>(j - entry.row())][kPadding + entry.row()] = entry.value();
+  if (size_ > kInCache) return;
+  for (Index k = 0; k <= band; ++k) {
+    below_.push_back(Vector::Zero(padded));
+    below_.back().head(padded - kPadding) =
+        above_[static_cast<std::size_t>(k)].segment(kPadding - k, padded - kPadding);
+  }
 }
 
-void SymmetricProduct::multiply(const double* x, double* y) const {
+void SymmetricProduct::multiply_many(const double* x, double* y) const {
   if (rows_ != nullptr)
     multiply_rows(x, y);
   else
@@ -69,10 +148,13 @@ void SymmetricProduct::multiply(const double* x, double* y) const {
 }
 
 void SymmetricProduct::multiply_band(const double* x, double* y) const {
-  constexpr auto kKernels = band_kernels(std::make_index_sequence<kWidestBand + 1>{});
-  std::array<const double*, kWidestBand + 1> diagonals{};
-  for (std::size_t k = 0; k < diagonals_.size(); ++k) diagonals[k] = diagonals_[k].data();
-  kKernels[diagonals_.size() - 1](diagonals.data(), size_, x, y);
+  static constexpr auto kKernels = band_kernels(std::make_index_sequence<kWidestBand + 1>{});
+  std::array<const double*, kWidestBand + 1> above{}, below{};
+  for (std::size_t k = 0; k < above_.size(); ++k) {
+    above[k] = above_[k].data() + kPadding;
+    below[k] = below_.empty() ? above[k] - k : below_[k].data();
+  }
+  kKernels[above_.size() - 1](above.data(), below.data(), size_, x, y);
 }
 
 void SymmetricProduct::multiply_rows(const double* __restrict x, double* __restrict y) const {

@@ -17,16 +17,23 @@ class BUTEE_EXPORT SymmetricProduct {
   explicit SymmetricProduct(const SparseMatrix& matrix);
 
   /// y := A x; x and y have size() and do not overlap.
-  void multiply(const double* x, double* y) const;
+  void multiply(const double* x, double* y) const {
+    if (size_ == 1)
+      y[0] = first_ * x[0];
+    else
+      multiply_many(x, y);
+  }
 
  private:
+  void multiply_many(const double* x, double* y) const;
   void multiply_band(const double* x, double* y) const;
   void multiply_rows(const double* x, double* y) const;
 
   Index size_ = 0;
+  double first_ = 0.0;  ///< A(0, 0)
   const SparseMatrix* rows_ = nullptr;
-  /// diagonals_[k][i] = A(i, i + k), k = 0 ... band; empty where kept by rows.
-  std::vector<Vector> diagonals_;
+  /// A(i, i + k) and A(i, i - k), k = 0 ... band, with zeros around; empty where kept by rows, below_ where large too.
+  std::vector<Vector> above_, below_;
 };
 
 /// The largest distance of an entry from the diagonal.

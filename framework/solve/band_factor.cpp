@@ -1,0 +1,183 @@
+#include "butee/solve/band_factor.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "butee/core/error.hpp"
+
+namespace butee::solve {
+
+/// The elimination from one end: rows are counted from that end.
+class BandFactor::Chain {
+ public:
+  Chain(Index steps, Index band) : steps_(steps), band_(band), row_(static_cast<std::size_t>((steps + band) * (band + 1))) {}
+
+  /// Entry (i, i + k): before elimination of A or, beyond the last step, of the change of the middle; after it D for
+  /// k = 0, else L(i + k, i).
+  double& at(Index i, Index k) { return row_[static_cast<std::size_t>(i * (band_ + 1) + k)]; }
+  double at(Index i, Index k) const { return row_[static_cast<std::size_t>(i * (band_ + 1) + k)]; }
+
+  bool eliminate() {
+    std::array<double, kWidestBand + 1> above{};
+    for (Index i = 0; i < steps_; ++i) {
+      const double pivot = at(i, 0);
+      if (!(pivot > 0.0) || !std::isfinite(pivot)) return false;
+      for (Index k = 1; k <= band_; ++k) {
+        above[static_cast<std::size_t>(k)] = at(i, k);
+        at(i, k) /= pivot;
+      }
+      for (Index k = 1; k <= band_; ++k)
+        for (Index p = k; p <= band_; ++p) at(i + k, p - k) -= at(i, k) * above[static_cast<std::size_t>(p)];
+    }
+    return true;
+  }
+
+ private:
+  Index steps_, band_;
+  std::vector<double> row_;
+};
+
+namespace {
+
+/// One entry from the top and one from the bottom.
+using Pair = double __attribute__((vector_size(16)));
+
+inline Pair pair_at(const double* pairs, Index i) {
+  return Pair{pairs[2 * i], pairs[2 * i + 1]};
+}
+
+template <std::size_t band>
+using Recent = std::array<Pair, band>;
+
+/// value - sum over k of entries[k] recent[k - 1], the nearest last: only it waits for the row before.
+template <std::size_t band>
+inline void subtract(const double* entries, const Recent<band>& recent, Pair& value) {
+  for (std::size_t k = band; k > 0; --k) value -= pair_at(entries, static_cast<Index>(k) - 1) * recent[k - 1];
+}
+
+template <std::size_t band>
+inline void push(const Pair& value, Recent<band>& recent) {
+  for (std::size_t k = band - 1; k > 0; --k) recent[k] = recent[k - 1];
+  recent[0] = value;
+}
+
+struct View {
+  Index size, steps;
+  const double *forward, *backward, *reciprocal, *middle_inverse;
+};
+
+/// Takes the ends' part out of the middle's right side and solves there.
+template <std::size_t band>
+void solve_middle(const View& f, const Recent<band>& last, double* x) {
+  constexpr auto kBand = static_cast<Index>(band);
+  const Index begin = f.steps, end = f.size - f.steps, count = end - begin;
+  Recent<band> recent = last;
+  for (Index t = 0; t < kBand; ++t) {
+    Pair change{};
+    subtract<band>(f.forward + 2 * kBand * (begin + t), recent, change);
+    x[begin + t] += change[0];
+    x[end - 1 - t] += change[1];
+    push(Pair{}, recent);
+  }
+  std::array<double, band + 1> solved{};
+  for (Index i = 0; i < count; ++i)
+    for (Index j = 0; j < count; ++j) solved[static_cast<std::size_t>(i)] += f.middle_inverse[i * count + j] * x[begin + j];
+  for (Index i = 0; i < count; ++i) x[begin + i] = solved[static_cast<std::size_t>(i)];
+}
+
+template <std::size_t band>
+void solve_twisted(const View& f, double* x) {
+  constexpr auto kBand = static_cast<Index>(band);
+  double* mirrored = x + f.size - 1;
+  Recent<band> recent{};
+  for (Index s = 0; s < f.steps; ++s) {
+    Pair value{x[s], mirrored[-s]};
+    subtract<band>(f.forward + 2 * kBand * s, recent, value);
+    x[s] = value[0];
+    mirrored[-s] = value[1];
+    push(value, recent);
+  }
+  solve_middle<band>(f, recent, x);
+  for (Index k = 0; k < kBand; ++k) recent[static_cast<std::size_t>(k)] = Pair{x[f.steps + k], mirrored[-f.steps - k]};
+  for (Index s = f.steps - 1; s >= 0; --s) {
+    Pair value = Pair{x[s], mirrored[-s]} * pair_at(f.reciprocal, s);
+    subtract<band>(f.backward + 2 * kBand * s, recent, value);
+    x[s] = value[0];
+    mirrored[-s] = value[1];
+    push(value, recent);
+  }
+}
+
+using Kernel = void (*)(const View&, double*);
+
+template <std::size_t... bands>
+constexpr std::array<Kernel, sizeof...(bands)> kernels(std::index_sequence<bands...>) {
+  return {&solve_twisted<bands + 1>...};
+}
+
+}  // namespace
+
+BandFactor::BandFactor(Index size, Index band) : size_(size), band_(band), steps_((size - band) / 2) {
+  require(fits(size, band), "a band too wide for the matrix");
+  forward_.resize(static_cast<std::size_t>(2 * band * (steps_ + band)));
+  backward_.resize(static_cast<std::size_t>(2 * band * steps_));
+  reciprocal_.resize(static_cast<std::size_t>(2 * steps_));
+}
+
+bool BandFactor::factorize(const SparseMatrix& matrix) {
+  Chain top(steps_, band_), bottom(steps_, band_);
+  const Index begin = steps_, count = size_ - 2 * steps_;
+  Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(count, count);
+  for (Index j = 0; j < matrix.cols(); ++j)
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
+      const Index i = entry.row();
+      if (i > j) continue;
+      if (i < begin)
+        top.at(i, j - i) = entry.value();
+      else if (j >= begin + count)
+        bottom.at(size_ - 1 - j, j - i) = entry.value();
+      else
+        middle(i - begin, j - begin) = middle(j - begin, i - begin) = entry.value();
+    }
+  if (!top.eliminate() || !bottom.eliminate()) return false;
+  for (Index i = 0; i < band_; ++i)
+    for (Index k = 0; i + k < band_; ++k) {
+      middle(i, i + k) += top.at(steps_ + i, k);
+      if (k > 0) middle(i + k, i) += top.at(steps_ + i, k);
+      middle(count - 1 - i, count - 1 - i - k) += bottom.at(steps_ + i, k);
+      if (k > 0) middle(count - 1 - i - k, count - 1 - i) += bottom.at(steps_ + i, k);
+    }
+  return store(top, bottom, middle);
+}
+
+bool BandFactor::store(const Chain& top, const Chain& bottom, const Eigen::MatrixXd& middle) {
+  const auto put = [this](std::vector<double>& to, Index s, Index k, double from_top, double from_bottom) {
+    const auto place = static_cast<std::size_t>(2 * (s * band_ + k - 1));
+    to[place] = from_top;
+    to[place + 1] = from_bottom;
+  };
+  for (Index s = 0; s < steps_; ++s) {
+    reciprocal_[static_cast<std::size_t>(2 * s)] = 1.0 / top.at(s, 0);
+    reciprocal_[static_cast<std::size_t>(2 * s + 1)] = 1.0 / bottom.at(s, 0);
+    for (Index k = 1; k <= band_; ++k) {
+      put(backward_, s, k, top.at(s, k), bottom.at(s, k));
+      put(forward_, s + k, k, top.at(s, k), bottom.at(s, k));
+    }
+  }
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(middle);
+  if (cholesky.info() != Eigen::Success) return false;
+  const Eigen::MatrixXd inverse = cholesky.solve(Eigen::MatrixXd::Identity(middle.rows(), middle.cols()));
+  middle_inverse_.assign(inverse.data(), inverse.data() + inverse.size());
+  return inverse.allFinite();
+}
+
+void BandFactor::solve(double* b) const {
+  static constexpr auto kKernels = kernels(std::make_index_sequence<static_cast<std::size_t>(kWidestBand)>{});
+  kKernels[static_cast<std::size_t>(band_ - 1)](
+      {size_, steps_, forward_.data(), backward_.data(), reciprocal_.data(), middle_inverse_.data()}, b);
+}
+
+}  // namespace butee::solve
