@@ -12,8 +12,7 @@ using time::StepReport;
 ModifiedNewmark::ModifiedNewmark(solve::Dynamics& dynamics, NewmarkParameters parameters,
                                  std::unique_ptr<ZienkiewiczXie> controller)
     : Integrator(dynamics), parameters_(parameters), controller_(std::move(controller)) {
-  force_ = Vector::Zero(dynamics.size());
-  stop_displacement_ = secant_ = offset_ = Vector::Zero(dynamics.stop_count());
+  secant_ = offset_ = Vector::Zero(dynamics.stop_count());
 }
 
 StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, State& to) {
@@ -22,14 +21,8 @@ StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, S
   to.x = from.x + h * from.v + (0.5 - beta) * h * h * from.a;
   to.v = from.v + (1.0 - gamma) * h * from.a;
 
-  dynamics().external_force(step.t_end, to.a);
-  if (dynamics().stop_count() > 0) add_secant_force(from, to);
-  dynamics().elastic_force(to.x, force_);
-  to.a -= force_;
-  if (dynamics().has_damping()) {
-    dynamics().damping_force(to.v, force_);
-    to.a -= force_;
-  }
+  if (dynamics().stop_count() > 0) dynamics().secant_contact(from.x, secant_, offset_);
+  dynamics().secant_forces(step.t_end, secant_, offset_, to.x, to.v, to.a);
 
   solve::EffectiveSolver& effective = dynamics().effective();
   effective.set_factors(on_v, on_x);
@@ -42,15 +35,6 @@ StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, S
   to.v += on_v * to.a;
   if (controller_ != nullptr) report.error = controller_->error(from, to, h);
   return report;
-}
-
-void ModifiedNewmark::add_secant_force(const State& from, State& to) {
-  solve::Contact& contact = dynamics().contact();
-  contact.displacement(from.x, stop_displacement_);
-  contact.secant(stop_displacement_, secant_, offset_);
-  contact.displacement(to.x, stop_displacement_);
-  offset_ -= secant_.cwiseProduct(stop_displacement_);
-  contact.scatter(offset_, to.a);
 }
 
 IntegratorType newmark_modified_type() {

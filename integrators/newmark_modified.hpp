@@ -23,12 +23,10 @@ class ModifiedNewmark final : public time::Integrator {
 
  private:
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  /// to.a += F_c by the secant stiffness at from.x and the predicted displacements to.x; fills secant_.
-  void add_secant_force(const time::State& from, time::State& to);
 
   NewmarkParameters parameters_;
   std::unique_ptr<ZienkiewiczXie> controller_;
-  Vector force_, stop_displacement_, secant_, offset_;
+  Vector secant_, offset_;
 };
 
 }  // namespace butee::integrators

@@ -30,7 +30,9 @@ HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, 
       probes_(request.probes, dynamics),
       peak_probes_(peak_requests(request.probes, dynamics.system().dofs), dynamics),
       writer_(writer),
-      peak_values_(peak_probes_.columns().size(), 0.0) {}
+      values_(probes_.columns().size()),
+      current_(peak_probes_.columns().size()),
+      peak_values_(current_.size(), 0.0) {}
 
 std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) {
   std::vector<std::string> all = {"t"};
@@ -48,8 +50,7 @@ double HistoryRecorder::time_of_row() const {
 }
 
 void HistoryRecorder::start(const time::State& state) {
-  values_.clear();
-  probes_.append(state, values_);
+  probes_.evaluate(state, values_);
   first_row_ = values_;
   update_peaks(state);
   rows_ = 0;
@@ -65,13 +66,11 @@ void HistoryRecorder::step(const time::AcceptedStep& step) {
   update_peaks(step.to);
   if (every_ > 0) {
     if (steps_ % every_ != 0 && step.to.t < end_time_) return;
-    values_.clear();
-    probes_.append(step.to, values_);
+    probes_.evaluate(step.to, values_);
     return write_row(step.to.t, step.h);
   }
   while (next_row_ <= step.to.t) {
-    values_.clear();
-    probes_.append(step, next_row_, values_);
+    probes_.evaluate(step, next_row_, values_);
     write_row(next_row_, step.h);
   }
 }
@@ -96,9 +95,8 @@ void HistoryRecorder::finish() {
 
 void HistoryRecorder::update_peaks(const time::State& state) {
   if (peak_values_.empty()) return;
-  values_.clear();
-  peak_probes_.append(state, values_);
-  for (std::size_t i = 0; i < values_.size(); ++i) peak_values_[i] = std::max(peak_values_[i], std::abs(values_[i]));
+  peak_probes_.evaluate(state, current_);
+  for (std::size_t i = 0; i < current_.size(); ++i) peak_values_[i] = std::max(peak_values_[i], std::abs(current_[i]));
 }
 
 std::map<std::string, double> HistoryRecorder::peaks() const {

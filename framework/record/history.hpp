@@ -37,8 +37,9 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   CsvWriter* writer_;
   std::int64_t rows_ = 0, steps_ = 0;
   double next_row_ = 0.0;
-  std::vector<double> row_, values_, peak_values_;
-  std::vector<double> first_row_;
+  std::vector<double> row_, first_row_;
+  std::vector<double> values_;                 ///< of probes_
+  std::vector<double> current_, peak_values_;  ///< of peak_probes_
 };
 
 }  // namespace butee::record

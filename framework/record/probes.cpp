@@ -10,7 +10,7 @@ Probes::Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynam
     for (const Quantity quantity : request.quantities) {
       const bool turns = quantity == Quantity::theta || quantity == Quantity::theta_v || quantity == Quantity::theta_a;
       const Index dof = table.index({request.node, turns ? DofKind::theta : DofKind::u});
-      Column column{quantity, slot(dof), stops_.size(), stops_.size()};
+      Column column{samples_of(quantity), slot(dof), stops_.size(), stops_.size()};
       if (quantity == Quantity::contact_force && dof >= 0) add_stops(dof);
       column.last_stop = stops_.size();
       needs_v_ = needs_v_ || quantity == Quantity::v || quantity == Quantity::theta_v;
@@ -21,6 +21,23 @@ Probes::Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynam
   x_.resize(dofs_.size());
   v_.resize(needs_v_ ? dofs_.size() : 0);
   a_.resize(needs_a_ ? dofs_.size() : 0);
+}
+
+const std::vector<double>* Probes::samples_of(Quantity quantity) const {
+  switch (quantity) {
+    case Quantity::u:
+    case Quantity::theta:
+      return &x_;
+    case Quantity::v:
+    case Quantity::theta_v:
+      return &v_;
+    case Quantity::a:
+    case Quantity::theta_a:
+      return &a_;
+    case Quantity::contact_force:
+      break;
+  }
+  return nullptr;
 }
 
 std::size_t Probes::slot(Index dof) {
@@ -42,48 +59,38 @@ void Probes::add_stops(Index dof) {
   }
 }
 
-void Probes::append(const time::AcceptedStep& step, double t, std::vector<double>& row) {
-  if (t == step.to.t) return append(step.to, row);
+void Probes::evaluate(const time::AcceptedStep& step, double t, std::span<double> values) {
+  if (t == step.to.t) return evaluate(step.to, values);
   step.integrator.interpolate(step.from, step.to, t, dofs_, {x_, v_, a_});
-  append_sampled(row);
+  evaluate_sampled(values);
 }
 
-void Probes::append(const time::State& state, std::vector<double>& row) {
+void Probes::evaluate(const time::State& state, std::span<double> values) {
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
     x_[i] = state.x[dofs_[i]];
     if (needs_v_) v_[i] = state.v[dofs_[i]];
     if (needs_a_) a_[i] = state.a[dofs_[i]];
   }
-  append_sampled(row);
+  evaluate_sampled(values);
 }
 
-void Probes::append_sampled(std::vector<double>& row) {
-  const auto at = [](const std::vector<double>& values, std::size_t slot) {
-    return slot == kFixed ? 0.0 : values[slot];
-  };
-  for (const Column& column : sources_) {
-    switch (column.quantity) {
-      case Quantity::u:
-      case Quantity::theta:
-        row.push_back(at(x_, column.slot));
-        break;
-      case Quantity::v:
-      case Quantity::theta_v:
-        row.push_back(at(v_, column.slot));
-        break;
-      case Quantity::a:
-      case Quantity::theta_a:
-        row.push_back(at(a_, column.slot));
-        break;
-      case Quantity::contact_force: {
-        double force = 0.0;
-        for (std::size_t i = column.first_stop; i < column.last_stop; ++i) {
-          const ProbedStop& stop = stops_[i];
-          force += stop.sign * dynamics_.contact().force_of(stop.stop, at(x_, stop.slot_a) - at(x_, stop.slot_b));
-        }
-        row.push_back(force);
-      }
-    }
+double Probes::contact_force(const Column& column) {
+  double force = 0.0;
+  for (std::size_t i = column.first_stop; i < column.last_stop; ++i) {
+    const ProbedStop& stop = stops_[i];
+    const double a = stop.slot_a == kFixed ? 0.0 : x_[stop.slot_a], b = stop.slot_b == kFixed ? 0.0 : x_[stop.slot_b];
+    force += stop.sign * dynamics_.contact().force_of(stop.stop, a - b);
+  }
+  return force;
+}
+
+void Probes::evaluate_sampled(std::span<double> values) {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const Column& column = sources_[i];
+    if (column.samples == nullptr)
+      values[i] = contact_force(column);
+    else
+      values[i] = column.slot == kFixed ? 0.0 : (*column.samples)[column.slot];
   }
 }
 

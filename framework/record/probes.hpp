@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,19 +14,21 @@ class BUTEE_EXPORT Probes {
  public:
   /// `dynamics` must outlive it.
   Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics);
+  Probes(const Probes&) = delete;
+  Probes& operator=(const Probes&) = delete;
 
   /// "mid.u", one for each column.
   const std::vector<std::string>& columns() const { return columns_; }
 
-  /// The values at `t` in the step, appended to `row`.
-  void append(const time::AcceptedStep& step, double t, std::vector<double>& row);
-  /// The values in a state, appended to `row`.
-  void append(const time::State& state, std::vector<double>& row);
+  /// The values at `t` in the step, one for each column.
+  void evaluate(const time::AcceptedStep& step, double t, std::span<double> values);
+  /// The values in a state.
+  void evaluate(const time::State& state, std::span<double> values);
 
  private:
-  /// Where a column's value comes from: place `slot` of the sampled DOFs, or the stops [begin, end).
+  /// Where a column's value comes from: place `slot` of x_, v_ or a_, or without samples the stops [first, last).
   struct Column {
-    Quantity quantity;
+    const std::vector<double>* samples;
     std::size_t slot;
     std::size_t first_stop, last_stop;
   };
@@ -40,7 +43,9 @@ class BUTEE_EXPORT Probes {
 
   std::size_t slot(Index dof);
   void add_stops(Index dof);
-  void append_sampled(std::vector<double>& row);
+  const std::vector<double>* samples_of(Quantity quantity) const;
+  double contact_force(const Column& column);
+  void evaluate_sampled(std::span<double> values);
 
   solve::Dynamics& dynamics_;
   std::vector<std::string> columns_;

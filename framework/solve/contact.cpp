@@ -44,11 +44,7 @@ Contact::Contact(const model::System& system, Counters& counters) : counters_(&c
   penetration_ = side_ = secant_ = Vector::Zero(size());
 }
 
-void Contact::displacement(ConstVectorRef x, VectorRef w) const {
-  if (grounded_) {
-    for (std::size_t i = 0; i < a_.size(); ++i) w[static_cast<Index>(i)] = x[a_[i]];
-    return;
-  }
+void Contact::difference(ConstVectorRef x, VectorRef w) const {
   for (std::size_t i = 0; i < a_.size(); ++i) {
     const double ua = a_[i] >= 0 ? x[a_[i]] : 0.0;
     const double ub = b_[i] >= 0 ? x[b_[i]] : 0.0;
@@ -56,11 +52,7 @@ void Contact::displacement(ConstVectorRef x, VectorRef w) const {
   }
 }
 
-void Contact::scatter(ConstVectorRef f, VectorRef force) const {
-  if (grounded_) {
-    for (std::size_t i = 0; i < a_.size(); ++i) force[a_[i]] += f[static_cast<Index>(i)];
-    return;
-  }
+void Contact::scatter_both(ConstVectorRef f, VectorRef force) const {
   for (std::size_t i = 0; i < a_.size(); ++i) {
     const double value = f[static_cast<Index>(i)];
     if (a_[i] >= 0) force[a_[i]] += value;
@@ -141,6 +133,7 @@ void Contact::secant(ConstVectorRef w, VectorRef k, VectorRef c) {
 }
 
 const Contact::Group& Contact::group_of(Index i) const {
+  if (groups_.size() == 1) return groups_.front();
   const auto after = std::upper_bound(groups_.begin(), groups_.end(), i,
                                       [](Index stop, const Group& group) { return stop < group.begin; });
   return *(after - 1);

@@ -20,9 +20,15 @@ class BUTEE_EXPORT Contact {
   Index system_size() const { return system_size_; }
 
   /// w := S x
-  void displacement(ConstVectorRef x, VectorRef w) const;
+  void displacement(ConstVectorRef x, VectorRef w) const {
+    if (!grounded_) return difference(x, w);
+    for (std::size_t i = 0; i < a_.size(); ++i) w[static_cast<Index>(i)] = x[a_[i]];
+  }
   /// F += S^T f
-  void scatter(ConstVectorRef f, VectorRef force) const;
+  void scatter(ConstVectorRef f, VectorRef force) const {
+    if (!grounded_) return scatter_both(f, force);
+    for (std::size_t i = 0; i < a_.size(); ++i) force[a_[i]] += f[static_cast<Index>(i)];
+  }
 
   /// f(w), N
   void force(ConstVectorRef w, VectorRef f);
@@ -54,6 +60,8 @@ class BUTEE_EXPORT Contact {
     Index begin, count;
   };
 
+  void difference(ConstVectorRef x, VectorRef w) const;
+  void scatter_both(ConstVectorRef f, VectorRef force) const;
   const Group& group_of(Index i) const;
   void count_evaluation();
   /// Fills penetration_ and side_ (+1, -1 or 0) of all stops.

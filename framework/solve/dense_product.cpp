@@ -61,6 +61,7 @@ void DenseProduct::multiply(const double* x, double* y) const {
 }
 
 void DenseProduct::multiply(std::span<const Index> columns, const double* x, double* y) const {
+  if (2 * static_cast<Index>(columns.size()) > columns_) return multiply(x, y);
   kChosen[static_cast<std::size_t>(lanes_ - 1)](padded_.data(), columns.data(), static_cast<Index>(columns.size()), x, y,
                                                 static_cast<std::size_t>(rows_));
 }

@@ -21,7 +21,7 @@ class BUTEE_EXPORT DenseProduct {
   bool empty() const { return columns_ == 0; }
   /// y := A x; y has the rows and x the columns of A; they do not overlap.
   void multiply(const double* x, double* y) const;
-  /// The same where only these entries of x are not zero; the others are not looked at.
+  /// The same where all other entries of x are zero.
   void multiply(std::span<const Index> columns, const double* x, double* y) const;
 
  private:

@@ -23,6 +23,10 @@ Dynamics::Dynamics(const model::System& system)
       stop_displacement_(Vector::Zero(contact_.size())),
       stop_force_(stop_displacement_) {
   if (system.dashpots.size() > 0) dashpot_product_ = SymmetricProduct(system.dashpots);
+  if (size() == 1)
+    single_damping_ = system.damping.mass_proportional * system.mass.coeff(0, 0) +
+                      system.damping.stiffness_proportional * system.stiffness.coeff(0, 0) +
+                      (system.dashpots.size() > 0 ? system.dashpots.coeff(0, 0) : 0.0);
   for (std::size_t j = 0; j < system.loads.size(); ++j)
     for (std::size_t i = 0; i < system.loads[j].dofs.size(); ++i)
       loaded_dofs_.push_back({system.loads[j].dofs[i], system.loads[j].weights[i], j});
@@ -67,6 +71,35 @@ void Dynamics::damping_force(ConstVectorRef v, VectorRef y) {
     dashpot_product_.multiply(v.data(), other_.data());
     y += other_;
   }
+}
+
+void Dynamics::subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r) {
+  if (size() == 1) {
+    elastic_force(x, work_);
+    r[0] -= single_damping_ * v[0] + work_[0];
+    return;
+  }
+  elastic_force(x, work_);
+  r -= work_;
+  if (!has_damping_) return;
+  damping_force(v, work_);
+  r -= work_;
+}
+
+void Dynamics::secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c) {
+  contact_.displacement(x, stop_displacement_);
+  contact_.secant(stop_displacement_, kappa, c);
+}
+
+void Dynamics::secant_forces(double t, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x, ConstVectorRef v,
+                             VectorRef r) {
+  external_force(t, r);
+  if (stop_count() > 0) {
+    contact_.displacement(x, stop_displacement_);
+    stop_force_ = c - kappa.cwiseProduct(stop_displacement_);
+    contact_.scatter(stop_force_, r);
+  }
+  subtract_internal_force(x, v, r);
 }
 
 double Dynamics::residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v,

@@ -37,6 +37,12 @@ class BUTEE_EXPORT Dynamics {
   /// y := M a
   void inertia_force(ConstVectorRef a, VectorRef y) const;
 
+  /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that meets F_c at x
+  void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
+  /// r := F(t) + S^T (c - kappa S x) - C v - K x
+  void secant_forces(double t, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x, ConstVectorRef v,
+                     VectorRef r);
+
   /// r := F + F_c - M a - C v - K x with the forces of `load` and, in stop space, of `stop_force`; returns
   /// |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), against which |r| is small or not.
   double residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
@@ -59,11 +65,14 @@ class BUTEE_EXPORT Dynamics {
   };
 
   LinearSolver& mass_solver();
+  /// r -= C v + K x
+  void subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r);
 
   const model::System& system_;
   Counters counters_;
   Contact contact_;
   bool has_damping_;
+  double single_damping_ = 0.0;  ///< C of a system of one DOF
   SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
   std::optional<LinearSolver> mass_solver_;
   std::optional<EffectiveSolver> effective_;

@@ -59,7 +59,7 @@ void EffectiveSolver::set_factors(double damping, double stiffness) {
     }
   if (slots_.size() < kSlots) {
     current_ = slots_.size();
-    slots_.push_back(std::make_unique<Slot>(Slot{-1.0, -1.0, false, LinearSolver(base_, counters_), std::nullopt}));
+    slots_.push_back(std::make_unique<Slot>(base_, counters_));
     if (contact_.size() > 0) slots_.back()->local.emplace(contact_);
   } else {
     current_ = oldest_;

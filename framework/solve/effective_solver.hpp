@@ -41,6 +41,8 @@ class BUTEE_EXPORT EffectiveSolver {
  private:
   /// What is kept of one pair of factors.
   struct Slot {
+    Slot(const SparseMatrix& pattern, Counters& counters) : base(pattern, counters) {}
+
     double damping = -1.0, stiffness = -1.0;
     bool usable = false;
     LinearSolver base;

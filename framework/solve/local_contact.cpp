@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 
@@ -17,8 +18,10 @@ constexpr double kRounding = 1e-17;
 
 LocalContact::LocalContact(const Contact& contact)
     : contact_(contact), compliance_(contact.size(), contact.size()), near_matrix_(compliance_) {
-  free_ = force_ = sum_ = near_ = Vector::Zero(contact.size());
-  near_stops_.reserve(static_cast<std::size_t>(contact.size()));
+  reach_ = free_ = force_ = sum_ = near_ = Vector::Zero(contact.size());
+  near_places_.resize(static_cast<std::size_t>(contact.size()));
+  far_places_ = all_places_ = near_places_;
+  std::iota(all_places_.begin(), all_places_.end(), 0);
 }
 
 void LocalContact::set_base(LinearSolver& base) {
@@ -42,33 +45,36 @@ void LocalContact::set_base(LinearSolver& base) {
   work_.resize(n);
 }
 
-void LocalContact::multiply_compliance(const Vector& force, Vector& displacement) const {
-  if (fast_compliance_.empty())
-    displacement.noalias() = compliance_ * force;
-  else
-    fast_compliance_.multiply(force.data(), displacement.data());
-}
-
 bool LocalContact::correct(LinearSolver& base, double stiffness_factor, ConstVectorRef kappa, VectorRef y) {
   contact_.displacement(y, free_);
   divide(stiffness_factor, kappa);
-  if (near_stops_.empty() && contraction_ == 0.0) return true;
+  if (near_stops_.empty() && far_stops_.empty()) return true;
   if (!find_forces(stiffness_factor, kappa)) return false;
   apply(base, stiffness_factor, y);
   return true;
 }
 
 void LocalContact::divide(double k, ConstVectorRef kappa) {
-  near_stops_.clear();
-  double largest = 0.0;
-  for (Index i = 0; i < kappa.size(); ++i) {
-    const double reach = k * kappa[i] * row_sums_[i];
-    if (reach > kNear)
-      near_stops_.push_back(i);
-    else
-      largest = std::max(largest, reach);
+  reach_ = k * kappa.cwiseProduct(row_sums_);
+  near_stops_ = far_stops_ = {};
+  contraction_ = 0.0;
+  const double largest = reach_.maxCoeff();
+  if (largest <= kRounding) return;
+  if (largest <= kNear && reach_.minCoeff() > kRounding) {
+    far_stops_ = all_places_;
+    contraction_ = largest;
+    return;
   }
-  contraction_ = largest > kRounding ? largest : 0.0;
+  std::size_t near = 0, far = 0;
+  for (Index i = 0; i < reach_.size(); ++i) {
+    if (reach_[i] > kNear)
+      near_places_[near++] = i;
+    else if (reach_[i] > kRounding)
+      far_places_[far++] = i;
+  }
+  near_stops_ = std::span(near_places_).first(near);
+  far_stops_ = std::span(far_places_).first(far);
+  for (const Index stop : far_stops_) contraction_ = std::max(contraction_, reach_[stop]);
 }
 
 bool LocalContact::factorize_near(double k, ConstVectorRef kappa) {
@@ -88,8 +94,9 @@ bool LocalContact::find_forces(double k, ConstVectorRef kappa) {
   if (!near_stops_.empty() && !factorize_near(k, kappa)) return false;
   far_is_spread_ = false;
   sum_.setZero();
+  force_.setZero();
   solve_near(k);
-  if (contraction_ == 0.0) return true;
+  if (far_stops_.empty()) return true;
   update_far(k, kappa);
   // A far force is wrong by its relative error times the contraction where it acts on displacements, a near one,
   // which answers the far ones, by the error itself.
@@ -103,10 +110,16 @@ bool LocalContact::find_forces(double k, ConstVectorRef kappa) {
 }
 
 void LocalContact::spread_far() {
-  if (influence_.empty()) return multiply_compliance(force_, sum_);
-  influence_.multiply(force_.data(), work_.data());
-  contact_.displacement(work_, sum_);
-  far_is_spread_ = true;
+  if (!influence_.empty()) {
+    influence_.multiply(far_stops_, force_.data(), work_.data());
+    contact_.displacement(work_, sum_);
+    far_is_spread_ = true;
+  } else if (!fast_compliance_.empty()) {
+    fast_compliance_.multiply(far_stops_, force_.data(), sum_.data());
+  } else {
+    sum_.setZero();
+    for (const Index stop : far_stops_) sum_ += force_[stop] * compliance_.col(stop);
+  }
 }
 
 void LocalContact::solve_near(double k) {
@@ -128,32 +141,31 @@ void LocalContact::solve_near(double k) {
 void LocalContact::update_far(double k, ConstVectorRef kappa) {
   for (std::size_t i = 0; i < near_stops_.size(); ++i)
     sum_ += near_[static_cast<Index>(i)] * compliance_.col(near_stops_[i]);
+  if (2 * static_cast<Index>(far_stops_.size()) <= kappa.size()) {
+    for (const Index stop : far_stops_) force_[stop] = kappa[stop] * (free_[stop] - k * sum_[stop]);
+    return;
+  }
+  // All at once is quicker; what this gives the hidden ones is lost in rounding.
   force_ = kappa.cwiseProduct(free_ - k * sum_);
   for (const Index stop : near_stops_) force_[stop] = 0.0;
 }
 
 void LocalContact::apply(LinearSolver& base, double k, VectorRef y) {
-  if (contraction_ == 0.0) force_.setZero();
-  if (influence_.empty()) {
-    take_near_forces();
+  if (!influence_.empty() && !far_stops_.empty()) {
+    if (!far_is_spread_) influence_.multiply(far_stops_, force_.data(), work_.data());
+    y -= k * work_;
+    if (near_stops_.empty()) return;
+    force_.setZero();
+  }
+  for (std::size_t i = 0; i < near_stops_.size(); ++i) force_[near_stops_[i]] = near_[static_cast<Index>(i)];
+  if (!influence_.empty()) {
+    influence_.multiply(near_stops_, force_.data(), work_.data());
+  } else {
     work_.setZero();
     contact_.scatter(force_, work_);
     base.solve(work_);
-    y -= k * work_;
-    return;
   }
-  if (contraction_ > 0.0) {
-    if (!far_is_spread_) influence_.multiply(force_.data(), work_.data());
-    y -= k * work_;
-  }
-  if (near_stops_.empty()) return;
-  take_near_forces();
-  influence_.multiply(near_stops_, force_.data(), work_.data());
   y -= k * work_;
-}
-
-void LocalContact::take_near_forces() {
-  for (std::size_t i = 0; i < near_stops_.size(); ++i) force_[near_stops_[i]] = near_[static_cast<Index>(i)];
 }
 
 }  // namespace butee::solve

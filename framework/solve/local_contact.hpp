@@ -21,6 +21,8 @@ class BUTEE_EXPORT LocalContact {
   static constexpr Index kMostStops = 256;
 
   explicit LocalContact(const Contact& contact);
+  LocalContact(const LocalContact&) = delete;
+  LocalContact& operator=(const LocalContact&) = delete;
 
   /// Takes a new A_0: G, and W where the system is small.
   void set_base(LinearSolver& base);
@@ -35,10 +37,8 @@ class BUTEE_EXPORT LocalContact {
   void solve_near(double k);
   /// force_ of the far stops, given near_ and sum_ = G (far forces) so far; adds the near ones' part to sum_.
   void update_far(double k, ConstVectorRef kappa);
-  /// sum_ := G force_, and work_ := W force_ where W is kept.
+  /// sum_ := G force_ of the far stops, and work_ := W force_ where W is kept.
   void spread_far();
-  void take_near_forces();
-  void multiply_compliance(const Vector& force, Vector& displacement) const;
   void apply(LinearSolver& base, double k, VectorRef y);
 
   const Contact& contact_;
@@ -48,9 +48,11 @@ class BUTEE_EXPORT LocalContact {
   Vector row_sums_;               ///< of |G|
   Eigen::MatrixXd near_matrix_;   ///< G_NN + diag(1/(k kappa_N)) and its factor
   Vector free_, force_, sum_, near_, work_;
-  std::vector<Index> near_stops_;
-  bool far_is_spread_ = false;  ///< work_ holds the far forces' part
-  double contraction_ = 0.0;  ///< of a sweep over the far stops: the largest k kappa_i sum_j |G_ij| of them
+  Vector reach_;  ///< of every stop: k kappa_i sum_j |G_ij|
+  std::vector<Index> near_places_, far_places_, all_places_;
+  std::span<const Index> near_stops_, far_stops_;  ///< those of this solve, within the ones above
+  bool far_is_spread_ = false;                     ///< work_ holds the far forces' part
+  double contraction_ = 0.0;  ///< of a sweep over the far stops: their largest reach
 };
 
 }  // namespace butee::solve

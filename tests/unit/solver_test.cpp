@@ -80,8 +80,9 @@ TEST(EffectiveSolver, solves_what_the_dense_matrix_says) {
 }
 
 TEST(EffectiveSolver, gives_the_same_with_local_contact_as_with_full_factorization) {
-  // Relative to the largest entry; both are direct solutions of one well-conditioned system.
-  constexpr double kSame = 1e-12;
+  // Relative to the largest entry; both are direct solutions of one system.
+  // Rounding is magnified by the condition of the matrix, which grows with h: 1.4e-12 in the worst of the 128 cases.
+  constexpr double kSame = 5e-12;
   using Contacts = solve::EffectiveSolver::Contacts;
   SceneRun scene(coupled_scene());
   const solve::Contact& contact = scene.dynamics().contact();
