@@ -43,6 +43,7 @@ class Arctan final : public model::ContactLaw {
   void tangents(std::span<const double> g, std::span<double> secant, std::span<double> tangent) const override;
 
   double closed_stiffness() const override { return stiffness_; }
+  std::unique_ptr<model::ForceSeries> force_series() const override;
   double far_force() const override { return stiffness_ / (std::numbers::pi * slope_); }
 
  private:

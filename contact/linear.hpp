@@ -14,6 +14,7 @@ class Linear final : public model::BatchedLaw<Linear> {
   double tangent(double g) const override { return g > 0.0 ? stiffness_ : 0.0; }
   double energy(double g) const override { return g > 0.0 ? 0.5 * stiffness_ * g * g : 0.0; }
   double closed_stiffness() const override { return stiffness_; }
+  bool is_piecewise_linear() const override { return true; }
 
  private:
   double stiffness_;

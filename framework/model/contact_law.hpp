@@ -1,10 +1,19 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include <butee/export.hpp>
 
 namespace butee::model {
+
+/// The Taylor coefficients of F(g(s)), one after the other.
+class BUTEE_EXPORT ForceSeries {
+ public:
+  virtual ~ForceSeries() = default;
+  /// Coefficient n of F(g(s)) from the coefficients 0 ... n of g; asked for n = 0, 1, 2, ..., where 0 begins anew.
+  virtual double next(std::span<const double> g) = 0;
+};
 
 /// The law of an elastic stop as stateless functions of the penetration g (m; negative while open).
 ///
@@ -26,6 +35,12 @@ class BUTEE_EXPORT ContactLaw {
 
   /// The stiffness of the closed stop, N/m, for step-size bounds.
   virtual double closed_stiffness() const = 0;
+
+  /// True for F = k_c max(g, 0), whose kink methods may locate.
+  virtual bool is_piecewise_linear() const { return false; }
+
+  /// The series of a smooth law; nullptr where it has none to give.
+  virtual std::unique_ptr<ForceSeries> force_series() const { return nullptr; }
 
   /// The largest force that a stop further open than a few boundary layers still exerts, N (0: none).
   virtual double far_force() const { return 0.0; }

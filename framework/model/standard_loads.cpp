@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "butee/model/types.hpp"
@@ -18,6 +19,16 @@ class Harmonic final : public TimeFunction {
       : amplitude_(amplitude), angular_frequency_(angular_frequency), phase_(phase) {}
 
   double value(double t) const override { return amplitude_ * std::cos(angular_frequency_ * t + phase_); }
+  bool taylor(double t, double h, std::span<double> coefficients) const override {
+    const double angle = angular_frequency_ * t + phase_, cosine = std::cos(angle), sine = std::sin(angle);
+    const std::array<double, 4> derivative = {cosine, -sine, -cosine, sine};
+    double factor = amplitude_;
+    for (std::size_t k = 0; k < coefficients.size(); ++k) {
+      coefficients[k] = factor * derivative[k % 4];
+      factor *= angular_frequency_ * h / static_cast<double>(k + 1);
+    }
+    return true;
+  }
   bool vanishes() const override { return amplitude_ == 0.0; }
 
  private:
@@ -37,6 +48,15 @@ class PiecewiseLinear final : public TimeFunction {
     const auto i = static_cast<std::size_t>(after);
     const double s = (t - times_[i - 1]) / (times_[i] - times_[i - 1]);
     return (1.0 - s) * values_[i - 1] + s * values_[i];
+  }
+  bool taylor(double t, double h, std::span<double> coefficients) const override {
+    std::fill(coefficients.begin(), coefficients.end(), 0.0);
+    coefficients[0] = value(t);
+    const auto after = std::upper_bound(times_.begin(), times_.end(), t) - times_.begin();
+    if (after == 0 || after == std::ssize(times_) || coefficients.size() < 2) return true;
+    const auto i = static_cast<std::size_t>(after);
+    coefficients[1] = h * (values_[i] - values_[i - 1]) / (times_[i] - times_[i - 1]);
+    return true;
   }
   bool vanishes() const override {
     return std::all_of(values_.begin(), values_.end(), [](double v) { return v == 0.0; });

@@ -40,7 +40,8 @@ class BUTEE_EXPORT Contact {
   double energy(ConstVectorRef w) const;
   /// f(w) of stop i alone, N
   double force_of(Index i, double w);
-  /// The gap and the sides of stop i
+  /// The law, the gap and the sides of stop i
+  const model::ContactLaw& law_of(Index i) const { return *group_of(i).law; }
   double gap_of(Index i) const { return group_of(i).gap; }
   model::Sides sides_of(Index i) const { return group_of(i).sides; }
   /// The penetration g of every stop on its nearer side, m; negative while open

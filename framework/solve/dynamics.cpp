@@ -118,10 +118,14 @@ double Dynamics::residual(ConstVectorRef load, ConstVectorRef stop_force, ConstV
 }
 
 void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
-  ++counters_.force_evaluations;
-  const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
   external_force(t, a);
   add_contact_force(x, a);
+  respond(x, v, a);
+}
+
+void Dynamics::respond(ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+  ++counters_.force_evaluations;
+  const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
   if (on_stiffness != 0.0) {
     other_ = x + on_stiffness * v;
     stiffness_product_.multiply(other_.data(), work_.data());

@@ -50,6 +50,8 @@ class BUTEE_EXPORT Dynamics {
 
   /// a := M^-1 (F(t) + F_c(x) - C v - K x)
   void acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a);
+  /// a := M^-1 (a - C v - K x), with the forces given in a
+  void respond(ConstVectorRef x, ConstVectorRef v, VectorRef a);
 
   /// The effective equations of an implicit method.
   EffectiveSolver& effective();

@@ -20,7 +20,8 @@ inline void PrintTo(const MethodCase& method, std::ostream* out) {
 /// Every method of the catalogue; a test asserts that none is missing.
 inline std::vector<MethodCase> method_cases() {
   const std::string newton = "residual_tolerance = 1e-13\nincrement_tolerance = 1e-13\nmax_iterations = 20\n";
-  return {{"rk4", "", 4.0},
+  return {{"exact", "", 0.0},
+          {"rk4", "", 4.0},
           {"newmark", newton, 2.0},
           {"newmark_modified", "", 2.0},
           {"rk4_fixed_factors", "tolerance = 1e-7\nshrink = 1.5\ngrow = 1.5\n", 0.0},

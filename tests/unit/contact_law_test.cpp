@@ -133,6 +133,26 @@ TEST_P(ArctanLaw, at_the_gap_half_the_stiffness_acts) {
 INSTANTIATE_TEST_SUITE_P(parameters, ArctanLaw, testing::Values(Case{1e6, 7e7}, Case{1e10, 7e7}, Case{3e4, 1e6}),
                          [](const auto& instance) { return "set_" + std::to_string(instance.index); });
 
+TEST_P(ArctanLaw, the_series_is_the_force_along_a_path) {
+  // Paths that pass the gap and paths on either side of it, within the radius of convergence |g|/|g'| of each.
+  const auto series = law_.force_series();
+  for (const double start : {-1e-2, -1e-5, 1e-5, 1e-2}) {
+    const std::vector<double> path = {start, 0.3 * start, -0.1 * start};
+    std::vector<double> g, force;
+    for (std::size_t k = 0; k < 60; ++k) {
+      g.push_back(k < path.size() ? path[k] : 0.0);
+      force.push_back(series->next(g));
+    }
+    for (const double s : {0.0, 0.5, 1.0}) {
+      double sum = 0.0;
+      for (std::size_t k = force.size(); k > 0; --k) sum = sum * s + force[k - 1];
+      const double at = path[0] + s * (path[1] + s * path[2]), expected = law_.secant(at) * at;
+      // What an open stop leaves of k_c g is a difference of terms of the size of its pull.
+      EXPECT_NEAR(sum, expected, 1e-12 * std::abs(expected));
+    }
+  }
+}
+
 TEST(LinearLaw, acts_on_penetration_alone) {
   constexpr double kStiffness = 3e5;
   const contact::Linear law(kStiffness);

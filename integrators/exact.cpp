@@ -1,0 +1,148 @@
+#include "integrators/exact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/methods.hpp"
+
+namespace butee::integrators {
+
+using time::State;
+using time::StepReport;
+using time::StepStatus;
+
+namespace {
+
+/// So many changes of contact within one step are no motion of a structure.
+constexpr std::size_t kMostPieces = 20000;
+/// Lengths are shortened a thousandfold this often before a step is given up.
+constexpr int kMostTrials = 12;
+
+std::vector<double> kinks_of(const model::System& system) {
+  std::vector<double> all;
+  for (const model::FreeLoad& load : system.loads) {
+    const auto kinks = load.in_time->kinks();
+    all.insert(all.end(), kinks.begin(), kinks.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+time::StepDecision Exact::Controller::decide(double, const StepReport& report) const {
+  return {true, report.error};
+}
+
+Exact::Exact(solve::Dynamics& dynamics, int order, double tolerance)
+    : Integrator(dynamics),
+      expander_(dynamics, order, tolerance),
+      branches_(dynamics.contact(), order),
+      kinks_(kinks_of(dynamics.system())),
+      stops_(dynamics.stop_count()) {}
+
+void Exact::place_branches() {
+  dynamics().contact().displacement(x_, stops_);
+  branches_.place(stops_);
+}
+
+StepReport Exact::do_step(const State& from, const time::Step& step, State& to) {
+  StepReport report;
+  report.status = follow(from, step.h, step.t_end);
+  if (report.status != StepStatus::ok) return report;
+  const TaylorExpansion& last = pieces_[used_ - 1];
+  for (Index i = 0; i < to.x.size(); ++i) {
+    to.x[i] = last.value(i, last.end);
+    to.v[i] = last.velocity(i, last.end);
+    to.a[i] = last.acceleration(i, last.end);
+  }
+  report.error = last.reach * last.length;
+  return report;
+}
+
+StepStatus Exact::follow(const State& from, double h, double t_end) {
+  end_t_ = std::numeric_limits<double>::quiet_NaN();
+  x_ = begin_x_ = from.x;
+  v_ = begin_v_ = from.v;
+  begin_t_ = from.t;
+  used_ = 0;
+  place_branches();
+  double t = from.t, done = 0.0, length = h;
+  while (done < h) {
+    if (used_ == kMostPieces || !expand_piece(t, length)) return StepStatus::not_finite;
+    TaylorExpansion& piece = pieces_[used_ - 1];
+    const double rest = (h - done) / piece.length, kink = (next_kink(t) - t) / piece.length;
+    piece.end = std::min({piece.reach, rest, kink});
+    const bool is_last = piece.end == rest;
+    const auto change = branches_.first_change(expander_.stop_displacement(), piece.end);
+    if (change) piece.end = change->at;
+    length = piece.length * std::min(piece.reach, 1e3);
+    for (Index i = 0; i < x_.size(); ++i) {
+      const double x = piece.value(i, piece.end);
+      v_[i] = piece.velocity(i, piece.end);
+      x_[i] = x;
+    }
+    if (!change && is_last) break;
+    done += piece.end * piece.length;
+    t = from.t + done;
+    if (change) {
+      branches_.apply(*change);
+    } else {
+      place_branches();
+    }
+  }
+  end_t_ = t_end;
+  return StepStatus::ok;
+}
+
+bool Exact::expand_piece(double t, double length) {
+  if (used_ == pieces_.size()) pieces_.emplace_back();
+  TaylorExpansion& piece = pieces_[used_++];
+  piece.length = length;
+  for (int trial = 0; trial < kMostTrials; ++trial, piece.length *= 1e-3)
+    if (expander_.expand(t, x_, v_, branches_, piece)) return true;
+  return false;
+}
+
+double Exact::next_kink(double t) const {
+  const auto next = std::upper_bound(kinks_.begin(), kinks_.end(), t);
+  return next == kinks_.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+bool Exact::holds(const State& from, double t_end) const {
+  return from.t == begin_t_ && t_end == end_t_ && from.x == begin_x_ && from.v == begin_v_;
+}
+
+void Exact::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
+                           time::Interpolated out) const {
+  // Recomputing the pieces of a step that is no longer the last changes nothing that anyone could see.
+  if (!holds(from, to.t)) const_cast<Exact*>(this)->follow(from, to.t - from.t, to.t);
+  std::size_t i = 0;
+  while (i + 1 < used_ && pieces_[i + 1].begin <= t) ++i;
+  const TaylorExpansion& piece = pieces_[i];
+  const double s = std::min((t - piece.begin) / piece.length, piece.end);
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    if (!out.x.empty()) out.x[k] = piece.value(dofs[k], s);
+    if (!out.v.empty()) out.v[k] = piece.velocity(dofs[k], s);
+    if (!out.a.empty()) out.a[k] = piece.acceleration(dofs[k], s);
+  }
+}
+
+time::IntegratorType exact_type() {
+  return {"exact",
+          {"taylor"},
+          "Taylor series with every change of contact located; no truncation error above rounding",
+          {config::integer("order", "the order of the series").at_least(4).at_most(60).or_else(30),
+           config::number("tolerance", "1", "the size of the last terms of a series relative to the largest")
+               .above(0)
+               .at_most(0.1)
+               .or_else(1e-20)},
+          kUnconditional,
+          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<Exact>(dynamics, static_cast<int>(p.integer("order")), p.number("tolerance"));
+          },
+          {}};
+}
+
+}  // namespace butee::integrators

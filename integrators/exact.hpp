@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "butee/time/integrator.hpp"
+#include "integrators/taylor_expansion.hpp"
+
+namespace butee::integrators {
+
+/// exact: Taylor series of high order from one change of contact to the next, every change located.
+///
+/// Between changes the stops are analytic functions of the motion: with a piecewise linear law they are open or closed
+/// springs, with a smooth one the step follows from the decay of the series, which a boundary layer near the path
+/// shortens. Truncation is kept below `tolerance`, by default far below rounding, so that no error of the method is
+/// left; of order `order` otherwise. A step takes `order` evaluations of M^-1 (F - C v - K x) and goes 2 to 3 over the
+/// highest frequency, so that stiff scenes cost in proportion to it. Checked in tests/models/exact_test.cpp against a
+/// solution in 80-bit arithmetic.
+/// Source of the recurrence: R. Barrio, Appl. Math. Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
+class Exact final : public time::Integrator {
+ public:
+  Exact(solve::Dynamics& dynamics, int order, double tolerance);
+
+  const time::StepController* controller() const override { return &controller_; }
+
+ private:
+  /// Every step stands; the next goes as far as the last series reached.
+  class Controller final : public time::StepController {
+   public:
+    time::StepDecision decide(double h, const time::StepReport& report) const override;
+  };
+
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                      time::Interpolated out) const override;
+  /// Fills pieces_ from `from` to t_end.
+  time::StepStatus follow(const time::State& from, double h, double t_end);
+  /// Expands at (t, x_, v_) into pieces_[used_]; shortens its length where it overflows.
+  bool expand_piece(double t, double length);
+  void place_branches();
+  double next_kink(double t) const;
+  bool holds(const time::State& from, double t_end) const;
+
+  Controller controller_;
+  TaylorExpander expander_;
+  ContactBranches branches_;
+  std::vector<double> kinks_;  ///< of the loads
+  // The pieces of the last step, kept for its interpolation.
+  std::vector<TaylorExpansion> pieces_;
+  std::size_t used_ = 0;
+  Vector begin_x_, begin_v_;
+  double begin_t_ = 0.0, end_t_ = -1.0;
+  Vector x_, v_, stops_;
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,84 @@
+#include "integrators/polynomial_root.hpp"
+
+#include <cmath>
+
+namespace butee::integrators {
+namespace {
+
+/// Intervals shorter than 2^-50 hold a touch, not a crossing.
+constexpr std::size_t kDeepest = 50;
+constexpr int kBisections = 60;
+
+int sign_changes(const std::vector<double>& values) {
+  int changes = 0;
+  double last = 0.0;
+  for (const double value : values) {
+    if (value == 0.0) continue;
+    if (last != 0.0 && std::signbit(last) != std::signbit(value)) ++changes;
+    last = value;
+  }
+  return changes;
+}
+
+}  // namespace
+
+PolynomialRoot::PolynomialRoot(int degree) : size_(static_cast<std::size_t>(degree) + 1) {
+  binomial_ratio_.assign(size_ * size_, 0.0);
+  for (std::size_t j = 0; j < size_; ++j) {
+    double ratio = 1.0;
+    for (std::size_t k = 0; k <= j; ++k) {
+      binomial_ratio_[j * size_ + k] = ratio;
+      ratio *= static_cast<double>(j - k) / static_cast<double>(size_ - 1 - k);
+    }
+  }
+  bernstein_.assign(kDeepest + 2, std::vector<double>(size_));
+}
+
+std::optional<double> PolynomialRoot::first(std::span<const double> coefficients) {
+  std::size_t begin = 0;
+  while (begin < coefficients.size() && coefficients[begin] == 0.0) ++begin;
+  if (begin == coefficients.size()) return std::nullopt;
+  polynomial_.assign(coefficients.begin() + static_cast<std::ptrdiff_t>(begin), coefficients.end());
+  polynomial_.resize(size_, 0.0);
+  for (std::size_t j = 0; j < size_; ++j) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k <= j; ++k) sum += binomial_ratio_[j * size_ + k] * polynomial_[k];
+    bernstein_[0][j] = sum;
+  }
+  return search(0, 0.0, 1.0);
+}
+
+std::optional<double> PolynomialRoot::search(std::size_t depth, double begin, double end) {
+  std::vector<double>& here = bernstein_[depth];
+  const int changes = sign_changes(here);
+  if (changes == 0) return std::nullopt;
+  if (changes == 1) return refine(begin, end);
+  if (depth == kDeepest) return std::nullopt;
+  const double middle = 0.5 * (begin + end);
+  // The first half goes one level down; the second stays here.
+  std::vector<double>& left = bernstein_[depth + 1];
+  for (std::size_t k = 0; k < size_; ++k) {
+    left[k] = here[0];
+    for (std::size_t j = 0; j + 1 < size_ - k; ++j) here[j] = 0.5 * (here[j] + here[j + 1]);
+  }
+  if (const auto root = search(depth + 1, begin, middle)) return root;
+  bernstein_[depth + 1] = here;
+  return search(depth + 1, middle, end);
+}
+
+double PolynomialRoot::refine(double begin, double end) const {
+  const bool begins_positive = begin == 0.0 ? polynomial_[0] > 0.0 : value(begin) > 0.0;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (begin + end);
+    ((value(middle) > 0.0) == begins_positive ? begin : end) = middle;
+  }
+  return end;
+}
+
+double PolynomialRoot::value(double s) const {
+  double sum = 0.0;
+  for (std::size_t k = polynomial_.size(); k > 0; --k) sum = sum * s + polynomial_[k - 1];
+  return sum;
+}
+
+}  // namespace butee::integrators

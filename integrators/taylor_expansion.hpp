@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "integrators/contact_branches.hpp"
+
+namespace butee::integrators {
+
+/// The motion from one instant on as polynomials in s = (t - begin)/length: x(t) = sum over k of x_k s^k.
+struct TaylorExpansion {
+  double begin = 0.0;   ///< s
+  double length = 0.0;  ///< s, that of s = 1
+  double reach = 0.0;   ///< the largest s at which truncation is below the tolerance
+  double end = 0.0;     ///< the s up to which it is used
+  Eigen::MatrixXd x;    ///< n x (order + 1)
+
+  double value(Index dof, double s) const;
+  double velocity(Index dof, double s) const;      ///< dx/dt
+  double acceleration(Index dof, double s) const;  ///< d2x/dt2
+};
+
+/// Expands the equations of motion on given branches of the stops:
+///
+///     x_{k+2} = length^2/((k+1)(k+2)) M^-1 (F_k + F_c,k - C x_{k+1} (k+1)/length - K x_k)
+class TaylorExpander {
+ public:
+  /// Throws InputError for loads that give no series. `dynamics` must outlive it. `tolerance` is the size of the last
+  /// terms relative to the largest.
+  TaylorExpander(solve::Dynamics& dynamics, int order, double tolerance);
+
+  /// Fills `to` from (t, x, v), with its length; decides undecided branches. False where that length overflows.
+  bool expand(double t, const Vector& x, const Vector& v, ContactBranches& branches, TaylorExpansion& to);
+
+  /// The displacements of the stops by the last expand(), m x (order + 1).
+  const Eigen::MatrixXd& stop_displacement() const { return w_; }
+
+ private:
+  void expand_loads(double t, double length);
+  void recur(ContactBranches& branches, TaylorExpansion& to);
+  double find_reach(const Eigen::MatrixXd& x);
+
+  solve::Dynamics& dynamics_;
+  Index order_;
+  double tolerance_;
+  Eigen::MatrixXd loads_;  ///< coefficients of load j in row j
+  std::vector<double> load_;
+  Eigen::MatrixXd w_;
+  Vector force_, stop_force_, stops_, velocity_, terms_;
+};
+
+}  // namespace butee::integrators
