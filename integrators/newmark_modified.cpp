@@ -46,7 +46,8 @@ IntegratorType newmark_modified_type() {
           [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p));
           },
-          {}};
+          {},
+          true};
 }
 
 IntegratorType newmark_modified_adaptive_type() {

@@ -40,7 +40,8 @@ time::IntegratorType rk4_type() {
           [](const config::Parameters&, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<RungeKutta4>(dynamics);
           },
-          {}};
+          {},
+          true};
 }
 
 }  // namespace butee::integrators

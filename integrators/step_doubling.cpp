@@ -48,7 +48,8 @@ namespace {
 
 config::Parameter tolerance() {
   return number("tolerance", "m, rad, m/s, rad/s", "eps0, the largest difference of a step against two halves, over 15")
-      .above(0);
+      .above(0)
+      .sweep(1e-1, 1e-10);
 }
 
 }  // namespace
@@ -57,8 +58,10 @@ IntegratorType rk4_fixed_factors_type() {
   return {"rk4_fixed_factors",
           {"RK4-2"},
           "Runge-Kutta 4 with step doubling, the step changed by constant factors",
-          {tolerance(), number("shrink", "1", "a, by which a rejected step is divided").above(1),
-           number("grow", "1", "b, by which the step is multiplied where the error is below a hundredth").at_least(1)},
+          {tolerance(), number("shrink", "1", "a, by which a rejected step is divided").above(1).try_first(1.1),
+           number("grow", "1", "b, by which the step is multiplied where the error is below a hundredth")
+           .at_least(1)
+           .try_first(2.0)},
           kRungeKutta4Limit,
           [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<StepDoublingRungeKutta4>(
@@ -71,7 +74,7 @@ IntegratorType rk4_error_scaled_type() {
   return {"rk4_error_scaled",
           {"RK4-3"},
           "Runge-Kutta 4 with step doubling, the step changed by the error",
-          {tolerance(), number("safety", "1", "s, the safety factor on the new step").above(0).at_most(1)},
+          {tolerance(), number("safety", "1", "s, the safety factor on the new step").above(0).at_most(1).try_first(0.9)},
           kRungeKutta4Limit,
           [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<StepDoublingRungeKutta4>(

@@ -18,7 +18,7 @@ time::StepDecision ZienkiewiczXie::decide(double h, const time::StepReport& repo
 
 std::vector<config::Parameter> ZienkiewiczXie::parameters() {
   using config::Array, config::Value;
-  return {config::number("target_error", "1", "eta_e, the local error aimed at").above(0),
+  return {config::number("target_error", "1", "eta_e, the local error aimed at").above(0).sweep(1e-1, 1e-7),
           config::numbers("band", "1", "nu1 and nu2: the step stays while eta is within nu1 eta_e and nu2 eta_e")
               .of_length(2)
               .above(0)

@@ -28,4 +28,12 @@ struct PluginsArguments {
 
 int plugins_command(const PluginsArguments& arguments);
 
+struct CompareArguments {
+  ModelArguments model;  ///< a model or a study
+  std::string folder;    ///< empty: "<stem>-compare"
+  bool fresh = false;    ///< runs everything anew
+};
+
+int compare_command(const CompareArguments& arguments);
+
 }  // namespace butee::app

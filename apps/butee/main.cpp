@@ -48,6 +48,14 @@ int parse_and_run(int argc, char** argv) {
       program.add_subcommand("check", "what a model holds, what it skips, its frequencies and critical steps");
   add_model_arguments(*check_app, check);
 
+  CompareArguments compare;
+  CLI::App* compare_app = program.add_subcommand("compare", "run time against error of several integrators");
+  add_model_arguments(*compare_app, compare.model);
+  compare_app->add_option("-o,--output", compare.folder, "the folder for the results; <stem>-compare where not given")
+      ->type_name("DIR");
+  compare_app->add_flag("--fresh", compare.fresh, "run again what an earlier call left in the folder");
+  compare_app->add_flag("-q,--quiet", quiet, "say nothing but results, warnings and errors");
+
   PluginsArguments plugins;
   CLI::App* plugins_app =
       program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, loads");
@@ -58,7 +66,7 @@ int parse_and_run(int argc, char** argv) {
   plugins_app->add_option("--write-manifest", plugins.write_manifest, "write the manifest of a module beside it")
       ->type_name("FILE");
 
-  const std::vector<std::string> known = {"run", "check", "plugins"};
+  const std::vector<std::string> known = {"run", "check", "compare", "plugins"};
   if (argc > 1 && argv[1][0] != '-' && std::find(known.begin(), known.end(), argv[1]) == known.end())
     throw butee::InputError("butee " + std::string(argv[1]) + ": there is no such command" +
                             butee::suggestion(argv[1], known) + "; known: " + butee::join(known));
@@ -71,6 +79,7 @@ int parse_and_run(int argc, char** argv) {
   if (verbose) butee::log::set_level(butee::log::Level::verbose);
   if (run_app->parsed()) return run_command(run);
   if (check_app->parsed()) return check_command(check);
+  if (compare_app->parsed()) return compare_command(compare);
   return plugins_command(plugins);
 }
 

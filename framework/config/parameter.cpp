@@ -93,6 +93,18 @@ Parameter Parameter::or_else(Value::Data value) const {
   copy.required = false;
   return copy;
 }
+
+Parameter Parameter::try_first(Value::Data value) const {
+  Parameter changed = *this;
+  changed.first_try = Value(std::move(value));
+  return changed;
+}
+
+Parameter Parameter::sweep(double loose, double tight) const {
+  Parameter changed = *this;
+  changed.swept = {loose, tight};
+  return changed;
+}
 Parameter Parameter::optional() const {
   Parameter copy = *this;
   copy.required = false;

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "butee/config/diagnostics.hpp"
@@ -27,6 +28,10 @@ struct BUTEE_EXPORT Parameter {
   Parameter or_else(Value::Data value) const;
   /// May be absent and then has no value at all.
   Parameter optional() const;
+  /// What one would try first where a value is required; comparisons of methods start from it.
+  Parameter try_first(Value::Data value) const;
+  /// The key sets how accurate a method is: comparisons sweep it from `loose` to `tight`.
+  Parameter sweep(double loose, double tight) const;
   /// The only texts allowed.
   Parameter one_of(std::vector<std::string> names) const;
   /// The exact length of an array.
@@ -48,6 +53,8 @@ struct BUTEE_EXPORT Parameter {
   bool lower_open = false;
   std::vector<std::string> choices;
   std::optional<std::size_t> length;
+  std::optional<Value> first_try;
+  std::optional<std::pair<double, double>> swept;  ///< from loose to tight
 };
 
 /// A finite real number; integers are taken too.

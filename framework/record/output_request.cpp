@@ -66,6 +66,11 @@ class OutputReader {
                          config::integer("every", "a row at every so manyth accepted step").at_least(1).optional(),
                          config::boolean("energy", "follow work, dissipation and the balance").or_else(false),
                          config::boolean("impacts", "write impacts.csv").or_else(false),
+                         config::boolean("trust", "find out how far the answer can be trusted").or_else(false),
+                         config::number("trust_accuracy", "1", "the accuracy it is to be trusted to, of the peak")
+                             .above(0)
+                             .at_most(1)
+                             .or_else(1e-2),
                          config::texts("formats", "the file formats").one_of({"csv"}).optional(),
                          config::table("probe", "the recorded nodes: [[output.probe]]").optional()},
                         diagnostics_);
@@ -85,6 +90,8 @@ class OutputReader {
                   "gives more than 1e9 rows until end_time = " + to_text(end_time_) + " s; make it larger");
     request.energy = p->flag("energy");
     request.impacts = p->flag("impacts");
+    request.trust = p->flag("trust");
+    request.trust_accuracy = p->number("trust_accuracy");
     return request;
   }
 

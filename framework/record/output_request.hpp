@@ -26,6 +26,8 @@ struct OutputRequest {
   std::int64_t every = 0;          ///< rows at every so manyth accepted step, where interval is absent
   bool energy = false;
   bool impacts = false;
+  bool trust = false;            ///< find out how far the answer can be trusted
+  double trust_accuracy = 1e-2;  ///< relative to the peak
   std::vector<ProbeRequest> probes;
 };
 

@@ -68,6 +68,8 @@ struct IntegratorType {
   std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make;
   /// Reports values that are each allowed but do not go together. May be empty.
   std::function<void(const config::Parameters&, config::Diagnostics&)> check;
+  /// True where time_step alone sets the accuracy, so that comparisons sweep it.
+  bool fixed_step = false;
 };
 
 }  // namespace butee::time

@@ -1,0 +1,133 @@
+#include "reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
+
+namespace butee::app::compare {
+namespace {
+
+/// Two references part company where they differ by this fraction of the peak.
+constexpr double kParted = 1e-3;
+/// A reference may take this long, s.
+constexpr double kTimeLimit = 600.0;
+constexpr double kSameInstant = 1e-9;
+
+/// Relative to the peak: the start of the second computation differs by this.
+constexpr double kRounding = 1e-16;
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+std::vector<double> compute(const config::Document& scene, const plugin::Catalogue& catalogue,
+                            const Question& question, int order, double perturbation) {
+  plugin::Catalogue own = catalogue;
+  const time::IntegratorType& type = own.load("exact");
+  Sweep sweep{"exact", "", {}, {}};
+  sweep.settings["order"] = config::Value(std::int64_t{order});
+  config::Document document = with_method(scene, type, sweep, 0.0);
+  Session session = read_session(std::move(document), own);
+  Answer answer = run_once(session, question, kTimeLimit, perturbation);
+  if (!answer.completed)
+    throw RunError("the reference by exact failed: " + answer.message +
+                   "; give one as a file ([study] reference) or another horizon (end_time)");
+  return std::move(answer.values);
+}
+
+void compare_both(const std::vector<double>& other, const Question& question, Reference& reference) {
+  reference.peak = largest_of(reference.values);
+  std::size_t agreed = 0;
+  double squares = 0.0, all = 0.0;
+  for (; agreed < other.size(); ++agreed) {
+    const double difference = reference.values[agreed] - other[agreed];
+    if (std::abs(difference) > kParted * reference.peak) break;
+    squares += difference * difference;
+    all += reference.values[agreed] * reference.values[agreed];
+  }
+  reference.parted = agreed < other.size();
+  reference.horizon = agreed > 0 ? question.times[agreed - 1] : 0.0;
+  reference.values.resize(agreed);
+  reference.uncertainty = all > 0.0 ? std::sqrt(squares / all) : 0.0;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// The rows of the file at the times of the question.
+std::vector<double> read_file(const std::string& path, const Question& question) {
+  std::ifstream file(path);
+  if (!file) throw InputError("study.reference = \"" + path + "\": cannot be read");
+  std::string line;
+  while (std::getline(file, line) && line.starts_with('#')) {
+  }
+  const std::vector<std::string> header = split(line);
+  const auto place = [&](const std::string& name) {
+    const auto found = std::find(header.begin(), header.end(), name);
+    if (found == header.end()) throw InputError(path + ": there is no column \"" + name + "\"; it has " + join(header));
+    return static_cast<std::size_t>(found - header.begin());
+  };
+  const std::size_t t = place("t"), value = place(question.column);
+  std::vector<double> values;
+  for (std::size_t number = 2; values.size() < question.times.size() && std::getline(file, line); ++number) {
+    const auto cells = split(line);
+    try {
+      const double at = question.times[values.size()];
+      if (std::abs(std::stod(cells.at(t)) - at) <= kSameInstant * question.times.back())
+        values.push_back(std::stod(cells.at(value)));
+    } catch (const std::exception&) {
+      throw InputError(path + ": row " + std::to_string(number) + " is not a row of numbers");
+    }
+  }
+  if (values.size() < question.times.size())
+    throw InputError(path + ": has no row at t = " + to_short_text(question.times[values.size()]) +
+                     " s; it must hold every output time of the scene");
+  return values;
+}
+
+}  // namespace
+
+Reference find_reference(const Study& study, const config::Document& scene, plugin::Catalogue& catalogue,
+                         const Question& question) {
+  Reference reference;
+  if (!study.reference_file.empty()) {
+    reference.origin = study.reference_file + ", taken as it is";
+    reference.values = read_file(study.reference_file, question);
+    compare_both(reference.values, question, reference);
+    return reference;
+  }
+  if (catalogue.find("exact") == nullptr)
+    throw InputError("the method exact is not installed, which references are made by; give a file: [study] reference");
+  reference.origin = "exact at order 30, and at order 22 from a start that differs by rounding";
+  reference.values = compute(scene, catalogue, question, 30, 0.0);
+  const double peak = largest_of(reference.values);
+  compare_both(compute(scene, catalogue, question, 22, kRounding * peak), question, reference);
+  return reference;
+}
+
+Error error_of(const std::vector<double>& values, const Reference& reference) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  if (values.size() < reference.values.size()) return {kInfinite, kInfinite};
+  double squares = 0.0, all = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < reference.values.size(); ++i) {
+    const double difference = values[i] - reference.values[i];
+    squares += difference * difference;
+    all += reference.values[i] * reference.values[i];
+    largest = std::max(largest, std::abs(difference));
+  }
+  if (!(all > 0.0)) return {kInfinite, kInfinite};
+  return {std::sqrt(squares / all), largest / reference.peak};
+}
+
+}  // namespace butee::app::compare

@@ -1,0 +1,230 @@
+#include "report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include <butee/core/text.hpp>
+
+namespace butee::app::compare {
+namespace {
+
+std::string number(double value, int digits = 3) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+/// 0.00123 s as "1.23 ms".
+std::string duration(double seconds) {
+  if (seconds < 1e-3) return number(seconds * 1e6) + " us";
+  if (seconds < 1.0) return number(seconds * 1e3) + " ms";
+  return number(seconds) + " s";
+}
+
+std::vector<std::string> methods_of(const std::vector<Row>& rows) {
+  std::vector<std::string> methods;
+  for (const Row& row : rows)
+    if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) methods.push_back(row.method);
+  return methods;
+}
+
+/// An error can be told where the reference is several times as accurate.
+bool is_beyond_doubt(const SceneResult& result, double target) {
+  constexpr double kTimes = 3.0;
+  return target > kTimes * result.reference.uncertainty;
+}
+
+void write_reference(std::ostream& out, const SceneResult& result) {
+  const Reference& r = result.reference;
+  out << "Reference: " << r.origin << "; its uncertainty (relative rms of two computations) is "
+      << number(r.uncertainty) << ".\n";
+  if (r.parted)
+    out << "The two computations part company at t = " << number(r.horizon, 4)
+        << " s: from there on the motion cannot be computed this way, and errors are taken up to there alone; "
+           "times are those of runs to the end, t = "
+        << number(result.end_time, 4) << " s.\n";
+  else
+    out << "They agree to the end, t = " << number(result.end_time, 4) << " s.\n";
+}
+
+void write_fastest(std::ostream& out, const Study& study, const SceneResult& result) {
+  out << "\n| error up to | fastest | with | error | time | next best |\n|---|---|---|---|---|---|\n";
+  for (const double target : study.targets) {
+    out << "| " << number(target) << " | ";
+    const Row* best = fastest_beyond_doubt(result, target);
+    if (best == nullptr) {
+      out << (is_beyond_doubt(result, target) ? "none reached it" : "within the reference's own uncertainty")
+          << " | | | | |\n";
+      continue;
+    }
+    std::vector<Row> others;
+    for (const Row& row : result.rows)
+      if (row.method != best->method) others.push_back(row);
+    const Row* next = fastest(others, target);
+    out << best->method << " | " << best->knob << " = " << number(best->value) << " | " << number(best->error.rms)
+        << " | " << duration(best->seconds) << " | "
+        << (next != nullptr ? next->method + ", " + number(next->seconds / best->seconds) + " times" : "none")
+        << " |\n";
+  }
+}
+
+void write_runs(std::ostream& out, const SceneResult& result) {
+  out << "\n| method | with | error (rms) | error (max) | time | steps | rejected | factorizations | solves | contact "
+         "evaluations |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Row& row : result.rows) {
+    out << "| " << row.method << " | " << row.knob << " = " << number(row.value) << " | ";
+    if (!row.completed()) {
+      out << row.outcome << " | | " << duration(row.seconds) << " | | | | | |\n";
+      continue;
+    }
+    out << number(row.error.rms) << " | " << number(row.error.largest) << " | " << duration(row.seconds) << " | "
+        << row.steps << " | " << row.rejected << " | " << row.factorizations << " | " << row.solves << " | "
+        << row.contact_evaluations << " |\n";
+  }
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::string cell;
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.push_back(std::exchange(cell, {}));
+    else
+      cell += c;
+  }
+  cells.push_back(cell);
+  return cells;
+}
+
+std::string quoted(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return "\"" + text + "\"";
+}
+
+constexpr std::size_t kColumns = 16;
+
+}  // namespace
+
+std::string csv_header() {
+  return "fingerprint,scene,method,knob,value,outcome,error_rms,error_max,seconds,steps,rejected,newton_iterations,"
+         "factorizations,solves,contact_evaluations,force_evaluations";
+}
+
+std::string csv_line(const Row& row) {
+  std::ostringstream out;
+  out.precision(17);
+  out << row.fingerprint << ',' << quoted(row.scene) << ',' << row.method << ',' << row.knob << ',' << row.value << ','
+      << quoted(row.outcome) << ',';
+  if (row.completed()) out << row.error.rms;
+  out << ',';
+  if (row.completed()) out << row.error.largest;
+  out << ',' << row.seconds << ',' << row.steps << ',' << row.rejected << ',' << row.newton << ','
+      << row.factorizations << ',' << row.solves << ',' << row.contact_evaluations << ',' << row.force_evaluations;
+  return out.str();
+}
+
+std::vector<Row> read_csv(const std::string& path) {
+  std::vector<Row> rows;
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  if (line != csv_header()) return rows;
+  while (std::getline(file, line)) {
+    const auto cells = split(line);
+    if (cells.size() != kColumns) continue;
+    try {
+      Row row;
+      row.fingerprint = cells[0];
+      row.scene = cells[1];
+      row.method = cells[2];
+      row.knob = cells[3];
+      row.value = std::stod(cells[4]);
+      row.outcome = cells[5];
+      if (row.completed()) row.error = {std::stod(cells[6]), std::stod(cells[7])};
+      row.seconds = std::stod(cells[8]);
+      const std::array<std::int64_t*, 7> counts = {&row.steps,  &row.rejected,          &row.newton,           &row.factorizations,
+                                                   &row.solves, &row.contact_evaluations, &row.force_evaluations};
+      for (std::size_t i = 0; i < counts.size(); ++i) *counts[i] = std::stoll(cells[9 + i]);
+      rows.push_back(std::move(row));
+    } catch (const std::exception&) {
+      continue;  // a line cut short by an interruption
+    }
+  }
+  return rows;
+}
+
+const Row* fastest(const std::vector<Row>& rows, double target) {
+  const Row* best = nullptr;
+  for (const Row& row : rows)
+    if (row.completed() && row.error.rms <= target && (best == nullptr || row.seconds < best->seconds)) best = &row;
+  return best;
+}
+
+const Row* fastest_beyond_doubt(const SceneResult& result, double target) {
+  return is_beyond_doubt(result, target) ? fastest(result.rows, target) : nullptr;
+}
+
+std::string markdown(const Study& study, const std::vector<SceneResult>& results, const std::string& command) {
+  std::ostringstream out;
+  out << "# " << (study.title.empty() ? "Run time against error" : study.title) << "\n\nMade by `" << command
+      << "`. Errors are relative to a reference over all output times; times are set-up and integration of one run\n"
+         "on one machine, the fastest of several, without files.\n";
+  for (const SceneResult& result : results) {
+    out << "\n## " << (result.title.empty() ? result.scene : result.title) << "\n\n`" << result.scene << "`, "
+        << result.column << ", to t = " << number(result.end_time, 4) << " s. ";
+    write_reference(out, result);
+    write_fastest(out, study, result);
+    out << "\n![error against time](work-precision-" << result.scene << ".svg)\n";
+    write_runs(out, result);
+  }
+  return out.str();
+}
+
+bool draw(const SceneResult& result, const std::string& folder) {
+  const std::string base = folder + "/work-precision-" + result.scene;
+  std::ofstream data(base + ".dat");
+  const std::vector<std::string> methods = methods_of(result.rows);
+  std::vector<std::string> drawn;
+  for (const std::string& method : methods) {
+    std::vector<const Row*> points;
+    for (const Row& row : result.rows)
+      if (row.method == method && row.completed() && row.error.rms < 2.0 && row.error.rms > 0.0) points.push_back(&row);
+    if (points.empty()) continue;
+    drawn.push_back(method);
+    for (const Row* row : points) data << row->seconds * 1e3 << ' ' << row->error.rms << '\n';
+    data << "\n\n";
+  }
+  data.close();
+  std::ofstream script(base + ".gp");
+  script << "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset grid xtics ytics mxtics mytics lt 1 lc rgb '#c8c8c8', lt 1 lc rgb '#eeeeee'\n"
+            "set border 3\nset tics nomirror out\nset key outside right center reverse Left samplen 2 spacing 1.2\n"
+         << "set xlabel 'time of one run / ms'\nset ylabel 'relative rms error of " << result.column << "' noenhanced\n"
+         << "set title '" << (result.title.empty() ? result.scene : result.title) << "' noenhanced\n"
+         << "set style increment user\n";
+  const std::array<const char*, 10> colours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e",
+                                               "#17becf", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"};
+  std::string plot = "plot ";
+  if (result.reference.uncertainty > 0.0)
+    plot += number(result.reference.uncertainty, 6) + " w l lc rgb '#000000' dt 3 t 'reference itself', ";
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    plot += "'" + base + ".dat' index " + std::to_string(i) + " w lp lw 1.6 ps 0.8 pt " +
+            std::to_string(std::array{4, 5, 6, 7, 8, 9, 10, 11, 12, 13}[i % 10]) + " lc rgb '" + colours[i % 10] +
+            "' t '" + drawn[i] + "' noenhanced, ";
+  plot.resize(plot.size() - 2);
+  for (const auto& [terminal, suffix] :
+       {std::pair{"pngcairo size 1200,750 font 'sans,13'", ".png"}, std::pair{"svg size 900,560 font 'sans,13'", ".svg"}})
+    script << "set terminal " << terminal << "\nset output '" << base << suffix << "'\n" << plot << "\n";
+  script << "set output\n";
+  script.close();
+  return !drawn.empty() && std::system(("gnuplot '" + base + ".gp' > /dev/null 2>&1").c_str()) == 0;
+}
+
+}  // namespace butee::app::compare

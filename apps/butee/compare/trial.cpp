@@ -1,0 +1,123 @@
+#include "trial.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
+
+namespace butee::app::compare {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Short runs are repeated until they took this together, and at least so often.
+constexpr double kReliable = 0.1;
+constexpr int kFewestRuns = 3, kMostRuns = 200;
+/// Steps between two looks at the clock.
+constexpr int kStepsUnwatched = 64;
+constexpr double kSameInstant = 1e-9;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Adds numbers between -size and size that have no pattern of the structure's.
+void perturb(Vector& x, double size) {
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  for (Index i = 0; i < x.size(); ++i) {
+    const double turns = kGoldenRatio * static_cast<double>(i + 1);
+    x[i] += size * (2.0 * (turns - std::floor(turns)) - 1.0);
+  }
+}
+
+/// Takes the quantity at the times of the question, by the method's own interpolant.
+class Sampler final : public time::Observer {
+ public:
+  Sampler(const Question& question, solve::Dynamics& dynamics)
+      : question_(question), probes_({question.probe}, dynamics) {}
+
+  void start(const time::State& state) override {
+    if (!question_.times.empty() && question_.times.front() <= state.t) take([&](auto to) { probes_.evaluate(state, to); });
+  }
+  void step(const time::AcceptedStep& step) override {
+    while (values.size() < question_.times.size() && question_.times[values.size()] <= step.to.t)
+      take([&](auto to) { probes_.evaluate(step, question_.times[values.size()], to); });
+  }
+
+  std::vector<double> values;
+
+ private:
+  template <class Evaluate>
+  void take(Evaluate evaluate) {
+    double value = 0.0;
+    evaluate(std::span<double>(&value, 1));
+    values.push_back(value);
+  }
+
+  const Question& question_;
+  record::Probes probes_;
+};
+
+}  // namespace
+
+Question question_of(const Session& session, const std::string& column) {
+  std::vector<std::string> known;
+  std::optional<Question> question;
+  for (const record::ProbeRequest& probe : session.output.probes)
+    for (const record::Quantity quantity : probe.quantities) {
+      known.push_back(probe.label + "." + name_of(quantity));
+      if (!question && (column.empty() || column == known.back()))
+        question = Question{{probe.label, probe.node, {quantity}}, known.back(), {}};
+    }
+  if (!question)
+    throw InputError(session.document.sources.front() + ": there is no column \"" + column + "\"" +
+                     suggestion(column, known) + "; [[output.probe]] gives " + join(known));
+  const double end = session.integrator.options.end_time, interval = session.output.interval.value_or(end / 1000.0);
+  for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1.0 - kSameInstant); ++i)
+    question->times.push_back(static_cast<double>(i) * interval);
+  question->times.push_back(end);
+  return std::move(*question);
+}
+
+Answer run_once(Session& session, const Question& question, double time_limit, double perturbation) {
+  Answer answer;
+  const auto begin = Clock::now();
+  model::System system = assemble(session.model);
+  if (perturbation != 0.0) perturb(system.initial_displacement, perturbation);
+  solve::Dynamics dynamics(system);
+  const auto integrator =
+      session.catalogue.load(session.integrator.name).make(session.integrator.parameters, dynamics);
+  time::Simulation simulation(dynamics, *integrator, session.integrator.options);
+  Sampler sampler(question, dynamics);
+  simulation.add(sampler);
+  bool goes_on = true;
+  while (goes_on && interrupted == 0 && seconds_since(begin) < time_limit)
+    for (int i = 0; i < kStepsUnwatched && goes_on; ++i) goes_on = simulation.advance();
+  answer.seconds = seconds_since(begin);
+  answer.report = simulation.report();
+  answer.completed = answer.report.completed;
+  answer.message = answer.report.message;
+  if (goes_on && !answer.completed) answer.message = interrupted != 0 ? "interrupted" : "too slow";
+  answer.counters = dynamics.counters();
+  answer.values = std::move(sampler.values);
+  return answer;
+}
+
+Answer measure(Session& session, const Question& question, double time_limit) {
+  Answer best = run_once(session, question, time_limit);
+  double sum = best.seconds;
+  for (int i = 1; best.completed && i < kMostRuns && interrupted == 0; ++i) {
+    if (sum > kReliable && (i >= kFewestRuns || sum > time_limit)) break;
+    Answer next = run_once(session, question, time_limit);
+    sum += next.seconds;
+    if (next.completed && next.seconds < best.seconds) best = std::move(next);
+  }
+  return best;
+}
+
+}  // namespace butee::app::compare

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cinttypes>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include <butee/config/override.hpp>
+#include <butee/config/toml.hpp>
+#include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
+#include <butee/core/text.hpp>
+#include <butee/record/result_folder.hpp>
+#include <butee/solve/frequencies.hpp>
+#include <butee/version.hpp>
+
+#include "commands.hpp"
+#include "compare/report.hpp"
+
+namespace butee::app {
+namespace {
+
+using namespace compare;
+
+/// A sweep goes on while errors are above this fraction of the smallest target.
+constexpr double kFineEnough = 0.3;
+/// A run that takes longer than the last one by this factor and the ratio of the steps is not expected.
+constexpr double kGrowth = 2.0;
+
+extern "C" void note_interruption(int) {
+  interrupted = 1;
+}
+
+/// FNV-1a over what a row depends on.
+std::string fingerprint_of(const std::string& text) {
+  std::uint64_t hash = 1469598103934665603U;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  std::array<char, 20> hex{};
+  std::snprintf(hex.data(), hex.size(), "%016" PRIx64, hash);
+  return hex.data();
+}
+
+class Comparison {
+ public:
+  Comparison(const CompareArguments& arguments, Study study)
+      : arguments_(arguments), study_(std::move(study)), folder_(arguments.folder) {
+    if (folder_.empty()) folder_ = std::filesystem::path(arguments.model.model).stem().string() + "-compare";
+  }
+
+  int perform() {
+    std::vector<Prepared> scenes;
+    for (const std::string& path : study_.scenes) scenes.push_back(prepare(path));
+    const record::ResultFolder folder(folder_);
+    folder.check();
+    const std::string runs = folder.file("runs.csv");
+    if (!arguments_.fresh) kept_ = read_csv(runs);
+    folder.prepare("# the scenes of a comparison are named in report.md\n");
+    std::signal(SIGINT, note_interruption);
+    std::vector<SceneResult> results;
+    for (Prepared& scene : scenes) {
+      if (interrupted != 0) break;
+      results.push_back(compare_scene(scene));
+      write(results);
+    }
+    if (interrupted == 0) return kDone;
+    log::warning("interrupted; what was done is in " + folder_ + ", and the same command goes on from there");
+    return kFailed;
+  }
+
+ private:
+  struct Prepared {
+    config::Document document;
+    Session session;
+    Question question;
+    std::vector<Sweep> sweeps;
+  };
+
+  Prepared prepare(const std::string& path) {
+    config::Document document = config::load_toml(path);
+    for (const std::string& assignment : study_.overrides) config::apply_override(document, assignment);
+    if (study_.end_time) config::apply_override(document, "integrator.end_time=" + to_text(*study_.end_time));
+    Session session = read_session(document, plugin::Catalogue::with_plugins(arguments_.model.plugins));
+    Question question = question_of(session, study_.quantity.value_or(""));
+    const model::System system = assemble(session.model);
+    const auto range = frequency_range(system, solve::StopState::closed);
+    auto sweeps = complete_sweeps(study_, session.catalogue, range ? range->highest : 0.0,
+                                  session.integrator.options.end_time);
+    return {std::move(document), std::move(session), std::move(question), std::move(sweeps)};
+  }
+
+  SceneResult compare_scene(Prepared& scene) {
+    SceneResult result;
+    result.scene = std::filesystem::path(scene.document.sources.front()).stem().string();
+    result.title = scene.session.model.title;
+    result.column = scene.question.column;
+    result.end_time = scene.session.integrator.options.end_time;
+    log::info(result.scene + ": reference");
+    result.reference = find_reference(study_, scene.document, scene.session.catalogue, scene.question);
+    log::info(result.scene + ": reference by " + result.reference.origin + ", uncertainty " +
+              to_short_text(result.reference.uncertainty) +
+              (result.reference.parted ? ", trusted to t = " + to_short_text(result.reference.horizon) + " s" : ""));
+    for (const Sweep& sweep : scene.sweeps) run_sweep(scene, sweep, result);
+    return result;
+  }
+
+  void run_sweep(Prepared& scene, const Sweep& sweep, SceneResult& result) {
+    const double finest = *std::min_element(study_.targets.begin(), study_.targets.end()) * kFineEnough;
+    const double floor = std::max(finest, result.reference.uncertainty);
+    double last_seconds = 0.0;
+    for (const double value : sweep.values) {
+      if (interrupted != 0 || last_seconds * kGrowth > study_.time_limit) return;
+      Row row = run(scene, sweep, value, result);
+      if (row.outcome == "interrupted") return;
+      log::info(describe(row));
+      last_seconds = row.outcome == "too slow" ? study_.time_limit : row.seconds;
+      const bool fine = row.completed() && row.error.rms <= floor;
+      result.rows.push_back(std::move(row));
+      if (fine) return;
+    }
+  }
+
+  Row run(Prepared& scene, const Sweep& sweep, double value, const SceneResult& result) {
+    const time::IntegratorType& type = scene.session.catalogue.load(sweep.method);
+    config::Document document = with_method(scene.document, type, sweep, value);
+    Row row;
+    row.scene = result.scene;
+    row.method = sweep.method;
+    row.knob = sweep.knob;
+    row.value = value;
+    row.fingerprint = fingerprint_of(BUTEE_VERSION + config::write_toml(*document.root.table()) + result.column +
+                                     to_text(result.reference.horizon));
+    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Row& other) {
+      return other.fingerprint == row.fingerprint && other.scene == row.scene;
+    });
+    if (known != kept_.end()) return *known;
+    Session session = read_session(std::move(document), scene.session.catalogue);
+    const Answer answer = measure(session, scene.question, study_.time_limit);
+    if (!answer.completed) row.outcome = answer.message;
+    row.error = error_of(answer.values, result.reference);
+    // The reference's own method: what is known of its error is the uncertainty.
+    if (row.method == "exact") row.error.rms = std::max(row.error.rms, result.reference.uncertainty);
+    row.seconds = answer.seconds;
+    row.steps = answer.report.steps;
+    row.rejected = answer.report.rejected;
+    row.newton = answer.report.newton_iterations;
+    row.factorizations = answer.counters.factorizations;
+    row.solves = answer.counters.solves;
+    row.contact_evaluations = answer.counters.contact_evaluations;
+    row.force_evaluations = answer.counters.force_evaluations;
+    return row;
+  }
+
+  static std::string describe(const Row& row) {
+    std::string text = row.scene + ": " + row.method + ", " + row.knob + " = " + to_short_text(row.value) + ": ";
+    if (!row.completed()) return text + row.outcome;
+    return text + "error " + to_short_text(row.error.rms) + ", " + to_short_text(row.seconds * 1e3) + " ms";
+  }
+
+  void write(const std::vector<SceneResult>& results) {
+    const record::ResultFolder folder(folder_);
+    std::string csv = csv_header() + "\n";
+    for (const SceneResult& result : results)
+      for (const Row& row : result.rows) csv += csv_line(row) + "\n";
+    for (const Row& row : kept_)
+      if (std::none_of(results.begin(), results.end(), [&](const auto& result) { return result.scene == row.scene; }))
+        csv += csv_line(row) + "\n";
+    folder.write("runs.csv", csv);
+    bool drawn = true;
+    for (const SceneResult& result : results) drawn = draw(result, folder_) && drawn;
+    folder.write("report.md", markdown(study_, results, "butee compare " + arguments_.model.model));
+    if (!drawn) log::warning("gnuplot could not draw; its scripts are in " + folder_ + " (Debian: gnuplot-nox)");
+    for (const double target : study_.targets)
+      if (const Row* best = fastest_beyond_doubt(results.back(), target))
+        std::printf("%s: error up to %s: %s with %s = %s, %s ms\n", best->scene.c_str(), to_short_text(target).c_str(),
+                    best->method.c_str(), best->knob.c_str(), to_short_text(best->value).c_str(),
+                    to_short_text(best->seconds * 1e3).c_str());
+    std::printf("%s: report in %s/report.md\n", results.back().scene.c_str(), folder_.c_str());
+  }
+
+  const CompareArguments& arguments_;
+  Study study_;
+  std::string folder_;
+  std::vector<Row> kept_;
+};
+
+}  // namespace
+
+int compare_command(const CompareArguments& arguments) {
+  return Comparison(arguments, read_study(arguments.model)).perform();
+}
+
+}  // namespace butee::app
