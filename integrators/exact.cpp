@@ -137,7 +137,8 @@ time::IntegratorType exact_type() {
            config::number("tolerance", "1", "the size of the last terms of a series relative to the largest")
                .above(0)
                .at_most(0.1)
-               .or_else(1e-20)},
+               .or_else(1e-20)
+               .sweep(1e-4, 1e-20)},
           kUnconditional,
           [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Exact>(dynamics, static_cast<int>(p.integer("order")), p.number("tolerance"));

@@ -13,6 +13,7 @@ struct RunArguments {
   ModelArguments model;
   std::string folder;  ///< empty: "<model stem>-results"
   int repeat = 1;
+  bool trust = false;  ///< as [output] trust
   std::string progress = "auto";
 };
 

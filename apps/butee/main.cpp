@@ -39,6 +39,7 @@ int parse_and_run(int argc, char** argv) {
   run_app->add_option("--repeat", run.repeat, "integrate N times and report the fastest")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
+  run_app->add_flag("--trust", run.trust, "find out how far the answer can be trusted: runs the scene four more times");
   run_app->add_option("--progress", run.progress, "a progress bar")->check(CLI::IsMember({"auto", "always", "never"}));
   auto* quiet_flag = run_app->add_flag("-q,--quiet", quiet, "say nothing but warnings and errors");
   run_app->add_flag("-v,--verbose", verbose, "say more")->excludes(quiet_flag);

@@ -15,6 +15,7 @@
 #include <butee/record/summary.hpp>
 
 #include "commands.hpp"
+#include "trust.hpp"
 
 namespace butee::app {
 namespace {
@@ -108,6 +109,7 @@ void print(const record::Summary& summary, const Session& session, const std::st
     std::printf("  largest |%s| = %s\n", column.c_str(), to_short_text(value).c_str());
   if (summary.followed)
     std::printf("  energy balance error %s\n", to_short_text(summary.followed->balance_error).c_str());
+  if (summary.trust) std::fputs(record::describe(*summary.trust).c_str(), stdout);
   std::printf("  results in %s\n", folder.c_str());
 }
 
@@ -115,6 +117,7 @@ void print(const record::Summary& summary, const Session& session, const std::st
 
 int run_command(const RunArguments& arguments) {
   Session session = open_session(arguments.model);
+  session.output.trust = session.output.trust || arguments.trust;
   for (const std::string& warning : session.warnings) log::warning(warning);
   const std::string folder_name = !arguments.folder.empty()
                                       ? arguments.folder
@@ -132,6 +135,7 @@ int run_command(const RunArguments& arguments) {
     best.setup_seconds = std::min(best.setup_seconds, next.setup_seconds);
     best.report.wall_seconds = std::min(best.report.wall_seconds, next.report.wall_seconds);
   }
+  if (session.output.trust && best.report.completed) best.trust = find_trust(session);
   folder.write("summary.json", record::to_json(best));
   if (!log::is_quiet()) print(best, session, folder.path());
   if (best.report.completed) return kDone;

@@ -13,6 +13,22 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+Json to_json(const Trust& trust) {
+  Json json;
+  json["accuracy"] = number(trust.accuracy);
+  json["horizon"] = number(trust.horizon);
+  json["to_the_end"] = trust.to_the_end;
+  json["difference"] = number(trust.difference);
+  json["growth_rate"] = number(trust.growth_rate);
+  json["amplification"] = number(trust.amplification);
+  json["chaotic"] = trust.chaotic;
+  json["tightened"] = trust.tightened;
+  json["statistics"] = Json::object();
+  for (const Trust::Statistic& s : trust.statistics)
+    json["statistics"][s.name] = {{"value", number(s.value)}, {"least", number(s.least)}, {"greatest", number(s.greatest)}};
+  return json;
+}
+
 }  // namespace
 
 std::string to_json(const Summary& summary) {
@@ -46,6 +62,7 @@ std::string to_json(const Summary& summary) {
   energy["work"] = summary.followed ? number(summary.followed->work) : Json(nullptr);
   energy["dissipated"] = summary.followed ? number(summary.followed->dissipated) : Json(nullptr);
   energy["balance_error"] = summary.followed ? number(summary.followed->balance_error) : Json(nullptr);
+  if (summary.trust) json["trust"] = to_json(*summary.trust);
   return json.dump(2) + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "butee/record/energy.hpp"
+#include "butee/record/trust.hpp"
 
 namespace butee::record {
 
@@ -21,6 +22,7 @@ struct Summary {
     double work, dissipated, balance_error;
   };
   std::optional<Followed> followed;
+  std::optional<Trust> trust;  ///< where it was asked for
 };
 
 /// The summary as JSON; a number that is not finite becomes null.

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
+
+#include "../perturb.hpp"
 
 namespace butee::app::compare {
 
@@ -24,15 +25,6 @@ constexpr double kSameInstant = 1e-9;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-/// Adds numbers between -size and size that have no pattern of the structure's.
-void perturb(Vector& x, double size) {
-  constexpr double kGoldenRatio = 0.6180339887498949;
-  for (Index i = 0; i < x.size(); ++i) {
-    const double turns = kGoldenRatio * static_cast<double>(i + 1);
-    x[i] += size * (2.0 * (turns - std::floor(turns)) - 1.0);
-  }
 }
 
 /// Takes the quantity at the times of the question, by the method's own interpolant.
