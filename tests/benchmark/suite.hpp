@@ -6,5 +6,7 @@ namespace butee::benchmarks {
 /// them.
 void register_kernels();
 void register_methods();
+/// scale/SCENE/DOFs/METHOD
+void register_scale();
 
 }  // namespace butee::benchmarks

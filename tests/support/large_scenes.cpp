@@ -18,9 +18,11 @@ inner_radius = 0.04
 mass_proportional = 0.03
 
 [integrator]
-type                = "newmark"
-time_step           = 1.0e-4
-end_time            = 1.0
+type      = "newmark"
+time_step = 1.0e-4
+end_time  = 1.0
+
+[integrator.newmark]
 residual_tolerance  = 1.0e-7
 increment_tolerance = 1.0e-7
 max_iterations      = 10
