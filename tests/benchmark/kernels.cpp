@@ -1,9 +1,11 @@
 // The kernels of framework/solve beside the plain ones, on beam1 (68 DOFs, band 3, 33 arctan stops).
-#include <benchmark/benchmark.h>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 
+#include <benchmark/benchmark.h>
 #include <butee/solve/band_factor.hpp>
 #include <butee/solve/linear_solver.hpp>
 

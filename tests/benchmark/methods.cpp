@@ -1,10 +1,11 @@
 // Whole methods: assembly, first factorization and all steps, in memory. Reading is left out on both sides. Both follow
 // the largest |u| and |v| of the loaded DOF at every step, and record nothing else.
-#include <benchmark/benchmark.h>
+#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
+
+#include <benchmark/benchmark.h>
 
 #include "plain/plain.hpp"
 #include "suite.hpp"

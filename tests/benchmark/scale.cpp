@@ -1,12 +1,13 @@
 // Large scenes: what set-up and a step cost from 1e3 to 1e6 DOFs, for one long beam and for 16 that are tied together.
 #include <algorithm>
-#include <benchmark/benchmark.h>
 #include <chrono>
 #include <functional>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <string>
 #include <sys/resource.h>
+
+#include <benchmark/benchmark.h>
 
 #include "suite.hpp"
 #include "support/large_scenes.hpp"

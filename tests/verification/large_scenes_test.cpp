@@ -2,6 +2,7 @@
 #include "support/large_scenes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <string>
 
