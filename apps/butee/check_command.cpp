@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <string>
 
 #include <Eigen/SparseCholesky>
@@ -33,18 +34,35 @@ void print_contents(const model::Model& model, const model::System& system) {
   std::printf("loads      %zu\n", loads);
 }
 
-void print_skipped(const model::System& system, bool has_stops) {
-  const auto say = [](const std::string& line) { std::printf("skips      %s\n", line.c_str()); };
+void say_skipped(const std::string& line) {
+  std::printf("skips      %s\n", line.c_str());
+}
+
+/// What the system does without, whatever the scene names.
+void print_skipped_terms(const model::System& system, bool has_stops) {
   if (system.skipped_stops > 0)
-    say(std::to_string(system.skipped_stops) + " stops whose ends are all fixed: they can never act");
+    say_skipped(std::to_string(system.skipped_stops) + " stops whose ends are all fixed: they can never act");
   if (system.skipped_loads > 0)
-    say(std::to_string(system.skipped_loads) + " loads that are zero at all times or act on fixed DOFs alone");
-  if (!has_stops) say("contact: the scene has no stops, so an implicit method factorizes once for each step size");
+    say_skipped(std::to_string(system.skipped_loads) + " loads that are zero at all times or act on fixed DOFs alone");
+  if (system.loads.empty()) say_skipped("loads: nothing drives the free DOFs");
+  if (!has_stops)
+    say_skipped("contact: the scene has no stops, so an implicit method factorizes once for each step size");
   if (system.damping.mass_proportional == 0.0 && system.damping.stiffness_proportional == 0.0 &&
       system.dashpots.size() == 0)
-    say("damping: C is zero");
+    say_skipped("damping: C is zero");
   else if (system.dashpots.size() == 0)
-    say("a damping matrix: C is Rayleigh's, made of M and K");
+    say_skipped("a damping matrix: C is Rayleigh's, made of M and K");
+}
+
+/// What a run of this scene does not follow, and does not load.
+void print_skipped_work(const Session& session) {
+  if (!session.output.energy) say_skipped("the energy balance: [output] does not ask for energy");
+  if (!session.output.impacts) say_skipped("the list of impacts: [output] does not ask for impacts");
+  const plugin::IntegratorEntry* chosen = session.catalogue.find(session.integrator.name);
+  std::set<std::string> others;
+  for (const plugin::IntegratorEntry& entry : session.catalogue.integrators())
+    if (entry.module != chosen->module) others.insert(entry.module);
+  if (!others.empty()) say_skipped(std::to_string(others.size()) + " modules of other methods: they are not loaded");
 }
 
 void print_range(const char* label, const std::optional<solve::FrequencyRange>& range) {
@@ -130,7 +148,8 @@ int check_command(const ModelArguments& arguments) {
   const model::System system = assemble(session.model);
   const bool has_stops = !system.stops.empty();
   print_contents(session.model, system);
-  print_skipped(system, has_stops);
+  print_skipped_terms(system, has_stops);
+  print_skipped_work(session);
 
   const auto open = frequency_range(system, solve::StopState::open);
   const auto closed = has_stops ? frequency_range(system, solve::StopState::closed) : open;

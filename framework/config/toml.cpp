@@ -16,14 +16,39 @@ namespace {
 
 using Parsed = toml::basic_value<toml::discard_comments, std::map, std::vector>;
 
-/// toml11 counts lines from the start of the text for every location asked for, so long arrays share their array's.
-constexpr std::size_t kLongArray = 256;
+/// Where values stand in a text. toml11's own location() counts the lines from the start of the text, for every value
+/// anew; here the beginnings of all lines are found once.
+class Places {
+ public:
+  /// Characters before the value; 0 for one that was not read from a text.
+  std::ptrdiff_t offset(const Parsed& value) {
+    const toml::detail::region* region = region_of(value);
+    return region != nullptr ? region->first() - region->begin() : 0;
+  }
 
-Value convert(const Parsed& from, const std::string& key, const Location* shared);
+  Location location(const Parsed& value) {
+    const toml::detail::region* region = region_of(value);
+    if (region == nullptr) return {0, 1};
+    if (line_begins_.empty()) find_lines(*region);
+    const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset(value));
+    return {0, static_cast<std::int32_t>(after - line_begins_.begin())};
+  }
 
-Location location_of(const Parsed& value) {
-  return {0, static_cast<std::int32_t>(value.location().line())};
-}
+ private:
+  static const toml::detail::region* region_of(const Parsed& value) {
+    return dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
+  }
+
+  void find_lines(const toml::detail::region& region) {
+    line_begins_.push_back(0);
+    for (auto at = region.begin(); at != region.end(); ++at)
+      if (*at == '\n') line_begins_.push_back(at + 1 - region.begin());
+  }
+
+  std::vector<std::ptrdiff_t> line_begins_;
+};
+
+Value convert(const Parsed& from, const std::string& key, Places& places);
 
 /// Refuses what is TOML but cannot be kept as a Value.
 [[noreturn]] void refuse(const Parsed& value, const std::string& key, const std::string& complaint) {
@@ -43,26 +68,22 @@ Number fitting(Number number, const Parsed& from, const std::string& key) {
   return number;
 }
 
-Table convert_table(const Parsed& from) {
+Table convert_table(const Parsed& from, Places& places) {
   struct Placed {
-    std::uint_least32_t line, column;
+    std::ptrdiff_t offset;
     Table::Entry entry;
   };
   std::vector<Placed> placed;
-  for (const auto& [key, value] : from.as_table()) {
-    const auto where = value.location();
-    placed.push_back({where.line(), where.column(), {key, convert(value, key, nullptr)}});
-  }
-  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    return a.line != b.line ? a.line < b.line : a.column < b.column;
-  });
+  for (const auto& [key, value] : from.as_table())
+    placed.push_back({places.offset(value), {key, convert(value, key, places)}});
+  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.offset < b.offset; });
   Table table;
   for (Placed& item : placed) table.entries.push_back(std::move(item.entry));
   return table;
 }
 
-Value convert(const Parsed& from, const std::string& key, const Location* shared) {
-  const Location at = shared != nullptr ? *shared : location_of(from);
+Value convert(const Parsed& from, const std::string& key, Places& places) {
+  const Location at = places.location(from);
   switch (from.type()) {
     case toml::value_t::boolean:
       return {from.as_boolean(), at};
@@ -74,12 +95,11 @@ Value convert(const Parsed& from, const std::string& key, const Location* shared
       return {std::string(from.as_string().str), at};
     case toml::value_t::array: {
       Array array;
-      const Location* same = from.as_array().size() > kLongArray ? &at : nullptr;
-      for (const Parsed& item : from.as_array()) array.push_back(convert(item, key, same));
+      for (const Parsed& item : from.as_array()) array.push_back(convert(item, key, places));
       return {std::move(array), at};
     }
     case toml::value_t::table:
-      return {convert_table(from), at};
+      return {convert_table(from, places), at};
     default:
       refuse(from, key, "dates and times have no place in a model file");
   }
@@ -146,7 +166,8 @@ Parsed parse(const std::string& text, const std::string& name) {
 Document parse_toml(const std::string& text, const std::string& name) {
   try {
     const Parsed parsed = text.empty() ? Parsed(toml::table{}) : parse(text, name);
-    return {{name}, {convert_table(parsed), {0, 1}}};
+    Places places;
+    return {{name}, {convert_table(parsed, places), {0, 1}}};
   } catch (const InputError& error) {
     throw InputError(name + error.what());
   } catch (const std::exception& error) {
@@ -167,7 +188,8 @@ std::optional<Value> parse_toml_value(const std::string& text) {
   if (text.find('\n') != std::string::npos) return std::nullopt;
   try {
     const Parsed parsed = parse("value = " + text + "\n", "value");
-    return convert(parsed.at("value"), "value", nullptr);
+    Places places;
+    return convert(parsed.at("value"), "value", places);
   } catch (const std::exception&) {
     return std::nullopt;
   }

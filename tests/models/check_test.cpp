@@ -37,6 +37,29 @@ TEST(Check, SaysWhatTheBeamHoldsAndSkips) {
   expect_holds(outcome.errors, {"0.00144745 N", "of the gap"});
 }
 
+TEST(Check, ListsAllThatARunSkips) {
+  const std::vector<std::string> never = {"loads: nothing drives", "no stops", "C is zero"};
+  const std::vector<std::string> unasked = {"the energy balance", "the list of impacts",
+                                            "6 modules of other methods: they are not loaded"};
+  const TemporaryFolder folder;
+  folder.write("swing.toml",
+               "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\ntype = "
+               "\"spring\"\nnode = \"ball\"\nstiffness = 200.0\n[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\n"
+               "end_time = 0.5\n[output]\nenergy = false\nimpacts = false\n");
+  const std::string least = run_program({"check", "swing.toml"}, folder.path()).output;
+  expect_holds(least, never);
+  expect_holds(least, unasked);
+
+  folder.write("zero.toml",
+               read_file(folder.file("swing.toml")) + "[[load]]\ntype = \"constant\"\nnode = \"ball\"\nvalue = 0.0\n");
+  expect_holds(run_program({"check", "zero.toml"}, folder.path()).output, {"1 loads that are zero at all times"});
+
+  const std::string beam = check("beam1", {"--set", "output.energy=true", "--set", "output.impacts=true"}).output;
+  expect_holds(beam, {"a damping matrix: C is Rayleigh's", "2 stops whose ends are all fixed", unasked.back()});
+  for (const std::string& part : {never[0], never[1], never[2], unasked[0], unasked[1]})
+    EXPECT_EQ(beam.find(part), std::string::npos) << part;
+}
+
 TEST(Check, WarnsOfAStepBeyondTheCriticalOne) {
   const Outcome large = check("beam1", {"--set", "integrator.type=rk4", "--set", "integrator.time_step=4e-4"});
   expect_holds(large.errors, {"larger than the critical step of rk4, 0.000326676 s"});

@@ -44,10 +44,14 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-SceneRun::SceneRun(const std::string& toml, const std::vector<std::string>& overrides) {
+app::Session read_scene(const std::string& toml, const std::vector<std::string>& overrides) {
   config::Document document = config::parse_toml(toml, "scene.toml");
   for (const std::string& assignment : overrides) config::apply_override(document, assignment);
-  parts_.reset(new Parts{app::read_session(std::move(document), catalogue()), {}, {}, {}, {}});
+  return app::read_session(std::move(document), catalogue());
+}
+
+SceneRun::SceneRun(const std::string& toml, const std::vector<std::string>& overrides) {
+  parts_.reset(new Parts{read_scene(toml, overrides), {}, {}, {}, {}});
   app::Session& session = parts_->session;
   const auto& choice = session.integrator;
   parts_->system = std::make_unique<model::System>(assemble(session.model));

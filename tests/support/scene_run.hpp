@@ -16,8 +16,11 @@ namespace butee::test {
 std::string model_path(const std::string& stem);
 std::string read_file(const std::string& path);
 
-/// A scene ready to run inside the test: read from TOML text with overrides ("integrator.type=NM1"), modules from the
-/// build tree. Throws InputError where the program would refuse the scene.
+/// Reads a scene from TOML text with overrides ("integrator.type=NM1"), modules from the build tree. Throws InputError
+/// where the program would refuse the scene.
+app::Session read_scene(const std::string& toml, const std::vector<std::string>& overrides = {});
+
+/// A scene ready to run inside the test: read as by read_scene(), and assembled.
 class SceneRun {
  public:
   explicit SceneRun(const std::string& toml, const std::vector<std::string>& overrides = {});

@@ -103,6 +103,12 @@ TEST(Toml, values_know_their_lines) {
   const Document document = parse_toml(kText, "scene.toml");
   const Value& contact = (*document.root.table()->find("contact")->array())[1];
   EXPECT_EQ(describe(document, contact.table()->find("gap")->at), "scene.toml:19");
+
+  std::string text = "numbers = [\n";
+  for (int line = 2; line < 1000; ++line) text += std::to_string(line) + ",\n";
+  const Document lines = parse_toml(text + "]\n", "long.toml");
+  for (const Value& number : *lines.root.table()->find("numbers")->array())
+    ASSERT_EQ(number.at.line, std::get<std::int64_t>(number.data));
 }
 
 TEST(Toml, mistakes_name_file_and_line) {

@@ -1,0 +1,121 @@
+// Prints the ratios of times, butee to plain, from what the benchmarks wrote with --benchmark_out_format=json.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+/// The steps of this method on the beams are decided by rounding, so that it is compared by the step tried.
+constexpr const char* kComparedByTheStep = "RK4-3";
+
+struct Pair {
+  double butee = std::numeric_limits<double>::infinity(), plain = butee;
+  double ratio() const { return butee / plain; }
+};
+
+/// Keeps the order in which keys come up first.
+struct Table {
+  /// The least time counts: nothing makes a program quicker than it is.
+  void see(const std::string& key, const std::string& side, double time) {
+    if (!pairs.contains(key)) order.push_back(key);
+    double& best = side == "butee" ? pairs[key].butee : pairs[key].plain;
+    best = std::min(best, time);
+  }
+  std::vector<std::string> order;
+  std::map<std::string, Pair> pairs;
+};
+
+std::vector<std::string> split(const std::string& name) {
+  std::vector<std::string> parts;
+  std::istringstream stream(name);
+  for (std::string part; std::getline(stream, part, '/');) parts.push_back(part);
+  return parts;
+}
+
+double seconds(const nlohmann::json& run) {
+  const std::map<std::string, double> units = {{"ns", 1e-9}, {"us", 1e-6}, {"ms", 1e-3}, {"s", 1.0}};
+  return run.at("cpu_time").get<double>() * units.at(run.at("time_unit").get<std::string>());
+}
+
+/// The runs in the order of registration, which random interleaving shuffles.
+std::vector<nlohmann::json> runs_of(const nlohmann::json& all) {
+  std::vector<nlohmann::json> runs;
+  for (const auto& run : all.at("benchmarks"))
+    if (run.at("run_type") == "iteration" && !run.value("error_occurred", false)) runs.push_back(run);
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const auto& a, const auto& b) { return a.at("family_index") < b.at("family_index"); });
+  return runs;
+}
+
+void read(const nlohmann::json& all, Table& kernels, Table& methods) {
+  for (const auto& run : runs_of(all)) {
+    const auto name = split(run.at("run_name"));
+    if (name.at(0) == "kernel") {
+      kernels.see(name.at(1) + "/" + name.at(2), name.at(3), seconds(run));
+    } else if (name.at(0) == "method") {
+      const double steps = name.at(2) == kComparedByTheStep ? run.at("attempts").get<double>() : 1.0;
+      methods.see(name.at(1) + "/" + name.at(2), name.at(3), seconds(run) / steps);
+    }
+  }
+}
+
+void print_kernels(const Table& table) {
+  if (table.order.empty()) return;
+  std::puts("| kernel | butee/plain |\n|---|---|");
+  for (const std::string& key : table.order) std::printf("| %s | %.2f |\n", key.c_str(), table.pairs.at(key).ratio());
+  std::puts("");
+}
+
+void print_methods(const Table& table) {
+  std::vector<std::string> rows, columns;
+  const auto add_new = [](std::vector<std::string>& list, const std::string& entry) {
+    if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
+  };
+  for (const std::string& key : table.order) {
+    add_new(rows, split(key).at(0));
+    add_new(columns, split(key).at(1));
+  }
+  if (rows.empty()) return;
+  std::string head = "| |", rule = "|---|";
+  for (const std::string& column : columns) {
+    head += " " + column + " |";
+    rule += "---|";
+  }
+  std::printf("%s\n%s\n", head.c_str(), rule.c_str());
+  for (const std::string& row : rows) {
+    std::printf("| %s |", row.c_str());
+    for (const std::string& column : columns) {
+      const auto found = table.pairs.find(row + "/" + column);
+      found == table.pairs.end() ? std::printf(" |") : std::printf(" %.2f |", found->second.ratio());
+    }
+    std::puts("");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: ratio-table FILE.json, written by benchmarks --benchmark_out_format=json\n", stderr);
+    return 2;
+  }
+  try {
+    std::ifstream file(argv[1]);
+    Table kernels, methods;
+    read(nlohmann::json::parse(file), kernels, methods);
+    print_kernels(kernels);
+    print_methods(methods);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ratio-table: %s: %s\n", argv[1], error.what());
+    return 1;
+  }
+  return 0;
+}
