@@ -37,6 +37,17 @@ TEST(Check, SaysWhatTheBeamHoldsAndSkips) {
   expect_holds(outcome.errors, {"0.00144745 N", "of the gap"});
 }
 
+TEST(Check, SaysWhichModesAreDamped) {
+  expect_holds(check("beam1", {"--set", "damping={modal=0.02}"}).output, {"modal: the ratio 0.02 in all 68 modes"});
+  const Outcome list = check("beam1", {"--set", "damping={modal=[0.02, 0.01]}"});
+  // The pinned beam's second frequency is 4 times its first.
+  expect_holds(list.output, {"modal: ratios in the 2 lowest modes, none in the 66 above", "0.02 at 1.47255 rad/s",
+                             "0.01 at 5.8902"});
+  EXPECT_EQ(list.output.find("C is"), std::string::npos);
+  expect_holds(check("beam1", {"--set", "damping={modal=2}"}).errors, {"more than critical", "2 % are written 0.02"});
+  expect_holds(check("beam1", {"--set", "damping={}"}).output, {"damping: C is zero"});
+}
+
 TEST(Check, WarnsOfAStepBeyondTheCriticalOne) {
   const Outcome large = check("beam1", {"--set", "integrator.type=rk4", "--set", "integrator.time_step=4e-4"});
   expect_holds(large.errors, {"larger than the critical step of rk4, 0.000326676 s"});
