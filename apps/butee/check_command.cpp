@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -7,6 +8,7 @@
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
 #include <butee/solve/frequencies.hpp>
+#include <butee/solve/modal_damping.hpp>
 
 #include "commands.hpp"
 
@@ -18,6 +20,9 @@ constexpr double kNoticeablePull = 1e-6;
 
 /// A frequency below this fraction of the highest is zero within the rounding of the eigenvalue solver.
 constexpr double kZeroFrequency = 1e-6;
+
+/// Of a list of damped modes, so many are printed.
+constexpr Index kListedModes = 10;
 
 std::string text(double value) {
   return to_short_text(value);
@@ -34,6 +39,23 @@ void print_contents(const model::Model& model, const model::System& system) {
   std::printf("loads      %zu\n", loads);
 }
 
+/// `modal` in words: the ratios and, of a list, the frequencies that they belong to.
+void print_modal_damping(const model::System& system) {
+  const model::Damping& damping = system.damping;
+  (void)solve::ModalDamping::of(system);  // Throws where a run would.
+  if (damping.every_mode != 0.0)
+    std::printf("damping    modal: the ratio %s in all %td modes\n", text(damping.every_mode).c_str(), system.size());
+  if (damping.lowest_modes.empty()) return;
+  const auto count = static_cast<Index>(damping.lowest_modes.size());
+  const auto modes = solve::lowest_modes(system, count);
+  std::printf("damping    modal: ratios in the %td lowest modes, none in the %td above%s\n", count,
+              system.size() - count, modes ? "" : " (the eigenvalue solver did not converge)");
+  for (Index i = 0; modes && i < std::min(count, kListedModes); ++i)
+    std::printf("           %s at %s rad/s%s\n", text(damping.lowest_modes[static_cast<std::size_t>(i)]).c_str(),
+                text(modes->frequencies[i]).c_str(), modes->frequencies[i] == 0.0 ? " (rigid motion)" : "");
+  if (count > kListedModes) std::printf("           ... and %td more\n", count - kListedModes);
+}
+
 void say_skipped(const std::string& line) {
   std::printf("skips      %s\n", line.c_str());
 }
@@ -47,10 +69,9 @@ void print_skipped_terms(const model::System& system, bool has_stops) {
   if (system.loads.empty()) say_skipped("loads: nothing drives the free DOFs");
   if (!has_stops)
     say_skipped("contact: the scene has no stops, so an implicit method factorizes once for each step size");
-  if (system.damping.mass_proportional == 0.0 && system.damping.stiffness_proportional == 0.0 &&
-      system.dashpots.size() == 0)
+  if (!system.damping.is_rayleigh() && !system.damping.is_modal() && system.dashpots.size() == 0)
     say_skipped("damping: C is zero");
-  else if (system.dashpots.size() == 0)
+  else if (!system.damping.is_modal() && system.dashpots.size() == 0)
     say_skipped("a damping matrix: C is Rayleigh's, made of M and K");
 }
 
@@ -148,6 +169,7 @@ int check_command(const ModelArguments& arguments) {
   const model::System system = assemble(session.model);
   const bool has_stops = !system.stops.empty();
   print_contents(session.model, system);
+  print_modal_damping(system);
   print_skipped_terms(system, has_stops);
   print_skipped_work(session);
 

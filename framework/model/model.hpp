@@ -32,10 +32,21 @@ struct Load {
   std::unique_ptr<TimeFunction> in_time;
 };
 
-/// Rayleigh damping: C = mass_proportional M + stiffness_proportional K, dashpots beside it.
+/// Rayleigh damping, C = mass_proportional M + stiffness_proportional K, or modal damping,
+/// C = M Phi diag(2 zeta_i omega_i) Phi^T M with the modes of the undamped system, its stops open. Dashpots come beside
+/// it.
 struct Damping {
+  /// The most modes that may be damped: all modes are dense matrices, and in meshes much finer than that rounding
+  /// cannot tell the lowest modes from rigid motion.
+  static constexpr Index kMostModes = 1000;
+
   double mass_proportional = 0.0;       ///< 1/s
   double stiffness_proportional = 0.0;  ///< s
+  double every_mode = 0.0;              ///< zeta of all modes, 1 = critical
+  std::vector<double> lowest_modes;     ///< zeta of the lowest ones; the others are not damped
+
+  bool is_rayleigh() const { return mass_proportional != 0.0 || stiffness_proportional != 0.0; }
+  bool is_modal() const { return every_mode != 0.0 || !lowest_modes.empty(); }
 };
 
 /// What a scene describes, before assembly. Built by read_model() or in code.

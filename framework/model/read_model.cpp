@@ -159,17 +159,6 @@ void SceneReader::check_dofs() {
     diagnostics_.error("element", root_.at, "nothing can move: the scene has no free degree of freedom");
 }
 
-void SceneReader::read_damping() {
-  const Value* table = root_.table()->find("damping");
-  if (table == nullptr) return;
-  const auto p = read_parameters(
-      *table, "damping",
-      {number("mass_proportional", "1/s", "Rayleigh damping by the mass matrix").at_least(0).or_else(0.0),
-       number("stiffness_proportional", "s", "Rayleigh damping by the stiffness matrix").at_least(0).or_else(0.0)},
-      diagnostics_);
-  if (p) model_.damping = {p->number("mass_proportional"), p->number("stiffness_proportional")};
-}
-
 void SceneReader::read_initial() {
   const Value* table = root_.table()->find("initial");
   if (table == nullptr) return;

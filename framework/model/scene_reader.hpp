@@ -39,6 +39,7 @@ class SceneReader {
   std::unique_ptr<TimeFunction> read_in_time(const config::Value& entry, const std::string& path,
                                              const std::vector<std::string>& ignored);
   void read_damping();
+  void read_modal_damping(const config::Value& given);
   void read_initial();
   void check_dofs();
   void check_free(const config::Parameters& parameters, const std::string& key, NodalDof dof, const char* what);

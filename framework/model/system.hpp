@@ -28,7 +28,7 @@ struct FreeLoad {
 };
 
 /// The semi-discrete system M a + C v + K x = F(t) + F_c(x) on the n free DOFs,
-/// C = mass_proportional M + stiffness_proportional K + D.
+/// C = mass_proportional M + stiffness_proportional K + D, or modal damping + D.
 ///
 /// M, K (and D where there are dashpots, else 0 x 0) are symmetric, stored in full, with one common pattern that holds
 /// the diagonal and the places of stops between nodes. The Model must outlive its System.

@@ -9,8 +9,8 @@ namespace butee::solve {
 Dynamics::Dynamics(const model::System& system)
     : system_(system),
       contact_(system, counters_),
-      has_damping_(system.damping.mass_proportional != 0.0 || system.damping.stiffness_proportional != 0.0 ||
-                   system.dashpots.size() > 0),
+      modal_(ModalDamping::of(system)),
+      has_damping_(system.damping.is_rayleigh() || system.dashpots.size() > 0 || modal_ != nullptr),
       mass_product_(system.mass),
       stiffness_product_(system.stiffness),
       load_time_(std::numeric_limits<double>::quiet_NaN()),
@@ -26,7 +26,8 @@ Dynamics::Dynamics(const model::System& system)
   if (size() == 1)
     single_damping_ = system.damping.mass_proportional * system.mass.coeff(0, 0) +
                       system.damping.stiffness_proportional * system.stiffness.coeff(0, 0) +
-                      (system.dashpots.size() > 0 ? system.dashpots.coeff(0, 0) : 0.0);
+                      (system.dashpots.size() > 0 ? system.dashpots.coeff(0, 0) : 0.0) +
+                      (modal_ ? modal_->single() : 0.0);
   for (std::size_t j = 0; j < system.loads.size(); ++j)
     for (std::size_t i = 0; i < system.loads[j].dofs.size(); ++i)
       loaded_dofs_.push_back({system.loads[j].dofs[i], system.loads[j].weights[i], j});
@@ -71,6 +72,7 @@ void Dynamics::damping_force(ConstVectorRef v, VectorRef y) {
     dashpot_product_.multiply(v.data(), other_.data());
     y += other_;
   }
+  if (modal_) modal_->add_force(v, y);
 }
 
 void Dynamics::subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r) {
@@ -139,6 +141,7 @@ void Dynamics::respond(ConstVectorRef x, ConstVectorRef v, VectorRef a) {
   }
   mass_solver().solve(a);
   if (on_mass != 0.0) a -= on_mass * v;
+  if (modal_) modal_->subtract_deceleration(v, a);
 }
 
 LinearSolver& Dynamics::mass_solver() {
@@ -151,7 +154,7 @@ LinearSolver& Dynamics::mass_solver() {
 }
 
 EffectiveSolver& Dynamics::effective() {
-  if (!effective_) effective_.emplace(system_, contact_, counters_);
+  if (!effective_) effective_.emplace(system_, contact_, counters_, modal_.get());
   return *effective_;
 }
 

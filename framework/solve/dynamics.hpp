@@ -4,6 +4,7 @@
 
 #include "butee/solve/contact.hpp"
 #include "butee/solve/effective_solver.hpp"
+#include "butee/solve/modal_damping.hpp"
 #include "butee/solve/symmetric_product.hpp"
 
 namespace butee::solve {
@@ -15,7 +16,7 @@ namespace butee::solve {
 /// several threads at once; a simulation of its own for each.
 class BUTEE_EXPORT Dynamics {
  public:
-  /// `system` must outlive it.
+  /// `system` must outlive it. Throws InputError where modes that are to be damped could not be computed.
   explicit Dynamics(const model::System& system);
 
   const model::System& system() const { return system_; }
@@ -40,8 +41,7 @@ class BUTEE_EXPORT Dynamics {
   /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that meets F_c at x
   void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
   /// r := F(t) + S^T (c - kappa S x) - C v - K x
-  void secant_forces(double t, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x, ConstVectorRef v,
-                     VectorRef r);
+  void secant_forces(double t, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef r);
 
   /// r := F + F_c - M a - C v - K x with the forces of `load` and, in stop space, of `stop_force`; returns
   /// |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), against which |r| is small or not.
@@ -73,6 +73,7 @@ class BUTEE_EXPORT Dynamics {
   const model::System& system_;
   Counters counters_;
   Contact contact_;
+  std::unique_ptr<const ModalDamping> modal_;  ///< null without modal damping
   bool has_damping_;
   double single_damping_ = 0.0;  ///< C of a system of one DOF
   SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;

@@ -19,21 +19,28 @@ Index place_of(const SparseMatrix& matrix, Index row, Index column) {
   return found - matrix.innerIndexPtr();
 }
 
+bool prefers_local(const model::System& system, const Contact& contact, const ModalDamping* modal) {
+  if (system.size() == 1) return contact.size() == 0;
+  return contact.size() <= LocalContact::kMostStops || (modal != nullptr && modal->prefers_dense());
+}
+
 }  // namespace
 
-EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters)
+EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters,
+                                 const ModalDamping* modal)
     : EffectiveSolver(system, contact, counters,
-                      contact.size() <= LocalContact::kMostStops && (system.size() > 1 || contact.size() == 0)
-                          ? Contacts::local
-                          : Contacts::factorized) {}
+                      prefers_local(system, contact, modal) ? Contacts::local : Contacts::factorized, modal) {}
 
 EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters,
-                                 Contacts contacts)
-    : system_(system), contact_(contact), counters_(counters), contacts_(contacts), base_(system.mass) {}
+                                 Contacts contacts, const ModalDamping* modal)
+    : system_(system), contact_(contact), counters_(counters), modal_(modal), contacts_(contacts), base_(system.mass) {}
 
 void EffectiveSolver::prepare_factorized() {
   effective_ = base_;
-  factor_.emplace(base_, counters_);
+  if (modal_ != nullptr)
+    modal_factor_.emplace(base_, counters_, modal_);
+  else
+    factor_.emplace(base_, counters_);
   for (Index i = 0; i < contact_.size(); ++i) {
     const Index a = contact_.dof_a(i), b = contact_.dof_b(i);
     places_.push_back({place_of(base_, a, a), place_of(base_, b, b), place_of(base_, a, b), place_of(base_, b, a)});
@@ -59,7 +66,7 @@ void EffectiveSolver::set_factors(double damping, double stiffness) {
     }
   if (slots_.size() < kSlots) {
     current_ = slots_.size();
-    slots_.push_back(std::make_unique<Slot>(base_, counters_));
+    slots_.push_back(std::make_unique<Slot>(base_, counters_, modal_));
     if (contact_.size() > 0) slots_.back()->local.emplace(contact_);
   } else {
     current_ = oldest_;
@@ -69,7 +76,7 @@ void EffectiveSolver::set_factors(double damping, double stiffness) {
   slot.damping = damping;
   slot.stiffness = stiffness;
   assemble_base(damping, stiffness);
-  slot.usable = slot.base.factorize(base_);
+  slot.usable = slot.base.factorize(base_, damping);
   if (slot.usable && slot.local) slot.local->set_base(slot.base);
 }
 
@@ -90,14 +97,15 @@ bool EffectiveSolver::solve(ConstVectorRef kappa, VectorRef b) {
 bool EffectiveSolver::solve_scalar(ConstVectorRef kappa, VectorRef b) {
   ++counters_.factorizations;
   ++counters_.solves;
-  const double a = base_.coeffs()[0] + stiffness_factor_ * kappa.sum();
+  const double modal = modal_ != nullptr ? damping_factor_ * modal_->single() : 0.0;
+  const double a = base_.coeffs()[0] + modal + stiffness_factor_ * kappa.sum();
   if (!(a > 0.0)) return false;
   b[0] /= a;
   return true;
 }
 
 bool EffectiveSolver::solve_factorized(ConstVectorRef kappa, VectorRef b) {
-  if (!factor_) prepare_factorized();
+  if (effective_.size() == 0) prepare_factorized();
   effective_.coeffs() = base_.coeffs();
   double* values = effective_.valuePtr();
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -108,8 +116,15 @@ bool EffectiveSolver::solve_factorized(ConstVectorRef kappa, VectorRef b) {
     if (ab >= 0) values[ab] -= k;
     if (ba >= 0) values[ba] -= k;
   }
+  if (modal_ != nullptr) return solve_modal(b);
   if (!factor_->factorize(effective_)) return false;
   factor_->solve(b);
+  return true;
+}
+
+bool EffectiveSolver::solve_modal(VectorRef b) {
+  if (!modal_factor_->factorize(effective_, damping_factor_)) return false;
+  modal_factor_->solve(b);
   return true;
 }
 

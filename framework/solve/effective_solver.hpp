@@ -11,7 +11,7 @@ namespace butee::solve {
 
 /// Solves the effective equations of an implicit method,
 ///
-///     (M + c C + k (K + S^T diag(kappa) S)) y = b,     C = c_m M + c_k K + D
+///     (M + c C + k (K + S^T diag(kappa) S)) y = b,     C = c_m M + c_k K + D, or modal damping + D
 ///
 /// with the feedback factors c (s) and k (s2) of the method (gamma h and beta h^2 for Newmark) and the stiffnesses
 /// kappa (N/m) of the stops, zero where open.
@@ -27,10 +27,13 @@ class BUTEE_EXPORT EffectiveSolver {
     factorized  ///< a new factorization for every kappa
   };
 
-  /// `system`, `contact` and `counters` must outlive it; the way to treat contacts is chosen by their number.
-  EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters);
+  /// All arguments must outlive it; `modal` is null without modal damping. The way to treat contacts is chosen by their
+  /// number.
+  EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters,
+                  const ModalDamping* modal = nullptr);
   /// With a way of one's own, for comparisons.
-  EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters, Contacts contacts);
+  EffectiveSolver(const model::System& system, const Contact& contact, Counters& counters, Contacts contacts,
+                  const ModalDamping* modal = nullptr);
 
   /// Sets the feedback factors; work is done only where they are new.
   void set_factors(double damping, double stiffness);
@@ -41,7 +44,7 @@ class BUTEE_EXPORT EffectiveSolver {
  private:
   /// What is kept of one pair of factors.
   struct Slot {
-    Slot(const SparseMatrix& pattern, Counters& counters) : base(pattern, counters) {}
+    Slot(const SparseMatrix& pattern, Counters& counters, const ModalDamping* modal) : base(pattern, counters, modal) {}
 
     double damping = -1.0, stiffness = -1.0;
     bool usable = false;
@@ -51,14 +54,16 @@ class BUTEE_EXPORT EffectiveSolver {
 
   void assemble_base(double damping, double stiffness);
   bool solve_factorized(ConstVectorRef kappa, VectorRef b);
+  bool solve_modal(VectorRef b);
   bool solve_scalar(ConstVectorRef kappa, VectorRef b);
   void prepare_factorized();
 
   const model::System& system_;
   const Contact& contact_;
   Counters& counters_;
+  const ModalDamping* modal_;
   Contacts contacts_;
-  SparseMatrix base_;  ///< M + c C + k K
+  SparseMatrix base_;  ///< M + c C + k K without modal damping
   std::vector<std::unique_ptr<Slot>> slots_;
   std::size_t current_ = 0, oldest_ = 0;
   double damping_factor_ = -1.0, stiffness_factor_ = -1.0;
@@ -66,6 +71,7 @@ class BUTEE_EXPORT EffectiveSolver {
   // Where factorized for every kappa.
   SparseMatrix effective_;
   std::optional<SymmetricFactor> factor_;
+  std::optional<LinearSolver> modal_factor_;  ///< instead, with modal damping
   /// Places of stop i in the value array: (a,a), (b,b), (a,b), (b,a), -1 where an end is fixed.
   std::vector<std::array<Index, 4>> places_;
 };

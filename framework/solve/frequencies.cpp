@@ -7,9 +7,12 @@
 #include <Spectra/SymGEigsSolver.h>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 
+#include "butee/core/error.hpp"
 #include "butee/solve/contact.hpp"
 
 namespace butee::solve {
@@ -21,6 +24,12 @@ constexpr Index kDense = 200;
 constexpr double kLanczosTolerance = 1e-4;
 constexpr int kLanczosVectors = 30;
 constexpr int kLanczosRestarts = 200;
+/// Of mode shapes, which enter the damping matrix as they are.
+constexpr double kShapeTolerance = 1e-12;
+/// An eigenvalue below this part of the highest is rounding: some hundred units of it.
+constexpr double kRigid = 1e-13;
+/// The place between two eigenvalues at which they are counted, relative to the larger.
+constexpr double kCountedBelow = 1e-6;
 
 using Product = Spectra::SparseSymMatProd<double>;
 
@@ -39,18 +48,57 @@ std::optional<double> highest_eigenvalue(const SparseMatrix& stiffness, const Sp
   return solver.eigenvalues()[0];
 }
 
+/// Eigenvalues, ascending, and their vectors.
+struct Pairs {
+  Vector values;
+  Eigen::MatrixXd vectors;
+};
+
 /// A shift a little below zero keeps the matrix regular where the structure can move as a rigid body.
-std::optional<double> lowest_eigenvalue(const SparseMatrix& stiffness, const SparseMatrix& mass, double highest) {
+std::optional<Pairs> lowest_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass, double highest, Index count,
+                                  double tolerance) {
   using Operation = Spectra::SymShiftInvert<double, Eigen::Sparse, Eigen::Sparse>;
   const double shift = -1e-12 * highest;
   Operation operation(stiffness, mass);
   Product product(mass);
-  Spectra::SymGEigsShiftSolver<Operation, Product, Spectra::GEigsMode::ShiftInvert> solver(operation, product, 1,
-                                                                                           kLanczosVectors, shift);
+  const Index vectors = std::min(stiffness.rows(), std::max<Index>(2 * count + 1, kLanczosVectors));
+  Spectra::SymGEigsShiftSolver<Operation, Product, Spectra::GEigsMode::ShiftInvert> solver(operation, product, count,
+                                                                                           vectors, shift);
   solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, kLanczosRestarts, kLanczosTolerance);
+  solver.compute(Spectra::SortRule::LargestMagn, kLanczosRestarts, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
-  return solver.eigenvalues()[0];
+  const Vector values = solver.eigenvalues();
+  std::vector<Index> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return values[a] < values[b]; });
+  return Pairs{values(order), solver.eigenvectors()(Eigen::all, order)};
+}
+
+/// Sylvester's law of inertia: as many eigenvalues lie below `limit` as K - limit M has negative pivots.
+Index count_below(const SparseMatrix& stiffness, const SparseMatrix& mass, double limit) {
+  const Eigen::SimplicialLDLT<SparseMatrix> factor(SparseMatrix(stiffness - limit * mass));
+  return (factor.vectorD().array() < 0.0).count();
+}
+
+/// Lanczos may miss one of several equal eigenvalues.
+bool is_complete(const SparseMatrix& stiffness, const SparseMatrix& mass, const Vector& values, double highest) {
+  const double last = values[values.size() - 1];
+  if (last <= kRigid * highest) return true;
+  const double limit = (1.0 - kCountedBelow) * last;
+  return count_below(stiffness, mass, limit) == (values.array() < limit).count();
+}
+
+Modes modes_of(const Pairs& pairs, double highest) {
+  const Vector values = (pairs.values.array() > kRigid * highest).select(pairs.values, 0.0);
+  return {values.cwiseSqrt(), pairs.vectors};
+}
+
+std::optional<Modes> dense_modes(const model::System& system, Index count) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(system.stiffness),
+                                                                         Eigen::MatrixXd(system.mass));
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return modes_of({solver.eigenvalues().head(count), solver.eigenvectors().leftCols(count)},
+                  solver.eigenvalues().maxCoeff());
 }
 
 }  // namespace
@@ -82,9 +130,19 @@ std::optional<FrequencyRange> frequency_range(const model::System& system, StopS
   }
   const auto highest = highest_eigenvalue(stiffness, system.mass);
   if (!highest) return std::nullopt;
-  const auto lowest = lowest_eigenvalue(stiffness, system.mass, *highest);
+  const auto lowest = lowest_pairs(stiffness, system.mass, *highest, 1, kLanczosTolerance);
   if (!lowest) return std::nullopt;
-  return FrequencyRange{frequency(*lowest), frequency(*highest)};
+  return FrequencyRange{frequency(lowest->values[0]), frequency(*highest)};
+}
+
+std::optional<Modes> lowest_modes(const model::System& system, Index count) {
+  require(count >= 1 && count <= system.size(), "a system has as many modes as DOFs");
+  if (system.size() <= kDense || 2 * count + 1 > system.size()) return dense_modes(system, count);
+  const auto highest = highest_eigenvalue(system.stiffness, system.mass);
+  if (!highest) return std::nullopt;
+  const auto pairs = lowest_pairs(system.stiffness, system.mass, *highest, count, kShapeTolerance);
+  if (!pairs || !is_complete(system.stiffness, system.mass, pairs->values, *highest)) return std::nullopt;
+  return modes_of(*pairs, *highest);
 }
 
 }  // namespace butee::solve

@@ -6,20 +6,39 @@
 
 namespace butee::solve {
 
-LinearSolver::LinearSolver(const SparseMatrix& matrix, Counters& counters) : counters_(&counters) {
+LinearSolver::LinearSolver(const SparseMatrix& matrix, Counters& counters, const ModalDamping* modal)
+    : counters_(&counters), modal_(modal) {
   const Index size = matrix.rows(), band = bandwidth(matrix);
   if (size <= kTiny) return;
+  if (modal != nullptr && modal->prefers_dense()) {
+    if (size > kLargestInverse) dense_ = std::make_unique<DenseFactor>();
+    return;
+  }
   if (BandFactor::fits(size, band))
     band_.emplace(size, band);
   else if (size > kLargestInverse)
     factor_.emplace(matrix, counters);
+  if (modal != nullptr && (band_ || factor_)) low_rank_ = std::make_unique<ModalUpdate>(*modal);
 }
 
-bool LinearSolver::factorize(const SparseMatrix& matrix) {
+bool LinearSolver::factorize(const SparseMatrix& matrix, double c) {
+  if (!band_ && !factor_) return factorize_dense(matrix, c);
+  if (!factorize_sparse(matrix)) return false;
+  return !low_rank_ || low_rank_->set(c, [this](VectorRef b) { solve_sparse(b); });
+}
+
+bool LinearSolver::factorize_sparse(const SparseMatrix& matrix) {
   if (factor_) return factor_->factorize(matrix);
   ++counters_->factorizations;
-  if (band_) return band_->factorize(matrix);
-  const Eigen::LLT<Eigen::MatrixXd> cholesky{Eigen::MatrixXd(matrix)};
+  return band_->factorize(matrix);
+}
+
+bool LinearSolver::factorize_dense(const SparseMatrix& matrix, double c) {
+  ++counters_->factorizations;
+  Eigen::MatrixXd full(matrix);
+  if (modal_ != nullptr) modal_->add_to(full, c);
+  if (dense_) return dense_->factorize(full);
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(full);
   if (cholesky.info() != Eigen::Success) return false;
   const Eigen::MatrixXd inverse = cholesky.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
   reciprocal_ = inverse(0, 0);
@@ -29,12 +48,19 @@ bool LinearSolver::factorize(const SparseMatrix& matrix) {
 }
 
 void LinearSolver::solve(VectorRef b) {
+  solve_sparse(b);
+  if (low_rank_) low_rank_->correct(b);
+}
+
+void LinearSolver::solve_sparse(VectorRef b) {
   if (factor_) return factor_->solve(b);
   ++counters_->solves;
   if (b.size() == 1) {
     b[0] *= reciprocal_;
   } else if (band_) {
     band_->solve(b.data());
+  } else if (dense_) {
+    dense_->solve(b);
   } else {
     right_ = b;
     inverse_.multiply(right_.data(), b.data());

@@ -1,38 +1,50 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "butee/solve/band_factor.hpp"
 #include "butee/solve/dense_product.hpp"
+#include "butee/solve/modal_damping.hpp"
 #include "butee/solve/symmetric_factor.hpp"
 
 namespace butee::solve {
 
-/// Solves A x = b for a symmetric positive definite A: tiny and small ones without a narrow band by their inverse, which
-/// costs one dense product, narrow bands from both ends, all others by sparse Cholesky (CHOLMOD). The choice depends on
-/// the pattern alone. Allocates nothing after the first solve.
+/// Solves A x = b for a symmetric positive definite A: tiny and small ones without a narrow band by their inverse,
+/// which costs one dense product, narrow bands from both ends, all others by sparse Cholesky (CHOLMOD). The choice
+/// depends on the pattern alone. Allocates nothing after the first solve.
+///
+/// With modal damping A = sparse part + c C: small systems and those with most modes damped are solved densely, a few
+/// damped modes by the sparse factor and Woodbury's formula.
 class BUTEE_EXPORT LinearSolver {
  public:
   /// Systems up to this size are inverted; with a narrow band only those up to kTiny.
   static constexpr Index kLargestInverse = DenseProduct::kMostRows;
   static constexpr Index kTiny = 16;
 
-  /// Analyses the pattern of `matrix`; `counters` must outlive the solver.
-  LinearSolver(const SparseMatrix& matrix, Counters& counters);
+  /// Analyses the pattern of `matrix`; `counters` and `modal`, null without modal damping, must outlive the solver.
+  LinearSolver(const SparseMatrix& matrix, Counters& counters, const ModalDamping* modal = nullptr);
 
-  /// False where the matrix is not positive definite.
-  [[nodiscard]] bool factorize(const SparseMatrix& matrix);
+  /// Takes `matrix` + c C, where C is modal damping. False where that, or `matrix`, is not positive definite.
+  [[nodiscard]] bool factorize(const SparseMatrix& matrix, double c = 0.0);
 
   /// b := A^-1 b. After a successful factorize().
   void solve(VectorRef b);
 
  private:
+  bool factorize_sparse(const SparseMatrix& matrix);
+  bool factorize_dense(const SparseMatrix& matrix, double c);
+  void solve_sparse(VectorRef b);
+
   Counters* counters_;
+  const ModalDamping* modal_;
   std::optional<SymmetricFactor> factor_;
   std::optional<BandFactor> band_;
   double reciprocal_ = 0.0;  ///< of a single equation
   DenseProduct inverse_;
   Vector right_;
+  std::unique_ptr<DenseFactor> dense_;     ///< of large systems with most modes damped
+  std::unique_ptr<ModalUpdate> low_rank_;  ///< where few modes are damped
 };
 
 }  // namespace butee::solve

@@ -74,15 +74,6 @@ std::vector<BadScene> bad_contact_scenes() {
        {{nodes, "between = [\"roter\", \"casing:3\"] #!!\ngap"}},
        {"\"roter\": there is no node or beam \"roter\" (did you mean \"rotor\"?)",
         "\"casing:3\": there is no node or beam \"casing\""}},
-      {"negative damping",
-       {{"mass_proportional = 0.03", "mass_proportional = -0.03 #!"}},
-       {"damping.mass_proportional = -0.03: must be >= 0 (1/s)"}},
-      {"unknown key of the damping",
-       {{"mass_proportional = 0.03", "mass_proportionl = 0.03 #!"}},
-       {"damping.mass_proportionl = 0.03: unknown key (did you mean \"mass_proportional\"?)"}},
-      {"damping written as an array",
-       {{"[damping]", "[[damping]] #!"}},
-       {"damping = [{ mass_proportional = 0.03 }]: must be a table, not an array"}},
   };
 }
 

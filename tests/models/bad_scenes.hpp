@@ -35,6 +35,7 @@ std::vector<BadScene> bad_syntax_scenes();
 std::vector<BadScene> bad_element_scenes();
 std::vector<BadScene> bad_selector_scenes();
 std::vector<BadScene> bad_contact_scenes();
+std::vector<BadScene> bad_damping_scenes();
 std::vector<BadScene> bad_load_scenes();
 std::vector<BadScene> bad_integrator_scenes();
 std::vector<BadScene> bad_output_scenes();

@@ -143,7 +143,7 @@ std::vector<std::string> expected_places(const BadScene& scene, const std::strin
 std::vector<BadScene> all_bad_scenes() {
   std::vector<BadScene> all;
   for (const auto& list : {bad_syntax_scenes(), bad_element_scenes(), bad_selector_scenes(), bad_contact_scenes(),
-                           bad_load_scenes(), bad_integrator_scenes(), bad_output_scenes()})
+                           bad_damping_scenes(), bad_load_scenes(), bad_integrator_scenes(), bad_output_scenes()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }
@@ -166,7 +166,7 @@ TEST(BadScenes, say_where_what_and_what_is_allowed) {
     for (const std::string& part : scene.says) EXPECT_TRUE(holds(all, part)) << "wanted " << part << "\n" << all;
     ++scenes;
   }
-  EXPECT_EQ(scenes, 195U);
+  EXPECT_EQ(scenes, 205U);
 }
 
 TEST(BadScenes, end_the_program_with_2_and_nothing_written) {
@@ -187,7 +187,7 @@ TEST(BadScenes, end_the_program_with_2_and_nothing_written) {
     EXPECT_EQ(folder.entries(), std::vector<std::string>{kFile});
     ++runs;
   }
-  EXPECT_EQ(runs, 22U);
+  EXPECT_EQ(runs, 23U);
 }
 
 TEST(GoodScenes, near_the_border_are_accepted) {
@@ -197,7 +197,7 @@ TEST(GoodScenes, near_the_border_are_accepted) {
     EXPECT_EQ(join(messages_of(edited(scene.edits), scene.overrides), "\n"), "");
     ++scenes;
   }
-  EXPECT_EQ(scenes, 30U);
+  EXPECT_EQ(scenes, 34U);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(Check, SaysWhatTheBeamHoldsAndSkips) {
 TEST(Check, ListsAllThatARunSkips) {
   const std::vector<std::string> never = {"loads: nothing drives", "no stops", "C is zero"};
   const std::vector<std::string> unasked = {"the energy balance", "the list of impacts",
-                                            "6 modules of other methods: they are not loaded"};
+                                            "7 modules of other methods: they are not loaded"};
   const TemporaryFolder folder;
   folder.write("swing.toml",
                "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\ntype = "
@@ -58,6 +58,17 @@ TEST(Check, ListsAllThatARunSkips) {
   expect_holds(beam, {"a damping matrix: C is Rayleigh's", "2 stops whose ends are all fixed", unasked.back()});
   for (const std::string& part : {never[0], never[1], never[2], unasked[0], unasked[1]})
     EXPECT_EQ(beam.find(part), std::string::npos) << part;
+}
+
+TEST(Check, SaysWhichModesAreDamped) {
+  expect_holds(check("beam1", {"--set", "damping={modal=0.02}"}).output, {"modal: the ratio 0.02 in all 68 modes"});
+  const Outcome list = check("beam1", {"--set", "damping={modal=[0.02, 0.01]}"});
+  // The pinned beam's second frequency is 4 times its first.
+  expect_holds(list.output, {"modal: ratios in the 2 lowest modes, none in the 66 above", "0.02 at 1.47255 rad/s",
+                             "0.01 at 5.8902"});
+  EXPECT_EQ(list.output.find("C is"), std::string::npos);
+  expect_holds(check("beam1", {"--set", "damping={modal=2}"}).errors, {"more than critical", "2 % are written 0.02"});
+  expect_holds(check("beam1", {"--set", "damping={}"}).output, {"damping: C is zero"});
 }
 
 TEST(Check, WarnsOfAStepBeyondTheCriticalOne) {

@@ -7,6 +7,7 @@ constexpr const char* kLoad =
     "type = \"harmonic\"\nnode = \"string:2\"\ndof = \"u\"\namplitude = 300.0\nangular_frequency = 6.0";
 constexpr const char* kInitial = "displacement = [{ nodes = \"rotor\", dof = \"u\", value = 0.001 }]";
 constexpr const char* kStopNodes = "nodes = \"rotor\"\ngap";
+constexpr const char* kRayleigh = "mass_proportional = 0.03";
 constexpr const char* kMethod = "type = \"newmark_modified\"";
 
 }  // namespace
@@ -28,6 +29,11 @@ std::vector<GoodScene> good_scenes() {
          "[\"u\", "
          "\"v\"]\n",
          ""}}},
+      {"one damping ratio for every mode", {{kRayleigh, "modal = 0.02"}}},
+      {"damping ratios of all modes, one by one", {{kRayleigh, "modal = [0.02, 0.01, 0, 0, 0, 1, 0.5, 0, 2]"}}},
+      {"no modal damping at all", {{kRayleigh, "modal = 0"}}},
+      {"damping ratios of the lowest modes of a large system",
+       {{"elements = 4", "elements = 600"}, {kRayleigh, "modal = [0.02]"}}},
       {"no contact and no load",
        {{"[[load]]\n" + std::string(kLoad), ""},
         {"[[contact]]\ntype = \"stop\"\nnodes = \"rotor\"\ngap = 0.01\nsides = \"both\"\nlaw = \"arctan\"\nstiffness = "

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/program.hpp"
 #include "support/scene_run.hpp"
 #include "verification/turning_points.hpp"
 
@@ -80,6 +81,23 @@ TEST_P(Sdnd101, contacts_forces_and_peaks_are_the_published_ones) {
 
   const double w0 = std::sqrt(1e4 / 100), w1 = std::sqrt(1.01e6 / 100);
   EXPECT_NEAR(impacts[1].t_in, std::numbers::pi * (1 / w0 + 1 / w1), tolerance);
+}
+
+TEST(Sdnd101File, impacts_csv_holds_the_published_numbers) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", std::string(kScene) + "\n[output]\nimpacts = true\n");
+  const Outcome outcome = run_program({"run", "scene.toml", "-o", "out"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const CsvTable impacts(folder.file("out/impacts.csv"));
+  ASSERT_EQ(impacts.rows(), 2U);
+  EXPECT_EQ(impacts.text_column("node"), (std::vector<std::string>{"ball", "ball"}));
+  for (std::size_t i = 0; i < impacts.rows(); ++i) {
+    EXPECT_EQ(impacts.column("side")[i], 1.0);
+    EXPECT_NEAR(impacts.column("t_out")[i] - impacts.column("t_in")[i], 0.0312600, kPrinted * 0.5);
+    EXPECT_NEAR(impacts.column("peak_force")[i], 9950.372, kPrinted * 9950.372);
+    EXPECT_NEAR(impacts.column("impulse")[i], 198.0198, kPrinted * 198.0198);
+    EXPECT_NEAR(impacts.column("impact_speed")[i], 1.0, kPrinted);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(methods, Sdnd101, testing::Values(std::pair("rk4", kPrinted), std::pair("newmark", kNewmark)),

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "conformance/methods.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+
+/// Step doubling leaves a step that it rejects unfinished: these let it accept every one.
+inline std::vector<std::string> accept_all(const MethodCase& method) {
+  if (method.name.rfind("rk4_", 0) == 0) return {"integrator.tolerance=1e30"};
+  return {};
+}
+
+/// The states after count/samples, 2 count/samples ... count equal steps from the scene's initial state, whatever a
+/// controller would say: so the arithmetic of an adaptive method shows its order like that of a fixed step.
+inline std::vector<time::State> equal_steps(SceneRun& run, double h, int count, int samples = 1) {
+  std::vector<time::State> seen;
+  time::State from, to;
+  from.x = run.system().initial_displacement;
+  from.v = run.system().initial_velocity;
+  run.integrator().start(from);
+  for (int i = 1; i <= count; ++i) {
+    EXPECT_EQ(run.integrator().step(from, {h, i * h}, to).status, time::StepStatus::ok);
+    std::swap(from, to);
+    if (i % (count / samples) == 0) seen.push_back(from);
+  }
+  return seen;
+}
+
+/// The methods of which one step has a known order.
+inline std::vector<MethodCase> cases_with_step_order() {
+  std::vector<MethodCase> cases = method_cases();
+  std::erase_if(cases, [](const MethodCase& method) { return method.step_order() == 0.0; });
+  return cases;
+}
+
+}  // namespace butee::test

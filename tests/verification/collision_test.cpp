@@ -1,0 +1,143 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+#include "verification/turning_points.hpp"
+
+namespace butee::test {
+namespace {
+
+/// Steps of h = 1e-6 s: a kink of the force within a step costs O((omega h)^2) = 1e-7, twice for each contact. Newmark
+/// lengthens a contact by (omega h)^2/12 besides.
+constexpr double kKinks = 1e-6;
+/// Momentum is a linear invariant: rounding, and Newton's tolerance, over 20 000 steps.
+constexpr double kMomentum = 1e-10;
+
+constexpr double kLight = 1.0, kHeavy = 3.0, kStiffness = 1e5, kSpeed = 2.0, kGap = 0.01;
+
+/// A free mass strikes another at rest through an elastic stop between them. Source: conservation of momentum and
+/// energy; the distance in contact is half a sine of the reduced mass mu = m1 m2/(m1 + m2), so that contact lasts pi
+/// sqrt(mu/k) and transfers the impulse 2 mu v.
+constexpr const char* kCollision = R"(
+schema = 1
+
+[[element]]
+type = "mass"
+name = "light"
+mass = 1.0
+
+[[element]]
+type = "mass"
+name = "heavy"
+mass = 3.0
+
+[[contact]]
+type      = "stop"
+between   = ["light", "heavy"]
+sides     = "positive"
+gap       = 0.01
+law       = "linear"
+stiffness = 1.0e5
+
+[initial]
+velocity = [{ nodes = "light", value = 2.0 }]
+
+[integrator]
+type      = "rk4"
+time_step = 1.0e-6
+end_time  = 0.02
+
+[integrator.newmark]
+residual_tolerance  = 1.0e-12
+increment_tolerance = 1.0e-12
+max_iterations      = 20
+)";
+
+class Collision : public testing::TestWithParam<const char*> {};
+
+TEST_P(Collision, of_two_free_masses_is_that_of_elastic_bodies) {
+  SceneRun scene(kCollision, {std::string("integrator.type=") + GetParam()});
+  record::ImpactRecorder recorder(scene.dynamics());
+  scene.simulation().add(recorder);
+  ASSERT_TRUE(scene.run().completed);
+  const Vector& v = scene.simulation().state().v;
+  const double light = v[scene.dof("light")], heavy = v[scene.dof("heavy")];
+  EXPECT_NEAR(light, (kLight - kHeavy) / (kLight + kHeavy) * kSpeed, kKinks * kSpeed);
+  EXPECT_NEAR(heavy, 2 * kLight / (kLight + kHeavy) * kSpeed, kKinks * kSpeed);
+  EXPECT_NEAR(kLight * light + kHeavy * heavy, kLight * kSpeed, kMomentum);
+
+  const auto impacts = recorder.impacts();
+  ASSERT_EQ(impacts.size(), 1U);
+  const double mu = kLight * kHeavy / (kLight + kHeavy), duration = std::numbers::pi * std::sqrt(mu / kStiffness);
+  ASSERT_TRUE(impacts[0].t_out.has_value());
+  EXPECT_NEAR(impacts[0].t_in, kGap / kSpeed, kKinks * kGap / kSpeed);
+  EXPECT_NEAR((*impacts[0].t_out - impacts[0].t_in) / duration, 1.0, kKinks);
+  EXPECT_NEAR(impacts[0].impulse / (2 * mu * kSpeed), 1.0, kKinks);
+  EXPECT_NEAR(impacts[0].peak_force / (kSpeed * std::sqrt(mu * kStiffness)), 1.0, kKinks);
+  EXPECT_NEAR(impacts[0].impact_speed, kSpeed, kKinks);
+}
+
+INSTANTIATE_TEST_SUITE_P(methods, Collision, testing::Values("rk4", "newmark"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+/// A mass that bounces on an elastic stop under its weight, without end. Source: closed form, the free fall sqrt(2 d/g)
+/// and the part of a sine about the sag m g/k put together: from release to release
+/// T = 2 [sqrt(2 d/g) + acos(-s/A)/w], w = sqrt(k/m), s = m g/k, A^2 = s^2 + (v/w)^2, v^2 = 2 g d.
+constexpr const char* kBouncing = R"(
+schema = 1
+
+[[element]]
+type = "mass"
+name = "ball"
+mass = 2.0
+
+[[contact]]
+type      = "stop"
+nodes     = "ball"
+sides     = "positive"
+gap       = 0.05
+law       = "linear"
+stiffness = 2.0e5
+
+[[load]]
+type  = "constant"
+node  = "ball"
+value = 19.62      # m g
+
+[integrator]
+type      = "rk4"
+time_step = 1.0e-5
+end_time  = 2.5
+
+[integrator.newmark]
+residual_tolerance  = 1.0e-12
+increment_tolerance = 1.0e-12
+max_iterations      = 20
+)";
+
+class Bouncing : public testing::TestWithParam<const char*> {};
+
+TEST_P(Bouncing, period_and_depth_are_those_of_the_closed_form) {
+  // A kink of the force within a step costs a part of (omega h)^2 = 1e-5 of the energy, and the period follows.
+  constexpr double kPeriodError = 5e-6, kDepthError = 1e-5;
+  SceneRun scene(kBouncing, {std::string("integrator.type=") + GetParam()});
+  TurningPoints lowest(scene.dof("ball"));
+  scene.simulation().add(lowest);
+  ASSERT_TRUE(scene.run().completed);
+  const double g = 9.81, d = 0.05, w = std::sqrt(2e5 / 2.0), sag = 2.0 * g / 2e5, v = std::sqrt(2 * g * d);
+  const double amplitude = std::hypot(sag, v / w);
+  const double period = 2 * (std::sqrt(2 * d / g) + std::acos(-sag / amplitude) / w);
+  constexpr std::size_t kBounces = 10;
+  ASSERT_GT(lowest.t.size(), kBounces);
+  EXPECT_NEAR(lowest.t[0] / (0.5 * period), 1.0, kPeriodError);
+  EXPECT_NEAR((lowest.t[kBounces] - lowest.t[0]) / kBounces / period, 1.0, kPeriodError);
+  for (std::size_t i = 0; i <= kBounces; ++i) EXPECT_NEAR(lowest.x[i], d + sag + amplitude, kDepthError * d);
+}
+
+INSTANTIATE_TEST_SUITE_P(methods, Bouncing, testing::Values("rk4", "newmark"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+}  // namespace
+}  // namespace butee::test
