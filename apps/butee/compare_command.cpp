@@ -151,7 +151,9 @@ class Comparison {
   }
 
   static std::string describe(const Row& row) {
-    std::string text = row.scene + ": " + row.method + ", " + row.knob + " = " + to_short_text(row.value) + ": ";
+    std::string text = row.scene + ": " + row.method;
+    if (!row.knob.empty()) text += ", " + row.knob + " = " + to_short_text(row.value);
+    text += ": ";
     if (!row.completed()) return text + row.outcome;
     return text + "error " + to_short_text(row.error.rms) + ", " + to_short_text(row.seconds * 1e3) + " ms";
   }
@@ -171,9 +173,7 @@ class Comparison {
     if (!drawn) log::warning("gnuplot could not draw; its scripts are in " + folder_ + " (Debian: gnuplot-nox)");
     for (const double target : study_.targets)
       if (const Row* best = fastest_beyond_doubt(results.back(), target))
-        std::printf("%s: error up to %s: %s with %s = %s, %s ms\n", best->scene.c_str(), to_short_text(target).c_str(),
-                    best->method.c_str(), best->knob.c_str(), to_short_text(best->value).c_str(),
-                    to_short_text(best->seconds * 1e3).c_str());
+        std::printf("error up to %s: %s\n", to_short_text(target).c_str(), describe(*best).c_str());
     std::printf("%s: report in %s/report.md\n", results.back().scene.c_str(), folder_.c_str());
   }
 

@@ -31,7 +31,7 @@ std::vector<double> compute(const config::Document& scene, const plugin::Catalog
                             const Question& question, int order, double perturbation) {
   plugin::Catalogue own = catalogue;
   const time::IntegratorType& type = own.load("exact");
-  Sweep sweep{"exact", "", {}, {}};
+  Sweep sweep{"exact", "", true, {}, {}};
   sweep.settings["order"] = config::Value(std::int64_t{order});
   config::Document document = with_method(scene, type, sweep, 0.0);
   Session session = read_session(std::move(document), own);

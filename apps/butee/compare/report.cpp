@@ -32,6 +32,10 @@ std::vector<std::string> methods_of(const std::vector<Row>& rows) {
   return methods;
 }
 
+std::string setting_of(const Row& row) {
+  return row.knob.empty() ? "as written" : row.knob + " = " + number(row.value);
+}
+
 /// An error can be told where the reference is several times as accurate.
 bool is_beyond_doubt(const SceneResult& result, double target) {
   constexpr double kTimes = 3.0;
@@ -65,7 +69,7 @@ void write_fastest(std::ostream& out, const Study& study, const SceneResult& res
     for (const Row& row : result.rows)
       if (row.method != best->method) others.push_back(row);
     const Row* next = fastest(others, target);
-    out << best->method << " | " << best->knob << " = " << number(best->value) << " | " << number(best->error.rms)
+    out << best->method << " | " << setting_of(*best) << " | " << number(best->error.rms)
         << " | " << duration(best->seconds) << " | "
         << (next != nullptr ? next->method + ", " + number(next->seconds / best->seconds) + " times" : "none")
         << " |\n";
@@ -76,7 +80,7 @@ void write_runs(std::ostream& out, const SceneResult& result) {
   out << "\n| method | with | error (rms) | error (max) | time | steps | rejected | factorizations | solves | contact "
          "evaluations |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Row& row : result.rows) {
-    out << "| " << row.method << " | " << row.knob << " = " << number(row.value) << " | ";
+    out << "| " << row.method << " | " << setting_of(row) << " | ";
     if (!row.completed()) {
       out << row.outcome << " | | " << duration(row.seconds) << " | | | | | |\n";
       continue;

@@ -51,15 +51,17 @@ Sweep read_sweep(const Value& table, const std::string& path, const plugin::Cata
   const auto p = read_parameters(
       table, path,
       {config::text("type", "the method").one_of(catalogue.integrator_names()),
-       config::text("sweep", "the key whose values are taken").optional(),
+       config::text("sweep", "the key whose values are taken; none: a single run as the scene is written").optional(),
        config::numbers("values", "", "its values, from coarse to fine").above(0).optional(),
        config::table("with", "further keys of [integrator] for this method").optional()},
       diagnostics);
   if (!p) return sweep;
   sweep.method = catalogue.find(p->text("type"))->declaration.name;
   if (p->has("sweep")) sweep.knob = p->text("sweep");
+  sweep.as_written = sweep.knob == "none";
+  if (sweep.as_written) sweep.knob.clear();
   if (p->has("values")) sweep.values = p->numbers("values");
-  if (!sweep.values.empty() && sweep.knob.empty())
+  if (!sweep.values.empty() && sweep.knob.empty() && !sweep.as_written)
     p->complain(diagnostics, "sweep", "is missing beside values: name the key that takes them");
   if (const Value* with = table.table()->find("with"); with != nullptr && with->table() != nullptr)
     sweep.settings = *with->table();
@@ -129,8 +131,9 @@ std::vector<Sweep> complete_sweeps(const Study& study, plugin::Catalogue& catalo
                                    double end_time) {
   std::vector<Sweep> sweeps = study.sweeps;
   if (sweeps.empty())
-    for (const auto& entry : catalogue.integrators()) sweeps.push_back({entry.declaration.name, "", {}, {}});
+    for (const auto& entry : catalogue.integrators()) sweeps.push_back({entry.declaration.name, "", false, {}, {}});
   for (Sweep& sweep : sweeps) {
+    if (sweep.as_written) sweep.values = {0.0};
     if (!sweep.values.empty()) continue;
     const time::IntegratorType& type = catalogue.load(sweep.method);
     const Parameter* knob = knob_of(type);
@@ -144,8 +147,8 @@ std::vector<Sweep> complete_sweeps(const Study& study, plugin::Catalogue& catalo
       sweep.knob = "time_step";
       sweep.values = step_values(type.stability_limit, highest_frequency, end_time);
     } else {
-      sweep.knob = "end_time";  // nothing to sweep: one run
-      sweep.values = {end_time};
+      sweep.as_written = true;  // nothing to sweep
+      sweep.values = {0.0};
     }
   }
   return sweeps;

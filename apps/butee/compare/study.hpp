@@ -12,6 +12,7 @@ namespace butee::app::compare {
 struct Sweep {
   std::string method;          ///< canonical name
   std::string knob;            ///< "time_step", "tolerance", ...
+  bool as_written = false;     ///< a single run with the scene's own values; no knob then
   std::vector<double> values;  ///< empty: chosen for the scene
   config::Table settings;      ///< further keys of [integrator]
 };

@@ -1,0 +1,125 @@
+// The command itself: what it writes, that its errors are the errors, and that a second call keeps what is done.
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+/// A swing without stops: u = cos(w t), w = 10.
+constexpr const char* kSwing =
+    "schema = 1\ntitle = \"a swing\"\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\n"
+    "type = \"spring\"\nnode = \"ball\"\nstiffness = 200.0\n[initial]\ndisplacement = [{nodes = \"ball\", value = 1.0}]\n"
+    "[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\nend_time = 0.5\n[output]\ninterval = 0.125\n[[output.probe]]\n"
+    "label = \"ball\"\nnode = \"ball\"\nquantities = [\"u\"]\n";
+
+constexpr const char* kStudy =
+    "schema = 1\n[study]\ntitle = \"two methods\"\nscenes = [\"swing.toml\"]\ntargets = [1e-3]\n[[study.method]]\n"
+    "type = \"rk4\"\nsweep = \"time_step\"\nvalues = [0.125, 0.0625]\n[[study.method]]\ntype = \"NM1\"\n"
+    "sweep = \"time_step\"\nvalues = [0.125]\n[[study.method]]\ntype = \"exact\"\nsweep = \"none\"\n";
+
+/// One classical Runge-Kutta step of x'' = -w^2 x as a matrix on (x, v), in closed form.
+double runge_kutta_error(double h, int per_row) {
+  const double w = 10.0, z = w * h;
+  const double c = 1.0 - z * z / 2.0 + z * z * z * z / 24.0, s = z - z * z * z / 6.0;
+  double x = 1.0, v = 0.0, squares = 0.0, all = 1.0;
+  for (int row = 1; row <= 4; ++row) {
+    for (int i = 0; i < per_row; ++i) {
+      const double next = c * x + s / w * v;
+      v = c * v - s * w * x;
+      x = next;
+    }
+    const double exact = std::cos(w * 0.125 * row);
+    squares += (x - exact) * (x - exact);
+    all += exact * exact;
+  }
+  return std::sqrt(squares / all);
+}
+
+/// runs.csv: the error column by method and value.
+std::map<std::string, std::string> rows_of(const std::string& csv) {
+  std::map<std::string, std::string> rows;
+  std::size_t begin = 0;
+  while (begin < csv.size()) {
+    const std::size_t end = csv.find('\n', begin);
+    const std::string line = csv.substr(begin, end - begin);
+    const std::size_t key = line.find("\",");
+    if (key != std::string::npos) rows[line.substr(key + 2, line.find(",\"completed", key) - key - 2)] = line;
+    begin = end + 1;
+  }
+  return rows;
+}
+
+double error_in(const std::string& line) {
+  const std::string mark = "\"completed\",";
+  return std::stod(line.substr(line.find(mark) + mark.size()));
+}
+
+TEST(Compare, MeasuresTheErrorsThatTheMethodsHave) {
+  const TemporaryFolder folder;
+  folder.write("swing.toml", kSwing);
+  folder.write("study.toml", kStudy);
+  const Outcome outcome = run_program({"compare", "study.toml", "-o", "out"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string csv = read_file(folder.file("out/runs.csv"));
+  const auto rows = rows_of(csv);
+  ASSERT_EQ(rows.size(), 4U) << csv;
+  ASSERT_TRUE(rows.contains("rk4,time_step,0.125") && rows.contains("rk4,time_step,0.0625")) << csv;
+  // The reference is exact to rounding; so the errors are those of the step's closed form.
+  EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.125")), runge_kutta_error(0.125, 1), 1e-12);
+  EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.0625")), runge_kutta_error(0.0625, 2), 1e-12);
+  const std::string report = read_file(folder.file("out/report.md"));
+  for (const char* part : {"# two methods", "a swing", "They agree to the end", "| newmark |", "as written"})
+    EXPECT_NE(report.find(part), std::string::npos) << part;
+}
+
+TEST(Compare, KeepsWhatAnEarlierCallHasDone) {
+  const TemporaryFolder folder;
+  folder.write("swing.toml", kSwing);
+  folder.write("study.toml", kStudy);
+  ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out"}, folder.path()).status, 0);
+  const std::string first = read_file(folder.file("out/runs.csv"));
+  ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out"}, folder.path()).status, 0);
+  EXPECT_EQ(read_file(folder.file("out/runs.csv")), first);  // times too: nothing was run again
+  ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out", "--fresh"}, folder.path()).status, 0);
+  EXPECT_NE(read_file(folder.file("out/runs.csv")), first);
+}
+
+TEST(Compare, RefusesWhatItCannotCompare) {
+  const TemporaryFolder folder;
+  folder.write("swing.toml", kSwing);
+  folder.write("study.toml", "schema = 1\n[study]\nscenes = [\"swing.toml\"]\nquantity = \"ball.w\"\n");
+  const Outcome column = run_program({"compare", "study.toml"}, folder.path());
+  EXPECT_EQ(column.status, 2);
+  EXPECT_NE(column.errors.find("there is no column \"ball.w\""), std::string::npos) << column.errors;
+  folder.write("study.toml", "schema = 1\n[study]\nscenes = [\"swing.toml\"]\ntarget = [1.0]\n");
+  const Outcome key = run_program({"compare", "study.toml"}, folder.path());
+  EXPECT_EQ(key.status, 2);
+  EXPECT_NE(key.errors.find("did you mean \"targets\""), std::string::npos) << key.errors;
+}
+
+TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
+  const TemporaryFolder folder;
+  const Outcome orderly = run_program({"run", model_path("beam1"), "--trust", "-o", "out"}, folder.path());
+  ASSERT_EQ(orderly.status, 0) << orderly.errors;
+  EXPECT_NE(orderly.output.find("to the end: the run stands"), std::string::npos) << orderly.output;
+  EXPECT_EQ(orderly.output.find("grow like e^"), std::string::npos) << orderly.output;
+  const Outcome chaotic = run_program({"run", model_path("beam4"), "--set", "integrator.type=RK4-1", "--trust", "-o", "out"},
+                                      folder.path());
+  ASSERT_EQ(chaotic.status, 0) << chaotic.errors;
+  const std::string summary = read_file(folder.file("out/summary.json"));
+  EXPECT_NE(summary.find("\"chaotic\": true"), std::string::npos) << summary;
+  const auto number = [&](const std::string& key) {
+    return std::stod(summary.substr(summary.find("\"" + key + "\": ") + key.size() + 4));
+  };
+  EXPECT_NEAR(number("growth_rate"), 20.0, 6.0);  // measured by others at 20 1/s; a fit over one second scatters
+  EXPECT_LT(number("horizon"), 0.9);
+}
+
+}  // namespace
+}  // namespace butee::test
