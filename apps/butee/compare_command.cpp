@@ -80,7 +80,7 @@ class Comparison {
     for (const std::string& assignment : study_.overrides) config::apply_override(document, assignment);
     if (study_.end_time) config::apply_override(document, "integrator.end_time=" + to_text(*study_.end_time));
     Session session = read_session(document, plugin::Catalogue::with_plugins(arguments_.model.plugins));
-    Question question = question_of(session, study_.quantity.value_or(""));
+    Question question = question_of(session, study_.quantities);
     const model::System system = assemble(session.model);
     const auto range = frequency_range(system, solve::StopState::closed);
     auto sweeps = complete_sweeps(study_, session.catalogue, range ? range->highest : 0.0,
@@ -92,7 +92,7 @@ class Comparison {
     SceneResult result;
     result.scene = std::filesystem::path(scene.document.sources.front()).stem().string();
     result.title = scene.session.model.title;
-    result.column = scene.question.column;
+    result.column = join(scene.question.columns);
     result.end_time = scene.session.integrator.options.end_time;
     log::info(result.scene + ": reference");
     result.reference = find_reference(study_, scene.document, scene.session.catalogue, scene.question);

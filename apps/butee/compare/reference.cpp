@@ -27,7 +27,7 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
-std::vector<double> compute(const config::Document& scene, const plugin::Catalogue& catalogue,
+Values compute(const config::Document& scene, const plugin::Catalogue& catalogue,
                             const Question& question, int order, double perturbation) {
   plugin::Catalogue own = catalogue;
   const time::IntegratorType& type = own.load("exact");
@@ -36,26 +36,31 @@ std::vector<double> compute(const config::Document& scene, const plugin::Catalog
   config::Document document = with_method(scene, type, sweep, 0.0);
   Session session = read_session(std::move(document), own);
   Answer answer = run_once(session, question, kTimeLimit, perturbation);
+  if (interrupted != 0) throw RunError("interrupted in the reference; what was compared before is kept");
   if (!answer.completed)
     throw RunError("the reference by exact failed: " + answer.message +
                    "; give one as a file ([study] reference) or another horizon (end_time)");
   return std::move(answer.values);
 }
 
-void compare_both(const std::vector<double>& other, const Question& question, Reference& reference) {
-  reference.peak = largest_of(reference.values);
-  std::size_t agreed = 0;
-  double squares = 0.0, all = 0.0;
-  for (; agreed < other.size(); ++agreed) {
-    const double difference = reference.values[agreed] - other[agreed];
-    if (std::abs(difference) > kParted * reference.peak) break;
-    squares += difference * difference;
-    all += reference.values[agreed] * reference.values[agreed];
+/// The number of instants at which both agree in every column.
+std::size_t agreement(const Values& a, const Values& b) {
+  std::size_t agreed = a.front().size();
+  for (std::size_t column = 0; column < a.size(); ++column) {
+    const double peak = largest_of(a[column]);
+    for (std::size_t i = 0; i < agreed; ++i)
+      if (std::abs(a[column][i] - b[column][i]) > kParted * peak) agreed = i;
   }
-  reference.parted = agreed < other.size();
+  return agreed;
+}
+
+void compare_both(const Values& other, const Question& question, Reference& reference) {
+  const std::size_t agreed = agreement(reference.values, other);
+  reference.parted = agreed < question.times.size();
   reference.horizon = agreed > 0 ? question.times[agreed - 1] : 0.0;
-  reference.values.resize(agreed);
-  reference.uncertainty = all > 0.0 ? std::sqrt(squares / all) : 0.0;
+  for (auto& column : reference.values) column.resize(agreed);
+  const Error difference = error_of(other, reference);
+  reference.uncertainty = std::isfinite(difference.rms) ? difference.rms : 0.0;
 }
 
 std::vector<std::string> split(const std::string& line) {
@@ -65,8 +70,8 @@ std::vector<std::string> split(const std::string& line) {
   return cells;
 }
 
-/// The rows of the file at the times of the question.
-std::vector<double> read_file(const std::string& path, const Question& question) {
+/// A column of the file at the times of the question.
+std::vector<double> read_column(const std::string& path, const std::string& column, const Question& question) {
   std::ifstream file(path);
   if (!file) throw InputError("study.reference = \"" + path + "\": cannot be read");
   std::string line;
@@ -78,7 +83,7 @@ std::vector<double> read_file(const std::string& path, const Question& question)
     if (found == header.end()) throw InputError(path + ": there is no column \"" + name + "\"; it has " + join(header));
     return static_cast<std::size_t>(found - header.begin());
   };
-  const std::size_t t = place("t"), value = place(question.column);
+  const std::size_t t = place("t"), value = place(column);
   std::vector<double> values;
   for (std::size_t number = 2; values.size() < question.times.size() && std::getline(file, line); ++number) {
     const auto cells = split(line);
@@ -103,31 +108,39 @@ Reference find_reference(const Study& study, const config::Document& scene, plug
   Reference reference;
   if (!study.reference_file.empty()) {
     reference.origin = study.reference_file + ", taken as it is";
-    reference.values = read_file(study.reference_file, question);
-    compare_both(reference.values, question, reference);
+    for (const std::string& column : question.columns)
+      reference.values.push_back(read_column(study.reference_file, column, question));
+    compare_both(Values(reference.values), question, reference);
     return reference;
   }
   if (catalogue.find("exact") == nullptr)
     throw InputError("the method exact is not installed, which references are made by; give a file: [study] reference");
   reference.origin = "exact at order 30, and at order 22 from a start that differs by rounding";
   reference.values = compute(scene, catalogue, question, 30, 0.0);
-  const double peak = largest_of(reference.values);
+  double peak = 0.0;
+  for (const auto& column : reference.values) peak = std::max(peak, largest_of(column));
   compare_both(compute(scene, catalogue, question, 22, kRounding * peak), question, reference);
   return reference;
 }
 
-Error error_of(const std::vector<double>& values, const Reference& reference) {
+Error error_of(const Values& values, const Reference& reference) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  if (values.size() < reference.values.size()) return {kInfinite, kInfinite};
-  double squares = 0.0, all = 0.0, largest = 0.0;
-  for (std::size_t i = 0; i < reference.values.size(); ++i) {
-    const double difference = values[i] - reference.values[i];
-    squares += difference * difference;
-    all += reference.values[i] * reference.values[i];
-    largest = std::max(largest, std::abs(difference));
+  Error worst;
+  for (std::size_t column = 0; column < reference.values.size(); ++column) {
+    const std::vector<double>& expected = reference.values[column];
+    if (values[column].size() < expected.size()) return {kInfinite, kInfinite};
+    double squares = 0.0, all = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const double difference = values[column][i] - expected[i];
+      squares += difference * difference;
+      all += expected[i] * expected[i];
+      largest = std::max(largest, std::abs(difference));
+    }
+    if (!(all > 0.0)) return {kInfinite, kInfinite};
+    worst.rms = std::max(worst.rms, std::sqrt(squares / all));
+    worst.largest = std::max(worst.largest, largest / largest_of(expected));
   }
-  if (!(all > 0.0)) return {kInfinite, kInfinite};
-  return {std::sqrt(squares / all), largest / reference.peak};
+  return worst;
 }
 
 }  // namespace butee::app::compare

@@ -11,11 +11,10 @@ namespace butee::app::compare {
 /// The answer that others are measured against, and how far it can itself be trusted.
 struct Reference {
   std::string origin;          ///< what it was made by
-  std::vector<double> values;  ///< at the times of the question, up to the horizon
+  Values values;               ///< at the times of the question, up to the horizon
   double horizon = 0.0;        ///< s; beyond it two computations part company
   bool parted = false;         ///< false: they agree to the end
-  double uncertainty = 0.0;    ///< relative rms of their difference up to the horizon
-  double peak = 0.0;           ///< the largest |value|
+  double uncertainty = 0.0;    ///< relative rms of their difference up to the horizon, of the worst column
 };
 
 /// Computes it twice by the method `exact` at different orders, or reads the study's file. Throws InputError where the
@@ -28,6 +27,7 @@ struct Error {
   double rms = 0.0;
   double largest = 0.0;  ///< relative to the peak
 };
-Error error_of(const std::vector<double>& values, const Reference& reference);
+/// Each of the worst column.
+Error error_of(const Values& values, const Reference& reference);
 
 }  // namespace butee::app::compare

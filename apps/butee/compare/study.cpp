@@ -33,11 +33,11 @@ std::vector<Parameter> study_parameters() {
   return {config::text("title", "the title of the report").or_else(std::string()),
           config::texts("scenes", "the model files, beside the study"),
           config::texts("set", "overrides for every scene: KEY=VALUE").optional(),
-          config::text("quantity", "the column of history.csv that is compared").optional(),
+          config::texts("quantity", "the columns of history.csv that are compared; a run counts with its worst").optional(),
           config::number("end_time", "s", "the end of every run").above(0).optional(),
           config::numbers("targets", "1", "relative rms errors to name the fastest method for").above(0).optional(),
           config::number("time_limit", "s", "the longest single run").above(0).or_else(2.0),
-          config::text("reference", "a CSV file with columns t and the quantity").or_else(std::string()),
+          config::text("reference", "a CSV file with columns t and the quantities").or_else(std::string()),
           config::table("method", "[[study.method]]: the methods; without it all that are found").optional()};
 }
 
@@ -79,7 +79,7 @@ Study read_study_file(const config::Document& document, const ModelArguments& ar
   study.title = p->text("title");
   for (const std::string& scene : p->texts("scenes")) study.scenes.push_back(beside(arguments.model, scene));
   if (p->has("set")) study.overrides = p->texts("set");
-  if (p->has("quantity")) study.quantity = p->text("quantity");
+  if (p->has("quantity")) study.quantities = p->texts("quantity");
   if (p->has("end_time")) study.end_time = p->number("end_time");
   if (p->has("targets")) study.targets = p->numbers("targets");
   study.time_limit = p->number("time_limit");

@@ -31,49 +31,60 @@ double seconds_since(Clock::time_point begin) {
 class Sampler final : public time::Observer {
  public:
   Sampler(const Question& question, solve::Dynamics& dynamics)
-      : question_(question), probes_({question.probe}, dynamics) {}
+      : question_(question), probes_(question.probes, dynamics), row_(question.columns.size()) {
+    values.resize(row_.size());
+  }
 
   void start(const time::State& state) override {
     if (!question_.times.empty() && question_.times.front() <= state.t) take([&](auto to) { probes_.evaluate(state, to); });
   }
   void step(const time::AcceptedStep& step) override {
-    while (values.size() < question_.times.size() && question_.times[values.size()] <= step.to.t)
-      take([&](auto to) { probes_.evaluate(step, question_.times[values.size()], to); });
+    while (taken_ < question_.times.size() && question_.times[taken_] <= step.to.t)
+      take([&](auto to) { probes_.evaluate(step, question_.times[taken_], to); });
   }
 
-  std::vector<double> values;
+  Values values;
 
  private:
   template <class Evaluate>
   void take(Evaluate evaluate) {
-    double value = 0.0;
-    evaluate(std::span<double>(&value, 1));
-    values.push_back(value);
+    evaluate(std::span<double>(row_));
+    for (std::size_t i = 0; i < row_.size(); ++i) values[i].push_back(row_[i]);
+    ++taken_;
   }
 
   const Question& question_;
   record::Probes probes_;
+  std::vector<double> row_;
+  std::size_t taken_ = 0;
 };
 
 }  // namespace
 
-Question question_of(const Session& session, const std::string& column) {
+Question question_of(const Session& session, const std::vector<std::string>& columns) {
   std::vector<std::string> known;
-  std::optional<Question> question;
+  std::vector<record::ProbeRequest> single;
   for (const record::ProbeRequest& probe : session.output.probes)
     for (const record::Quantity quantity : probe.quantities) {
       known.push_back(probe.label + "." + name_of(quantity));
-      if (!question && (column.empty() || column == known.back()))
-        question = Question{{probe.label, probe.node, {quantity}}, known.back(), {}};
+      single.push_back({probe.label, probe.node, {quantity}});
     }
-  if (!question)
-    throw InputError(session.document.sources.front() + ": there is no column \"" + column + "\"" +
-                     suggestion(column, known) + "; [[output.probe]] gives " + join(known));
+  if (known.empty())
+    throw InputError(session.document.sources.front() + ": there is nothing to compare; add an [[output.probe]]");
+  Question question;
+  for (const std::string& column : columns.empty() ? std::vector{known.front()} : columns) {
+    const auto found = std::find(known.begin(), known.end(), column);
+    if (found == known.end())
+      throw InputError(session.document.sources.front() + ": there is no column \"" + column + "\"" +
+                       suggestion(column, known) + "; [[output.probe]] gives " + join(known));
+    question.columns.push_back(column);
+    question.probes.push_back(single[static_cast<std::size_t>(found - known.begin())]);
+  }
   const double end = session.integrator.options.end_time, interval = session.output.interval.value_or(end / 1000.0);
   for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1.0 - kSameInstant); ++i)
-    question->times.push_back(static_cast<double>(i) * interval);
-  question->times.push_back(end);
-  return std::move(*question);
+    question.times.push_back(static_cast<double>(i) * interval);
+  question.times.push_back(end);
+  return question;
 }
 
 Answer run_once(Session& session, const Question& question, double time_limit, double perturbation) {

@@ -16,19 +16,22 @@ extern volatile std::sig_atomic_t interrupted;
 
 /// What is compared, and when.
 struct Question {
-  record::ProbeRequest probe;  ///< one quantity of one node
-  std::string column;          ///< "mid.u"
-  std::vector<double> times;   ///< s, ascending
+  std::vector<record::ProbeRequest> probes;  ///< one quantity of one node each
+  std::vector<std::string> columns;          ///< "mid.u", one for each
+  std::vector<double> times;                 ///< s, ascending
 };
 
-/// The question of a scene: `column` of its history, or the first one where empty. Throws InputError.
-Question question_of(const Session& session, const std::string& column);
+/// The question of a scene: these columns of its history, or the first one where none are named. Throws InputError.
+Question question_of(const Session& session, const std::vector<std::string>& columns);
+
+/// Courses of the columns at the times of a question: values[column][instant].
+using Values = std::vector<std::vector<double>>;
 
 /// What a run answered.
 struct Answer {
   bool completed = false;
   std::string message;
-  std::vector<double> values;  ///< at the times of the question, as far as it came
+  Values values;         ///< as far as it came
   double seconds = 0.0;        ///< set-up and integration
   time::RunReport report;
   solve::Counters counters;
