@@ -23,8 +23,9 @@ ContactBranches::ContactBranches(const solve::Contact& contact, int order)
     const model::ContactLaw& law = contact.law_of(i);
     series_.push_back(law.is_piecewise_linear() ? nullptr : law.force_series());
     if (!law.is_piecewise_linear() && series_.back() == nullptr)
-      throw InputError("integrator.type: exact needs stops whose law is piecewise linear or gives its Taylor series; "
-                       "take law = \"linear\" or \"arctan\", or another integrator");
+      throw InputError(
+          "integrator.type: exact needs stops whose law is piecewise linear or gives its Taylor series; "
+          "take law = \"linear\" or \"arctan\", or another integrator");
     gap_.push_back(contact.gap_of(i));
     penetration_.emplace_back();
     penetration_.back().reserve(series_.back() ? terms : 0);

@@ -60,7 +60,8 @@ StepReport Newmark::iterate(double h, State& to) {
                            increment <= newton_.increment_tolerance * to.x.norm();
     if (converged) return report;
     if (report.newton_iterations == newton_.max_iterations) break;
-    if (!first && dynamics().stop_count() > 0) dynamics().contact().tangent(stop_displacement_, stop_force_, stop_tangent_);
+    if (!first && dynamics().stop_count() > 0)
+      dynamics().contact().tangent(stop_displacement_, stop_force_, stop_tangent_);
     if (!effective.solve(stop_tangent_, residual_)) {
       report.status = StepStatus::singular;
       return report;
@@ -92,9 +93,8 @@ namespace {
 
 std::vector<Parameter> newton_parameters() {
   std::vector<Parameter> all = NewmarkParameters::declare();
-  all.push_back(number("residual_tolerance", "1", "eps_r, relative to the sum of the force norms")
-                    .above(0)
-                    .try_first(1e-9));
+  all.push_back(
+      number("residual_tolerance", "1", "eps_r, relative to the sum of the force norms").above(0).try_first(1e-9));
   all.push_back(number("increment_tolerance", "1", "eps_delta, relative to the norm of the displacements")
                     .above(0)
                     .try_first(1e-9));

@@ -9,8 +9,8 @@ namespace butee::integrators {
 /// Finds the first sign change of a polynomial in (0, 1], without missing any.
 ///
 /// The polynomial is written in Bernstein form, whose coefficients bound it: without a sign change among them it has no
-/// root, with one exactly one; otherwise the interval is halved (de Casteljau). Source: J. M. Lane and R. F. Riesenfeld,
-/// BIT 21 (1981) 112-117.
+/// root, with one exactly one; otherwise the interval is halved (de Casteljau). Source: J. M. Lane and R. F.
+/// Riesenfeld, BIT 21 (1981) 112-117.
 class PolynomialRoot {
  public:
   /// For polynomials of degree `degree` and less.

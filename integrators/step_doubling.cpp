@@ -60,8 +60,8 @@ IntegratorType rk4_fixed_factors_type() {
           "Runge-Kutta 4 with step doubling, the step changed by constant factors",
           {tolerance(), number("shrink", "1", "a, by which a rejected step is divided").above(1).try_first(1.1),
            number("grow", "1", "b, by which the step is multiplied where the error is below a hundredth")
-           .at_least(1)
-           .try_first(2.0)},
+               .at_least(1)
+               .try_first(2.0)},
           kRungeKutta4Limit,
           [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<StepDoublingRungeKutta4>(
@@ -71,16 +71,17 @@ IntegratorType rk4_fixed_factors_type() {
 }
 
 IntegratorType rk4_error_scaled_type() {
-  return {"rk4_error_scaled",
-          {"RK4-3"},
-          "Runge-Kutta 4 with step doubling, the step changed by the error",
-          {tolerance(), number("safety", "1", "s, the safety factor on the new step").above(0).at_most(1).try_first(0.9)},
-          kRungeKutta4Limit,
-          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<StepDoublingRungeKutta4>(
-                dynamics, std::make_unique<ErrorScaled>(p.number("tolerance"), p.number("safety")));
-          },
-          {}};
+  return {
+      "rk4_error_scaled",
+      {"RK4-3"},
+      "Runge-Kutta 4 with step doubling, the step changed by the error",
+      {tolerance(), number("safety", "1", "s, the safety factor on the new step").above(0).at_most(1).try_first(0.9)},
+      kRungeKutta4Limit,
+      [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+        return std::make_unique<StepDoublingRungeKutta4>(
+            dynamics, std::make_unique<ErrorScaled>(p.number("tolerance"), p.number("safety")));
+      },
+      {}};
 }
 
 }  // namespace butee::integrators

@@ -47,8 +47,9 @@ TaylorExpander::TaylorExpander(solve::Dynamics& dynamics, int order, double tole
       terms_(order + 1) {
   for (const model::FreeLoad& load : dynamics.system().loads)
     if (!load.in_time->taylor(0.0, 1.0, load_))
-      throw InputError("integrator.type: exact needs loads that give their Taylor series, as the standard ones do; "
-                       "take another integrator");
+      throw InputError(
+          "integrator.type: exact needs loads that give their Taylor series, as the standard ones do; "
+          "take another integrator");
 }
 
 bool TaylorExpander::expand(double t, const Vector& x, const Vector& v, ContactBranches& branches,

@@ -83,8 +83,8 @@ class Comparison {
     Question question = question_of(session, study_.quantities);
     const model::System system = assemble(session.model);
     const auto range = frequency_range(system, solve::StopState::closed);
-    auto sweeps = complete_sweeps(study_, session.catalogue, range ? range->highest : 0.0,
-                                  session.integrator.options.end_time);
+    auto sweeps =
+        complete_sweeps(study_, session.catalogue, range ? range->highest : 0.0, session.integrator.options.end_time);
     return {std::move(document), std::move(session), std::move(question), std::move(sweeps)};
   }
 

@@ -82,15 +82,15 @@ Repetition repeat(Session& session, double perturbation) {
   model::System system = assemble(session.model);
   if (perturbation != 0.0) perturb(system.initial_displacement, perturbation);
   solve::Dynamics dynamics(system);
-  const auto integrator =
-      session.catalogue.load(session.integrator.name).make(session.integrator.parameters, dynamics);
+  const auto integrator = session.catalogue.load(session.integrator.name).make(session.integrator.parameters, dynamics);
   time::Simulation simulation(dynamics, *integrator, session.integrator.options);
   Follower follower(session, dynamics);
   simulation.add(follower);
   record::ImpactRecorder impacts(dynamics);
   if (dynamics.stop_count() > 0) simulation.add(impacts);
   const time::RunReport& report = simulation.run();
-  if (!report.completed) throw RunError("a run that was to tell how far to trust the first one failed: " + report.message);
+  if (!report.completed)
+    throw RunError("a run that was to tell how far to trust the first one failed: " + report.message);
   Repetition result{std::move(follower.courses), {}};
   const auto probes = displacement_probes(session);
   for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -153,8 +153,8 @@ record::Trust find_trust(Session& session) {
   trust.tightened = what;
   for (std::size_t i = 0; i < first.statistics.size(); ++i) {
     record::Trust::Statistic statistic = first.statistics[i];
-    const auto [least, greatest] = std::minmax({statistic.value, second.statistics[i].value,
-                                                third.statistics[i].value, fourth.statistics[i].value});
+    const auto [least, greatest] = std::minmax(
+        {statistic.value, second.statistics[i].value, third.statistics[i].value, fourth.statistics[i].value});
     statistic.least = least;
     statistic.greatest = greatest;
     trust.statistics.push_back(std::move(statistic));

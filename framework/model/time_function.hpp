@@ -18,8 +18,8 @@ class BUTEE_EXPORT TimeFunction {
   /// True where it is zero at all times, so that the load can be left out.
   virtual bool vanishes() const { return false; }
 
-  /// The Taylor coefficients of value(t + s h) in s, from the right where it jumps: coefficients[k] = h^k value^(k)(t)/k!.
-  /// False where it has none to give; methods that need them then refuse the scene.
+  /// The Taylor coefficients of value(t + s h) in s, from the right where it jumps: coefficients[k] = h^k
+  /// value^(k)(t)/k!. False where it has none to give; methods that need them then refuse the scene.
   virtual bool taylor(double t, double h, std::span<double> coefficients) const {
     (void)t, (void)h, (void)coefficients;
     return false;

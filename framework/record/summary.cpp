@@ -25,7 +25,8 @@ Json to_json(const Trust& trust) {
   json["tightened"] = trust.tightened;
   json["statistics"] = Json::object();
   for (const Trust::Statistic& s : trust.statistics)
-    json["statistics"][s.name] = {{"value", number(s.value)}, {"least", number(s.least)}, {"greatest", number(s.greatest)}};
+    json["statistics"][s.name] = {
+        {"value", number(s.value)}, {"least", number(s.least)}, {"greatest", number(s.greatest)}};
   return json;
 }
 

@@ -47,8 +47,8 @@ void find_horizon(const Courses& run, const Courses& tightened, double peak, Tru
   trust.horizon = i > 0 ? run.times[i - 1] : 0.0;
 }
 
-/// The slope of the straight line through ln(difference) until it saturates, 1/s. The envelope is taken, the largest difference so far,
-/// since a difference passes through zero wherever two motions cross.
+/// The slope of the straight line through ln(difference) until it saturates, 1/s. The envelope is taken, the largest
+/// difference so far, since a difference passes through zero wherever two motions cross.
 double fit_growth(const Courses& run, const Courses& other, double peak) {
   double sum = 0.0, t_sum = 0.0, y_sum = 0.0, tt = 0.0, ty = 0.0, envelope = 0.0;
   const std::size_t size = common_size(run, other);

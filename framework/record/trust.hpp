@@ -16,14 +16,14 @@ struct Trust {
     double value, least, greatest;
   };
 
-  double accuracy = 0.0;     ///< asked for, relative to the peak
-  double horizon = 0.0;      ///< s; up to there the tightened run differs by less
-  bool to_the_end = false;   ///< the horizon is the end of the run
-  double difference = 0.0;   ///< the largest difference up to the horizon, relative to the peak
-  double growth_rate = 0.0;  ///< 1/s, of small differences, by a straight line through their logarithm
+  double accuracy = 0.0;       ///< asked for, relative to the peak
+  double horizon = 0.0;        ///< s; up to there the tightened run differs by less
+  bool to_the_end = false;     ///< the horizon is the end of the run
+  double difference = 0.0;     ///< the largest difference up to the horizon, relative to the peak
+  double growth_rate = 0.0;    ///< 1/s, of small differences, by a straight line through their logarithm
   double amplification = 0.0;  ///< the largest difference of starts that differ, over the difference of these
   bool chaotic = false;        ///< at that rate differences grow ten thousandfold and more before the end
-  std::string tightened;     ///< what was tightened: "time_step 1e-05 -> 5e-06"
+  std::string tightened;       ///< what was tightened: "time_step 1e-05 -> 5e-06"
   std::vector<Statistic> statistics;
 };
 

@@ -13,7 +13,8 @@ namespace butee::solve {
 /// The elimination from one end: rows are counted from that end.
 class BandFactor::Chain {
  public:
-  Chain(Index steps, Index band) : steps_(steps), band_(band), row_(static_cast<std::size_t>((steps + band) * (band + 1))) {}
+  Chain(Index steps, Index band)
+      : steps_(steps), band_(band), row_(static_cast<std::size_t>((steps + band) * (band + 1))) {}
 
   /// Entry (i, i + k): before elimination of A or, beyond the last step, of the change of the middle; after it D for
   /// k = 0, else L(i + k, i).
@@ -84,7 +85,8 @@ void solve_middle(const View& f, const Recent<band>& last, double* x) {
   }
   std::array<double, band + 1> solved{};
   for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < count; ++j) solved[static_cast<std::size_t>(i)] += f.middle_inverse[i * count + j] * x[begin + j];
+    for (Index j = 0; j < count; ++j)
+      solved[static_cast<std::size_t>(i)] += f.middle_inverse[i * count + j] * x[begin + j];
   for (Index i = 0; i < count; ++i) x[begin + i] = solved[static_cast<std::size_t>(i)];
 }
 

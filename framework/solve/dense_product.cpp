@@ -34,7 +34,8 @@ void multiply_lanes(const double* matrix, const Index* columns, Index count, con
     add_column(matrix, j, x[j], sums);
   }
   for (std::size_t i = 0; i + 1 < lanes; ++i) store(sums[i], y + i * static_cast<std::size_t>(kLaneSize));
-  for (std::size_t i = (lanes - 1) * static_cast<std::size_t>(kLaneSize), k = 0; i < rows; ++i, ++k) y[i] = sums[lanes - 1][k];
+  for (std::size_t i = (lanes - 1) * static_cast<std::size_t>(kLaneSize), k = 0; i < rows; ++i, ++k)
+    y[i] = sums[lanes - 1][k];
 }
 
 using Kernel = void (*)(const double*, const Index*, Index, const double*, double*, std::size_t);
@@ -62,8 +63,8 @@ void DenseProduct::multiply(const double* x, double* y) const {
 
 void DenseProduct::multiply(std::span<const Index> columns, const double* x, double* y) const {
   if (2 * static_cast<Index>(columns.size()) > columns_) return multiply(x, y);
-  kChosen[static_cast<std::size_t>(lanes_ - 1)](padded_.data(), columns.data(), static_cast<Index>(columns.size()), x, y,
-                                                static_cast<std::size_t>(rows_));
+  kChosen[static_cast<std::size_t>(lanes_ - 1)](padded_.data(), columns.data(), static_cast<Index>(columns.size()), x,
+                                                y, static_cast<std::size_t>(rows_));
 }
 
 }  // namespace butee::solve

@@ -52,7 +52,7 @@ class BUTEE_EXPORT LocalContact {
   std::vector<Index> near_places_, far_places_, all_places_;
   std::span<const Index> near_stops_, far_stops_;  ///< those of this solve, within the ones above
   bool far_is_spread_ = false;                     ///< work_ holds the far forces' part
-  double contraction_ = 0.0;  ///< of a sweep over the far stops: their largest reach
+  double contraction_ = 0.0;                       ///< of a sweep over the far stops: their largest reach
 };
 
 }  // namespace butee::solve

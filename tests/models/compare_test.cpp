@@ -14,7 +14,8 @@ namespace {
 /// A swing without stops: u = cos(w t), w = 10.
 constexpr const char* kSwing =
     "schema = 1\ntitle = \"a swing\"\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\n"
-    "type = \"spring\"\nnode = \"ball\"\nstiffness = 200.0\n[initial]\ndisplacement = [{nodes = \"ball\", value = 1.0}]\n"
+    "type = \"spring\"\nnode = \"ball\"\nstiffness = 200.0\n[initial]\ndisplacement = [{nodes = \"ball\", value = "
+    "1.0}]\n"
     "[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\nend_time = 0.5\n[output]\ninterval = 0.125\n[[output.probe]]\n"
     "label = \"ball\"\nnode = \"ball\"\nquantities = [\"u\"]\n";
 
@@ -109,8 +110,8 @@ TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
   ASSERT_EQ(orderly.status, 0) << orderly.errors;
   EXPECT_NE(orderly.output.find("to the end: the run stands"), std::string::npos) << orderly.output;
   EXPECT_EQ(orderly.output.find("grow like e^"), std::string::npos) << orderly.output;
-  const Outcome chaotic = run_program({"run", model_path("beam4"), "--set", "integrator.type=RK4-1", "--trust", "-o", "out"},
-                                      folder.path());
+  const Outcome chaotic = run_program(
+      {"run", model_path("beam4"), "--set", "integrator.type=RK4-1", "--trust", "-o", "out"}, folder.path());
   ASSERT_EQ(chaotic.status, 0) << chaotic.errors;
   const std::string summary = read_file(folder.file("out/summary.json"));
   EXPECT_NE(summary.find("\"chaotic\": true"), std::string::npos) << summary;

@@ -73,8 +73,8 @@ TEST_P(ExactMethod, MeetsTheSolutionIn80Bits) {
   const Case& c = GetParam();
   const CsvTable table(std::string(BUTEE_TEST_DATA) + "/models/reference/" + c.scene + "-linear.csv");
   std::vector<double> times = table.column("t"), u = table.column("u0"), v = table.column("v0");
-  const auto rows = static_cast<std::size_t>(
-      std::upper_bound(times.begin(), times.end(), c.end_time * (1.0 + 1e-9)) - times.begin());
+  const auto rows =
+      static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), c.end_time * (1.0 + 1e-9)) - times.begin());
   times.resize(rows);
   u.resize(rows);
   v.resize(rows);
@@ -83,16 +83,12 @@ TEST_P(ExactMethod, MeetsTheSolutionIn80Bits) {
   EXPECT_LT(relative_maximum(motion.v, v), 10.0 * c.tolerance);  // velocities jump in the highest modes
 }
 
-INSTANTIATE_TEST_SUITE_P(OfThePaper, ExactMethod,
-                         testing::Values(Case{"oscillator", "rotor", 0.2, kExact},
-                                         Case{"beam1", "string:middle", 1.0, kExact},
-                                         Case{"beam2", "string:middle", 1.0, kExact},
-                                         Case{"beam3", "string:middle", 1.0, kExact},
-                                         Case{"beam4", "string:middle", 0.3, kExact},
-                                         Case{"beam4", "string:middle", 0.5, kChaotic}),
-                         [](const auto& one) {
-                           return one.param.scene + (one.param.end_time == 0.5 ? "_longer" : "");
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    OfThePaper, ExactMethod,
+    testing::Values(Case{"oscillator", "rotor", 0.2, kExact}, Case{"beam1", "string:middle", 1.0, kExact},
+                    Case{"beam2", "string:middle", 1.0, kExact}, Case{"beam3", "string:middle", 1.0, kExact},
+                    Case{"beam4", "string:middle", 0.3, kExact}, Case{"beam4", "string:middle", 0.5, kChaotic}),
+    [](const auto& one) { return one.param.scene + (one.param.end_time == 0.5 ? "_longer" : ""); });
 
 TEST(ExactMethod, GoesThroughTheBoundaryLayersOfTheArctanLawWhateverItsSettings) {
   // Three hundred passages through layers of 4.5 nm in 0.1 s; orders 20 and 40 take other steps through all of them.
@@ -105,7 +101,8 @@ TEST(ExactMethod, GoesThroughTheBoundaryLayersOfTheArctanLawWhateverItsSettings)
 }
 
 TEST(ExactMethod, EndsASeriesAtEveryKinkOfALoad) {
-  // A mass without a spring under a table: velocity is the integral of a polygon, position its integral, in closed form.
+  // A mass without a spring under a table: velocity is the integral of a polygon, position its integral, in closed
+  // form.
   const std::string toml =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n"
       "[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = [0.1, 0.3, 0.4]\nvalues = [0.0, 4.0, -2.0]\n"

@@ -27,8 +27,8 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
-Values compute(const config::Document& scene, const plugin::Catalogue& catalogue,
-                            const Question& question, int order, double perturbation) {
+Values compute(const config::Document& scene, const plugin::Catalogue& catalogue, const Question& question, int order,
+               double perturbation) {
   plugin::Catalogue own = catalogue;
   const time::IntegratorType& type = own.load("exact");
   Sweep sweep{"exact", "", true, {}, {}};

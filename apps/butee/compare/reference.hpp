@@ -10,11 +10,11 @@ namespace butee::app::compare {
 
 /// The answer that others are measured against, and how far it can itself be trusted.
 struct Reference {
-  std::string origin;          ///< what it was made by
-  Values values;               ///< at the times of the question, up to the horizon
-  double horizon = 0.0;        ///< s; beyond it two computations part company
-  bool parted = false;         ///< false: they agree to the end
-  double uncertainty = 0.0;    ///< relative rms of their difference up to the horizon, of the worst column
+  std::string origin;        ///< what it was made by
+  Values values;             ///< at the times of the question, up to the horizon
+  double horizon = 0.0;      ///< s; beyond it two computations part company
+  bool parted = false;       ///< false: they agree to the end
+  double uncertainty = 0.0;  ///< relative rms of their difference up to the horizon, of the worst column
 };
 
 /// Computes it twice by the method `exact` at different orders, or reads the study's file. Throws InputError where the

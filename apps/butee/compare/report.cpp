@@ -69,8 +69,8 @@ void write_fastest(std::ostream& out, const Study& study, const SceneResult& res
     for (const Row& row : result.rows)
       if (row.method != best->method) others.push_back(row);
     const Row* next = fastest(others, target);
-    out << best->method << " | " << setting_of(*best) << " | " << number(best->error.rms)
-        << " | " << duration(best->seconds) << " | "
+    out << best->method << " | " << setting_of(*best) << " | " << number(best->error.rms) << " | "
+        << duration(best->seconds) << " | "
         << (next != nullptr ? next->method + ", " + number(next->seconds / best->seconds) + " times" : "none")
         << " |\n";
   }
@@ -130,8 +130,8 @@ std::string csv_line(const Row& row) {
   if (row.completed()) out << row.error.rms;
   out << ',';
   if (row.completed()) out << row.error.largest;
-  out << ',' << row.seconds << ',' << row.steps << ',' << row.rejected << ',' << row.newton << ','
-      << row.factorizations << ',' << row.solves << ',' << row.contact_evaluations << ',' << row.force_evaluations;
+  out << ',' << row.seconds << ',' << row.steps << ',' << row.rejected << ',' << row.newton << ',' << row.factorizations
+      << ',' << row.solves << ',' << row.contact_evaluations << ',' << row.force_evaluations;
   return out.str();
 }
 
@@ -154,8 +154,13 @@ std::vector<Row> read_csv(const std::string& path) {
       row.outcome = cells[5];
       if (row.completed()) row.error = {std::stod(cells[6]), std::stod(cells[7])};
       row.seconds = std::stod(cells[8]);
-      const std::array<std::int64_t*, 7> counts = {&row.steps,  &row.rejected,          &row.newton,           &row.factorizations,
-                                                   &row.solves, &row.contact_evaluations, &row.force_evaluations};
+      const std::array<std::int64_t*, 7> counts = {&row.steps,
+                                                   &row.rejected,
+                                                   &row.newton,
+                                                   &row.factorizations,
+                                                   &row.solves,
+                                                   &row.contact_evaluations,
+                                                   &row.force_evaluations};
       for (std::size_t i = 0; i < counts.size(); ++i) *counts[i] = std::stoll(cells[9 + i]);
       rows.push_back(std::move(row));
     } catch (const std::exception&) {
@@ -208,7 +213,8 @@ bool draw(const SceneResult& result, const std::string& folder) {
   }
   data.close();
   std::ofstream script(base + ".gp");
-  script << "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset grid xtics ytics mxtics mytics lt 1 lc rgb '#c8c8c8', lt 1 lc rgb '#eeeeee'\n"
+  script << "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset grid xtics ytics mxtics mytics lt 1 "
+            "lc rgb '#c8c8c8', lt 1 lc rgb '#eeeeee'\n"
             "set border 3\nset tics nomirror out\nset key outside right center reverse Left samplen 2 spacing 1.2\n"
          << "set xlabel 'time of one run / ms'\nset ylabel 'relative rms error of " << result.column << "' noenhanced\n"
          << "set title '" << (result.title.empty() ? result.scene : result.title) << "' noenhanced\n"
@@ -223,8 +229,8 @@ bool draw(const SceneResult& result, const std::string& folder) {
             std::to_string(std::array{4, 5, 6, 7, 8, 9, 10, 11, 12, 13}[i % 10]) + " lc rgb '" + colours[i % 10] +
             "' t '" + drawn[i] + "' noenhanced, ";
   plot.resize(plot.size() - 2);
-  for (const auto& [terminal, suffix] :
-       {std::pair{"pngcairo size 1200,750 font 'sans,13'", ".png"}, std::pair{"svg size 900,560 font 'sans,13'", ".svg"}})
+  for (const auto& [terminal, suffix] : {std::pair{"pngcairo size 1200,750 font 'sans,13'", ".png"},
+                                         std::pair{"svg size 900,560 font 'sans,13'", ".svg"}})
     script << "set terminal " << terminal << "\nset output '" << base << suffix << "'\n" << plot << "\n";
   script << "set output\n";
   script.close();

@@ -30,15 +30,16 @@ constexpr double kFewestSteps = 200.0;
 constexpr double kSafeStep = 0.95;
 
 std::vector<Parameter> study_parameters() {
-  return {config::text("title", "the title of the report").or_else(std::string()),
-          config::texts("scenes", "the model files, beside the study"),
-          config::texts("set", "overrides for every scene: KEY=VALUE").optional(),
-          config::texts("quantity", "the columns of history.csv that are compared; a run counts with its worst").optional(),
-          config::number("end_time", "s", "the end of every run").above(0).optional(),
-          config::numbers("targets", "1", "relative rms errors to name the fastest method for").above(0).optional(),
-          config::number("time_limit", "s", "the longest single run").above(0).or_else(2.0),
-          config::text("reference", "a CSV file with columns t and the quantities").or_else(std::string()),
-          config::table("method", "[[study.method]]: the methods; without it all that are found").optional()};
+  return {
+      config::text("title", "the title of the report").or_else(std::string()),
+      config::texts("scenes", "the model files, beside the study"),
+      config::texts("set", "overrides for every scene: KEY=VALUE").optional(),
+      config::texts("quantity", "the columns of history.csv that are compared; a run counts with its worst").optional(),
+      config::number("end_time", "s", "the end of every run").above(0).optional(),
+      config::numbers("targets", "1", "relative rms errors to name the fastest method for").above(0).optional(),
+      config::number("time_limit", "s", "the longest single run").above(0).or_else(2.0),
+      config::text("reference", "a CSV file with columns t and the quantities").or_else(std::string()),
+      config::table("method", "[[study.method]]: the methods; without it all that are found").optional()};
 }
 
 std::string beside(const std::string& study, const std::string& file) {

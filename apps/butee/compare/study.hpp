@@ -22,12 +22,12 @@ struct Study {
   std::string title;
   std::vector<std::string> scenes;  ///< model files
   std::vector<std::string> overrides;
-  std::vector<std::string> quantities;  ///< columns of history.csv; the first one where empty
-  std::optional<double> end_time;       ///< s
+  std::vector<std::string> quantities;                     ///< columns of history.csv; the first one where empty
+  std::optional<double> end_time;                          ///< s
   std::vector<double> targets = {1e-2, 1e-3, 1e-4, 1e-5};  ///< relative rms errors
-  double time_limit = 2.0;                                  ///< s, of a single run
-  std::string reference_file;  ///< CSV with columns t and the quantities; empty: computed
-  std::vector<Sweep> sweeps;   ///< empty: every method that is found
+  double time_limit = 2.0;                                 ///< s, of a single run
+  std::string reference_file;                              ///< CSV with columns t and the quantities; empty: computed
+  std::vector<Sweep> sweeps;                               ///< empty: every method that is found
 };
 
 /// Reads MODEL.toml or STUDY.toml, told apart by a table [study]. Throws InputError with every mistake.

@@ -36,7 +36,8 @@ class Sampler final : public time::Observer {
   }
 
   void start(const time::State& state) override {
-    if (!question_.times.empty() && question_.times.front() <= state.t) take([&](auto to) { probes_.evaluate(state, to); });
+    if (!question_.times.empty() && question_.times.front() <= state.t)
+      take([&](auto to) { probes_.evaluate(state, to); });
   }
   void step(const time::AcceptedStep& step) override {
     while (taken_ < question_.times.size() && question_.times[taken_] <= step.to.t)
@@ -93,8 +94,7 @@ Answer run_once(Session& session, const Question& question, double time_limit, d
   model::System system = assemble(session.model);
   if (perturbation != 0.0) perturb(system.initial_displacement, perturbation);
   solve::Dynamics dynamics(system);
-  const auto integrator =
-      session.catalogue.load(session.integrator.name).make(session.integrator.parameters, dynamics);
+  const auto integrator = session.catalogue.load(session.integrator.name).make(session.integrator.parameters, dynamics);
   time::Simulation simulation(dynamics, *integrator, session.integrator.options);
   Sampler sampler(question, dynamics);
   simulation.add(sampler);

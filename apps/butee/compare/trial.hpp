@@ -32,7 +32,7 @@ struct Answer {
   bool completed = false;
   std::string message;
   Values values;         ///< as far as it came
-  double seconds = 0.0;        ///< set-up and integration
+  double seconds = 0.0;  ///< set-up and integration
   time::RunReport report;
   solve::Counters counters;
 };
