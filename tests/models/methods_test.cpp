@@ -25,9 +25,11 @@ constexpr double kNewtonTolerance = 0.01;
 // An adaptive method's step is decided by an error estimate that magnifies rounding at every impact.
 constexpr double kAdaptivePeakTolerance = 0.02;
 constexpr double kAdaptiveStepsTolerance = 0.10;
-// With the paper's tolerances RK4-2 and RK4-3 ride on the stability limit there, where steps are decided by rounding.
-// Changing the order of sums alone moved the count of RK4-3 on beam1 (linear) between 2195 and 3124.
-constexpr double kStabilityLimitStepsTolerance = 0.5;
+// With the paper's tolerances RK4-2 and RK4-3 ride on the stability limit there, where steps are decided by rounding:
+// counts of one such row were between 2195 and 4708, the outliers by long trains of rejections. So the median of
+// several runs is taken, whose first steps differ in the tenth digit; that of the stored row, a single run, is unknown.
+constexpr double kStabilityLimitStepsTolerance = 0.35;
+constexpr int kRunsAtTheLimit = 7;
 
 // Under the address sanitizer the long runs would take too long: it checks memory, which the short ones use alike. It
 // runs the adaptive methods up to 0.3 s of beam4, and of the fixed-step ones those on the oscillator at 1e-5 s.
@@ -102,6 +104,18 @@ std::string loaded_node(const Row& row) {
   return row.scene == "oscillator" ? "rotor" : "string:middle";
 }
 
+double median_steps(const Row& row) {
+  std::vector<double> steps;
+  for (int i = 0; i < kRunsAtTheLimit; ++i) {
+    SceneRun scene(scene_of(row),
+                   {"integrator.type=" + row.method, "integrator.end_time=" + std::to_string(row.end_time),
+                    "integrator.time_step=1.000000000" + std::to_string(i) + "e-05"});
+    steps.push_back(static_cast<double>(scene.run().steps));
+  }
+  std::nth_element(steps.begin(), steps.begin() + kRunsAtTheLimit / 2, steps.end());
+  return steps[kRunsAtTheLimit / 2];
+}
+
 class Methods : public testing::TestWithParam<Row> {};
 
 TEST_P(Methods, AgreeWithAProgramWrittenWithoutButee) {
@@ -134,7 +148,7 @@ TEST_P(Methods, AgreeWithAProgramWrittenWithoutButee) {
   }
   const bool at_stability_limit = row.method.starts_with("RK4") && (row.scene == "beam1" || row.scene == "beam2");
   const double tolerance = at_stability_limit ? kStabilityLimitStepsTolerance : kAdaptiveStepsTolerance;
-  EXPECT_NEAR(steps, row.steps, tolerance * row.steps);
+  EXPECT_NEAR(at_stability_limit ? median_steps(row) : steps, row.steps, tolerance * row.steps);
   EXPECT_NEAR(newton, row.newton_iterations, tolerance * row.newton_iterations);
   if (row.beyond_horizon()) return;
   EXPECT_NEAR(peak.value, row.peak_u, kAdaptivePeakTolerance * row.peak_u);
