@@ -107,9 +107,11 @@ std::string loaded_node(const Row& row) {
 double median_steps(const Row& row) {
   std::vector<double> steps;
   for (int i = 0; i < kRunsAtTheLimit; ++i) {
-    SceneRun scene(scene_of(row),
-                   {"integrator.type=" + row.method, "integrator.end_time=" + std::to_string(row.end_time),
-                    "integrator.time_step=1.000000000" + std::to_string(i) + "e-05"});
+    std::string first_step = "integrator.time_step=1.000000000";
+    first_step += std::to_string(i);
+    first_step += "e-05";
+    SceneRun scene(scene_of(row), {"integrator.type=" + row.method,
+                                   "integrator.end_time=" + std::to_string(row.end_time), first_step});
     steps.push_back(static_cast<double>(scene.run().steps));
   }
   std::nth_element(steps.begin(), steps.begin() + kRunsAtTheLimit / 2, steps.end());
