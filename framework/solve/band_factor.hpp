@@ -13,7 +13,7 @@ namespace butee::solve {
 /// Rows are eliminated from both ends at once towards a dense block of band or band + 1 rows in the middle (a twisted
 /// factorization), so that two independent recurrences run side by side in one register: such a solve is bound by the
 /// latency of its recurrence. Work of a solve: n (4 b + 1) operations for the band b. Checked against a dense solution
-/// in tests/unit/solver_test.cpp.
+/// in tests/unit/band_factor_test.cpp.
 class BUTEE_EXPORT BandFactor {
  public:
   static constexpr Index kWidestBand = 8;
