@@ -19,16 +19,6 @@ constexpr std::size_t kMostPieces = 20000;
 /// Lengths are shortened a thousandfold this often before a step is given up.
 constexpr int kMostTrials = 12;
 
-std::vector<double> kinks_of(const model::System& system) {
-  std::vector<double> all;
-  for (const model::FreeLoad& load : system.loads) {
-    const auto kinks = load.in_time->kinks();
-    all.insert(all.end(), kinks.begin(), kinks.end());
-  }
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
 }  // namespace
 
 time::StepDecision Exact::Controller::decide(double, const StepReport& report) const {
@@ -39,7 +29,7 @@ Exact::Exact(solve::Dynamics& dynamics, int order, double tolerance)
     : Integrator(dynamics),
       expander_(dynamics, order, tolerance),
       branches_(dynamics.contact(), order),
-      kinks_(kinks_of(dynamics.system())),
+      kinks_(dynamics.load_kinks()),
       stops_(dynamics.stop_count()) {}
 
 void Exact::place_branches() {
@@ -49,7 +39,7 @@ void Exact::place_branches() {
 
 StepReport Exact::do_step(const State& from, const time::Step& step, State& to) {
   StepReport report;
-  report.status = follow(from, step.h, step.t_end);
+  report.status = follow(from, step);
   if (report.status != StepStatus::ok) return report;
   const TaylorExpansion& last = pieces_[used_ - 1];
   for (Index i = 0; i < to.x.size(); ++i) {
@@ -57,11 +47,13 @@ StepReport Exact::do_step(const State& from, const time::Step& step, State& to) 
     to.v[i] = last.velocity(i, last.end);
     to.a[i] = last.acceleration(i, last.end);
   }
+  to.t = end_t_;
   report.error = last.reach * last.length;
   return report;
 }
 
-StepStatus Exact::follow(const State& from, double h, double t_end) {
+StepStatus Exact::follow(const State& from, const time::Step& step) {
+  const double h = step.h;
   end_t_ = std::numeric_limits<double>::quiet_NaN();
   x_ = begin_x_ = from.x;
   v_ = begin_v_ = from.v;
@@ -83,16 +75,20 @@ StepStatus Exact::follow(const State& from, double h, double t_end) {
       v_[i] = piece.velocity(i, piece.end);
       x_[i] = x;
     }
+    end_t_ = step.t_end;
     if (!change && is_last) break;
     done += piece.end * piece.length;
     t = from.t + done;
+    if (step.single && t < step.t_end) {
+      end_t_ = t;
+      break;
+    }
     if (change) {
       branches_.apply(*change);
     } else {
       place_branches();
     }
   }
-  end_t_ = t_end;
   return StepStatus::ok;
 }
 
@@ -117,7 +113,7 @@ bool Exact::holds(const State& from, double t_end) const {
 void Exact::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
                            time::Interpolated out) const {
   // Recomputing the pieces of a step that is no longer the last changes nothing that anyone could see.
-  if (!holds(from, to.t)) const_cast<Exact*>(this)->follow(from, to.t - from.t, to.t);
+  if (!holds(from, to.t)) const_cast<Exact*>(this)->follow(from, {to.t - from.t, to.t});
   std::size_t i = 0;
   while (i + 1 < used_ && pieces_[i + 1].begin <= t) ++i;
   const TaylorExpansion& piece = pieces_[i];

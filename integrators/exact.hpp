@@ -33,8 +33,8 @@ class Exact final : public time::Integrator {
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                       time::Interpolated out) const override;
-  /// Fills pieces_ from `from` to t_end.
-  time::StepStatus follow(const time::State& from, double h, double t_end);
+  /// Fills pieces_ from `from` to the end of the step, or with its first piece where it is to be a single one.
+  time::StepStatus follow(const time::State& from, const time::Step& step);
   /// Expands at (t, x_, v_) into pieces_[used_]; shortens its length where it overflows.
   bool expand_piece(double t, double length);
   void place_branches();

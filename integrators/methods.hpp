@@ -13,6 +13,7 @@ inline constexpr double kRungeKutta4Limit = 2.0 * std::numbers::sqrt2;
 inline constexpr double kUnconditional = std::numeric_limits<double>::infinity();
 
 time::IntegratorType exact_type();
+time::IntegratorType exponential_type();
 time::IntegratorType rk4_type();
 time::IntegratorType rk4_fixed_factors_type();
 time::IntegratorType rk4_error_scaled_type();

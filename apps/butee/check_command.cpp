@@ -104,6 +104,10 @@ void print_step(const plugin::IntegratorChoice& choice, const time::IntegratorTy
       "s\n",
       text(kRungeKutta4 / open).c_str(), text(kRungeKutta4 / closed).c_str(), text(kCentralDifferences / open).c_str(),
       text(kCentralDifferences / closed).c_str());
+  if (h == 0.0) {
+    std::printf("method     %s, which finds its steps itself\n", choice.name.c_str());
+    return;
+  }
   std::printf("method     %s, time_step %s s\n", choice.name.c_str(), text(h).c_str());
   if (std::isinf(type.stability_limit)) {
     std::printf(

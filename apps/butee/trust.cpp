@@ -129,8 +129,10 @@ Session tighten(const Session& session, std::string& what) {
     if (swept != type.parameters.end()) {
       const double before = session.integrator.parameters.number(swept->name);
       set(swept->name, before, 0.1 * before);
-    } else {
+    } else if (step > 0.0) {
       set("time_step", step, 0.5 * step);
+    } else {
+      throw InputError("integrator.type: " + type.name + " has nothing that could be tightened; give it a time_step");
     }
   }
   return read_session(std::move(document), std::move(catalogue));

@@ -13,9 +13,9 @@ using config::numbers;
 using config::Parameters;
 
 /// amplitude cos(angular_frequency t + phase)
-class Harmonic final : public TimeFunction {
+class HarmonicLoad final : public TimeFunction {
  public:
-  Harmonic(double amplitude, double angular_frequency, double phase)
+  HarmonicLoad(double amplitude, double angular_frequency, double phase)
       : amplitude_(amplitude), angular_frequency_(angular_frequency), phase_(phase) {}
 
   double value(double t) const override { return amplitude_ * std::cos(angular_frequency_ * t + phase_); }
@@ -29,6 +29,7 @@ class Harmonic final : public TimeFunction {
     }
     return true;
   }
+  std::optional<Harmonic> harmonic() const override { return Harmonic{amplitude_, angular_frequency_, phase_}; }
   bool vanishes() const override { return amplitude_ == 0.0; }
 
  private:
@@ -74,7 +75,8 @@ LoadType harmonic() {
            number("angular_frequency", "rad/s", "the angular frequency").at_least(0),
            number("phase", "rad", "the phase at t = 0").or_else(0.0)},
           [](const Parameters& p, Diagnostics&) -> std::unique_ptr<TimeFunction> {
-            return std::make_unique<Harmonic>(p.number("amplitude"), p.number("angular_frequency"), p.number("phase"));
+            return std::make_unique<HarmonicLoad>(p.number("amplitude"), p.number("angular_frequency"),
+                                                  p.number("phase"));
           }};
 }
 
@@ -86,7 +88,7 @@ LoadType unbalance() {
            number("phase", "rad", "the phase at t = 0").or_else(0.0)},
           [](const Parameters& p, Diagnostics&) -> std::unique_ptr<TimeFunction> {
             const double speed = p.number("speed");
-            return std::make_unique<Harmonic>(p.number("moment") * speed * speed, speed, p.number("phase"));
+            return std::make_unique<HarmonicLoad>(p.number("moment") * speed * speed, speed, p.number("phase"));
           }};
 }
 

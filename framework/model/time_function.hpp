@@ -1,11 +1,17 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <butee/export.hpp>
 
 namespace butee::model {
+
+/// amplitude cos(angular_frequency t + phase); rad/s and rad.
+struct Harmonic {
+  double amplitude, angular_frequency, phase;
+};
 
 /// The course of a load in time, in N (on u) or N m (on theta), or a plain factor under `in_time`.
 class BUTEE_EXPORT TimeFunction {
@@ -24,6 +30,9 @@ class BUTEE_EXPORT TimeFunction {
     (void)t, (void)h, (void)coefficients;
     return false;
   }
+
+  /// Of a pure harmonic, so that methods may integrate it exactly; nothing for all others.
+  virtual std::optional<Harmonic> harmonic() const { return std::nullopt; }
 
   /// The instants at which the value or one of its derivatives jumps, ascending.
   virtual std::vector<double> kinks() const { return {}; }

@@ -21,6 +21,7 @@ std::vector<Parameter> common_parameters() {
 
 std::vector<Parameter> parameters_of(const IntegratorEntry& entry) {
   std::vector<Parameter> all = common_parameters();
+  if (entry.declaration.finds_first_step) all.front() = all.front().optional();
   const auto& own = entry.declaration.parameters;
   all.insert(all.end(), own.begin(), own.end());
   return all;
@@ -48,7 +49,10 @@ class ChoiceReader {
     check_direct_keys(chosen);
     auto parameters = read_merged(chosen);
     if (chosen == nullptr || diagnostics_.error_count() > errors_before) return std::nullopt;
-    const double time_step = parameters->number("time_step"), end_time = parameters->number("end_time");
+    const double end_time = parameters->number("end_time");
+    if (!parameters->has("time_step"))
+      return IntegratorChoice{chosen->declaration.name, {0.0, end_time}, std::move(*parameters)};
+    const double time_step = parameters->number("time_step");
     if (time_step > end_time) {
       parameters->complain(diagnostics_, "time_step", "must not be larger than end_time = " + to_text(end_time) + " s");
       return std::nullopt;

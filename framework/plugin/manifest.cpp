@@ -94,6 +94,7 @@ std::string write_manifest(const std::vector<time::IntegratorType>& integrators)
     table["aliases"] = text_array(type.aliases);
     table["summary"] = Value(type.summary);
     table["stability_limit"] = Value(type.stability_limit);
+    table["finds_first_step"] = Value(type.finds_first_step);
     Array parameters;
     for (const Parameter& parameter : type.parameters) parameters.push_back(to_value(parameter));
     table["parameter"] = Value(std::move(parameters));
@@ -116,6 +117,7 @@ Manifest read_manifest(const std::string& path) {
       type.aliases = texts(*item.table(), "aliases");
       type.summary = get<std::string>(*item.table(), "summary");
       type.stability_limit = get<double>(*item.table(), "stability_limit");
+      type.finds_first_step = get<bool>(*item.table(), "finds_first_step");
       for (const Value& parameter : get<Array>(*item.table(), "parameter"))
         if (parameter.table() != nullptr) type.parameters.push_back(to_parameter(*parameter.table()));
       manifest.integrators.push_back(std::move(type));

@@ -29,6 +29,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
+  bool watches_every_step() const override { return true; }
 
   double work() const { return work_; }
   double dissipated() const { return dissipated_; }

@@ -52,7 +52,8 @@ double HistoryRecorder::time_of_row() const {
 void HistoryRecorder::start(const time::State& state) {
   probes_.evaluate(state, values_);
   first_row_ = values_;
-  update_peaks(state);
+  peak_probes_.evaluate(state, current_);
+  update_peaks();
   rows_ = 0;
   steps_ = 0;
 }
@@ -63,7 +64,14 @@ void HistoryRecorder::step(const time::AcceptedStep& step) {
     write_row(step.from.t, step.h);
   }
   ++steps_;
-  update_peaks(step.to);
+  if (!peak_values_.empty()) {
+    for (const double t : step.integrator.knots(step.from, step.to)) {
+      peak_probes_.evaluate(step, t, current_);
+      update_peaks();
+    }
+    peak_probes_.evaluate(step.to, current_);
+    update_peaks();
+  }
   if (every_ > 0) {
     if (steps_ % every_ != 0 && step.to.t < end_time_) return;
     probes_.evaluate(step.to, values_);
@@ -93,10 +101,16 @@ void HistoryRecorder::finish() {
   if (writer_ != nullptr) writer_->flush();
 }
 
-void HistoryRecorder::update_peaks(const time::State& state) {
-  if (peak_values_.empty()) return;
-  peak_probes_.evaluate(state, current_);
+void HistoryRecorder::update_peaks() {
   for (std::size_t i = 0; i < current_.size(); ++i) peak_values_[i] = std::max(peak_values_[i], std::abs(current_[i]));
+}
+
+double HistoryRecorder::next_instant(double t) const {
+  if (every_ > 0) return std::numeric_limits<double>::infinity();
+  // Before the first step the row at t = 0 is still due.
+  double next = next_row_;
+  for (std::int64_t row = rows_; next <= t; ++row) next = static_cast<double>(row) * interval_;
+  return next;
 }
 
 std::map<std::string, double> HistoryRecorder::peaks() const {

@@ -18,6 +18,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
   void finish() override;
+  double next_instant(double t) const override;
+  bool watches_every_step() const override { return every_ > 0; }
   double file_seconds() const override { return writer_ != nullptr ? writer_->seconds() : 0.0; }
 
   /// "t", the probes' columns, "h"
@@ -29,7 +31,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
  private:
   double time_of_row() const;
   void write_row(double t, double h);
-  void update_peaks(const time::State& state);
+  void update_peaks();
 
   double end_time_, interval_;
   std::int64_t every_;

@@ -1,5 +1,6 @@
 #include "butee/solve/dynamics.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "butee/core/error.hpp"
@@ -156,6 +157,21 @@ LinearSolver& Dynamics::mass_solver() {
 EffectiveSolver& Dynamics::effective() {
   if (!effective_) effective_.emplace(system_, contact_, counters_, modal_.get());
   return *effective_;
+}
+
+ModalSystem& Dynamics::modal(Index count) {
+  if (!modal_system_) modal_system_ = std::make_unique<ModalSystem>(*this, count);
+  return *modal_system_;
+}
+
+std::vector<double> Dynamics::load_kinks() const {
+  std::vector<double> all;
+  for (const model::FreeLoad& load : system_.loads) {
+    const auto kinks = load.in_time->kinks();
+    all.insert(all.end(), kinks.begin(), kinks.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 std::string Dynamics::dof_name(Index dof) const {

@@ -5,6 +5,7 @@
 #include "butee/solve/contact.hpp"
 #include "butee/solve/effective_solver.hpp"
 #include "butee/solve/modal_damping.hpp"
+#include "butee/solve/modal_system.hpp"
 #include "butee/solve/symmetric_product.hpp"
 
 namespace butee::solve {
@@ -56,6 +57,11 @@ class BUTEE_EXPORT Dynamics {
   /// The effective equations of an implicit method.
   EffectiveSolver& effective();
 
+  /// The system in its `count` lowest modes (0: as ModalSystem chooses), computed at the first call. Throws InputError.
+  ModalSystem& modal(Index count = 0);
+  /// The instants at which a load or one of its derivatives jumps, ascending.
+  std::vector<double> load_kinks() const;
+
   /// "u of string:17"
   std::string dof_name(Index dof) const;
 
@@ -79,6 +85,7 @@ class BUTEE_EXPORT Dynamics {
   SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
   std::optional<LinearSolver> mass_solver_;
   std::optional<EffectiveSolver> effective_;
+  std::unique_ptr<ModalSystem> modal_system_;
   std::vector<LoadedDof> loaded_dofs_;
   double load_time_;
   std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant

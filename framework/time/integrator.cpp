@@ -37,6 +37,7 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
   to.memory.resize(from.memory.size());
   to.t = step.t_end;
   StepReport report = do_step(from, step, to);
+  require(to.t > from.t && to.t <= step.t_end, "a step ends where it was to end, or earlier");
   if (report.status == StepStatus::ok && !is_finite(to)) report.status = StepStatus::not_finite;
   return report;
 }

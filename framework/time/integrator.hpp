@@ -44,6 +44,22 @@ class BUTEE_EXPORT Integrator {
   /// The judge of an adaptive method; nullptr for fixed steps.
   virtual const StepController* controller() const { return nullptr; }
 
+  /// The length of a first step from `state` that the method finds itself, s; asked for where time_step is absent,
+  /// which its IntegratorType must allow.
+  virtual double first_step(const State& state) const {
+    (void)state;
+    return 0.0;
+  }
+
+  /// True where steps best end at the instants that observers ask for, since any length is as good.
+  virtual bool lands_on_outputs() const { return false; }
+
+  /// The instants, ascending and strictly within an accepted step, between which the method took steps of its own.
+  virtual std::span<const double> knots(const State& from, const State& to) const {
+    (void)from, (void)to;
+    return {};
+  }
+
  protected:
   solve::Dynamics& dynamics() const { return dynamics_; }
 
@@ -70,6 +86,8 @@ struct IntegratorType {
   std::function<void(const config::Parameters&, config::Diagnostics&)> check;
   /// True where time_step alone sets the accuracy, so that comparisons sweep it.
   bool fixed_step = false;
+  /// True where the method finds its first step itself, so that time_step may be absent.
+  bool finds_first_step = false;
 };
 
 }  // namespace butee::time

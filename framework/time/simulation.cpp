@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 Simulation::Simulation(solve::Dynamics& dynamics, Integrator& integrator, SimulationOptions options)
     : dynamics_(dynamics), integrator_(integrator), options_(options), next_h_(options.time_step) {
-  require(options.time_step > 0.0 && options.end_time > 0.0, "time_step and end_time are positive");
+  require(options.time_step >= 0.0 && options.end_time > 0.0, "end_time is positive, and time_step where it is given");
   state_.x = dynamics.system().initial_displacement;
   state_.v = dynamics.system().initial_velocity;
 }
@@ -32,19 +32,30 @@ Simulation::Simulation(solve::Dynamics& dynamics, Integrator& integrator, Simula
 Step Simulation::propose() const {
   const double end = options_.end_time;
   if (integrator_.controller() != nullptr) {
-    if (state_.t + next_h_ >= end) return {end - state_.t, end};
-    return {next_h_, state_.t + next_h_};
+    if (integrator_.lands_on_outputs()) {
+      const double landing = std::min(next_landing(), end);
+      return {landing - state_.t, landing, watched_};
+    }
+    if (state_.t + next_h_ >= end) return {end - state_.t, end, watched_};
+    return {next_h_, state_.t + next_h_, watched_};
   }
   const double h = options_.time_step;
-  const double t_end = static_cast<double>(report_.steps + 1) * h;
+  const double t_end = static_cast<double>(accepted_ + 1) * h;
   if (t_end < end - kDivides * h) return {h, t_end};
   const bool divides = t_end <= end + kDivides * h;
   return {divides ? h : end - state_.t, end};
 }
 
+double Simulation::next_landing() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Observer* observer : observers_) next = std::min(next, observer->next_instant(state_.t));
+  return next;
+}
+
 void Simulation::add(Observer& observer) {
   require(report_.steps == 0, "observers are added before the first step");
   observers_.push_back(&observer);
+  watched_ = watched_ || observer.watches_every_step();
   if (started_) observer.start(state_);
 }
 
@@ -52,6 +63,8 @@ void Simulation::start() {
   if (started_) return;
   started_ = true;
   integrator_.start(state_);
+  if (next_h_ == 0.0) next_h_ = integrator_.first_step(state_);
+  require(next_h_ > 0.0, "a method without a first step of its own has a time_step");
   for (Observer* observer : observers_) observer->start(state_);
   if (!state_.a.allFinite())
     fail({next_h_, 0.0}, "the initial acceleration is not finite; check loads, masses and initial values");
@@ -65,6 +78,7 @@ bool Simulation::advance() {
     const Step step = propose();
     const StepReport result = integrator_.step(state_, step, next_);
     report_.newton_iterations += result.newton_iterations;
+    report_.rejected += result.inner_rejected;
     if (result.kept_failure || result.status == StepStatus::newton_failed) ++report_.newton_failures;
 
     if (controller == nullptr) {
@@ -72,14 +86,14 @@ bool Simulation::advance() {
         fail(step, diagnosis(result));
         return false;
       }
-      accept(step);
+      accept(step, result);
       return !over_;
     }
     StepDecision decision{false, 0.5 * step.h};
     if (result.status == StepStatus::ok) decision = controller->decide(step.h, result);
     next_h_ = std::min(decision.next_h, options_.end_time);
     if (decision.accept) {
-      accept(step);
+      accept(step, result);
       return !over_;
     }
     ++report_.rejected;
@@ -94,12 +108,14 @@ bool Simulation::advance() {
   return false;
 }
 
-void Simulation::accept(const Step& step) {
-  ++report_.steps;
-  report_.t_end = step.t_end;
-  for (Observer* observer : observers_) observer->step({state_, next_, step.h, integrator_});
+void Simulation::accept(const Step& step, const StepReport& result) {
+  ++accepted_;
+  report_.steps += result.inner_steps;
+  report_.t_end = next_.t;
+  const double h = (next_.t < step.t_end ? next_.t - state_.t : step.h) / result.inner_steps;
+  for (Observer* observer : observers_) observer->step({state_, next_, h, integrator_});
   std::swap(state_, next_);
-  if (!is_last(step)) return;
+  if (state_.t < options_.end_time) return;
   over_ = true;
   report_.completed = true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,19 @@ class BUTEE_EXPORT Observer {
   virtual void step(const AcceptedStep& step) = 0;
   /// After the last step, of a failed run too.
   virtual void finish() {}
+  /// The next instant after `t` at which it wants to know the motion, s; infinite where any will do.
+  virtual double next_instant(double t) const {
+    (void)t;
+    return std::numeric_limits<double>::infinity();
+  }
+  /// True where it has to see the whole state after every step that a method takes of its own.
+  virtual bool watches_every_step() const { return false; }
   /// Seconds spent on files so far, which do not count as integration.
   virtual double file_seconds() const { return 0.0; }
 };
 
 struct SimulationOptions {
-  double time_step = 0.0;  ///< s; the first step of an adaptive method
+  double time_step = 0.0;  ///< s; the first step of an adaptive method, 0 where it finds that itself
   double end_time = 0.0;   ///< s
 };
 
@@ -70,8 +78,8 @@ class BUTEE_EXPORT Simulation {
 
  private:
   Step propose() const;
-  bool is_last(const Step& step) const { return step.t_end >= options_.end_time; }
-  void accept(const Step& step);
+  double next_landing() const;
+  void accept(const Step& step, const StepReport& result);
   void fail(const Step& step, const std::string& reason);
   std::string diagnosis(const StepReport& report) const;
 
@@ -82,6 +90,8 @@ class BUTEE_EXPORT Simulation {
   State state_, next_;
   RunReport report_;
   double next_h_;
+  std::int64_t accepted_ = 0;  ///< steps of a fixed length
+  bool watched_ = false;       ///< an observer watches every step
   bool started_ = false, over_ = false;
 };
 

@@ -15,9 +15,13 @@ struct State {
 
 /// A step to take: its length and the instant it ends at (a fixed step counts n h, so t_end is not t + h to the last
 /// bit).
+///
+/// An adaptive method may end it earlier, and may take several steps of its own within it unless it is to take a single
+/// one, as it is where observers have to see the whole state at each.
 struct Step {
   double h = 0.0;      ///< s
   double t_end = 0.0;  ///< s
+  bool single = false;
 };
 
 enum class StepStatus {
@@ -33,6 +37,8 @@ struct StepReport {
   double error = 0.0;         ///< the method's own measure, for its StepController
   int newton_iterations = 0;  ///< linear solves of Newton's iteration
   bool kept_failure = false;  ///< went on although Newton failed
+  int inner_steps = 1;        ///< that the method took within the step
+  int inner_rejected = 0;     ///< and those it redid
 };
 
 }  // namespace butee::time

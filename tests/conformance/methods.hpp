@@ -14,6 +14,9 @@ struct MethodCase {
   /// Of an adaptive method: that of its arithmetic with equal steps, or 0 where the suite does not look at it.
   double order_of_equal_steps = 0.0;
 
+  bool is_implicit = false;    ///< factorizes a matrix for each step size
+  bool takes_dashpots = true;  ///< that couple the modes
+
   double step_order() const { return order > 0.0 ? order : order_of_equal_steps; }
 };
 
@@ -24,14 +27,16 @@ inline void PrintTo(const MethodCase& method, std::ostream* out) {
 /// Every method of the catalogue; a test asserts that none is missing.
 inline std::vector<MethodCase> method_cases() {
   const std::string newton = "residual_tolerance = 1e-13\nincrement_tolerance = 1e-13\nmax_iterations = 20\n";
-  return {{"exact", "", 0.0},
-          {"rk4", "", 4.0},
-          {"newmark", newton, 2.0},
-          {"newmark_modified", "", 2.0},
-          {"rk4_fixed_factors", "tolerance = 1e-7\nshrink = 1.5\ngrow = 1.5\n", 0.0, 4.0},
-          {"rk4_error_scaled", "tolerance = 1e-7\nsafety = 0.9\n", 0.0, 4.0},
-          {"newmark_adaptive", newton + "target_error = 1e-5\n", 0.0, 2.0},
-          {"newmark_modified_adaptive", "target_error = 1e-5\n", 0.0, 2.0}};
+  std::vector<MethodCase> all = {{"exact", "", 0.0},
+                                 {"exponential", "tolerance = 1e-6\n", 0.0, 0.0, false, false},
+                                 {"rk4", "", 4.0},
+                                 {"newmark", newton, 2.0, 0.0, true},
+                                 {"newmark_modified", "", 2.0, 0.0, true},
+                                 {"rk4_fixed_factors", "tolerance = 1e-7\nshrink = 1.5\ngrow = 1.5\n", 0.0, 4.0},
+                                 {"rk4_error_scaled", "tolerance = 1e-7\nsafety = 0.9\n", 0.0, 4.0},
+                                 {"newmark_adaptive", newton + "target_error = 1e-5\n", 0.0, 2.0, true},
+                                 {"newmark_modified_adaptive", "target_error = 1e-5\n", 0.0, 2.0, true}};
+  return all;
 }
 
 }  // namespace butee::test

@@ -47,7 +47,7 @@ TEST_P(Skips, ContactWhereThereAreNoStops) {
   EXPECT_EQ(counters.law_evaluations, 0);
   EXPECT_EQ(counters.factor_updates, 0);
   // M for the first acceleration, and of an implicit method one matrix for each step size that was tried.
-  const bool is_explicit = method.name.starts_with("rk4") || method.name == "exact";
+  const bool is_explicit = !method.is_implicit;
   const auto sizes_tried = static_cast<std::int64_t>(sizes.all.size()) + run.simulation().report().rejected;
   EXPECT_GE(counters.factorizations, is_explicit ? 1 : 2);
   EXPECT_LE(counters.factorizations, is_explicit ? 1 : 1 + sizes_tried);
@@ -94,13 +94,14 @@ TEST_P(Skips, ZeroLoads) {
 TEST_P(Skips, DampingThatIsNotThere) {
   const std::string spring = "[[element]]\ntype = \"spring\"\nnode = \"bar:3\"\nstiffness = 1e4\ndamping = ";
   SceneRun none(bar(GetParam(), spring + "0.0\n")),
-      rayleigh(bar(GetParam(), "[damping]\nmass_proportional = 0.1\nstiffness_proportional = 1e-5\n")),
-      dashpot(bar(GetParam(), spring + "50.0\n"));
+      rayleigh(bar(GetParam(), "[damping]\nmass_proportional = 0.1\nstiffness_proportional = 1e-5\n"));
   EXPECT_FALSE(none.dynamics().has_damping());
   EXPECT_TRUE(rayleigh.dynamics().has_damping());
-  EXPECT_TRUE(dashpot.dynamics().has_damping());
   EXPECT_EQ(none.system().dashpots.size(), 0);
   EXPECT_EQ(rayleigh.system().dashpots.size(), 0);
+  if (!GetParam().takes_dashpots) return;
+  SceneRun dashpot(bar(GetParam(), spring + "50.0\n"));
+  EXPECT_TRUE(dashpot.dynamics().has_damping());
   EXPECT_GT(dashpot.system().dashpots.size(), 0);
 }
 

@@ -27,6 +27,11 @@ std::string beam_scene(const MethodCase& method, const std::string& law = "law =
          method.name + "\"\ntime_step = 1e-5\nend_time = 2e-2\n" + method.keys;
 }
 
+/// So many steps, but not past the middle of the run.
+void advance(SceneRun& run, int steps) {
+  for (int i = 0; i < steps && run.simulation().state().t < 1e-2; ++i) ASSERT_TRUE(run.simulation().advance());
+}
+
 class Conformance : public testing::TestWithParam<MethodCase> {};
 
 void expect_same(const State& a, const State& b) {
@@ -39,7 +44,7 @@ void expect_same(const State& a, const State& b) {
 
 TEST_P(Conformance, AStepIsAPureFunctionOfStateAndStep) {
   SceneRun run(beam_scene(GetParam()));
-  for (int i = 0; i < 50; ++i) ASSERT_TRUE(run.simulation().advance());
+  advance(run, 50);
   const State from = run.simulation().state();
   const double h = 1e-5;
   const Step step{h, from.t + h};
@@ -52,7 +57,7 @@ TEST_P(Conformance, AStepIsAPureFunctionOfStateAndStep) {
 
 TEST_P(Conformance, AFreshIntegratorContinuesBitForBit) {
   SceneRun run(beam_scene(GetParam())), fresh(beam_scene(GetParam()));
-  for (int i = 0; i < 200; ++i) ASSERT_TRUE(run.simulation().advance());
+  advance(run, 200);
   const State from = run.simulation().state();
   const Step step{3e-6, from.t + 3e-6};
   State continued, restarted;
@@ -82,7 +87,7 @@ TEST_P(Conformance, AgreesWithAnotherMethodAcrossContact) {
 
 TEST_P(Conformance, InterpolatesItsOwnEnds) {
   SceneRun run(beam_scene(GetParam()));
-  for (int i = 0; i < 20; ++i) ASSERT_TRUE(run.simulation().advance());
+  advance(run, 20);
   const State from = run.simulation().state();
   State to;
   ASSERT_EQ(run.integrator().step(from, {1e-5, from.t + 1e-5}, to).status, time::StepStatus::ok);

@@ -18,18 +18,6 @@ struct Motion {
   std::vector<double> u, v;
 };
 
-/// A model of the paper with the linear law instead of its own.
-std::string with_linear_law(const std::string& stem) {
-  std::string text = read_file(model_path(stem));
-  for (const auto& [start, by] :
-       {std::pair{"\nlaw ", "\nlaw = \"linear\" #"}, std::pair{"\nregularization ", "\n# "}}) {
-    const std::size_t at = text.find(start);
-    EXPECT_NE(at, std::string::npos);
-    text.replace(at, std::string(start).size(), by);
-  }
-  return text;
-}
-
 Motion run_exact(const std::string& toml, const std::string& node, double end_time, const std::vector<double>& times,
                  std::vector<std::string> overrides = {}) {
   overrides.push_back("integrator.type=exact");

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
 #include <butee/config/override.hpp>
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
+#include <gtest/gtest.h>
 
 namespace butee::test {
 namespace {
@@ -34,6 +36,17 @@ std::vector<std::string> split(const std::string& line) {
 
 std::string model_path(const std::string& stem) {
   return std::string(BUTEE_TEST_MODELS) + "/" + stem + ".toml";
+}
+
+std::string with_linear_law(const std::string& stem) {
+  std::string text = read_file(model_path(stem));
+  for (const auto& [start, by] :
+       {std::pair{"\nlaw ", "\nlaw = \"linear\" #"}, std::pair{"\nregularization ", "\n# "}}) {
+    const std::size_t at = text.find(start);
+    EXPECT_NE(at, std::string::npos);
+    text.replace(at, std::string(start).size(), by);
+  }
+  return text;
 }
 
 std::string read_file(const std::string& path) {
@@ -74,6 +87,11 @@ void Sampler::start(const time::State& state) {
   if (times_.empty() || times_.front() > state.t) return;
   x.push_back(state.x[dof_]);
   v.push_back(state.v[dof_]);
+}
+
+double Sampler::next_instant(double t) const {
+  const auto next = std::upper_bound(times_.begin(), times_.end(), t);
+  return next == times_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
 void Sampler::step(const time::AcceptedStep& step) {

@@ -15,6 +15,8 @@ namespace butee::test {
 /// A scene of apps/models by its stem: "beam1".
 std::string model_path(const std::string& stem);
 std::string read_file(const std::string& path);
+/// A model of the paper with the linear law instead of its own.
+std::string with_linear_law(const std::string& stem);
 
 /// Reads a scene from TOML text with overrides ("integrator.type=NM1"), modules from the build tree. Throws InputError
 /// where the program would refuse the scene.
@@ -54,6 +56,7 @@ class Sampler final : public time::Observer {
   Sampler(Index dof, std::vector<double> times) : dof_(dof), times_(std::move(times)) {}
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
+  double next_instant(double t) const override;
 
   std::vector<double> x, v;
 

@@ -168,9 +168,11 @@ config::Document with_method(const config::Document& scene, const time::Integrat
   };
   Table integrator;
   integrator["type"] = Value(type.name);
-  for (const std::string key : {"time_step", "end_time"})
-    if (const Value* found = of_scene(key)) integrator[key] = *found;
-  if (integrator.find("time_step") == nullptr) integrator["time_step"] = Value(kFirstStep);
+  if (const Value* found = of_scene("end_time")) integrator["end_time"] = *found;
+  if (!type.finds_first_step) {
+    const Value* found = of_scene("time_step");
+    integrator["time_step"] = found != nullptr ? *found : Value(kFirstStep);
+  }
   for (const Parameter& parameter : type.parameters) {
     if (const Value* found = of_scene(parameter.name))
       integrator[parameter.name] = *found;

@@ -44,6 +44,12 @@ class Sampler final : public time::Observer {
       take([&](auto to) { probes_.evaluate(step, question_.times[taken_], to); });
   }
 
+  double next_instant(double t) const override {
+    std::size_t next = taken_;
+    while (next < question_.times.size() && question_.times[next] <= t) ++next;
+    return next < question_.times.size() ? question_.times[next] : std::numeric_limits<double>::infinity();
+  }
+
   Values values;
 
  private:

@@ -1,0 +1,203 @@
+#include "butee/solve/modal_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "butee/core/error.hpp"
+#include "butee/solve/dynamics.hpp"
+#include "butee/solve/frequencies.hpp"
+
+namespace butee::solve {
+namespace {
+
+/// Damping couples the modes where an entry beside the diagonal is above this part of the largest; rounding of
+/// proportional damping stays far below.
+constexpr double kUncoupled = 1e-9;
+constexpr std::size_t kOddFlows = 6;
+
+Modes find_modes(const model::System& system, Index count) {
+  if (count == 0) count = system.size() <= ModalSystem::kAllModes ? system.size() : ModalSystem::kAllModes / 2;
+  count = std::min(count, system.size());
+  auto modes = lowest_modes(system, count);
+  if (!modes)
+    throw InputError("the " + std::to_string(count) +
+                     " lowest modes could not be computed; ask for another number of modes, or take another method");
+  return std::move(*modes);
+}
+
+}  // namespace
+
+ModalSystem::ModalSystem(Dynamics& dynamics, Index count) {
+  const model::System& system = dynamics.system();
+  Modes modes = find_modes(system, count);
+  frequencies_ = modes.frequencies.array();
+  shapes_ = std::move(modes.shapes);
+  rows_ = shapes_.transpose();
+  weighted_ = system.mass * shapes_;
+  if (shapes_.rows() <= DenseProduct::kMostRows) fast_shapes_ = DenseProduct(shapes_);
+  find_decay(dynamics);
+  project_loads(dynamics);
+  if (dynamics.stop_count() > 0) project_stops(dynamics);
+}
+
+void ModalSystem::find_decay(Dynamics& dynamics) {
+  const model::Damping& damping = dynamics.system().damping;
+  decay_ = 0.5 * (damping.mass_proportional + damping.stiffness_proportional * frequencies_.square());
+  if (!damping.is_modal() && dynamics.system().dashpots.size() == 0) return;
+  Eigen::MatrixXd product(shapes_.rows(), size());
+  for (Index i = 0; i < size(); ++i) dynamics.damping_force(shapes_.col(i), product.col(i));
+  const Eigen::MatrixXd modal = shapes_.transpose() * product;
+  decay_ = 0.5 * modal.diagonal().array();
+  const double largest = modal.cwiseAbs().maxCoeff();
+  const Eigen::MatrixXd beside = modal - Eigen::MatrixXd(modal.diagonal().asDiagonal());
+  if (beside.cwiseAbs().maxCoeff() > kUncoupled * largest)
+    throw InputError(
+        "integrator.type: the dashpots couple the modes of this scene, whose flow is then not known in closed form; "
+        "take generalized_alpha or rodas4, or write the damping as [damping] mass_proportional, "
+        "stiffness_proportional or modal");
+}
+
+void ModalSystem::project_loads(const Dynamics& dynamics) {
+  for (const model::FreeLoad& load : dynamics.system().loads) {
+    Eigen::ArrayXd shape = Eigen::ArrayXd::Zero(size());
+    for (std::size_t i = 0; i < load.dofs.size(); ++i) shape += load.weights[i] * rows_.col(load.dofs[i]).array();
+    const auto harmonic = load.in_time->harmonic();
+    if (!harmonic) {
+      other_loads_.push_back({load.in_time, std::move(shape)});
+      continue;
+    }
+    auto found = std::find_if(harmonics_.begin(), harmonics_.end(), [&](const ModalHarmonic& other) {
+      return other.angular_frequency == harmonic->angular_frequency;
+    });
+    if (found == harmonics_.end()) {
+      const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(size());
+      found = harmonics_.insert(harmonics_.end(), {harmonic->angular_frequency, zero, zero});
+    }
+    found->cosine += harmonic->amplitude * std::cos(harmonic->phase) * shape;
+    found->sine -= harmonic->amplitude * std::sin(harmonic->phase) * shape;
+  }
+}
+
+void ModalSystem::project_stops(Dynamics& dynamics) {
+  const Contact& contact = dynamics.contact();
+  stop_shapes_ = Eigen::MatrixXd::Zero(size(), contact.size());
+  for (Index i = 0; i < contact.size(); ++i) {
+    if (contact.dof_a(i) >= 0) stop_shapes_.col(i) += rows_.col(contact.dof_a(i));
+    if (contact.dof_b(i) >= 0) stop_shapes_.col(i) -= rows_.col(contact.dof_b(i));
+  }
+  largest_stop_shape_ = stop_shapes_.cwiseAbs().rowwise().maxCoeff().array();
+  if (contact.size() <= DenseProduct::kMostRows) fast_stops_ = DenseProduct(stop_shapes_.transpose());
+  if (is_complete()) return;
+  // What a stop's own force moves it, by all modes and by those that are kept; a weak spring to the ground on every
+  // DOF, far below the first mode left out, lets rigid motion pass.
+  const double last = frequencies_[size() - 1];
+  const double shift = 1e-4 * last * last;
+  EffectiveSolver& effective = dynamics.effective();
+  effective.set_factors(0.0, 1.0 / shift);
+  const Vector open = Vector::Zero(contact.size());
+  Vector force(shapes_.rows());
+  for (Index i = 0; i < contact.size(); ++i) {
+    force.setZero();
+    if (contact.dof_a(i) >= 0) force[contact.dof_a(i)] += 1.0;
+    if (contact.dof_b(i) >= 0) force[contact.dof_b(i)] -= 1.0;
+    Vector moved = force;
+    if (!effective.solve(open, moved)) continue;
+    const double all = force.dot(moved) / shift;
+    const double kept = (stop_shapes_.col(i).array().square() / (frequencies_.square() + shift)).sum();
+    truncation_ = std::max(truncation_, 1.0 - kept / all);
+  }
+}
+
+void ModalSystem::to_modal(ConstVectorRef x, Eigen::Ref<Eigen::VectorXd> q) const {
+  q.noalias() = weighted_.transpose() * x;
+}
+
+void ModalSystem::to_physical(const double* q, VectorRef x) const {
+  if (!fast_shapes_.empty()) return fast_shapes_.multiply(q, x.data());
+  x.noalias() = shapes_ * Eigen::Map<const Vector>(q, size());
+}
+
+void ModalSystem::stop_displacement(const double* q, double* w) const {
+  if (!fast_stops_.empty()) return fast_stops_.multiply(q, w);
+  Eigen::Map<Vector>(w, stop_count()).noalias() = stop_shapes_.transpose() * Eigen::Map<const Vector>(q, size());
+}
+
+void ModalSystem::add_load(double t, Eigen::Ref<Eigen::ArrayXd> r) const {
+  for (const ModalHarmonic& harmonic : harmonics_) {
+    const double angle = harmonic.angular_frequency * t;
+    r += std::cos(angle) * harmonic.cosine + std::sin(angle) * harmonic.sine;
+  }
+  for (const OtherLoad& load : other_loads_) r += load.in_time->value(t) * load.shape;
+}
+
+double ModalSystem::ladder_step(int level) {
+  const int whole = level >= 0 ? level / 2 : -((1 - level) / 2);
+  const double step = std::ldexp(1.0, whole);
+  return level % 2 == 0 ? step : step * std::numbers::sqrt2;
+}
+
+const ModalFlow& ModalSystem::raw_ladder(int level) {
+  if (const auto& known = rungs_[level].raw) return *known;
+  const double h = ladder_step(level);
+  auto flow = h > ModalFlow::longest_series(frequencies_, decay_, harmonics_)
+                  ? std::make_unique<ModalFlow>(raw_ladder(level - 2).doubled())
+                  : std::make_unique<ModalFlow>(frequencies_, decay_, harmonics_, h);
+  return *(rungs_[level].raw = std::move(flow));
+}
+
+ModalFlow ModalSystem::refined_ladder(int level) {
+  ModalFlow flow = raw_ladder(level);
+  flow.refine(frequencies_, decay_);
+  return flow;
+}
+
+StepFlow& ModalSystem::ladder(int level) {
+  std::unique_ptr<StepFlow>& step = rungs_[level].step;
+  if (!step) {
+    ModalFlow half = refined_ladder(level - 2);
+    step = std::make_unique<StepFlow>(refined_ladder(level), std::move(half), stop_shapes_);
+  }
+  return *step;
+}
+
+StepFlow& ModalSystem::odd(double h) {
+  for (const auto& known : odd_)
+    if (known->h() == h) return *known;
+  if (odd_.size() < kOddFlows) {
+    oldest_ = odd_.size();
+    odd_.emplace_back();
+  }
+  ModalFlow half(frequencies_, decay_, harmonics_, 0.5 * h), whole(frequencies_, decay_, harmonics_, h);
+  half.refine(frequencies_, decay_);
+  whole.refine(frequencies_, decay_);
+  std::unique_ptr<StepFlow>& slot = odd_[oldest_];
+  slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_);
+  oldest_ = (oldest_ + 1) % kOddFlows;
+  return *slot;
+}
+
+StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const Eigen::MatrixXd& stop_shapes)
+    : whole(std::move(whole_flow)),
+      half(std::move(half_flow)),
+      stop_shapes_(stop_shapes),
+      places_(static_cast<std::size_t>(stop_shapes.cols() * (stop_shapes.cols() + 1) / 2), -1) {}
+
+const StepFlow::Coupling& StepFlow::compute_coupling(Index i, Index j) {
+  std::int32_t& place = places_[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
+  place = static_cast<std::int32_t>(couplings_.size());
+  const Eigen::ArrayXd shape = stop_shapes_.col(i).cwiseProduct(stop_shapes_.col(j)).array();
+  Coupling& c = couplings_.emplace_back();
+  std::array<double, 3> first{};
+  for (int k = 0; k < 3; ++k) {
+    const auto order = static_cast<std::size_t>(k);
+    c.end[order] = (shape * whole.force_q(k)).sum();
+    c.speed[order] = (shape * whole.force_v(k)).sum();
+    first[order] = (shape * half.force_q(k)).sum();
+  }
+  // P_k of the step, written in those of its first half.
+  c.middle = {first[0], 0.5 * (first[1] - first[0]), 0.25 * first[2] - 0.75 * first[1]};
+  return c;
+}
+
+}  // namespace butee::solve

@@ -1,0 +1,198 @@
+#include "integrators/stop_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace butee::integrators {
+namespace {
+
+constexpr int kDegree = 4;
+/// Parts of a step in which crossings are looked for: in each the path turns at most once, but for one that swings
+/// several times within a step, which an error control would not have let pass.
+constexpr int kParts = 4;
+/// The most steps towards a root within a bracket, Newton's or halvings.
+constexpr int kRefinements = 60;
+/// Panels beside a bend of the law: the next is shorter by this factor, and what lies within the last is left out. The
+/// force there is at most k_c |g|, so that an impulse of 1e-8 of that of a step is lost.
+constexpr double kGrading = 0.15;
+constexpr int kPanels = 4;
+
+constexpr std::array<double, 7> kReciprocals = {1.0, 1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7};
+/// Four points: a path of degree 4 times s^2 is of degree 6.
+constexpr std::array<double, 4> kGaussPlaces = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
+                                                0.93056815579702629};
+constexpr std::array<double, 4> kGaussWeights = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                                 0.17392742256872693};
+
+void add(ForceMoments& to, const ForceMoments& part) {
+  for (std::size_t k = 0; k < 3; ++k) to[k] += part[k];
+}
+
+/// P_k moments times 2k + 1 from those of 1, s, s^2.
+ForceMoments from_powers(double m0, double m1, double m2) {
+  return {m0, 3.0 * (2.0 * m1 - m0), 5.0 * (6.0 * m2 - 6.0 * m1 + m0)};
+}
+
+double value(const std::array<double, 5>& c, double s) {
+  return (((c[4] * s + c[3]) * s + c[2]) * s + c[1]) * s + c[0];
+}
+double slope(const std::array<double, 5>& c, double s) {
+  return ((4.0 * c[4] * s + 3.0 * c[3]) * s + 2.0 * c[2]) * s + c[1];
+}
+
+bool has_opposite_signs(double a, double b) {
+  return (a > 0.0) != (b > 0.0);
+}
+
+/// The root between two places where the polynomial has opposite signs.
+double root(const std::array<double, 5>& c, double low, double high) {
+  const double at_low = value(c, low), at_high = value(c, high);
+  double s = low + (high - low) * at_low / (at_low - at_high);
+  for (int k = 0; k < kRefinements; ++k) {
+    const double w = value(c, s), correction = w / slope(c, s);
+    if (std::abs(correction) < 1e-15) break;
+    (has_opposite_signs(w, at_low) ? high : low) = s;
+    s -= correction;
+    if (!(s > low && s < high)) s = 0.5 * (low + high);
+  }
+  return s;
+}
+
+}  // namespace
+
+StopPath::StopPath(double w0, double hv0, double w1, double hv1, double bulge) {
+  const double rise = w1 - w0, b = 16.0 * bulge;
+  c_ = {w0, hv0, 3.0 * rise - 2.0 * hv0 - hv1 + b, hv0 + hv1 - 2.0 * rise - 2.0 * b, b};
+  // The cubic's Bernstein coefficients, raised by a degree; the bulge has only the one in the middle.
+  const double p1 = w0 + hv0 / 3.0, p2 = w1 - hv1 / 3.0;
+  const double b1 = 0.25 * w0 + 0.75 * p1, b2 = 0.5 * (p1 + p2) + b / 6.0, b3 = 0.75 * p2 + 0.25 * w1;
+  lowest_ = std::min({w0, b1, b2, b3, w1});
+  highest_ = std::max({w0, b1, b2, b3, w1});
+}
+
+StopForce::StopForce(solve::Contact& contact, Index stop)
+    : contact_(contact),
+      stop_(stop),
+      gap_(contact.gap_of(stop)),
+      stiffness_(contact.law_of(stop).closed_stiffness()),
+      is_linear_(contact.law_of(stop).is_piecewise_linear()),
+      on_upper_(contact.sides_of(stop) != model::Sides::negative),
+      on_lower_(contact.sides_of(stop) != model::Sides::positive) {
+  places_.reserve(2 + 3 * kDegree);
+}
+
+StopForce::Course StopForce::course(const StopPath& path) const {
+  const double low = path.lowest(), high = path.highest();
+  if (is_linear_) {
+    if ((!on_upper_ || high <= gap_) && (!on_lower_ || low >= -gap_)) return Course::open;
+    if ((on_upper_ && low >= gap_) || (on_lower_ && high <= -gap_)) return Course::closed;
+    return Course::changing;
+  }
+  // Far: no border within the path widened by its own range.
+  const double range = high - low, below = low - range, above = high + range;
+  const auto holds = [&](double border) { return below <= border && border <= above; };
+  if ((on_upper_ && holds(gap_)) || (on_lower_ && holds(-gap_))) return Course::changing;
+  if (on_upper_ && on_lower_ && low <= 0.0 && high >= 0.0) return Course::changing;
+  return Course::far;
+}
+
+ForceMoments StopForce::moments(const StopPath& path, Course course) {
+  switch (course) {
+    case Course::open:
+      return {};
+    case Course::closed:
+      return of_spring(path, 0.0, 1.0, path.lowest() >= gap_ && on_upper_ ? 1.0 : -1.0);
+    case Course::far:
+      return by_gauss(path, 0.0, 1.0);
+    case Course::changing:
+      break;
+  }
+  return is_linear_ ? of_pieces(path) : by_graded_panels(path);
+}
+
+ForceMoments StopForce::of_spring(const StopPath& path, double begin, double end, double side) const {
+  const std::array<double, 5>& c = path.coefficients();
+  std::array<double, 3> power{};
+  std::array<double, 7> integral = kReciprocals;  // of s^k over the piece
+  if (begin > 0.0 || end < 1.0) {
+    double low = begin, high = end;
+    for (std::size_t k = 0; k < 7; ++k, low *= begin, high *= end) integral[k] = (high - low) * kReciprocals[k];
+  }
+  for (std::size_t j = 0; j < 3; ++j) {
+    power[j] = (c[0] - side * gap_) * integral[j];
+    for (std::size_t k = 1; k < 5; ++k) power[j] += c[k] * integral[j + k];
+  }
+  return from_powers(-stiffness_ * power[0], -stiffness_ * power[1], -stiffness_ * power[2]);
+}
+
+ForceMoments StopForce::by_gauss(const StopPath& path, double begin, double end) {
+  double m0 = 0.0, m1 = 0.0, m2 = 0.0;
+  for (std::size_t i = 0; i < kGaussPlaces.size(); ++i) {
+    const double s = begin + (end - begin) * kGaussPlaces[i];
+    const double force = (end - begin) * kGaussWeights[i] * contact_.force_of(stop_, path.value(s));
+    m0 += force;
+    m1 += force * s;
+    m2 += force * s * s;
+  }
+  return from_powers(m0, m1, m2);
+}
+
+ForceMoments StopForce::of_pieces(const StopPath& path) {
+  find_places(path);
+  ForceMoments sum{};
+  for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+    const double w = path.value(0.5 * (places_[i] + places_[i + 1]));
+    const double side = w > gap_ && on_upper_ ? 1.0 : w < -gap_ && on_lower_ ? -1.0 : 0.0;
+    if (side != 0.0) add(sum, of_spring(path, places_[i], places_[i + 1], side));
+  }
+  return sum;
+}
+
+ForceMoments StopForce::by_graded_panels(const StopPath& path) {
+  find_places(path);
+  ForceMoments sum{};
+  for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+    // From the middle of the piece towards both of its ends.
+    const double middle = 0.5 * (places_[i] + places_[i + 1]);
+    for (const double end : {places_[i], places_[i + 1]}) {
+      double outer = middle;
+      for (int panel = 0; panel < kPanels; ++panel) {
+        const double inner = panel + 1 == kPanels ? end : end + kGrading * (outer - end);
+        add(sum, by_gauss(path, std::min(inner, outer), std::max(inner, outer)));
+        outer = inner;
+      }
+    }
+  }
+  return sum;
+}
+
+void StopForce::find_places(const StopPath& path) {
+  places_.assign(1, 0.0);
+  if (on_upper_) add_crossings(path, gap_);
+  if (on_lower_ && (gap_ > 0.0 || !on_upper_)) add_crossings(path, -gap_);
+  if (!is_linear_ && on_upper_ && on_lower_ && gap_ > 0.0) add_crossings(path, 0.0);
+  std::sort(places_.begin(), places_.end());
+  places_.push_back(1.0);
+}
+
+void StopForce::add_crossings(const StopPath& path, double border) {
+  if (border < path.lowest() || border > path.highest()) return;
+  std::array<double, 5> c = path.coefficients();
+  c[0] -= border;
+  double s0 = 0.0;
+  for (int i = 1; i <= kParts; ++i) {
+    const double s1 = static_cast<double>(i) / kParts;
+    if (has_opposite_signs(value(c, s0), value(c, s1))) {
+      places_.push_back(root(c, s0, s1));
+    } else if (has_opposite_signs(slope(c, s0), slope(c, s1))) {
+      const double turn = root({c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0}, s0, s1);
+      if (has_opposite_signs(value(c, s0), value(c, turn))) {
+        places_.push_back(root(c, s0, turn));
+        places_.push_back(root(c, turn, s1));
+      }
+    }
+    s0 = s1;
+  }
+}
+
+}  // namespace butee::integrators

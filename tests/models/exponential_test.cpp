@@ -1,0 +1,152 @@
+// The exponential method against solutions in 80-bit arithmetic that share no line with it
+// (tests/benchmark/plain/reference.cpp), and against the method `exact` where no such solution is stored.
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <butee/core/error.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+struct Case {
+  std::string scene, node;
+  double end_time;
+  /// By how much the scene itself magnifies a disturbance: that of a perturbation in the last digits, as `butee run
+  /// --trust` measures it, rounded up to 1, 3, 10, ...
+  double amplification;
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.scene;
+}
+
+struct Result {
+  double error;
+  std::int64_t steps;
+};
+
+class ExponentialMethod : public testing::TestWithParam<Case> {
+ protected:
+  Result run(double tolerance, int order = 6) const {
+    const Case& c = GetParam();
+    const CsvTable table(std::string(BUTEE_TEST_DATA) + "/models/reference/" + c.scene + "-linear.csv");
+    std::vector<double> times = table.column("t"), u = table.column("u0");
+    const auto rows = std::upper_bound(times.begin(), times.end(), c.end_time * (1.0 + 1e-9)) - times.begin();
+    times.resize(static_cast<std::size_t>(rows));
+    u.resize(times.size());
+    SceneRun scene(with_linear_law(c.scene),
+                   {"integrator.type=exponential", "integrator.end_time=" + std::to_string(c.end_time),
+                    "integrator.tolerance=" + std::to_string(tolerance * 1e9) + "e-9",
+                    "integrator.order=" + std::to_string(order)});
+    Sampler sampler(scene.dof(c.node), times);
+    scene.simulation().add(sampler);
+    const time::RunReport& report = scene.run();
+    EXPECT_TRUE(report.completed) << report.message;
+    return {relative_rms(sampler.x, u), report.steps};
+  }
+};
+
+TEST_P(ExponentialMethod, KeepsItsTolerance) {
+  // The estimate is local; what a scene does with errors once made is the scene's affair.
+  constexpr double kReserve = 10.0;
+  std::vector<double> decades, errors;
+  for (double tolerance = 1e-2; tolerance > 0.9e-7; tolerance *= 0.1) {
+    const Result result = run(tolerance);
+    EXPECT_LE(result.error, kReserve * tolerance * GetParam().amplification) << "at " << tolerance;
+    decades.push_back(std::log10(tolerance));
+    errors.push_back(std::log10(result.error));
+  }
+  ASSERT_EQ(decades.size(), 6U);
+  double slope = 0.0;
+  for (std::size_t i = 0; i < 6; ++i) slope += (decades[i] + 4.5) * errors[i] / 17.5;
+  EXPECT_GE(slope, 0.8);
+  EXPECT_LE(slope, 1.2);
+}
+
+TEST_P(ExponentialMethod, LowerOrdersComeToTheSameEnd) {
+  const Result sixth = run(1e-4), fourth = run(1e-4, 4), second = run(1e-2, 2);
+  EXPECT_LE(fourth.error, 1e-3 * GetParam().amplification);
+  EXPECT_LE(second.error, 1e-1 * GetParam().amplification);
+  EXPECT_LE(sixth.steps, fourth.steps);
+}
+
+TEST_P(ExponentialMethod, GivesTheSameWhereEveryStepIsWatched) {
+  const auto end = [&](bool watched) {
+    SceneRun scene(with_linear_law(GetParam().scene), {"integrator.type=exponential"});
+    record::EnergyRecorder energy(scene.dynamics());
+    if (watched) scene.simulation().add(energy);
+    EXPECT_TRUE(scene.run().completed);
+    return std::pair(scene.simulation().state().x, scene.simulation().report().steps);
+  };
+  const auto together = end(false), single = end(true);
+  EXPECT_TRUE(together.first == single.first);
+  EXPECT_EQ(together.second, single.second);
+}
+
+INSTANTIATE_TEST_SUITE_P(LinearLaw, ExponentialMethod,
+                         testing::Values(Case{"oscillator", "rotor", 0.1, 10.0},
+                                         Case{"beam1", "string:middle", 1.0, 1.0},
+                                         Case{"beam2", "string:middle", 1.0, 3.0},
+                                         Case{"beam3", "string:middle", 1.0, 3.0},
+                                         Case{"beam4", "string:middle", 0.3, 10.0}),
+                         [](const auto& one) { return one.param.scene; });
+
+TEST(Exponential, TakesFewSteps) {
+  // 108 steps at 1e-3 for 56 changes of contact, where Newmark needs thousands: a count that says when that is lost.
+  SceneRun scene(with_linear_law("beam1"), {"integrator.type=exponential", "integrator.tolerance=1e-3"});
+  ASSERT_TRUE(scene.run().completed);
+  EXPECT_LT(scene.simulation().report().steps, 200);
+}
+
+std::string frame(const std::string& damping, const std::string& rest) {
+  return "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = "
+         "0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 4.0\nelements "
+         "= 9\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n"
+         "[[load]]\ntype = \"harmonic\"\nnode = \"b:4\"\namplitude = 500.0\nangular_frequency = 60.0\nphase = 0.4\n"
+         "[[load]]\ntype = \"table\"\nnode = \"b:7\"\ntimes = [0.0, 0.013, 0.05]\nvalues = [0.0, 300.0, -100.0]\n" +
+         damping + "[initial]\nvelocity = [{nodes = \"b:2..5\", value = 0.8}]\n" + rest;
+}
+
+TEST(Exponential, WithoutStopsGoesFromOutputToOutputWithoutError) {
+  const std::string integrator = "[integrator]\ntype = \"exponential\"\nend_time = 0.1\n[output]\ninterval = 1e-2\n";
+  for (const std::string damping : {"", "[damping]\nmass_proportional = 2.0\nstiffness_proportional = 1e-4\n",
+                                    "[damping]\nmodal = 0.03\n", "[damping]\nmodal = [0.5, 0.1]\n"}) {
+    std::vector<double> times;
+    for (int i = 0; i <= 10; ++i) times.push_back(0.01 * i);
+    const auto sample = [&](const std::string& method) {
+      std::vector<std::string> overrides = {"integrator.type=" + method};
+      if (method == "exact") overrides.emplace_back("integrator.time_step=1e-5");
+      SceneRun scene(frame(damping, integrator), overrides);
+      Sampler sampler(scene.dof("b:3"), times);
+      scene.simulation().add(sampler);
+      EXPECT_TRUE(scene.run().completed);
+      EXPECT_EQ(scene.dynamics().counters().contact_evaluations, 0);
+      return std::pair(sampler.x, scene.simulation().report().steps);
+    };
+    const auto [x, steps] = sample("exponential");
+    const auto [reference, many] = sample("exact");
+    // Rounding of the modes, relative to the highest of them.
+    constexpr double kRounding = 1e-10;
+    EXPECT_LE(relative_rms(x, reference), kRounding) << damping;
+    EXPECT_LE(steps, 14);  // ten outputs and the kinks of the load
+  }
+}
+
+TEST(Exponential, RefusesDampingThatCouplesTheModes) {
+  const std::string dashpot = "[[element]]\ntype = \"spring\"\nnode = \"b:3\"\nstiffness = 1e3\ndamping = 200.0\n";
+  try {
+    SceneRun scene(frame(dashpot, "[integrator]\ntype = \"exponential\"\nend_time = 0.1\n"));
+    FAIL() << "was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("dashpots"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace butee::test

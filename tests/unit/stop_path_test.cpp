@@ -1,0 +1,88 @@
+#include "integrators/stop_path.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <butee/solve/contact.hpp>
+#include <gtest/gtest.h>
+
+#include "contact/arctan.hpp"
+#include "contact/linear.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+using integrators::ForceMoments;
+using integrators::StopForce;
+using integrators::StopPath;
+
+std::string scene(const std::string& law, const std::string& sides) {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+         "\"m\"\nstiffness = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.5\nstiffness = 3.0\nsides = \"" +
+         sides + "\"\n" + law + "\n[integrator]\ntype = \"rk4\"\ntime_step = 0.1\nend_time = 1.0\n";
+}
+
+/// The moments by Simpson's rule over very many intervals.
+ForceMoments by_simpson(solve::Contact& contact, const StopPath& path) {
+  constexpr int kIntervals = 200000;
+  ForceMoments sum{};
+  for (int i = 0; i <= kIntervals; ++i) {
+    const double s = static_cast<double>(i) / kIntervals;
+    const double weight = (i == 0 || i == kIntervals ? 1.0 : i % 2 == 0 ? 2.0 : 4.0) / (3.0 * kIntervals);
+    const double force = weight * contact.force_of(0, path.value(s));
+    sum[0] += force;
+    sum[1] += 3.0 * force * (2.0 * s - 1.0);
+    sum[2] += 5.0 * force * (6.0 * s * s - 6.0 * s + 1.0);
+  }
+  return sum;
+}
+
+/// Paths of all kinds: random ends and bulges around a gap of 0.5.
+void compare(const std::string& law, double tolerance) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1.5, 1.5);
+  std::array<int, 4> seen{};
+  for (const std::string sides : {"both", "positive", "negative"}) {
+    SceneRun run(scene(law, sides));
+    solve::Contact& contact = run.dynamics().contact();
+    StopForce force(contact, 0);
+    for (int i = 0; i < 60; ++i) {
+      const double w0 = number(random), w1 = i % 3 == 0 ? w0 + 0.1 * number(random) : number(random);
+      const StopPath path(w0, number(random), w1, number(random), 0.2 * number(random));
+      const StopForce::Course course = force.course(path);
+      ++seen[static_cast<std::size_t>(course)];
+      const ForceMoments computed = force.moments(path, course), expected = by_simpson(contact, path);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(computed[k], expected[k], tolerance) << sides << " " << i;
+    }
+  }
+  EXPECT_GT(seen[static_cast<std::size_t>(StopForce::Course::changing)], 20);
+}
+
+TEST(StopPath, MeetsItsEndsAndItsMiddle) {
+  const StopPath path(1.0, 2.0, -3.0, 4.0, 0.7);
+  EXPECT_NEAR(path.value(0.0), 1.0, 1e-15);
+  EXPECT_NEAR(path.value(1.0), -3.0, 1e-14);
+  EXPECT_NEAR(path.value(0.5), 0.5 * (1.0 - 3.0) + 0.125 * (2.0 - 4.0) + 0.7, 1e-15);
+  EXPECT_NEAR((path.value(1e-6) - path.value(0.0)) / 1e-6, 2.0, 1e-4);
+  EXPECT_NEAR((path.value(1.0) - path.value(1.0 - 1e-6)) / 1e-6, 4.0, 1e-4);
+  for (double s = 0.0; s <= 1.0; s += 0.01) {
+    EXPECT_LE(path.lowest(), path.value(s));
+    EXPECT_GE(path.highest(), path.value(s));
+  }
+}
+
+// Simpson's rule is off by (slope of F)(1/200000)^2 at each kink.
+TEST(StopForce, OfALinearLawIsExact) {
+  compare("law = \"linear\"", 1e-9);
+}
+
+// Panels of three Gauss points: 1e-4 of the force in the worst of the random paths of a law that bends within 1 % of
+// the gap, far less where the bend is as sharp as in the paper.
+TEST(StopForce, OfASmoothLawIsCloseToItsIntegral) {
+  compare("law = \"arctan\"\nregularization = 1e5", 1e-5);
+  compare("law = \"arctan\"\nregularization = 1e2", 1e-4);
+}
+
+}  // namespace
+}  // namespace butee::test
