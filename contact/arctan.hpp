@@ -44,6 +44,7 @@ class Arctan final : public model::ContactLaw {
 
   double closed_stiffness() const override { return stiffness_; }
   std::unique_ptr<model::ForceSeries> force_series() const override;
+  double bend_width() const override { return 1.0 / slope_; }
   double far_force() const override { return stiffness_ / (std::numbers::pi * slope_); }
 
  private:

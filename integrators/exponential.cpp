@@ -82,6 +82,7 @@ Exponential::Exponential(solve::Dynamics& dynamics, const ExponentialOptions& op
     array->setZero(modal_.size());
   for (ArrayXd* array : {&w_, &wv_, &w_new_, &wv_new_, &reach_}) array->setZero(contact.size());
   stop_force_.setZero(contact.size());
+  far_forces_.setZero(contact.size());
   active_.reserve(static_cast<std::size_t>(contact.size()));
   far_.reserve(static_cast<std::size_t>(contact.size()));
   times_.reserve(kBlock + 1);
@@ -265,7 +266,7 @@ void Exponential::find_active(const StepFlow& flow, double t) {
   far_.clear();
   bool has_half = false;
   for (Index i = 0; i < w_.size(); ++i) {
-    if (reach_[i] <= gaps_[i] && !bends(i, h)) {
+    if (reach_[i] <= gaps_[i]) {
       if (has_far_forces_) far_.push_back(i);
       continue;
     }
@@ -279,22 +280,16 @@ void Exponential::find_active(const StepFlow& flow, double t) {
   }
 }
 
-bool Exponential::bends(Index stop, double h) const {
-  if (!has_far_forces_) return false;
-  const StopPath free(w_[stop], h * wv_[stop], w_new_[stop], h * wv_new_[stop], 0.0);
-  return stops_[static_cast<std::size_t>(stop)].course(free) == StopForce::Course::changing;
-}
-
 void Exponential::add_far_forces(const StepFlow& flow) {
   if (far_.empty()) return;
   const double h = flow.h();
   ArrayXd& sum = sums_[0];
-  sum.setZero();
+  far_forces_.setZero();
   for (const Index i : far_) {
-    const double force =
-        dynamics().contact().force_of(i, 0.5 * (w_[i] + w_new_[i]) + 0.125 * h * (wv_[i] - wv_new_[i]));
-    sum += force * modal_.stop_shapes().col(i).array();
+    const StopPath path(w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0);
+    far_forces_[i] = stops_[static_cast<std::size_t>(i)].far_force(path);
   }
+  sum.matrix().noalias() = modal_.stop_shapes() * far_forces_;
   q_new_ += sum * flow.whole.force_q(0);
   v_new_ += sum * flow.whole.force_v(0);
   if (!active_.empty()) q_half_ += sum * flow.half.force_q(0);
@@ -361,7 +356,7 @@ void Exponential::apply_forces(const StepFlow& flow) {
   bool any = false;
   for (int k = 0; k < orders; ++k) sums_[static_cast<std::size_t>(k)].setZero();
   for (const Active& a : active_) {
-    if (a.course == StopForce::Course::open) continue;
+    if (a.force[0] == 0.0 && a.force[1] == 0.0 && a.force[2] == 0.0) continue;
     any = true;
     const auto shape = modal_.stop_shapes().col(a.stop).array();
     for (std::size_t k = 0; k < static_cast<std::size_t>(orders); ++k) sums_[k] += a.force[k] * shape;

@@ -69,8 +69,6 @@ class Exponential final : public time::Integrator {
   Trial try_step(solve::StepFlow& flow, double t);
   void propagate(const solve::ModalFlow& flow, double t, bool with_speed, Eigen::ArrayXd& q, Eigen::ArrayXd& v) const;
   void find_active(const solve::StepFlow& flow, double t);
-  /// The force of a stop out of reach changes within the step, as that of a regularised law does near w = 0.
-  bool bends(Index stop, double h) const;
   void add_far_forces(const solve::StepFlow& flow);
   Trial iterate(solve::StepFlow& flow);
   /// Takes the active stops in turn, each with the forces of all others as they are; the largest change of a path.
@@ -114,7 +112,7 @@ class Exponential final : public time::Integrator {
   std::vector<double> times_;
   Eigen::MatrixXd knot_q_, knot_v_, knot_a_;
   std::vector<bool> has_acceleration_;
-  Vector stop_force_;
+  Vector stop_force_, far_forces_;
   std::size_t course_knot_ = kNone;
   std::vector<Index> course_dofs_;
   std::vector<Quintic> courses_;

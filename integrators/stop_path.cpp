@@ -12,8 +12,10 @@ constexpr int kDegree = 4;
 constexpr int kParts = 4;
 /// The most steps towards a root within a bracket, Newton's or halvings.
 constexpr int kRefinements = 60;
-/// Panels beside a bend of the law: the next is shorter by this factor, and what lies within the last is left out. The
-/// force there is at most k_c |g|, so that an impulse of 1e-8 of that of a step is lost.
+/// A law bends sharply where it does so over less than this part of the range of the path: what it adds to a linear
+/// stop there is then of the second order in that part.
+constexpr double kSharp = 1e-3;
+/// Panels beside a bend that is not sharp: each is shorter than the last by this factor.
 constexpr double kGrading = 0.15;
 constexpr int kPanels = 4;
 
@@ -75,6 +77,7 @@ StopForce::StopForce(solve::Contact& contact, Index stop)
       stop_(stop),
       gap_(contact.gap_of(stop)),
       stiffness_(contact.law_of(stop).closed_stiffness()),
+      bend_width_(contact.law_of(stop).bend_width()),
       is_linear_(contact.law_of(stop).is_piecewise_linear()),
       on_upper_(contact.sides_of(stop) != model::Sides::negative),
       on_lower_(contact.sides_of(stop) != model::Sides::positive) {
@@ -83,31 +86,25 @@ StopForce::StopForce(solve::Contact& contact, Index stop)
 
 StopForce::Course StopForce::course(const StopPath& path) const {
   const double low = path.lowest(), high = path.highest();
-  if (is_linear_) {
-    if ((!on_upper_ || high <= gap_) && (!on_lower_ || low >= -gap_)) return Course::open;
-    if ((on_upper_ && low >= gap_) || (on_lower_ && high <= -gap_)) return Course::closed;
-    return Course::changing;
-  }
-  // Far: no border within the path widened by its own range.
-  const double range = high - low, below = low - range, above = high + range;
-  const auto holds = [&](double border) { return below <= border && border <= above; };
-  if ((on_upper_ && holds(gap_)) || (on_lower_ && holds(-gap_))) return Course::changing;
-  if (on_upper_ && on_lower_ && low <= 0.0 && high >= 0.0) return Course::changing;
-  return Course::far;
+  if ((!on_upper_ || high <= gap_) && (!on_lower_ || low >= -gap_)) return Course::open;
+  if ((on_upper_ && low >= gap_) || (on_lower_ && high <= -gap_)) return Course::closed;
+  return Course::changing;
 }
 
 ForceMoments StopForce::moments(const StopPath& path, Course course) {
-  switch (course) {
-    case Course::open:
-      return {};
-    case Course::closed:
-      return of_spring(path, 0.0, 1.0, path.lowest() >= gap_ && on_upper_ ? 1.0 : -1.0);
-    case Course::far:
-      return by_gauss(path, 0.0, 1.0);
-    case Course::changing:
-      break;
+  if (course == Course::open && is_linear_) return {};
+  if (course == Course::closed) {
+    const double side = side_at(path.value(0.5));
+    ForceMoments sum = of_spring(path, 0.0, 1.0, side);
+    if (!is_linear_) add(sum, of_rest(path, 0.0, 1.0, side));
+    return sum;
   }
-  return is_linear_ ? of_pieces(path) : by_graded_panels(path);
+  return of_pieces(path);
+}
+
+double StopForce::far_force(const StopPath& path) {
+  if (path.lowest() > 0.0 || path.highest() < 0.0) return contact_.force_of(stop_, path.value(0.5));
+  return of_pieces(path)[0];
 }
 
 ForceMoments StopForce::of_spring(const StopPath& path, double begin, double end, double side) const {
@@ -125,11 +122,12 @@ ForceMoments StopForce::of_spring(const StopPath& path, double begin, double end
   return from_powers(-stiffness_ * power[0], -stiffness_ * power[1], -stiffness_ * power[2]);
 }
 
-ForceMoments StopForce::by_gauss(const StopPath& path, double begin, double end) {
+ForceMoments StopForce::of_rest(const StopPath& path, double begin, double end, double side) {
   double m0 = 0.0, m1 = 0.0, m2 = 0.0;
   for (std::size_t i = 0; i < kGaussPlaces.size(); ++i) {
-    const double s = begin + (end - begin) * kGaussPlaces[i];
-    const double force = (end - begin) * kGaussWeights[i] * contact_.force_of(stop_, path.value(s));
+    const double s = begin + (end - begin) * kGaussPlaces[i], w = path.value(s);
+    const double spring = side != 0.0 ? -stiffness_ * (w - side * gap_) : 0.0;
+    const double force = (end - begin) * kGaussWeights[i] * (contact_.force_of(stop_, w) - spring);
     m0 += force;
     m1 += force * s;
     m2 += force * s * s;
@@ -137,42 +135,45 @@ ForceMoments StopForce::by_gauss(const StopPath& path, double begin, double end)
   return from_powers(m0, m1, m2);
 }
 
-ForceMoments StopForce::of_pieces(const StopPath& path) {
-  find_places(path);
+ForceMoments StopForce::of_graded_rest(const StopPath& path, double graded, double other, double side) {
   ForceMoments sum{};
-  for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
-    const double w = path.value(0.5 * (places_[i] + places_[i + 1]));
-    const double side = w > gap_ && on_upper_ ? 1.0 : w < -gap_ && on_lower_ ? -1.0 : 0.0;
-    if (side != 0.0) add(sum, of_spring(path, places_[i], places_[i + 1], side));
+  double outer = other;
+  for (int panel = 1; panel <= kPanels; ++panel) {
+    const double inner = panel == kPanels ? graded : graded + kGrading * (outer - graded);
+    add(sum, of_rest(path, std::min(inner, outer), std::max(inner, outer), side));
+    outer = inner;
   }
   return sum;
 }
 
-ForceMoments StopForce::by_graded_panels(const StopPath& path) {
+ForceMoments StopForce::of_pieces(const StopPath& path) {
   find_places(path);
+  const bool is_sharp = bend_width_ <= kSharp * (path.highest() - path.lowest());
   ForceMoments sum{};
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
-    // From the middle of the piece towards both of its ends.
-    const double middle = 0.5 * (places_[i] + places_[i + 1]);
-    for (const double end : {places_[i], places_[i + 1]}) {
-      double outer = middle;
-      for (int panel = 0; panel < kPanels; ++panel) {
-        const double inner = panel + 1 == kPanels ? end : end + kGrading * (outer - end);
-        add(sum, by_gauss(path, std::min(inner, outer), std::max(inner, outer)));
-        outer = inner;
-      }
+    const Place &begin = places_[i], &end = places_[i + 1];
+    const double middle = 0.5 * (begin.s + end.s), side = side_at(path.value(middle));
+    if (side != 0.0) add(sum, of_spring(path, begin.s, end.s, side));
+    if (is_linear_) continue;
+    if (is_sharp) {
+      add(sum, of_rest(path, begin.s, end.s, side));
+      continue;
     }
+    for (const Place& place : {begin, end})
+      add(sum, place.is_bend ? of_graded_rest(path, place.s, middle, side)
+                             : of_rest(path, std::min(place.s, middle), std::max(place.s, middle), side));
   }
   return sum;
 }
 
 void StopForce::find_places(const StopPath& path) {
-  places_.assign(1, 0.0);
+  places_.assign(1, {0.0, false});
   if (on_upper_) add_crossings(path, gap_);
   if (on_lower_ && (gap_ > 0.0 || !on_upper_)) add_crossings(path, -gap_);
+  for (Place& place : places_) place.is_bend = place.s > 0.0;
   if (!is_linear_ && on_upper_ && on_lower_ && gap_ > 0.0) add_crossings(path, 0.0);
-  std::sort(places_.begin(), places_.end());
-  places_.push_back(1.0);
+  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.s < b.s; });
+  places_.push_back({1.0, false});
 }
 
 void StopForce::add_crossings(const StopPath& path, double border) {
@@ -183,12 +184,12 @@ void StopForce::add_crossings(const StopPath& path, double border) {
   for (int i = 1; i <= kParts; ++i) {
     const double s1 = static_cast<double>(i) / kParts;
     if (has_opposite_signs(value(c, s0), value(c, s1))) {
-      places_.push_back(root(c, s0, s1));
+      places_.push_back({root(c, s0, s1), false});
     } else if (has_opposite_signs(slope(c, s0), slope(c, s1))) {
       const double turn = root({c[1], 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 0.0}, s0, s1);
       if (has_opposite_signs(value(c, s0), value(c, turn))) {
-        places_.push_back(root(c, s0, turn));
-        places_.push_back(root(c, turn, s1));
+        places_.push_back({root(c, s0, turn), false});
+        places_.push_back({root(c, turn, s1), false});
       }
     }
     s0 = s1;

@@ -32,9 +32,9 @@ using ForceMoments = std::array<double, 3>;
 ///
 ///     f_k = (2 k + 1) int_0^1 P_k(s) F(w(s)) ds
 ///
-/// With a piecewise linear law exact, however often the stop opens or closes on the way. With a smooth law by Gauss's
-/// rule of four points where the stop stays away from g = 0, and by panels graded towards the instants at which g = 0
-/// or w = 0 where it does not, since F is small where g is. Checked against adaptive quadrature in
+/// The part of a linear stop is integrated exactly, however often the stop opens or closes on the way. What a smooth
+/// law adds to it is integrated by Gauss's rule of four points between the instants at which g = 0 or w = 0, by panels
+/// graded towards those where the law bends over a part of the step that counts. Checked against Simpson's rule in
 /// tests/unit/stop_path_test.cpp.
 class StopForce {
  public:
@@ -43,28 +43,37 @@ class StopForce {
 
   /// How a path lies to the stop.
   enum class Course {
-    open,    ///< without force
+    open,    ///< no linear part
     closed,  ///< a spring throughout
-    far,     ///< a smooth law, far from its bend
     changing
   };
   Course course(const StopPath& path) const;
   ForceMoments moments(const StopPath& path, Course course);
+  /// The mean force alone along a path without contact: the pull of a regularised law.
+  double far_force(const StopPath& path);
 
  private:
   ForceMoments of_spring(const StopPath& path, double begin, double end, double side) const;
-  ForceMoments by_gauss(const StopPath& path, double begin, double end);
+  /// What the law adds to a spring on `side` (0: to nothing).
+  ForceMoments of_rest(const StopPath& path, double begin, double end, double side);
+  /// The same by panels that shrink towards `graded`.
+  ForceMoments of_graded_rest(const StopPath& path, double graded, double other, double side);
+  /// +1, -1: the side on which a spring acts; 0: none.
+  double side_at(double w) const { return on_upper_ && w > gap_ ? 1.0 : on_lower_ && w < -gap_ ? -1.0 : 0.0; }
   ForceMoments of_pieces(const StopPath& path);
-  ForceMoments by_graded_panels(const StopPath& path);
   /// Fills places_ with 0, the places where the path crosses a border of the law, and 1.
   void find_places(const StopPath& path);
   void add_crossings(const StopPath& path, double border);
 
   solve::Contact& contact_;
   Index stop_;
-  double gap_, stiffness_;
+  double gap_, stiffness_, bend_width_;
   bool is_linear_, on_upper_, on_lower_;
-  std::vector<double> places_;
+  struct Place {
+    double s;
+    bool is_bend;  ///< g = 0
+  };
+  std::vector<Place> places_;
 };
 
 }  // namespace butee::integrators

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -41,6 +42,10 @@ class BUTEE_EXPORT ContactLaw {
 
   /// The series of a smooth law; nullptr where it has none to give.
   virtual std::unique_ptr<ForceSeries> force_series() const { return nullptr; }
+
+  /// The |g| up to which the force departs from that of a linear stop by more than far_force(), m; infinite where that
+  /// is not known.
+  virtual double bend_width() const { return std::numeric_limits<double>::infinity(); }
 
   /// The largest force that a stop further open than a few boundary layers still exerts, N (0: none).
   virtual double far_force() const { return 0.0; }
