@@ -1,7 +1,5 @@
 #include "integrators/newmark.hpp"
 
-#include <cmath>
-
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -12,7 +10,6 @@ using config::Parameters;
 using time::IntegratorType;
 using time::State;
 using time::StepReport;
-using time::StepStatus;
 
 std::vector<Parameter> NewmarkParameters::declare() {
   return {
@@ -26,67 +23,16 @@ NewmarkParameters NewmarkParameters::read(const Parameters& p) {
 
 Newmark::Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
                  std::unique_ptr<ZienkiewiczXie> controller)
-    : Integrator(dynamics), parameters_(parameters), newton_(newton), controller_(std::move(controller)) {
-  load_ = residual_ = Vector::Zero(dynamics.size());
-  stop_displacement_ = stop_force_ = stop_tangent_ = Vector::Zero(dynamics.stop_count());
-}
+    : Integrator(dynamics), parameters_(parameters), stage_(dynamics, newton), controller_(std::move(controller)) {}
 
 StepReport Newmark::do_step(const State& from, const time::Step& step, State& to) {
   const double h = step.h;
-  dynamics().external_force(step.t_end, load_);
   to.a = from.a;
   to.x = from.x + h * from.v + 0.5 * h * h * from.a;
   to.v = from.v + h * from.a;
-  StepReport report = iterate(h, to);
-  if (controller_ != nullptr && report.status == StepStatus::ok) report.error = controller_->error(from, to, h);
+  StepReport report = stage_.solve(step.t_end, parameters_.gamma * h, parameters_.beta * h * h, to.x, to.v, to.a);
+  if (controller_ != nullptr && report.status == time::StepStatus::ok) report.error = controller_->error(from, to, h);
   return report;
-}
-
-StepReport Newmark::iterate(double h, State& to) {
-  const double on_v = parameters_.gamma * h, on_x = parameters_.beta * h * h;
-  solve::EffectiveSolver& effective = dynamics().effective();
-  effective.set_factors(on_v, on_x);
-  StepReport report;
-  double increment = 0.0;
-  while (true) {
-    // The first look always leads to a solve, except at rest; later ones seldom do, and ask for the tangent then.
-    const bool first = report.newton_iterations == 0;
-    const double scale = evaluate_residual(to, first);
-    if (!std::isfinite(scale)) {
-      report.status = StepStatus::not_finite;
-      return report;
-    }
-    const bool converged = residual_.norm() <= newton_.residual_tolerance * scale &&
-                           increment <= newton_.increment_tolerance * to.x.norm();
-    if (converged) return report;
-    if (report.newton_iterations == newton_.max_iterations) break;
-    if (!first && dynamics().stop_count() > 0)
-      dynamics().contact().tangent(stop_displacement_, stop_force_, stop_tangent_);
-    if (!effective.solve(stop_tangent_, residual_)) {
-      report.status = StepStatus::singular;
-      return report;
-    }
-    ++report.newton_iterations;
-    to.a += residual_;
-    to.v += on_v * residual_;
-    to.x += on_x * residual_;
-    increment = on_x * residual_.norm();
-  }
-  report.kept_failure = newton_.keep_failures;
-  report.status = newton_.keep_failures ? StepStatus::ok : StepStatus::newton_failed;
-  return report;
-}
-
-double Newmark::evaluate_residual(const State& at, bool with_tangent) {
-  if (dynamics().stop_count() > 0) {
-    solve::Contact& contact = dynamics().contact();
-    contact.displacement(at.x, stop_displacement_);
-    if (with_tangent)
-      contact.tangent(stop_displacement_, stop_force_, stop_tangent_);
-    else
-      contact.force(stop_displacement_, stop_force_);
-  }
-  return dynamics().residual(load_, stop_force_, at.x, at.v, at.a, residual_);
 }
 
 namespace {

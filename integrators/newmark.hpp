@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "butee/time/integrator.hpp"
+#include "integrators/stage_solver.hpp"
 #include "integrators/zienkiewicz_xie.hpp"
 
 namespace butee::integrators {
@@ -18,17 +19,9 @@ struct NewmarkParameters {
   static NewmarkParameters read(const config::Parameters& parameters);
 };
 
-struct NewtonOptions {
-  double residual_tolerance;   ///< eps_r, relative to |F| + |F_c| + |M a| + |C v| + |K x|
-  double increment_tolerance;  ///< eps_delta, relative to |x|
-  int max_iterations;          ///< i_max linear solves
-  bool keep_failures;          ///< goes on where they did not suffice
-};
-
 /// newmark (NM1) and, with a controller, newmark_adaptive (NM2): Newmark with Newton-Raphson.
 ///
-/// Predictor a_{n+1} = a_n, then A da = r with A = M + gamma h C + beta h^2 (K + K_tangent) until
-/// |r| <= eps_r (|F| + |F_c| + |M a| + |C v| + |K x|) and, after the first solve, |dx| <= eps_delta |x|.
+/// Predictor a_{n+1} = a_n, then Newton's iteration (StageSolver) with A = M + gamma h C + beta h^2 (K + K_tangent).
 ///
 /// Order 2 at gamma = 1/2; unconditionally stable for linear motion at beta >= gamma/2 >= 1/4; across a stop energy is
 /// not conserved. One factorization and solve an iteration where there are stops. Checked in tests/conformance.
@@ -42,15 +35,10 @@ class Newmark final : public time::Integrator {
 
  private:
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  time::StepReport iterate(double h, time::State& to);
-  /// Fills residual_ and, where asked for, the stops' tangents at (x, v, a); returns the scale of its tolerance.
-  double evaluate_residual(const time::State& at, bool with_tangent);
 
   NewmarkParameters parameters_;
-  NewtonOptions newton_;
+  StageSolver stage_;
   std::unique_ptr<ZienkiewiczXie> controller_;
-  Vector load_, residual_;
-  Vector stop_displacement_, stop_force_, stop_tangent_;
 };
 
 }  // namespace butee::integrators

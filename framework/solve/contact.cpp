@@ -146,11 +146,14 @@ double Contact::force_of(Index i, double w) {
   return -at.side * group.law->secant(at.penetration) * at.penetration;
 }
 
+double Contact::energy_of(Index i, double w) const {
+  const Group& group = group_of(i);
+  return group.law->energy(place(w, group.gap, group.sides).penetration) - group.law->energy(-group.gap);
+}
+
 double Contact::energy(ConstVectorRef w) const {
   double sum = 0.0;
-  for (const Group& group : groups_)
-    for (Index i = group.begin; i < group.begin + group.count; ++i)
-      sum += group.law->energy(place(w[i], group.gap, group.sides).penetration) - group.law->energy(-group.gap);
+  for (Index i = 0; i < size(); ++i) sum += energy_of(i, w[i]);
   return sum;
 }
 

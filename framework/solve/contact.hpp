@@ -38,6 +38,8 @@ class BUTEE_EXPORT Contact {
   void secant(ConstVectorRef w, VectorRef k, VectorRef c);
   /// Sum over the stops of U(w) = -int_0^w f dw, J
   double energy(ConstVectorRef w) const;
+  /// U(w) of stop i alone, J
+  double energy_of(Index i, double w) const;
   /// f(w) of stop i alone, N
   double force_of(Index i, double w);
   /// The law, the gap and the sides of stop i

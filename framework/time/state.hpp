@@ -35,6 +35,7 @@ enum class StepStatus {
 struct StepReport {
   StepStatus status = StepStatus::ok;
   double error = 0.0;         ///< the method's own measure, for its StepController
+  double proposal = 0.0;      ///< s; the length of the next try that the method itself proposes, if it does
   int newton_iterations = 0;  ///< linear solves of Newton's iteration
   bool kept_failure = false;  ///< went on although Newton failed
   int inner_steps = 1;        ///< that the method took within the step

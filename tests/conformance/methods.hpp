@@ -36,6 +36,12 @@ inline std::vector<MethodCase> method_cases() {
                                  {"rk4_error_scaled", "tolerance = 1e-7\nsafety = 0.9\n", 0.0, 4.0},
                                  {"newmark_adaptive", newton + "target_error = 1e-5\n", 0.0, 2.0, true},
                                  {"newmark_modified_adaptive", "target_error = 1e-5\n", 0.0, 2.0, true}};
+  for (const std::string name : {"generalized_alpha", "hht_alpha", "bathe", "discrete_gradient"}) {
+    all.push_back({name, "", 2.0, 0.0, true});
+    all.push_back({name + "_adaptive", "tolerance = 1e-4\n", 0.0, 2.0, true});
+  }
+  all.push_back({"central_differences", "", 2.0});
+  all.push_back({"central_differences_adaptive", "tolerance = 1e-4\n", 0.0, 2.0});
   return all;
 }
 

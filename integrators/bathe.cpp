@@ -1,0 +1,79 @@
+#include "integrators/bathe.hpp"
+
+#include <numbers>
+
+#include "integrators/methods.hpp"
+
+namespace butee::integrators {
+namespace {
+
+constexpr double kGamma = 2.0 - std::numbers::sqrt2;
+/// y_{n+1} = kMiddle y_gamma + kOld y_n + kStage h y'_{n+1}
+constexpr double kMiddle = 1.0 / (kGamma * (2.0 - kGamma));
+constexpr double kOld = 1.0 - kMiddle;
+constexpr double kStage = 0.5 * kGamma;
+/// h times these of y' at the three points is the difference to the embedded formula of order 3.
+constexpr double kWeight = std::numbers::sqrt2 / 4.0;
+constexpr double kError0 = (4.0 * kWeight - 1.0) / 3.0, kError1 = -1.0 / 3.0, kError2 = 2.0 * kStage / 3.0;
+
+}  // namespace
+
+Bathe::Bathe(solve::Dynamics& dynamics, double tolerance) : Integrator(dynamics), stage_(dynamics, kNewton) {
+  if (tolerance > 0.0) control_.emplace(dynamics, tolerance, LocalErrorControl::Orders{3.0, 2.0}, LocalErrorControl::Steps::ladder);
+}
+
+void Bathe::do_start(time::State& state) {
+  if (!control_) return;
+  state.memory.resize(LocalErrorControl::kMemory);
+  control_->start(state);
+}
+
+time::StepReport Bathe::do_step(const time::State& from, const time::Step& step, time::State& to) {
+  const double h = step.h, d = kStage * h;
+  a_ = from.a;
+  v_ = from.v + 2.0 * d * from.a;
+  x_ = from.x + d * (from.v + v_);
+  time::StepReport report = stage_.solve(from.t + kGamma * h, d, d * d, x_, v_, a_);
+  if (report.status != time::StepStatus::ok) return report;
+  to.a = a_;
+  to.v = kMiddle * v_ + kOld * from.v + d * to.a;
+  to.x = kMiddle * x_ + kOld * from.x + d * to.v;
+  const time::StepReport second = stage_.solve(step.t_end, d, d * d, to.x, to.v, to.a);
+  report.newton_iterations += second.newton_iterations;
+  report.status = second.status;
+  if (!control_ || report.status != time::StepStatus::ok) return report;
+  error_x_ = h * (kError0 * from.v + kError1 * v_ + kError2 * to.v);
+  error_v_ = h * (kError0 * from.a + kError1 * a_ + kError2 * to.a);
+  control_->judge(from, to, h, error_x_, error_v_, report);
+  return report;
+}
+
+namespace {
+
+time::IntegratorType type_of(bool is_adaptive) {
+  std::vector<config::Parameter> parameters;
+  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
+  return {is_adaptive ? "bathe_adaptive" : "bathe",
+          {is_adaptive ? "BATHE2" : "BATHE1"},
+          is_adaptive ? "composite trapezoid and backward differences, L-stable, steps by the local error"
+                      : "composite trapezoid and backward differences, L-stable, fixed steps",
+          std::move(parameters),
+          kUnconditional,
+          [is_adaptive](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<Bathe>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
+          },
+          {},
+          !is_adaptive,
+          is_adaptive};
+}
+
+}  // namespace
+
+time::IntegratorType bathe_type() {
+  return type_of(false);
+}
+time::IntegratorType bathe_adaptive_type() {
+  return type_of(true);
+}
+
+}  // namespace butee::integrators

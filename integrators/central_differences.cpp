@@ -1,0 +1,55 @@
+#include "integrators/central_differences.hpp"
+
+#include "integrators/methods.hpp"
+
+namespace butee::integrators {
+
+CentralDifferences::CentralDifferences(solve::Dynamics& dynamics, double tolerance) : Integrator(dynamics) {
+  if (tolerance > 0.0) control_.emplace(dynamics, tolerance);
+}
+
+void CentralDifferences::do_start(time::State& state) {
+  if (control_) control_->start(state);
+}
+
+time::StepReport CentralDifferences::do_step(const time::State& from, const time::Step& step, time::State& to) {
+  const double h = step.h;
+  to.v = from.v + 0.5 * h * from.a;
+  to.x = from.x + h * to.v;
+  guess_ = to.v + 0.5 * h * from.a;
+  dynamics().acceleration(step.t_end, to.x, guess_, to.a);
+  to.v += 0.5 * h * to.a;
+  time::StepReport report;
+  if (control_) control_->judge(from, to, h, report);
+  return report;
+}
+
+namespace {
+
+time::IntegratorType type_of(bool is_adaptive) {
+  std::vector<config::Parameter> parameters;
+  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-3));
+  return {is_adaptive ? "central_differences_adaptive" : "central_differences",
+          {is_adaptive ? "CD2" : "CD1"},
+          is_adaptive ? "central differences, explicit, steps by the local error"
+                      : "central differences, explicit, fixed steps",
+          std::move(parameters),
+          2.0,
+          [is_adaptive](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<CentralDifferences>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
+          },
+          {},
+          !is_adaptive,
+          is_adaptive};
+}
+
+}  // namespace
+
+time::IntegratorType central_differences_type() {
+  return type_of(false);
+}
+time::IntegratorType central_differences_adaptive_type() {
+  return type_of(true);
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "integrators/acceleration_error.hpp"
+
+namespace butee::integrators {
+
+/// central_differences: explicit, in the form of Verlet's velocities.
+///
+///     v_{n+1/2} = v_n + h/2 a_n,  x_{n+1} = x_n + h v_{n+1/2},  v_{n+1} = v_{n+1/2} + h/2 a_{n+1},
+///     M a_{n+1} = F(t_{n+1}) + F_c(x_{n+1}) - C (v_{n+1/2} + h/2 a_n) - K x_{n+1}
+///
+/// Order 2 in x and v, damping included; one evaluation a step; stable up to h omega = 2 without damping, less with it.
+/// Steps by AccelerationError. Orders are checked in tests/conformance. Source: T. Belytschko, W. K. Liu and B. Moran,
+/// Nonlinear Finite Elements for Continua and Structures, section 6.2.
+class CentralDifferences final : public time::Integrator {
+ public:
+  /// `tolerance` 0: fixed steps.
+  CentralDifferences(solve::Dynamics& dynamics, double tolerance);
+
+  const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
+  double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }
+
+ private:
+  void do_start(time::State& state) override;
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+
+  std::optional<AccelerationError> control_;
+  Vector guess_;
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,97 @@
+#include "integrators/discrete_gradient.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/methods.hpp"
+
+namespace butee::integrators {
+namespace {
+
+/// Displacements closer than this part of their size and the gap have too little difference of energies left: the mean of
+/// both forces, off by the square of their distance, takes its place.
+constexpr double kClose = 1e-6;
+/// The difference of energies is rounded: the residual cannot get smaller than this part of all forces.
+constexpr NewtonOptions kNewtonOfEnergies = {1e-9, 1e-7, 40, false, false};
+
+}  // namespace
+
+void DiscreteGradientStage::begin(ConstVectorRef x) {
+  solve::Contact& contact = dynamics().contact();
+  if (contact.size() == 0) return;
+  for (Vector* vector : {&start_, &end_, &force_start_, &force_end_, &tangent_end_}) vector->resize(contact.size());
+  contact.displacement(x, start_);
+  contact.force(start_, force_start_);
+}
+
+void DiscreteGradientStage::contact(ConstVectorRef w, bool, VectorRef f, VectorRef k) {
+  solve::Contact& contact = dynamics().contact();
+  end_ = 2.0 * w - start_;
+  contact.tangent(end_, force_end_, tangent_end_);
+  for (Index i = 0; i < end_.size(); ++i) {
+    const double step = end_[i] - start_[i];
+    if (std::abs(step) <= kClose * (std::abs(end_[i]) + std::abs(start_[i]) + contact.gap_of(i))) {
+      f[i] = 0.5 * (force_start_[i] + force_end_[i]);
+      k[i] = tangent_end_[i];
+    } else {
+      f[i] = -(contact.energy_of(i, end_[i]) - contact.energy_of(i, start_[i])) / step;
+      k[i] = 2.0 * (f[i] - force_end_[i]) / step;
+    }
+    // A regularised law pulls a stop that passes w = 0; Newton's iteration does as well without that.
+    k[i] = std::max(k[i], 0.0);
+  }
+}
+
+DiscreteGradient::DiscreteGradient(solve::Dynamics& dynamics, double tolerance)
+    : Integrator(dynamics), stage_(dynamics, kNewtonOfEnergies) {
+  if (tolerance > 0.0) control_.emplace(dynamics, tolerance);
+}
+
+void DiscreteGradient::do_start(time::State& state) {
+  if (control_) control_->start(state);
+}
+
+time::StepReport DiscreteGradient::do_step(const time::State& from, const time::Step& step, time::State& to) {
+  const double h = step.h, half = 0.5 * h;
+  stage_.begin(from.x);
+  a_ = from.a;
+  v_ = from.v + half * a_;
+  x_ = from.x + half * v_;
+  time::StepReport report = stage_.solve(from.t + half, half, half * half, x_, v_, a_);
+  if (report.status != time::StepStatus::ok) return report;
+  to.x = 2.0 * x_ - from.x;
+  to.v = 2.0 * v_ - from.v;
+  dynamics().acceleration(step.t_end, to.x, to.v, to.a);
+  if (control_) control_->judge(from, to, h, report);
+  return report;
+}
+
+namespace {
+
+time::IntegratorType type_of(bool is_adaptive) {
+  std::vector<config::Parameter> parameters;
+  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
+  return {is_adaptive ? "discrete_gradient_adaptive" : "discrete_gradient",
+          {is_adaptive ? "DG2" : "DG1"},
+          is_adaptive ? "midpoint rule that cannot gain energy at a stop, steps by the local error"
+                      : "midpoint rule that cannot gain energy at a stop, fixed steps",
+          std::move(parameters),
+          kUnconditional,
+          [is_adaptive](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<DiscreteGradient>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
+          },
+          {},
+          !is_adaptive,
+          is_adaptive};
+}
+
+}  // namespace
+
+time::IntegratorType discrete_gradient_type() {
+  return type_of(false);
+}
+time::IntegratorType discrete_gradient_adaptive_type() {
+  return type_of(true);
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,105 @@
+#include "integrators/generalized_alpha.hpp"
+
+#include "integrators/methods.hpp"
+
+namespace butee::integrators {
+
+using config::number;
+using config::Parameter;
+using config::Parameters;
+using time::State;
+using time::StepReport;
+
+AlphaParameters AlphaParameters::of_radius(double rho_inf) {
+  const double alpha_m = (2.0 * rho_inf - 1.0) / (rho_inf + 1.0), alpha_f = rho_inf / (rho_inf + 1.0);
+  const double excess = 1.0 - alpha_m + alpha_f;
+  return {alpha_m, alpha_f, 0.25 * excess * excess, excess - 0.5};
+}
+
+AlphaParameters AlphaParameters::hht(double alpha) {
+  return {0.0, alpha, 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha};
+}
+
+GeneralizedAlpha::GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters, double tolerance)
+    : Integrator(dynamics), parameters_(parameters), stage_(dynamics, kNewton) {
+  if (tolerance > 0.0) control_.emplace(dynamics, tolerance);
+}
+
+void GeneralizedAlpha::do_start(State& state) {
+  if (control_) control_->start(state);
+}
+
+StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, State& to) {
+  const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
+  const double h = step.h, on_m = 1.0 - alpha_m, on_f = 1.0 - alpha_f;
+  // With a_{n+1} = a_n for a guess.
+  to.x = from.x + h * from.v + 0.5 * h * h * from.a;
+  to.v = from.v + h * from.a;
+  x_ = on_f * to.x + alpha_f * from.x;
+  v_ = on_f * to.v + alpha_f * from.v;
+  a_ = from.a;
+  const double t = step.t_end - alpha_f * h, on_v = on_f * gamma * h / on_m, on_x = on_f * beta * h * h / on_m;
+  StepReport report = stage_.solve(t, on_v, on_x, x_, v_, a_);
+  if (report.status != time::StepStatus::ok) return report;
+  to.a = (a_ - alpha_m * from.a) / on_m;
+  to.x += beta * h * h * (to.a - from.a);
+  to.v += gamma * h * (to.a - from.a);
+  if (control_) control_->judge(from, to, h, report);
+  return report;
+}
+
+namespace {
+
+time::IntegratorType type_of(std::string name, std::string alias, std::string summary, Parameter dissipation,
+                             std::function<AlphaParameters(const Parameters&)> read, bool is_adaptive) {
+  std::vector<Parameter> parameters = {std::move(dissipation)};
+  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
+  return {std::move(name),
+          {std::move(alias)},
+          std::move(summary),
+          std::move(parameters),
+          kUnconditional,
+          [read, is_adaptive](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<GeneralizedAlpha>(dynamics, read(p), is_adaptive ? p.number("tolerance") : 0.0);
+          },
+          {},
+          !is_adaptive,
+          is_adaptive};
+}
+
+time::IntegratorType chung_hulbert(bool is_adaptive) {
+  return type_of(is_adaptive ? "generalized_alpha_adaptive" : "generalized_alpha", is_adaptive ? "GA2" : "GA1",
+                 is_adaptive ? "generalized-alpha, steps by the local error" : "generalized-alpha, fixed steps",
+                 number("rho_inf", "1", "the spectral radius at infinite frequency; 1: no numerical damping")
+                     .at_least(0)
+                     .at_most(1)
+                     .or_else(0.8),
+                 [](const Parameters& p) { return AlphaParameters::of_radius(p.number("rho_inf")); }, is_adaptive);
+}
+
+time::IntegratorType hilber_hughes_taylor(bool is_adaptive) {
+  return type_of(is_adaptive ? "hht_alpha_adaptive" : "hht_alpha", is_adaptive ? "HHT2" : "HHT1",
+                 is_adaptive ? "HHT-alpha, steps by the local error" : "HHT-alpha, fixed steps",
+                 number("alpha", "1", "numerical damping, in absolute value; 0: Newmark's")
+                     .at_least(0)
+                     .at_most(1.0 / 3.0)
+                     .or_else(0.05),
+                 [](const Parameters& p) { return AlphaParameters::hht(p.number("alpha")); }, is_adaptive);
+}
+
+}  // namespace
+
+time::IntegratorType generalized_alpha_type() {
+  return chung_hulbert(false);
+}
+time::IntegratorType generalized_alpha_adaptive_type() {
+  return chung_hulbert(true);
+}
+time::IntegratorType hht_alpha_type() {
+  return hilber_hughes_taylor(false);
+}
+time::IntegratorType hht_alpha_adaptive_type() {
+  return hilber_hughes_taylor(true);
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+
+#include "integrators/acceleration_error.hpp"
+#include "integrators/stage_solver.hpp"
+
+namespace butee::integrators {
+
+/// The parameters of the generalized-alpha family in Chung and Hulbert's convention, where alpha weighs the old state.
+struct AlphaParameters {
+  double alpha_m, alpha_f, beta, gamma;
+
+  /// generalized-alpha: spectral radius rho_inf, 0 to 1, at infinite frequency.
+  static AlphaParameters of_radius(double rho_inf);
+  /// HHT-alpha: 0 <= alpha <= 1/3, in absolute value.
+  static AlphaParameters hht(double alpha);
+};
+
+/// generalized_alpha and hht_alpha, with fixed steps or steps by the local error.
+///
+///     M a_(1-alpha_m) + C v_(1-alpha_f) + K x_(1-alpha_f) = F(t_(1-alpha_f)) + F_c(x_(1-alpha_f))
+///
+/// where y_(1-alpha) = (1 - alpha) y_{n+1} + alpha y_n, with Newmark's x_{n+1} and v_{n+1}. Order 2 with the algorithmic
+/// acceleration carried and the load at the method's own time; unconditionally stable for linear motion. One stage solve
+/// a step, contact by Newton in stop space.
+///
+/// Steps by AccelerationError, which sees velocity too. Orders are checked in tests/conformance.
+/// Sources: J. Chung and G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375, doi 10.1115/1.2900803; H. M. Hilber, T. J. R.
+/// Hughes and R. L. Taylor, Earthquake Eng. Struct. Dyn. 5 (1977) 283-292, doi 10.1002/eqe.4290050306.
+class GeneralizedAlpha final : public time::Integrator {
+ public:
+  /// `tolerance` 0: fixed steps.
+  GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters, double tolerance);
+
+  const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
+  double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }
+
+ private:
+  void do_start(time::State& state) override;
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+
+  AlphaParameters parameters_;
+  StageSolver stage_;
+  std::optional<AccelerationError> control_;
+  Vector x_, v_, a_;
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,81 @@
+#include "integrators/local_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace butee::integrators {
+namespace {
+
+constexpr double kSafety = 0.9, kLeast = 0.2, kMost = 5.0;
+/// The exponents of r and r_old, times 1/q.
+constexpr double kProportional = 0.7, kIntegral = 0.4;
+/// r_old is taken for no better than this.
+constexpr double kSmallest = 1e-4;
+/// Steps of the ladder within a factor of two; one is gone up where the estimate would allow for kReserve.
+constexpr double kRungs = 4.0;
+constexpr double kReserve = 3.0;
+constexpr double kMostDown = 9.0, kMostUp = 9.0;
+
+}  // namespace
+
+LocalErrorControl::LocalErrorControl(const solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps)
+    : dynamics_(dynamics),
+      threshold_(std::pow(tolerance, orders.estimate / orders.method)),
+      estimate_order_(orders.estimate),
+      steps_(steps),
+      work_(dynamics.size()) {
+  const model::System& system = dynamics.system();
+  double square = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < system.size(); ++i) {
+    const double stiffness = system.stiffness.coeff(i, i);
+    if (stiffness > 0.0) square = std::min(square, system.mass.coeff(i, i) / stiffness);
+  }
+  first_step_ = std::isfinite(square) ? 0.1 * std::sqrt(square) : 1e-6;
+}
+
+double LocalErrorControl::norm(ConstVectorRef y) {
+  dynamics_.inertia_force(y, work_);
+  return std::sqrt(std::max(0.0, y.dot(work_)));
+}
+
+void LocalErrorControl::start(time::State& state) {
+  state.memory.head(kMemory) << norm(state.x), norm(state.v), 1.0;
+}
+
+void LocalErrorControl::judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
+                              ConstVectorRef error_v, time::StepReport& report) {
+  const double scale_x = std::max(from.memory[0], norm(to.x)), scale_v = std::max(from.memory[1], norm(to.v));
+  const auto relative = [](double error, double scale) { return error > 0.0 ? error / scale : 0.0; };
+  const double r = std::max(relative(norm(error_x), scale_x), relative(norm(error_v), scale_v)) / threshold_;
+  to.memory.head(kMemory) << scale_x, scale_v, std::max(r, kSmallest);
+  if (!std::isfinite(r)) {
+    report.status = time::StepStatus::not_finite;
+    return;
+  }
+  report.error = r;
+  report.proposal = steps_ == Steps::any ? any_step(h, r, from.memory[2]) : ladder_step(h, r);
+}
+
+double LocalErrorControl::any_step(double h, double r, double old) const {
+  const double q = estimate_order_, careful = std::max(r, kSmallest);
+  if (r > 1.0) return h * std::clamp(kSafety * std::pow(careful, -1.0 / q), kLeast, kSafety);
+  return h * std::clamp(kSafety * std::pow(careful, -kProportional / q) * std::pow(old, kIntegral / q), kLeast, kMost);
+}
+
+double LocalErrorControl::ladder_step(double h, double r) const {
+  const double rungs = std::log2(kSafety / std::max(r, kSmallest)) * kRungs / estimate_order_;
+  if (r <= 1.0 && rungs < kReserve) return h;
+  const double rung = kRungs * std::log2(h) + std::clamp(rungs - (r <= 1.0 ? kReserve - 1.0 : 0.0), -kMostDown, kMostUp);
+  return std::exp2(std::floor(rung + 1e-6) / kRungs);
+}
+
+config::Parameter LocalErrorControl::parameter(double fallback) {
+  return config::number("tolerance", "1", "relative error aimed at, in displacements and velocities")
+      .above(0)
+      .at_most(0.1)
+      .or_else(fallback)
+      .sweep(1e-1, 1e-9);
+}
+
+}  // namespace butee::integrators
