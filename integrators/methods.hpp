@@ -13,8 +13,8 @@ namespace butee::integrators {
 inline constexpr double kRungeKutta4Limit = 2.0 * std::numbers::sqrt2;
 inline constexpr double kUnconditional = std::numeric_limits<double>::infinity();
 
-/// Newton's iteration of the methods that do not ask for its parameters: to rounding, as the estimates of the local error
-/// expect.
+/// Newton's iteration of the methods that do not ask for its parameters: to rounding, as the estimates of the local
+/// error expect.
 inline constexpr NewtonOptions kNewton = {1e-11, 1e-9, 40, false, false};
 
 time::IntegratorType bathe_type();
@@ -23,12 +23,15 @@ time::IntegratorType central_differences_type();
 time::IntegratorType central_differences_adaptive_type();
 time::IntegratorType discrete_gradient_type();
 time::IntegratorType discrete_gradient_adaptive_type();
+time::IntegratorType dopri5_type();
 time::IntegratorType exact_type();
+time::IntegratorType extrapolation8_type();
 time::IntegratorType exponential_type();
 time::IntegratorType generalized_alpha_type();
 time::IntegratorType generalized_alpha_adaptive_type();
 time::IntegratorType hht_alpha_type();
 time::IntegratorType hht_alpha_adaptive_type();
+time::IntegratorType rodas4_type();
 time::IntegratorType rk4_type();
 time::IntegratorType rk4_fixed_factors_type();
 time::IntegratorType rk4_error_scaled_type();

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "butee/time/integrator.hpp"
+
 namespace butee::integrators {
 
 struct Motion {
@@ -34,5 +36,25 @@ class Quintic {
   double h_;
   std::array<double, 6> c_;
 };
+
+/// The interpolant of a method of order 5 or more from x, v and a at both ends of a step.
+inline void interpolate_quintic(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                                time::Interpolated out) {
+  const double h = to.t - from.t, s = (t - from.t) / h;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const Index d = dofs[i];
+    if (s == 0.0 || s == 1.0) {
+      const time::State& end = s == 0.0 ? from : to;
+      if (!out.x.empty()) out.x[i] = end.x[d];
+      if (!out.v.empty()) out.v[i] = end.v[d];
+      if (!out.a.empty()) out.a[i] = end.a[d];
+      continue;
+    }
+    const Quintic course(h, {from.x[d], from.v[d], from.a[d]}, {to.x[d], to.v[d], to.a[d]});
+    if (!out.x.empty()) out.x[i] = course.value(s);
+    if (!out.v.empty()) out.v[i] = course.slope(s);
+    if (!out.a.empty()) out.a[i] = course.curvature(s);
+  }
+}
 
 }  // namespace butee::integrators

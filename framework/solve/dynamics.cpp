@@ -43,6 +43,18 @@ void Dynamics::external_force(double t, VectorRef force) {
   for (const LoadedDof& part : loaded_dofs_) force[part.dof] += part.weight * load_values_[part.load];
 }
 
+void Dynamics::external_force_rate(double t, double h, VectorRef rate) {
+  rate.setZero();
+  for (const model::FreeLoad& load : system_.loads) {
+    double slope = 0.0;
+    if (load.in_time->taylor(t, 1.0, load_series_))
+      slope = load_series_[1];
+    else
+      slope = (load.in_time->value(t + h) - load.in_time->value(t)) / h;
+    for (std::size_t i = 0; i < load.dofs.size(); ++i) rate[load.dofs[i]] += load.weights[i] * slope;
+  }
+}
+
 void Dynamics::add_contact_force(ConstVectorRef x, VectorRef force) {
   if (stop_count() == 0) return;
   contact_.displacement(x, stop_displacement_);
@@ -87,6 +99,13 @@ void Dynamics::subtract_internal_force(ConstVectorRef x, ConstVectorRef v, Vecto
   if (!has_damping_) return;
   damping_force(v, work_);
   r -= work_;
+}
+
+void Dynamics::total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef r) {
+  ++counters_.force_evaluations;
+  external_force(t, r);
+  add_contact_force(x, r);
+  subtract_internal_force(x, v, r);
 }
 
 void Dynamics::secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "butee/solve/contact.hpp"
@@ -30,6 +31,8 @@ class BUTEE_EXPORT Dynamics {
 
   /// F := F(t)
   void external_force(double t, VectorRef force);
+  /// F := dF/dt(t), from the loads' Taylor series or, where they have none, a difference over `h` s
+  void external_force_rate(double t, double h, VectorRef rate);
   /// F += F_c(x)
   void add_contact_force(ConstVectorRef x, VectorRef force);
   /// y := K x
@@ -38,6 +41,9 @@ class BUTEE_EXPORT Dynamics {
   void damping_force(ConstVectorRef v, VectorRef y);
   /// y := M a
   void inertia_force(ConstVectorRef a, VectorRef y) const;
+
+  /// r := F(t) + F_c(x) - C v - K x
+  void total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef r);
 
   /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that meets F_c at x
   void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
@@ -88,6 +94,7 @@ class BUTEE_EXPORT Dynamics {
   std::unique_ptr<ModalSystem> modal_system_;
   std::vector<LoadedDof> loaded_dofs_;
   double load_time_;
+  std::array<double, 2> load_series_{};
   std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant
   Vector work_, other_, inertia_, damping_, contact_force_, stop_displacement_, stop_force_;
 };

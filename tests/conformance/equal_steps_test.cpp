@@ -72,7 +72,8 @@ Errors orders(const MethodCase& method, bool with_stops, int steps) {
 class EqualSteps : public testing::TestWithParam<MethodCase> {};
 
 TEST_P(EqualSteps, HaveTheMethodsOrderInForcedDampedMotion) {
-  const auto [x, v] = orders(GetParam(), false, 200);
+  // A method of order 8 is down at the reference's own error with more.
+  const auto [x, v] = orders(GetParam(), false, GetParam().step_order() > 6.0 ? 20 : 200);
   EXPECT_NEAR(x, GetParam().step_order(), kOrderTolerance) << "displacement";
   EXPECT_NEAR(v, GetParam().step_order(), kOrderTolerance) << "velocity";
 }
@@ -81,6 +82,11 @@ TEST_P(EqualSteps, HaveTheMethodsOrderBetweenStopsOnBothSides) {
   const MethodCase& method = GetParam();
   // The secant stiffness of the last step lags by h in a transition that the steps resolve.
   const double order = method.name.rfind("newmark_modified", 0) == 0 ? 1.0 : method.step_order();
+  if (order > 6.0) {
+    // Between the step that resolves the bend and the error of the reference lies no halving: it is very small at once.
+    EXPECT_LT(errors(method, true, 800).x, 1e-11);
+    return;
+  }
   const auto [x, v] = orders(method, true, 800);
   EXPECT_NEAR(x, order, kOrderTolerance) << "displacement";
   EXPECT_NEAR(v, order, kOrderTolerance) << "velocity";

@@ -1,0 +1,85 @@
+#include "integrators/dormand_prince.hpp"
+
+#include "integrators/methods.hpp"
+#include "integrators/quintic.hpp"
+
+namespace butee::integrators {
+namespace {
+
+constexpr std::array<double, 7> kTimes = {0.0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1.0, 1.0};
+constexpr double kA[7][6] = {{},
+                             {1.0 / 5},
+                             {3.0 / 40, 9.0 / 40},
+                             {44.0 / 45, -56.0 / 15, 32.0 / 9},
+                             {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+                             {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+                             {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+constexpr std::array<double, 7> kError = {71.0 / 57600,      0.0,        -71.0 / 16695, 71.0 / 1920,
+                                          -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+/// Of h omega on the imaginary axis beyond which undamped motion grows at once.
+constexpr double kLimit = 1.0;
+
+}  // namespace
+
+DormandPrince::DormandPrince(solve::Dynamics& dynamics, double tolerance)
+    : Integrator(dynamics),
+      control_(dynamics, tolerance, {5.0, 5.0}, LocalErrorControl::Steps::any),
+      stiffness_("dopri5", kLimit) {
+  for (std::size_t i = 0; i < kStages; ++i) v_[i] = a_[i] = Vector::Zero(dynamics.size());
+}
+
+void DormandPrince::do_start(time::State& state) {
+  state.memory.resize(LocalErrorControl::kMemory);
+  control_.start(state);
+}
+
+time::StepReport DormandPrince::do_step(const time::State& from, const time::Step& step, time::State& to) {
+  const double h = step.h;
+  v_[0] = from.v;
+  a_[0] = from.a;
+  for (std::size_t i = 1; i < kStages; ++i) {
+    if (i + 1 == kStages) x_before_ = x_;
+    x_ = from.x;
+    v_[i] = from.v;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (kA[i][j] == 0.0) continue;
+      x_ += (h * kA[i][j]) * v_[j];
+      v_[i] += (h * kA[i][j]) * a_[j];
+    }
+    dynamics().acceleration(i + 2 < kStages ? from.t + kTimes[i] * h : step.t_end, x_, v_[i], a_[i]);
+  }
+  to.x = x_;
+  to.v = v_.back();
+  to.a = a_.back();
+  error_x_.setZero(x_.size());
+  error_v_.setZero(x_.size());
+  for (std::size_t i = 0; i < kStages; ++i) {
+    error_x_ += (h * kError[i]) * v_[i];
+    error_v_ += (h * kError[i]) * a_[i];
+  }
+  time::StepReport report;
+  control_.judge(from, to, h, error_x_, error_v_, report);
+  if (report.error <= 1.0) stiffness_.look(step.t_end, h, (a_[6] - a_[5]).norm(), (x_ - x_before_).norm());
+  return report;
+}
+
+void DormandPrince::do_interpolate(const time::State& from, const time::State& to, double t,
+                                   std::span<const Index> dofs, time::Interpolated out) const {
+  interpolate_quintic(from, to, t, dofs, out);
+}
+
+time::IntegratorType dopri5_type() {
+  return {"dopri5",
+          {"DOPRI5"},
+          "explicit Runge-Kutta of order 5(4), steps by the local error",
+          {LocalErrorControl::parameter(1e-4)},
+          kLimit,
+          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<DormandPrince>(dynamics, p.number("tolerance"));
+          },
+          {},
+          false,
+          true};
+}
+
+}  // namespace butee::integrators

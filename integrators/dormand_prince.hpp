@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+
+#include "integrators/local_error.hpp"
+#include "integrators/stiffness_watch.hpp"
+
+namespace butee::integrators {
+
+/// dopri5: Dormand and Prince's explicit Runge-Kutta method of order 5 with an embedded one of order 4, on (x, v).
+///
+/// Six evaluations a step, the last of which is the first of the next; steps by the local error with PI control;
+/// interpolation by the quintic through x, v and a at both ends. Stable for undamped motion up to h omega = 1.0 or so
+/// (slightly growing or shrinking below), on the negative real axis up to 3.3; it says so where stability and not
+/// accuracy sets the steps. Order is checked in tests/conformance. Source: J. R. Dormand and P. J. Prince, J. Comput.
+/// Appl. Math. 6 (1980) 19-26, doi 10.1016/0771-050X(80)90013-3.
+class DormandPrince final : public time::Integrator {
+ public:
+  DormandPrince(solve::Dynamics& dynamics, double tolerance);
+
+  const time::StepController* controller() const override { return &control_.controller(); }
+  double first_step(const time::State&) const override { return control_.first_step(); }
+
+ private:
+  static constexpr std::size_t kStages = 7;
+
+  void do_start(time::State& state) override;
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                      time::Interpolated out) const override;
+
+  LocalErrorControl control_;
+  StiffnessWatch stiffness_;
+  std::array<Vector, kStages> v_, a_;  ///< of the stages
+  Vector x_, x_before_, error_x_, error_v_;
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,93 @@
+#include "integrators/extrapolation.hpp"
+
+#include "integrators/methods.hpp"
+#include "integrators/quintic.hpp"
+
+namespace butee::integrators {
+namespace {
+
+constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
+/// Of h omega of the whole step, by its eight parts.
+constexpr double kLimit = 1.5;
+
+}  // namespace
+
+Extrapolation::Extrapolation(solve::Dynamics& dynamics, double tolerance)
+    : Integrator(dynamics), control_(dynamics, tolerance, {7.0, 8.0}, LocalErrorControl::Steps::any) {
+  for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
+  a_ = Vector::Zero(dynamics.size());
+}
+
+void Extrapolation::do_start(time::State& state) {
+  state.memory.resize(LocalErrorControl::kMemory);
+  control_.start(state);
+}
+
+void Extrapolation::midpoint(const time::State& from, const time::Step& step, int parts, Vector& x, Vector& v) {
+  const double d = step.h / parts;
+  old_x_ = from.x;
+  old_v_ = from.v;
+  new_x_ = from.x + d * from.v;
+  new_v_ = from.v + d * from.a;
+  for (int m = 1; m <= parts; ++m) {
+    dynamics().acceleration(m == parts ? step.t_end : from.t + m * d, new_x_, new_v_, a_);
+    if (m == parts) break;
+    next_x_ = old_x_ + 2.0 * d * new_v_;
+    next_v_ = old_v_ + 2.0 * d * a_;
+    old_x_.swap(new_x_);
+    old_v_.swap(new_v_);
+    new_x_.swap(next_x_);
+    new_v_.swap(next_v_);
+  }
+  x = 0.5 * (new_x_ + old_x_ + d * new_v_);
+  v = 0.5 * (new_v_ + old_v_ + d * a_);
+}
+
+time::StepReport Extrapolation::do_step(const time::State& from, const time::Step& step, time::State& to) {
+  // x_[k] holds T_{j,k+1} of the last row j; a row is gone through from its first column to its last.
+  for (std::size_t j = 0; j < kColumns; ++j) {
+    midpoint(from, step, kParts[j], to.x, to.v);
+    for (std::size_t k = 0; k < j; ++k) {
+      const double ratio = static_cast<double>(kParts[j]) / kParts[j - k - 1], divisor = ratio * ratio - 1.0;
+      next_x_ = to.x + (to.x - x_[k]) / divisor;
+      next_v_ = to.v + (to.v - v_[k]) / divisor;
+      x_[k] = to.x;
+      v_[k] = to.v;
+      to.x.swap(next_x_);
+      to.v.swap(next_v_);
+    }
+    x_[j] = to.x;
+    v_[j] = to.v;
+  }
+  // The last row: x_[2] is of order 6, x_[3] of order 8.
+  next_x_ = to.x - x_[kColumns - 2];
+  next_v_ = to.v - v_[kColumns - 2];
+  time::StepReport report;
+  control_.judge(from, to, step.h, next_x_, next_v_, report);
+  if (report.error <= 1.0 && report.status == time::StepStatus::ok)
+    dynamics().acceleration(step.t_end, to.x, to.v, to.a);
+  else
+    to.a = from.a;
+  return report;
+}
+
+void Extrapolation::do_interpolate(const time::State& from, const time::State& to, double t,
+                                   std::span<const Index> dofs, time::Interpolated out) const {
+  interpolate_quintic(from, to, t, dofs, out);
+}
+
+time::IntegratorType extrapolation8_type() {
+  return {"extrapolation8",
+          {"GBS8"},
+          "extrapolated midpoint rule of order 8, explicit, steps by the local error",
+          {LocalErrorControl::parameter(1e-6)},
+          kLimit,
+          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<Extrapolation>(dynamics, p.number("tolerance"));
+          },
+          {},
+          false,
+          true};
+}
+
+}  // namespace butee::integrators
