@@ -29,8 +29,9 @@ std::vector<Row> rows_of(const plugin::Catalogue& catalogue) {
     rows.push_back({"integrator", type.name, join(type.aliases), type.summary, &type.parameters, entry.module});
   }
   const model::ModelTypes& types = catalogue.types();
-  const auto add = [&rows](const char* kind, const auto& list) {
-    for (const auto& type : list) rows.push_back({kind, type.name, "", type.summary, &type.parameters, ""});
+  const auto add = [&](const char* kind, const auto& list) {
+    for (const auto& type : list)
+      rows.push_back({kind, type.name, "", type.summary, &type.parameters, catalogue.module_of(kind, type.name)});
   };
   add("element", types.elements);
   add("section", types.sections);
@@ -80,7 +81,7 @@ bool answers_to(const Row& row, const std::string& name) {
 void write_manifest(const std::string& module) {
   const std::string path = plugin::manifest_path(module);
   std::ofstream file(path, std::ios::binary);
-  file << plugin::write_manifest(plugin::load_module(module).integrators());
+  file << plugin::write_manifest(plugin::load_module(module).types());
   file.close();
   if (!file) throw RunError(path + ": cannot be written");
 }

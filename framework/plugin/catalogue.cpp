@@ -24,6 +24,36 @@ bool answers_to(const IntegratorType& type, std::string_view name) {
   return type.name == name || std::find(type.aliases.begin(), type.aliases.end(), name) != type.aliases.end();
 }
 
+[[noreturn]] void refuse(const std::string& kind, const std::string& name, const std::string& by,
+                         const std::string& path) {
+  throw RunError("the " + kind + " name \"" + name + "\" is registered twice: by " + by + " and by " + path +
+                 "; remove one of the two");
+}
+
+/// The type of that name in the module, loaded now.
+template <class Type>
+Type loaded(const std::string& name, std::vector<Type> ModuleTypes::*list, const std::string& path) {
+  log::debug("loading " + path);
+  Registrar registrar = load_module(path);
+  for (Type& type : registrar.types().*list)
+    if (type.name == name && type.make) return std::move(type);
+  throw RunError(path + ": does not register " + name +
+                 ", which its manifest names; the manifest is stale: build the module again");
+}
+
+/// Gives a type that is known by its manifest makers that load the module.
+template <class Type>
+void load_when_made(Type& type, std::vector<Type> ModuleTypes::*list, const std::string& path) {
+  const std::string name = type.name;
+  type.make = [name, list, path](const config::Parameters& p, auto& context) {
+    return loaded(name, list, path).make(p, context);
+  };
+  if constexpr (std::is_same_v<Type, model::ElementType>)
+    type.nodes = [name, list, path](const config::Parameters& p, config::Diagnostics& diagnostics) {
+      return loaded(name, list, path).nodes(p, diagnostics);
+    };
+}
+
 }  // namespace
 
 Catalogue::Catalogue() : types_(builtin_types()) {}
@@ -57,27 +87,50 @@ void Catalogue::add_folder(const std::string& path) {
 
 void Catalogue::add_module(const std::string& given_path, bool must_have_manifest) {
   const std::string path = fs::weakly_canonical(given_path).string();
-  if (std::any_of(integrators_.begin(), integrators_.end(), [&](const auto& entry) { return entry.module == path; }))
-    return;
+  if (known_.contains(path)) return;
   const std::string manifest = manifest_path(path);
-  std::vector<IntegratorType> found;
+  ModuleTypes found;
   if (fs::exists(manifest)) {
-    found = read_manifest(manifest).integrators;
+    found = read_manifest(manifest);
   } else if (must_have_manifest) {
     return log::warning(path + ": has no manifest (" + manifest +
                         ") and is left out; name it with --plugin to load it");
   } else {
-    found = std::move(load_module(path).integrators());
+    found = std::move(load_module(path).types());
   }
-  for (const IntegratorType& type : found) {
+  for (const IntegratorType& type : found.integrators) {
     std::vector<std::string> names = type.aliases;
     names.push_back(type.name);
     for (const std::string& name : names)
-      if (const IntegratorEntry* taken = find(name))
-        throw RunError("the integrator name \"" + name + "\" is registered twice: by " + taken->module + " and by " +
-                       path + "; remove one of the two");
+      if (const IntegratorEntry* taken = find(name)) refuse("integrator", name, taken->module, path);
   }
-  for (IntegratorType& type : found) integrators_.push_back({std::move(type), path});
+  // All or nothing: a copy takes the module's types, and is kept where none of them is refused.
+  Catalogue next = *this;
+  next.known_.insert(path);
+  next.add_types("law", std::move(found.laws), &ModuleTypes::laws, path, next.types_.laws);
+  next.add_types("load", std::move(found.loads), &ModuleTypes::loads, path, next.types_.loads);
+  next.add_types("element", std::move(found.elements), &ModuleTypes::elements, path, next.types_.elements);
+  for (IntegratorType& type : found.integrators) next.integrators_.push_back({std::move(type), path});
+  *this = std::move(next);
+}
+
+template <class Type>
+void Catalogue::add_types(const char* kind, std::vector<Type> found, std::vector<Type> ModuleTypes::*list,
+                          const std::string& path, std::vector<Type>& to) {
+  for (Type& type : found) {
+    if (model::find_type(to, type.name) != nullptr) {
+      const std::string taken = module_of(kind, type.name);
+      refuse(kind, type.name, taken.empty() ? "butee itself" : taken, path);
+    }
+    modules_[{kind, type.name}] = path;
+    if (!type.make) load_when_made(type, list, path);
+    to.push_back(std::move(type));
+  }
+}
+
+std::string Catalogue::module_of(const std::string& kind, const std::string& name) const {
+  const auto found = modules_.find({kind, name});
+  return found == modules_.end() ? "" : found->second;
 }
 
 const IntegratorEntry* Catalogue::find(std::string_view name) const {
@@ -98,15 +151,8 @@ const IntegratorType& Catalogue::load(std::string_view name) {
   const IntegratorEntry* known = find(name);
   require(known != nullptr, "no such integrator");
   IntegratorEntry& entry = integrators_[static_cast<std::size_t>(known - integrators_.data())];
-  if (!entry.declaration.make) {
-    log::debug("loading " + entry.module);
-    Registrar loaded = load_module(entry.module);
-    for (IntegratorType& type : loaded.integrators())
-      if (type.name == entry.declaration.name) entry.declaration = std::move(type);
-    if (!entry.declaration.make)
-      throw RunError(entry.module + ": does not register " + entry.declaration.name +
-                     ", which its manifest names; the manifest is stale: build the module again");
-  }
+  if (!entry.declaration.make)
+    entry.declaration = loaded(entry.declaration.name, &ModuleTypes::integrators, entry.module);
   return entry.declaration;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,8 @@ struct IntegratorEntry {
   std::string module;                ///< the shared object's path
 };
 
-/// All the types that a scene may name. Integrators are known by the manifests beside their modules; a module is loaded
-/// when one of its methods is made.
+/// All the types that a scene may name. Those of modules are known by the manifests beside them; a module is loaded
+/// when one of its types is made.
 class BUTEE_EXPORT Catalogue {
  public:
   /// The standard elements, laws and loads; no integrator yet.
@@ -32,6 +34,9 @@ class BUTEE_EXPORT Catalogue {
   const model::ModelTypes& types() const { return types_; }
   const std::vector<IntegratorEntry>& integrators() const { return integrators_; }
 
+  /// The module that a law, load or element comes from; "" for those of the library.
+  std::string module_of(const std::string& kind, const std::string& name) const;
+
   /// The entry of a name or an alias, or nullptr.
   const IntegratorEntry* find(std::string_view name) const;
   /// All names, and behind them all aliases.
@@ -43,9 +48,15 @@ class BUTEE_EXPORT Catalogue {
  private:
   void add_module(const std::string& path, bool must_have_manifest);
   void add_folder(const std::string& path);
+  /// Adds types of one kind whose makers load the module when one of them is made.
+  template <class Type>
+  void add_types(const char* kind, std::vector<Type> found, std::vector<Type> ModuleTypes::*list,
+                 const std::string& path, std::vector<Type>& to);
 
   model::ModelTypes types_;
   std::vector<IntegratorEntry> integrators_;
+  std::map<std::pair<std::string, std::string>, std::string> modules_;  ///< by kind and name
+  std::set<std::string> known_;                                         ///< the paths of all modules
 };
 
 }  // namespace butee::plugin

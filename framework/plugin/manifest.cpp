@@ -15,7 +15,7 @@ using config::Parameter;
 using config::Table;
 using config::Value;
 
-constexpr std::int64_t kManifestSchema = 1;
+constexpr std::int64_t kManifestSchema = 2;
 constexpr std::array<const char*, 7> kKinds = {"number", "integer", "boolean", "text", "numbers", "texts", "table"};
 
 Value text_array(const std::vector<std::string>& texts) {
@@ -78,51 +78,87 @@ Parameter to_parameter(const Table& table) {
   return parameter;
 }
 
+/// What all types have: name, summary and parameters.
+template <class Type>
+Table common_part(const Type& type) {
+  Table table;
+  table["name"] = Value(type.name);
+  table["summary"] = Value(type.summary);
+  Array parameters;
+  for (const Parameter& parameter : type.parameters) parameters.push_back(to_value(parameter));
+  table["parameter"] = Value(std::move(parameters));
+  return table;
+}
+
+template <class Type>
+Type read_common_part(const Table& table) {
+  Type type;
+  type.name = get<std::string>(table, "name");
+  type.summary = get<std::string>(table, "summary");
+  for (const Value& parameter : get<Array>(table, "parameter"))
+    if (parameter.table() != nullptr) type.parameters.push_back(to_parameter(*parameter.table()));
+  return type;
+}
+
+template <class Type>
+void write_types(const std::vector<Type>& types, const char* key, Table& root) {
+  Array list;
+  for (const Type& type : types) list.emplace_back(common_part(type));
+  if (!list.empty()) root[key] = Value(std::move(list));
+}
+
+template <class Type>
+void read_types(const Table& root, const char* key, std::vector<Type>& types) {
+  if (root.find(key) == nullptr) return;
+  for (const Value& item : get<Array>(root, key)) {
+    if (item.table() == nullptr) throw InputError(std::string("has a wrong ") + key);
+    types.push_back(read_common_part<Type>(*item.table()));
+  }
+}
+
 }  // namespace
 
 std::string manifest_path(const std::string& module) {
   return std::filesystem::path(module).replace_extension(".toml").string();
 }
 
-std::string write_manifest(const std::vector<time::IntegratorType>& integrators) {
+std::string write_manifest(const ModuleTypes& types) {
   Table root;
   root["manifest"] = Value(kManifestSchema);
   Array list;
-  for (const time::IntegratorType& type : integrators) {
-    Table table;
-    table["name"] = Value(type.name);
+  for (const time::IntegratorType& type : types.integrators) {
+    Table table = common_part(type);
     table["aliases"] = text_array(type.aliases);
-    table["summary"] = Value(type.summary);
     table["stability_limit"] = Value(type.stability_limit);
     table["finds_first_step"] = Value(type.finds_first_step);
-    Array parameters;
-    for (const Parameter& parameter : type.parameters) parameters.push_back(to_value(parameter));
-    table["parameter"] = Value(std::move(parameters));
     list.emplace_back(std::move(table));
   }
-  root["integrator"] = Value(std::move(list));
+  if (!list.empty()) root["integrator"] = Value(std::move(list));
+  write_types(types.laws, "law", root);
+  write_types(types.loads, "load", root);
+  write_types(types.elements, "element", root);
   return "# Made from the module beside it when that was built.\n" + config::write_toml(root);
 }
 
-Manifest read_manifest(const std::string& path) {
+ModuleTypes read_manifest(const std::string& path) {
   const config::Document document = config::load_toml(path);
   try {
     const Table& root = *document.root.table();
     if (get<std::int64_t>(root, "manifest") != kManifestSchema) throw InputError("is of another schema");
-    Manifest manifest;
-    for (const Value& item : get<Array>(root, "integrator")) {
-      if (item.table() == nullptr) throw InputError("has a wrong integrator");
-      time::IntegratorType type;
-      type.name = get<std::string>(*item.table(), "name");
-      type.aliases = texts(*item.table(), "aliases");
-      type.summary = get<std::string>(*item.table(), "summary");
-      type.stability_limit = get<double>(*item.table(), "stability_limit");
-      type.finds_first_step = get<bool>(*item.table(), "finds_first_step");
-      for (const Value& parameter : get<Array>(*item.table(), "parameter"))
-        if (parameter.table() != nullptr) type.parameters.push_back(to_parameter(*parameter.table()));
-      manifest.integrators.push_back(std::move(type));
+    ModuleTypes types;
+    read_types(root, "integrator", types.integrators);
+    for (std::size_t i = 0; i < types.integrators.size(); ++i) {
+      const Table& table = *get<Array>(root, "integrator")[i].table();
+      types.integrators[i].aliases = texts(table, "aliases");
+      types.integrators[i].stability_limit = get<double>(table, "stability_limit");
+      types.integrators[i].finds_first_step = get<bool>(table, "finds_first_step");
     }
-    return manifest;
+    read_types(root, "law", types.laws);
+    read_types(root, "load", types.loads);
+    read_types(root, "element", types.elements);
+    if (types.integrators.empty() && types.laws.empty() && types.loads.empty() && types.elements.empty())
+      throw InputError("names no type");
+    return types;
   } catch (const std::exception& error) {
     throw InputError(path + ": is no manifest of a butee module: " + error.what());
   }

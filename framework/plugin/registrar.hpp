@@ -2,19 +2,31 @@
 
 #include <vector>
 
+#include "butee/model/types.hpp"
 #include "butee/time/integrator.hpp"
 
 namespace butee::plugin {
 
+/// The types that a module holds.
+struct ModuleTypes {
+  std::vector<time::IntegratorType> integrators;
+  std::vector<model::LawType> laws;
+  std::vector<model::LoadType> loads;
+  std::vector<model::ElementType> elements;
+};
+
 /// Takes the types that a module registers. Nothing counts until the whole module has been read without a mistake.
 class BUTEE_EXPORT Registrar {
  public:
-  void add(time::IntegratorType type) { integrators_.push_back(std::move(type)); }
+  void add(time::IntegratorType type) { types_.integrators.push_back(std::move(type)); }
+  void add(model::LawType type) { types_.laws.push_back(std::move(type)); }
+  void add(model::LoadType type) { types_.loads.push_back(std::move(type)); }
+  void add(model::ElementType type) { types_.elements.push_back(std::move(type)); }
 
-  std::vector<time::IntegratorType>& integrators() { return integrators_; }
+  ModuleTypes& types() { return types_; }
 
  private:
-  std::vector<time::IntegratorType> integrators_;
+  ModuleTypes types_;
 };
 
 }  // namespace butee::plugin

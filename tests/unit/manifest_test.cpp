@@ -47,8 +47,8 @@ TEST(Manifest, written_and_read_again_is_the_same) {
                                                    integrators::newmark_adaptive_type(),
                                                    integrators::newmark_modified_type(),
                                                    integrators::newmark_modified_adaptive_type()};
-  folder.write("all.toml", plugin::write_manifest(types));
-  const plugin::Manifest manifest = plugin::read_manifest(folder.file("all.toml"));
+  folder.write("all.toml", plugin::write_manifest({types, {}, {}, {}}));
+  const plugin::ModuleTypes manifest = plugin::read_manifest(folder.file("all.toml"));
   ASSERT_EQ(manifest.integrators.size(), types.size());
   for (std::size_t i = 0; i < types.size(); ++i) {
     SCOPED_TRACE(types[i].name);
@@ -71,8 +71,8 @@ TEST(Manifest, keeps_every_kind_of_parameter) {
       config::texts("f", "some names").optional(),
       config::table("g", "a table").optional(),
   };
-  folder.write("mine.toml", plugin::write_manifest({type}));
-  const plugin::Manifest manifest = plugin::read_manifest(folder.file("mine.toml"));
+  folder.write("mine.toml", plugin::write_manifest({{type}, {}, {}, {}}));
+  const plugin::ModuleTypes manifest = plugin::read_manifest(folder.file("mine.toml"));
   ASSERT_EQ(manifest.integrators.size(), 1U);
   expect_same(manifest.integrators[0], type);
   EXPECT_EQ(std::get<bool>(manifest.integrators[0].parameters[2].fallback->data), true);
@@ -85,8 +85,9 @@ TEST(Manifest, stands_beside_its_module) {
 
 TEST(Manifest, what_is_none_is_refused) {
   const TemporaryFolder folder;
-  for (const char* text : {"", "manifest = 2\nintegrator = []\n", "manifest = 1\n", "manifest = 1\nintegrator = [3]\n",
-                           "manifest = 1\n[[integrator]]\nname = \"a\"\naliases = [1]\n", "not toml"}) {
+  for (const char* text : {"", "manifest = 1\n[[law]]\nname = \"a\"\nsummary = \"\"\nparameter = []\n",
+                           "manifest = 2\n", "manifest = 2\nintegrator = []\n", "manifest = 2\nintegrator = [3]\n",
+                           "manifest = 2\n[[integrator]]\nname = \"a\"\naliases = [1]\n", "not toml"}) {
     folder.write("wrong.toml", text);
     EXPECT_THROW(plugin::read_manifest(folder.file("wrong.toml")), InputError) << text;
   }

@@ -1,0 +1,69 @@
+// A law that comes from a module: found by its manifest, loaded when a scene names it, and what it says of itself.
+#include <cmath>
+
+#include <butee/core/error.hpp>
+#include <gtest/gtest.h>
+
+#include "plugins/smooth/smooth.hpp"
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+TEST(SmoothLaw, IsTheDerivativeOfItsEnergyAndSmoothAtBothBorders) {
+  const double k = 3e6, width = 2e-4;
+  const plugins::Smooth law(k, width);
+  int checked = 0;
+  for (double g = -2e-4; g < 6e-4; g += 1.7e-6) {
+    const double d = 1e-8;
+    // Central differences of second order, relative to the largest values in the range.
+    EXPECT_NEAR((law.energy(g + d) - law.energy(g - d)) / (2 * d), law.secant(g) * g, 1e-6 * k * width);
+    EXPECT_NEAR((law.secant(g + d) * (g + d) - law.secant(g - d) * (g - d)) / (2 * d), law.tangent(g), 1e-6 * k);
+    ++checked;
+  }
+  EXPECT_GT(checked, 400);
+  EXPECT_EQ(law.secant(-1e-9), 0.0);
+  EXPECT_EQ(law.energy(0.0), 0.0);
+  EXPECT_NEAR(law.secant(1.0), k, 1e-3 * k);
+  for (const double border : {0.0, width}) {
+    EXPECT_NEAR(law.tangent(border - 1e-12), law.tangent(border + 1e-12), 1e-7 * k);
+    EXPECT_NEAR(law.energy(border - 1e-15), law.energy(border + 1e-15), 1e-10 * k * width * width);
+  }
+}
+
+TEST(SmoothLaw, OfAWideBendGivesEveryMethodTheSameMotion) {
+  const auto end = [](const std::string& method) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+        "\"m\"\nstiffness = 40.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.05\nlaw = "
+        "\"smooth\"\nstiffness = 4000.0\nwidth = 0.02\n[initial]\nvelocity = [{nodes = \"m\", value = "
+        "1.0}]\n[integrator]\nend_time = 2.0\n" +
+        method);
+    EXPECT_TRUE(run.run().completed);
+    return run.simulation().state().x[0];
+  };
+  const double reference = end("type = \"rk4\"\ntime_step = 1e-5\n");
+  EXPECT_NEAR(end("type = \"exponential\"\ntolerance = 1e-8\n"), reference, 1e-8);
+  EXPECT_NEAR(end("type = \"rodas4\"\ntolerance = 1e-8\n"), reference, 1e-8);
+}
+
+TEST(SmoothLaw, IsLoadedOnlyWhereASceneNamesIt) {
+  const TemporaryFolder folder;
+  const auto opens_it = [&](const std::string& law) {
+    folder.write("scene.toml",
+                 "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = "
+                 "\"stop\"\nnodes = \"m\"\ngap = 0.1\nstiffness = 10.0\n" +
+                     law +
+                     "[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n[[output.probe]]\nlabel = \"m\"\nnode = "
+                     "\"m\"\nquantities = [\"u\"]\n[integrator]\ntype = \"rk4\"\ntime_step = 0.01\nend_time = 0.1\n");
+    const auto outcome = run_program({"run", "scene.toml"}, folder.path(), {"LD_DEBUG=files"});
+    EXPECT_EQ(outcome.status, 0) << outcome.errors.substr(0, 2000);
+    return outcome.errors.find("plugins/smooth.so") != std::string::npos;
+  };
+  EXPECT_FALSE(opens_it(""));
+  EXPECT_TRUE(opens_it("law = \"smooth\"\nwidth = 1e-3\n"));
+}
+
+}  // namespace
+}  // namespace butee::test
