@@ -17,6 +17,7 @@ inline constexpr double kUnconditional = std::numeric_limits<double>::infinity()
 /// error expect.
 inline constexpr NewtonOptions kNewton = {1e-11, 1e-9, 40, false, false};
 
+time::IntegratorType auto_type();
 time::IntegratorType bathe_type();
 time::IntegratorType bathe_adaptive_type();
 time::IntegratorType central_differences_type();

@@ -64,6 +64,7 @@ class Run {
 
   void summarize() {
     summary_.integrator = session_.integrator.name;
+    summary_.choice = integrator_->choice();
     summary_.counters = dynamics_->counters();
     summary_.dofs = dynamics_->size();
     summary_.contacts = dynamics_->stop_count();
@@ -98,6 +99,7 @@ class Run {
 void print(const record::Summary& summary, const Session& session, const std::string& folder) {
   const auto& report = summary.report;
   if (!session.model.title.empty()) std::printf("%s\n", session.model.title.c_str());
+  if (!summary.choice.empty()) std::printf("  chosen: %s\n", summary.choice.c_str());
   std::printf("  %s, %td free DOFs, %td stops\n", summary.integrator.c_str(), summary.dofs, summary.contacts);
   std::printf("  %s at t = %s s: %lld steps, %lld rejected, %lld Newton iterations\n",
               report.completed ? "completed" : "FAILED", to_short_text(report.t_end).c_str(),

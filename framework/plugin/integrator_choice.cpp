@@ -14,6 +14,9 @@ using config::Parameter;
 using config::Table;
 using config::Value;
 
+/// The method of a scene that names none.
+constexpr const char* kDefault = "auto";
+
 std::vector<Parameter> common_parameters() {
   return {number("time_step", "s", "the step, of an adaptive method the first").above(0),
           number("end_time", "s", "the end of the run, which starts at t = 0").above(0)};
@@ -71,8 +74,10 @@ class ChoiceReader {
     const auto known = catalogue_.integrator_names();
     const std::string choices = "known: " + join(known);
     if (type == nullptr) {
-      diagnostics_.error("integrator.type", at_, "missing; give the name of a method; " + choices);
-      return nullptr;
+      const IntegratorEntry* automatic = catalogue_.find(kDefault);
+      if (automatic == nullptr)
+        diagnostics_.error("integrator.type", at_, "missing; give the name of a method; " + choices);
+      return automatic;
     }
     const std::string* name = type->text();
     const IntegratorEntry* entry = name != nullptr ? catalogue_.find(*name) : nullptr;
@@ -166,8 +171,10 @@ std::optional<IntegratorChoice> read_integrator(const Value& root, const Catalog
                                                 Diagnostics& diagnostics) {
   const Value* integrator = root.table()->find("integrator");
   if (integrator == nullptr) {
-    diagnostics.error("integrator", root.at,
-                      "missing; a scene says how it is integrated: [integrator] with type, time_step and end_time");
+    diagnostics.error(
+        "integrator", root.at,
+        "missing; a scene says how long it is integrated: [integrator] with end_time, and type and tolerance where the "
+        "default does not do");
     return std::nullopt;
   }
   if (integrator->table() == nullptr) {

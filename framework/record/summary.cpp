@@ -39,6 +39,7 @@ std::string to_json(const Summary& summary) {
   json["status"] = report.completed ? "completed" : "failed";
   json["message"] = report.message;
   json["integrator"] = summary.integrator;
+  if (!summary.choice.empty()) json["choice"] = summary.choice;
   json["t_end"] = number(report.t_end);
   json["steps"] = report.steps;
   json["rejected"] = report.rejected;

@@ -41,6 +41,10 @@ class BUTEE_EXPORT Integrator {
   /// The motion of `dofs` at `t` in [from.t, to.t] of an accepted step.
   void interpolate(const State& from, const State& to, double t, std::span<const Index> dofs, Interpolated out) const;
 
+  /// What chose this method, and why, where the scene did not: "exponential, tolerance 1e-4: ...".
+  const std::string& choice() const { return choice_; }
+  void set_choice(std::string choice) { choice_ = std::move(choice); }
+
   /// The judge of an adaptive method; nullptr for fixed steps.
   virtual const StepController* controller() const { return nullptr; }
 
@@ -71,6 +75,7 @@ class BUTEE_EXPORT Integrator {
                               Interpolated out) const;
 
   solve::Dynamics& dynamics_;
+  std::string choice_;
 };
 
 /// A registered method: its names, parameters and maker. `time_step` and `end_time` are read for it.

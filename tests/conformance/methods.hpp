@@ -40,6 +40,7 @@ inline std::vector<MethodCase> method_cases() {
     all.push_back({name, "", 2.0, 0.0, true});
     all.push_back({name + "_adaptive", "tolerance = 1e-4\n", 0.0, 2.0, true});
   }
+  all.push_back({"auto", "tolerance = 1e-6\n", 0.0, 0.0, false, true});
   all.push_back({"rodas4", "tolerance = 1e-5\n", 0.0, 4.0, true});
   all.push_back({"dopri5", "tolerance = 1e-5\n", 0.0, 5.0});
   all.push_back({"extrapolation8", "tolerance = 1e-6\n", 0.0, 8.0});

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "butee/time/integrator.hpp"
+
+namespace butee::integrators {
+
+/// What `auto` would take for a scene.
+struct Choice {
+  enum class Method { exponential, rodas4 };
+  Method method;
+  std::string why;
+};
+
+/// exponential where all modes can be had and nothing but the stops couples them, rodas4 for all else.
+Choice choose(const solve::Dynamics& dynamics);
+
+/// The chosen method with this tolerance; it knows why it was chosen.
+std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, double tolerance);
+
+}  // namespace butee::integrators

@@ -1,0 +1,56 @@
+// What a scene gets that names no method.
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+std::string beam(int elements, const std::string& more, const std::string& integrator = "end_time = 0.05\n") {
+  return "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = "
+         "0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 4.0\nelements "
+         "= " +
+         std::to_string(elements) +
+         "\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n[[load]]\ntype = \"harmonic\"\nnode = "
+         "\"b:1\"\namplitude = 500.0\nangular_frequency = 60.0\n" +
+         more + "[integrator]\n" + integrator;
+}
+
+const std::string kStops = "[[contact]]\ntype = \"stop\"\nnodes = \"b:all\"\ngap = 1e-3\nstiffness = 1e6\n";
+const std::string kDashpot = "[[element]]\ntype = \"spring\"\nnode = \"b:2\"\nstiffness = 1e4\ndamping = 50.0\n";
+
+TEST(Automatic, TakesWhatSuitsTheScene) {
+  const auto choice = [](const std::string& scene) { return SceneRun(scene).integrator().choice(); };
+  EXPECT_EQ(choice(beam(6, "")).rfind("exponential with tolerance 0.0001: there are no stops", 0), 0U);
+  EXPECT_EQ(choice(beam(6, kStops)).rfind("exponential with tolerance 0.0001: 12 DOFs", 0), 0U);
+  EXPECT_EQ(choice(beam(6, kStops + kDashpot)).rfind("rodas4 with tolerance 0.0001: dashpots", 0), 0U);
+  EXPECT_EQ(choice(beam(400, kStops)).rfind("rodas4 with tolerance 0.0001: 800 DOFs", 0), 0U);
+  EXPECT_EQ(choice(beam(6, "", "end_time = 0.05\ntolerance = 1e-3\n")).rfind("exponential with tolerance 0.001", 0),
+            0U);
+}
+
+TEST(Automatic, IsTheMethodThatItTook) {
+  for (const std::string& more : {kStops, kStops + kDashpot}) {
+    SceneRun chosen(beam(6, more)),
+        named(beam(6, more,
+                   "end_time = 0.05\ntype = \"" + std::string(more == kStops ? "exponential" : "rodas4") + "\"\n"));
+    ASSERT_TRUE(chosen.run().completed);
+    ASSERT_TRUE(named.run().completed);
+    EXPECT_TRUE(chosen.simulation().state().x == named.simulation().state().x);
+    EXPECT_TRUE(named.integrator().choice().empty());
+  }
+}
+
+TEST(Automatic, SaysWhatItTook) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", beam(6, kStops, "end_time = 0.05\ntolerance = 1e-3\n"));
+  const auto outcome = run_program({"run", "scene.toml"}, folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("chosen: exponential with tolerance 0.001"), std::string::npos) << outcome.output;
+  EXPECT_NE(read_file(folder.file("scene-results/summary.json")).find("\"choice\": \"exponential with"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace butee::test
