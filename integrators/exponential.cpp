@@ -36,9 +36,6 @@ constexpr int kMostPasses = 25;
 constexpr int kMostRungsDown = 80;
 /// The bump functions of cubic Hermite interpolation are at most 4/27.
 constexpr double kBump = 4.0 / 27.0;
-/// The error of cubic Hermite interpolation is at most this times (omega h)^4 and the amplitude, and at most twice
-/// that.
-constexpr double kHermite = 1.0 / 384.0;
 /// A step between outputs is rounded to so many digits, so that equal intervals are equal.
 constexpr double kSameDigits = 1e10;
 
@@ -168,6 +165,7 @@ StepReport Exponential::follow(const State& from, const time::Step& step) {
     knot_q_.col(knot) = q_;
     knot_v_.col(knot) = v_;
     has_acceleration_[times_.size() - 1] = false;
+    note_phases(times_.back());
     const double t = times_.back(), rest = times_.size() == 1 ? step.h : step.t_end - t, kink = next_kink(t) - t;
     Trial trial = Trial::too_long;
     double end = step.t_end;
@@ -215,11 +213,19 @@ StepReport Exponential::follow(const State& from, const time::Step& step) {
   return report;
 }
 
+void Exponential::note_phases(double t) {
+  phases_.clear();
+  for (const solve::ModalHarmonic& harmonic : modal_.harmonics()) {
+    const double angle = harmonic.angular_frequency * t;
+    phases_.push_back({std::cos(angle), std::sin(angle)});
+  }
+}
+
 void Exponential::propagate(const ModalFlow& flow, double t, bool with_speed, ArrayXd& q, ArrayXd& v) const {
   q = flow.qq() * q_ + flow.qv() * v_;
   if (with_speed) v = flow.vq() * q_ + flow.vv() * v_;
   for (std::size_t j = 0; j < flow.angular_frequencies().size(); ++j) {
-    const double angle = flow.angular_frequencies()[j] * t, c = std::cos(angle), s = std::sin(angle);
+    const auto [c, s] = phases_[j];
     q += c * flow.harmonic_q(j, 0) - s * flow.harmonic_q(j, 1);
     if (with_speed) v += c * flow.harmonic_v(j, 0) - s * flow.harmonic_v(j, 1);
   }
@@ -255,13 +261,7 @@ Exponential::Trial Exponential::try_step(StepFlow& flow, double t) {
 void Exponential::find_active(const StepFlow& flow, double t) {
   const double h = flow.h();
   // How far modes too fast for a cubic can carry a stop away from it.
-  const ArrayXd& omega = modal_.frequencies();
-  double swing = 0.0;
-  for (Index i = 0; i < modal_.size(); ++i) {
-    const double angle = omega[i] * h, square = angle * angle;
-    const double factor = std::min(2.0, kHermite * square * square);
-    if (factor > 0.0) swing += factor * modal_.largest_stop_shape()[i] * (std::abs(q_[i]) + std::abs(v_[i]) / omega[i]);
-  }
+  const double swing = (flow.swing_q * q_.abs()).sum() + (flow.swing_v * v_.abs()).sum();
   reach_ = w_.abs().max(w_new_.abs()) + kBump * h * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
   bool has_half = false;
@@ -389,6 +389,7 @@ void Exponential::evaluate_exactly(std::size_t knot, double t, std::span<const I
   q_ = knot_q_.col(static_cast<Index>(knot)).array();
   v_ = knot_v_.col(static_cast<Index>(knot)).array();
   if (t > times_[knot]) {
+    note_phases(times_[knot]);
     propagate(modal_.odd(rounded(t - times_[knot])).whole, times_[knot], true, q_new_, v_new_);
     q_.swap(q_new_);
     v_.swap(v_new_);
@@ -419,20 +420,24 @@ void Exponential::complete_knot(std::size_t knot) {
   has_acceleration_[knot] = true;
 }
 
-void Exponential::lay_courses(std::size_t knot, std::span<const Index> dofs) {
+Motion Exponential::motion_at(std::size_t knot, Index dof) {
   complete_knot(knot);
-  complete_knot(knot + 1);
+  const auto k = static_cast<Index>(knot);
+  const auto shape = modal_.shape_rows().col(dof);
+  return {shape.dot(knot_q_.col(k)), shape.dot(knot_v_.col(k)), shape.dot(knot_a_.col(k))};
+}
+
+void Exponential::lay_courses(std::size_t knot, std::span<const Index> dofs) {
+  // What was the end of the courses laid last is most often the beginning of these.
+  const bool goes_on = course_knot_ != kNone && knot == course_knot_ + 1 && std::ranges::equal(dofs, course_dofs_);
   course_knot_ = knot;
   course_dofs_.assign(dofs.begin(), dofs.end());
+  course_ends_.resize(dofs.size());
   courses_.clear();
-  for (const Index dof : dofs) {
-    const auto shape = modal_.shape_rows().col(dof);
-    std::array<Motion, 2> ends{};
-    for (std::size_t end = 0; end < 2; ++end) {
-      const auto k = static_cast<Index>(knot + end);
-      ends[end] = {shape.dot(knot_q_.col(k)), shape.dot(knot_v_.col(k)), shape.dot(knot_a_.col(k))};
-    }
-    courses_.emplace_back(times_[knot + 1] - times_[knot], ends[0], ends[1]);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const Motion begin = goes_on ? course_ends_[i] : motion_at(knot, dofs[i]);
+    course_ends_[i] = motion_at(knot + 1, dofs[i]);
+    courses_.emplace_back(times_[knot + 1] - times_[knot], begin, course_ends_[i]);
   }
 }
 
@@ -450,8 +455,9 @@ void Exponential::do_interpolate(const State& from, const State& to, double t, s
     return;
   }
   if (!holds(from, to.t)) self.follow(from, {to.t - from.t, to.t});
-  const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, t);
-  const auto knot = static_cast<std::size_t>(after - times_.begin()) - 1;
+  std::size_t knot = course_knot_;
+  if (knot == kNone || t < times_[knot] || t >= times_[knot + 1])
+    knot = static_cast<std::size_t>(std::upper_bound(times_.begin() + 1, times_.end() - 1, t) - times_.begin()) - 1;
   if (stops_.empty()) return self.evaluate_exactly(knot, t, dofs, out);
   if (knot != course_knot_ || !std::ranges::equal(dofs, course_dofs_)) self.lay_courses(knot, dofs);
   const double s = (t - times_[knot]) / (times_[knot + 1] - times_[knot]);

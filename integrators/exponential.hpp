@@ -67,6 +67,8 @@ class Exponential final : public time::Integrator {
   /// Takes steps from `from` until `step` is done or the block is full, filling the knots; the number of steps.
   time::StepReport follow(const time::State& from, const time::Step& step);
   Trial try_step(solve::StepFlow& flow, double t);
+  /// cos and sin of the harmonic loads at the start of a step.
+  void note_phases(double t);
   void propagate(const solve::ModalFlow& flow, double t, bool with_speed, Eigen::ArrayXd& q, Eigen::ArrayXd& v) const;
   void find_active(const solve::StepFlow& flow, double t);
   void add_far_forces(const solve::StepFlow& flow);
@@ -78,6 +80,7 @@ class Exponential final : public time::Integrator {
   int find_first_level() const;
   bool holds(const time::State& from, double t_end) const;
   void complete_knot(std::size_t knot);
+  Motion motion_at(std::size_t knot, Index dof);
   /// Fills courses_ between a knot and the next.
   void lay_courses(std::size_t knot, std::span<const Index> dofs);
 
@@ -101,6 +104,11 @@ class Exponential final : public time::Integrator {
   int first_level_ = 0, level_ = 0;
   double scale_ = 0.0;
 
+  struct Phase {
+    double cosine, sine;
+  };
+  std::vector<Phase> phases_;
+
   // A trial.
   Eigen::ArrayXd q_new_, v_new_, q_half_, w_new_, wv_new_, reach_;
   std::vector<Active> active_;
@@ -115,6 +123,7 @@ class Exponential final : public time::Integrator {
   Vector stop_force_, far_forces_;
   std::size_t course_knot_ = kNone;
   std::vector<Index> course_dofs_;
+  std::vector<Motion> course_ends_;
   std::vector<Quintic> courses_;
   double begin_t_ = 0.0, end_t_ = -1.0;
   Vector begin_memory_;

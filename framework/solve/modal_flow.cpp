@@ -183,6 +183,7 @@ ModalFlow ModalFlow::doubled() const {
 }
 
 void ModalFlow::refine(const ArrayXd& omega, const ArrayXd& delta) {
+  double decay = 1.0, decay_of = 0.0;  // often the same for all modes
   for (Index i = 0; i < omega.size(); ++i) {
     const double d = delta[i], square = omega[i] * omega[i] - d * d;
     const double kappa = std::sqrt(std::abs(square)), angle = kappa * h_;
@@ -190,7 +191,8 @@ void ModalFlow::refine(const ArrayXd& omega, const ArrayXd& delta) {
     // e^(-delta h) times cos and sin/kappa, or cosh and sinh/kappa
     double cosine = 0.0, sine = 0.0;
     if (square > 0.0) {
-      const double decay = std::exp(-d * h_);
+      if (d != decay_of) decay = std::exp(-d * h_);
+      decay_of = d;
       cosine = decay * std::cos(angle);
       sine = decay * std::sin(angle) / kappa;
     } else {

@@ -48,6 +48,8 @@ class BUTEE_EXPORT ModalFlow {
   /// What a force P_k, k = 0, 1, 2, does to q and v.
   auto force_q(int k) const { return columns_.col(kForce + 2 * k); }
   auto force_v(int k) const { return columns_.col(kForce + 2 * k + 1); }
+  /// All of them: q and v of P_0, then of P_1 and P_2.
+  auto forces() const { return columns_.middleCols(kForce, 6).matrix(); }
 
   /// What the harmonics do in a step that begins at t: q += harmonic_q(j, 0) cos(Omega_j t) - harmonic_q(j, 1)
   /// sin(Omega_j t).

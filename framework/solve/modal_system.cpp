@@ -15,6 +15,9 @@ namespace {
 /// proportional damping stays far below.
 constexpr double kUncoupled = 1e-9;
 constexpr std::size_t kOddFlows = 6;
+/// The error of cubic Hermite interpolation is at most this times (omega h)^4 and the amplitude, and at most twice
+/// that.
+constexpr double kHermite = 1.0 / 384.0;
 
 Modes find_modes(const model::System& system, Index count) {
   if (count == 0) count = system.size() <= ModalSystem::kAllModes ? system.size() : ModalSystem::kAllModes / 2;
@@ -86,7 +89,6 @@ void ModalSystem::project_stops(Dynamics& dynamics) {
     if (contact.dof_a(i) >= 0) stop_shapes_.col(i) += rows_.col(contact.dof_a(i));
     if (contact.dof_b(i) >= 0) stop_shapes_.col(i) -= rows_.col(contact.dof_b(i));
   }
-  largest_stop_shape_ = stop_shapes_.cwiseAbs().rowwise().maxCoeff().array();
   if (contact.size() <= DenseProduct::kMostRows) fast_stops_ = DenseProduct(stop_shapes_.transpose());
   if (is_complete()) return;
   // What a stop's own force moves it, by all modes and by those that are kept; a weak spring to the ground on every
@@ -156,7 +158,7 @@ StepFlow& ModalSystem::ladder(int level) {
   std::unique_ptr<StepFlow>& step = rungs_[level].step;
   if (!step) {
     ModalFlow half = refined_ladder(level - 2);
-    step = std::make_unique<StepFlow>(refined_ladder(level), std::move(half), stop_shapes_);
+    step = std::make_unique<StepFlow>(refined_ladder(level), std::move(half), stop_shapes_, frequencies_);
   }
   return *step;
 }
@@ -168,35 +170,41 @@ StepFlow& ModalSystem::odd(double h) {
     oldest_ = odd_.size();
     odd_.emplace_back();
   }
-  ModalFlow half(frequencies_, decay_, harmonics_, 0.5 * h), whole(frequencies_, decay_, harmonics_, h);
+  ModalFlow half(frequencies_, decay_, harmonics_, 0.5 * h), whole = half.doubled();
   half.refine(frequencies_, decay_);
   whole.refine(frequencies_, decay_);
   std::unique_ptr<StepFlow>& slot = odd_[oldest_];
-  slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_);
+  slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_, frequencies_);
   oldest_ = (oldest_ + 1) % kOddFlows;
   return *slot;
 }
 
-StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const Eigen::MatrixXd& stop_shapes)
+StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const Eigen::MatrixXd& stop_shapes,
+                   const Eigen::ArrayXd& frequencies)
     : whole(std::move(whole_flow)),
       half(std::move(half_flow)),
       stop_shapes_(stop_shapes),
-      places_(static_cast<std::size_t>(stop_shapes.cols() * (stop_shapes.cols() + 1) / 2), -1) {}
+      places_(static_cast<std::size_t>(stop_shapes.cols() * (stop_shapes.cols() + 1) / 2), -1) {
+  if (stop_shapes.cols() == 0) return;
+  const Eigen::ArrayXd angle = h() * frequencies;
+  swing_q = (kHermite * angle.square().square()).min(2.0) * stop_shapes.cwiseAbs().rowwise().maxCoeff().array();
+  swing_v = (frequencies > 0.0).select(swing_q / frequencies, 0.0);
+}
 
 const StepFlow::Coupling& StepFlow::compute_coupling(Index i, Index j) {
   std::int32_t& place = places_[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
   place = static_cast<std::int32_t>(couplings_.size());
-  const Eigen::ArrayXd shape = stop_shapes_.col(i).cwiseProduct(stop_shapes_.col(j)).array();
+  const Eigen::VectorXd shape = stop_shapes_.col(i).cwiseProduct(stop_shapes_.col(j));
   Coupling& c = couplings_.emplace_back();
-  std::array<double, 3> first{};
-  for (int k = 0; k < 3; ++k) {
-    const auto order = static_cast<std::size_t>(k);
-    c.end[order] = (shape * whole.force_q(k)).sum();
-    c.speed[order] = (shape * whole.force_v(k)).sum();
-    first[order] = (shape * half.force_q(k)).sum();
+  // Rows: what P_0, P_1, P_2 do to q and v.
+  const Eigen::Matrix<double, 6, 1> end = whole.forces().transpose() * shape, first = half.forces().transpose() * shape;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto row = static_cast<Index>(2 * k);
+    c.end[k] = end[row];
+    c.speed[k] = end[row + 1];
   }
   // P_k of the step, written in those of its first half.
-  c.middle = {first[0], 0.5 * (first[1] - first[0]), 0.25 * first[2] - 0.75 * first[1]};
+  c.middle = {first[0], 0.5 * (first[2] - first[0]), 0.25 * first[4] - 0.75 * first[2]};
   return c;
 }
 

@@ -19,7 +19,8 @@ class Dynamics;
 class BUTEE_EXPORT StepFlow {
  public:
   /// `stop_shapes` (p x m) must outlive it.
-  StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const Eigen::MatrixXd& stop_shapes);
+  StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const Eigen::MatrixXd& stop_shapes,
+           const Eigen::ArrayXd& frequencies);
 
   double h() const { return whole.h(); }
 
@@ -34,6 +35,8 @@ class BUTEE_EXPORT StepFlow {
   }
 
   ModalFlow whole, half;
+  /// How far a mode with q and v at the start can carry any stop away from the cubic through both ends of its path.
+  Eigen::ArrayXd swing_q, swing_v;
 
  private:
   const Coupling& compute_coupling(Index i, Index j);
@@ -66,8 +69,6 @@ class BUTEE_EXPORT ModalSystem {
   const Eigen::MatrixXd& shapes() const { return shapes_; }            ///< Phi, n x p
   const Eigen::MatrixXd& shape_rows() const { return rows_; }          ///< Phi^T, p x n: a column for each DOF
   const Eigen::MatrixXd& stop_shapes() const { return stop_shapes_; }  ///< Phi^T S^T, p x m: a column for each stop
-  /// The largest |Phi^T S^T| of each mode.
-  const Eigen::ArrayXd& largest_stop_shape() const { return largest_stop_shape_; }
   /// The largest share of a static displacement of a stop under its own force that the modes left out would carry; 0
   /// with all modes.
   double truncation() const { return truncation_; }
@@ -100,7 +101,7 @@ class BUTEE_EXPORT ModalSystem {
   ModalFlow refined_ladder(int level);
   const ModalFlow& raw_ladder(int level);
 
-  Eigen::ArrayXd frequencies_, decay_, largest_stop_shape_;
+  Eigen::ArrayXd frequencies_, decay_;
   Eigen::MatrixXd shapes_, rows_, weighted_, stop_shapes_;
   DenseProduct fast_shapes_, fast_stops_;
   std::vector<ModalHarmonic> harmonics_;

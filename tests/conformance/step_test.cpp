@@ -121,7 +121,9 @@ TEST(ConformanceSuite, CoversTheWholeCatalogue) {
   plugin::Catalogue catalogue;
   catalogue.add(BUTEE_TEST_PLUGINS);
   std::vector<std::string> registered, covered;
-  for (const auto& entry : catalogue.integrators()) registered.push_back(entry.declaration.name);
+  // SUNDIALS keeps a history of its own, so that its steps are no pure functions: tests/plugins/sundials_test.cpp.
+  for (const auto& entry : catalogue.integrators())
+    if (entry.module.find("sundials") == std::string::npos) registered.push_back(entry.declaration.name);
   for (const MethodCase& method : method_cases()) covered.push_back(method.name);
   std::sort(registered.begin(), registered.end());
   std::sort(covered.begin(), covered.end());

@@ -1,0 +1,173 @@
+#include "solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace butee::plugins {
+namespace {
+
+void check(int flag, const char* what) {
+  if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + what + " failed with " + std::to_string(flag));
+}
+
+void ignore_message(int, const char*, const char*, char*, void*) {}
+
+}  // namespace
+
+time::StepDecision SundialsIntegrator::Controller::decide(double, const time::StepReport&) const {
+  return {true, std::numeric_limits<double>::infinity()};
+}
+
+SundialsIntegrator::SundialsIntegrator(solve::Dynamics& dynamics, Family family, double tolerance,
+                                       double absolute_tolerance, int order)
+    : Integrator(dynamics),
+      family_(family),
+      tolerance_(tolerance),
+      absolute_tolerance_(absolute_tolerance),
+      order_(order) {
+  if (SUNContext_Create(nullptr, &context_) != 0) throw std::runtime_error("SUNDIALS: no context");
+  y_ = N_VNew_Serial(2 * dynamics.size(), context_);
+  derivative_ = N_VNew_Serial(2 * dynamics.size(), context_);
+  stop_displacement_ = stop_force_ = tangent_ = stop_work_ = Vector::Zero(dynamics.stop_count());
+  work_ = other_ = Vector::Zero(dynamics.size());
+}
+
+SundialsIntegrator::~SundialsIntegrator() {
+  if (memory_ != nullptr && is_cvode()) CVodeFree(&memory_);
+  if (memory_ != nullptr) ARKStepFree(&memory_);
+  if (linear_ != nullptr) SUNLinSolFreeEmpty(linear_);
+  N_VDestroy(y_);
+  N_VDestroy(derivative_);
+  SUNContext_Free(&context_);
+}
+
+double SundialsIntegrator::first_step(const time::State&) const {
+  return std::numeric_limits<double>::infinity();
+}
+
+void SundialsIntegrator::create(const time::State& from) {
+  if (is_cvode()) {
+    memory_ = CVodeCreate(family_ == Family::cvode_bdf ? CV_BDF : CV_ADAMS, context_);
+    check(CVodeInit(memory_, right_side, from.t, y_), "CVodeInit");
+    CVodeSetErrHandlerFn(memory_, ignore_message, nullptr);
+    CVodeSetUserData(memory_, this);
+    CVodeSStolerances(memory_, tolerance_, absolute_tolerance_);
+    if (order_ > 0) CVodeSetMaxOrd(memory_, order_);
+  } else {
+    const bool is_explicit = family_ == Family::arkode_erk;
+    memory_ =
+        ARKStepCreate(is_explicit ? right_side : nullptr, is_explicit ? nullptr : right_side, from.t, y_, context_);
+    if (memory_ == nullptr) throw std::runtime_error("SUNDIALS: ARKStepCreate failed");
+    ARKStepSetErrHandlerFn(memory_, ignore_message, nullptr);
+    ARKStepSetUserData(memory_, this);
+    ARKStepSStolerances(memory_, tolerance_, absolute_tolerance_);
+    if (order_ > 0) check(ARKStepSetOrder(memory_, order_), "ARKStepSetOrder");
+  }
+  if (family_ != Family::arkode_erk) attach_linear_solver();
+}
+
+void SundialsIntegrator::attach_linear_solver() {
+  linear_ = SUNLinSolNewEmpty(context_);
+  linear_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_MATRIX_EMBEDDED; };
+  linear_->ops->solve = solve_linear;
+  linear_->content = this;
+  check(
+      is_cvode() ? CVodeSetLinearSolver(memory_, linear_, nullptr) : ARKStepSetLinearSolver(memory_, linear_, nullptr),
+      "the linear solver");
+}
+
+void SundialsIntegrator::begin(const time::State& from) {
+  double* y = N_VGetArrayPointer(y_);
+  std::copy(from.x.begin(), from.x.end(), y);
+  std::copy(from.v.begin(), from.v.end(), y + from.x.size());
+  if (memory_ == nullptr)
+    create(from);
+  else if (is_cvode())
+    check(CVodeReInit(memory_, from.t, y_), "CVodeReInit");
+  else
+    check(ARKStepReset(memory_, from.t, y_), "ARKStepReset");
+}
+
+time::StepReport SundialsIntegrator::do_step(const time::State& from, const time::Step& step, time::State& to) {
+  time::StepReport report;
+  const bool continues = memory_ != nullptr && last_.t == from.t && last_.x == from.x && last_.v == from.v;
+  if (!continues) begin(from);
+  double t = from.t;
+  int flag = 0;
+  if (is_cvode()) {
+    CVodeSetStopTime(memory_, step.t_end);
+    flag = CVode(memory_, step.t_end, y_, &t, CV_ONE_STEP);
+    if (flag >= 0) flag = std::min(0, CVodeGetDky(memory_, t, 1, derivative_));
+  } else {
+    ARKStepSetStopTime(memory_, step.t_end);
+    flag = ARKStepEvolve(memory_, step.t_end, y_, &t, ARK_ONE_STEP);
+    if (flag >= 0) flag = std::min(0, ARKStepGetDky(memory_, t, 1, derivative_));
+  }
+  if (flag < 0 || !(t > from.t)) {
+    report.status = time::StepStatus::not_finite;
+    last_ = {};
+    return report;
+  }
+  const Index n = from.x.size();
+  const double* y = N_VGetArrayPointer(y_);
+  to.t = t;
+  to.x = Eigen::Map<const Vector>(y, n);
+  to.v = Eigen::Map<const Vector>(y + n, n);
+  to.a = Eigen::Map<const Vector>(N_VGetArrayPointer(derivative_) + n, n);
+  last_.t = t;
+  last_.x = to.x;
+  last_.v = to.v;
+  return report;
+}
+
+int SundialsIntegrator::evaluate(double t, const double* y, double* rate) {
+  const Index n = dynamics().size();
+  const Eigen::Map<const Vector> x(y, n), v(y + n, n);
+  Eigen::Map<Vector> a(rate + n, n);
+  std::copy(y + n, y + 2 * n, rate);
+  dynamics().acceleration(t, x, v, a);
+  return std::isfinite(a.sum()) ? 0 : 1;
+}
+
+int SundialsIntegrator::right_side(realtype t, N_Vector y, N_Vector rate, void* self) {
+  return static_cast<SundialsIntegrator*>(self)->evaluate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
+}
+
+int SundialsIntegrator::solve_linear(SUNLinearSolver solver, SUNMatrix, N_Vector z, N_Vector r, realtype) {
+  return static_cast<SundialsIntegrator*>(solver->content)->solve(N_VGetArrayPointer(z), N_VGetArrayPointer(r));
+}
+
+int SundialsIntegrator::solve(double* z, const double* r) {
+  double t = 0.0, gamma = 0.0, rl1 = 0.0;
+  N_Vector predicted = nullptr, now = nullptr, rate = nullptr, history = nullptr;
+  void* self = nullptr;
+  if (is_cvode())
+    CVodeGetNonlinearSystemData(memory_, &t, &predicted, &now, &rate, &gamma, &rl1, &history, &self);
+  else
+    ARKStepGetNonlinearSystemData(memory_, &t, &predicted, &now, &rate, &gamma, &history, &self);
+  const Index n = dynamics().size();
+  const Eigen::Map<const Vector> x(N_VGetArrayPointer(now), n), r_x(r, n), r_v(r + n, n);
+  Eigen::Map<Vector> z_x(z, n), z_v(z + n, n);
+  // (M + gamma C + gamma^2 (K + K_t)) z_v = M r_v - gamma (K + K_t) r_x,   z_x = r_x + gamma z_v
+  dynamics().elastic_force(r_x, work_);
+  if (dynamics().stop_count() > 0) {
+    solve::Contact& contact = dynamics().contact();
+    contact.displacement(x, stop_displacement_);
+    contact.tangent(stop_displacement_, stop_force_, tangent_);
+    contact.displacement(r_x, stop_work_);
+    stop_work_.array() *= tangent_.array();
+    contact.scatter(stop_work_, work_);
+  }
+  dynamics().inertia_force(r_v, other_);
+  other_ -= gamma * work_;
+  solve::EffectiveSolver& effective = dynamics().effective();
+  effective.set_factors(gamma, gamma * gamma);
+  if (!effective.solve(tangent_, other_)) return 1;
+  z_x = r_x + gamma * other_;
+  z_v = other_;
+  return 0;
+}
+
+}  // namespace butee::plugins

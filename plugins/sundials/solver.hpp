@@ -1,0 +1,61 @@
+#pragma once
+
+#include <arkode/arkode_arkstep.h>
+#include <cvode/cvode.h>
+#include <memory>
+#include <nvector/nvector_serial.h>
+#include <string>
+
+#include <butee/plugin/entry.hpp>
+
+namespace butee::plugins {
+
+enum class Family { cvode_bdf, cvode_adams, arkode_erk, arkode_dirk };
+
+/// A method of SUNDIALS on y = (x, v), y' = (v, M^-1 (F + F_c - C v - K x)), a step of its own for each step of ours.
+///
+/// The implicit ones solve (1 - gamma J) z = r by blocks, with the effective matrix of this framework and its treatment
+/// of the stops, which is better than any matrix that SUNDIALS could be given. Errors are relative to each component
+/// plus an absolute tolerance. CVODE's history lives in CVODE: a step that does not continue the last one starts it
+/// anew, so a step is no pure function of the state, and a restart repeats a run only to the tolerance. Source: A. C.
+/// Hindmarsh et al., ACM TOMS 31 (2005) 363-396, doi 10.1145/1089014.1089020.
+class SundialsIntegrator final : public time::Integrator {
+ public:
+  /// `order` 0: the solver's own choice. `absolute_tolerance` in m, rad, m/s and rad/s.
+  SundialsIntegrator(solve::Dynamics& dynamics, Family family, double tolerance, double absolute_tolerance, int order);
+  ~SundialsIntegrator() override;
+
+  const time::StepController* controller() const override { return &controller_; }
+  double first_step(const time::State&) const override;
+
+ private:
+  class Controller final : public time::StepController {
+   public:
+    time::StepDecision decide(double, const time::StepReport& report) const override;
+  };
+
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+
+  bool is_cvode() const { return family_ == Family::cvode_bdf || family_ == Family::cvode_adams; }
+  void create(const time::State& from);
+  void begin(const time::State& from);
+  void attach_linear_solver();
+  int evaluate(double t, const double* y, double* rate);
+  int solve(double* z, const double* r);
+
+  static int right_side(realtype t, N_Vector y, N_Vector rate, void* self);
+  static int solve_linear(SUNLinearSolver solver, SUNMatrix, N_Vector z, N_Vector r, realtype);
+
+  Controller controller_;
+  Family family_;
+  double tolerance_, absolute_tolerance_;
+  int order_;
+  SUNContext context_ = nullptr;
+  void* memory_ = nullptr;
+  N_Vector y_ = nullptr, derivative_ = nullptr;
+  SUNLinearSolver linear_ = nullptr;
+  time::State last_;  ///< where the solver stands
+  Vector stop_displacement_, stop_force_, tangent_, work_, stop_work_, other_;
+};
+
+}  // namespace butee::plugins

@@ -1,0 +1,47 @@
+// SUNDIALS behind the common interface, where it was found.
+#include <butee/plugin/catalogue.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+class Sundials : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    plugin::Catalogue catalogue;
+    catalogue.add(BUTEE_TEST_PLUGINS);
+    if (catalogue.find(GetParam()) == nullptr) GTEST_SKIP() << "built without SUNDIALS";
+  }
+};
+
+TEST_P(Sundials, AgreesWithAnotherMethodAcrossContact) {
+  const auto end = [](const std::string& method) {
+    SceneRun run(with_linear_law("beam1"),
+                 {"integrator.type=" + method, "integrator.tolerance=1e-6", "integrator.end_time=0.2"});
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_EQ(run.simulation().state().t, 0.2);
+    return run.simulation().state().x;
+  };
+  const Vector x = end(GetParam()), reference = end("exponential");
+  // Its tolerance of each component, some thousand steps long.
+  EXPECT_LT((x - reference).norm(), 1e-3 * reference.norm());
+}
+
+TEST_P(Sundials, StopsWithADiagnosisWhereALoadOverflows) {
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 40.0\n[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = [0.0, 0.1, 0.11]\nvalues = "
+      "[1.0, 1.0, 1e308]\n[integrator]\nend_time = 1.0\ntype = \"" +
+      GetParam() + "\"\n");
+  EXPECT_FALSE(run.run().completed);
+  EXPECT_TRUE(run.simulation().state().x.allFinite());
+  EXPECT_LT(run.simulation().report().t_end, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Sundials, testing::Values("cvode_bdf", "cvode_adams", "arkode_erk", "arkode_dirk"),
+                         [](const auto& one) { return one.param; });
+
+}  // namespace
+}  // namespace butee::test
