@@ -6,7 +6,8 @@ namespace butee::integrators {
 
 /// Local errors of second-order methods from the accelerations of two steps: those of the trapezoidal rule,
 ///
-///     e_x = h^2 (a_{n+1} - a_n)/12,    e_v = h^3 a''/12,    a'' = 2 [(a_{n+1} - a_n)/h - (a_n - a_{n-1})/h_old]/(h + h_old)
+///     e_x = h^2 (a_{n+1} - a_n)/12,    e_v = h^3 a''/12,    a'' = 2 [(a_{n+1} - a_n)/h - (a_n - a_{n-1})/h_old]/(h +
+///     h_old)
 ///
 /// The memory of a state holds LocalErrorControl's part, then h_old (0 at the start) and (a_n - a_{n-1})/h_old.
 class AccelerationError {

@@ -19,7 +19,8 @@ constexpr double kError0 = (4.0 * kWeight - 1.0) / 3.0, kError1 = -1.0 / 3.0, kE
 }  // namespace
 
 Bathe::Bathe(solve::Dynamics& dynamics, double tolerance) : Integrator(dynamics), stage_(dynamics, kNewton) {
-  if (tolerance > 0.0) control_.emplace(dynamics, tolerance, LocalErrorControl::Orders{3.0, 2.0}, LocalErrorControl::Steps::ladder);
+  if (tolerance > 0.0)
+    control_.emplace(dynamics, tolerance, LocalErrorControl::Orders{3.0, 2.0}, LocalErrorControl::Steps::ladder);
 }
 
 void Bathe::do_start(time::State& state) {

@@ -7,8 +7,8 @@
 
 namespace butee::integrators {
 
-/// bathe: the trapezoidal rule to t + gamma h, then the backward difference formula of three points; gamma = 2 - sqrt 2,
-/// with which both solve with the same matrix (TR-BDF2).
+/// bathe: the trapezoidal rule to t + gamma h, then the backward difference formula of three points; gamma = 2 - sqrt
+/// 2, with which both solve with the same matrix (TR-BDF2).
 ///
 /// Order 2, L-stable: it damps what the step does not resolve at once. Two stage solves a step, contact by Newton in
 /// stop space. Steps by the embedded formula of order 3 in displacement and velocity. Orders are checked in

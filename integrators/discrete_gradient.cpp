@@ -8,8 +8,8 @@
 namespace butee::integrators {
 namespace {
 
-/// Displacements closer than this part of their size and the gap have too little difference of energies left: the mean of
-/// both forces, off by the square of their distance, takes its place.
+/// Displacements closer than this part of their size and the gap have too little difference of energies left: the mean
+/// of both forces, off by the square of their distance, takes its place.
 constexpr double kClose = 1e-6;
 /// The difference of energies is rounded: the residual cannot get smaller than this part of all forces.
 constexpr NewtonOptions kNewtonOfEnergies = {1e-9, 1e-7, 40, false, false};

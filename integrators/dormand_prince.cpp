@@ -16,6 +16,8 @@ constexpr double kA[7][6] = {{},
                              {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
 constexpr std::array<double, 7> kError = {71.0 / 57600,      0.0,        -71.0 / 16695, 71.0 / 1920,
                                           -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+/// Calibrated in tests/verification/tolerance_test.cpp.
+constexpr double kShare = 0.05;
 /// Of h omega on the imaginary axis beyond which undamped motion grows at once.
 constexpr double kLimit = 1.0;
 
@@ -23,7 +25,7 @@ constexpr double kLimit = 1.0;
 
 DormandPrince::DormandPrince(solve::Dynamics& dynamics, double tolerance)
     : Integrator(dynamics),
-      control_(dynamics, tolerance, {5.0, 5.0}, LocalErrorControl::Steps::any),
+      control_(dynamics, tolerance, {5.0, 5.0, kShare}, LocalErrorControl::Steps::any),
       stiffness_("dopri5", kLimit) {
   for (std::size_t i = 0; i < kStages; ++i) v_[i] = a_[i] = Vector::Zero(dynamics.size());
 }

@@ -3,10 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "butee/solve/modal_system.hpp"
 #include "butee/time/integrator.hpp"
-#include "integrators/quintic.hpp"
-#include "integrators/stop_path.hpp"
+#include "integrators/exponential_step.hpp"
+#include "integrators/modal_knots.hpp"
 
 namespace butee::integrators {
 
@@ -38,7 +37,7 @@ class Exponential final : public time::Integrator {
 
   const time::StepController* controller() const override { return &controller_; }
   double first_step(const time::State& state) const override;
-  bool lands_on_outputs() const override { return stops_.empty(); }
+  bool lands_on_outputs() const override { return !step_.has_stops(); }
   std::span<const double> knots(const time::State& from, const time::State& to) const override;
 
  private:
@@ -47,84 +46,32 @@ class Exponential final : public time::Integrator {
     time::StepDecision decide(double, const time::StepReport& report) const override { return {true, report.error}; }
   };
 
-  /// A stop within reach during a step.
-  struct Active {
-    Index stop;
-    double w0, hv0;          ///< at the start
-    double w1, hv1, middle;  ///< at the end and in the middle, with all forces found so far
-    double bulge;            ///< by which the middle departs from the cubic through the ends
-    ForceMoments force;
-    StopForce::Course course;
-  };
-
-  enum class Trial { accepted, too_long, not_finite };
-
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                       time::Interpolated out) const override;
 
-  /// Takes steps from `from` until `step` is done or the block is full, filling the knots; the number of steps.
+  /// Takes steps from `from` until `step` is done or the block is full, filling the knots.
   time::StepReport follow(const time::State& from, const time::Step& step);
-  Trial try_step(solve::StepFlow& flow, double t);
-  /// cos and sin of the harmonic loads at the start of a step.
-  void note_phases(double t);
-  void propagate(const solve::ModalFlow& flow, double t, bool with_speed, Eigen::ArrayXd& q, Eigen::ArrayXd& v) const;
-  void find_active(const solve::StepFlow& flow, double t);
-  void add_far_forces(const solve::StepFlow& flow);
-  Trial iterate(solve::StepFlow& flow);
-  /// Takes the active stops in turn, each with the forces of all others as they are; the largest change of a path.
-  double sweep(solve::StepFlow& flow, std::size_t orders, bool uses_bulge);
-  void apply_forces(const solve::StepFlow& flow);
+  /// Takes a single one, of at most `rest` s and to `end` at the latest; false where none fits or none can be taken.
+  bool advance(double rest, double end, time::StepReport& report);
+  /// Without stops: the flow from the knot before t.
+  void evaluate_exactly(double t, std::span<const Index> dofs, time::Interpolated out);
   double next_kink(double t) const;
   int find_first_level() const;
   bool holds(const time::State& from, double t_end) const;
-  void complete_knot(std::size_t knot);
-  Motion motion_at(std::size_t knot, Index dof);
-  /// Fills courses_ between a knot and the next.
-  void lay_courses(std::size_t knot, std::span<const Index> dofs);
-
-  /// Without stops: the flow from a knot to t.
-  void evaluate_exactly(std::size_t knot, double t, std::span<const Index> dofs, time::Interpolated out);
-
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   ExponentialOptions options_;
   Controller controller_;
   solve::ModalSystem& modal_;
-  std::vector<StopForce> stops_;
-  Eigen::ArrayXd gaps_;
-  bool has_far_forces_ = false;
+  ExponentialStep step_;
+  ModalKnots knots_;
   std::vector<double> kinks_;
-  double tolerance_;  ///< of the displacement in the middle, relative to scale_
-
-  // The state within a block.
-  Eigen::ArrayXd q_, v_;
-  Eigen::ArrayXd w_, wv_;  ///< displacements and speeds of the stops
   int first_level_ = 0, level_ = 0;
-  double scale_ = 0.0;
+  bool is_quiet_ = false;
+  Eigen::ArrayXd acceleration_;
 
-  struct Phase {
-    double cosine, sine;
-  };
-  std::vector<Phase> phases_;
-
-  // A trial.
-  Eigen::ArrayXd q_new_, v_new_, q_half_, w_new_, wv_new_, reach_;
-  std::vector<Active> active_;
-  std::vector<Index> far_;
-  std::array<Eigen::ArrayXd, 3> sums_;
-  double error_ = 0.0;
-
-  // The knots of the last block, for its interpolation.
-  std::vector<double> times_;
-  Eigen::MatrixXd knot_q_, knot_v_, knot_a_;
-  std::vector<bool> has_acceleration_;
-  Vector stop_force_, far_forces_;
-  std::size_t course_knot_ = kNone;
-  std::vector<Index> course_dofs_;
-  std::vector<Motion> course_ends_;
-  std::vector<Quintic> courses_;
+  // What the knots belong to.
   double begin_t_ = 0.0, end_t_ = -1.0;
   Vector begin_memory_;
 };

@@ -7,13 +7,15 @@ namespace butee::integrators {
 namespace {
 
 constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
+/// Calibrated in tests/verification/tolerance_test.cpp.
+constexpr double kShare = 0.002;
 /// Of h omega of the whole step, by its eight parts.
 constexpr double kLimit = 1.5;
 
 }  // namespace
 
 Extrapolation::Extrapolation(solve::Dynamics& dynamics, double tolerance)
-    : Integrator(dynamics), control_(dynamics, tolerance, {7.0, 8.0}, LocalErrorControl::Steps::any) {
+    : Integrator(dynamics), control_(dynamics, tolerance, {7.0, 8.0, kShare}, LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
   a_ = Vector::Zero(dynamics.size());
 }

@@ -68,23 +68,25 @@ time::IntegratorType type_of(std::string name, std::string alias, std::string su
 }
 
 time::IntegratorType chung_hulbert(bool is_adaptive) {
-  return type_of(is_adaptive ? "generalized_alpha_adaptive" : "generalized_alpha", is_adaptive ? "GA2" : "GA1",
-                 is_adaptive ? "generalized-alpha, steps by the local error" : "generalized-alpha, fixed steps",
-                 number("rho_inf", "1", "the spectral radius at infinite frequency; 1: no numerical damping")
-                     .at_least(0)
-                     .at_most(1)
-                     .or_else(0.8),
-                 [](const Parameters& p) { return AlphaParameters::of_radius(p.number("rho_inf")); }, is_adaptive);
+  return type_of(
+      is_adaptive ? "generalized_alpha_adaptive" : "generalized_alpha", is_adaptive ? "GA2" : "GA1",
+      is_adaptive ? "generalized-alpha, steps by the local error" : "generalized-alpha, fixed steps",
+      number("rho_inf", "1", "the spectral radius at infinite frequency; 1: no numerical damping")
+          .at_least(0)
+          .at_most(1)
+          .or_else(0.8),
+      [](const Parameters& p) { return AlphaParameters::of_radius(p.number("rho_inf")); }, is_adaptive);
 }
 
 time::IntegratorType hilber_hughes_taylor(bool is_adaptive) {
-  return type_of(is_adaptive ? "hht_alpha_adaptive" : "hht_alpha", is_adaptive ? "HHT2" : "HHT1",
-                 is_adaptive ? "HHT-alpha, steps by the local error" : "HHT-alpha, fixed steps",
-                 number("alpha", "1", "numerical damping, in absolute value; 0: Newmark's")
-                     .at_least(0)
-                     .at_most(1.0 / 3.0)
-                     .or_else(0.05),
-                 [](const Parameters& p) { return AlphaParameters::hht(p.number("alpha")); }, is_adaptive);
+  return type_of(
+      is_adaptive ? "hht_alpha_adaptive" : "hht_alpha", is_adaptive ? "HHT2" : "HHT1",
+      is_adaptive ? "HHT-alpha, steps by the local error" : "HHT-alpha, fixed steps",
+      number("alpha", "1", "numerical damping, in absolute value; 0: Newmark's")
+          .at_least(0)
+          .at_most(1.0 / 3.0)
+          .or_else(0.05),
+      [](const Parameters& p) { return AlphaParameters::hht(p.number("alpha")); }, is_adaptive);
 }
 
 }  // namespace

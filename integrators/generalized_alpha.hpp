@@ -21,9 +21,9 @@ struct AlphaParameters {
 ///
 ///     M a_(1-alpha_m) + C v_(1-alpha_f) + K x_(1-alpha_f) = F(t_(1-alpha_f)) + F_c(x_(1-alpha_f))
 ///
-/// where y_(1-alpha) = (1 - alpha) y_{n+1} + alpha y_n, with Newmark's x_{n+1} and v_{n+1}. Order 2 with the algorithmic
-/// acceleration carried and the load at the method's own time; unconditionally stable for linear motion. One stage solve
-/// a step, contact by Newton in stop space.
+/// where y_(1-alpha) = (1 - alpha) y_{n+1} + alpha y_n, with Newmark's x_{n+1} and v_{n+1}. Order 2 with the
+/// algorithmic acceleration carried and the load at the method's own time; unconditionally stable for linear motion.
+/// One stage solve a step, contact by Newton in stop space.
 ///
 /// Steps by AccelerationError, which sees velocity too. Orders are checked in tests/conformance.
 /// Sources: J. Chung and G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375, doi 10.1115/1.2900803; H. M. Hilber, T. J. R.

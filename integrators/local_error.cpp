@@ -21,7 +21,7 @@ constexpr double kMostDown = 9.0, kMostUp = 9.0;
 
 LocalErrorControl::LocalErrorControl(const solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps)
     : dynamics_(dynamics),
-      threshold_(std::pow(tolerance, orders.estimate / orders.method)),
+      threshold_(orders.share * std::pow(tolerance, orders.estimate / orders.method)),
       estimate_order_(orders.estimate),
       steps_(steps),
       work_(dynamics.size()) {
@@ -66,7 +66,8 @@ double LocalErrorControl::any_step(double h, double r, double old) const {
 double LocalErrorControl::ladder_step(double h, double r) const {
   const double rungs = std::log2(kSafety / std::max(r, kSmallest)) * kRungs / estimate_order_;
   if (r <= 1.0 && rungs < kReserve) return h;
-  const double rung = kRungs * std::log2(h) + std::clamp(rungs - (r <= 1.0 ? kReserve - 1.0 : 0.0), -kMostDown, kMostUp);
+  const double rung =
+      kRungs * std::log2(h) + std::clamp(rungs - (r <= 1.0 ? kReserve - 1.0 : 0.0), -kMostDown, kMostUp);
   return std::exp2(std::floor(rung + 1e-6) / kRungs);
 }
 

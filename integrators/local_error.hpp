@@ -10,10 +10,10 @@ namespace butee::integrators {
 ///     h := h max(0.2, min(5, 0.9 r^(-0.7/q) r_old^(0.4/q))),    accepted where r <= 1
 ///
 /// or, where steps cost a factorization, on a ladder that is gone up only with some reserve,
-/// for a method of order p whose estimate falls with h^q, so that the error at the end falls with the tolerance. The norm of the
-/// mass matrix weighs displacements and rotations as they move mass. What it remembers (both largest norms, r_old) is the first part of State::memory. Sources: K. Gustafsson, ACM TOMS 17 (1991)
-/// 533-554, doi 10.1145/210232.210242; E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations
-/// I, II.4.
+/// for a method of order p whose estimate falls with h^q, so that the error at the end falls with the tolerance. The
+/// norm of the mass matrix weighs displacements and rotations as they move mass. What it remembers (both largest norms,
+/// r_old) is the first part of State::memory. Sources: K. Gustafsson, ACM TOMS 17 (1991) 533-554,
+/// doi 10.1145/210232.210242; E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4.
 class LocalErrorControl {
  public:
   /// Entries of State::memory.
@@ -22,6 +22,9 @@ class LocalErrorControl {
   struct Orders {
     double estimate;  ///< q
     double method;    ///< p
+    /// The part of the tolerance that a step may use up, less for long steps, whose estimates a kink within them can
+    /// pass unseen.
+    double share = 1.0;
   };
   /// Whether steps are taken from a ladder of ratio 2^(1/4), so that factorizations are found again.
   enum class Steps { any, ladder };

@@ -49,7 +49,7 @@ class Comparison {
 
   int perform() {
     std::vector<Prepared> scenes;
-    for (const std::string& path : study_.scenes) scenes.push_back(prepare(path));
+    for (std::size_t i = 0; i < study_.scenes.size(); ++i) scenes.push_back(prepare(i));
     const record::ResultFolder folder(folder_);
     folder.check();
     const std::string runs = folder.file("runs.csv");
@@ -75,10 +75,12 @@ class Comparison {
     std::vector<Sweep> sweeps;
   };
 
-  Prepared prepare(const std::string& path) {
-    config::Document document = config::load_toml(path);
+  Prepared prepare(std::size_t scene) {
+    config::Document document = config::load_toml(study_.scenes[scene]);
     for (const std::string& assignment : study_.overrides) config::apply_override(document, assignment);
     if (study_.end_time) config::apply_override(document, "integrator.end_time=" + to_text(*study_.end_time));
+    if (!study_.end_times.empty())
+      config::apply_override(document, "integrator.end_time=" + to_text(study_.end_times[scene]));
     Session session = read_session(document, plugin::Catalogue::with_plugins(arguments_.model.plugins));
     Question question = question_of(session, study_.quantities);
     const model::System system = assemble(session.model);

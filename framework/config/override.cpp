@@ -1,5 +1,6 @@
 #include "butee/config/override.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "butee/config/toml.hpp"
@@ -63,6 +64,17 @@ Value& descend(Value& from, const Step& step, const std::string& assignment) {
   return *value;
 }
 
+void remove(Value& root, std::vector<Step> path, const std::string& assignment) {
+  const Step last = std::move(path.back());
+  path.pop_back();
+  Value* parent = &root;
+  for (const Step& step : path) parent = &descend(*parent, step, assignment);
+  Table* table = parent->table();
+  if (table == nullptr || table->find(last.key) == nullptr || !last.indices.empty())
+    refuse(assignment, "there is no such key to take out; an empty string is written KEY=\"\"");
+  std::erase_if(table->entries, [&](const Table::Entry& entry) { return entry.first == last.key; });
+}
+
 void relocate(Value& value, Location at) {
   value.at = at;
   if (Array* array = value.array())
@@ -79,6 +91,7 @@ void apply_override(Document& document, const std::string& assignment) {
   const std::vector<Step> path = parse_path(assignment.substr(0, equals), assignment);
   const std::string text = assignment.substr(equals + 1);
 
+  if (text.empty()) return remove(document.root, path, assignment);
   document.sources.push_back("--set " + assignment);
   const Location at{static_cast<std::int32_t>(document.sources.size() - 1), 0};
   Value given = parse_toml_value(text).value_or(Value(text));

@@ -8,7 +8,8 @@ namespace butee::config {
 
 /// Applies one `key=value` of the command line to the document: a dotted path with indices
 /// (`integrator.time_step=1e-6`, `contact[0].stiffness=1e7`), the value in TOML syntax or, where it is not valid
-/// TOML, taken as a string. Throws InputError for a path that cannot be followed.
+/// TOML, taken as a string. Nothing behind the sign (`contact[0].regularization=`) takes the key out of the document.
+/// Throws InputError for a path that cannot be followed.
 BUTEE_EXPORT void apply_override(Document& document, const std::string& assignment);
 
 }  // namespace butee::config

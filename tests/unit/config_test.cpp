@@ -159,6 +159,13 @@ TEST_F(Override, makes_tables_on_the_way) {
   EXPECT_EQ(std::get<double>(at("damping").table()->find("mass_proportional")->data), 0.5);
 }
 
+TEST_F(Override, takes_out_a_key_without_a_value) {
+  apply_override(document_, "integrator.type=");
+  EXPECT_EQ(at("integrator").table()->find("type"), nullptr);
+  EXPECT_THROW(apply_override(document_, "integrator.type="), InputError);
+  EXPECT_THROW(apply_override(document_, "contact[0]="), InputError);
+}
+
 TEST_F(Override, refuses_what_it_cannot_follow) {
   for (const char* wrong : {"contact[2].gap=1", "contact[x].gap=1", "contact[0.gap=1", "contact[0]gap=1", "title.x=1",
                             "title[0]=1", "no_equals", "=1", ".a=1", "a..b=1"})

@@ -36,6 +36,7 @@ std::vector<Parameter> study_parameters() {
       config::texts("set", "overrides for every scene: KEY=VALUE").optional(),
       config::texts("quantity", "the columns of history.csv that are compared; a run counts with its worst").optional(),
       config::number("end_time", "s", "the end of every run").above(0).optional(),
+      config::numbers("end_times", "s", "the end of the runs of each scene, instead").above(0).optional(),
       config::numbers("targets", "1", "relative rms errors to name the fastest method for").above(0).optional(),
       config::number("time_limit", "s", "the longest single run").above(0).or_else(2.0),
       config::text("reference", "a CSV file with columns t and the quantities").or_else(std::string()),
@@ -82,6 +83,13 @@ Study read_study_file(const config::Document& document, const ModelArguments& ar
   if (p->has("set")) study.overrides = p->texts("set");
   if (p->has("quantity")) study.quantities = p->texts("quantity");
   if (p->has("end_time")) study.end_time = p->number("end_time");
+  if (p->has("end_times")) {
+    study.end_times = p->numbers("end_times");
+    if (study.end_times.size() != study.scenes.size() || study.end_time)
+      p->complain(diagnostics, "end_times",
+                  "must hold one value for each of the " + std::to_string(study.scenes.size()) +
+                      " scenes, and stand instead of end_time");
+  }
   if (p->has("targets")) study.targets = p->numbers("targets");
   study.time_limit = p->number("time_limit");
   if (!p->text("reference").empty()) study.reference_file = beside(arguments.model, p->text("reference"));

@@ -24,6 +24,7 @@ struct Study {
   std::vector<std::string> overrides;
   std::vector<std::string> quantities;                     ///< columns of history.csv; the first one where empty
   std::optional<double> end_time;                          ///< s
+  std::vector<double> end_times;                           ///< s, one for each scene, instead
   std::vector<double> targets = {1e-2, 1e-3, 1e-4, 1e-5};  ///< relative rms errors
   double time_limit = 2.0;                                 ///< s, of a single run
   std::string reference_file;                              ///< CSV with columns t and the quantities; empty: computed
