@@ -79,7 +79,7 @@ StepStatus Exact::follow(const State& from, const time::Step& step) {
     if (!change && is_last) break;
     done += piece.end * piece.length;
     t = from.t + done;
-    if (step.single && t < step.t_end) {
+    if (step.single && t > from.t && t < step.t_end) {
       end_t_ = t;
       break;
     }
