@@ -79,6 +79,20 @@ TEST(Compare, MeasuresTheErrorsThatTheMethodsHave) {
     EXPECT_NE(report.find(part), std::string::npos) << part;
 }
 
+TEST(Compare, LeavesTheScenesOwnToleranceToItsOwnMethod) {
+  const TemporaryFolder folder;
+  std::string scene = kSwing;
+  const std::string method = "type = \"rk4\"\ntime_step = 1e-3\n";
+  scene.replace(scene.find(method), method.size(), "tolerance = 0.1\n");
+  folder.write("swing.toml", scene);
+  folder.write("study.toml", kStudy);
+  const Outcome outcome = run_program({"compare", "study.toml", "-o", "out"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  // A reference that took the scene's tolerance for its own would be off by some percent.
+  const auto rows = rows_of(read_file(folder.file("out/runs.csv")));
+  EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.0625")), runge_kutta_error(0.0625, 2), 1e-12);
+}
+
 TEST(Compare, KeepsWhatAnEarlierCallHasDone) {
   const TemporaryFolder folder;
   folder.write("swing.toml", kSwing);

@@ -168,11 +168,16 @@ config::Document with_method(const config::Document& scene, const time::Integrat
   config::Document document = scene;
   Table& root = *document.root.table();
   const Table before = *root["integrator"].table();
+  // A key directly in [integrator] is the scene's own method's: another's `tolerance` means something else.
+  const Value* own_type = before.find("type");
+  const std::string chosen = own_type != nullptr && own_type->text() != nullptr ? *own_type->text() : "auto";
+  const bool is_own =
+      chosen == type.name || std::find(type.aliases.begin(), type.aliases.end(), chosen) != type.aliases.end();
   const auto of_scene = [&](const std::string& key) -> const Value* {
     for (const std::string* name : {&type.name, type.aliases.empty() ? &type.name : &type.aliases.front()})
       if (const Value* own = before.find(*name); own != nullptr && own->table() != nullptr)
         if (const Value* found = own->table()->find(key)) return found;
-    return before.find(key);
+    return is_own || key == "time_step" || key == "end_time" ? before.find(key) : nullptr;
   };
   Table integrator;
   integrator["type"] = Value(type.name);
