@@ -166,8 +166,6 @@ void warn_of_pull(const model::System& system) {
                  "only so far. law = \"linear\" has no jump");
 }
 
-}  // namespace
-
 int check_command(const ModelArguments& arguments) {
   Session session = open_session(arguments);
   const model::System system = assemble(session.model);
@@ -193,6 +191,16 @@ int check_command(const ModelArguments& arguments) {
   warn_of_pull(system);
   for (const std::string& warning : session.warnings) log::warning(warning);
   return kDone;
+}
+
+}  // namespace
+
+Command add_check_command(CLI::App& program) {
+  const auto arguments = std::make_shared<ModelArguments>();
+  CLI::App* app =
+      program.add_subcommand("check", "what a model holds, what it skips, its frequencies and critical steps");
+  add_model_arguments(*app, *arguments);
+  return {app, [arguments] { return check_command(*arguments); }};
 }
 
 }  // namespace butee::app

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "session.hpp"
 
@@ -9,32 +13,24 @@ namespace butee::app {
 /// Exit statuses of the program.
 enum Exit : int { kDone = 0, kFailed = 1, kBadInput = 2 };
 
-struct RunArguments {
-  ModelArguments model;
-  std::string folder;  ///< empty: "<model stem>-results"
-  int repeat = 1;
-  bool trust = false;  ///< as [output] trust
-  std::string progress = "auto";
+/// A command of the program, and what it does once its options are read.
+struct Command {
+  CLI::App* app;
+  std::function<int()> perform;
 };
 
-int run_command(const RunArguments& arguments);
+/// Adds the options that every command with a model file has: MODEL.toml, --set and --plugin.
+void add_model_arguments(CLI::App& command, ModelArguments& arguments);
 
-int check_command(const ModelArguments& arguments);
+/// Adds --plugin.
+void add_plugin_option(CLI::App& command, std::vector<std::string>& plugins);
 
-struct PluginsArguments {
-  std::string name;
-  std::string write_manifest;  ///< a module whose manifest is wanted beside it
-  std::vector<std::string> plugins;
-};
+/// Adds -q, and -v where `with_verbose`; they set the level of the log as soon as they are read.
+void add_log_options(CLI::App& command, bool with_verbose);
 
-int plugins_command(const PluginsArguments& arguments);
-
-struct CompareArguments {
-  ModelArguments model;  ///< a model or a study
-  std::string folder;    ///< empty: "<stem>-compare"
-  bool fresh = false;    ///< runs everything anew
-};
-
-int compare_command(const CompareArguments& arguments);
+Command add_run_command(CLI::App& program);
+Command add_check_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
+Command add_plugins_command(CLI::App& program);
 
 }  // namespace butee::app

@@ -40,6 +40,12 @@ std::string fingerprint_of(const std::string& text) {
   return hex.data();
 }
 
+struct CompareArguments {
+  ModelArguments model;  ///< a model or a study
+  std::string folder;    ///< empty: "<stem>-compare"
+  bool fresh = false;    ///< runs everything anew
+};
+
 class Comparison {
  public:
   Comparison(const CompareArguments& arguments, Study study)
@@ -187,8 +193,15 @@ class Comparison {
 
 }  // namespace
 
-int compare_command(const CompareArguments& arguments) {
-  return Comparison(arguments, read_study(arguments.model)).perform();
+Command add_compare_command(CLI::App& program) {
+  const auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* app = program.add_subcommand("compare", "run time against error of several integrators");
+  add_model_arguments(*app, arguments->model);
+  app->add_option("-o,--output", arguments->folder, "the folder for the results; <stem>-compare where not given")
+      ->type_name("DIR");
+  app->add_flag("--fresh", arguments->fresh, "run again what an earlier call left in the folder");
+  add_log_options(*app, false);
+  return {app, [arguments] { return Comparison(*arguments, read_study(arguments->model)).perform(); }};
 }
 
 }  // namespace butee::app

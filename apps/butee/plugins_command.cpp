@@ -86,7 +86,11 @@ void write_manifest(const std::string& module) {
   if (!file) throw RunError(path + ": cannot be written");
 }
 
-}  // namespace
+struct PluginsArguments {
+  std::string name;
+  std::string write_manifest;  ///< a module whose manifest is wanted beside it
+  std::vector<std::string> plugins;
+};
 
 int plugins_command(const PluginsArguments& arguments) {
   if (!arguments.write_manifest.empty()) {
@@ -112,6 +116,18 @@ int plugins_command(const PluginsArguments& arguments) {
     throw InputError("there is no \"" + arguments.name + "\"" + suggestion(arguments.name, known) +
                      "; `butee plugins` lists all");
   return kDone;
+}
+
+}  // namespace
+
+Command add_plugins_command(CLI::App& program) {
+  const auto arguments = std::make_shared<PluginsArguments>();
+  CLI::App* app = program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, loads");
+  app->add_option("name", arguments->name, "show the parameters of this one")->type_name("NAME");
+  add_plugin_option(*app, arguments->plugins);
+  app->add_option("--write-manifest", arguments->write_manifest, "write the manifest of a module beside it")
+      ->type_name("FILE");
+  return {app, [arguments] { return plugins_command(*arguments); }};
 }
 
 }  // namespace butee::app

@@ -96,6 +96,14 @@ class Run {
   std::optional<record::ProgressBar> progress_;
 };
 
+struct RunArguments {
+  ModelArguments model;
+  std::string folder;  ///< empty: "<model stem>-results"
+  int repeat = 1;
+  bool trust = false;  ///< as [output] trust
+  std::string progress = "auto";
+};
+
 void print(const record::Summary& summary, const Session& session, const std::string& folder) {
   const auto& report = summary.report;
   if (!session.model.title.empty()) std::printf("%s\n", session.model.title.c_str());
@@ -114,8 +122,6 @@ void print(const record::Summary& summary, const Session& session, const std::st
   if (summary.trust) std::fputs(record::describe(*summary.trust).c_str(), stdout);
   std::printf("  results in %s\n", folder.c_str());
 }
-
-}  // namespace
 
 int run_command(const RunArguments& arguments) {
   Session session = open_session(arguments.model);
@@ -143,6 +149,25 @@ int run_command(const RunArguments& arguments) {
   if (best.report.completed) return kDone;
   log::error("the run failed: " + best.report.message + ". What was computed is in " + folder.path());
   return kFailed;
+}
+
+}  // namespace
+
+Command add_run_command(CLI::App& program) {
+  const auto arguments = std::make_shared<RunArguments>();
+  CLI::App* app = program.add_subcommand("run", "integrate a model and write its results");
+  add_model_arguments(*app, arguments->model);
+  app->add_option("-o,--output", arguments->folder, "the folder for the results; <model>-results where not given")
+      ->type_name("DIR");
+  app->add_option("--repeat", arguments->repeat, "integrate N times and report the fastest")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
+  app->add_flag("--trust", arguments->trust,
+                "find out how far the answer can be trusted: runs the scene four more times");
+  app->add_option("--progress", arguments->progress, "a progress bar")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
+  add_log_options(*app, true);
+  return {app, [arguments] { return run_command(*arguments); }};
 }
 
 }  // namespace butee::app
