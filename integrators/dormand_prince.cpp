@@ -71,17 +71,16 @@ void DormandPrince::do_interpolate(const time::State& from, const time::State& t
 }
 
 time::IntegratorType dopri5_type() {
-  return {"dopri5",
-          {"DOPRI5"},
-          "explicit Runge-Kutta of order 5(4), steps by the local error",
-          {LocalErrorControl::parameter(1e-4)},
-          kLimit,
-          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "dopri5",
+          .aliases = {"DOPRI5"},
+          .summary = "explicit Runge-Kutta of order 5(4), steps by the local error",
+          .parameters = {LocalErrorControl::parameter(1e-4)},
+          .order = 5.0,
+          .stability_limit = kLimit,
+          .finds_first_step = true,
+          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<DormandPrince>(dynamics, p.number("tolerance"));
-          },
-          {},
-          false,
-          true};
+          }};
 }
 
 }  // namespace butee::integrators

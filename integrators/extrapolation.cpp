@@ -79,17 +79,16 @@ void Extrapolation::do_interpolate(const time::State& from, const time::State& t
 }
 
 time::IntegratorType extrapolation8_type() {
-  return {"extrapolation8",
-          {"GBS8"},
-          "extrapolated midpoint rule of order 8, explicit, steps by the local error",
-          {LocalErrorControl::parameter(1e-6)},
-          kLimit,
-          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "extrapolation8",
+          .aliases = {"GBS8"},
+          .summary = "extrapolated midpoint rule of order 8, explicit, steps by the local error",
+          .parameters = {LocalErrorControl::parameter(1e-6)},
+          .order = 8.0,
+          .stability_limit = kLimit,
+          .finds_first_step = true,
+          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Extrapolation>(dynamics, p.number("tolerance"));
-          },
-          {},
-          false,
-          true};
+          }};
 }
 
 }  // namespace butee::integrators

@@ -34,6 +34,7 @@ std::string differences(const butee_abi_tag& theirs) {
   compare("interface version", ours.interface_version, theirs.interface_version);
   compare("Eigen version", ours.eigen_version, theirs.eigen_version);
   compare("Eigen alignment (EIGEN_MAX_ALIGN_BYTES)", ours.eigen_alignment, theirs.eigen_alignment);
+  compare("Eigen layout (index size, storage order)", ours.eigen_layout, theirs.eigen_layout);
   compare("C++11 ABI (_GLIBCXX_USE_CXX11_ABI)", ours.cxx11_abi, theirs.cxx11_abi);
   compare("checked standard library (_GLIBCXX_DEBUG)", ours.checked_library, theirs.checked_library);
   compare("AddressSanitizer", ours.sanitizers, theirs.sanitizers);

@@ -79,20 +79,24 @@ class BUTEE_EXPORT Integrator {
 };
 
 /// A registered method: its names, parameters and maker. `time_step` and `end_time` are read for it.
+///
+///     {.name = "my_method", .summary = "...", .parameters = {...}, .order = 2.0, .fixed_step = true, .make = ...}
 struct IntegratorType {
-  std::string name;
-  std::vector<std::string> aliases;
-  std::string summary;
-  std::vector<config::Parameter> parameters;
+  std::string name{};
+  std::vector<std::string> aliases{};
+  std::string summary{};
+  std::vector<config::Parameter> parameters{};
+  /// The order of convergence of x and v with equal steps of smooth motion; 0: not stated, or no such order.
+  double order = 0.0;
   /// The largest h omega at which undamped oscillation stays bounded; infinite for unconditionally stable methods.
   double stability_limit = std::numeric_limits<double>::infinity();
-  std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make;
-  /// Reports values that are each allowed but do not go together. May be empty.
-  std::function<void(const config::Parameters&, config::Diagnostics&)> check;
   /// True where time_step alone sets the accuracy, so that comparisons sweep it.
   bool fixed_step = false;
   /// True where the method finds its first step itself, so that time_step may be absent.
   bool finds_first_step = false;
+  std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make{};
+  /// Reports values that are each allowed but do not go together. May be empty.
+  std::function<void(const config::Parameters&, config::Diagnostics&)> check{};
 };
 
 }  // namespace butee::time
