@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -37,11 +40,21 @@ int parse_and_run(int argc, char** argv) {
   return kBadInput;
 }
 
+/// What could not be printed is a failure, unless nobody wanted to read it.
+int flushed(int status) {
+  errno = 0;
+  if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EPIPE) return status;
+  butee::log::error(std::string("standard output: cannot be written: ") + std::strerror(errno));
+  return status == kDone ? kFailed : status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A reader of our output that closes early, such as head, ends the output and not the run.
+  std::signal(SIGPIPE, SIG_IGN);
   try {
-    return parse_and_run(argc, argv);
+    return flushed(parse_and_run(argc, argv));
   } catch (const butee::InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return kBadInput;
@@ -49,6 +62,8 @@ int main(int argc, char** argv) {
     butee::log::error("out of memory");
   } catch (const std::exception& error) {
     butee::log::error(error.what());
+  } catch (...) {
+    butee::log::error("a module threw something that is no exception of the standard library");
   }
   return kFailed;
 }

@@ -94,6 +94,9 @@ struct IntegratorType {
   bool fixed_step = false;
   /// True where the method finds its first step itself, so that time_step may be absent.
   bool finds_first_step = false;
+  /// False where a method remembers more than the State holds, so that a run taken up again from a checkpoint would not
+  /// be the unbroken one to the last bit; checkpoints are then refused.
+  bool restarts_exactly = true;
   std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make{};
   /// Reports values that are each allowed but do not go together. May be empty.
   std::function<void(const config::Parameters&, config::Diagnostics&)> check{};

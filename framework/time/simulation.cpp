@@ -148,6 +148,10 @@ std::string Simulation::diagnosis(const StepReport& report) const {
 }
 
 const RunReport& Simulation::run() {
+  return run({});
+}
+
+const RunReport& Simulation::run(const std::function<bool()>& goes_on) {
   const auto file_seconds = [this] {
     double sum = 0.0;
     for (const Observer* observer : observers_) sum += observer->file_seconds();
@@ -156,7 +160,7 @@ const RunReport& Simulation::run() {
   start();
   const double files_before = file_seconds();
   const auto begin = Clock::now();
-  while (advance()) {
+  while (advance() && (!goes_on || goes_on())) {
   }
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
   report_.wall_seconds += std::max(0.0, elapsed - (file_seconds() - files_before));

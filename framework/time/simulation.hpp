@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "butee/core/bytes.hpp"
 #include "butee/time/integrator.hpp"
 
 namespace butee::time {
@@ -34,6 +37,10 @@ class BUTEE_EXPORT Observer {
   virtual bool watches_every_step() const { return false; }
   /// Seconds spent on files so far, which do not count as integration.
   virtual double file_seconds() const { return 0.0; }
+  /// Writes what it remembers of the steps so far; restore() takes it up again, in another process too, instead of
+  /// start(). One that remembers something and does not write it makes Simulation::restore() incomplete.
+  virtual void save(ByteWriter& to) const { (void)to; }
+  virtual void restore(ByteReader& from) { (void)from; }
 };
 
 struct SimulationOptions {
@@ -48,6 +55,17 @@ struct RunReport {
   double t_end = 0.0;   ///< s, where it stopped
   std::int64_t steps = 0, rejected = 0, newton_iterations = 0, newton_failures = 0;
   double wall_seconds = 0.0;  ///< the steps alone, without files
+};
+
+/// A run between two steps: everything that the rest of it depends on, to go back to or to go on from elsewhere.
+/// A value: it refers to nothing and may outlive the simulation. As bytes: snapshot.hpp.
+struct Snapshot {
+  State state;
+  double next_h = 0.0;        ///< s
+  std::int64_t accepted = 0;  ///< steps of a fixed length
+  RunReport report;
+  bool over = false;
+  std::vector<std::byte> observers;  ///< what they remember, in the order of add()
 };
 
 /// Takes a system from its initial state to end_time, with fixed steps or as the method's controller decides.
@@ -69,9 +87,21 @@ class BUTEE_EXPORT Simulation {
 
   /// Takes steps until end_time or a failure.
   const RunReport& run();
+  /// The same, asking after every accepted step but the last whether to go on. A run that was stopped is neither
+  /// completed nor failed, and another run() goes on with it.
+  const RunReport& run(const std::function<bool()>& goes_on);
 
   /// Takes one accepted step; false where the run is over, completed or failed (see report()).
   bool advance();
+
+  /// The run as it stands. Taking one changes nothing; what follows restore() is bit for bit what followed the
+  /// snapshot, of methods that allow it (IntegratorType::restarts_exactly). take_snapshot() uses the memory of an
+  /// earlier one.
+  Snapshot snapshot();
+  void take_snapshot(Snapshot& into);
+  /// Goes to a snapshot of this simulation, or of another one of an equal system and method with the same options and
+  /// observers; then it stands for start(). Counters of the Dynamics go on, since they count what was done.
+  void restore(const Snapshot& snapshot);
 
   const State& state() const { return state_; }
   const RunReport& report() const { return report_; }
