@@ -32,7 +32,7 @@ void print_contents(const model::Model& model, const model::System& system) {
   std::size_t loads = model.loads.size();
   Index stops = 0;
   for (const auto& group : system.stops) stops += static_cast<Index>(group.size());
-  std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : model.title.c_str());
+  std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : printable(model.title).c_str());
   std::printf("elements   %zu on %d nodes\n", model.elements.size(), model.nodes.size());
   std::printf("DOFs       %td free, %td fixed\n", system.size(), system.dofs.fixed_count());
   std::printf("stops      %td on free DOFs\n", stops);

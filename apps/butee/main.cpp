@@ -53,10 +53,12 @@ int flushed(int status) {
 int main(int argc, char** argv) {
   // A reader of our output that closes early, such as head, ends the output and not the run.
   std::signal(SIGPIPE, SIG_IGN);
+  // A file that grows beyond its limit is a file that cannot be written, with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return flushed(parse_and_run(argc, argv));
   } catch (const butee::InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", butee::printable(error.what(), true).c_str());
     return kBadInput;
   } catch (const std::bad_alloc&) {
     butee::log::error("out of memory");

@@ -35,6 +35,8 @@ record::Summary Run::perform(const record::ResultFolder* folder, const record::C
     fail("out of memory");
   } catch (const std::exception& error) {
     fail(error.what());
+  } catch (...) {
+    fail("something was thrown that is no exception of the standard library");
   }
   summarize();
   return std::move(summary_);

@@ -26,7 +26,7 @@ struct RunArguments {
 
 void print(const record::Summary& summary, const Session& session, const std::string& folder) {
   const auto& report = summary.report;
-  if (!session.model.title.empty()) std::printf("%s\n", session.model.title.c_str());
+  if (!session.model.title.empty()) std::printf("%s\n", printable(session.model.title).c_str());
   if (!summary.choice.empty()) std::printf("  chosen: %s\n", summary.choice.c_str());
   std::printf("  %s, %td free DOFs, %td stops\n", summary.integrator.c_str(), summary.dofs, summary.contacts);
   std::printf("  %s at t = %s s: %lld steps, %lld rejected, %lld Newton iterations\n",

@@ -51,7 +51,7 @@ class DepthScanner {
     ++at_;
   }
 
-  bool three(char quote) const { return text_.compare(at_, 3, 3, quote) == 0; }
+  bool three(char quote) const { return text_.compare(at_, 3, std::string(3, quote)) == 0; }
 
   void skip_string(char quote) {
     const bool is_long = three(quote);

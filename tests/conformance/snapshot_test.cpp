@@ -1,3 +1,4 @@
+#include <butee/core/error.hpp>
 #include <butee/record/history.hpp>
 #include <butee/time/snapshot.hpp>
 #include <gtest/gtest.h>

@@ -80,8 +80,7 @@ TEST_P(Resume, AKilledRunEndsLikeTheUnbrokenOne) {
   folder.write("scene.toml", scene_of(GetParam(), 2e-2, 7));
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "whole", "-q"}, folder.path()).status, 0);
-  const auto whole =
-      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
   std::mt19937 random(static_cast<std::mt19937::result_type>(std::hash<std::string>()(GetParam().name)));
   int kills = 0;
   while (kills < wanted) {
