@@ -115,7 +115,7 @@ TEST(Snapshots, OfAnotherSystemOrOtherObserversAreRefused) {
   ByteWriter writer(bytes);
   write_snapshot(snapshot, writer);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    ByteReader reader(std::span(bytes).first(size));
+    ByteReader reader(std::span<const std::byte>(bytes).first(size));
     EXPECT_THROW(time::read_snapshot(reader), RunError);
   }
 }

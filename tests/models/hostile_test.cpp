@@ -61,7 +61,7 @@ TEST(HostileScenes, cannot_make_butee_load_a_file) {
 
 TEST(HostileScenes, cannot_write_outside_their_folder) {
   int tried = 0;
-  for (const std::string& name : {"../../escaped", "/tmp/butee-escaped", "..", "a/b", "nul\\u0000", "new\\nline"}) {
+  for (const std::string name : {"../../escaped", "/tmp/butee-escaped", "..", "a/b", "nul\\u0000", "new\\nline"}) {
     const std::string quoted = "\"" + name + "\"";
     for (const std::string& scene :
          {scene_with("rk4", "[[output.probe]]\nlabel = " + quoted + "\nnode = \"a\"\nquantities = [\"u\"]\n"),
