@@ -25,12 +25,20 @@ Run::Run(Session& session, bool with_progress, Clock::time_point begin)
 }
 
 record::Summary Run::perform(const record::ResultFolder* folder, const record::Checkpoint* from) {
-  try {
+  guarded([&] {
     attach_observers(folder, from);
     integrate();
-    if (folder != nullptr) write_files(*folder);
-  } catch (const InputError&) {
-    throw;
+  });
+  // Of a run that broke off too: what was computed is kept.
+  if (folder != nullptr) guarded([&] { write_files(*folder); });
+  summarize();
+  return std::move(summary_);
+}
+
+template <class Work>
+void Run::guarded(Work work) {
+  try {
+    work();
   } catch (const std::bad_alloc&) {
     fail("out of memory");
   } catch (const std::exception& error) {
@@ -38,8 +46,6 @@ record::Summary Run::perform(const record::ResultFolder* folder, const record::C
   } catch (...) {
     fail("something was thrown that is no exception of the standard library");
   }
-  summarize();
-  return std::move(summary_);
 }
 
 void Run::attach_observers(const record::ResultFolder* folder, const record::Checkpoint* from) {
@@ -81,6 +87,7 @@ void Run::integrate() {
 }
 
 void Run::fail(const std::string& reason) {
+  if (!summary_.report.completed && !summary_.report.message.empty()) return;  // The first reason is the reason.
   summary_.report = assembly_.simulation.report();
   summary_.report.completed = false;
   summary_.report.message = reason;
@@ -98,7 +105,7 @@ void Run::summarize() {
 }
 
 void Run::write_files(const record::ResultFolder& folder) {
-  writer_->close();
+  if (writer_) writer_->close();
   if (!impacts_) return;
   record::CsvWriter writer(folder.file("impacts.csv"), record::ImpactRecorder::columns());
   for (const record::Impact& impact : impacts_->impacts()) writer.line(record::ImpactRecorder::csv_line(impact));

@@ -32,6 +32,9 @@ class Run {
   void summarize();
   void write_files(const record::ResultFolder& folder);
   void fail(const std::string& reason);
+  /// Does the work; what it throws becomes the report of a failed run.
+  template <class Work>
+  void guarded(Work work);
 
   Session& session_;
   bool with_progress_;
