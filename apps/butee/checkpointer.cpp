@@ -45,13 +45,14 @@ solve::Counters Checkpointer::counters() const {
 }
 
 void Checkpointer::write() {
-  const double history_seconds = history_.seconds();
   const auto begin = Clock::now();
+  const double history_seconds = history_.seconds();
   since_ = 0;
   history_.sync();
   next_.history = history_.position();
   next_.counters = counters();
   assembly_.simulation.take_snapshot(next_.snapshot);
+  next_.snapshot.report.wall_seconds += seconds_since(begin_) - seconds_ - history_.seconds();
   try {
     folder_.write(next_);
   } catch (const RunError& error) {

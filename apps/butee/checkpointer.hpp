@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+
 #include <butee/record/checkpoint.hpp>
 #include <butee/record/csv_writer.hpp>
 
@@ -38,7 +40,8 @@ class Checkpointer final : public time::Observer {
   std::int64_t every_, since_ = 0;
   record::Checkpoint next_;
   solve::Counters before_;
-  double seconds_ = 0.0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double seconds_ = 0.0;  ///< spent here
 };
 
 }  // namespace butee::app
