@@ -8,7 +8,7 @@
 
 #include <toml.hpp>
 
-#include "butee/config/toml_depth.hpp"
+#include "butee/config/toml_limits.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 
@@ -129,7 +129,7 @@ std::string shorten(const std::string& what, const std::string& name) {
 }
 
 Parsed parse(const std::string& text, const std::string& name) {
-  check_depth(text);
+  check_limits(text);
   std::istringstream stream(text);
   return toml::parse<toml::discard_comments, std::map, std::vector>(stream, name);
 }

@@ -119,19 +119,39 @@ TEST(HostileScenes, of_great_depth_are_refused_before_they_are_parsed) {
     return all;
   };
   const std::vector<std::pair<std::string, std::string>> texts = {
-      {"a" + repeated(".a", 200000) + " = 1\n", "parts make one dotted key"},
-      {"[a" + repeated(" . a", 200000) + "]\n", "parts make one dotted key"},
-      {"x = {a" + repeated(".\"b\"", 200000) + " = 1}\n", "parts make one dotted key"},
-      {"x = " + repeated("[", 200000) + "\n", "brackets stand in one another"},
-      {"x = " + repeated("{a=", 200000) + "\n", "brackets stand in one another"},
+      {"a" + repeated(".a", 20000) + " = 1\n", "parts make one dotted key"},
+      {"[a" + repeated(" . a", 10000) + "]\n", "parts make one dotted key"},
+      {"x = {a" + repeated(".\"b\"", 10000) + " = 1}\n", "parts make one dotted key"},
+      {"x = " + repeated("[", 50000) + "\n", "brackets stand in one another"},
+      {"x = " + repeated("{a=", 20000) + "\n", "brackets stand in one another"},
+      {"x = [" + repeated("1,", 50000) + "]\n", "the line is longer than"},
+      {"x = {a = 1" + repeated(", a = 1", 20000) + "}\n", "the line is longer than"},
+      {repeated("# a comment\n", 6000000), "larger than 64 MB"},
       // Four quotes: a long string that begins with one, after which nothing is a string.
-      {"x = [\"\"\"\"a\"\"\", " + repeated("[", 200000) + "\n", "brackets stand in one another"}};
+      {"x = [\"\"\"\"a\"\"\", " + repeated("[", 50000) + "\n", "brackets stand in one another"}};
   for (const auto& [text, complaint] : texts) {
     const TemporaryFolder folder;
     const Outcome outcome = run_confined(folder, text);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.errors.find(complaint), std::string::npos) << outcome.errors.substr(0, 500);
   }
+}
+
+/// A table of twenty thousand instants is none of them, and what is written of it can be read again.
+TEST(HostileScenes, long_arrays_over_many_lines_are_not_refused) {
+  std::string times = "times = [\n", values = "values = [\n";
+  for (int i = 0; i < 20000; ++i) {
+    times += std::to_string(i) + (i % 10 == 9 ? ",\n" : ",");
+    values += std::to_string(i % 7) + ".123456789" + (i % 10 == 9 ? ",\n" : ",");
+  }
+  const TemporaryFolder folder;
+  const Outcome outcome = run_confined(
+      folder, scene_with("rk4", "[[load]]\ntype = \"table\"\nnode = \"a\"\n" + times + "]\n" + values + "]\n"));
+  EXPECT_EQ(outcome.status, 0) << outcome.errors.substr(0, 500);
+  const std::string history = read_file(folder.file("in/side/scene-results/history.csv"));
+  const Outcome again = run_program({"run", "in/side/scene-results/model.toml", "-o", "again"}, folder.path());
+  EXPECT_EQ(again.status, 0) << again.errors.substr(0, 500);
+  EXPECT_EQ(read_file(folder.file("again/history.csv")), history);
 }
 
 TEST(HostileScenes, a_hundred_levels_are_not_too_many) {

@@ -1,4 +1,4 @@
-#include "butee/config/toml_depth.hpp"
+#include "butee/config/toml_limits.hpp"
 
 #include <algorithm>
 
@@ -8,11 +8,24 @@ namespace butee::config {
 namespace {
 
 constexpr int kDeepest = 100;
+constexpr std::size_t kLongestLine = 65536;
+constexpr std::size_t kLargest = std::size_t{1} << 26;
+
+void check_lines(const std::string& text) {
+  std::size_t line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongestLine)
+      throw InputError(":" + std::to_string(line) + ": the line is longer than " + std::to_string(kLongestLine) +
+                       " characters; an array may go over many lines");
+    begin = end + 1;
+  }
+}
 
 /// Goes through a text from token to token, strings and comments as a whole.
-class DepthScanner {
+class LimitScanner {
  public:
-  explicit DepthScanner(const std::string& text) : text_(text) {}
+  explicit LimitScanner(const std::string& text) : text_(text) {}
 
   void scan() {
     while (at_ < text_.size()) step();
@@ -85,8 +98,11 @@ class DepthScanner {
 
 }  // namespace
 
-void check_depth(const std::string& text) {
-  DepthScanner(text).scan();
+void check_limits(const std::string& text) {
+  if (text.size() > kLargest)
+    throw InputError(":1: the file is larger than " + std::to_string(kLargest >> 20U) + " MB");
+  check_lines(text);
+  LimitScanner(text).scan();
 }
 
 }  // namespace butee::config
