@@ -1,4 +1,4 @@
-#include "conformance/allocation_count.hpp"
+#include "apps/conformance/allocation_count.hpp"
 
 #include <atomic>
 #include <cstddef>

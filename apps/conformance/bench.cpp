@@ -1,4 +1,4 @@
-#include "conformance/bench.hpp"
+#include "apps/conformance/bench.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 
 #include <butee/plugin/scene.hpp>
 
-#include "conformance/check.hpp"
+#include "apps/conformance/check.hpp"
 
 namespace butee::conformance {
 

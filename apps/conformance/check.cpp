@@ -1,4 +1,4 @@
-#include "conformance/check.hpp"
+#include "apps/conformance/check.hpp"
 
 #include <algorithm>
 

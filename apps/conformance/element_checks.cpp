@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <butee/core/text.hpp>
 
-#include "conformance/bench.hpp"
+#include "apps/conformance/bench.hpp"
 
 namespace butee::conformance {
 namespace {

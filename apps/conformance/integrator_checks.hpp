@@ -1,6 +1,6 @@
 #pragma once
 
-#include "conformance/check.hpp"
+#include "apps/conformance/check.hpp"
 
 namespace butee::conformance {
 

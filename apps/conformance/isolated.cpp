@@ -1,4 +1,4 @@
-#include "conformance/isolated.hpp"
+#include "apps/conformance/isolated.hpp"
 
 #include <cerrno>
 #include <chrono>

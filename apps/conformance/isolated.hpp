@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "conformance/check.hpp"
+#include "apps/conformance/check.hpp"
 
 namespace butee::conformance {
 

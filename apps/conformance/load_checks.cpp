@@ -6,7 +6,7 @@
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
 
-#include "conformance/bench.hpp"
+#include "apps/conformance/bench.hpp"
 
 namespace butee::conformance {
 namespace {

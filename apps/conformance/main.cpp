@@ -7,7 +7,7 @@
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 
-#include "conformance/report.hpp"
+#include "apps/conformance/report.hpp"
 
 /// butee-conformance, behind `butee test-plugin`.
 int main(int argc, char** argv) {

@@ -2,8 +2,8 @@
 
 #include <butee/core/text.hpp>
 
-#include "conformance/bench.hpp"
-#include "conformance/integrator_checks.hpp"
+#include "apps/conformance/bench.hpp"
+#include "apps/conformance/integrator_checks.hpp"
 
 namespace butee::conformance {
 namespace {

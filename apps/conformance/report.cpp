@@ -1,4 +1,4 @@
-#include "conformance/report.hpp"
+#include "apps/conformance/report.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <butee/plugin/module.hpp>
 #include <nlohmann/json.hpp>
 
-#include "conformance/isolated.hpp"
+#include "apps/conformance/isolated.hpp"
 
 namespace butee::conformance {
 namespace {

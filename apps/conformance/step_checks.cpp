@@ -2,9 +2,9 @@
 
 #include <butee/core/text.hpp>
 
-#include "conformance/allocation_count.hpp"
-#include "conformance/bench.hpp"
-#include "conformance/integrator_checks.hpp"
+#include "apps/conformance/allocation_count.hpp"
+#include "apps/conformance/bench.hpp"
+#include "apps/conformance/integrator_checks.hpp"
 
 namespace butee::conformance {
 namespace {
