@@ -36,6 +36,7 @@ time::IntegratorType type_of(bool is_adaptive) {
           .parameters = std::move(parameters),
           .order = 2.0,
           .stability_limit = 2.0,
+          .damping_limit = 1.0,
           .fixed_step = !is_adaptive,
           .finds_first_step = is_adaptive,
           .make = [is_adaptive](const config::Parameters& p,

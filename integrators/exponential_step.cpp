@@ -122,8 +122,11 @@ void ExponentialStep::find_stops() {
 
 void ExponentialStep::find_active(const StepFlow& flow, double t) {
   const double h = flow.h();
-  // How far modes too fast for a cubic can carry a stop away from it.
-  const double swing = (flow.swing_q * q_.abs()).sum() + (flow.swing_v * v_.abs()).sum();
+  // How far modes and loads too fast for a cubic can carry a stop away from it.
+  double swing = (flow.swing_q * q_.abs()).sum() + (flow.swing_v * v_.abs()).sum() + flow.swing_harmonics;
+  for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads())
+    swing += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + h))) *
+             (flow.swing_force * load.shape.abs()).sum();
   reach_ = w_.abs().max(w_new_.abs()) + kBump * h * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
   bool has_half = false;

@@ -1,5 +1,8 @@
 #include "integrators/newmark.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -19,6 +22,11 @@ std::vector<Parameter> NewmarkParameters::declare() {
 
 NewmarkParameters NewmarkParameters::read(const Parameters& p) {
   return {p.number("beta"), p.number("gamma")};
+}
+
+double NewmarkParameters::stability_limit() const {
+  const double excess = 0.5 * gamma - beta;
+  return excess > 0.0 ? 1.0 / std::sqrt(excess) : std::numeric_limits<double>::infinity();
 }
 
 Newmark::Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,

@@ -37,6 +37,7 @@ time::IntegratorType rk4_type() {
           .summary = "classical Runge-Kutta of order 4, fixed steps",
           .order = 4.0,
           .stability_limit = kRungeKutta4Limit,
+          .damping_limit = kRungeKutta4DampingLimit,
           .fixed_step = true,
           .make = [](const config::Parameters&, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<RungeKutta4>(dynamics);

@@ -46,6 +46,8 @@ time::StepReport StepDoublingRungeKutta4::do_step(const time::State& from, const
 
 namespace {
 
+// The limits are those of the two half steps, which are kept.
+
 config::Parameter tolerance() {
   return number("tolerance", "m, rad, m/s, rad/s", "eps0, the largest difference of a step against two halves, over 15")
       .above(0)
@@ -64,7 +66,8 @@ IntegratorType rk4_fixed_factors_type() {
                              .at_least(1)
                              .try_first(2.0)},
           .order = 4.0,
-          .stability_limit = kRungeKutta4Limit,
+          .stability_limit = 2.0 * kRungeKutta4Limit,
+          .damping_limit = 2.0 * kRungeKutta4DampingLimit,
           .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<StepDoublingRungeKutta4>(
                 dynamics, std::make_unique<FixedFactors>(p.number("tolerance"), p.number("shrink"), p.number("grow")));
@@ -79,7 +82,8 @@ IntegratorType rk4_error_scaled_type() {
       .parameters = {tolerance(),
                      number("safety", "1", "s, the safety factor on the new step").above(0).at_most(1).try_first(0.9)},
       .order = 4.0,
-      .stability_limit = kRungeKutta4Limit,
+      .stability_limit = 2.0 * kRungeKutta4Limit,
+      .damping_limit = 2.0 * kRungeKutta4DampingLimit,
       .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         return std::make_unique<StepDoublingRungeKutta4>(
             dynamics, std::make_unique<ErrorScaled>(p.number("tolerance"), p.number("safety")));

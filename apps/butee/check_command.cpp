@@ -7,6 +7,7 @@
 #include <Eigen/SparseCholesky>
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
+#include <butee/solve/free_motion.hpp>
 #include <butee/solve/frequencies.hpp>
 #include <butee/solve/modal_damping.hpp>
 
@@ -185,7 +186,8 @@ int check_command(const ModelArguments& arguments) {
     if (open->lowest < kZeroFrequency * open->highest)
       std::printf(
           "free       with all stops open the structure can move as a rigid body or a mechanism (lowest frequency ~ "
-          "0)\n");
+          "0): %s\n",
+          solve::describe_softest_motion(system.stiffness, system.dofs).c_str());
   }
   std::fflush(stdout);
   warn_of_pull(system);

@@ -34,5 +34,6 @@ Command add_compare_command(CLI::App& program);
 Command add_plugins_command(CLI::App& program);
 Command add_new_plugin_command(CLI::App& program);
 Command add_test_plugin_command(CLI::App& program);
+Command add_stability_command(CLI::App& program);
 
 }  // namespace butee::app

@@ -76,6 +76,7 @@ int run(Session& session, const RunArguments& arguments, const record::ResultFol
     folder.write("summary.json", record::to_json(best));
   }
   if (!log::is_quiet()) print(best, session, folder.path());
+  for (const std::string& warning : best.report.warnings) log::warning(warning);
   if (best.report.completed) return kDone;
   log::error("the run failed: " + best.report.message + ". What was computed is in " + folder.path() +
              (interruption() != nullptr && session.output.checkpoint > 0

@@ -158,7 +158,7 @@ StepFlow& ModalSystem::ladder(int level) {
   std::unique_ptr<StepFlow>& step = rungs_[level].step;
   if (!step) {
     ModalFlow half = refined_ladder(level - 2);
-    step = std::make_unique<StepFlow>(refined_ladder(level), std::move(half), stop_shapes_, frequencies_);
+    step = std::make_unique<StepFlow>(refined_ladder(level), std::move(half), stop_shapes_, frequencies_, harmonics_);
   }
   return *step;
 }
@@ -174,21 +174,31 @@ StepFlow& ModalSystem::odd(double h) {
   half.refine(frequencies_, decay_);
   whole.refine(frequencies_, decay_);
   std::unique_ptr<StepFlow>& slot = odd_[oldest_];
-  slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_, frequencies_);
+  slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_, frequencies_, harmonics_);
   oldest_ = (oldest_ + 1) % kOddFlows;
   return *slot;
 }
 
 StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const Eigen::MatrixXd& stop_shapes,
-                   const Eigen::ArrayXd& frequencies)
+                   const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics)
     : whole(std::move(whole_flow)),
       half(std::move(half_flow)),
       stop_shapes_(stop_shapes),
       places_(static_cast<std::size_t>(stop_shapes.cols() * (stop_shapes.cols() + 1) / 2), -1) {
   if (stop_shapes.cols() == 0) return;
-  const Eigen::ArrayXd angle = h() * frequencies;
-  swing_q = (kHermite * angle.square().square()).min(2.0) * stop_shapes.cwiseAbs().rowwise().maxCoeff().array();
+  const Eigen::ArrayXd angle = h() * frequencies, shape = stop_shapes.cwiseAbs().rowwise().maxCoeff().array();
+  swing_q = (kHermite * angle.square().square()).min(2.0) * shape;
   swing_v = (frequencies > 0.0).select(swing_q / frequencies, 0.0);
+  // Within a step a force moves a mode by no more than this (also in resonance), and away from the cubic by no more
+  // than h^4/384 times the fourth derivative, f'' - omega^2 f.
+  const Eigen::ArrayXd most = h() * h() * (angle > 2.0).select((angle + 2.0) / angle.square().max(1.0), 1.0) * shape;
+  swing_force = most * (kHermite * angle.square()).min(1.0);
+  for (const ModalHarmonic& harmonic : harmonics) {
+    const double turn = h() * harmonic.angular_frequency;
+    swing_harmonics += (most * (kHermite * (angle.square() + turn * turn)).min(1.0) *
+                        (harmonic.cosine.square() + harmonic.sine.square()).sqrt())
+                           .sum();
+  }
 }
 
 const StepFlow::Coupling& StepFlow::compute_coupling(Index i, Index j) {

@@ -20,7 +20,7 @@ class BUTEE_EXPORT StepFlow {
  public:
   /// `stop_shapes` (p x m) must outlive it.
   StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const Eigen::MatrixXd& stop_shapes,
-           const Eigen::ArrayXd& frequencies);
+           const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics);
 
   double h() const { return whole.h(); }
 
@@ -37,6 +37,9 @@ class BUTEE_EXPORT StepFlow {
   ModalFlow whole, half;
   /// How far a mode with q and v at the start can carry any stop away from the cubic through both ends of its path.
   Eigen::ArrayXd swing_q, swing_v;
+  /// The same of a modal force that does not change over the step, and of all harmonic loads together, m.
+  Eigen::ArrayXd swing_force;
+  double swing_harmonics = 0.0;
 
  private:
   const Coupling& compute_coupling(Index i, Index j);

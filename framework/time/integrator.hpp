@@ -55,6 +55,13 @@ class BUTEE_EXPORT Integrator {
     return 0.0;
   }
 
+  /// The largest stable h omega where its parameters narrow what its IntegratorType declares.
+  virtual double stability_limit() const { return std::numeric_limits<double>::infinity(); }
+
+  /// True where the method itself minds the instants at which a load or its derivative jumps. Steps of all other
+  /// adaptive methods end there: a load that lasts shorter than a step could pass unseen.
+  virtual bool minds_load_kinks() const { return false; }
+
   /// True where steps best end at the instants that observers ask for, since any length is as good.
   virtual bool lands_on_outputs() const { return false; }
 
@@ -90,6 +97,8 @@ struct IntegratorType {
   double order = 0.0;
   /// The largest h omega at which undamped oscillation stays bounded; infinite for unconditionally stable methods.
   double stability_limit = std::numeric_limits<double>::infinity();
+  /// The largest h c/m at which a mass with a dashpot c alone comes to rest; infinite for unconditionally stable ones.
+  double damping_limit = std::numeric_limits<double>::infinity();
   /// True where time_step alone sets the accuracy, so that comparisons sweep it.
   bool fixed_step = false;
   /// True where the method finds its first step itself, so that time_step may be absent.

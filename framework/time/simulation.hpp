@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "butee/core/bytes.hpp"
+#include "butee/time/diagnosis.hpp"
+#include "butee/time/growth_watch.hpp"
 #include "butee/time/integrator.hpp"
 
 namespace butee::time {
@@ -46,6 +48,7 @@ class BUTEE_EXPORT Observer {
 struct SimulationOptions {
   double time_step = 0.0;  ///< s; the first step of an adaptive method, 0 where it finds that itself
   double end_time = 0.0;   ///< s
+  MethodLimits limits;     ///< of the method, for what is said where a run goes wrong
 };
 
 /// What a run came to.
@@ -54,7 +57,8 @@ struct RunReport {
   std::string message;  ///< why it failed
   double t_end = 0.0;   ///< s, where it stopped
   std::int64_t steps = 0, rejected = 0, newton_iterations = 0, newton_failures = 0;
-  double wall_seconds = 0.0;  ///< the steps alone, without files
+  double wall_seconds = 0.0;          ///< the steps alone, without files
+  std::vector<std::string> warnings;  ///< of a run that was completed all the same
 };
 
 /// A run between two steps: everything that the rest of it depends on, to go back to or to go on from elsewhere.
@@ -72,7 +76,7 @@ struct Snapshot {
 ///
 /// A step that is not finite, or in which Newton failed, is never accepted: an adaptive method tries half of it, a
 /// fixed one fails with a diagnosis. Both rejections in a row and the smallest step are bounded, so that a run always
-/// ends.
+/// ends. Motion that grows beyond what the loads can have put into it ends a run as well (GrowthWatch).
 class BUTEE_EXPORT Simulation {
  public:
   /// `dynamics` and `integrator` must outlive it; the integrator is one of this dynamics.
@@ -109,18 +113,23 @@ class BUTEE_EXPORT Simulation {
  private:
   Step propose() const;
   double next_landing() const;
+  double next_kink() const;
   void accept(const Step& step, const StepReport& result);
+  /// True where the steps of an adaptive method have become so short that it would never end.
+  bool has_stalled();
   void fail(const Step& step, const std::string& reason);
-  std::string diagnosis(const StepReport& report) const;
 
   solve::Dynamics& dynamics_;
   Integrator& integrator_;
   SimulationOptions options_;
   std::vector<Observer*> observers_;
   State state_, next_;
+  GrowthWatch growth_;
   RunReport report_;
+  std::vector<double> kinks_;  ///< of the loads, at which steps end
   double next_h_;
   std::int64_t accepted_ = 0;  ///< steps of a fixed length
+  double stall_t_ = 0.0;       ///< s, at the last look at its progress
   bool watched_ = false;       ///< an observer watches every step
   bool started_ = false, over_ = false;
 };

@@ -40,7 +40,7 @@ const std::map<std::string, Names> kDoors = {
     {"toml.hpp", {"framework/config/toml.cpp"}},
     {"dlfcn.h", {"framework/plugin/module.cpp"}},
     {"spdlog/", {"framework/core/log.cpp"}},
-    {"nlohmann/", {"framework/record/summary.cpp"}},
+    {"nlohmann/", {"framework/record/summary.cpp", "apps/butee/stability/report.cpp"}},
     {"Spectra/", {"framework/solve/frequencies.cpp"}},
     {"CLI/", {"apps/butee/main.cpp"}},
 };

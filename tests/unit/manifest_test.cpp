@@ -36,6 +36,7 @@ void expect_same(const time::IntegratorType& got, const time::IntegratorType& wa
   EXPECT_EQ(got.summary, wanted.summary);
   EXPECT_EQ(got.order, wanted.order);
   EXPECT_EQ(got.stability_limit, wanted.stability_limit);
+  EXPECT_EQ(got.damping_limit, wanted.damping_limit);
   EXPECT_EQ(got.fixed_step, wanted.fixed_step);
   EXPECT_EQ(got.finds_first_step, wanted.finds_first_step);
   ASSERT_EQ(got.parameters.size(), wanted.parameters.size());
