@@ -36,11 +36,10 @@ GrowthWatch::GrowthWatch(solve::Dynamics& dynamics, const MethodLimits& limits, 
       is_watching_(limits.is_bounded() || dynamics.stop_count() > 0) {}
 
 void GrowthWatch::start(const State& state) {
+  prepare();
+  count_ = 0;
+  excess_ = 0.0;
   next_look_ = is_watching_ || may_be_coarse_ ? kFirstLook : std::numeric_limits<std::int64_t>::max();
-  work_ = zero_ = stored_ = Vector::Zero(dynamics_.size());
-  stops_ = Vector::Zero(dynamics_.stop_count());
-  load_norms_.reserve(dynamics_.system().loads.size());
-  kinks_ = dynamics_.load_kinks();
   last_time_ = begin_time_ = state.t;
   last_energy_ = begin_energy_ = energy(state);
   if (!may_be_coarse_ || dynamics_.stop_count() == 0) return;
@@ -50,6 +49,30 @@ void GrowthWatch::start(const State& state) {
       if (dof >= 0)
         contact_frequency_ =
             std::max(contact_frequency_, std::sqrt(stiffness[i] / dynamics_.system().mass.coeff(dof, dof)));
+}
+
+void GrowthWatch::prepare() {
+  work_ = zero_ = stored_ = Vector::Zero(dynamics_.size());
+  stops_ = Vector::Zero(dynamics_.stop_count());
+  load_norms_.reserve(dynamics_.system().loads.size());
+  kinks_ = dynamics_.load_kinks();
+}
+
+void GrowthWatch::save(ByteWriter& to) const {
+  for (const std::int64_t count : {count_, next_look_}) to.put(count);
+  for (const double number : {last_time_, last_energy_, excess_, begin_time_, begin_energy_, largest_x_, coarseness_,
+                              coarse_step_, longest_step_, contact_frequency_})
+    to.put(number);
+  to.put(is_met_);
+}
+
+void GrowthWatch::restore(ByteReader& from) {
+  prepare();
+  for (std::int64_t* count : {&count_, &next_look_}) from.take(*count);
+  for (double* number : {&last_time_, &last_energy_, &excess_, &begin_time_, &begin_energy_, &largest_x_, &coarseness_,
+                         &coarse_step_, &longest_step_, &contact_frequency_})
+    from.take(*number);
+  from.take(is_met_);
 }
 
 double GrowthWatch::energy(const State& state) {

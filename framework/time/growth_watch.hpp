@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "butee/core/bytes.hpp"
 #include "butee/time/diagnosis.hpp"
 #include "butee/time/integrator.hpp"
 
@@ -34,10 +35,15 @@ class BUTEE_EXPORT GrowthWatch {
   /// How much it grew, where, and what to do: after step() said so.
   std::string describe(const State& state, double h) const;
 
+  /// What it remembers, for a snapshot of the run.
+  void save(ByteWriter& to) const;
+  void restore(ByteReader& from);
+
   /// Of a run that ended well: steps that were stable but too long to be accurate.
   std::vector<std::string> warnings() const;
 
  private:
+  void prepare();
   bool look(const State& from, const State& to, double h);
   double energy(const State& state);
   /// |F| at its largest between two instants, times their distance, over sqrt 2.

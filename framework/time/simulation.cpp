@@ -56,7 +56,7 @@ Step Simulation::propose() const {
     return {next_h_, state_.t + next_h_, watched_};
   }
   const double h = options_.time_step;
-  const double t_end = static_cast<double>(accepted_ + 1) * h;
+  const double t_end = origin_ + static_cast<double>(accepted_ + 1) * h;
   if (t_end < end - kDivides * h) return {h, t_end};
   const bool divides = t_end <= end + kDivides * h;
   return {divides ? h : end - state_.t, end};
@@ -89,6 +89,32 @@ void Simulation::start() {
   for (Observer* observer : observers_) observer->start(state_);
   growth_.start(state_);
   if (!state_.a.allFinite()) fail({next_h_, 0.0}, describe_start(dynamics_, state_));
+}
+
+void Simulation::set_end_time(double end_time) {
+  require(end_time >= state_.t && end_time > 0.0, "a run ends after the present instant");
+  require(!over_ || report_.completed, "a run that has failed does not go on");
+  options_.end_time = end_time;
+  over_ = started_ && state_.t >= end_time;
+  report_.completed = over_;
+  origin_ = state_.t;
+  accepted_ = 0;
+}
+
+void Simulation::set_motion(ConstVectorRef x, ConstVectorRef v) {
+  require(x.size() == state_.x.size() && v.size() == state_.v.size(), "a motion of this system's size");
+  start();
+  state_.x = x;
+  state_.v = v;
+  integrator_.start(state_);
+  growth_.start(state_);
+}
+
+void Simulation::loads_changed(bool jump) {
+  start();
+  dynamics_.loads_changed();
+  if (jump) integrator_.start(state_);
+  growth_.start(state_);
 }
 
 bool Simulation::advance() {

@@ -66,10 +66,11 @@ struct RunReport {
 struct Snapshot {
   State state;
   double next_h = 0.0;        ///< s
+  double origin = 0.0;        ///< s, from which steps of a fixed length are counted
   std::int64_t accepted = 0;  ///< steps of a fixed length
   RunReport report;
   bool over = false;
-  std::vector<std::byte> observers;  ///< what they remember, in the order of add()
+  std::vector<std::byte> watchers;  ///< what the watch for growth remembers, then the observers, in the order of add()
 };
 
 /// Takes a system from its initial state to end_time, with fixed steps or as the method's controller decides.
@@ -94,6 +95,17 @@ class BUTEE_EXPORT Simulation {
   /// The same, asking after every accepted step but the last whether to go on. A run that was stopped is neither
   /// completed nor failed, and another run() goes on with it.
   const RunReport& run(const std::function<bool()>& goes_on);
+
+  /// Moves the end of the run, forwards or back, but not before the present instant; a run that was completed goes on.
+  /// Fixed steps count from there: the last one before a new end may be shorter. Not for a run that has failed.
+  void set_end_time(double end_time);
+
+  /// Takes other displacements and velocities at the present instant, as another solver wants them.
+  void set_motion(ConstVectorRef x, ConstVectorRef v);
+
+  /// Says that functions of time of the system's loads are others from now on. `jump`: their values at the present
+  /// instant as well, so that the method starts anew from the same motion.
+  void loads_changed(bool jump);
 
   /// Takes one accepted step; false where the run is over, completed or failed (see report()).
   bool advance();
@@ -128,6 +140,7 @@ class BUTEE_EXPORT Simulation {
   RunReport report_;
   std::vector<double> kinks_;  ///< of the loads, at which steps end
   double next_h_;
+  double origin_ = 0.0;        ///< s, from which steps of a fixed length are counted
   std::int64_t accepted_ = 0;  ///< steps of a fixed length
   double stall_t_ = 0.0;       ///< s, at the last look at its progress
   bool watched_ = false;       ///< an observer watches every step
