@@ -121,6 +121,8 @@ Finding check_series(const Subject& subject) {
 
 /// A mass thrown at a stop: what it gives to the stop it gets back.
 Finding check_rebound(const Subject& subject) {
+  constexpr double kGap = 0.01;
+  const auto law = make_law(subject);
   std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n"
       "[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n"
@@ -129,8 +131,10 @@ Finding check_rebound(const Subject& subject) {
   Bench bench(subject.catalogue, scene + integrator_table("dopri5", "tolerance = 1e-8\n", 1e-6, 0.5));
   const auto& report = bench.simulation().run();
   if (!report.completed) return {false, report.message};
-  const double v = bench.simulation().state().v[0];
-  return {std::abs(v + 1.0) <= 1e-4, "thrown at 1 m/s it comes back with " + to_short_text(-v) + " m/s"};
+  // A law that pulls an open stop holds a little of the energy back.
+  const double x = bench.simulation().state().x[0], v = bench.simulation().state().v[0];
+  const double held = 2.0 * (law->energy(x - kGap) - law->energy(-kGap));
+  return {std::abs(v * v + held - 1.0) <= 2e-4, "thrown at 1 m/s it comes back with " + to_short_text(-v) + " m/s"};
 }
 
 }  // namespace

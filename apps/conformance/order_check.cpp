@@ -65,7 +65,7 @@ Finding check_order(const Subject& subject) {
   const auto& declaration = subject.catalogue.find(subject.name)->declaration;
   if (declaration.order == 0.0 && !declaration.fixed_step) return {true, "not declared"};
   // A method of high order is down at rounding with more.
-  const int steps = declaration.order > 6.0 ? 20 : 200;
+  const int steps = declaration.order > 6.0 ? 30 : 200;
   const Errors coarse = errors_of(subject, steps), fine = errors_of(subject, 2 * steps);
   if (!std::isfinite(coarse.x + fine.x + coarse.v + fine.v))
     return {false, "one of " + std::to_string(2 * steps) + " equal steps was refused or cut short"};

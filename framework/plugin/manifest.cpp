@@ -15,7 +15,7 @@ using config::Parameter;
 using config::Table;
 using config::Value;
 
-constexpr std::int64_t kManifestSchema = 5;
+constexpr std::int64_t kManifestSchema = 6;
 constexpr std::array<const char*, 7> kKinds = {"number", "integer", "boolean", "text", "numbers", "texts", "table"};
 
 Value text_array(const std::vector<std::string>& texts) {
@@ -36,6 +36,8 @@ Value to_value(const Parameter& parameter) {
   table["lower_open"] = Value(parameter.lower_open);
   table["upper"] = Value(parameter.upper);
   if (!parameter.choices.empty()) table["choices"] = text_array(parameter.choices);
+  if (parameter.first_try) table["first_try"] = *parameter.first_try;
+  if (parameter.swept) table["sweep"] = Value(Array{Value(parameter.swept->first), Value(parameter.swept->second)});
   if (parameter.length) table["length"] = Value(static_cast<std::int64_t>(*parameter.length));
   return {table};
 }
@@ -74,6 +76,12 @@ Parameter to_parameter(const Table& table) {
   parameter.lower_open = get<bool>(table, "lower_open");
   parameter.upper = get<double>(table, "upper");
   if (table.find("choices") != nullptr) parameter.choices = texts(table, "choices");
+  if (const Value* first_try = table.find("first_try")) parameter.first_try = *first_try;
+  if (table.find("sweep") != nullptr) {
+    const Array& ends = get<Array>(table, "sweep");
+    if (ends.size() != 2) throw InputError("has a wrong sweep");
+    parameter.swept = std::pair(std::get<double>(ends[0].data), std::get<double>(ends[1].data));
+  }
   if (table.find("length") != nullptr) parameter.length = static_cast<std::size_t>(get<std::int64_t>(table, "length"));
   return parameter;
 }

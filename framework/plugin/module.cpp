@@ -47,12 +47,16 @@ std::string differences(const butee_abi_tag& theirs) {
 
 Registrar load_module(const std::string& path) {
   const CrashWatch watch(path);
-  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
   if (handle == nullptr) throw RunError(path + ": cannot be loaded: " + last_error());
   const auto tag = symbol<const butee_abi_tag* (*)()>(handle, "butee_plugin_abi", path);
   const auto enter = symbol<void (*)(Registrar*)>(handle, "butee_plugin_register", path);
   if (const std::string found = differences(*tag()); !found.empty())
     throw RunError(path + ": was built for another butee: " + found +
+                   "; build it again with this version's headers and flags");
+  // Only now every function that it calls, so that one that is missing is no crash in the middle of a run.
+  if (dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD) == nullptr)
+    throw RunError(path + ": cannot be loaded: " + last_error() +
                    "; build it again with this version's headers and flags");
   Registrar registrar;
   try {

@@ -111,13 +111,20 @@ double GrowthWatch::push(double from, double to) {
     return sum;
   };
   double largest = std::max(at(from), at(to));
-  // Not evenly, since that could meet every zero of a harmonic load.
-  for (int i = 1; i <= kInstants; ++i) {
-    const double turns = kGoldenRatio * i;
-    largest = std::max(largest, at(from + (turns - std::floor(turns)) * (to - from)));
-  }
-  for (auto kink = std::lower_bound(kinks_.begin(), kinks_.end(), from); kink != kinks_.end() && *kink <= to; ++kink)
+  // Not evenly, since that could meet every zero of a harmonic load; and between any two kinks, where a pulse may lie.
+  const auto look_between = [&](double begin, double end) {
+    for (int i = 1; i <= kInstants; ++i) {
+      const double turns = kGoldenRatio * i;
+      largest = std::max(largest, at(begin + (turns - std::floor(turns)) * (end - begin)));
+    }
+  };
+  look_between(from, to);
+  double begin = from;
+  for (auto kink = std::lower_bound(kinks_.begin(), kinks_.end(), from); kink != kinks_.end() && *kink <= to; ++kink) {
     largest = std::max({largest, at(*kink), at(std::nextafter(*kink, from))});
+    look_between(begin, *kink);
+    begin = *kink;
+  }
   return largest * (to - from) / std::sqrt(2.0);
 }
 

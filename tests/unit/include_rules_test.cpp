@@ -33,7 +33,7 @@ Names allowed_rooms(const std::string& folder) {
   if (folder == "elements" || folder == "contact") return up_to("model");
   if (folder == "integrators") return up_to("time");
   if (folder == "plugins") return {"model", "plugin"};
-  return {"core", "config", "model", "solve", "time", "record", "plugin"};
+  return {"core", "config", "model", "solve", "time", "record", "plugin", "embed"};
 }
 
 /// Third-party headers and the only files, or folders, that may include them.

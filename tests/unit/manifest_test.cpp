@@ -27,6 +27,8 @@ void expect_same(const Parameter& got, const Parameter& wanted) {
   EXPECT_EQ(got.upper, wanted.upper);
   EXPECT_EQ(got.lower_open, wanted.lower_open);
   EXPECT_EQ(got.choices, wanted.choices);
+  EXPECT_EQ(got.swept, wanted.swept);
+  EXPECT_EQ(got.first_try.has_value(), wanted.first_try.has_value());
   EXPECT_EQ(got.length, wanted.length);
 }
 
@@ -91,8 +93,8 @@ TEST(Manifest, stands_beside_its_module) {
 TEST(Manifest, what_is_none_is_refused) {
   const TemporaryFolder folder;
   for (const char* text : {"", "manifest = 1\n[[law]]\nname = \"a\"\nsummary = \"\"\nparameter = []\n",
-                           "manifest = 3\n", "manifest = 3\nintegrator = []\n", "manifest = 3\nintegrator = [3]\n",
-                           "manifest = 3\n[[integrator]]\nname = \"a\"\naliases = [1]\n", "not toml"}) {
+                           "manifest = 6\n", "manifest = 6\nintegrator = []\n", "manifest = 6\nintegrator = [3]\n",
+                           "manifest = 6\n[[integrator]]\nname = \"a\"\naliases = [1]\n", "not toml"}) {
     folder.write("wrong.toml", text);
     EXPECT_THROW(plugin::read_manifest(folder.file("wrong.toml")), InputError) << text;
   }
