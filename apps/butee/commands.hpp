@@ -31,9 +31,13 @@ void add_log_options(CLI::App& command, bool with_verbose);
 Command add_run_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
+Command add_modes_command(CLI::App& program);
 Command add_plugins_command(CLI::App& program);
 Command add_new_plugin_command(CLI::App& program);
 Command add_test_plugin_command(CLI::App& program);
 Command add_stability_command(CLI::App& program);
+Command add_init_command(CLI::App& program);
+Command add_help_command(CLI::App& program);
+Command add_completion_command(CLI::App& program);
 
 }  // namespace butee::app

@@ -17,14 +17,23 @@ namespace {
 
 using namespace butee::app;
 
+constexpr const char* kExamples =
+    "A first scene:\n"
+    "  butee init beam             a commented scene, beam.toml\n"
+    "  butee check beam.toml       a picture of it, likely mistakes, what a run will cost\n"
+    "  butee run beam.toml         beam-results/history.csv and summary.json\n"
+    "\n`butee help TOPIC` explains scenes, methods, results; `butee help` lists the topics.";
+
 int parse_and_run(int argc, char** argv) {
   CLI::App program("butee: transient dynamics of beams and oscillators that strike stops");
   program.set_version_flag("--version", "butee " BUTEE_VERSION);
   program.require_subcommand(1);
-  const std::vector<Command> commands = {add_run_command(program),        add_check_command(program),
-                                         add_compare_command(program),    add_plugins_command(program),
-                                         add_new_plugin_command(program), add_test_plugin_command(program),
-                                         add_stability_command(program)};
+  program.footer(kExamples);
+  const std::vector<Command> commands = {
+      add_run_command(program),        add_check_command(program),       add_modes_command(program),
+      add_compare_command(program),    add_stability_command(program),   add_plugins_command(program),
+      add_new_plugin_command(program), add_test_plugin_command(program), add_init_command(program),
+      add_help_command(program),       add_completion_command(program)};
 
   std::vector<std::string> known;
   for (const Command& command : commands) known.push_back(command.app->get_name());

@@ -10,6 +10,8 @@
 #include <butee/plugin/module.hpp>
 
 #include "commands.hpp"
+#include "json.hpp"
+#include "parameter_table.hpp"
 
 namespace butee::app {
 namespace {
@@ -22,6 +24,7 @@ struct Row {
   const std::vector<Parameter>* parameters;
   std::string module;
   std::string properties = {};
+  std::vector<std::string> alias_list = {};
 };
 
 /// "order 4, fixed steps, bounded up to h omega = 2.83".
@@ -40,12 +43,12 @@ std::vector<Row> rows_of(const plugin::Catalogue& catalogue) {
   for (const auto& entry : catalogue.integrators()) {
     const auto& type = entry.declaration;
     rows.push_back({"integrator", type.name, join(type.aliases), type.summary, &type.parameters, entry.module,
-                    properties_of(type)});
+                    properties_of(type), type.aliases});
   }
   const model::ModelTypes& types = catalogue.types();
   const auto add = [&](const char* kind, const auto& list) {
     for (const auto& type : list)
-      rows.push_back({kind, type.name, "", type.summary, &type.parameters, catalogue.module_of(kind, type.name)});
+      rows.push_back({kind, type.name, "", type.summary, &type.parameters, catalogue.module_of(kind, type.name), {}});
   };
   add("element", types.elements);
   add("section", types.sections);
@@ -63,29 +66,36 @@ void print_list(const std::vector<Row>& rows) {
   }
 }
 
-std::string default_text(const Parameter& parameter) {
-  if (parameter.fallback) return config::to_toml(*parameter.fallback);
-  return parameter.required ? "required" : "optional";
-}
-
 void print_details(const Row& row) {
   std::printf("%s %s%s\n  %s\n", row.kind, row.name.c_str(),
               row.aliases.empty() ? "" : (" (alias " + row.aliases + ")").c_str(), row.summary.c_str());
   if (!row.properties.empty()) std::printf("  %s\n", row.properties.c_str());
   if (!row.module.empty()) std::printf("  module %s\n", row.module.c_str());
-  std::vector<std::vector<std::string>> cells = {{"parameter", "unit", "default", "allowed", "meaning"}};
-  for (const Parameter& p : *row.parameters) cells.push_back({p.name, p.unit, default_text(p), p.describe(), p.help});
-  if (cells.size() == 1) return;
-  std::vector<std::size_t> widths(cells[0].size());
-  for (const auto& line : cells)
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  std::printf("\n");
-  for (const auto& line : cells) {
-    std::string text = " ";
-    for (std::size_t i = 0; i < line.size(); ++i)
-      text += " " + line[i] + (i + 1 < line.size() ? std::string(widths[i] - line[i].size() + 1, ' ') : "");
-    std::printf("%s\n", text.c_str());
-  }
+  if (!row.parameters->empty()) std::printf("\n%s", parameter_table(*row.parameters).c_str());
+}
+
+Json json_of(const Parameter& parameter) {
+  Json json;
+  json["name"] = parameter.name;
+  json["unit"] = parameter.unit;
+  json["required"] = parameter.required;
+  json["default"] = parameter.fallback ? Json(config::to_toml(*parameter.fallback)) : Json();
+  json["allowed"] = parameter.describe();
+  json["help"] = parameter.help;
+  if (!parameter.choices.empty()) json["choices"] = parameter.choices;
+  return json;
+}
+
+Json json_of(const Row& row) {
+  Json json;
+  json["kind"] = row.kind;
+  json["name"] = row.name;
+  json["aliases"] = row.alias_list;
+  json["summary"] = row.summary;
+  json["module"] = row.module.empty() ? Json() : Json(row.module);
+  json["parameters"] = Json::array();
+  for (const Parameter& parameter : *row.parameters) json["parameters"].push_back(json_of(parameter));
+  return json;
 }
 
 bool answers_to(const Row& row, const std::string& name) {
@@ -105,6 +115,7 @@ struct PluginsArguments {
   std::string name;
   std::string write_manifest;  ///< a module whose manifest is wanted beside it
   std::vector<std::string> plugins;
+  bool json = false;
 };
 
 int plugins_command(const PluginsArguments& arguments) {
@@ -114,22 +125,27 @@ int plugins_command(const PluginsArguments& arguments) {
   }
   const auto catalogue = plugin::Catalogue::with_plugins(arguments.plugins);
   const auto rows = rows_of(catalogue);
-  if (arguments.name.empty()) {
-    print_list(rows);
-    return kDone;
-  }
-  bool found = false;
+  std::vector<const Row*> wanted;
   std::vector<std::string> known;
   for (const Row& row : rows) {
     known.push_back(row.name);
-    if (!answers_to(row, arguments.name)) continue;
-    if (found) std::printf("\n");
-    print_details(row);
-    found = true;
+    if (arguments.name.empty() || answers_to(row, arguments.name)) wanted.push_back(&row);
   }
-  if (!found)
+  if (wanted.empty())
     throw InputError("there is no \"" + arguments.name + "\"" + suggestion(arguments.name, known) +
                      "; `butee plugins` lists all");
+  if (arguments.json) {
+    Json list = Json::array();
+    for (const Row* row : wanted) list.push_back(json_of(*row));
+    print_json(list);
+  } else if (arguments.name.empty()) {
+    print_list(rows);
+  } else {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (i > 0) std::printf("\n");
+      print_details(*wanted[i]);
+    }
+  }
   return kDone;
 }
 
@@ -140,6 +156,7 @@ Command add_plugins_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, loads");
   app->add_option("name", arguments->name, "show the parameters of this one")->type_name("NAME");
   add_plugin_option(*app, arguments->plugins);
+  app->add_flag("--json", arguments->json, "print JSON");
   app->add_option("--write-manifest", arguments->write_manifest, "write the manifest of a module beside it")
       ->type_name("FILE");
   return {app, [arguments] { return plugins_command(*arguments); }};

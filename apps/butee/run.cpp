@@ -63,7 +63,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
   simulation.add(*history_);
   if (output.energy) simulation.add(energy_.emplace(assembly_.dynamics));
   if (output.impacts) simulation.add(impacts_.emplace(assembly_.dynamics));
-  if (with_progress_) simulation.add(progress_.emplace(end_time));
+  if (with_progress_) simulation.add(progress_.emplace(assembly_.dynamics, end_time));
   if (folder != nullptr && output.checkpoint > 0)
     simulation.add(checkpointer_.emplace(session_, assembly_, *folder, *writer_));
   if (from != nullptr) simulation.restore(from->snapshot);

@@ -44,7 +44,7 @@ class Run {
   std::optional<record::HistoryRecorder> history_;
   std::optional<record::EnergyRecorder> energy_;
   std::optional<record::ImpactRecorder> impacts_;
-  std::optional<record::ProgressBar> progress_;
+  std::optional<record::Progress> progress_;
   std::optional<Checkpointer> checkpointer_;
 };
 

@@ -5,6 +5,7 @@
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+#include <butee/core/terminal.hpp>
 #include <butee/core/text.hpp>
 
 #include "commands.hpp"
@@ -63,7 +64,7 @@ int run(Session& session, const RunArguments& arguments, const record::ResultFol
     log::info(checkpoint ? "going on from t = " + to_short_text(checkpoint->snapshot.state.t) + " s"
                          : "there is no checkpoint yet: the run begins anew");
   const bool with_progress =
-      arguments.progress == "always" || (arguments.progress == "auto" && record::has_terminal() && !log::is_quiet());
+      arguments.progress == "always" || (arguments.progress == "auto" && is_terminal(stderr) && !log::is_quiet());
   Run first(session, with_progress);
   watch_for_interruption();
   if (!checkpoint) folder.prepare(config::write_toml(*session.document.root.table()));
@@ -132,7 +133,7 @@ Command add_run_command(CLI::App& program) {
       ->excludes(repeat);
   app->add_flag("--trust", arguments->trust,
                 "find out how far the answer can be trusted: runs the scene four more times");
-  app->add_option("--progress", arguments->progress, "a progress bar")
+  app->add_option("--progress", arguments->progress, "a progress bar on a terminal; always: lines in a log too")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   add_log_options(*app, true);
   return {app, [arguments] { return run_command(*arguments); }};

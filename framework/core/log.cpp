@@ -1,10 +1,12 @@
 #include "butee/core/log.hpp"
 
+#include <cstdio>
 #include <memory>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "butee/core/terminal.hpp"
 #include "butee/core/text.hpp"
 
 namespace butee::log {
@@ -12,7 +14,9 @@ namespace {
 
 spdlog::logger& logger() {
   static const std::shared_ptr<spdlog::logger> instance = [] {
-    auto made = std::make_shared<spdlog::logger>("butee", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+    const auto colours = takes_colour(stderr) ? spdlog::color_mode::automatic : spdlog::color_mode::never;
+    auto made =
+        std::make_shared<spdlog::logger>("butee", std::make_shared<spdlog::sinks::stderr_color_sink_mt>(colours));
     made->set_pattern("butee: %^%l%$: %v");
     return made;
   }();

@@ -43,7 +43,7 @@ const std::map<std::string, Names> kDoors = {
     {"dlfcn.h", {"framework/plugin/module.cpp"}},
     {"spdlog/", {"framework/core/log.cpp"}},
     {"nlohmann/", {"framework/record/summary.cpp", "apps/"}},
-    {"Spectra/", {"framework/solve/frequencies.cpp"}},
+    {"Spectra/", {"framework/solve/frequencies.cpp", "framework/solve/lanczos.cpp"}},
     {"CLI/", {"apps/"}},
 };
 

@@ -1,0 +1,191 @@
+#include "advice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include <butee/core/text.hpp>
+
+namespace butee::app::check {
+namespace {
+
+/// The arctan law's pull is warned of where it moves the structure by more than this fraction of the gap.
+constexpr double kNoticeablePull = 1e-6;
+/// A stop that is open by this part of its gap should not feel more than this part of its stiffness.
+constexpr double kNearPart = 0.1, kSoftStart = 0.01;
+/// Rows, or fixed steps, in the shortest contact that show its course.
+constexpr double kRowsInContact = 4.0, kStepsInContact = 8.0;
+/// Fixed steps in a period of a load that follow it, and beam elements in a bending wave at its frequency.
+constexpr double kStepsInPeriod = 20.0, kElementsInWave = 8.0;
+
+std::string text(double value) {
+  return to_short_text(value);
+}
+
+class Adviser {
+ public:
+  Adviser(const Session& session, const model::System& system, const Facts& facts)
+      : session_(session), system_(system), facts_(facts) {}
+
+  std::vector<Advice> all() {
+    if (!facts_.cost.failure.empty()) add("trial", facts_.cost.failure);
+    judge_step();
+    judge_laws();
+    judge_pull();
+    judge_gaps();
+    judge_output();
+    judge_mesh();
+    judge_names("material");
+    judge_names("section");
+    return std::move(advice_);
+  }
+
+ private:
+  void add(const char* about, std::string words) { advice_.push_back({about, std::move(words)}); }
+
+  void judge_step() {
+    const plugin::IntegratorChoice& choice = session_.integrator;
+    const time::IntegratorType& type = session_.catalogue.find(choice.name)->declaration;
+    const double h = choice.options.time_step;
+    if (h > 0.0 && facts_.open && facts_.closed && h > type.stability_limit / facts_.closed->highest)
+      add("critical-step",
+          "time_step = " + text(h) + " s is larger than the critical step of " + choice.name + ", " +
+              text(type.stability_limit / facts_.closed->highest) + " s with all stops closed" +
+              (h > type.stability_limit / facts_.open->highest ? " and also with all stops open" : "") +
+              ": the solution would grow without bound; take a smaller step or an implicit method");
+    if (!type.fixed_step || h == 0.0) return;
+    const double contact = facts_.mechanics.shortest_contact;
+    if (!system_.stops.empty() && h * kStepsInContact > contact)
+      add("contact-step", "time_step = " + text(h) + " s: an impact can be as short as " + text(contact) +
+                              " s, which makes " + text(contact / h) + " steps; take " +
+                              text(contact / (2.5 * kStepsInContact)) +
+                              " s or less, or a method that chooses its steps itself (type = \"auto\")");
+    if (const double period = shortest_period(); h * kStepsInPeriod > period)
+      add("load-step", "time_step = " + text(h) + " s makes only " + text(period / h) +
+                           " steps in the shortest period of a load, " + text(period) + " s");
+  }
+
+  double shortest_period() const {
+    double fastest = 0.0;
+    for (const model::FreeLoad& load : system_.loads)
+      if (const auto harmonic = load.in_time->harmonic()) fastest = std::max(fastest, harmonic->angular_frequency);
+    return fastest > 0.0 ? 2.0 * std::numbers::pi / fastest : std::numeric_limits<double>::infinity();
+  }
+
+  void judge_laws() {
+    for (const model::FreeStops& stops : system_.stops) {
+      if (stops.gap <= 0.0) continue;
+      const double felt = stops.law->secant(-kNearPart * stops.gap) / stops.law->closed_stiffness();
+      if (felt > kSoftStart)
+        add("regularization",
+            "a stop with the gap " + text(stops.gap) + " m has " + text(100.0 * felt) +
+                " % of its stiffness while it is still open by a tenth of that: the regularization is too small for "
+                "the gap; take at least " +
+                text(1.0 / (std::numbers::pi * std::numbers::pi * kNearPart * stops.gap * kSoftStart)) +
+                " 1/m, or law = \"linear\"");
+    }
+  }
+
+  void judge_pull() {
+    double pull = 0.0, smallest_gap = std::numeric_limits<double>::infinity();
+    bool at_rest = false;
+    for (const auto& stops : system_.stops) {
+      if (stops.law->far_force() == 0.0) continue;
+      pull = std::max(pull, stops.law->far_force());
+      smallest_gap = std::min(smallest_gap, stops.gap);
+      for (std::size_t i = 0; i < stops.size() && stops.sides == model::Sides::both; ++i) {
+        const double ua = stops.a[i] >= 0 ? system_.initial_displacement[stops.a[i]] : 0.0;
+        const double ub = stops.b[i] >= 0 ? system_.initial_displacement[stops.b[i]] : 0.0;
+        at_rest = at_rest || ua == ub;
+      }
+    }
+    if (pull == 0.0) return;
+    const auto moved = pull_displacement(system_);
+    if (!moved || *moved > kNoticeablePull * smallest_gap)
+      add("pull", "the arctan law pulls every open stop with up to " + text(pull) + " N however far it is open" +
+                      (moved ? "; all together move the structure at rest by " + text(*moved) + " m, " +
+                                   text(*moved / smallest_gap) + " of the gap"
+                             : "") +
+                      ". A larger regularization weakens it, law = \"linear\" has none");
+    if (at_rest)
+      add("jump", "with the arctan law the force of a stop on both sides jumps by " + text(2.0 * pull) +
+                      " N at u = 0, where this scene starts: which way it is pulled is decided by rounding, and "
+                      "answers are reproducible only so far. law = \"linear\" has no jump");
+  }
+
+  void judge_gaps() {
+    const Mechanics& mechanics = facts_.mechanics;
+    if (mechanics.closed_at_start > 0)
+      add("start", std::to_string(mechanics.closed_at_start) +
+                       " stops are closed at the start: the initial displacement is beyond their gap");
+    if (mechanics.closed_by_constants > 0)
+      add("gap", std::to_string(mechanics.closed_by_constants) +
+                     " stops have a gap below the static deflection: loads that do not oscillate press them shut, and "
+                     "they stay shut unless the rest of the motion opens them");
+  }
+
+  void judge_output() {
+    const auto interval = session_.output.interval;
+    const double contact = facts_.mechanics.shortest_contact;
+    if (!interval || session_.output.impacts || system_.stops.empty() || *interval * kRowsInContact <= contact) return;
+    add("output-interval",
+        "a row every " + text(*interval) + " s, and an impact can be as short as " + text(contact) +
+            " s: history.csv will miss most of its course. Take interval = " + text(contact / (2.5 * kRowsInContact)) +
+            " or less, or [output] impacts = true, which lists every impact with its peak force");
+  }
+
+  /// A bending wave of angular frequency w is 2 pi (E I/(rho A w^2))^(1/4) long.
+  void judge_mesh() {
+    const double period = shortest_period();
+    if (std::isinf(period)) return;
+    const double omega = 2.0 * std::numbers::pi / period;
+    double fewest = std::numeric_limits<double>::infinity();
+    const Stretch* worst = nullptr;
+    for (const Stretch& stretch : facts_.survey.stretches) {
+      const double wave =
+          2.0 * std::numbers::pi * std::pow(stretch.bending / (stretch.mass_per_length * omega * omega), 0.25);
+      if (wave / stretch.length >= fewest) continue;
+      fewest = wave / stretch.length;
+      worst = &stretch;
+    }
+    if (fewest >= kElementsInWave) return;
+    add("mesh", "the element from " + session_.model.nodes.name(worst->a) + " to " +
+                    session_.model.nodes.name(worst->b) + " is " + text(worst->length) +
+                    " m long, and a bending wave at the fastest load's frequency " + text(worst->length * fewest) +
+                    " m, " + text(fewest) + " elements; take elements of " +
+                    text(worst->length * fewest / kElementsInWave) + " m or less");
+  }
+
+  /// A [material.X] or [section.X] that no element names.
+  void judge_names(const std::string& kind) {
+    const config::Table& root = *session_.document.root.table();
+    const config::Value* tables = root.find(kind);
+    const config::Value* elements = root.find("element");
+    if (tables == nullptr || tables->table() == nullptr) return;
+    std::set<std::string> used;
+    if (elements != nullptr && elements->array() != nullptr)
+      for (const config::Value& element : *elements->array())
+        if (const config::Value* name = element.table() != nullptr ? element.table()->find(kind) : nullptr;
+            name != nullptr && name->text() != nullptr)
+          used.insert(*name->text());
+    for (const auto& [name, value] : tables->table()->entries)
+      if (!used.contains(name))
+        add("unused",
+            config::describe(session_.document, value.at) + ": [" + kind + "." + name + "] is used by no element");
+  }
+
+  const Session& session_;
+  const model::System& system_;
+  const Facts& facts_;
+  std::vector<Advice> advice_;
+};
+
+}  // namespace
+
+std::vector<Advice> advise(const Session& session, const model::System& system, const Facts& facts) {
+  return Adviser(session, system, facts).all();
+}
+
+}  // namespace butee::app::check

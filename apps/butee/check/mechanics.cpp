@@ -1,0 +1,130 @@
+#include "mechanics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/SparseCholesky>
+
+namespace butee::app::check {
+namespace {
+
+using Factor = Eigen::SimplicialLDLT<SparseMatrix>;
+
+/// Of a scene with more stops, evenly chosen ones are looked at.
+constexpr Index kMostSamples = 200;
+/// A pivot below this part of its diagonal entry is rounding of a zero.
+constexpr double kSingular = 1e-13;
+constexpr int kInstants = 1000;
+
+bool is_regular(const SparseMatrix& matrix, Factor& factor) {
+  factor.compute(matrix);
+  if (factor.info() != Eigen::Success) return false;
+  const Vector diagonal = factor.permutationP() * Vector(matrix.diagonal());
+  return (factor.vectorD().array() > kSingular * diagonal.array()).all();
+}
+
+/// One stop of a group: where it acts and whether it is shut at a displacement.
+struct Stop {
+  const model::FreeStops& group;
+  std::size_t i;
+
+  double at(const Vector& x) const {
+    return (group.a[i] >= 0 ? x[group.a[i]] : 0.0) - (group.b[i] >= 0 ? x[group.b[i]] : 0.0);
+  }
+  Vector unit(Index size) const {
+    Vector s = Vector::Zero(size);
+    if (group.a[i] >= 0) s[group.a[i]] += 1.0;
+    if (group.b[i] >= 0) s[group.b[i]] -= 1.0;
+    return s;
+  }
+  bool is_shut(double w) const {
+    if (group.sides == model::Sides::both) return std::abs(w) > group.gap;
+    return (group.sides == model::Sides::positive ? w : -w) > group.gap;
+  }
+};
+
+std::vector<Stop> stops_of(const model::System& system) {
+  std::vector<Stop> stops;
+  for (const model::FreeStops& group : system.stops)
+    for (std::size_t i = 0; i < group.size(); ++i) stops.push_back({group, i});
+  return stops;
+}
+
+/// The largest value that a load takes until the end; of a harmonic its amplitude.
+double amplitude(const model::TimeFunction& function, double end_time) {
+  if (const auto harmonic = function.harmonic()) return std::abs(harmonic->amplitude);
+  double largest = 0.0;
+  for (int i = 0; i <= kInstants; ++i) largest = std::max(largest, std::abs(function.value(end_time * i / kInstants)));
+  return largest;
+}
+
+Vector pattern(const model::FreeLoad& load, Index size) {
+  Vector force = Vector::Zero(size);
+  for (std::size_t i = 0; i < load.dofs.size(); ++i) force[load.dofs[i]] += load.weights[i];
+  return force;
+}
+
+void add_statics(const model::System& system, const Factor& stiffness, const std::vector<Stop>& stops, double end_time,
+                 Mechanics& result) {
+  if (system.loads.empty() || stops.empty()) return;
+  Vector largest = Vector::Zero(static_cast<Index>(stops.size()));
+  Vector constant = Vector::Zero(system.size());
+  for (const model::FreeLoad& load : system.loads) {
+    const Vector moved = stiffness.solve(pattern(load, system.size()));
+    const double size = amplitude(*load.in_time, end_time);
+    for (std::size_t i = 0; i < stops.size(); ++i)
+      largest[static_cast<Index>(i)] += size * std::abs(stops[i].at(moved));
+    if (!load.in_time->harmonic()) constant += load.in_time->value(end_time) * moved;
+  }
+  result.static_deflection = largest.maxCoeff();
+  result.closed_by_constants =
+      std::count_if(stops.begin(), stops.end(), [&](const Stop& stop) { return stop.is_shut(stop.at(constant)); });
+}
+
+}  // namespace
+
+Mechanics mechanics_of(const model::System& system, double end_time) {
+  Mechanics result;
+  const std::vector<Stop> stops = stops_of(system);
+  if (stops.empty()) return result;
+  Factor mass, stiffness;
+  const bool has_mass = is_regular(system.mass, mass), held = is_regular(system.stiffness, stiffness);
+  result.shortest_contact = result.smallest_gap = std::numeric_limits<double>::infinity();
+  const auto stride = std::max<std::size_t>(1, stops.size() / kMostSamples);
+  for (std::size_t i = 0; i < stops.size(); i += stride) {
+    const Stop& stop = stops[i];
+    const Vector unit = stop.unit(system.size());
+    const double k = stop.group.law->closed_stiffness();
+    if (has_mass)
+      result.shortest_contact =
+          std::min(result.shortest_contact, std::numbers::pi / std::sqrt(k * unit.dot(Vector(mass.solve(unit)))));
+    if (held) {
+      const double ratio = k * unit.dot(Vector(stiffness.solve(unit)));
+      result.least_ratio = std::min(result.least_ratio.value_or(ratio), ratio);
+      result.largest_ratio = std::max(result.largest_ratio.value_or(ratio), ratio);
+    }
+    ++result.sampled;
+  }
+  for (const Stop& stop : stops) {
+    result.smallest_gap = std::min(result.smallest_gap, stop.group.gap);
+    result.closed_at_start += stop.is_shut(stop.at(system.initial_displacement)) ? 1 : 0;
+  }
+  if (held) add_statics(system, stiffness, stops, end_time, result);
+  return result;
+}
+
+std::optional<double> pull_displacement(const model::System& system) {
+  Vector force = Vector::Zero(system.size());
+  for (const auto& stops : system.stops)
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      if (stops.a[i] >= 0) force[stops.a[i]] += stops.law->far_force();
+      if (stops.b[i] >= 0) force[stops.b[i]] -= stops.law->far_force();
+    }
+  const Factor factor(system.stiffness);
+  if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0.0) return std::nullopt;
+  return factor.solve(force).lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace butee::app::check

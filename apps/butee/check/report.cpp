@@ -1,0 +1,221 @@
+#include "report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+
+#include <butee/core/format.hpp>
+#include <butee/core/text.hpp>
+#include <butee/solve/free_motion.hpp>
+#include <butee/solve/modal_damping.hpp>
+
+namespace butee::app::check {
+namespace {
+
+/// A frequency below this fraction of the highest is zero within the rounding of the eigenvalue solver.
+constexpr double kZeroFrequency = 1e-6;
+/// Of a list of damped modes, so many are printed.
+constexpr Index kListedModes = 10;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kRungeKutta4 = 2.8284271247461903, kCentralDifferences = 2.0;
+
+std::string text(double value) {
+  return to_short_text(value);
+}
+
+Index stop_count(const model::System& system) {
+  Index stops = 0;
+  for (const auto& group : system.stops) stops += static_cast<Index>(group.size());
+  return stops;
+}
+
+void print_contents(const model::Model& model, const model::System& system, const Survey& survey) {
+  std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : printable(model.title).c_str());
+  std::printf("elements   %zu on %d nodes\n", model.elements.size(), model.nodes.size());
+  std::printf("mass       %s kg", text(survey.total_mass).c_str());
+  if (survey.lumped_mass > 0.0) std::printf(", of it %s kg on single nodes", text(survey.lumped_mass).c_str());
+  std::printf("\nDOFs       %td free, %td fixed\n", system.size(), system.dofs.fixed_count());
+  std::printf("stops      %td on free DOFs\n", stop_count(system));
+  std::printf("loads      %zu\n", model.loads.size());
+}
+
+/// `modal` in words: the ratios and, of a list, the frequencies that they belong to.
+void print_modal_damping(const model::System& system) {
+  const model::Damping& damping = system.damping;
+  (void)solve::ModalDamping::of(system);  // Throws where a run would.
+  if (damping.every_mode != 0.0)
+    std::printf("damping    modal: the ratio %s in all %td modes\n", text(damping.every_mode).c_str(), system.size());
+  if (damping.lowest_modes.empty()) return;
+  const auto count = static_cast<Index>(damping.lowest_modes.size());
+  const auto modes = solve::lowest_modes(system, count);
+  std::printf("damping    modal: ratios in the %td lowest modes, none in the %td above%s\n", count,
+              system.size() - count, modes ? "" : " (the eigenvalue solver did not converge)");
+  for (Index i = 0; modes && i < std::min(count, kListedModes); ++i)
+    std::printf("           %s at %s rad/s%s\n", text(damping.lowest_modes[static_cast<std::size_t>(i)]).c_str(),
+                text(modes->frequencies[i]).c_str(), modes->frequencies[i] == 0.0 ? " (rigid motion)" : "");
+  if (count > kListedModes) std::printf("           ... and %td more\n", count - kListedModes);
+}
+
+/// What the system does without, whatever the scene names, and what a run of it does not follow and does not load.
+std::vector<std::string> skipped(const Session& session, const model::System& system) {
+  std::vector<std::string> lines;
+  if (system.skipped_stops > 0)
+    lines.push_back(std::to_string(system.skipped_stops) + " stops whose ends are all fixed: they can never act");
+  if (system.skipped_loads > 0)
+    lines.push_back(std::to_string(system.skipped_loads) +
+                    " loads that are zero at all times or act on fixed DOFs alone");
+  if (system.loads.empty()) lines.emplace_back("loads: nothing drives the free DOFs");
+  if (system.stops.empty())
+    lines.emplace_back("contact: the scene has no stops, so an implicit method factorizes once for each step size");
+  if (!system.damping.is_rayleigh() && !system.damping.is_modal() && system.dashpots.size() == 0)
+    lines.emplace_back("damping: C is zero");
+  else if (!system.damping.is_modal() && system.dashpots.size() == 0)
+    lines.emplace_back("a damping matrix: C is Rayleigh's, made of M and K");
+  if (!session.output.energy) lines.emplace_back("the energy balance: [output] does not ask for energy");
+  if (!session.output.impacts) lines.emplace_back("the list of impacts: [output] does not ask for impacts");
+  const plugin::IntegratorEntry* chosen = session.catalogue.find(session.integrator.name);
+  std::set<std::string> others;
+  for (const plugin::IntegratorEntry& entry : session.catalogue.integrators())
+    if (entry.module != chosen->module) others.insert(entry.module);
+  if (!others.empty())
+    lines.push_back(std::to_string(others.size()) + " modules of other methods: they are not loaded");
+  return lines;
+}
+
+void print_range(const char* label, const std::optional<solve::FrequencyRange>& range) {
+  if (!range) {
+    std::printf("%s (the eigenvalue solver did not converge)\n", label);
+    return;
+  }
+  std::printf("%s %s ... %s rad/s (%s ... %s Hz)\n", label, text(range->lowest).c_str(), text(range->highest).c_str(),
+              text(range->lowest / kTwoPi).c_str(), text(range->highest / kTwoPi).c_str());
+}
+
+void print_step(const Session& session, double open, double closed) {
+  const plugin::IntegratorChoice& choice = session.integrator;
+  const double limit = session.catalogue.find(choice.name)->declaration.stability_limit, h = choice.options.time_step;
+  std::printf(
+      "critical   step of classical Runge-Kutta %s s (stops open), %s s (all closed); of central differences %s s, %s "
+      "s\n",
+      text(kRungeKutta4 / open).c_str(), text(kRungeKutta4 / closed).c_str(), text(kCentralDifferences / open).c_str(),
+      text(kCentralDifferences / closed).c_str());
+  if (h == 0.0) {
+    std::printf("method     %s, which finds its steps itself\n", choice.name.c_str());
+    return;
+  }
+  std::printf("method     %s, time_step %s s\n", choice.name.c_str(), text(h).c_str());
+  if (std::isinf(limit))
+    std::printf(
+        "           stable at every step for linear motion; %s steps in the shortest period with all stops closed\n",
+        text(kTwoPi / (closed * h)).c_str());
+  else if (h <= limit / closed)
+    std::printf("           below its critical step by a factor of %s\n", text(limit / (closed * h)).c_str());
+}
+
+void print_mechanics(const Mechanics& mechanics) {
+  if (mechanics.sampled == 0) return;
+  if (mechanics.least_ratio)
+    std::printf("stiffness  of a closed stop: %s ... %s times that of the structure where it acts\n",
+                text(*mechanics.least_ratio).c_str(), text(*mechanics.largest_ratio).c_str());
+  if (std::isfinite(mechanics.shortest_contact))
+    std::printf("contact    an impact lasts about %s s or longer\n", text(mechanics.shortest_contact).c_str());
+  if (mechanics.static_deflection && mechanics.smallest_gap > 0.0)
+    std::printf(
+        "static     the loads' largest values, at rest, would move a stop's node by %s m; the smallest gap is "
+        "%s m\n",
+        text(*mechanics.static_deflection).c_str(), text(mechanics.smallest_gap).c_str());
+}
+
+std::string size_of(double bytes) {
+  if (bytes < 1e6) return formatted("%.0f kB", std::max(1.0, bytes / 1e3));
+  return bytes < 1e9 ? formatted("%.0f MB", bytes / 1e6) : formatted("%.1f GB", bytes / 1e9);
+}
+
+void print_cost(const Estimate& cost) {
+  if (!cost.choice.empty()) std::printf("chosen     %s\n", cost.choice.c_str());
+  if (cost.steps > 0.0 && cost.failure.empty())
+    std::printf("estimate   %s%.2g s, %s%.3g steps%s\n", cost.whole ? "" : "about ",
+                cost.run_seconds + cost.setup_seconds, cost.steps_known || cost.whole ? "" : "about ", cost.steps,
+                cost.whole ? " (tried out to the end)" : " (from a short trial)");
+  std::printf("results    %.4g rows, about %s\n", cost.rows, size_of(cost.bytes).c_str());
+}
+
+Json json_of(const std::optional<solve::FrequencyRange>& range) {
+  if (!range) return {};
+  Json json;
+  json["lowest"] = range->lowest;
+  json["highest"] = range->highest;
+  return json;
+}
+
+Json json_of(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json json_of(const Mechanics& mechanics) {
+  Json json;
+  if (mechanics.sampled == 0) return json;
+  json["least_stiffness_ratio"] = json_of(mechanics.least_ratio);
+  json["largest_stiffness_ratio"] = json_of(mechanics.largest_ratio);
+  json["shortest_contact"] = mechanics.shortest_contact;
+  json["smallest_gap"] = mechanics.smallest_gap;
+  json["static_deflection"] = json_of(mechanics.static_deflection);
+  return json;
+}
+
+}  // namespace
+
+void print(const Session& session, const model::System& system, const Facts& facts, const std::string& picture) {
+  print_contents(session.model, system, facts.survey);
+  print_modal_damping(system);
+  if (!picture.empty()) std::printf("\n%s\n", picture.c_str());
+  for (const std::string& line : skipped(session, system)) std::printf("skips      %s\n", line.c_str());
+  const bool has_stops = !system.stops.empty();
+  print_range(has_stops ? "frequency  all stops open:  " : "frequency ", facts.open);
+  if (has_stops) print_range("           all stops closed:", facts.closed);
+  if (facts.open && facts.closed) {
+    print_step(session, facts.open->highest, facts.closed->highest);
+    if (facts.open->lowest < kZeroFrequency * facts.open->highest)
+      std::printf(
+          "free       with all stops open the structure can move as a rigid body or a mechanism (lowest frequency ~ "
+          "0): %s\n",
+          solve::describe_softest_motion(system.stiffness, system.dofs).c_str());
+  }
+  print_mechanics(facts.mechanics);
+  print_cost(facts.cost);
+  std::fflush(stdout);
+}
+
+Json to_json(const Session& session, const model::System& system, const Facts& facts,
+             const std::vector<Advice>& advice) {
+  Json json;
+  json["title"] = session.model.title;
+  json["elements"] = session.model.elements.size();
+  json["nodes"] = session.model.nodes.size();
+  json["mass"] = facts.survey.total_mass;
+  json["free_dofs"] = system.size();
+  json["fixed_dofs"] = system.dofs.fixed_count();
+  json["stops"] = stop_count(system);
+  json["loads"] = session.model.loads.size();
+  json["skipped"] = skipped(session, system);
+  json["angular_frequency"] = {{"open", json_of(facts.open)}, {"closed", json_of(facts.closed)}};
+  if (facts.closed)
+    json["critical_step"] = {{"runge_kutta_4", kRungeKutta4 / facts.closed->highest},
+                             {"central_differences", kCentralDifferences / facts.closed->highest}};
+  json["method"] = session.integrator.name;
+  json["time_step"] = session.integrator.options.time_step;
+  json["end_time"] = session.integrator.options.end_time;
+  json["contact"] = json_of(facts.mechanics);
+  json["estimate"] = {{"seconds", facts.cost.run_seconds + facts.cost.setup_seconds},
+                      {"steps", facts.cost.steps},
+                      {"whole", facts.cost.whole},
+                      {"rows", facts.cost.rows},
+                      {"bytes", facts.cost.bytes}};
+  json["warnings"] = Json::array();
+  for (const Advice& item : advice) json["warnings"].push_back({{"about", item.about}, {"text", item.text}});
+  return json;
+}
+
+}  // namespace butee::app::check

@@ -1,0 +1,57 @@
+#include "survey.hpp"
+
+#include <cmath>
+
+namespace butee::app::check {
+namespace {
+
+using model::ElementMatrices;
+using model::NodalDof;
+using model::NodeId;
+
+class SurveySink final : public model::MatrixSink {
+ public:
+  SurveySink(const model::NodeTable& nodes, Survey& survey) : nodes_(nodes), survey_(survey) {}
+
+  void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) override {
+    double mass = 0.0;
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      for (std::size_t j = 0; j < dofs.size(); ++j)
+        if (dofs[i].kind == DofKind::u && dofs[j].kind == DofKind::u)
+          mass += matrices.mass(static_cast<Index>(i), static_cast<Index>(j));
+    survey_.total_mass += mass;
+    if (dofs.size() == 4) return add_stretch(dofs, matrices, mass);
+    if (dofs.front().kind != DofKind::u) return;
+    if (dofs.size() == 1 && mass > 0.0) {
+      survey_.lumped_mass += mass;
+      survey_.masses.push_back({dofs[0].node, mass});
+    }
+    if (const double k = matrices.stiffness(0, 0); dofs.size() <= 2 && k != 0.0)
+      survey_.springs.push_back({dofs[0].node, dofs.size() == 2 ? dofs[1].node : -1, k});
+  }
+
+ private:
+  /// The bending stiffness from the moment that a unit rotation of one end takes, 4 E I / l.
+  void add_stretch(std::span<const NodalDof> dofs, const ElementMatrices& matrices, double mass) {
+    const NodeId a = dofs[0].node, b = dofs[2].node;
+    const model::NodeGroup& group = nodes_.group_of(a);
+    if (dofs[1].kind != DofKind::theta || group.lone() || &nodes_.group_of(b) != &group) return;
+    const double length = std::abs(group.coordinates[static_cast<std::size_t>(b - group.first)] -
+                                   group.coordinates[static_cast<std::size_t>(a - group.first)]);
+    survey_.stretches.push_back({a, b, length, matrices.stiffness(1, 1) * length / 4.0, mass / length});
+  }
+
+  const model::NodeTable& nodes_;
+  Survey& survey_;
+};
+
+}  // namespace
+
+Survey survey_of(const model::Model& model) {
+  Survey survey;
+  SurveySink sink(model.nodes, survey);
+  for (const auto& element : model.elements) element->assemble(sink);
+  return survey;
+}
+
+}  // namespace butee::app::check

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <butee/model/model.hpp>
+
+namespace butee::app::check {
+
+/// A stretch of beam between two nodes: four DOFs (u, theta, u, theta) with bending stiffness and mass.
+struct Stretch {
+  model::NodeId a, b;
+  double length;           ///< m
+  double bending;          ///< E I, N m2
+  double mass_per_length;  ///< kg/m
+};
+
+/// A spring on u, to ground where b < 0.
+struct SpringPlace {
+  model::NodeId a, b;
+  double stiffness;  ///< N/m
+};
+
+/// A lumped mass.
+struct MassPlace {
+  model::NodeId node;
+  double mass;  ///< kg
+};
+
+/// What the elements of a model are, told from the matrices that they add, so that elements of modules count as well.
+struct Survey {
+  std::vector<Stretch> stretches;
+  std::vector<SpringPlace> springs;
+  std::vector<MassPlace> masses;
+  double total_mass = 0.0;   ///< kg, along u
+  double lumped_mass = 0.0;  ///< kg, of it on single nodes
+};
+
+Survey survey_of(const model::Model& model);
+
+}  // namespace butee::app::check

@@ -1,0 +1,115 @@
+#include "topics.hpp"
+
+namespace butee::app::help {
+
+const std::vector<Topic>& topics() {
+  static const std::vector<Topic> all = {
+      {"model", "what a scene file holds", model_text},
+      {"selectors", "how nodes are named", selectors_text},
+      {"elements", "beams, masses, springs, cross-sections and their keys", elements_text},
+      {"contact", "stops and their laws", contact_text},
+      {"loads", "forces and moments over time", loads_text},
+      {"damping", "Rayleigh and modal damping", damping_text},
+      {"integrators", "the methods, and how one is chosen", integrators_text},
+      {"output", "rows, probes, energy, impacts", output_text},
+      {"results", "the files that a run writes", results_text},
+      {"compare", "run time against error of several methods", compare_text},
+      {"trust", "how far an answer can be trusted", trust_text},
+      {"plugins", "modules: where they are found, how to write one", plugins_text},
+      {"exit-codes", "what the program returns", exit_codes_text},
+      {"environment", "variables that the program looks at", environment_text},
+  };
+  return all;
+}
+
+std::string results_text(const plugin::Catalogue&) {
+  return R"(`butee run MODEL.toml` writes into MODEL-results, or where -o says:
+
+  history.csv    t, the probes' columns, h (the step in force); 17 digits
+  summary.json   status, counters of what was really done, times, peaks, energies
+  model.toml     the scene as run, with what --set changed
+  impacts.csv    where [output] impacts = true: node, side, t_in, t_out, peak_force, impulse, impact_speed
+
+Files of an earlier run there are replaced, anything else in the folder stays; a folder that is not empty and was not made by
+butee is refused. A run that fails keeps what was computed, in whole lines, and says so in summary.json.
+
+`butee modes -o DIR` writes frequencies.csv and shapes.csv: node, coordinate, and u and theta of each mode, scaled so that
+the modal mass is 1 kg.
+)";
+}
+
+std::string compare_text(const plugin::Catalogue&) {
+  return R"(`butee compare MODEL.toml` runs every method that is installed from coarse to fine, and writes into MODEL-compare report.md (the
+fastest method for each target error), runs.csv and a picture (where gnuplot is installed). Errors are taken against the method
+`exact`, computed twice, so that the reference knows its own uncertainty. Ctrl-C keeps what is done; the same command goes on from
+there, --fresh begins anew.
+
+A study says more precisely what is compared:
+
+  schema = 1
+  [study]
+  title      = "stiff stops"
+  scenes     = ["scene.toml"]                   # beside the study
+  quantity   = ["mid.u"]                        # columns of history.csv
+  end_time   = 0.3                              # s
+  targets    = [1.0e-2, 1.0e-3]                 # relative rms errors
+  [[study.method]]                              # all methods where there is none
+  type   = "newmark"
+  sweep  = "time_step"
+  values = [1.0e-3, 5.0e-4]
+)";
+}
+
+std::string trust_text(const plugin::Catalogue&) {
+  return R"(`butee run --trust`, or [output] trust = true, runs the scene four more times: as it is, with half the step or a tenth of the
+tolerance, and twice from starts that differ by 1e-9 of the peak. It says up to which time the probes stay within
+trust_accuracy (1 % of the peak), how fast small differences grow, whether that is chaos, and on what rms values, peaks,
+forces and impacts the runs agree. summary.json holds the same under `trust`.
+
+Motion against stops is often chaotic: differences grow like e^(20 t) in one of the paper's scenes, so that no method holds its
+course for long, while peaks and rms values may still be right.
+)";
+}
+
+std::string plugins_text(const plugin::Catalogue& catalogue) {
+  return "Methods are modules: shared objects with a manifest beside each, so that names and parameters are known "
+         "without "
+         "loading\nany; only the module that a scene names is loaded. Modules may bring laws, loads and elements as "
+         "well. " +
+         std::to_string(catalogue.integrators().size()) + " methods are\ninstalled here.\n" +
+         R"(
+They are looked for in butee/plugins beside the library, in the folders of BUTEE_PLUGIN_PATH (parted by ':'), and where
+--plugin FILE|DIR says.
+
+  butee plugins           all that a scene may name
+  butee plugins NAME      its parameters with units and defaults
+  butee plugins --json    the same for scripts
+
+One algorithm file and a door of a few lines make a module:
+
+  find_package(butee REQUIRED)
+  butee_add_plugin(my_method plugin.cpp my_method.cpp)
+
+  #include <butee/plugin/entry.hpp>
+  BUTEE_PLUGIN(registrar) { registrar.add(my_method_type()); }   // a butee::time::IntegratorType
+)";
+}
+
+std::string exit_codes_text(const plugin::Catalogue&) {
+  return R"(  0   done
+  1   the run failed numerically, or a file could not be written; what was computed is kept, and summary.json says why
+  2   bad input or usage: messages on standard error, nothing is written
+
+Errors and warnings go to standard error, results to standard output, which stays usable in a pipe.
+)";
+}
+
+std::string environment_text(const plugin::Catalogue&) {
+  return R"(  BUTEE_PLUGIN_PATH   folders with further modules, parted by ':'
+  NO_COLOR            where set, no colours; elsewhere there are none but on a terminal
+  LC_ALL, LC_CTYPE, LANG
+                      with UTF-8, `butee check` draws with line-drawing characters, otherwise with plain ones
+)";
+}
+
+}  // namespace butee::app::help

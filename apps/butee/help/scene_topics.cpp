@@ -1,0 +1,146 @@
+#include <algorithm>
+
+#include <butee/core/text.hpp>
+
+#include "../parameter_table.hpp"
+#include "topics.hpp"
+
+namespace butee::app::help {
+namespace {
+
+/// "NAME: summary" and the parameters of each type.
+template <class Types>
+std::string listed(const Types& types) {
+  std::string text;
+  for (const auto& type : types)
+    text += "\n" + type.name + ": " + type.summary + "\n" + parameter_table(type.parameters, false);
+  return text;
+}
+
+}  // namespace
+
+std::string model_text(const plugin::Catalogue&) {
+  return R"(A scene is a TOML file in SI units. Its first key is schema = 1; the rest are these tables.
+
+  title          one line for people
+  [material.X]   young_modulus (Pa), density (kg/m3)
+  [section.X]    a cross-section: shape and its lengths                          butee help elements
+  [[element]]    beams, masses, springs; beams and masses make nodes             butee help elements
+  [[support]]    nodes (selectors) and fix = ["u", "theta"]                      butee help selectors
+  [[contact]]    stops with a gap, to ground or between two bodies               butee help contact
+  [[load]]       forces and moments over time                                    butee help loads
+  [damping]      Rayleigh's or modal; dashpots belong to springs                 butee help damping
+  [initial]      displacement and velocity; at rest where absent
+  [integrator]   type, time_step, end_time and the method's parameters           butee help integrators
+  [output]       when rows are written, and of which nodes                       butee help output
+
+  [initial]
+  displacement = [{ nodes = "rotor", dof = "u", value = 1.0e-3 }]     # m, rad
+  velocity     = [{ nodes = "rotor", dof = "u", value = 0.2 }]        # m/s, rad/s
+
+The equations are M a + C v + K x = F(t) + F_c(x) with the free u (transverse displacement) and theta (rotation) of
+all nodes. Every key is checked: a mistake gets one message with file, line, key, value and what is allowed, all mistakes
+of a file in one go. `butee init KIND` writes a scene to start from, `butee check` shows what one holds.
+)";
+}
+
+std::string selectors_text(const plugin::Catalogue&) {
+  return R"(Nodes are named by selectors, in quotes; where several nodes may stand, a list of selectors may too.
+
+  "rotor"          the node of a lone mass
+  "string:first"   the first node of the beam `string`; also last, and middle where the number of nodes is odd
+  "string:17"      its node 17, counted from 0
+  "string:3..9"    nodes 3 to 9, both included
+  "string:all"     all of them
+  "string@17.5"    the node at the coordinate 17.5 m; an error that names the two nearest where there is none
+
+`start_node` and `end_node` of a beam take a node of another beam, so that both share it.
+)";
+}
+
+std::string elements_text(const plugin::Catalogue& catalogue) {
+  return "[[element]]: `type` is one of the following, `name` the name by which its nodes are selected.\n" +
+         listed(catalogue.types().elements) + "\n[section.X]: `shape` is one of the following.\n" +
+         listed(catalogue.types().sections);
+}
+
+std::string contact_text(const plugin::Catalogue& catalogue) {
+  return R"([[contact]]: elastic stops with a gap on the displacement u of nodes, or on u_a - u_b of two bodies.
+
+  type = "stop"
+  nodes      selectors: a stop to ground on each node; or
+  between    two selectors of equally many nodes: a stop between each pair
+  gap        m, the free play on each side
+  sides      "both" (where not given), "positive" or "negative"
+  law        "linear" where not given; the laws and their parameters are below
+
+With the penetration g (negative while open) and one side s: g = s u - gap, F = -s K_c(g) g. Both sides: the nearer one.
+)" + listed(catalogue.types().laws) +
+         "\nThe linear law is the exact unilateral spring; arctan is smooth, but pulls open stops a little (butee "
+         "check "
+         "says\nhow much).\n";
+}
+
+std::string loads_text(const plugin::Catalogue& catalogue) {
+  return R"([[load]]: `node` (a selector of one node), `dof` ("u", where not given, or "theta"), and `type`, the course in time.
+)" + listed(catalogue.types().loads) +
+         R"(
+distributed: a line load on a whole beam, as consistent nodal loads
+  beam      its name
+  value     N/m
+  in_time   a factor in time: { type = "ramp", from = 0.0, to = 1.0, start = 0.0, end = 0.1 }
+)";
+}
+
+std::string damping_text(const plugin::Catalogue&) {
+  return R"([damping]: one of the two; dashpots of springs come on top of either.
+
+  mass_proportional        1/s, C = mass_proportional M + ... (Rayleigh)
+  stiffness_proportional   s,   ... + stiffness_proportional K; K holds the springs, never the stops
+  modal                    0.02: this ratio of critical damping in every mode with open stops;
+                           [0.02, 0.01]: in the lowest modes, none in the others
+
+Rayleigh damping gives a mode of angular frequency w the ratio (mass_proportional/w + stiffness_proportional w)/2.
+`butee modes` prints the ratio of each mode.
+)";
+}
+
+std::string integrators_text(const plugin::Catalogue& catalogue) {
+  std::string text = R"([integrator]: how the scene is taken through time.
+
+  type        a method or its alias; "auto", which looks at the scene, where not given
+  time_step   s; the first step of a method that chooses its steps itself, which then may be absent
+  end_time    s
+  and the parameters of the method (butee plugins NAME). [integrator.NAME] holds those used only with that method.
+
+)";
+  std::size_t width = 0;
+  for (const auto& entry : catalogue.integrators()) width = std::max(width, entry.declaration.name.size());
+  for (const auto& entry : catalogue.integrators()) {
+    const time::IntegratorType& type = entry.declaration;
+    text += "  " + type.name + std::string(width - type.name.size() + 2, ' ') + type.summary;
+    if (!type.aliases.empty()) text += " (" + join(type.aliases) + ")";
+    text += "\n";
+  }
+  return text + "\n`butee compare MODEL.toml` finds out which is the fastest for an accuracy on your scene.\n";
+}
+
+std::string output_text(const plugin::Catalogue&) {
+  return R"([output]: what history.csv holds. Without it: 1000 equal intervals, and u of every loaded node.
+
+  interval         s: rows at t = 0, interval, 2 interval, ..., end_time, by the method's own interpolant
+  every            instead of interval: a row at every so manyth accepted step
+  energy           true: work, dissipation and the balance are followed            (false)
+  impacts          true: impacts.csv, a row for each closing of a stop             (false)
+  trust            true: find out how far the answer can be trusted                (false; butee help trust)
+  trust_accuracy   the accuracy it is to be trusted to, of the peak                (0.01)
+  formats          ["csv"] and what modules bring
+
+  [[output.probe]]
+  label        the name of its columns: label.u, label.v, ...
+  node         a selector of one node
+  quantities   any of "u", "v", "a", "theta", "theta_v", "theta_a", "contact_force"
+)";
+}
+
+}  // namespace butee::app::help

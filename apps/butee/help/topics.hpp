@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <butee/plugin/catalogue.hpp>
+
+namespace butee::app::help {
+
+/// A subject of `butee help`. What modules and the framework declare is printed from their declarations.
+struct Topic {
+  std::string name, summary;
+  std::string (*text)(const plugin::Catalogue& catalogue);
+};
+
+const std::vector<Topic>& topics();
+
+// Of scenes, in scene_topics.cpp.
+std::string model_text(const plugin::Catalogue& catalogue);
+std::string selectors_text(const plugin::Catalogue& catalogue);
+std::string elements_text(const plugin::Catalogue& catalogue);
+std::string contact_text(const plugin::Catalogue& catalogue);
+std::string loads_text(const plugin::Catalogue& catalogue);
+std::string damping_text(const plugin::Catalogue& catalogue);
+std::string integrators_text(const plugin::Catalogue& catalogue);
+std::string output_text(const plugin::Catalogue& catalogue);
+
+// Of the program, in program_topics.cpp.
+std::string results_text(const plugin::Catalogue& catalogue);
+std::string compare_text(const plugin::Catalogue& catalogue);
+std::string trust_text(const plugin::Catalogue& catalogue);
+std::string plugins_text(const plugin::Catalogue& catalogue);
+std::string exit_codes_text(const plugin::Catalogue& catalogue);
+std::string environment_text(const plugin::Catalogue& catalogue);
+
+}  // namespace butee::app::help

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace butee::app {
+
+/// Keeps the order in which keys are added; numbers that are not finite are written as null.
+using Json = nlohmann::ordered_json;
+
+/// To standard output, indented, with a line end.
+inline void print_json(const Json& json) {
+  std::printf("%s\n", json.dump(2).c_str());
+}
+
+}  // namespace butee::app

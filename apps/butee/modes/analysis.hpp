@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <butee/solve/modes.hpp>
+
+#include "../session.hpp"
+
+namespace butee::app::modes {
+
+/// What one natural mode is worth.
+struct Mode {
+  double omega = 0.0;             ///< rad/s
+  double frequency = 0.0;         ///< Hz
+  std::optional<double> damping;  ///< 1 = critical; none for rigid motion
+  double effective_mass = 0.0;    ///< kg, of a transverse acceleration of all nodes alike
+  double effective_part = 0.0;    ///< of the total mass
+  double residual = 0.0, rounding = 0.0;
+  bool rigid = false;
+};
+
+/// The modes of a scene, its stops open or some of them closed.
+struct Analysis {
+  std::string title;
+  Index dofs = 0, stops = 0, closed = 0;
+  double total_mass = 0.0;  ///< kg
+  bool dense = false;
+  std::vector<Mode> modes;
+  Eigen::MatrixXd shapes;  ///< dofs x modes, Phi^T M Phi = 1
+};
+
+/// The stops that a selector of --closed names: "all", or those that act on the nodes it selects. Throws InputError.
+std::vector<solve::ClosedStop> closed_stops(const model::Model& model, const std::vector<std::string>& selectors);
+
+/// `count` modes. Throws InputError where the scene has not so many, RunError where they could not be computed.
+Analysis analyse(const model::Model& model, const model::System& system, const std::vector<solve::ClosedStop>& closed,
+                 Index count);
+
+}  // namespace butee::app::modes

@@ -1,0 +1,158 @@
+#include "report.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <butee/core/format.hpp>
+#include <butee/core/text.hpp>
+
+namespace butee::app::modes {
+namespace {
+
+using model::NodalDof;
+using model::NodeId;
+
+/// An effective mass below this part of the total is zero for readers of tables.
+constexpr double kNoMass = 1e-12;
+
+std::string exact(double value) {
+  return formatted("%.17g", value);
+}
+
+/// The value of a shape on a DOF; 0 where it is held, nothing where it does not exist.
+std::string cell(const Analysis& analysis, const model::DofTable& dofs, NodalDof dof, Index mode) {
+  const Index row = dofs.index(dof);
+  if (row == model::DofTable::kAbsent) return "";
+  return row < 0 ? "0" : exact(analysis.shapes(row, mode));
+}
+
+/// The first nodes of all groups, in the order of the file.
+std::vector<const model::NodeGroup*> groups_of(const model::NodeTable& nodes) {
+  std::vector<const model::NodeGroup*> groups;
+  for (const std::string& name : nodes.group_names()) groups.push_back(nodes.find(name));
+  return groups;
+}
+
+/// What each mode is drawn with, its largest |u| being 1; 0 where it has no u.
+std::vector<double> scales_of(const Analysis& analysis, const model::Model& model, const model::DofTable& dofs) {
+  std::vector<double> scales(analysis.modes.size());
+  for (NodeId node = 0; node < model.nodes.size(); ++node)
+    if (const Index row = dofs.index({node, DofKind::u}); row >= 0)
+      for (std::size_t i = 0; i < scales.size(); ++i)
+        scales[i] = std::max(scales[i], std::abs(analysis.shapes(row, static_cast<Index>(i))));
+  for (double& scale : scales) scale = scale > 0.0 ? 1.0 / scale : 0.0;
+  return scales;
+}
+
+}  // namespace
+
+void print(const Analysis& analysis) {
+  if (!analysis.title.empty()) std::printf("%s\n", printable(analysis.title).c_str());
+  std::printf("  %td free DOFs, %s kg", analysis.dofs, to_short_text(analysis.total_mass).c_str());
+  if (analysis.stops > 0)
+    std::printf(analysis.closed > 0 ? ", %td of %td stops closed" : ", all stops open", analysis.closed,
+                analysis.stops);
+  std::printf("\n\n  mode       rad/s            Hz     damping   effective mass (u)   sum  residual\n");
+  double sum = 0.0;
+  for (std::size_t i = 0; i < analysis.modes.size(); ++i) {
+    const Mode& mode = analysis.modes[i];
+    sum += mode.effective_part;
+    const std::string mass = mode.effective_part < kNoMass ? "0" : formatted("%.4g", mode.effective_mass);
+    std::printf("  %4zu  %10s  %12s  %10s  %11s kg %4.1f %% %4.1f %%  %8.0e%s\n", i + 1,
+                to_short_text(mode.omega).c_str(), to_short_text(mode.frequency).c_str(),
+                mode.damping ? formatted("%.4g", *mode.damping).c_str() : "-", mass.c_str(),
+                100.0 * mode.effective_part, 100.0 * sum, mode.residual, mode.rigid ? "  rigid motion" : "");
+  }
+}
+
+Json to_json(const Analysis& analysis) {
+  Json json;
+  json["title"] = analysis.title;
+  json["dofs"] = analysis.dofs;
+  json["stops"] = analysis.stops;
+  json["closed_stops"] = analysis.closed;
+  json["total_mass"] = analysis.total_mass;
+  json["solver"] = analysis.dense ? "dense" : "lanczos";
+  json["modes"] = Json::array();
+  for (const Mode& mode : analysis.modes) {
+    Json row;
+    row["angular_frequency"] = mode.omega;
+    row["frequency"] = mode.frequency;
+    row["damping"] = mode.damping ? Json(*mode.damping) : Json();
+    row["effective_mass"] = mode.effective_mass;
+    row["effective_part"] = mode.effective_part;
+    row["rigid"] = mode.rigid;
+    row["residual"] = mode.residual;
+    row["rounding"] = mode.rounding;
+    json["modes"].push_back(std::move(row));
+  }
+  return json;
+}
+
+std::string frequencies_csv(const Analysis& analysis) {
+  std::string text = "mode,angular_frequency,frequency,damping,effective_mass,effective_part,rigid,residual,rounding\n";
+  for (std::size_t i = 0; i < analysis.modes.size(); ++i) {
+    const Mode& mode = analysis.modes[i];
+    text += std::to_string(i + 1) + "," + exact(mode.omega) + "," + exact(mode.frequency) + "," +
+            (mode.damping ? exact(*mode.damping) : "") + "," + exact(mode.effective_mass) + "," +
+            exact(mode.effective_part) + "," + (mode.rigid ? "1" : "0") + "," + exact(mode.residual) + "," +
+            exact(mode.rounding) + "\n";
+  }
+  return text;
+}
+
+std::string shapes_csv(const Analysis& analysis, const model::Model& model, const model::System& system) {
+  std::string text = "node,coordinate";
+  for (std::size_t i = 1; i <= analysis.modes.size(); ++i) {
+    const std::string number = std::to_string(i);
+    text += ",u" + number + ",theta" + number;
+  }
+  text += "\n";
+  for (const model::NodeGroup* group : groups_of(model.nodes))
+    for (NodeId i = 0; i < group->size(); ++i) {
+      const NodeId node = group->first + i;
+      text += model.nodes.name(node) + ",";
+      if (!group->lone()) text += exact(group->coordinates[static_cast<std::size_t>(i)]);
+      for (Index mode = 0; mode < std::ssize(analysis.modes); ++mode)
+        for (const DofKind kind : {DofKind::u, DofKind::theta})
+          text += "," + cell(analysis, system.dofs, {node, kind}, mode);
+      text += "\n";
+    }
+  return text;
+}
+
+bool draw(const Analysis& analysis, const model::Model& model, const model::System& system,
+          const record::ResultFolder& folder) {
+  const std::vector<double> scales = scales_of(analysis, model, system.dofs);
+  std::string data, labels, plot;
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    for (const model::NodeGroup* group : groups_of(model.nodes)) {
+      for (NodeId k = 0; k < group->size(); ++k) {
+        const Index row = system.dofs.index({group->first + k, DofKind::u});
+        const double u = row >= 0 ? analysis.shapes(row, static_cast<Index>(i)) : 0.0;
+        data += exact(group->lone() ? 0.0 : group->coordinates[static_cast<std::size_t>(k)]) + " " +
+                exact(0.4 * scales[i] * u - static_cast<double>(i)) + "\n";
+      }
+      data += "\n";
+    }
+    data += "\n";
+    const std::string place = std::to_string(i);
+    labels += (i > 0 ? ", " : "") + formatted("'%zu: %.4g Hz' -%zu", i + 1, analysis.modes[i].frequency, i);
+    plot += (i > 0 ? ", " : "plot ") + ("-" + place + " w l lc rgb '#c8c8c8' notitle, 'modes.dat' index " + place) +
+            " w lp lw 1.6 pt 7 ps 0.3 lc rgb '#1f77b4' notitle";
+  }
+  folder.write("modes.dat", data);
+  const std::string height = std::to_string(160 + 70 * scales.size());
+  std::string script = "set xlabel 'coordinate / m'\nset border 1\nset xtics nomirror out\nset ytics scale 0 (" +
+                       labels + ")\nset yrange [" + formatted("-%zu", scales.size()) + "+0.3:0.7]\n";
+  for (const auto& [terminal, suffix] :
+       {std::pair{"pngcairo size 1000," + height + " font 'sans,13'", std::string("png")},
+        std::pair{"svg size 800," + height + " font 'sans,13'", std::string("svg")}})
+    script += "set terminal " + terminal + "\nset output 'modes." + suffix + "'\n" + plot + "\n";
+  folder.write("modes.gp", script + "set output\n");
+  std::string path;
+  for (const char c : folder.path()) path += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return std::system(("cd -- '" + path + "' && gnuplot modes.gp > /dev/null 2>&1").c_str()) == 0;
+}
+
+}  // namespace butee::app::modes

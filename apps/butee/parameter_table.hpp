@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <butee/config/parameter.hpp>
+
+namespace butee::app {
+
+/// The declared parameters as lines: name, unit, default, what is allowed, meaning; under headings where `headed`.
+/// Empty without parameters.
+std::string parameter_table(const std::vector<config::Parameter>& parameters, bool headed = true);
+
+}  // namespace butee::app

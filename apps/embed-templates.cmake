@@ -1,0 +1,12 @@
+# Writes the C++ source OUTPUT with the scenes of the folder TEMPLATES: cmake -D TEMPLATES=... -D OUTPUT=... -P this file.
+file(GLOB scenes ${TEMPLATES}/*.toml)
+list(SORT scenes)
+set(source "// Made by apps/embed-templates.cmake from apps/templates.\n#include \"apps/butee/init/kinds.hpp\"\n\nnamespace butee::app::init {\n\n")
+string(APPEND source "const std::vector<Kind>& kinds() {\n  static const std::vector<Kind> all = {\n")
+foreach(scene IN LISTS scenes)
+  get_filename_component(name ${scene} NAME_WE)
+  file(READ ${scene} text)
+  string(APPEND source "      {\"${name}\", R\"scene(${text})scene\"},\n")
+endforeach()
+string(APPEND source "  };\n  return all;\n}\n\n}  // namespace butee::app::init\n")
+file(WRITE ${OUTPUT} "${source}")

@@ -1,0 +1,46 @@
+# What belongs to an installed program beside it: manual page, completions, and the Debian package (cpack -G DEB).
+set(desk_folder ${CMAKE_CURRENT_BINARY_DIR}/desk)
+set(desk_files ${desk_folder}/butee.1 ${desk_folder}/butee.bash ${desk_folder}/_butee ${desk_folder}/butee.fish)
+file(MAKE_DIRECTORY ${desk_folder})
+# Completions name the methods of the modules, so that these have to be there.
+add_custom_command(OUTPUT ${desk_files}
+  COMMAND $<TARGET_FILE:butee_program> help --man > ${desk_folder}/butee.1
+  COMMAND $<TARGET_FILE:butee_program> completion bash > ${desk_folder}/butee.bash
+  COMMAND $<TARGET_FILE:butee_program> completion zsh > ${desk_folder}/_butee
+  COMMAND $<TARGET_FILE:butee_program> completion fish > ${desk_folder}/butee.fish
+  DEPENDS butee_program VERBATIM COMMENT "Manual page and shell completions")
+add_custom_target(butee_desk ALL DEPENDS ${desk_files})
+function(butee_desk_after_modules)
+  get_property(modules DIRECTORY ${PROJECT_SOURCE_DIR}/plugins PROPERTY BUILDSYSTEM_TARGETS)
+  if(modules)
+    add_dependencies(butee_desk ${modules})
+  endif()
+endfunction()
+cmake_language(DEFER DIRECTORY ${PROJECT_SOURCE_DIR} CALL butee_desk_after_modules)
+
+install(FILES ${desk_folder}/butee.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${desk_folder}/butee.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME butee)
+install(FILES ${desk_folder}/_butee DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+install(FILES ${desk_folder}/butee.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_NAME butee)
+  set(CPACK_PACKAGE_VENDOR "butee")
+  set(CPACK_PACKAGE_CONTACT "butee <butee@localhost>")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+  set(CPACK_PACKAGE_DESCRIPTION
+      "Sparse Euler-Bernoulli beams, lumped masses, springs and dashpots; elastic stops with a gap, to ground or between\ntwo bodies; time integrators that are found and loaded at run time. With the library, its headers and modules.")
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_STRIP_FILES ON)
+  set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/package)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
+      ${CMAKE_LIBRARY_OUTPUT_DIRECTORY} ${BUTEE_PLUGIN_OUTPUT_DIRECTORY})
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, libeigen3-dev")
+  set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS OFF)
+  include(CPack)
+endif()

@@ -1,0 +1,96 @@
+#include "butee/solve/lanczos.hpp"
+
+#include <Spectra/MatOp/SparseSymMatProd.h>
+#include <Spectra/SymGEigsShiftSolver.h>
+#include <algorithm>
+
+#include <Eigen/SparseCholesky>
+
+namespace butee::solve {
+
+struct ShiftedFactor::Implementation {
+  const ExtendedMatrix& stiffness;
+  const ExtendedMatrix& mass;
+  Eigen::SimplicialLDLT<ExtendedMatrix> factor;
+  bool analysed = false;
+};
+
+ShiftedFactor::ShiftedFactor(const ExtendedMatrix& stiffness, const ExtendedMatrix& mass)
+    : implementation_(new Implementation{stiffness, mass, {}, false}) {}
+
+ShiftedFactor::~ShiftedFactor() = default;
+
+bool ShiftedFactor::factorize(long double shift) {
+  auto& [stiffness, mass, factor, analysed] = *implementation_;
+  const ExtendedMatrix shifted = stiffness - shift * mass;
+  if (!analysed) factor.analyzePattern(shifted);
+  analysed = true;
+  factor.factorize(shifted);
+  return factor.info() == Eigen::Success;
+}
+
+Index ShiftedFactor::negative_pivots() const {
+  return (implementation_->factor.vectorD().array() < 0.0L).count();
+}
+
+void ShiftedFactor::solve(const double* b, double* x) const {
+  using Column = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  const Index n = implementation_->mass.rows();
+  const Column right = Eigen::Map<const Vector>(b, n).cast<long double>();
+  Eigen::Map<Vector>(x, n) = Column(implementation_->factor.solve(right)).cast<double>();
+}
+
+ExtendedColumns ShiftedFactor::solve(const ExtendedColumns& b) const {
+  return implementation_->factor.solve(b);
+}
+
+namespace {
+
+constexpr Index kRestarts = 300;
+constexpr Index kSpareVectors = 20;
+
+/// y := scale P (K - shift M)^-1 x, where P takes out what was found before.
+class Operation {
+ public:
+  using Scalar = double;
+
+  Operation(const ShiftedFactor& factor, const SparseMatrix& mass, double scale, const Eigen::MatrixXd& found)
+      : factor_(factor), scale_(scale), found_(found), weighted_(mass * found) {}
+
+  Index rows() const { return weighted_.rows(); }
+  Index cols() const { return weighted_.rows(); }
+  void set_shift(double) {}
+  void perform_op(const double* x, double* y) const {
+    factor_.solve(x, y);
+    Eigen::Map<Vector> result(y, rows());
+    result *= scale_;
+    for (int i = 0; i < 2 && found_.cols() > 0; ++i) result -= found_ * (weighted_.transpose() * result);
+  }
+
+ private:
+  const ShiftedFactor& factor_;
+  double scale_;
+  const Eigen::MatrixXd& found_;
+  Eigen::MatrixXd weighted_;
+};
+
+}  // namespace
+
+Index lanczos_vectors(Index count, Index size) {
+  return std::min(size, 2 * count + kSpareVectors);
+}
+
+std::optional<Eigen::MatrixXd> lanczos(const ShiftedFactor& factor, const SparseMatrix& mass, double scale, Index count,
+                                       double tolerance, const Eigen::MatrixXd& found) {
+  using Product = Spectra::SparseSymMatProd<double>;
+  Operation operation(factor, mass, scale, found);
+  Product product(mass);
+  Spectra::SymGEigsShiftSolver<Operation, Product, Spectra::GEigsMode::ShiftInvert> solver(
+      operation, product, count, lanczos_vectors(count, mass.rows()), 0.0);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, kRestarts, tolerance);
+  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
+  return solver.eigenvectors();
+}
+
+}  // namespace butee::solve

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "butee/solve/structure.hpp"
+
+namespace butee::solve {
+
+/// K - shift M as L D L^T in extended precision, for shift-invert iterations. Private to the framework.
+class ShiftedFactor {
+ public:
+  /// The matrices must outlive it.
+  ShiftedFactor(const ExtendedMatrix& stiffness, const ExtendedMatrix& mass);
+  ~ShiftedFactor();
+  ShiftedFactor(const ShiftedFactor&) = delete;
+  ShiftedFactor& operator=(const ShiftedFactor&) = delete;
+
+  /// False where a pivot is zero.
+  [[nodiscard]] bool factorize(long double shift);
+  /// By Sylvester's law of inertia the number of eigenvalues below the shift.
+  Index negative_pivots() const;
+  /// x := (K - shift M)^-1 b
+  void solve(const double* b, double* x) const;
+  ExtendedColumns solve(const ExtendedColumns& b) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// The `count` lowest eigenvectors of K, M outside the span of `found` (M-orthonormal, may have no column) by Lanczos'
+/// method with restarts (Spectra) on scale (K - shift M)^-1 M, whose factor is given; scale near |lambda - shift| keeps
+/// its eigenvalues near 1. `tolerance` is that of the residuals, relative. Nothing where it did not converge.
+std::optional<Eigen::MatrixXd> lanczos(const ShiftedFactor& factor, const SparseMatrix& mass, double scale, Index count,
+                                       double tolerance, const Eigen::MatrixXd& found);
+
+/// The vectors that lanczos() keeps for `count` pairs of a system of `size`.
+Index lanczos_vectors(Index count, Index size);
+
+}  // namespace butee::solve

@@ -1,0 +1,128 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+using Json = nlohmann::json;
+
+Json check(const std::string& model, std::vector<std::string> overrides = {}) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments = {"check", model, "--json"};
+  for (std::string& item : overrides) {
+    arguments.emplace_back("--set");
+    arguments.push_back(std::move(item));
+  }
+  const Outcome outcome = run_program(arguments, folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_TRUE(folder.entries().empty());
+  return Json::parse(outcome.output);
+}
+
+/// The text of the advice about a subject, or "".
+std::string advice(const Json& json, const std::string& about) {
+  for (const Json& item : json["warnings"])
+    if (item["about"] == about) return item["text"];
+  return "";
+}
+
+std::string beam1() {
+  return model_path("beam1");
+}
+
+TEST(CheckAdvice, says_nothing_of_a_sound_scene) {
+  const Json json = check(beam1(), {"contact[0].law=linear", "contact[0].regularization="});
+  EXPECT_EQ(json["warnings"].size(), 0U) << json["warnings"];
+}
+
+struct Mistake {
+  std::string about, words;
+  std::vector<std::string> overrides;
+};
+
+TEST(CheckAdvice, finds_likely_mistakes_that_the_sound_scene_has_not) {
+  const std::vector<Mistake> mistakes = {
+      {"regularization", "take at least", {"contact[0].regularization=200.0"}},
+      {"output-interval", "a row every 0.1 s", {"output={interval=0.1}"}},
+      {"contact-step", "an impact can be as short as", {"integrator.time_step=5e-3", "integrator.type=newmark"}},
+      {"load-step", "in the shortest period of a load", {"integrator.time_step=0.1", "integrator.type=newmark"}},
+      {"mesh", "a bending wave", {"load[0].angular_frequency=2000.0"}},
+      {"unused", "[material.copper] is used by no element", {"material.copper={young_modulus=1e11,density=8e3}"}},
+      {"unused", "[section.rod] is used by no element", {"section.rod={shape=\"circle\",radius=0.1}"}},
+      {"start", "closed at the start", {"initial={displacement=[{nodes=\"string:5\",dof=\"u\",value=0.02}]}"}},
+      {"gap",
+       "gap below the static deflection",
+       {"load[0].type=constant", "load[0].amplitude=", "load[0].angular_frequency=", "load[0].value=900.0"}},
+      {"critical-step", "larger than the critical step", {"integrator.type=rk4", "integrator.time_step=4e-4"}},
+      {"trial", "a trial run failed", {"integrator.type=rk4", "integrator.time_step=1e-3", "integrator.end_time=10.0"}},
+      {"pull", "pulls every open stop", {}},
+      {"jump", "jumps by", {}}};
+  for (const Mistake& mistake : mistakes) {
+    const std::string text = advice(check(beam1(), mistake.overrides), mistake.about);
+    EXPECT_NE(text.find(mistake.words), std::string::npos) << mistake.about << ": " << text;
+  }
+}
+
+TEST(CheckAdvice, knows_stiffness_ratio_and_duration_of_an_impact) {
+  // K = 1e9 N/m behind a stop of 1e10; pi sqrt(100/1e10) s.
+  const Json json = check(model_path("oscillator"));
+  EXPECT_NEAR(json["contact"]["least_stiffness_ratio"].get<double>(), 10.0, 1e-9);
+  EXPECT_NEAR(json["contact"]["shortest_contact"].get<double>(), 3.14159265e-4, 1e-11);
+  EXPECT_NEAR(json["contact"]["static_deflection"].get<double>(), 201240.0 / 1e9, 1e-12);
+  EXPECT_EQ(json["mass"], 100.0);
+}
+
+TEST(CheckAdvice, estimates_steps_and_size) {
+  const Json json = check(beam1(), {"integrator.type=newmark", "output={interval=1e-3}"});
+  EXPECT_EQ(json["estimate"]["steps"], 100000.0);
+  EXPECT_EQ(json["estimate"]["rows"], 1001.0);
+  EXPECT_GT(json["estimate"]["seconds"].get<double>(), 0.0);
+  EXPECT_TRUE(std::isfinite(json["estimate"]["seconds"].get<double>()));
+}
+
+TEST(CheckPicture, shows_a_scene_as_text_in_plain_or_line_drawing_characters) {
+  const TemporaryFolder folder;
+  const std::string plain = run_program({"check", beam1()}, folder.path(), {"LC_ALL=C"}).output;
+  EXPECT_NE(plain.find("string  +===="), std::string::npos) << plain;
+  EXPECT_NE(plain.find("300 N at 1 Hz"), std::string::npos) << plain;
+  EXPECT_NE(plain.find("gap 0.01 m, 1e+06 N/m, arctan"), std::string::npos) << plain;
+  EXPECT_EQ(std::count_if(plain.begin(), plain.end(), [](char c) { return (c & 0x80) != 0; }), 0);
+  const std::string drawn = run_program({"check", beam1()}, folder.path(), {"LC_ALL=C.UTF-8"}).output;
+  EXPECT_NE(drawn.find("╋━━━"), std::string::npos) << drawn;
+  const std::string both = run_program({"check", std::string(BUTEE_TEST_SOURCE) + "/apps/templates/rotor-casing.toml"},
+                                       folder.path(), {"LC_ALL=C"})
+                               .output;
+  // The casing below the rotor, stops between the two.
+  EXPECT_LT(both.find("\nrotor "), both.find("\ncasing ")) << both;
+  const std::string between = both.substr(both.find("\nrotor "), both.find("\ncasing ") - both.find("\nrotor "));
+  EXPECT_EQ(std::count(between.begin(), between.end(), ':'), 5) << between;
+}
+
+TEST(CheckPicture, is_drawn_as_svg) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program({"check", beam1(), "--picture", "beam.svg", "--set", "title=a < b & c"}, folder.path()).status,
+            0);
+  const std::string svg = read_file(folder.file("beam.svg"));
+  EXPECT_EQ(svg.rfind("<?xml", 0), 0U);
+  EXPECT_NE(svg.find("a &lt; b &amp; c"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  for (const char* part : {"string: 35 m, 34 elements", "300 N at 1 Hz", "gap 0.01 m"})
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  const auto count = [&](const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find(part); at != std::string::npos; at = svg.find(part, at + 1)) ++found;
+    return found;
+  };
+  // 35 stops on both sides, 2 supports, an arrow, a mark in the legend.
+  EXPECT_EQ(count("<polygon"), 2U * 35U + 2U + 1U + 1U);
+  EXPECT_EQ(count("<text"), count("</text>"));
+  EXPECT_EQ(run_program({"check", beam1(), "--picture", "no/such/folder.svg"}, folder.path()).status, 1);
+}
+
+}  // namespace
+}  // namespace butee::test

@@ -1,0 +1,159 @@
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+using Json = nlohmann::json;
+using std::numbers::pi;
+
+/// Of the mesh of 34 elements, (beta l)^4/1440 and less.
+constexpr double kMesh = 1e-5;
+/// Of an effective mass on that mesh.
+constexpr double kMassOfMesh = 1e-4;
+
+class ModesCommand : public testing::Test {
+ protected:
+  Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "modes");
+    return run_program(arguments, folder_.path());
+  }
+  Json json(std::vector<std::string> arguments) {
+    arguments.emplace_back("--json");
+    const Outcome outcome = run(std::move(arguments));
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    return Json::parse(outcome.output);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ModesCommand, pinned_beam_has_its_frequencies_ratios_and_effective_masses) {
+  const Json found = json({model_path("beam1"), "-n", "5"});
+  ASSERT_EQ(found["modes"].size(), 5U);
+  const double bending = 2.03e11 * pi / 4.0 * (std::pow(0.06, 4) - std::pow(0.04, 4));
+  const double mass = 7900.0 * pi * (0.06 * 0.06 - 0.04 * 0.04);
+  EXPECT_NEAR(found["total_mass"].get<double>(), 35.0 * mass, 1e-9 * 35.0 * mass);
+  for (int i = 1; i <= 5; ++i) {
+    const Json& mode = found["modes"][static_cast<std::size_t>(i - 1)];
+    const double omega = std::pow(i * pi / 35.0, 2) * std::sqrt(bending / mass);
+    EXPECT_NEAR(mode["angular_frequency"].get<double>() / omega, 1.0, 10.0 * kMesh) << i;
+    EXPECT_NEAR(mode["frequency"].get<double>(), mode["angular_frequency"].get<double>() / (2.0 * pi), 1e-12);
+    EXPECT_NEAR(mode["damping"].get<double>() / (0.03 / (2.0 * omega)), 1.0, 10.0 * kMesh) << i;
+    // A half sine of i waves: 8/(i pi)^2 of the mass for odd i, nothing for even ones.
+    EXPECT_NEAR(mode["effective_part"].get<double>(), i % 2 == 1 ? 8.0 / (i * i * pi * pi) : 0.0, kMassOfMesh) << i;
+    EXPECT_FALSE(mode["rigid"].get<bool>());
+    EXPECT_LT(mode["residual"].get<double>(), 1e-9);
+  }
+}
+
+TEST_F(ModesCommand, all_effective_masses_together_are_the_mass_that_can_move) {
+  double sum = 0.0;
+  const Json found = json({model_path("beam1"), "-n", "68"});
+  for (const Json& mode : found["modes"]) sum += mode["effective_part"].get<double>();
+  // Without what the held ends keep, less than half an element each.
+  EXPECT_LT(sum, 1.0);
+  EXPECT_GT(sum, 1.0 - 1.0 / 34.0);
+}
+
+TEST_F(ModesCommand, oscillator_with_open_and_closed_stops) {
+  const Json open = json({model_path("oscillator")});
+  ASSERT_EQ(open["modes"].size(), 1U);
+  EXPECT_NEAR(open["modes"][0]["angular_frequency"].get<double>(), std::sqrt(1e9 / 100.0), 1e-8);
+  EXPECT_NEAR(open["modes"][0]["damping"].get<double>(), 50.0 / (2.0 * std::sqrt(1e9 * 100.0)), 1e-15);
+  EXPECT_NEAR(open["modes"][0]["effective_part"].get<double>(), 1.0, 1e-12);
+  for (const char* which : {"all", "rotor"}) {
+    const Json closed = json({model_path("oscillator"), "--closed", which});
+    EXPECT_EQ(closed["closed_stops"], 1);
+    EXPECT_NEAR(closed["modes"][0]["angular_frequency"].get<double>(), std::sqrt(1.1e10 / 100.0), 1e-8);
+    EXPECT_NEAR(closed["modes"][0]["damping"].get<double>(), 50.0 / (2.0 * std::sqrt(1.1e10 * 100.0)), 1e-15);
+  }
+}
+
+TEST_F(ModesCommand, stops_close_where_a_selector_says) {
+  const Json some = json({model_path("beam1"), "--closed", "string:3..5", "--closed", "string:9", "-n", "1"});
+  EXPECT_EQ(some["closed_stops"], 4);
+  const double one = json({model_path("beam1"), "-n", "1"})["modes"][0]["angular_frequency"];
+  const double all = json({model_path("beam1"), "--closed", "all", "-n", "1"})["modes"][0]["angular_frequency"];
+  EXPECT_GT(some["modes"][0]["angular_frequency"].get<double>(), one);
+  EXPECT_LT(some["modes"][0]["angular_frequency"].get<double>(), all);
+}
+
+TEST_F(ModesCommand, modal_damping_is_what_the_scene_says) {
+  const Json every = json({model_path("beam1"), "--set", "damping={modal=0.02}", "-n", "2"});
+  EXPECT_NEAR(every["modes"][1]["damping"].get<double>(), 0.02, 1e-15);
+  const Json list = json({model_path("beam1"), "--set", "damping={modal=[0.03]}", "-n", "2"});
+  EXPECT_NEAR(list["modes"][0]["damping"].get<double>(), 0.03, 1e-15);
+  EXPECT_EQ(list["modes"][1]["damping"].get<double>(), 0.0);
+  // A stop far too soft to matter: the closed path has to say the same.
+  const Json closed = json({model_path("beam1"), "--set", "damping={modal=[0.03]}", "--set",
+                            "contact[0].stiffness=1e-9", "--closed", "all", "-n", "2"});
+  EXPECT_NEAR(closed["modes"][0]["damping"].get<double>(), 0.03, 1e-8);
+  EXPECT_NEAR(closed["modes"][1]["damping"].get<double>(), 0.0, 1e-8);
+}
+
+TEST_F(ModesCommand, writes_frequencies_and_shapes) {
+  ASSERT_EQ(run({model_path("beam1"), "-n", "3", "-o", "out"}).status, 0);
+  const CsvTable frequencies(folder_.file("out/frequencies.csv"));
+  EXPECT_EQ(frequencies.rows(), 3U);
+  const CsvTable shapes(folder_.file("out/shapes.csv"));
+  ASSERT_EQ(shapes.rows(), 35U);
+  EXPECT_EQ(shapes.text_column("node")[17], "string:17");
+  const auto x = shapes.column("coordinate"), u = shapes.column("u2"), theta = shapes.column("theta2");
+  // sqrt(2/m) sin(2 pi x/L), to the mesh; the sign is such that the largest entry is positive.
+  const double mass = json({model_path("beam1")})["total_mass"].get<double>(), height = std::sqrt(2.0 / mass);
+  const double sign = u[5] > 0.0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_NEAR(sign * u[i], height * std::sin(2.0 * pi * x[i] / 35.0), 1e-4 * height);
+    EXPECT_NEAR(sign * theta[i], height * 2.0 * pi / 35.0 * std::cos(2.0 * pi * x[i] / 35.0), 1e-4 * height);
+  }
+  EXPECT_EQ(run({model_path("beam1"), "-o", "out"}).status, 0);  // ours, and written again
+}
+
+TEST_F(ModesCommand, draws_shapes_or_says_what_is_missing) {
+  const Outcome outcome = run({model_path("beam1"), "-n", "3", "--plot"});
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("beam1-modes/modes.gp")));
+  const bool drawn = std::filesystem::exists(folder_.file("beam1-modes/modes.svg"));
+  EXPECT_EQ(drawn, outcome.errors.find("gnuplot could not draw") == std::string::npos) << outcome.errors;
+  if (drawn) {
+    EXPECT_NE(read_file(folder_.file("beam1-modes/modes.svg")).find("1: 0.2344 Hz"), std::string::npos);
+  }
+}
+
+TEST_F(ModesCommand, refuses_what_it_cannot_do) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{model_path("oscillator"), "-n", "2"}, "no more modes than free DOFs: 1"},
+      {{model_path("beam1"), "--closed", "string:99"}, "--closed string:99"},
+      {{model_path("beam1"), "--closed", "well"}, "--closed well"},
+      {{model_path("long-string"), "--closed", "string:7"}, "no stop acts there"},
+      {{model_path("long-string"), "-n", "9000"}, "ask for at most 1000"},
+      {{model_path("beam1"), "-n", "0"}, "-n"}};
+  for (const auto& [arguments, words] : wrong) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << words;
+    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.output, "");
+  }
+  EXPECT_TRUE(folder_.entries().empty());
+  ASSERT_EQ(run_program({"run", model_path("oscillator"), "-o", "results"}, folder_.path()).status, 0);
+  EXPECT_EQ(run({model_path("oscillator"), "-o", "results"}).status, 2);
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("results/history.csv")));
+}
+
+TEST_F(ModesCommand, takes_the_long_string) {
+  const Json found = json({model_path("long-string"), "-n", "3"});
+  EXPECT_EQ(found["solver"], "lanczos");
+  const double ratio =
+      found["modes"][1]["angular_frequency"].get<double>() / found["modes"][0]["angular_frequency"].get<double>();
+  EXPECT_NEAR(ratio, 4.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace butee::test

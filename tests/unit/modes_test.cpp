@@ -1,0 +1,172 @@
+#include "butee/solve/modes.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "unit/scenes.hpp"
+
+namespace butee::test {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kLength = 35.0;
+/// The order of frequencies in the element length.
+constexpr double kOrder = 4.0, kOrderError = 0.05;
+/// Two ways to the same eigenvalue in double precision, of which the lowest is 1e-9 of the highest.
+constexpr double kDenseRounding = 1e-6;
+/// Of Phi^T M Phi and Phi^T K Phi: rounding of shapes.
+constexpr double kOrthogonal = 1e-10;
+/// What the doubles of an element's matrix may move at 5e4 elements: 24 eps N^2 / pi^2.
+constexpr double kRoundingAtFiftyThousand = 1e-6;
+
+std::string rod(const std::string& name, int elements) {
+  return beam(name, "length = " + std::to_string(kLength) + "\nelements = " + std::to_string(elements));
+}
+std::string pinned(const std::string& name) {
+  return support("[\"" + name + ":first\", \"" + name + ":last\"]", R"(["u"])");
+}
+
+solve::NaturalModes modes_of(const SceneRun& scene, Index count) {
+  const solve::Structure structure(scene.model(), scene.system().dofs);
+  auto modes = solve::find_modes(structure, count);
+  EXPECT_EQ(modes.problem, "");
+  return modes;
+}
+
+/// (beta L)^2 sqrt(EI/rho A)/L^2
+double exact(double root) {
+  return root * root / (kLength * kLength) * std::sqrt(kBending / kMassPerLength);
+}
+
+/// The roots of cos z cosh z = s: -1 for a cantilever, +1 for a free beam. Refined from Blevins' table 8-1.
+double refined(double z, double s) {
+  for (int i = 0; i < 5; ++i) z -= (std::cos(z) - s / std::cosh(z)) / (-std::sin(z) + s * std::tanh(z) / std::cosh(z));
+  return z;
+}
+
+struct Ends {
+  const char* name;
+  std::string supports;
+  int rigid;
+  std::vector<double> roots;
+};
+
+std::vector<Ends> all_ends() {
+  return {{"pinned", pinned("rod"), 0, {pi, 2 * pi, 3 * pi, 4 * pi}},
+          {"cantilever",
+           support("\"rod:first\"", R"(["u", "theta"])"),
+           0,
+           {refined(1.875104, -1), refined(4.694091, -1), refined(7.854757, -1)}},
+          {"free", "", 2, {refined(4.730041, 1), refined(7.853205, 1), refined(10.995608, 1)}}};
+}
+
+TEST(Modes, meet_closed_forms_with_order_four_by_both_solvers) {
+  int checked = 0;
+  for (const Ends& ends : all_ends())
+    for (const int coarse : {20, 70}) {  // dense, and Lanczos
+      const auto count = static_cast<Index>(ends.roots.size()) + ends.rigid;
+      const auto first = modes_of(SceneRun(kHeader + kSteelBar + rod("rod", coarse) + ends.supports), count);
+      const auto second = modes_of(SceneRun(kHeader + kSteelBar + rod("rod", 2 * coarse) + ends.supports), count);
+      EXPECT_EQ(first.dense, coarse == 20);
+      EXPECT_EQ(first.rigid, ends.rigid) << ends.name;
+      EXPECT_EQ(second.rigid, ends.rigid) << ends.name;
+      for (Index i = 0; i < count - ends.rigid; ++i) {
+        const double frequency = exact(ends.roots[static_cast<std::size_t>(i)]);
+        const double e1 = first.frequencies[i + ends.rigid] / frequency - 1.0;
+        const double e2 = second.frequencies[i + ends.rigid] / frequency - 1.0;
+        // Of the finest meshes, only what is not within the rounding of their elements.
+        if (second.rounding[i + ends.rigid] > kOrderError * e2) continue;
+        ++checked;
+        EXPECT_NEAR(std::log2(e1 / e2), kOrder, kOrderError) << ends.name << " mode " << i << ", " << coarse;
+      }
+    }
+  EXPECT_GE(checked, 14);
+}
+
+TEST(Modes, are_orthonormal_and_solve_the_eigenvalue_problem) {
+  const SceneRun scene(kHeader + kSteelBar + rod("rod", 150) + pinned("rod"));
+  const auto modes = modes_of(scene, 12);
+  const Eigen::MatrixXd mass = modes.shapes.transpose() * scene.system().mass * modes.shapes;
+  EXPECT_LT((mass - Eigen::MatrixXd::Identity(12, 12)).cwiseAbs().maxCoeff(), kOrthogonal);
+  const Eigen::MatrixXd stiffness = modes.shapes.transpose() * scene.system().stiffness * modes.shapes;
+  const Eigen::MatrixXd squares = modes.frequencies.cwiseAbs2().asDiagonal();
+  EXPECT_LT((stiffness - squares).cwiseAbs().maxCoeff(), kDenseRounding * squares.maxCoeff());
+  EXPECT_LT(modes.residuals.maxCoeff(), kOrthogonal);
+
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(
+      Eigen::MatrixXd(scene.system().stiffness), Eigen::MatrixXd(scene.system().mass), Eigen::EigenvaluesOnly);
+  for (Index i = 6; i < 12; ++i)
+    EXPECT_NEAR(modes.frequencies[i] / std::sqrt(dense.eigenvalues()[i]), 1.0, kDenseRounding) << i;
+}
+
+TEST(Modes, find_every_copy_of_equal_frequencies) {
+  constexpr int kBeams = 7;
+  std::string scene = kHeader + kSteelBar;
+  for (int i = 0; i < kBeams; ++i) {
+    std::string name = "rod";
+    name += std::to_string(i);
+    scene += rod(name, 40) + pinned(name);
+  }
+  const SceneRun run(scene);
+  const auto modes = modes_of(run, 2 * kBeams + 3);
+  EXPECT_FALSE(modes.dense);
+  for (Index i = 0; i < modes.frequencies.size(); ++i)
+    EXPECT_NEAR(modes.frequencies[i] / exact(static_cast<double>(i / kBeams + 1) * pi), 1.0, 1e-4) << i;  // the mesh
+  const Eigen::MatrixXd mass = modes.shapes.transpose() * run.system().mass * modes.shapes;
+  EXPECT_LT((mass - Eigen::MatrixXd::Identity(mass.rows(), mass.cols())).cwiseAbs().maxCoeff(), kOrthogonal);
+}
+
+TEST(Modes, count_the_rigid_motions_of_all_bodies) {
+  const SceneRun two(kHeader + kSteelBar + rod("one", 60) + rod("two", 45));
+  const auto modes = modes_of(two, 6);
+  EXPECT_FALSE(modes.dense);
+  EXPECT_EQ(modes.rigid, 4);
+  EXPECT_NEAR(modes.frequencies[4] / exact(refined(4.730041, 1)), 1.0, 1e-5);  // the mesh
+  EXPECT_EQ(modes_of(two, 3).rigid, 3);
+  EXPECT_EQ(modes_of(SceneRun(kHeader + mass("ball", "2.0")), 1).rigid, 1);
+}
+
+/// A body on a spring so soft that its frequency is 1e-7 of the first bending frequency is no rigid motion.
+TEST(Modes, tell_a_soft_spring_from_rigid_motion) {
+  const std::string soft = "\n[[element]]\ntype = \"spring\"\nnode = \"ball\"\nstiffness = 2.0e-14\n";
+  for (const int elements : {20, 100}) {
+    const SceneRun scene(kHeader + kSteelBar + rod("rod", elements) + pinned("rod") + mass("ball", "2.0") + soft);
+    const auto modes = modes_of(scene, 3);
+    EXPECT_EQ(modes.rigid, 0);
+    EXPECT_NEAR(modes.frequencies[0], 1e-7, 1e-13);
+  }
+}
+
+/// In double precision the factor of this K has lost the lowest frequency altogether (N^4 eps = 1e3).
+TEST(Modes, hold_a_beam_of_a_hundred_thousand_degrees_of_freedom) {
+  for (const Ends& ends : all_ends()) {
+    const SceneRun scene(kHeader + kSteelBar + rod("rod", 50000) + ends.supports);
+    const auto modes = modes_of(scene, 2 + ends.rigid);
+    EXPECT_EQ(modes.rigid, ends.rigid) << ends.name;
+    for (Index i = 0; i < 2; ++i)
+      EXPECT_NEAR(modes.frequencies[i + ends.rigid] / exact(ends.roots[static_cast<std::size_t>(i)]), 1.0,
+                  kRoundingAtFiftyThousand)
+          << ends.name;
+    EXPECT_LT(modes.rounding.maxCoeff(), 3.0 * kRoundingAtFiftyThousand);
+    EXPECT_LT(modes.residuals.maxCoeff(), kRoundingAtFiftyThousand);
+  }
+}
+
+/// K with a closed stop is the same structure with a spring there.
+TEST(Modes, take_a_closed_stop_as_a_spring) {
+  const std::string plain = kHeader + kSteelBar + rod("rod", 20) + pinned("rod");
+  const SceneRun with_spring(plain + "\n[[element]]\ntype = \"spring\"\nnode = \"rod:7\"\nstiffness = 3.0e4\n");
+  const SceneRun open(plain);
+  const auto node = open.model().nodes.select("rod:7").nodes.front();
+  const solve::Structure closed(open.model(), open.system().dofs, {{node, solve::ClosedStop::kGround, 3.0e4}});
+  const auto expected = modes_of(with_spring, 5), found = solve::find_modes(closed, 5);
+  for (Index i = 0; i < 5; ++i) EXPECT_NEAR(found.frequencies[i] / expected.frequencies[i], 1.0, kOrthogonal);
+  EXPECT_GT(found.frequencies[0], 1.01 * modes_of(open, 1).frequencies[0]);
+}
+
+}  // namespace
+}  // namespace butee::test
