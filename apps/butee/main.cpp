@@ -22,8 +22,9 @@ int parse_and_run(int argc, char** argv) {
   program.set_version_flag("--version", "butee " BUTEE_VERSION);
   program.require_subcommand(1);
   const std::vector<Command> commands = {add_run_command(program),        add_check_command(program),
-                                         add_compare_command(program),    add_plugins_command(program),
-                                         add_new_plugin_command(program), add_test_plugin_command(program)};
+                                         add_compare_command(program),    add_plot_command(program),
+                                         add_plugins_command(program),    add_new_plugin_command(program),
+                                         add_test_plugin_command(program)};
 
   std::vector<std::string> known;
   for (const Command& command : commands) known.push_back(command.app->get_name());

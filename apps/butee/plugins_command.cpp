@@ -51,6 +51,7 @@ std::vector<Row> rows_of(const plugin::Catalogue& catalogue) {
   add("section", types.sections);
   add("law", types.laws);
   add("load", types.loads);
+  add("format", types.formats);
   return rows;
 }
 
@@ -137,7 +138,8 @@ int plugins_command(const PluginsArguments& arguments) {
 
 Command add_plugins_command(CLI::App& program) {
   const auto arguments = std::make_shared<PluginsArguments>();
-  CLI::App* app = program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, loads");
+  CLI::App* app =
+      program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, loads, formats");
   app->add_option("name", arguments->name, "show the parameters of this one")->type_name("NAME");
   add_plugin_option(*app, arguments->plugins);
   app->add_option("--write-manifest", arguments->write_manifest, "write the manifest of a module beside it")

@@ -9,6 +9,7 @@
 
 #include "commands.hpp"
 #include "interruption.hpp"
+#include "plot/draw.hpp"
 #include "run.hpp"
 #include "trust.hpp"
 
@@ -21,6 +22,7 @@ struct RunArguments {
   std::string resume;  ///< a result folder to go on with
   int repeat = 1;
   bool trust = false;  ///< as [output] trust
+  bool plot = false;   ///< draw what the results allow
   std::string progress = "auto";
 };
 
@@ -54,6 +56,8 @@ void repeat(Session& session, int times, bool with_progress, record::Summary& be
 }
 
 int run(Session& session, const RunArguments& arguments, const record::ResultFolder& folder) {
+  plot::Request pictures;
+  if (arguments.plot) plot::require_gnuplot(pictures.formats);
   for (const std::string& warning : session.warnings) log::warning(warning);
   session.output.trust = session.output.trust || arguments.trust;
   check_checkpoints(session);
@@ -76,6 +80,11 @@ int run(Session& session, const RunArguments& arguments, const record::ResultFol
     folder.write("summary.json", record::to_json(best));
   }
   if (!log::is_quiet()) print(best, session, folder.path());
+  if (arguments.plot) {
+    pictures.folders = {folder.path()};
+    for (const std::string& file : plot::draw(pictures, session.catalogue))
+      if (!log::is_quiet()) std::printf("  picture %s\n", file.c_str());
+  }
   if (best.report.completed) return kDone;
   log::error("the run failed: " + best.report.message + ". What was computed is in " + folder.path() +
              (interruption() != nullptr && session.output.checkpoint > 0
@@ -131,6 +140,7 @@ Command add_run_command(CLI::App& program) {
       ->excludes(repeat);
   app->add_flag("--trust", arguments->trust,
                 "find out how far the answer can be trusted: runs the scene four more times");
+  app->add_flag("--plot", arguments->plot, "draw the results, as `butee plot` does, into plots in the result folder");
   app->add_option("--progress", arguments->progress, "a progress bar")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   add_log_options(*app, true);

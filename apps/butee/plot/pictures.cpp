@@ -1,0 +1,305 @@
+#include "pictures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include <butee/core/error.hpp>
+
+#include "motion.hpp"
+#include "spectrum.hpp"
+
+namespace butee::app::plot {
+namespace {
+
+constexpr std::array<const char*, 7> kNames = {"displacement", "force", "step", "energy", "phase", "spectrum", "shape"};
+
+/// What is drawn over a single axis, and of which columns.
+struct Drawing {
+  const std::vector<Result>& results;
+  std::vector<std::string> labels;  ///< of the probes
+  bool several() const { return results.size() > 1; }
+};
+
+/// One thing to draw: a probe of a run.
+struct Item {
+  const Result* result;
+  std::string label;
+};
+
+std::string title_of(const std::vector<Result>& results) {
+  std::set<std::string> titles;
+  for (const Result& result : results) titles.insert(result.title);
+  if (titles.size() == 1 && !titles.begin()->empty()) return *titles.begin();
+  if (results.size() == 1) return results.front().label;
+  std::string all;
+  for (const Result& result : results) all += (all.empty() ? "" : ", ") + result.label;
+  return all;
+}
+
+std::string in_mm(double metres) {
+  const Scale scale = scale_for(std::abs(metres), "m");
+  return short_number(std::abs(metres) * scale.factor) + " " + scale.unit;
+}
+
+/// The gap lines of the probes, each distance once; one entry in the legend for each width.
+std::vector<Mark> gap_marks(const std::vector<Item>& items) {
+  std::set<double> all;
+  for (const Item& item : items)
+    for (const Probe& probe : item.result->probes)
+      if (probe.label == item.label) all.insert(probe.gaps.begin(), probe.gaps.end());
+  std::vector<Mark> marks;
+  for (const double gap : all) {
+    const bool both = all.contains(-gap);
+    const std::string text = "gap " + std::string(both && gap != 0.0 ? "±" : gap < 0.0 ? "-" : "") + in_mm(gap);
+    marks.push_back({gap, both && gap < 0.0 ? "" : text});
+  }
+  return marks;
+}
+
+std::vector<Mark> frequency_marks(const std::vector<Result>& results, double limit) {
+  std::set<double> all;
+  for (const Result& result : results) all.insert(result.frequencies.begin(), result.frequencies.end());
+  std::vector<Mark> marks;
+  for (const double f : all)
+    if (f <= limit) marks.push_back({f, "load " + short_number(f) + " Hz"});
+  return marks;
+}
+
+/// The charts of a kind: one for all probes of a single run, or one for each probe of several runs.
+std::vector<Chart> grouped(const Drawing& drawing, const std::string& name, bool always_apart,
+                           const std::function<bool(const Item&, std::size_t, Chart&)>& add) {
+  std::vector<Chart> charts;
+  std::vector<std::vector<Item>> groups;
+  for (const std::string& label : drawing.labels) {
+    const bool apart = drawing.several() || always_apart || groups.empty();
+    if (apart) groups.emplace_back();
+    for (const Result& result : drawing.results) groups.back().push_back({&result, label});
+  }
+  for (const std::vector<Item>& items : groups) {
+    Chart chart;
+    chart.title = title_of(drawing.results);
+    std::vector<Item> drawn;
+    for (const Item& item : items)
+      if (add(item, drawn.size(), chart)) drawn.push_back(item);
+    if (drawn.empty()) continue;
+    const bool named = groups.size() > 1 || drawing.several();
+    chart.name = named ? name + "-" + items.front().label : name;
+    charts.push_back(std::move(chart));
+  }
+  return charts;
+}
+
+/// A curve's name in the legend.
+std::string curve_name(const Drawing& drawing, const Item& item) {
+  return drawing.several() ? item.result->label + ", " + item.label : item.label;
+}
+
+std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
+                             const std::string& y_name, const std::string& y_unit, bool with_gaps) {
+  return grouped(drawing, name, false, [&](const Item& item, std::size_t place, Chart& chart) {
+    const auto* values = item.result->column(item.label, quantity);
+    if (values == nullptr || values->empty()) return false;
+    chart.x_name = "time";
+    chart.x_unit = "s";
+    chart.y_name = y_name;
+    chart.y_unit = y_unit;
+    chart.curves.push_back({curve_name(drawing, item), item.result->history.times(), *values, place});
+    if (!with_gaps) return true;
+    for (const Mark& mark : gap_marks({item})) {
+      const auto same = [&](const Mark& other) { return other.at == mark.at; };
+      if (std::none_of(chart.levels.begin(), chart.levels.end(), same)) chart.levels.push_back(mark);
+    }
+    return true;
+  });
+}
+
+std::vector<Chart> of_steps(const Drawing& drawing) {
+  Chart chart;
+  chart.name = "step";
+  chart.title = title_of(drawing.results);
+  chart.x_name = "time";
+  chart.x_unit = "s";
+  chart.y_name = "step";
+  chart.y_unit = "s";
+  double least = INFINITY, most = 0.0;
+  for (const Result& result : drawing.results) {
+    const auto* steps = result.history.find("h");
+    if (steps == nullptr || steps->empty()) continue;
+    Curve curve{drawing.several() ? result.label : "step in force", {}, {}, chart.curves.size()};
+    for (std::size_t i = 0; i < steps->size(); ++i) {
+      if (!((*steps)[i] > 0.0)) continue;
+      curve.x.push_back(result.history.times()[i]);
+      curve.y.push_back((*steps)[i]);
+      // The last step of a run ends where the run does, and says nothing about the others.
+      if (i + 1 < steps->size()) least = std::min(least, curve.y.back());
+      most = std::max(most, curve.y.back());
+    }
+    if (!curve.x.empty()) chart.curves.push_back(std::move(curve));
+  }
+  if (chart.curves.empty()) return {};
+  constexpr double kWide = 5.0;
+  chart.log_y = std::isfinite(least) && most > kWide * least;
+  if (chart.log_y) chart.y_begin = 0.7 * least;
+  chart.from_zero = !chart.log_y;
+  return {chart};
+}
+
+std::vector<Chart> of_energy(const Drawing& drawing) {
+  Chart chart;
+  chart.name = "energy";
+  chart.title = title_of(drawing.results);
+  chart.x_name = "time";
+  chart.x_unit = "s";
+  chart.y_name = "energy";
+  chart.y_unit = "J";
+  for (const Result& result : drawing.results) {
+    if (!result.energy || result.energy->rows() == 0) continue;
+    const Table& table = *result.energy;
+    std::vector<double> total(table.rows(), 0.0);
+    for (const char* name : {"kinetic", "strain", "contact"}) {
+      const auto* part = table.find(name);
+      if (part == nullptr) return {};
+      for (std::size_t i = 0; i < total.size(); ++i) total[i] += (*part)[i];
+      if (!drawing.several()) chart.curves.push_back({name, table.times(), *part, chart.curves.size()});
+    }
+    if (drawing.several()) {
+      chart.curves.push_back({result.label + ", total", table.times(), total, chart.curves.size()});
+      continue;
+    }
+    chart.curves.push_back({"total", table.times(), total, 8});
+    for (const auto& [column, name] : {std::pair("work", "work of the loads"), std::pair("dissipated", "dissipated")})
+      if (const auto* values = table.find(column); values != nullptr && largest_of(*values) > 0.0)
+        chart.curves.push_back({name, table.times(), *values, chart.curves.size(), false, true});
+  }
+  if (chart.curves.empty()) return {};
+  return {chart};
+}
+
+Curve path(const std::string& title, const std::vector<Motion::Point>& points, std::size_t colour) {
+  Curve curve{title, {}, {}, colour};
+  curve.path = true;
+  for (const Motion::Point& point : points) {
+    curve.x.push_back(point.u);
+    curve.y.push_back(point.v);
+  }
+  return curve;
+}
+
+std::vector<Chart> of_phase(const Drawing& drawing) {
+  return grouped(drawing, "phase", true, [&](const Item& item, std::size_t place, Chart& chart) {
+    const auto *u = item.result->column(item.label, "u"), *v = item.result->column(item.label, "v");
+    if (u == nullptr || v == nullptr || u->empty()) return false;
+    chart.x_name = "displacement";
+    chart.x_unit = "m";
+    chart.y_name = "velocity";
+    chart.y_unit = "m/s";
+    const Motion motion(item.result->history.times(), *u, *v, item.result->column(item.label, "a"));
+    chart.curves.push_back(path(curve_name(drawing, item), motion.smooth(), place));
+    const double u_largest = largest_of(*u);
+    for (const Mark& mark : gap_marks({item}))
+      if (std::abs(mark.at) < 2.0 * u_largest && place == 0) chart.uprights.push_back(mark);
+    if (!drawing.several() && item.result->frequencies.size() == 1) {
+      Curve points = path("once per load period", motion.once_per(1.0 / item.result->frequencies.front()), place);
+      points.points = true;
+      if (points.x.size() > 2) chart.curves.push_back(std::move(points));
+    }
+    return true;
+  });
+}
+
+std::vector<Chart> of_spectrum(const Drawing& drawing) {
+  constexpr double kDepth = 1e-5, kVisible = 3e-4;  // of the largest amplitude
+  constexpr double kPeriods = 4.0;                  // multiples of the load's frequency that are always shown
+  auto charts = grouped(drawing, "spectrum", false, [&](const Item& item, std::size_t place, Chart& chart) {
+    const auto* u = item.result->column(item.label, "u");
+    if (u == nullptr) return false;
+    const Spectrum spectrum = amplitude_spectrum(item.result->history.times(), *u);
+    const double largest = largest_of(spectrum.amplitudes);
+    if (largest == 0.0) return false;
+    chart.x_name = "frequency";
+    chart.x_unit = "Hz";
+    chart.y_name = "amplitude of the displacement";
+    chart.y_unit = "m";
+    chart.log_y = true;
+    double limit = 0.0;
+    for (const double f : item.result->frequencies) limit = std::max(limit, kPeriods * f);
+    for (std::size_t i = 0; i < spectrum.frequencies.size(); ++i)
+      if (spectrum.amplitudes[i] > kVisible * largest) limit = std::max(limit, spectrum.frequencies[i]);
+    limit = std::min(limit, spectrum.frequencies.back());
+    chart.x_begin = 0.0;
+    chart.x_end = std::max(chart.x_end.value_or(0.0), limit);
+    chart.y_begin = std::max(chart.y_begin.value_or(0.0), kDepth * largest);
+    chart.curves.push_back({curve_name(drawing, item), spectrum.frequencies, spectrum.amplitudes, place});
+    return true;
+  });
+  for (Chart& chart : charts) chart.uprights = frequency_marks(drawing.results, *chart.x_end);
+  return charts;
+}
+
+std::vector<Chart> charts(Kind kind, const Drawing& drawing) {
+  switch (kind) {
+    case Kind::displacement:
+      return over_time(drawing, "displacement", "u", "displacement", "m", true);
+    case Kind::force:
+      return over_time(drawing, "force", "contact_force", "contact force", "N", false);
+    case Kind::step:
+      return of_steps(drawing);
+    case Kind::energy:
+      return of_energy(drawing);
+    case Kind::phase:
+      return of_phase(drawing);
+    case Kind::spectrum:
+      return of_spectrum(drawing);
+    case Kind::shape:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> kind_names() {
+  return {kNames.begin(), kNames.end()};
+}
+
+Kind kind_of(const std::string& name) {
+  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+  require(found != kNames.end(), "no such kind of picture");
+  return static_cast<Kind>(found - kNames.begin());
+}
+
+std::vector<Picture> pictures(Kind kind, const std::vector<Result>& results, const std::vector<std::string>& labels) {
+  Drawing drawing{results, labels};
+  if (labels.empty())
+    for (const Result& result : results)
+      for (const Probe& probe : result.probes)
+        if (std::find(drawing.labels.begin(), drawing.labels.end(), probe.label) == drawing.labels.end())
+          drawing.labels.push_back(probe.label);
+  std::vector<Picture> all;
+  for (const Chart& chart : charts(kind, drawing)) all.push_back(chart.picture());
+  return all;
+}
+
+std::string requirement_of(Kind kind) {
+  switch (kind) {
+    case Kind::displacement:
+    case Kind::spectrum:
+      return "a probe of u: [[output.probe]] with quantities = [\"u\"]";
+    case Kind::force:
+      return "a probe of contact_force: [[output.probe]] with quantities = [\"u\", \"contact_force\"]";
+    case Kind::phase:
+      return "a probe of u and v: [[output.probe]] with quantities = [\"u\", \"v\"]";
+    case Kind::energy:
+      return "energies: run again with --set output.energy=true";
+    case Kind::shape:
+      return "the displacements of all nodes: run again with --set 'output.formats=[\"csv\", \"hdf5\"]'";
+    case Kind::step:
+      break;
+  }
+  return "rows in history.csv";
+}
+
+}  // namespace butee::app::plot
