@@ -15,7 +15,7 @@ namespace {
 std::string terminal(const std::string& format) {
   if (format == "png") return "pngcairo size 1600,960 font 'sans,10.5' fontscale 2 linewidth 2 pointscale 2";
   if (format == "svg") return "svg size 800,480 font 'sans,14' background 'white' standalone";
-  if (format == "pdf") return "pdfcairo size 16cm,9.6cm font 'sans,8' linewidth 1.2 pointscale 0.6";
+  if (format == "pdf") return "pdfcairo size 16cm,9.6cm font 'sans,6.4' fontscale 1 linewidth 1.2 pointscale 0.6";
   throw LogicError("no such format of pictures");
 }
 
@@ -59,14 +59,15 @@ std::string style() {
 }
 
 std::string legend_below(const std::vector<std::string>& entries) {
-  constexpr std::size_t kWidth = 95, kSample = 7;  // characters: of a picture, and of an entry before its text
+  constexpr std::size_t kWidth = 76, kSample = 7;  // characters: of a picture, and of an entry before its text
   std::size_t longest = 1;
   for (const std::string& entry : entries) longest = std::max(longest, entry.size());
   const std::size_t count = std::max<std::size_t>(entries.size(), 1);
   const std::size_t fitting = std::max<std::size_t>(kWidth / (longest + kSample), 1);
   const std::size_t rows = (count + fitting - 1) / fitting, columns = (count + rows - 1) / rows;
   std::ostringstream out;
-  out << "set bmargin " << 3.4 + 1.3 * static_cast<double>(rows)
+  // Fractions of the picture's height: the axis with its title, and a row of the legend.
+  out << "set bmargin at screen " << 0.162 + 0.043 * static_cast<double>(rows)
       << "\nset key at screen 0.5, screen 0.015 bottom center "
       << "horizontal Left reverse samplen 2 width 1 maxcols " << columns << "\n";
   return out.str();

@@ -125,8 +125,9 @@ TEST_F(Plot, PutsSeveralRunsIntoOnePicture) {
   const Outcome outcome = plot({"swing-results", "soft", "--format", "script", "-o", "both"});
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const std::string text = read_file(folder_.file("both/displacement-ball.gp"));
-  expect_in(text, "title 'swing, ball'");
-  expect_in(text, "title 'soft, ball'");
+  expect_in(text, "set ylabel 'displacement of ball / mm'");
+  expect_in(text, "title 'swing'");
+  expect_in(text, "title 'soft'");
   EXPECT_EQ(rows_of(text, "curve1"), 401U);
 }
 

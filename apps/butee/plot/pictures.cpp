@@ -92,9 +92,14 @@ std::vector<Chart> grouped(const Drawing& drawing, const std::string& name, bool
   return charts;
 }
 
+/// What an axis shows, with the probe where the legend names the runs.
+std::string axis_name(const Drawing& drawing, const Item& item, const std::string& what) {
+  return drawing.several() ? what + " of " + item.label : what;
+}
+
 /// A curve's name in the legend.
 std::string curve_name(const Drawing& drawing, const Item& item) {
-  return drawing.several() ? item.result->label + ", " + item.label : item.label;
+  return drawing.several() ? item.result->label : item.label;
 }
 
 std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
@@ -104,7 +109,7 @@ std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, co
     if (values == nullptr || values->empty()) return false;
     chart.x_name = "time";
     chart.x_unit = "s";
-    chart.y_name = y_name;
+    chart.y_name = axis_name(drawing, item, y_name);
     chart.y_unit = y_unit;
     chart.curves.push_back({curve_name(drawing, item), item.result->history.times(), *values, place});
     if (!with_gaps) return true;
@@ -155,6 +160,7 @@ std::vector<Chart> of_energy(const Drawing& drawing) {
   chart.x_unit = "s";
   chart.y_name = "energy";
   chart.y_unit = "J";
+  if (drawing.several()) chart.y_name = "total energy";
   for (const Result& result : drawing.results) {
     if (!result.energy || result.energy->rows() == 0) continue;
     const Table& table = *result.energy;
@@ -166,7 +172,7 @@ std::vector<Chart> of_energy(const Drawing& drawing) {
       if (!drawing.several()) chart.curves.push_back({name, table.times(), *part, chart.curves.size()});
     }
     if (drawing.several()) {
-      chart.curves.push_back({result.label + ", total", table.times(), total, chart.curves.size()});
+      chart.curves.push_back({result.label, table.times(), total, chart.curves.size()});
       continue;
     }
     chart.curves.push_back({"total", table.times(), total, 8});
@@ -192,7 +198,7 @@ std::vector<Chart> of_phase(const Drawing& drawing) {
   return grouped(drawing, "phase", true, [&](const Item& item, std::size_t place, Chart& chart) {
     const auto *u = item.result->column(item.label, "u"), *v = item.result->column(item.label, "v");
     if (u == nullptr || v == nullptr || u->empty()) return false;
-    chart.x_name = "displacement";
+    chart.x_name = axis_name(drawing, item, "displacement");
     chart.x_unit = "m";
     chart.y_name = "velocity";
     chart.y_unit = "m/s";
@@ -221,7 +227,7 @@ std::vector<Chart> of_spectrum(const Drawing& drawing) {
     if (largest == 0.0) return false;
     chart.x_name = "frequency";
     chart.x_unit = "Hz";
-    chart.y_name = "amplitude of the displacement";
+    chart.y_name = axis_name(drawing, item, "amplitude of the displacement");
     chart.y_unit = "m";
     chart.log_y = true;
     double limit = 0.0;
