@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <set>
 
 #include <butee/core/error.hpp>
 
+#include "drawing.hpp"
 #include "motion.hpp"
 #include "spectrum.hpp"
 
@@ -15,92 +14,6 @@ namespace butee::app::plot {
 namespace {
 
 constexpr std::array<const char*, 7> kNames = {"displacement", "force", "step", "energy", "phase", "spectrum", "shape"};
-
-/// What is drawn over a single axis, and of which columns.
-struct Drawing {
-  const std::vector<Result>& results;
-  std::vector<std::string> labels;  ///< of the probes
-  bool several() const { return results.size() > 1; }
-};
-
-/// One thing to draw: a probe of a run.
-struct Item {
-  const Result* result;
-  std::string label;
-};
-
-std::string title_of(const std::vector<Result>& results) {
-  std::set<std::string> titles;
-  for (const Result& result : results) titles.insert(result.title);
-  if (titles.size() == 1 && !titles.begin()->empty()) return *titles.begin();
-  if (results.size() == 1) return results.front().label;
-  std::string all;
-  for (const Result& result : results) all += (all.empty() ? "" : ", ") + result.label;
-  return all;
-}
-
-std::string in_mm(double metres) {
-  const Scale scale = scale_for(std::abs(metres), "m");
-  return short_number(std::abs(metres) * scale.factor) + " " + scale.unit;
-}
-
-/// The gap lines of the probes, each distance once; one entry in the legend for each width.
-std::vector<Mark> gap_marks(const std::vector<Item>& items) {
-  std::set<double> all;
-  for (const Item& item : items)
-    for (const Probe& probe : item.result->probes)
-      if (probe.label == item.label) all.insert(probe.gaps.begin(), probe.gaps.end());
-  std::vector<Mark> marks;
-  for (const double gap : all) {
-    const bool both = all.contains(-gap);
-    const std::string text = "gap " + std::string(both && gap != 0.0 ? "±" : gap < 0.0 ? "-" : "") + in_mm(gap);
-    marks.push_back({gap, both && gap < 0.0 ? "" : text});
-  }
-  return marks;
-}
-
-std::vector<Mark> frequency_marks(const std::vector<Result>& results, double limit) {
-  std::set<double> all;
-  for (const Result& result : results) all.insert(result.frequencies.begin(), result.frequencies.end());
-  std::vector<Mark> marks;
-  for (const double f : all)
-    if (f <= limit) marks.push_back({f, "load " + short_number(f) + " Hz"});
-  return marks;
-}
-
-/// The charts of a kind: one for all probes of a single run, or one for each probe of several runs.
-std::vector<Chart> grouped(const Drawing& drawing, const std::string& name, bool always_apart,
-                           const std::function<bool(const Item&, std::size_t, Chart&)>& add) {
-  std::vector<Chart> charts;
-  std::vector<std::vector<Item>> groups;
-  for (const std::string& label : drawing.labels) {
-    const bool apart = drawing.several() || always_apart || groups.empty();
-    if (apart) groups.emplace_back();
-    for (const Result& result : drawing.results) groups.back().push_back({&result, label});
-  }
-  for (const std::vector<Item>& items : groups) {
-    Chart chart;
-    chart.title = title_of(drawing.results);
-    std::vector<Item> drawn;
-    for (const Item& item : items)
-      if (add(item, drawn.size(), chart)) drawn.push_back(item);
-    if (drawn.empty()) continue;
-    const bool named = groups.size() > 1 || drawing.several();
-    chart.name = named ? name + "-" + items.front().label : name;
-    charts.push_back(std::move(chart));
-  }
-  return charts;
-}
-
-/// What an axis shows, with the probe where the legend names the runs.
-std::string axis_name(const Drawing& drawing, const Item& item, const std::string& what) {
-  return drawing.several() ? what + " of " + item.label : what;
-}
-
-/// A curve's name in the legend.
-std::string curve_name(const Drawing& drawing, const Item& item) {
-  return drawing.several() ? item.result->label : item.label;
-}
 
 std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
                              const std::string& y_name, const std::string& y_unit, bool with_gaps) {
@@ -113,7 +26,7 @@ std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, co
     chart.y_unit = y_unit;
     chart.curves.push_back({curve_name(drawing, item), item.result->history.times(), *values, place});
     if (!with_gaps) return true;
-    for (const Mark& mark : gap_marks({item})) {
+    for (const Mark& mark : gap_marks(item)) {
       const auto same = [&](const Mark& other) { return other.at == mark.at; };
       if (std::none_of(chart.levels.begin(), chart.levels.end(), same)) chart.levels.push_back(mark);
     }
@@ -205,7 +118,7 @@ std::vector<Chart> of_phase(const Drawing& drawing) {
     const Motion motion(item.result->history.times(), *u, *v, item.result->column(item.label, "a"));
     chart.curves.push_back(path(curve_name(drawing, item), motion.smooth(), place));
     const double u_largest = largest_of(*u);
-    for (const Mark& mark : gap_marks({item}))
+    for (const Mark& mark : gap_marks(item))
       if (std::abs(mark.at) < 2.0 * u_largest && place == 0) chart.uprights.push_back(mark);
     if (!drawing.several() && item.result->frequencies.size() == 1) {
       Curve points = path("once per load period", motion.once_per(1.0 / item.result->frequencies.front()), place);

@@ -56,19 +56,28 @@ class Sampler {
       map.places.push_back(x);
       cells_.push_back({i, (x - x_[i]) / (x_[i + 1] - x_[i])});
     }
-    open_since_.resize(x_.size());
+    closed_since_.resize(x_.size());
+    if (x_.size() <= 2 * count) return;
+    const double spacing = (x_.back() - x_.front()) / static_cast<double>(count - 1);
+    for (const double x : x_) nearest_.push_back(static_cast<std::size_t>(std::lround((x - x_.front()) / spacing)));
   }
 
   void take(double t, std::span<const double> u) {
     map.times.push_back(t);
     std::vector<double>& row = map.u.emplace_back();
-    for (const auto& [i, part] : cells_) row.push_back((1.0 - part) * value(u, i) + part * value(u, i + 1));
+    if (nearest_.empty()) {
+      for (const auto& [i, part] : cells_) row.push_back((1.0 - part) * value(u, i) + part * value(u, i + 1));
+      return;
+    }
+    row.assign(map.places.size(), 0.0);
+    for (std::size_t i = 0; i < nearest_.size(); ++i)
+      if (double& most = row[nearest_[i]]; std::abs(value(u, i)) > std::abs(most)) most = value(u, i);
   }
 
   /// Follows which stops are closed, at every record.
   void follow(double t, double previous, std::span<const double> state) {
     for (std::size_t i = 0; i < x_.size(); ++i) {
-      auto& since = open_since_[i];
+      auto& since = closed_since_[i];
       if (value(state, i) != 0.0) {
         if (!since) since = t;
       } else if (since) {
@@ -79,7 +88,7 @@ class Sampler {
   }
   void end(double t) {
     for (std::size_t i = 0; i < x_.size(); ++i)
-      if (open_since_[i]) map.closures.push_back({*open_since_[i], t, x_[i]});
+      if (closed_since_[i]) map.closures.push_back({*closed_since_[i], t, x_[i]});
   }
 
   Map map;
@@ -96,7 +105,8 @@ class Sampler {
   const model::FieldLine& line_;
   std::vector<double> x_;
   std::vector<Cell> cells_;
-  std::vector<std::optional<double>> open_since_;  ///< s, since when the stop is closed
+  std::vector<std::size_t> nearest_;  ///< place of each node, where a place takes the largest value of its many nodes
+  std::vector<std::optional<double>> closed_since_;  ///< s, since when the stop is closed
 };
 
 std::string number(double value) {
