@@ -134,7 +134,6 @@ void FieldFile::commit() {
   check(H5Fflush(file_, H5F_SCOPE_LOCAL), "write fields.h5");
   const std::size_t all = records_ + times_.size();
   for (const double t : times_) xdmf_.add(records_++, all, t);
-  xdmf_.flush();
   times_.clear();
   committed_ = Clock::now();
 }

@@ -58,7 +58,7 @@ std::vector<std::int64_t> mixed_topology(const model::FieldLayout& layout) {
 XdmfFile::XdmfFile(const std::string& folder, const model::FieldLayout& layout)
     : path_(folder + "/fields.xdmf"), nodes_(layout.nodes.size()), file_(std::fopen(path_.c_str(), "wb")) {
   if (!file_) throw RunError(path_ + ": cannot be written: " + std::strerror(errno));
-  // Without a buffer what is handed over arrives in one piece, so that the file is whole at any instant.
+  // Without a buffer a record goes to the system in one piece, so that the file is whole at any instant.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   layout_.fields = layout.fields;
   const std::string count = std::to_string(nodes_);
@@ -66,42 +66,43 @@ XdmfFile::XdmfFile(const std::string& folder, const model::FieldLayout& layout)
   mesh_ += item("/topology", std::to_string(mixed_topology(layout).size()), "NumberType=\"Int\" Precision=\"8\"");
   mesh_ += "</Topology>\n    <Geometry GeometryType=\"XYZ\">" + item("/nodes/position", count + " 3", kReal);
   mesh_ += "</Geometry>\n";
-  pending_ =
+  std::string text =
       "<?xml version=\"1.0\" ?>\n<!-- made by butee; in ParaView take the reader \"XDMF Reader\" -->\n"
       "<Xdmf Version=\"2.0\"><Domain>\n  <Grid Name=\"";
-  pending_ += escaped(layout.title.empty() ? "butee" : layout.title);
-  pending_ += "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  text += escaped(layout.title.empty() ? "butee" : layout.title);
+  text += "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  write(text);
 }
 
 void XdmfFile::add(std::size_t record, std::size_t records, double t) {
   const std::string nodes = std::to_string(nodes_);
   std::array<char, 40> time{};
   std::snprintf(time.data(), time.size(), "%.17g", t);
-  pending_ += "  <Grid Name=\"scene\"><Time Value=\"";
-  pending_ += time.data();
-  pending_ += "\"/>" + mesh_;
+  std::string text = "  <Grid Name=\"scene\"><Time Value=\"";
+  text += time.data();
+  text += "\"/>" + mesh_;
   for (const model::Field& field : layout_.fields) {
     std::string slab = "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" + nodes + "\"><DataItem Format=\"XML\" ";
     slab += "Dimensions=\"3 2\">" + std::to_string(record) + " 0 1 1 1 " + nodes + "</DataItem>";
     slab += item("/fields/" + field.name, std::to_string(records) + " " + nodes, field.whole ? kWhole : kReal);
     slab += "</DataItem>";
-    pending_ += "    <Attribute Name=\"" + field.name + "\" AttributeType=\"Scalar\">" + slab + "</Attribute>\n";
+    text += "    <Attribute Name=\"" + field.name + "\" AttributeType=\"Scalar\">" + slab + "</Attribute>\n";
     if (field.name != "u") continue;
     const std::string zero = item("/nodes/zero", nodes, kReal);
-    pending_ += "    <Attribute Name=\"displacement\" AttributeType=\"Vector\"><DataItem ItemType=\"Function\" ";
-    pending_ += "Function=\"JOIN($0 , $1 , $0)\" Dimensions=\"" + nodes + " 3\">" + zero + slab;
-    pending_ += "</DataItem></Attribute>\n";
+    text += "    <Attribute Name=\"displacement\" AttributeType=\"Vector\"><DataItem ItemType=\"Function\" ";
+    text += "Function=\"JOIN($0 , $1 , $0)\" Dimensions=\"" + nodes + " 3\">" + zero + slab;
+    text += "</DataItem></Attribute>\n";
   }
-  pending_ += "  </Grid>\n";
+  text += "  </Grid>\n";
+  write(text);
 }
 
-void XdmfFile::flush() {
-  const std::string text = pending_ + kEnd;
+void XdmfFile::write(const std::string& text) {
+  const std::string whole = text + kEnd;
   const bool ok = std::fseek(file_.get(), end_, SEEK_SET) == 0 &&
-                  std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size();
+                  std::fwrite(whole.data(), 1, whole.size(), file_.get()) == whole.size();
   if (!ok) throw RunError(path_ + ": cannot be written: " + std::strerror(errno));
-  end_ += static_cast<long>(pending_.size());
-  pending_.clear();
+  end_ += static_cast<long>(text.size());
 }
 
 }  // namespace butee::plugins::hdf5

@@ -10,22 +10,23 @@
 namespace butee::plugins::hdf5 {
 
 /// fields.xdmf, which says to ParaView and other programs what is what in fields.h5. It grows with that: after every
-/// append it is a whole document again.
+/// record it is a whole document again.
 class XdmfFile {
  public:
   XdmfFile(const std::string& folder, const model::FieldLayout& layout);
 
-  /// The record number `record` of the `records` that fields.h5 holds by now; times in s.
+  /// Adds record number `record` of the `records` that fields.h5 holds by now; times in s. Throws RunError.
   void add(std::size_t record, std::size_t records, double t);
-  /// Writes what was added. Throws RunError.
-  void flush();
 
  private:
   struct Closer {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
 
-  std::string path_, mesh_, pending_;
+  /// Writes over the end of the document, and the end again behind it.
+  void write(const std::string& text);
+
+  std::string path_, mesh_;
   model::FieldLayout layout_;  ///< fields and title alone
   std::size_t nodes_;
   std::unique_ptr<std::FILE, Closer> file_;
