@@ -89,9 +89,12 @@ std::vector<Chart> of_energy(const Drawing& drawing) {
       continue;
     }
     chart.curves.push_back({"total", table.times(), total, 8});
-    for (const auto& [column, name] : {std::pair("work", "work of the loads"), std::pair("dissipated", "dissipated")})
-      if (const auto* values = table.find(column); values != nullptr && largest_of(*values) > 0.0)
-        chart.curves.push_back({name, table.times(), *values, chart.curves.size(), false, true});
+    const auto *work = table.find("work"), *dissipated = table.find("dissipated");
+    if (work == nullptr || dissipated == nullptr || largest_of(*work) + largest_of(*dissipated) == 0.0) continue;
+    std::vector<double> balance = total;
+    for (std::size_t i = 0; i < balance.size(); ++i)
+      balance[i] = total.front() + ((*work)[i] - work->front()) - ((*dissipated)[i] - dissipated->front());
+    chart.curves.push_back({"by work and dissipation", table.times(), balance, 4, false, true});
   }
   if (chart.curves.empty()) return {};
   return {chart};
