@@ -152,6 +152,20 @@ TEST(Fields, CostTheRunNothingAndChangeNothing) {
   EXPECT_FALSE(fs::exists(folder.file("both-results/fields.xdmf")));
 }
 
+TEST(Fields, OpenTheLibraryOnlyWhereTheyAreAskedFor) {
+  NEEDS_HDF5();
+  const TemporaryFolder folder;
+  folder.write("plain.toml", scene(""));
+  folder.write("both.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
+  // What the dynamic loader says it opens.
+  const std::vector<std::string> telling = {"LD_DEBUG=files"};
+  const Outcome plain = run_program({"run", "plain.toml", "-q"}, folder.path(), telling);
+  EXPECT_NE(plain.errors.find("newmark.so"), std::string::npos);
+  EXPECT_EQ(plain.errors.find("hdf5"), std::string::npos);
+  const Outcome both = run_program({"run", "both.toml", "-q"}, folder.path(), telling);
+  EXPECT_NE(both.errors.find("libhdf5"), std::string::npos);
+}
+
 TEST(Fields, KeepWhatIsAskedFor) {
   NEEDS_HDF5();
   const TemporaryFolder folder;
