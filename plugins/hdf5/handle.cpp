@@ -18,6 +18,10 @@ std::string reason() {
         return 0;
       },
       &text);
+  // Failures of the operating system come with its own words inside a long line.
+  const std::string mark = "error message = '";
+  if (const auto begin = text.find(mark); begin != std::string::npos)
+    text = text.substr(begin + mark.size(), text.find('\'', begin + mark.size()) - begin - mark.size());
   return text.empty() ? "no reason given" : text;
 }
 
