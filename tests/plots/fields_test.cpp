@@ -317,6 +317,7 @@ TEST(Fields, NeedAFormatThatKeepsThem) {
     return;
   }
   const std::string with = "formats = \"hdf5\"\nfields = ";
+  refused("formats = \"hdf5\"\ncheckpoint = 100\n", "cannot go on from a checkpoint; leave one of the two out");
   refused(with + "{quantities = [\"u\", \"w\"]}\n", "output.fields.quantities");
   refused(with + "{quantities = []}\n", "must name at least one quantity");
   refused(with + "{nodes = \"sting:all\"}\n", "did you mean \"string\"");
