@@ -5,6 +5,7 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+#include <butee/core/text.hpp>
 
 namespace butee::app {
 namespace {
@@ -20,10 +21,14 @@ double seconds_since(Clock::time_point begin) {
 void check_checkpoints(Session& session) {
   if (session.output.checkpoint == 0) return;
   const time::IntegratorType& type = session.catalogue.load(session.integrator.name);
-  if (type.restarts_exactly) return;
   const config::Value& given = *session.document.root.table()->find("output")->table()->find("checkpoint");
+  const std::string key = describe(session.document, given.at) + ": output.checkpoint: ";
+  if (!session.output.fields.formats.empty())
+    throw InputError(key + "a run that keeps fields (output.formats: " + join(session.output.fields.formats) +
+                     ") cannot go on from a checkpoint; leave one of the two out");
+  if (type.restarts_exactly) return;
   throw InputError(
-      describe(session.document, given.at) + ": output.checkpoint: " + type.name +
+      key + type.name +
       " keeps a history of its own that no checkpoint holds, so that a run could not go on from one to the "
       "last bit; leave checkpoint out, or take another method");
 }
@@ -49,6 +54,7 @@ void Checkpointer::write() {
   const double history_seconds = history_.seconds();
   since_ = 0;
   history_.sync();
+  if (other_ != nullptr) other_->sync();
   next_.history = history_.position();
   next_.counters = counters();
   assembly_.simulation.take_snapshot(next_.snapshot);

@@ -19,6 +19,9 @@ class Checkpointer final : public time::Observer {
   Checkpointer(const Session& session, Assembly& assembly, const record::ResultFolder& folder,
                record::CsvWriter& history);
 
+  /// Another file that has to be on the device before a checkpoint counts on it; it must outlive this.
+  void also_sync(record::CsvWriter& writer) { other_ = &writer; }
+
   /// What the run had cost when it was taken up again, and has now.
   void go_on_from(const record::Checkpoint& checkpoint);
   void set_setup_seconds(double seconds) { next_.setup_seconds = seconds; }
@@ -37,6 +40,7 @@ class Checkpointer final : public time::Observer {
   Assembly& assembly_;
   record::CheckpointFolder folder_;
   record::CsvWriter& history_;
+  record::CsvWriter* other_ = nullptr;
   std::int64_t every_, since_ = 0;
   record::Checkpoint next_;
   solve::Counters before_;

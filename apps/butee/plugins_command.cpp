@@ -54,6 +54,7 @@ std::vector<Row> rows_of(const plugin::Catalogue& catalogue) {
   add("section", types.sections);
   add("law", types.laws);
   add("load", types.loads);
+  add("format", types.formats);
   return rows;
 }
 
@@ -153,7 +154,8 @@ int plugins_command(const PluginsArguments& arguments) {
 
 Command add_plugins_command(CLI::App& program) {
   const auto arguments = std::make_shared<PluginsArguments>();
-  CLI::App* app = program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, loads");
+  CLI::App* app =
+      program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, loads, formats");
   app->add_option("name", arguments->name, "show the parameters of this one")->type_name("NAME");
   add_plugin_option(*app, arguments->plugins);
   app->add_flag("--json", arguments->json, "print JSON");

@@ -6,6 +6,7 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
+#include <butee/record/field_layout.hpp>
 
 #include "interruption.hpp"
 
@@ -51,21 +52,27 @@ void Run::guarded(Work work) {
 void Run::attach_observers(const record::ResultFolder* folder, const record::Checkpoint* from) {
   const record::OutputRequest& output = session_.output;
   const double end_time = session_.integrator.options.end_time;
-  if (folder != nullptr) {
-    const std::string path = folder->file("history.csv");
+  const auto open = [&](std::optional<record::CsvWriter>& writer, const char* name, std::vector<std::string> columns) {
     if (from != nullptr)
-      writer_.emplace(path);
+      writer.emplace(folder->file(name));
     else
-      writer_.emplace(path, record::HistoryRecorder::columns(output));
-  }
+      writer.emplace(folder->file(name), columns);
+  };
+  if (folder != nullptr && output.csv) open(writer_, "history.csv", record::HistoryRecorder::columns(output));
   time::Simulation& simulation = assembly_.simulation;
   history_.emplace(output, end_time, assembly_.dynamics, writer_ ? &*writer_ : nullptr);
   simulation.add(*history_);
-  if (output.energy) simulation.add(energy_.emplace(assembly_.dynamics));
+  if (output.energy) {
+    if (folder != nullptr) open(energy_writer_, "energy.csv", record::EnergyRecorder::columns());
+    const record::OutputTimes times(output.interval, output.every, end_time);
+    simulation.add(energy_.emplace(assembly_.dynamics, energy_writer_ ? &*energy_writer_ : nullptr, times));
+  }
   if (output.impacts) simulation.add(impacts_.emplace(assembly_.dynamics));
   if (with_progress_) simulation.add(progress_.emplace(assembly_.dynamics, end_time));
+  if (folder != nullptr && !output.fields.formats.empty()) add_fields(*folder);
   if (folder != nullptr && output.checkpoint > 0)
     simulation.add(checkpointer_.emplace(session_, assembly_, *folder, *writer_));
+  if (checkpointer_ && energy_writer_) checkpointer_->also_sync(*energy_writer_);
   if (from != nullptr) simulation.restore(from->snapshot);
   if (!checkpointer_) return;
   if (from != nullptr) {
@@ -73,6 +80,16 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
     checkpointer_->go_on_from(*from);
   }
   checkpointer_->set_setup_seconds(summary_.setup_seconds);
+}
+
+void Run::add_fields(const record::ResultFolder& folder) {
+  const record::OutputRequest& output = session_.output;
+  const model::FieldLayout layout = record::make_layout(session_.model, assembly_.system, output.fields);
+  std::vector<std::unique_ptr<model::FieldWriter>> writers;
+  for (const std::string& name : output.fields.formats)
+    writers.push_back(find_type(session_.catalogue.types().formats, name)->make(folder.path(), layout));
+  assembly_.simulation.add(
+      fields_.emplace(output, session_.integrator.options.end_time, assembly_.dynamics, std::move(writers)));
 }
 
 void Run::integrate() {
@@ -105,7 +122,9 @@ void Run::summarize() {
 }
 
 void Run::write_files(const record::ResultFolder& folder) {
+  if (fields_) fields_->finish();
   if (writer_) writer_->close();
+  if (energy_writer_) energy_writer_->close();
   if (!impacts_) return;
   record::CsvWriter writer(folder.file("impacts.csv"), record::ImpactRecorder::columns());
   for (const record::Impact& impact : impacts_->impacts()) writer.line(record::ImpactRecorder::csv_line(impact));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <butee/record/checkpoint.hpp>
+#include <butee/record/field_recorder.hpp>
 #include <butee/record/history.hpp>
 #include <butee/record/impacts.hpp>
 #include <butee/record/progress.hpp>
@@ -28,6 +29,7 @@ class Run {
  private:
   Run(Session& session, bool with_progress, std::chrono::steady_clock::time_point begin);
   void attach_observers(const record::ResultFolder* folder, const record::Checkpoint* from);
+  void add_fields(const record::ResultFolder& folder);
   void integrate();
   void summarize();
   void write_files(const record::ResultFolder& folder);
@@ -40,11 +42,12 @@ class Run {
   bool with_progress_;
   Assembly assembly_;
   record::Summary summary_;
-  std::optional<record::CsvWriter> writer_;
+  std::optional<record::CsvWriter> writer_, energy_writer_;
   std::optional<record::HistoryRecorder> history_;
   std::optional<record::EnergyRecorder> energy_;
   std::optional<record::ImpactRecorder> impacts_;
   std::optional<record::Progress> progress_;
+  std::optional<record::FieldRecorder> fields_;
   std::optional<Checkpointer> checkpointer_;
 };
 

@@ -10,6 +10,7 @@
 
 #include "commands.hpp"
 #include "interruption.hpp"
+#include "plot/draw.hpp"
 #include "run.hpp"
 #include "trust.hpp"
 
@@ -22,6 +23,7 @@ struct RunArguments {
   std::string resume;  ///< a result folder to go on with
   int repeat = 1;
   bool trust = false;  ///< as [output] trust
+  bool plot = false;   ///< draw what the results allow
   std::string progress = "auto";
 };
 
@@ -55,6 +57,8 @@ void repeat(Session& session, int times, bool with_progress, record::Summary& be
 }
 
 int run(Session& session, const RunArguments& arguments, const record::ResultFolder& folder) {
+  plot::Request pictures;
+  if (arguments.plot) plot::require_gnuplot(pictures.formats);
   for (const std::string& warning : session.warnings) log::warning(warning);
   session.output.trust = session.output.trust || arguments.trust;
   check_checkpoints(session);
@@ -78,6 +82,11 @@ int run(Session& session, const RunArguments& arguments, const record::ResultFol
   }
   if (!log::is_quiet()) print(best, session, folder.path());
   for (const std::string& warning : best.report.warnings) log::warning(warning);
+  if (arguments.plot) {
+    pictures.folders = {folder.path()};
+    for (const std::string& file : plot::draw(pictures, session.catalogue))
+      if (!log::is_quiet()) std::printf("  picture %s\n", file.c_str());
+  }
   if (best.report.completed) return kDone;
   log::error("the run failed: " + best.report.message + ". What was computed is in " + folder.path() +
              (interruption() != nullptr && session.output.checkpoint > 0
@@ -133,6 +142,7 @@ Command add_run_command(CLI::App& program) {
       ->excludes(repeat);
   app->add_flag("--trust", arguments->trust,
                 "find out how far the answer can be trusted: runs the scene four more times");
+  app->add_flag("--plot", arguments->plot, "draw the results, as `butee plot` does, into plots in the result folder");
   app->add_option("--progress", arguments->progress, "a progress bar on a terminal; always: lines in a log too")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   add_log_options(*app, true);

@@ -9,7 +9,8 @@ Session read_session(config::Document document, plugin::Catalogue catalogue) {
   config::Diagnostics diagnostics(document);
   plugin::Scene scene = plugin::read_scene(document, catalogue, diagnostics);
   const double end_time = scene.integrator ? scene.integrator->options.end_time : 1.0;
-  record::OutputRequest output = record::read_output(document.root, scene.model, end_time, diagnostics);
+  record::OutputRequest output =
+      record::read_output(document.root, scene.model, end_time, diagnostics, catalogue.types().formats);
   if (scene.integrator)
     if (const auto& check = catalogue.load(scene.integrator->name).check)
       check(scene.integrator->parameters, diagnostics);

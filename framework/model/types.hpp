@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "butee/config/parameters.hpp"
+#include "butee/model/field_format.hpp"
 #include "butee/model/model.hpp"
 #include "butee/model/section.hpp"
 
@@ -70,6 +71,7 @@ struct ModelTypes {
   std::vector<SectionType> sections;
   std::vector<LawType> laws;
   std::vector<LoadType> loads;
+  std::vector<FieldFormat> formats;
 };
 
 template <class Type>

@@ -45,13 +45,15 @@ Type loaded(const std::string& name, std::vector<Type> ModuleTypes::*list, const
 template <class Type>
 void load_when_made(Type& type, std::vector<Type> ModuleTypes::*list, const std::string& path) {
   const std::string name = type.name;
-  type.make = [name, list, path](const config::Parameters& p, auto& context) {
-    return loaded(name, list, path).make(p, context);
+  type.make = [name, list, path](const auto& first, auto& second) {
+    return loaded(name, list, path).make(first, second);
   };
   if constexpr (std::is_same_v<Type, model::ElementType>)
     type.nodes = [name, list, path](const config::Parameters& p, config::Diagnostics& diagnostics) {
       return loaded(name, list, path).nodes(p, diagnostics);
     };
+  if constexpr (std::is_same_v<Type, model::FieldFormat>)
+    type.open = [name, list, path](const std::string& folder) { return loaded(name, list, path).open(folder); };
 }
 
 }  // namespace
@@ -110,6 +112,7 @@ void Catalogue::add_module(const std::string& given_path, bool must_have_manifes
   next.add_types("law", std::move(found.laws), &ModuleTypes::laws, path, next.types_.laws);
   next.add_types("load", std::move(found.loads), &ModuleTypes::loads, path, next.types_.loads);
   next.add_types("element", std::move(found.elements), &ModuleTypes::elements, path, next.types_.elements);
+  next.add_types("format", std::move(found.formats), &ModuleTypes::formats, path, next.types_.formats);
   for (IntegratorType& type : found.integrators) next.integrators_.push_back({std::move(type), path});
   *this = std::move(next);
 }

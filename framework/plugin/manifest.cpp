@@ -148,6 +148,7 @@ std::string write_manifest(const ModuleTypes& types) {
   write_types(types.laws, "law", root);
   write_types(types.loads, "load", root);
   write_types(types.elements, "element", root);
+  write_types(types.formats, "format", root);
   return "# Made from the module beside it when that was built.\n" + config::write_toml(root);
 }
 
@@ -170,7 +171,9 @@ ModuleTypes read_manifest(const std::string& path) {
     read_types(root, "law", types.laws);
     read_types(root, "load", types.loads);
     read_types(root, "element", types.elements);
-    if (types.integrators.empty() && types.laws.empty() && types.loads.empty() && types.elements.empty())
+    read_types(root, "format", types.formats);
+    if (types.integrators.empty() && types.laws.empty() && types.loads.empty() && types.elements.empty() &&
+        types.formats.empty())
       throw InputError("names no type");
     return types;
   } catch (const std::exception& error) {

@@ -13,6 +13,7 @@ struct ModuleTypes {
   std::vector<model::LawType> laws;
   std::vector<model::LoadType> loads;
   std::vector<model::ElementType> elements;
+  std::vector<model::FieldFormat> formats;
 };
 
 /// Takes the types that a module registers. Nothing counts until the whole module has been read without a mistake.
@@ -22,6 +23,7 @@ class BUTEE_EXPORT Registrar {
   void add(model::LawType type) { types_.laws.push_back(std::move(type)); }
   void add(model::LoadType type) { types_.loads.push_back(std::move(type)); }
   void add(model::ElementType type) { types_.elements.push_back(std::move(type)); }
+  void add(model::FieldFormat type) { types_.formats.push_back(std::move(type)); }
 
   ModuleTypes& types() { return types_; }
 

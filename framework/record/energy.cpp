@@ -1,6 +1,7 @@
 #include "butee/record/energy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -21,8 +22,13 @@ Energy energy_of(const time::State& state, solve::Dynamics& dynamics) {
   return energy;
 }
 
-EnergyRecorder::EnergyRecorder(solve::Dynamics& dynamics)
-    : dynamics_(dynamics), all_(static_cast<std::size_t>(dynamics.size())), middle_(dynamics.size()), force_(middle_) {
+EnergyRecorder::EnergyRecorder(solve::Dynamics& dynamics, CsvWriter* writer, std::optional<OutputTimes> times)
+    : dynamics_(dynamics),
+      all_(static_cast<std::size_t>(dynamics.size())),
+      middle_(dynamics.size()),
+      force_(middle_),
+      writer_(writer),
+      times_(std::move(times)) {
   std::iota(all_.begin(), all_.end(), Index{0});
 }
 
@@ -38,12 +44,22 @@ EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& v) {
 }
 
 void EnergyRecorder::start(const time::State& state) {
-  first_total_ = last_total_ = largest_ = energy_of(state, dynamics_).total();
+  now_ = energy_of(state, dynamics_);
+  first_total_ = largest_ = now_.total();
   work_ = dissipated_ = 0.0;
   last_ = power(state.t, state.v);
 }
 
 void EnergyRecorder::step(const time::AcceptedStep& step) {
+  bool due = false;
+  if (writer_ != nullptr && times_) {
+    times_->visit(step, [&](double t) {
+      if (t == step.from.t)
+        write_row(t);
+      else
+        due = true;
+    });
+  }
   const double half = 0.5 * (step.from.t + step.to.t);
   step.integrator.interpolate(step.from, step.to, half, all_,
                               {{}, {middle_.data(), static_cast<std::size_t>(middle_.size())}, {}});
@@ -52,24 +68,43 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
   work_ += step.h / 6.0 * (last_.of_loads + 4.0 * middle.of_loads + end.of_loads);
   dissipated_ += step.h / 6.0 * (last_.of_damping + 4.0 * middle.of_damping + end.of_damping);
   last_ = end;
-  last_total_ = energy_of(step.to, dynamics_).total();
-  largest_ = std::max(largest_, std::abs(last_total_));
+  now_ = energy_of(step.to, dynamics_);
+  largest_ = std::max(largest_, std::abs(now_.total()));
+  if (due) write_row(step.to.t);
+}
+
+std::vector<std::string> EnergyRecorder::columns() {
+  return {"t", "kinetic", "strain", "contact", "work", "dissipated"};
+}
+
+void EnergyRecorder::write_row(double t) {
+  const std::array<double, 6> row = {t, now_.kinetic, now_.strain, now_.contact, work_, dissipated_};
+  writer_->row(row);
+}
+
+void EnergyRecorder::finish() {
+  if (writer_ != nullptr) writer_->flush();
 }
 
 void EnergyRecorder::save(ByteWriter& to) const {
-  for (const double number :
-       {last_.of_loads, last_.of_damping, first_total_, last_total_, largest_, work_, dissipated_})
+  for (const double number : {last_.of_loads, last_.of_damping, now_.kinetic, now_.strain, now_.contact, first_total_,
+                              largest_, work_, dissipated_})
     to.put(number);
+  if (times_) times_->save(to);
+  to.put(writer_ != nullptr ? writer_->position() : std::uint64_t{0});
 }
 
 void EnergyRecorder::restore(ByteReader& from) {
-  for (double* number :
-       {&last_.of_loads, &last_.of_damping, &first_total_, &last_total_, &largest_, &work_, &dissipated_})
+  for (double* number : {&last_.of_loads, &last_.of_damping, &now_.kinetic, &now_.strain, &now_.contact, &first_total_,
+                         &largest_, &work_, &dissipated_})
     from.take(*number);
+  if (times_) times_->restore(from);
+  const auto position = from.take<std::uint64_t>();
+  if (writer_ != nullptr) writer_->go_back(position);
 }
 
 double EnergyRecorder::balance_error() const {
-  return largest_ > 0.0 ? (last_total_ - first_total_ + dissipated_ - work_) / largest_ : 0.0;
+  return largest_ > 0.0 ? (now_.total() - first_total_ + dissipated_ - work_) / largest_ : 0.0;
 }
 
 }  // namespace butee::record

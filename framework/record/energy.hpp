@@ -1,5 +1,7 @@
 #pragma once
 
+#include "butee/record/csv_writer.hpp"
+#include "butee/record/output_times.hpp"
 #include "butee/time/simulation.hpp"
 
 namespace butee::record {
@@ -24,11 +26,17 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, solve::Dynamics& dynamic
 /// largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
-  /// `dynamics` must outlive it.
-  explicit EnergyRecorder(solve::Dynamics& dynamics);
+  /// `dynamics` must outlive it. Where there is a `writer`, it gets a row at the start, at the first step that ends at
+  /// or after each of `times`, and at the last step; every row is of the end of a step.
+  explicit EnergyRecorder(solve::Dynamics& dynamics, CsvWriter* writer = nullptr,
+                          std::optional<OutputTimes> times = std::nullopt);
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
+  void finish() override;
+  double file_seconds() const override { return writer_ != nullptr ? writer_->seconds() : 0.0; }
+  /// "t" and what a row of the file holds, in J
+  static std::vector<std::string> columns();
   bool watches_every_step() const override { return true; }
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
@@ -43,12 +51,16 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
     double of_loads, of_damping;
   };
   Power power(double t, const Vector& v);
+  void write_row(double t);
 
   solve::Dynamics& dynamics_;
   std::vector<Index> all_;
   Vector middle_, force_;
   Power last_{};
-  double first_total_ = 0.0, last_total_ = 0.0, largest_ = 0.0;
+  CsvWriter* writer_;
+  std::optional<OutputTimes> times_;
+  Energy now_;
+  double first_total_ = 0.0, largest_ = 0.0;
   double work_ = 0.0, dissipated_ = 0.0;
 };
 

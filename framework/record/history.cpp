@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "butee/core/error.hpp"
 
 namespace butee::record {
 namespace {
-
-/// An output time that misses end_time by this fraction of an interval is end_time.
-constexpr double kSameInstant = 1e-9;
 
 /// The requested quantities and u of every probe.
 std::vector<ProbeRequest> peak_requests(std::vector<ProbeRequest> requests, const model::DofTable& dofs) {
@@ -26,9 +22,7 @@ std::vector<ProbeRequest> peak_requests(std::vector<ProbeRequest> requests, cons
 
 HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, solve::Dynamics& dynamics,
                                  CsvWriter* writer)
-    : end_time_(end_time),
-      interval_(request.interval.value_or(0.0)),
-      every_(request.interval ? 0 : request.every),
+    : times_(request.interval, request.every, end_time),
       probes_(request.probes, dynamics),
       peak_probes_(peak_requests(request.probes, dynamics.system().dofs), dynamics),
       writer_(writer),
@@ -44,28 +38,14 @@ std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) 
   return all;
 }
 
-double HistoryRecorder::time_of_row() const {
-  const double t = static_cast<double>(rows_) * interval_;
-  if (t < end_time_ - kSameInstant * interval_) return t;
-  const double before = static_cast<double>(rows_ - 1) * interval_;
-  return before < end_time_ - kSameInstant * interval_ ? end_time_ : std::numeric_limits<double>::infinity();
-}
-
 void HistoryRecorder::start(const time::State& state) {
   probes_.evaluate(state, values_);
   first_row_ = values_;
   peak_probes_.evaluate(state, current_);
   update_peaks();
-  rows_ = 0;
-  steps_ = 0;
 }
 
 void HistoryRecorder::step(const time::AcceptedStep& step) {
-  if (rows_ == 0) {
-    values_ = first_row_;
-    write_row(step.from.t, step.h);
-  }
-  ++steps_;
   if (!peak_values_.empty()) {
     for (const double t : step.integrator.knots(step.from, step.to)) {
       peak_probes_.evaluate(step, t, current_);
@@ -74,20 +54,16 @@ void HistoryRecorder::step(const time::AcceptedStep& step) {
     peak_probes_.evaluate(step.to, current_);
     update_peaks();
   }
-  if (every_ > 0) {
-    if (steps_ % every_ != 0 && step.to.t < end_time_) return;
-    probes_.evaluate(step.to, values_);
-    return write_row(step.to.t, step.h);
-  }
-  while (next_row_ <= step.to.t) {
-    probes_.evaluate(step, next_row_, values_);
-    write_row(next_row_, step.h);
-  }
+  times_.visit(step, [&](double t) {
+    if (t == step.from.t)
+      values_ = first_row_;
+    else
+      probes_.evaluate(step, t, values_);
+    write_row(t, step.h);
+  });
 }
 
 void HistoryRecorder::write_row(double t, double h) {
-  ++rows_;
-  if (every_ == 0) next_row_ = time_of_row();
   if (writer_ == nullptr) return;
   row_.assign(1, t);
   row_.insert(row_.end(), values_.begin(), values_.end());
@@ -96,7 +72,7 @@ void HistoryRecorder::write_row(double t, double h) {
 }
 
 void HistoryRecorder::finish() {
-  if (rows_ == 0) {
+  if (!times_.begun()) {
     values_ = first_row_;
     write_row(0.0, 0.0);
   }
@@ -104,18 +80,14 @@ void HistoryRecorder::finish() {
 }
 
 void HistoryRecorder::save(ByteWriter& to) const {
-  to.put(rows_);
-  to.put(steps_);
-  to.put(next_row_);
+  times_.save(to);
   to.put(first_row_);
   to.put(peak_values_);
   to.put(writer_ != nullptr ? writer_->position() : std::uint64_t{0});
 }
 
 void HistoryRecorder::restore(ByteReader& from) {
-  from.take(rows_);
-  from.take(steps_);
-  from.take(next_row_);
+  times_.restore(from);
   from.take(first_row_);
   from.take(peak_values_);
   require(first_row_.size() == values_.size() && peak_values_.size() == current_.size(), "a history of these probes");
@@ -125,14 +97,6 @@ void HistoryRecorder::restore(ByteReader& from) {
 
 void HistoryRecorder::update_peaks() {
   for (std::size_t i = 0; i < current_.size(); ++i) peak_values_[i] = std::max(peak_values_[i], std::abs(current_[i]));
-}
-
-double HistoryRecorder::next_instant(double t) const {
-  if (every_ > 0) return std::numeric_limits<double>::infinity();
-  // Before the first step the row at t = 0 is still due.
-  double next = next_row_;
-  for (std::int64_t row = rows_; next <= t; ++row) next = static_cast<double>(row) * interval_;
-  return next;
 }
 
 std::map<std::string, double> HistoryRecorder::peaks() const {

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "butee/record/csv_writer.hpp"
+#include "butee/record/output_times.hpp"
 #include "butee/record/probes.hpp"
 
 namespace butee::record {
@@ -18,8 +19,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
   void finish() override;
-  double next_instant(double t) const override;
-  bool watches_every_step() const override { return every_ > 0; }
+  double next_instant(double t) const override { return times_.next_instant(t); }
+  bool watches_every_step() const override { return times_.counts_steps(); }
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
   double file_seconds() const override { return writer_ != nullptr ? writer_->seconds() : 0.0; }
@@ -31,16 +32,12 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   std::map<std::string, double> peaks() const;
 
  private:
-  double time_of_row() const;
   void write_row(double t, double h);
   void update_peaks();
 
-  double end_time_, interval_;
-  std::int64_t every_;
+  OutputTimes times_;
   Probes probes_, peak_probes_;
   CsvWriter* writer_;
-  std::int64_t rows_ = 0, steps_ = 0;
-  double next_row_ = 0.0;
   std::vector<double> row_, first_row_;
   std::vector<double> values_;                 ///< of probes_
   std::vector<double> current_, peak_values_;  ///< of peak_probes_

@@ -1,7 +1,6 @@
 #include "butee/record/output_request.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -19,17 +18,6 @@ using model::Model;
 
 constexpr double kDefaultIntervals = 1000.0;
 constexpr double kMostRows = 1e9;
-
-constexpr std::array<const char*, 7> kQuantities = {"u", "v", "a", "theta", "theta_v", "theta_a", "contact_force"};
-
-std::vector<std::string> quantity_names() {
-  return {kQuantities.begin(), kQuantities.end()};
-}
-
-DofKind kind_of(Quantity quantity) {
-  const bool turns = quantity == Quantity::theta || quantity == Quantity::theta_v || quantity == Quantity::theta_a;
-  return turns ? DofKind::theta : DofKind::u;
-}
 
 /// "string:17" -> "string-17"
 std::string label_of(const std::string& node_name) {
@@ -55,8 +43,11 @@ std::vector<ProbeRequest> default_probes(const Model& model) {
 
 class OutputReader {
  public:
-  OutputReader(const Model& model, double end_time, Diagnostics& diagnostics)
-      : model_(model), end_time_(end_time), diagnostics_(diagnostics), complete_(diagnostics.error_count() == 0) {}
+  OutputReader(const Model& model, double end_time, Diagnostics& diagnostics,
+               const std::vector<model::FieldFormat>& formats)
+      : model_(model), end_time_(end_time), diagnostics_(diagnostics), complete_(diagnostics.error_count() == 0) {
+    for (const model::FieldFormat& format : formats) formats_.push_back(format.name);
+  }
 
   OutputRequest read(const Value& table) {
     OutputRequest request;
@@ -74,7 +65,8 @@ class OutputReader {
                              .above(0)
                              .at_most(1)
                              .or_else(1e-2),
-                         config::texts("formats", "the file formats").one_of({"csv"}).optional(),
+                         config::texts("formats", "the file formats").optional(),
+                         config::table("fields", "what the formats of fields keep").optional(),
                          config::table("probe", "the recorded nodes: [[output.probe]]").optional()},
                         diagnostics_);
     if (const Value* probes = table.table() != nullptr ? table.table()->find("probe") : nullptr)
@@ -96,6 +88,12 @@ class OutputReader {
     request.impacts = p->flag("impacts");
     request.trust = p->flag("trust");
     request.trust_accuracy = p->number("trust_accuracy");
+    const FormatRequest formats = read_formats(*p, formats_, diagnostics_);
+    request.csv = formats.csv;
+    request.fields = read_fields(*p, formats.fields, complete_ ? &model_ : nullptr, diagnostics_);
+    if (request.fields.interval && end_time_ / *request.fields.interval > kMostRows)
+      diagnostics_.error("output.fields.interval", p->value("fields"),
+                         "gives more than 1e9 records until end_time = " + to_text(end_time_) + " s; make it larger");
     return request;
   }
 
@@ -108,7 +106,7 @@ class OutputReader {
       const auto p =
           read_parameters((*list.array())[i], "output.probe[" + std::to_string(i) + "]",
                           {config::text("label", "the name of its columns"), config::text("node", "the node"),
-                           config::texts("quantities", "what is recorded").one_of(quantity_names())},
+                           config::texts("quantities", "what is recorded").one_of(probe_quantities())},
                           diagnostics_);
       if (!p) continue;
       const std::string& label = p->text("label");
@@ -126,8 +124,7 @@ class OutputReader {
     ProbeRequest probe{p.text("label"), *node, {}};
     if (complete_ && !dofs_) dofs_ = number_dofs(model_);
     for (const std::string& name : p.texts("quantities")) {
-      const auto* const found = std::find(kQuantities.begin(), kQuantities.end(), name);
-      const auto quantity = static_cast<Quantity>(found - kQuantities.begin());
+      const Quantity quantity = quantity_of(name);
       if (std::find(probe.quantities.begin(), probe.quantities.end(), quantity) != probe.quantities.end())
         p.complain(diagnostics_, "quantities", "names " + name + " twice");
       if (dofs_ && !dofs_->exists({*node, kind_of(quantity)}))
@@ -142,20 +139,18 @@ class OutputReader {
   double end_time_;
   Diagnostics& diagnostics_;
   bool complete_;
+  std::vector<std::string> formats_;
   std::set<std::string> labels_;
   std::optional<model::DofTable> dofs_;
 };
 
 }  // namespace
 
-const char* name_of(Quantity quantity) {
-  return kQuantities.at(static_cast<std::size_t>(quantity));
-}
-
-OutputRequest read_output(const Value& root, const Model& model, double end_time, Diagnostics& diagnostics) {
+OutputRequest read_output(const Value& root, const Model& model, double end_time, Diagnostics& diagnostics,
+                          const std::vector<model::FieldFormat>& formats) {
   const Value* table = root.table()->find("output");
   const Value empty;
-  return OutputReader(model, end_time, diagnostics).read(table != nullptr ? *table : empty);
+  return OutputReader(model, end_time, diagnostics, formats).read(table != nullptr ? *table : empty);
 }
 
 }  // namespace butee::record

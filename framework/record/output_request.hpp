@@ -4,15 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "butee/config/diagnostics.hpp"
-#include "butee/model/model.hpp"
+#include "butee/record/field_request.hpp"
 
 namespace butee::record {
-
-/// What a probe can record of its node.
-enum class Quantity { u, v, a, theta, theta_v, theta_a, contact_force };
-
-BUTEE_EXPORT const char* name_of(Quantity quantity);
 
 struct ProbeRequest {
   std::string label;
@@ -30,11 +24,14 @@ struct OutputRequest {
   bool trust = false;            ///< find out how far the answer can be trusted
   double trust_accuracy = 1e-2;  ///< relative to the peak
   std::vector<ProbeRequest> probes;
+  bool csv = true;  ///< history.csv
+  FieldRequest fields;
 };
 
 /// Reads [output]; without it 1000 equal intervals and a probe of u on every loaded node. Mistakes go to `diagnostics`.
-/// `model` need not be complete where there were mistakes before.
+/// `model` need not be complete where there were mistakes before. `formats` are those known beside csv.
 BUTEE_EXPORT OutputRequest read_output(const config::Value& root, const model::Model& model, double end_time,
-                                       config::Diagnostics& diagnostics);
+                                       config::Diagnostics& diagnostics,
+                                       const std::vector<model::FieldFormat>& formats = {});
 
 }  // namespace butee::record

@@ -8,8 +8,7 @@ Probes::Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynam
   const model::DofTable& table = dynamics.system().dofs;
   for (const ProbeRequest& request : requests)
     for (const Quantity quantity : request.quantities) {
-      const bool turns = quantity == Quantity::theta || quantity == Quantity::theta_v || quantity == Quantity::theta_a;
-      const Index dof = table.index({request.node, turns ? DofKind::theta : DofKind::u});
+      const Index dof = table.index({request.node, kind_of(quantity)});
       Column column{samples_of(quantity), slot(dof), stops_.size(), stops_.size()};
       if (quantity == Quantity::contact_force && dof >= 0) add_stops(dof);
       column.last_stop = stops_.size();
@@ -35,6 +34,7 @@ const std::vector<double>* Probes::samples_of(Quantity quantity) const {
     case Quantity::theta_a:
       return &a_;
     case Quantity::contact_force:
+    case Quantity::stop_state:  // not of probes
       break;
   }
   return nullptr;

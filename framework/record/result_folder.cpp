@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kMark = "# butee: the model as run";
-constexpr const char* kOurFiles[] = {"history.csv",    "impacts.csv",           "summary.json",
+constexpr const char* kOurFiles[] = {"history.csv",    "impacts.csv",           "energy.csv",
+                                     "fields.h5",      "fields.xdmf",           "summary.json",
                                      "checkpoint.bin", "checkpoint-before.bin", "checkpoint-next.bin"};
 
 bool is_ours(const fs::path& folder) {

@@ -45,7 +45,7 @@ Json results(const std::string& path) {
 }
 
 void expect_same_results(const TemporaryFolder& folder, const std::string& a, const std::string& b) {
-  for (const char* name : {"/history.csv", "/impacts.csv"})
+  for (const char* name : {"/history.csv", "/impacts.csv", "/energy.csv"})
     EXPECT_TRUE(read_file(folder.file(a + name)) == read_file(folder.file(b + name))) << name;
   EXPECT_EQ(results(folder.file(a + "/summary.json")), results(folder.file(b + "/summary.json")));
 }

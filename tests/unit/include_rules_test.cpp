@@ -32,7 +32,7 @@ Names allowed_rooms(const std::string& folder) {
   if (folder.rfind("framework/", 0) == 0) return up_to(folder.substr(10));
   if (folder == "elements" || folder == "contact") return up_to("model");
   if (folder == "integrators") return up_to("time");
-  if (folder == "plugins") return {"model", "plugin"};
+  if (folder == "plugins") return {"core", "model", "plugin"};
   return {"core", "config", "model", "solve", "time", "record", "plugin", "embed"};
 }
 

@@ -9,6 +9,8 @@
 
 #include <butee/core/text.hpp>
 
+#include "../gnuplot.hpp"
+
 namespace butee::app::compare {
 namespace {
 
@@ -197,57 +199,36 @@ std::string markdown(const Study& study, const std::vector<SceneResult>& results
   return out.str();
 }
 
-/// A text from a scene, which gnuplot is not to obey: within single quotes, where nothing but their end has a meaning.
-std::string gnuplot_text(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : printable(text)) quoted += c == '\'' ? std::string("''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string shell_text(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 bool draw(const SceneResult& result, const std::string& folder) {
-  const std::string base = folder + "/work-precision-" + result.scene;
-  std::ofstream data(base + ".dat");
-  const std::vector<std::string> methods = methods_of(result.rows);
+  const std::string name = "work-precision-" + result.scene;
   std::vector<std::string> drawn;
-  for (const std::string& method : methods) {
-    std::vector<const Row*> points;
+  std::string script = "# error against time, a block for each method\n$runs << EOD\n";
+  for (const std::string& method : methods_of(result.rows)) {
+    std::string points;
     for (const Row& row : result.rows)
-      if (row.method == method && row.completed() && row.error.rms < 2.0 && row.error.rms > 0.0) points.push_back(&row);
+      if (row.method == method && row.completed() && row.error.rms < 2.0 && row.error.rms > 0.0)
+        points += number(row.seconds * 1e3, 6) + " " + number(row.error.rms, 6) + "\n";
     if (points.empty()) continue;
     drawn.push_back(method);
-    for (const Row* row : points) data << row->seconds * 1e3 << ' ' << row->error.rms << '\n';
-    data << "\n\n";
+    script += points + "\n\n";
   }
-  data.close();
-  std::ofstream script(base + ".gp");
-  script << "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset grid xtics ytics mxtics mytics lt 1 "
-            "lc rgb '#c8c8c8', lt 1 lc rgb '#eeeeee'\n"
-            "set border 3\nset tics nomirror out\nset key outside right center reverse Left samplen 2 spacing 1.2\n"
-         << "set xlabel 'time of one run / ms'\nset ylabel 'relative rms error of " << result.column << "' noenhanced\n"
-         << "set title " << gnuplot_text(result.title.empty() ? result.scene : result.title) << " noenhanced\n"
-         << "set style increment user\n";
-  const std::array<const char*, 10> colours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e",
-                                               "#17becf", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"};
+  if (drawn.empty()) return false;
+  script += "EOD\n" + gnuplot::style() +
+            "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\n"
+            "set grid xtics ytics mxtics mytics lt 1 lc rgb '#c8c8c8', lt 1 lc rgb '#eeeeee'\n"
+            "set key outside right center reverse Left samplen 2 spacing 1.1\nset xlabel 'time of one run / ms'\n"
+            "set ylabel 'relative rms error of " +
+            result.column + "' noenhanced\nset title " +
+            gnuplot::quoted(printable(result.title.empty() ? result.scene : result.title)) + " noenhanced\n";
   std::string plot = "plot ";
   if (result.reference.uncertainty > 0.0)
     plot += number(result.reference.uncertainty, 6) + " w l lc rgb '#000000' dt 3 t 'reference itself', ";
   for (std::size_t i = 0; i < drawn.size(); ++i)
-    plot += gnuplot_text(base + ".dat") + " index " + std::to_string(i) + " w lp lw 1.6 ps 0.8 pt " +
-            std::to_string(std::array{4, 5, 6, 7, 8, 9, 10, 11, 12, 13}[i % 10]) + " lc rgb '" + colours[i % 10] +
-            "' t '" + drawn[i] + "' noenhanced, ";
+    plot += "$runs index " + std::to_string(i) + " w lp lw 1.6 ps 0.8 pt " + std::to_string(4 + i % 10) + " lc rgb '" +
+            gnuplot::kColours[i % gnuplot::kColours.size()] + "' t " + gnuplot::quoted(drawn[i]) + ", ";
   plot.resize(plot.size() - 2);
-  for (const auto& [terminal, suffix] : {std::pair{"pngcairo size 1200,750 font 'sans,13'", ".png"},
-                                         std::pair{"svg size 900,560 font 'sans,13'", ".svg"}})
-    script << "set terminal " << terminal << "\nset output " << gnuplot_text(base + suffix) << "\n" << plot << "\n";
-  script << "set output\n";
-  script.close();
-  return !drawn.empty() && std::system(("gnuplot " + shell_text(base + ".gp") + " > /dev/null 2>&1").c_str()) == 0;
+  gnuplot::write_script(folder, name, script + gnuplot::draw_into({"png", "svg"}, name, plot));
+  return gnuplot::is_installed() && gnuplot::run_script(folder, name).empty();
 }
 
 }  // namespace butee::app::compare

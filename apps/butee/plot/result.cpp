@@ -1,0 +1,123 @@
+#include "result.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include <butee/config/toml.hpp>
+#include <butee/core/error.hpp>
+#include <butee/plugin/scene.hpp>
+
+namespace butee::app::plot {
+namespace {
+
+namespace fs = std::filesystem;
+using config::Value;
+
+constexpr const char* kEnding = "-results";
+
+/// "runs/beam1-results/" -> "beam1"
+std::string label_of(const std::string& folder) {
+  fs::path path = fs::path(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  std::string name = path.filename().string();
+  if (name.empty() || name == "." || name == "..") name = fs::weakly_canonical(folder).filename().string();
+  if (name.size() > std::string(kEnding).size() && name.ends_with(kEnding))
+    name.resize(name.size() - std::string(kEnding).size());
+  return name;
+}
+
+/// The positions at which a node meets stops to ground.
+std::vector<double> gaps_of(const model::Model& model, model::NodeId node) {
+  std::vector<double> gaps;
+  const model::NodeId wanted = model.nodes.canonical(node);
+  for (const model::StopGroup& stops : model.stops) {
+    const auto on_node = [&](model::NodeId a) { return model.nodes.canonical(a) == wanted; };
+    if (!stops.b.empty() || std::none_of(stops.a.begin(), stops.a.end(), on_node)) continue;
+    if (stops.sides != model::Sides::positive) gaps.push_back(-stops.gap);
+    if (stops.sides != model::Sides::negative) gaps.push_back(stops.gap);
+  }
+  std::sort(gaps.begin(), gaps.end());
+  gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
+  return gaps;
+}
+
+/// Collects the frequencies of a load and of its course in time, Hz.
+void add_frequency(const Value& load, std::vector<double>& frequencies) {
+  const config::Table* table = load.table();
+  if (table == nullptr) return;
+  if (const Value* in_time = table->find("in_time")) add_frequency(*in_time, frequencies);
+  for (const char* key : {"angular_frequency", "speed"})
+    if (const Value* given = table->find(key))
+      if (const auto omega = config::as_number(*given); omega && *omega != 0.0)
+        frequencies.push_back(std::abs(*omega) / (2.0 * std::numbers::pi));
+}
+
+std::vector<double> frequencies_of(const config::Document& document) {
+  std::vector<double> frequencies;
+  const Value* loads = document.root.table()->find("load");
+  if (loads != nullptr && loads->array() != nullptr)
+    for (const Value& load : *loads->array()) add_frequency(load, frequencies);
+  std::sort(frequencies.begin(), frequencies.end());
+  const auto alike = [](double a, double b) { return b - a <= 1e-9 * b; };
+  frequencies.erase(std::unique(frequencies.begin(), frequencies.end(), alike), frequencies.end());
+  return frequencies;
+}
+
+/// The format of the fields in the folder, where the scene asked for one and its file is there.
+std::string field_format_of(const config::Document& document, const std::string& folder) {
+  const Value* output = document.root.table()->find("output");
+  const Value* formats = output != nullptr && output->table() != nullptr ? output->table()->find("formats") : nullptr;
+  if (formats == nullptr) return "";
+  std::vector<Value> names = formats->array() != nullptr ? *formats->array() : std::vector<Value>{*formats};
+  for (const Value& name : names)
+    if (name.text() != nullptr && *name.text() != "csv")
+      for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().stem() == "fields") return *name.text();
+  return "";
+}
+
+}  // namespace
+
+Result read_result(const std::string& folder, const plugin::Catalogue& catalogue, Window window) {
+  const std::string model_path = (fs::path(folder) / "model.toml").string();
+  const std::string history_path = (fs::path(folder) / "history.csv").string();
+  if (!fs::is_directory(folder)) throw InputError(folder + ": is no folder; name the result folder of `butee run`");
+  if (!fs::exists(model_path)) throw InputError(folder + ": holds no results of `butee run`: model.toml is missing");
+  const config::Document document = config::load_toml(model_path);
+  config::Diagnostics diagnostics(document);
+  const plugin::Scene scene = plugin::read_scene(document, catalogue, diagnostics);
+  diagnostics.throw_if_any();
+  // What is wrong with [output] here, such as a format whose module is not installed, is no matter for pictures.
+  config::Diagnostics of_output(document);
+  const auto output = record::read_output(document.root, scene.model, scene.integrator->options.end_time, of_output,
+                                          catalogue.types().formats);
+  Result result;
+  result.folder = folder;
+  result.label = label_of(folder);
+  result.title = scene.model.title;
+  result.field_format = field_format_of(document, folder);
+  if (fs::exists(history_path))
+    result.history = read_table(history_path, window);
+  else if (result.field_format.empty())
+    throw InputError(folder + ": holds no results of `butee run`: history.csv is missing");
+  if (const auto energy = fs::path(folder) / "energy.csv"; fs::exists(energy))
+    result.energy = read_table(energy.string(), window);
+  for (const record::ProbeRequest& probe : output.probes)
+    result.probes.push_back({probe.label, gaps_of(scene.model, probe.node)});
+  result.frequencies = frequencies_of(document);
+  return result;
+}
+
+void make_labels_unique(std::vector<Result>& results) {
+  for (const Result& one : results) {
+    const auto same = [&](const Result& other) { return other.label == one.label; };
+    if (std::count_if(results.begin(), results.end(), same) == 1) continue;
+    const std::string label = one.label;
+    for (Result& other : results)
+      if (other.label == label) other.label = fs::path(other.folder).lexically_normal().string();
+  }
+}
+
+}  // namespace butee::app::plot

@@ -1,0 +1,196 @@
+#include "shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "../gnuplot.hpp"
+
+namespace butee::app::plot {
+namespace {
+
+constexpr std::size_t kMostInstants = 600, kMostPlaces = 200;  ///< of the picture
+constexpr std::size_t kFewestPlaces = 100;
+constexpr std::size_t kFewestNodes = 3;  ///< of a line worth a picture
+
+std::optional<std::size_t> field_of(const model::FieldLayout& layout, const std::string& name) {
+  for (std::size_t i = 0; i < layout.fields.size(); ++i)
+    if (layout.fields[i].name == name) return i;
+  return std::nullopt;
+}
+
+/// Evenly chosen records of the window.
+std::vector<std::size_t> records_in(const std::vector<double>& times, Window window) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (times[i] >= window.from && times[i] <= window.to) all.push_back(i);
+  const std::size_t stride = (all.size() + kMostInstants - 1) / kMostInstants;
+  if (stride <= 1) return all;
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < all.size(); i += stride) chosen.push_back(all[i]);
+  return chosen;
+}
+
+/// A stop closed from one instant to another, s, at a place, m.
+struct Closure {
+  double begin, end, place;
+};
+
+/// What a picture of one line shows: a row of u for each instant, at evenly spaced places.
+struct Map {
+  std::vector<double> times, places;
+  std::vector<std::vector<double>> u;
+  std::vector<Closure> closures;
+};
+
+class Sampler {
+ public:
+  Sampler(const model::FieldLayout& layout, const model::FieldLine& line) : line_(line) {
+    for (const Index node : line.nodes) x_.push_back(layout.coordinates[static_cast<std::size_t>(node)]);
+    const std::size_t count = std::clamp(x_.size(), kFewestPlaces, kMostPlaces);
+    std::size_t i = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double part = static_cast<double>(k) / static_cast<double>(count - 1);
+      const double x = x_.front() + part * (x_.back() - x_.front());
+      while (i + 2 < x_.size() && x_[i + 1] < x) ++i;
+      map.places.push_back(x);
+      cells_.push_back({i, (x - x_[i]) / (x_[i + 1] - x_[i])});
+    }
+    closed_since_.resize(x_.size());
+    if (x_.size() <= 2 * count) return;
+    const double spacing = (x_.back() - x_.front()) / static_cast<double>(count - 1);
+    for (const double x : x_) nearest_.push_back(static_cast<std::size_t>(std::lround((x - x_.front()) / spacing)));
+  }
+
+  void take(double t, std::span<const double> u) {
+    map.times.push_back(t);
+    std::vector<double>& row = map.u.emplace_back();
+    if (nearest_.empty()) {
+      for (const auto& [i, part] : cells_) row.push_back((1.0 - part) * value(u, i) + part * value(u, i + 1));
+      return;
+    }
+    row.assign(map.places.size(), 0.0);
+    for (std::size_t i = 0; i < nearest_.size(); ++i)
+      if (double& most = row[nearest_[i]]; std::abs(value(u, i)) > std::abs(most)) most = value(u, i);
+  }
+
+  /// Follows which stops are closed, at every record.
+  void follow(double t, double previous, std::span<const double> state) {
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      auto& since = closed_since_[i];
+      if (value(state, i) != 0.0) {
+        if (!since) since = t;
+      } else if (since) {
+        map.closures.push_back({*since, previous, x_[i]});
+        since.reset();
+      }
+    }
+  }
+  void end(double t) {
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      if (closed_since_[i]) map.closures.push_back({*closed_since_[i], t, x_[i]});
+  }
+
+  Map map;
+
+ private:
+  double value(std::span<const double> values, std::size_t i) const {
+    return values[static_cast<std::size_t>(line_.nodes[i])];
+  }
+
+  struct Cell {
+    std::size_t left;
+    double part;
+  };
+  const model::FieldLine& line_;
+  std::vector<double> x_;
+  std::vector<Cell> cells_;
+  std::vector<std::size_t> nearest_;  ///< place of each node, where a place takes the largest value of its many nodes
+  std::vector<std::optional<double>> closed_since_;  ///< s, since when the stop is closed
+};
+
+std::string number(double value) {
+  return short_number(value, 5);
+}
+
+Picture picture_of(const Map& map, const std::string& title, const std::string& name) {
+  double largest = 0.0;
+  for (const auto& row : map.u) largest = std::max(largest, largest_of(row));
+  const Scale time = scale_for(map.times.back(), "s"), place = scale_for(largest_of(map.places), "m"),
+              u = scale_for(largest, "m");
+  Picture picture;
+  picture.name = name;
+  picture.data = "# the displacement: a line for each place, a number for each instant\n$u << EOD\n";
+  for (std::size_t k = 0; k < map.places.size(); ++k) {
+    for (std::size_t i = 0; i < map.times.size(); ++i)
+      picture.data += (i > 0 ? " " : "") + short_number(map.u[i][k] * u.factor, 4);
+    picture.data += "\n";
+  }
+  picture.data += "EOD\n";
+  if (!map.closures.empty()) {
+    picture.data += "# closed stops: from, place, until\n$closed << EOD\n";
+    for (const Closure& c : map.closures)
+      picture.data += number(c.begin * time.factor) + " " + number(c.place * place.factor) + " " +
+                      number((c.end - c.begin) * time.factor) + "\n";
+    picture.data += "EOD\n";
+  }
+  const double t0 = map.times.front() * time.factor, t1 = map.times.back() * time.factor;
+  const double x0 = map.places.front() * place.factor, x1 = map.places.back() * place.factor;
+  const double dt = (t1 - t0) / static_cast<double>(std::max<std::size_t>(map.times.size() - 1, 1));
+  const double dx = (x1 - x0) / static_cast<double>(map.places.size() - 1);
+  std::string heading = folded_title(title);
+  picture.set = "set title \"" + heading + "\" noenhanced\nset xlabel " + gnuplot::quoted(time.axis("time")) +
+                "\nset ylabel " + gnuplot::quoted(place.axis("place along the beam")) + "\nset cblabel " +
+                gnuplot::quoted(u.axis("displacement")) + "\n";
+  picture.set += "set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 '#b2182b')\n";
+  const double limit = largest > 0.0 ? largest * u.factor : 1.0;
+  picture.set += "set cbrange [" + number(-limit) + ":" + number(limit) +
+                 "]\nset colorbox user origin screen 0.885, graph 0 size screen 0.02, graph 1\n";
+  picture.set += "set xrange [" + number(t0) + ":" + number(t1) + "]\nset yrange [" + number(x0) + ":" + number(x1) +
+                 "]\nset rmargin screen 0.87\nunset grid\n" + gnuplot::legend_below({"stop closed"});
+  picture.plot = "plot $u matrix using (" + number(t0) + " + " + short_number(dt, 9) + " * $1):(" + number(x0) + " + " +
+                 short_number(dx, 9) + " * $2):3 with image notitle";
+  if (!map.closures.empty())
+    picture.plot +=
+        ", \\\n     $closed using 1:2:3:(0) with vectors nohead lw 1.6 lc rgb '#111111' notitle, \\\n"
+        "     NaN with lines lw 1.6 lc rgb '#111111' title 'stop closed'";
+  return picture;
+}
+
+}  // namespace
+
+std::vector<Picture> shape_pictures(const Result& result, model::FieldReader& fields, Window window, bool several) {
+  const model::FieldLayout& layout = fields.layout();
+  const auto u = field_of(layout, "u"), state = field_of(layout, "stop_state");
+  const auto records = records_in(fields.times(), window);
+  if (!u || records.size() < 2) return {};
+  std::vector<std::pair<const model::FieldLine*, Sampler>> lines;
+  for (const model::FieldLine& line : layout.lines)
+    if (line.nodes.size() >= kFewestNodes) lines.emplace_back(&line, Sampler(layout, line));
+  std::vector<double> values(layout.nodes.size());
+  for (const std::size_t record : records) {
+    fields.read(record, *u, values);
+    for (auto& [line, sampler] : lines) sampler.take(fields.times()[record], values);
+  }
+  if (state) {
+    for (std::size_t record = records.front(); record <= records.back(); ++record) {
+      fields.read(record, *state, values);
+      const double t = fields.times()[record], before = fields.times()[record - (record > records.front() ? 1 : 0)];
+      for (auto& [line, sampler] : lines) sampler.follow(t, before, values);
+    }
+    for (auto& [line, sampler] : lines) sampler.end(fields.times()[records.back()]);
+  }
+  std::vector<Picture> pictures;
+  for (const auto& [line, sampler] : lines) {
+    std::string name = "shape", title = result.title.empty() ? result.label : result.title;
+    if (several) name += "-" + result.label;
+    if (lines.size() > 1) {
+      name += "-" + line->name;
+      title = line->name + ": " + title;
+    }
+    pictures.push_back(picture_of(sampler.map, title, name));
+  }
+  return pictures;
+}
+
+}  // namespace butee::app::plot

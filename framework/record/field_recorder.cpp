@@ -1,0 +1,188 @@
+#include "butee/record/field_recorder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "butee/core/error.hpp"
+
+namespace butee::record {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// On which side a stop with displacement w is closed: +1, -1, or 0 where it is open.
+double closed_side(const solve::Contact& contact, Index stop, double w) {
+  const model::Sides sides = contact.sides_of(stop);
+  const double gap = contact.gap_of(stop);
+  if (sides != model::Sides::negative && w > gap) return 1.0;
+  if (sides != model::Sides::positive && -w > gap) return -1.0;
+  return 0.0;
+}
+
+double at(std::span<const double> samples, std::int32_t place) {
+  return place < 0 ? 0.0 : samples[static_cast<std::size_t>(place)];
+}
+
+}  // namespace
+
+FieldRecorder::FieldRecorder(const OutputRequest& output, double end_time, solve::Dynamics& dynamics,
+                             std::vector<std::unique_ptr<model::FieldWriter>> writers)
+    : dynamics_(dynamics),
+      times_(output.fields.interval ? output.fields.interval : output.interval, output.every, end_time),
+      quantities_(output.fields.quantities),
+      writers_(std::move(writers)) {
+  const auto wants = [this](std::initializer_list<Quantity> any) {
+    return std::find_first_of(quantities_.begin(), quantities_.end(), any.begin(), any.end()) != quantities_.end();
+  };
+  needs_v_ = wants({Quantity::v, Quantity::theta_v});
+  needs_a_ = wants({Quantity::a, Quantity::theta_a});
+  needs_stops_ = dynamics.stop_count() > 0 && wants({Quantity::contact_force, Quantity::stop_state});
+  find_dofs(output.fields.nodes);
+  if (needs_stops_) find_stops();
+  x_.resize(dofs_.size());
+  if (needs_v_) v_.resize(dofs_.size());
+  if (needs_a_) a_.resize(dofs_.size());
+  record_.resize(quantities_.size() * u_.size());
+}
+
+void FieldRecorder::find_dofs(const std::vector<model::NodeId>& nodes) {
+  const model::DofTable& table = dynamics_.system().dofs;
+  const auto turns = [](Quantity quantity) { return kind_of(quantity) == DofKind::theta; };
+  const bool needs_theta = std::any_of(quantities_.begin(), quantities_.end(), turns);
+  std::vector<std::int32_t> places(static_cast<std::size_t>(dynamics_.size()), -1);
+  const auto place = [&](model::NodeId node, DofKind kind) {
+    const Index dof = table.index({node, kind});
+    if (dof < 0) return -1;
+    std::int32_t& known = places[static_cast<std::size_t>(dof)];
+    if (known < 0) {
+      known = static_cast<std::int32_t>(dofs_.size());
+      dofs_.push_back(dof);
+    }
+    return known;
+  };
+  for (const model::NodeId node : nodes) {
+    u_.push_back(place(node, DofKind::u));
+    theta_.push_back(needs_theta ? place(node, DofKind::theta) : -1);
+  }
+}
+
+void FieldRecorder::find_stops() {
+  const std::size_t kept = dofs_.size();
+  std::vector<std::int32_t> places(static_cast<std::size_t>(dynamics_.size()), -1);
+  for (std::size_t i = 0; i < kept; ++i) places[static_cast<std::size_t>(dofs_[i])] = static_cast<std::int32_t>(i);
+  const auto place = [&](Index dof) { return dof < 0 ? -1 : places[static_cast<std::size_t>(dof)]; };
+  const solve::Contact& contact = dynamics_.contact();
+  for (Index i = 0; i < contact.size(); ++i) {
+    const Index a = contact.dof_a(i), b = contact.dof_b(i);
+    if (place(a) < 0 && place(b) < 0) continue;
+    // The other end may be no kept node, and is sampled all the same.
+    for (const Index dof : {a, b})
+      if (dof >= 0 && place(dof) < 0) {
+        places[static_cast<std::size_t>(dof)] = static_cast<std::int32_t>(dofs_.size());
+        dofs_.push_back(dof);
+      }
+    stops_.push_back({i, place(a), place(b)});
+  }
+  force_.resize(dofs_.size());
+  state_.resize(dofs_.size());
+}
+
+void FieldRecorder::evaluate_stops(std::span<const double> x) {
+  std::fill(force_.begin(), force_.end(), 0.0);
+  std::fill(state_.begin(), state_.end(), 0.0);
+  for (const KeptStop& stop : stops_) {
+    const double w = at(x, stop.a) - at(x, stop.b);
+    const double force = dynamics_.contact().force_of(stop.stop, w);
+    const double side = closed_side(dynamics_.contact(), stop.stop, w);
+    for (const auto& [place, sign] : {std::pair(stop.a, 1.0), std::pair(stop.b, -1.0)}) {
+      if (place < 0) continue;
+      force_[static_cast<std::size_t>(place)] += sign * force;
+      if (side != 0.0) state_[static_cast<std::size_t>(place)] = sign * side;
+    }
+  }
+}
+
+void FieldRecorder::fill(const time::Interpolated& samples) {
+  if (needs_stops_) evaluate_stops(samples.x);
+  auto out = record_.begin();
+  for (const Quantity quantity : quantities_) {
+    const auto take = [&](std::span<const double> from, const std::vector<std::int32_t>& places) {
+      if (from.empty())
+        out = std::fill_n(out, places.size(), 0.0);
+      else
+        out = std::transform(places.begin(), places.end(), out, [&](std::int32_t place) { return at(from, place); });
+    };
+    switch (quantity) {
+      case Quantity::u:
+        take(samples.x, u_);
+        break;
+      case Quantity::v:
+        take(samples.v, u_);
+        break;
+      case Quantity::a:
+        take(samples.a, u_);
+        break;
+      case Quantity::theta:
+        take(samples.x, theta_);
+        break;
+      case Quantity::theta_v:
+        take(samples.v, theta_);
+        break;
+      case Quantity::theta_a:
+        take(samples.a, theta_);
+        break;
+      case Quantity::contact_force:
+        take(force_, u_);
+        break;
+      case Quantity::stop_state:
+        take(state_, u_);
+        break;
+    }
+  }
+}
+
+void FieldRecorder::fill(const time::State& state) {
+  for (std::size_t i = 0; i < dofs_.size(); ++i) {
+    x_[i] = state.x[dofs_[i]];
+    if (needs_v_) v_[i] = state.v[dofs_[i]];
+    if (needs_a_) a_[i] = state.a[dofs_[i]];
+  }
+  fill(time::Interpolated{x_, v_, a_});
+}
+
+void FieldRecorder::start(const time::State& state) {
+  start_time_ = state.t;
+  fill(state);
+}
+
+void FieldRecorder::step(const time::AcceptedStep& step) {
+  times_.visit(step, [&](double t) {
+    if (t == step.to.t)
+      fill(step.to);
+    else if (t != step.from.t) {
+      step.integrator.interpolate(step.from, step.to, t, dofs_, {x_, v_, a_});
+      fill(time::Interpolated{x_, v_, a_});
+    }  // else the first instant, filled by start()
+    write(t);
+  });
+}
+
+void FieldRecorder::write(double t) {
+  const auto begin = Clock::now();
+  for (const auto& writer : writers_) writer->append(t, record_);
+  seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void FieldRecorder::restore(ByteReader&) {
+  throw RunError("a run that keeps fields cannot go on from a checkpoint");
+}
+
+void FieldRecorder::finish() {
+  if (finished_) return;
+  finished_ = true;
+  if (!times_.begun()) write(start_time_);
+  for (const auto& writer : writers_) writer->finish();
+}
+
+}  // namespace butee::record

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+
+#include "butee/record/output_request.hpp"
+#include "butee/record/output_times.hpp"
+
+namespace butee::record {
+
+/// Samples fields at the output times, by the method's own interpolant, and hands the records to writers.
+///
+/// A fixed or absent degree of freedom counts as zero. What it holds is one record and the numbers of the nodes'
+/// degrees of freedom, whatever the length of the run.
+class BUTEE_EXPORT FieldRecorder final : public time::Observer {
+ public:
+  /// `output.fields` says what; `dynamics` must outlive it.
+  FieldRecorder(const OutputRequest& output, double end_time, solve::Dynamics& dynamics,
+                std::vector<std::unique_ptr<model::FieldWriter>> writers);
+
+  void start(const time::State& state) override;
+  void step(const time::AcceptedStep& step) override;
+  void finish() override;
+  /// Throws RunError: records that are written are not taken back.
+  void restore(ByteReader& from) override;
+  double next_instant(double t) const override { return times_.next_instant(t); }
+  bool watches_every_step() const override { return times_.counts_steps(); }
+  double file_seconds() const override { return seconds_; }
+
+ private:
+  /// One stop on a kept node: the places of its ends among the sampled degrees of freedom.
+  struct KeptStop {
+    Index stop;
+    std::int32_t a, b;
+  };
+
+  void find_dofs(const std::vector<model::NodeId>& nodes);
+  void find_stops();
+  void evaluate_stops(std::span<const double> x);
+  /// Makes a record of x, v, a at dofs_.
+  void fill(const time::Interpolated& samples);
+  void fill(const time::State& state);
+  void write(double t);
+
+  solve::Dynamics& dynamics_;
+  OutputTimes times_;
+  std::vector<Quantity> quantities_;
+  std::vector<std::unique_ptr<model::FieldWriter>> writers_;
+  std::vector<Index> dofs_;              ///< that are sampled
+  std::vector<std::int32_t> u_, theta_;  ///< by kept node: the place in dofs_, or -1
+  std::vector<KeptStop> stops_;
+  std::vector<double> x_, v_, a_, force_, state_, record_;
+  bool needs_v_ = false, needs_a_ = false, needs_stops_ = false;
+  bool finished_ = false;
+  double start_time_ = 0.0, seconds_ = 0.0;
+};
+
+}  // namespace butee::record

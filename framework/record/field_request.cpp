@@ -1,0 +1,94 @@
+#include "butee/record/field_request.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "butee/core/text.hpp"
+#include "butee/model/read_model.hpp"
+
+namespace butee::record {
+
+using config::Diagnostics;
+using config::Parameters;
+using config::Value;
+
+namespace {
+
+/// Why a format is not known, beside the list of those that are.
+std::string reason_of(const std::string& name, const std::vector<std::string>& known) {
+  if (name == "hdf5")
+    return ": its module was not built, since the HDF5 library was not found; install it (Debian: libhdf5-dev) and "
+           "build "
+           "butee again";
+  return suggestion(name, known);
+}
+
+/// Complains about the first name that comes twice.
+void refuse_doubles(const Parameters& p, const std::string& key, Diagnostics& diagnostics) {
+  const auto names = p.texts(key);
+  for (const std::string& name : names)
+    if (std::count(names.begin(), names.end(), name) > 1)
+      return p.complain(diagnostics, key, "names " + name + " twice");
+}
+
+std::vector<config::Parameter> field_keys() {
+  config::Array usual;
+  for (const char* name : {"u", "theta", "v", "contact_force", "stop_state"}) usual.emplace_back(std::string(name));
+  return {
+      config::texts("nodes", "the nodes that are kept: selectors; all where absent").optional(),
+      config::texts("quantities", "what is kept of them").one_of(all_quantities()).or_else(usual),
+      config::number("interval", "s", "the time between two records; as the rows where absent").above(0).optional()};
+}
+
+}  // namespace
+
+FormatRequest read_formats(const Parameters& output, const std::vector<std::string>& known, Diagnostics& diagnostics) {
+  if (!output.has("formats")) return {};
+  std::vector<std::string> all = known;
+  all.insert(all.begin(), "csv");
+  FormatRequest request{false, {}};
+  for (const std::string& name : output.texts("formats")) {
+    if (std::find(all.begin(), all.end(), name) == all.end())
+      output.complain(diagnostics, "formats",
+                      "there is no format \"" + name + "\"" + reason_of(name, all) + "; known: " + join(all));
+    if (name == "csv")
+      request.csv = true;
+    else
+      request.fields.push_back(name);
+  }
+  refuse_doubles(output, "formats", diagnostics);
+  if (!request.csv && request.fields.empty())
+    output.complain(diagnostics, "formats", "must name at least one format; known: " + join(all));
+  return request;
+}
+
+FieldRequest read_fields(const Parameters& output, std::vector<std::string> formats, const model::Model* model,
+                         Diagnostics& diagnostics) {
+  FieldRequest request;
+  request.formats = std::move(formats);
+  const bool wanted = !request.formats.empty();
+  if (output.has("fields") && !wanted)
+    output.complain(diagnostics, "fields", "no format keeps them; write formats = [\"csv\", \"hdf5\"] beside it");
+  const Value none, &table = output.has("fields") ? output.value("fields") : none;
+  if (table.table() == nullptr) {
+    output.complain(diagnostics, "fields", "must be one table, not several");
+    return request;
+  }
+  const auto p = read_parameters(table, "output.fields", field_keys(), diagnostics);
+  if (!p) return request;
+  if (p->texts("quantities").empty()) p->complain(diagnostics, "quantities", "must name at least one quantity");
+  refuse_doubles(*p, "quantities", diagnostics);
+  for (const std::string& name : p->texts("quantities")) request.quantities.push_back(quantity_of(name));
+  if (p->has("interval")) request.interval = p->number("interval");
+  if (!wanted || model == nullptr) return request;
+  if (p->has("nodes")) {
+    request.nodes = read_nodes(model->nodes, *p, "nodes", diagnostics).value_or(std::vector<model::NodeId>{});
+    std::sort(request.nodes.begin(), request.nodes.end());
+  } else {
+    request.nodes.resize(static_cast<std::size_t>(model->nodes.size()));
+    std::iota(request.nodes.begin(), request.nodes.end(), model::NodeId{0});
+  }
+  return request;
+}
+
+}  // namespace butee::record

@@ -1,0 +1,108 @@
+#include "xdmf.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+namespace butee::plugins::hdf5 {
+namespace {
+
+constexpr std::int64_t kPolyvertex = 1, kPolyline = 2;  ///< XDMF's numbers of cell types
+constexpr const char* kEnd = "  </Grid>\n</Domain></Xdmf>\n";
+constexpr const char* kReal = "NumberType=\"Float\" Precision=\"8\"";
+constexpr const char* kWhole = "NumberType=\"Int\" Precision=\"4\"";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::size_t cell_count(const model::FieldLayout& layout) {
+  std::size_t on_lines = 0;
+  for (const model::FieldLine& line : layout.lines) on_lines += line.nodes.size();
+  return layout.lines.size() + layout.nodes.size() - on_lines;
+}
+
+/// `size` values of a dataset.
+std::string item(const std::string& path, const std::string& size, const char* type) {
+  return "<DataItem Format=\"HDF\" Dimensions=\"" + size + "\" " + type + ">fields.h5:" + path + "</DataItem>";
+}
+
+}  // namespace
+
+std::vector<std::int64_t> mixed_topology(const model::FieldLayout& layout) {
+  std::vector<std::int64_t> cells;
+  std::vector<bool> on_line(layout.nodes.size());
+  for (const model::FieldLine& line : layout.lines) {
+    cells.push_back(kPolyline);
+    cells.push_back(static_cast<std::int64_t>(line.nodes.size()));
+    for (const Index node : line.nodes) {
+      cells.push_back(node);
+      on_line[static_cast<std::size_t>(node)] = true;
+    }
+  }
+  for (std::size_t i = 0; i < on_line.size(); ++i)
+    if (!on_line[i]) cells.insert(cells.end(), {kPolyvertex, 1, static_cast<std::int64_t>(i)});
+  return cells;
+}
+
+XdmfFile::XdmfFile(const std::string& folder, const model::FieldLayout& layout)
+    : path_(folder + "/fields.xdmf"), nodes_(layout.nodes.size()), file_(std::fopen(path_.c_str(), "wb")) {
+  if (!file_) throw RunError(path_ + ": cannot be written: " + std::strerror(errno));
+  // Without a buffer a record goes to the system in one piece, so that the file is whole at any instant.
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+  layout_.fields = layout.fields;
+  const std::string count = std::to_string(nodes_);
+  mesh_ = "<Topology TopologyType=\"Mixed\" NumberOfElements=\"" + std::to_string(cell_count(layout)) + "\">";
+  mesh_ += item("/topology", std::to_string(mixed_topology(layout).size()), "NumberType=\"Int\" Precision=\"8\"");
+  mesh_ += "</Topology>\n    <Geometry GeometryType=\"XYZ\">" + item("/nodes/position", count + " 3", kReal);
+  mesh_ += "</Geometry>\n";
+  std::string text =
+      "<?xml version=\"1.0\" ?>\n<!-- made by butee; in ParaView take the reader \"XDMF Reader\" -->\n"
+      "<Xdmf Version=\"2.0\"><Domain>\n  <Grid Name=\"";
+  text += escaped(layout.title.empty() ? "butee" : layout.title);
+  text += "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  write(text);
+}
+
+void XdmfFile::add(std::size_t record, std::size_t records, double t) {
+  const std::string nodes = std::to_string(nodes_);
+  std::array<char, 40> time{};
+  std::snprintf(time.data(), time.size(), "%.17g", t);
+  std::string text = "  <Grid Name=\"scene\"><Time Value=\"";
+  text += time.data();
+  text += "\"/>" + mesh_;
+  for (const model::Field& field : layout_.fields) {
+    std::string slab = "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" + nodes + "\"><DataItem Format=\"XML\" ";
+    slab += "Dimensions=\"3 2\">" + std::to_string(record) + " 0 1 1 1 " + nodes + "</DataItem>";
+    slab += item("/fields/" + field.name, std::to_string(records) + " " + nodes, field.whole ? kWhole : kReal);
+    slab += "</DataItem>";
+    text += "    <Attribute Name=\"" + field.name + "\" AttributeType=\"Scalar\">" + slab + "</Attribute>\n";
+    if (field.name != "u") continue;
+    const std::string zero = item("/nodes/zero", nodes, kReal);
+    text += "    <Attribute Name=\"displacement\" AttributeType=\"Vector\"><DataItem ItemType=\"Function\" ";
+    text += "Function=\"JOIN($0 , $1 , $0)\" Dimensions=\"" + nodes + " 3\">" + zero + slab;
+    text += "</DataItem></Attribute>\n";
+  }
+  text += "  </Grid>\n";
+  write(text);
+}
+
+void XdmfFile::write(const std::string& text) {
+  const std::string whole = text + kEnd;
+  const bool ok = std::fseek(file_.get(), end_, SEEK_SET) == 0 &&
+                  std::fwrite(whole.data(), 1, whole.size(), file_.get()) == whole.size();
+  if (!ok) throw RunError(path_ + ": cannot be written: " + std::strerror(errno));
+  end_ += static_cast<long>(text.size());
+}
+
+}  // namespace butee::plugins::hdf5

@@ -1,0 +1,329 @@
+// Fields of all nodes: that they are what the probes say, where the nodes stand, that other programs read them, and
+// that a run that is killed leaves whole records.
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include <butee/record/field_layout.hpp>
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kParts = R"(schema = 1
+title = "a string & a rotor"
+[material.steel]
+young_modulus = 2.0e11
+density = 8000.0
+[section.pipe]
+shape = "general"
+area = 2.0e-3
+second_moment = 3.0e-6
+[[element]]
+type = "beam"
+name = "string"
+material = "steel"
+section = "pipe"
+length = 10.0
+elements = 10
+[[element]]
+type = "mass"
+name = "rotor"
+mass = 5.0
+[[element]]
+type = "spring"
+nodes = ["rotor", "string:3"]
+stiffness = 1.0e4
+[[support]]
+nodes = ["string:first", "string:last"]
+fix = ["u"]
+)";
+
+std::string scene(const std::string& more) {
+  return std::string(kParts) + R"([[contact]]
+type = "stop"
+nodes = "string:all"
+gap = 2.0e-3
+stiffness = 1.0e6
+law = "linear"
+[[load]]
+type = "harmonic"
+node = "string:middle"
+amplitude = 2000.0
+angular_frequency = 30.0
+[integrator]
+type = "newmark"
+time_step = 1.0e-4
+end_time = 0.3
+residual_tolerance = 1e-9
+increment_tolerance = 1e-9
+max_iterations = 20
+[output]
+interval = 1.0e-3
+)" + more +
+         R"([[output.probe]]
+label = "mid"
+node = "string:middle"
+quantities = ["u", "v", "theta", "contact_force"]
+[[output.probe]]
+label = "rotor"
+node = "rotor"
+quantities = ["u"]
+)";
+}
+
+const model::FieldFormat* hdf5() {
+  static const plugin::Catalogue catalogue = [] {
+    plugin::Catalogue made;
+    made.add(BUTEE_TEST_PLUGINS);
+    return made;
+  }();
+  return model::find_type(catalogue.types().formats, "hdf5");
+}
+
+#define NEEDS_HDF5() \
+  if (hdf5() == nullptr) GTEST_SKIP() << "built without HDF5"
+
+std::size_t field(const model::FieldReader& reader, const std::string& name) {
+  const auto& fields = reader.layout().fields;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (fields[i].name == name) return i;
+  throw std::runtime_error("no field " + name);
+}
+
+/// One node's values over the records.
+std::vector<double> course(model::FieldReader& reader, const std::string& name, const std::string& node) {
+  const auto& nodes = reader.layout().nodes;
+  const auto at = static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
+  std::vector<double> values(nodes.size()), all;
+  for (std::size_t i = 0; i < reader.times().size(); ++i) {
+    reader.read(i, field(reader, name), values);
+    all.push_back(values.at(at));
+  }
+  return all;
+}
+
+TEST(Fields, AreWhatTheProbesSay) {
+  NEEDS_HDF5();
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
+  const Outcome outcome = run_program({"run", "scene.toml", "-q"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const CsvTable history(folder.file("scene-results/history.csv"));
+  const auto reader = hdf5()->open(folder.file("scene-results"));
+  EXPECT_EQ(reader->layout().title, "a string & a rotor");
+  EXPECT_EQ(reader->times(), history.column("t"));
+  EXPECT_EQ(course(*reader, "u", "string:5"), history.column("mid.u"));
+  EXPECT_EQ(course(*reader, "v", "string:5"), history.column("mid.v"));
+  EXPECT_EQ(course(*reader, "theta", "string:5"), history.column("mid.theta"));
+  EXPECT_EQ(course(*reader, "contact_force", "string:5"), history.column("mid.contact_force"));
+  EXPECT_EQ(course(*reader, "u", "rotor"), history.column("rotor.u"));
+  // A stop is closed exactly where u is beyond the gap, and on that side.
+  const auto u = course(*reader, "u", "string:5"), state = course(*reader, "stop_state", "string:5");
+  int closed = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    EXPECT_EQ(state[i], u[i] > 2e-3 ? 1.0 : u[i] < -2e-3 ? -1.0 : 0.0) << "record " << i;
+    closed += state[i] != 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(closed, 20);
+  // Fixed, and absent: a lone mass does not turn.
+  for (const double value : course(*reader, "u", "string:0")) EXPECT_EQ(value, 0.0);
+  for (const double value : course(*reader, "theta", "rotor")) EXPECT_EQ(value, 0.0);
+}
+
+TEST(Fields, CostTheRunNothingAndChangeNothing) {
+  NEEDS_HDF5();
+  const TemporaryFolder folder;
+  folder.write("plain.toml", scene(""));
+  folder.write("both.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
+  ASSERT_EQ(run_program({"run", "plain.toml", "-q"}, folder.path()).status, 0);
+  ASSERT_EQ(run_program({"run", "both.toml", "-q"}, folder.path()).status, 0);
+  EXPECT_EQ(read_file(folder.file("plain-results/history.csv")), read_file(folder.file("both-results/history.csv")));
+  EXPECT_FALSE(fs::exists(folder.file("plain-results/fields.h5")));
+  // A folder that is used again keeps nothing of the run before.
+  ASSERT_EQ(run_program({"run", "plain.toml", "-q", "-o", "both-results"}, folder.path()).status, 0);
+  EXPECT_FALSE(fs::exists(folder.file("both-results/fields.h5")));
+  EXPECT_FALSE(fs::exists(folder.file("both-results/fields.xdmf")));
+}
+
+TEST(Fields, OpenTheLibraryOnlyWhereTheyAreAskedFor) {
+  NEEDS_HDF5();
+  const TemporaryFolder folder;
+  folder.write("plain.toml", scene(""));
+  folder.write("both.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
+  // What the dynamic loader says it opens.
+  const std::vector<std::string> telling = {"LD_DEBUG=files"};
+  const Outcome plain = run_program({"run", "plain.toml", "-q"}, folder.path(), telling);
+  EXPECT_NE(plain.errors.find("newmark.so"), std::string::npos);
+  EXPECT_EQ(plain.errors.find("hdf5"), std::string::npos);
+  const Outcome both = run_program({"run", "both.toml", "-q"}, folder.path(), telling);
+  EXPECT_NE(both.errors.find("libhdf5"), std::string::npos);
+}
+
+TEST(Fields, KeepWhatIsAskedFor) {
+  NEEDS_HDF5();
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene("formats = \"hdf5\"\nfields = {nodes = [\"string:2..4\", \"rotor\"], quantities = "
+                                   "[\"a\", \"u\"], interval = 0.02}\n"));
+  const Outcome outcome = run_program({"run", "scene.toml", "-q"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_FALSE(fs::exists(folder.file("scene-results/history.csv"))) << "csv was not among the formats";
+  const auto reader = hdf5()->open(folder.file("scene-results"));
+  EXPECT_EQ(reader->layout().nodes, (std::vector<std::string>{"string:2", "string:3", "string:4", "rotor"}));
+  ASSERT_EQ(reader->layout().lines.size(), 1U);
+  EXPECT_EQ(reader->layout().lines[0].nodes, (std::vector<Index>{0, 1, 2}));
+  EXPECT_EQ(reader->layout().fields.size(), 2U);
+  EXPECT_EQ(reader->times().size(), 16U);
+  EXPECT_EQ(reader->times().back(), 0.3);
+}
+
+model::FieldLayout layout_of(const std::string& toml) {
+  const app::Session session = read_scene(toml);
+  const model::System system = assemble(session.model);
+  record::FieldRequest request;
+  for (model::NodeId i = 0; i < session.model.nodes.size(); ++i) request.nodes.push_back(i);
+  return make_layout(session.model, system, request);
+}
+
+std::array<double, 3> place(const model::FieldLayout& layout, const std::string& node) {
+  const auto found = std::find(layout.nodes.begin(), layout.nodes.end(), node);
+  return layout.positions.at(static_cast<std::size_t>(found - layout.nodes.begin()));
+}
+
+std::string beam(const std::string& name, const std::string& keys) {
+  return "[[element]]\ntype = \"beam\"\nname = \"" + name + "\"\nmaterial = \"steel\"\nsection = \"pipe\"\n" + keys +
+         "\n";
+}
+
+TEST(FieldLayout, PutsBeamsSideBySideAndEndToEnd) {
+  using Place = std::array<double, 3>;
+  const std::string parts = std::string(kParts) + beam("casing", "length = 10.0\nelements = 5") +
+                            beam("next", "length = 4.0\nelements = 2\nstart_node = \"string:last\"") +
+                            beam("branch", "length = 2.0\nelements = 2\nstart_node = \"string:5\"") +
+                            "[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\nend_time = 1e-3\n";
+  const model::FieldLayout layout = layout_of(parts);
+  EXPECT_EQ(place(layout, "string:3"), (Place{3.0, 0.0, 0.0}));
+  EXPECT_EQ(place(layout, "casing:1"), (Place{2.0, 0.0, 0.5}));  // 5 % of 10 m beside it
+  EXPECT_EQ(place(layout, "next:1"), (Place{12.0, 0.0, 0.0}));   // goes on behind the string
+  EXPECT_EQ(place(layout, "branch:1"), (Place{6.0, 0.0, 1.0}));  // from the middle of the string, beside it
+  EXPECT_EQ(place(layout, "rotor"), (Place{3.0, 0.0, 1.5}));     // where its spring ties it to
+  EXPECT_EQ(layout.lines.size(), 4U);
+}
+
+TEST(FieldLayout, PutsLoneNodesIntoARow) {
+  const std::string masses =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
+      "\"b\"\nmass = 1.0\n[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\nend_time = 1e-3\n";
+  const model::FieldLayout layout = layout_of(masses);
+  EXPECT_EQ(place(layout, "b"), (std::array<double, 3>{1.0, 0.0, 0.0}));
+  EXPECT_TRUE(layout.lines.empty());
+}
+
+/// A Python that has the module, or "".
+std::string python_with(const std::string& module) {
+  for (const char* python : {"python3", "/usr/bin/python3"})
+    if (std::system((std::string(python) + " -c 'import " + module + "' >/dev/null 2>&1").c_str()) == 0) return python;
+  return "";
+}
+
+std::string run_and_check(const std::string& python, const TemporaryFolder& folder) {
+  const std::string command = python + " '" BUTEE_TEST_SOURCE "/tests/plots/check_fields.py' '" +
+                              folder.file("scene-results") + "' > '" + folder.file("out") + "' 2>&1";
+  const bool ok = std::system(command.c_str()) == 0;
+  const std::string out = read_file(folder.file("out"));
+  return ok ? out : "failed:\n" + out;
+}
+
+TEST(Fields, AreReadByOthers) {
+  NEEDS_HDF5();
+  const std::string python = python_with("h5py");
+  if (python.empty()) GTEST_SKIP() << "no Python with h5py";
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
+  ASSERT_EQ(run_program({"run", "scene.toml", "-q"}, folder.path()).status, 0);
+  // The script compares fields with history.csv through h5py, and follows every reference of the XDMF; with VTK's
+  // reader of XDMF, where there is one, it reads that as ParaView does.
+  const std::string said = run_and_check(python, folder);
+  EXPECT_NE(said.find("h5py: 301 records of 12 nodes agree"), std::string::npos) << said;
+  EXPECT_NE(said.find("xdmf: 301 grids agree"), std::string::npos) << said;
+}
+
+TEST(Fields, OfAFailedRunAreWhole) {
+  NEEDS_HDF5();
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
+  const Outcome outcome =
+      run_program({"run", "scene.toml", "-q", "--set", "integrator.type=rk4", "--set",
+                   "integrator.residual_tolerance=", "--set", "integrator.increment_tolerance=", "--set",
+                   "integrator.max_iterations=", "--set", "integrator.time_step=1e-3", "--set", "output.interval=1e-3"},
+                  folder.path());
+  ASSERT_EQ(outcome.status, 1) << outcome.errors;
+  const CsvTable history(folder.file("scene-results/history.csv"));
+  const auto reader = hdf5()->open(folder.file("scene-results"));
+  EXPECT_GT(history.rows(), 2U);
+  EXPECT_EQ(reader->times(), history.column("t"));
+}
+
+TEST(Fields, OfAKilledRunAreWhole) {
+  NEEDS_HDF5();
+  const TemporaryFolder folder;
+  std::string text = scene("formats = [\"csv\", \"hdf5\"]\n");
+  folder.write("scene.toml", text);
+  const std::vector<std::string> longer = {"--set", "integrator.end_time=1e4", "--set", "output.interval=1e-4"};
+  constexpr int kRuns = 3;
+  int with_records = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    const std::string seconds = "0." + std::to_string(4 + run);
+    std::string command = "cd '" + folder.path() + "' && timeout -s KILL " + seconds +
+                          " '" BUTEE_TEST_PROGRAM
+                          "' run "
+                          "scene.toml -q";
+    for (const std::string& argument : longer) command += " " + argument;
+    std::system((command + " >/dev/null 2>&1").c_str());
+    if (!fs::exists(folder.file("scene-results/fields.h5"))) continue;  // killed before it began
+    const auto reader = hdf5()->open(folder.file("scene-results"));
+    const auto times = reader->times();
+    const auto u = course(*reader, "u", "string:5");
+    for (std::size_t i = 0; i < times.size(); ++i) ASSERT_NEAR(times[i], 1e-4 * static_cast<double>(i), 1e-12);
+    if (times.size() < 100) continue;
+    ++with_records;
+    EXPECT_NE(u.back(), 0.0);
+  }
+  EXPECT_GT(with_records, 0);
+}
+
+TEST(Fields, NeedAFormatThatKeepsThem) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& more, const std::string& part) {
+    folder.write("scene.toml", scene(more));
+    const Outcome outcome = run_program({"run", "scene.toml"}, folder.path());
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(fs::exists(folder.file("scene-results")));
+  };
+  refused("formats = [\"csv\", \"hdf\"]\n", "there is no format \"hdf\"");
+  refused("formats = [\"csv\", \"hdf\"]\n", "known: csv");
+  refused("formats = []\n", "must name at least one format");
+  refused("formats = [\"csv\", \"csv\"]\n", "names csv twice");
+  refused("fields = {quantities = \"u\"}\n", "no format keeps them; write formats = [\"csv\", \"hdf5\"]");
+  if (hdf5() == nullptr) {
+    refused("formats = [\"hdf5\"]\n", "install it (Debian: libhdf5-dev) and build butee again");
+    return;
+  }
+  const std::string with = "formats = \"hdf5\"\nfields = ";
+  refused("formats = \"hdf5\"\ncheckpoint = 100\n", "cannot go on from a checkpoint; leave one of the two out");
+  refused(with + "{quantities = [\"u\", \"w\"]}\n", "output.fields.quantities");
+  refused(with + "{quantities = []}\n", "must name at least one quantity");
+  refused(with + "{nodes = \"sting:all\"}\n", "did you mean \"string\"");
+  refused(with + "{interval = 0}\n", "output.fields.interval = 0: must be > 0");
+  refused(with + "{node = \"rotor\"}\n", "did you mean \"nodes\"");
+}
+
+}  // namespace
+}  // namespace butee::test
