@@ -25,7 +25,7 @@ std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, doub
   std::string name;
   if (choice.method == Choice::Method::exponential) {
     name = "exponential";
-    integrator = std::make_unique<Exponential>(dynamics, ExponentialOptions{tolerance, 6, 0});
+    integrator = make_exponential(dynamics, {tolerance, 6, 0});
   } else {
     name = "rodas4";
     integrator = std::make_unique<Rodas4>(dynamics, tolerance);

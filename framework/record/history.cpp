@@ -9,6 +9,8 @@ namespace {
 
 /// An output time that misses end_time by this fraction of an interval is end_time.
 constexpr double kSameInstant = 1e-9;
+/// Rows of one step that are interpolated together.
+constexpr std::size_t kMostAtOnce = 64;
 
 /// The requested quantities and u of every probe.
 std::vector<ProbeRequest> peak_requests(std::vector<ProbeRequest> requests, const model::DofTable& dofs) {
@@ -32,7 +34,9 @@ HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, 
       writer_(writer),
       values_(probes_.columns().size()),
       current_(peak_probes_.columns().size()),
-      peak_values_(current_.size(), 0.0) {}
+      peak_values_(current_.size(), 0.0) {
+  due_.reserve(kMostAtOnce);
+}
 
 std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) {
   std::vector<std::string> all = {"t"};
@@ -42,10 +46,10 @@ std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) 
   return all;
 }
 
-double HistoryRecorder::time_of_row() const {
-  const double t = static_cast<double>(rows_) * interval_;
+double HistoryRecorder::time_of_row(std::int64_t row) const {
+  const double t = static_cast<double>(row) * interval_;
   if (t < end_time_ - kSameInstant * interval_) return t;
-  const double before = static_cast<double>(rows_ - 1) * interval_;
+  const double before = static_cast<double>(row - 1) * interval_;
   return before < end_time_ - kSameInstant * interval_ ? end_time_ : std::numeric_limits<double>::infinity();
 }
 
@@ -65,8 +69,10 @@ void HistoryRecorder::step(const time::AcceptedStep& step) {
   }
   ++steps_;
   if (!peak_values_.empty()) {
-    for (const double t : step.integrator.knots(step.from, step.to)) {
-      peak_probes_.evaluate(step, t, current_);
+    const std::span<const double> knots = step.integrator.knots(step.from, step.to);
+    peak_probes_.sample(step, knots);
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+      peak_probes_.take(i, current_);
       update_peaks();
     }
     peak_probes_.evaluate(step.to, current_);
@@ -78,14 +84,22 @@ void HistoryRecorder::step(const time::AcceptedStep& step) {
     return write_row(step.to.t, step.h);
   }
   while (next_row_ <= step.to.t) {
-    probes_.evaluate(step, next_row_, values_);
-    write_row(next_row_, step.h);
+    due_.clear();
+    for (double t = next_row_; t <= step.to.t && due_.size() < kMostAtOnce;) {
+      due_.push_back(t);
+      t = time_of_row(rows_ + static_cast<std::int64_t>(due_.size()));
+    }
+    probes_.sample(step, due_);
+    for (std::size_t i = 0; i < due_.size(); ++i) {
+      probes_.take(i, values_);
+      write_row(due_[i], step.h);
+    }
   }
 }
 
 void HistoryRecorder::write_row(double t, double h) {
   ++rows_;
-  if (every_ == 0) next_row_ = time_of_row();
+  if (every_ == 0) next_row_ = time_of_row(rows_);
   if (writer_ == nullptr) return;
   row_.assign(1, t);
   row_.insert(row_.end(), values_.begin(), values_.end());

@@ -29,7 +29,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   std::map<std::string, double> peaks() const;
 
  private:
-  double time_of_row() const;
+  double time_of_row(std::int64_t row) const;
   void write_row(double t, double h);
   void update_peaks();
 
@@ -40,6 +40,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   std::int64_t rows_ = 0, steps_ = 0;
   double next_row_ = 0.0;
   std::vector<double> row_, first_row_;
+  std::vector<double> due_;                    ///< instants of rows within a step
   std::vector<double> values_;                 ///< of probes_
   std::vector<double> current_, peak_values_;  ///< of peak_probes_
 };
