@@ -17,8 +17,8 @@ using time::StepStatus;
 
 /// Steps in a block; its knots stay in the cache.
 constexpr int kBlock = 32;
-/// What the state carries behind q and v: the rung of the ladder, the scale of errors, and whether the last step was
-/// without stops within reach.
+/// What the state carries behind the memory of a step: the rung of the ladder, the scale of errors, and whether the
+/// last step was without stops within reach.
 constexpr Index kExtras = 3;
 /// Rungs that a step without stops within reach may be above those with.
 constexpr int kQuietRungs = 2;
@@ -71,9 +71,10 @@ double Exponential<Step>::first_step(const State&) const {
 template <class Step>
 void Exponential<Step>::do_start(State& state) {
   const Index n = modal_.size();
-  state.memory.resize(2 * n + kExtras);
+  state.memory.resize(step_.memory_size() + kExtras);
   modal_.to_modal(state.x, state.memory.head(n));
   modal_.to_modal(state.v, state.memory.segment(n, n));
+  step_.complete(state.memory.data());
   double scale = 0.0;
   if (step_.has_stops()) {
     Vector w(modal_.stop_count());
@@ -95,10 +96,8 @@ template <class Step>
 StepReport Exponential<Step>::do_step(const State& from, const time::Step& step, State& to) {
   StepReport report = follow(from, step);
   if (report.status != StepStatus::ok) return report;
-  const Index n = modal_.size();
   to.t = step_.t();
-  to.memory.head(n) = Eigen::Map<const Vector>(step_.q(), n);
-  to.memory.segment(n, n) = Eigen::Map<const Vector>(step_.v(), n);
+  step_.save(to.memory.data());
   to.memory.tail(kExtras) << static_cast<double>(level_), step_.scale(), is_quiet_ ? 1.0 : 0.0;
   modal_.to_physical(step_.q(), to.x);
   modal_.to_physical(step_.v(), to.v);
@@ -110,13 +109,13 @@ StepReport Exponential<Step>::do_step(const State& from, const time::Step& step,
 
 template <class Step>
 StepReport Exponential<Step>::follow(const State& from, const time::Step& step) {
-  const Index n = modal_.size();
+  const auto extras = from.memory.tail(kExtras);
   begin_t_ = from.t;
   end_t_ = std::numeric_limits<double>::quiet_NaN();
   begin_memory_ = from.memory;
-  step_.begin(from.t, from.memory.data(), from.memory.data() + n, from.memory[2 * n + 1]);
-  level_ = static_cast<int>(from.memory[2 * n]);
-  is_quiet_ = from.memory[2 * n + 2] != 0.0;
+  step_.begin(from.t, from.memory.data(), extras[1]);
+  level_ = static_cast<int>(extras[0]);
+  is_quiet_ = extras[2] != 0.0;
   StepReport report;
   report.inner_steps = 0;
   const int most = step.single ? 1 : kBlock;

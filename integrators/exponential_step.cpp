@@ -43,6 +43,7 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
   lower_ = -gaps_;
   for (Index i = 0; i < contact.size(); ++i) {
     stops_.emplace_back(contact, i);
+    own_.emplace_back(stops_.back().stiffness(), orders_);
     gaps_[i] = contact.gap_of(i);
     if (contact.sides_of(i) != model::Sides::negative) upper_[i] = gaps_[i];
     if (contact.sides_of(i) != model::Sides::positive) lower_[i] = -gaps_[i];
@@ -52,12 +53,28 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
   is_touched_.assign(stops_.size(), false);
 }
 
-void ExponentialStep::begin(double t, const double* q, const double* v, double scale) {
-  q_ = Eigen::Map<const ArrayXd>(q, modal_.size());
-  v_ = Eigen::Map<const ArrayXd>(v, modal_.size());
+void ExponentialStep::complete(double* memory) const {
+  const Index n = modal_.size();
+  if (has_stops())
+    modal_.stop_shapes().displacement(memory, memory + n, memory + 2 * n, memory + 2 * n + modal_.stop_count());
+}
+
+void ExponentialStep::begin(double t, const double* memory, double scale) {
+  const Index n = modal_.size(), m = modal_.stop_count();
+  q_ = Eigen::Map<const ArrayXd>(memory, n);
+  v_ = Eigen::Map<const ArrayXd>(memory + n, n);
+  w_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n, m);
+  wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + m, m);
   scale_ = scale;
-  if (has_stops()) modal_.stop_shapes().displacement(q, v, w_.data(), wv_.data());
-  knots_.begin(t, q, v, w_.data());
+  knots_.begin(t, q_.data(), v_.data(), w_.data());
+}
+
+void ExponentialStep::save(double* memory) const {
+  const Index n = modal_.size(), m = modal_.stop_count();
+  Eigen::Map<ArrayXd>(memory, n) = q_;
+  Eigen::Map<ArrayXd>(memory + n, n) = v_;
+  Eigen::Map<ArrayXd>(memory + 2 * n, m) = w_.head(m);
+  Eigen::Map<ArrayXd>(memory + 2 * n + m, m) = wv_.head(m);
 }
 
 void ExponentialStep::accept(double t) {
@@ -153,6 +170,7 @@ Trial ExponentialStep::iterate(StepFlow& flow) {
   for (ArrayXd& force : force_) force.setZero();
   for (const Index i : touched_) is_touched_[static_cast<std::size_t>(i)] = false;
   touched_.clear();
+  guess(flow);
   double last = 0.0;
   for (int i = 0; i < kMostSweeps; ++i) {
     const double change = sweep(flow);
@@ -188,18 +206,42 @@ double ExponentialStep::sweep(StepFlow& flow) {
     if (stop.is_linear() && !is_touched_[place] && excess_[i] <= 0.0) continue;
     const double bulge = path_.middle[i] - (0.5 * (w_[i] + path_.end[i]) + 0.125 * (hv_[i] - path_.speed[i]));
     const StopPath path(w_[i], hv_[i], path_.end[i], path_.speed[i], orders_ == 3 ? bulge : 0.0);
-    const Projection projection = stop.project(path, stop.course(path));
+    const StopForce::Course course = stop.course(path);
+    const Projection projection = stop.project(path, course);
     const ForceMoments old = {force_[0][i], force_[1][i], force_[2][i]};
-    const ForceMoments more = projection.correction(old, flow.own_coupling(i), stop.stiffness(), orders_, orders_ == 3);
+    StepFlow::Derived& known = flow.derived(i);
+    if (!known.is_known) {
+      known.coupling = flow.own_coupling(i);
+      known.inverse = own_[place].closed_inverse(known.coupling);
+      known.is_known = true;
+    }
+    const ForceMoments more = own_[place].correction(
+        course == StopForce::Course::closed ? known.inverse : own_[place].inverse(projection.closed, known.coupling),
+        projection.force, old);
     if (more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0) continue;
-    if (!is_touched_[place]) touched_.push_back(i);
-    is_touched_[place] = true;
-    for (std::size_t k = 0; k < 3; ++k) force_[k][i] += more[k];
-    const double moved = flow.add_force(i, more, kBump, path_);
+    const double moved = add_force(flow, i, more);
     if (!std::isfinite(moved)) return moved;
     change = std::max(change, moved);
   }
   return change;
+}
+
+double ExponentialStep::add_force(StepFlow& flow, Index stop, const ForceMoments& more) {
+  const auto place = static_cast<std::size_t>(stop);
+  if (!is_touched_[place]) touched_.push_back(stop);
+  is_touched_[place] = true;
+  for (std::size_t k = 0; k < 3; ++k) force_[k][stop] += more[k];
+  return flow.add_force(stop, more, kBump, path_);
+}
+
+void ExponentialStep::guess(StepFlow& flow) {
+  for (const Index i : reachable_) {
+    const double side = w_[i] > upper_[i] ? 1.0 : w_[i] < lower_[i] ? -1.0 : 0.0;
+    if (side == 0.0) continue;
+    const double stiffness = stops_[static_cast<std::size_t>(i)].stiffness();
+    const double at_start = stiffness * (side * gaps_[i] - w_[i]), half_rise = -0.5 * stiffness * hv_[i];
+    add_force(flow, i, {at_start + half_rise, orders_ > 1 ? half_rise : 0.0, 0.0});
+  }
 }
 
 void ExponentialStep::find_error(StepFlow& flow) {
@@ -211,6 +253,8 @@ void ExponentialStep::find_error(StepFlow& flow) {
 }
 
 void ExponentialStep::apply_forces(const StepFlow& flow) {
+  w_new_ = path_.end;
+  wv_new_ = path_.speed * (1.0 / flow.h());
   if (touched_.empty()) return;
   const ModalFlow& whole = flow.whole;
   for (std::size_t k = 0; k < orders_; ++k) modal_.stop_shapes().force(touched_, force_[k].data(), sums_[k].data());
@@ -223,7 +267,6 @@ void ExponentialStep::apply_forces(const StepFlow& flow) {
       v_new_ += sums_[k] * whole.force_v(static_cast<int>(k));
     }
   }
-  find_stops();
 }
 
 void ExponentialStep::interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {

@@ -33,8 +33,12 @@ class ExponentialStep {
   /// does not explain, relative to the largest displacement of a stop so far. Blocks are of up to `most` steps.
   ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, std::size_t most);
 
+  /// What a state has to remember: q, v, and displacements and speeds of the stops, which complete() adds to q and v.
+  Index memory_size() const { return 2 * (modal_.size() + modal_.stop_count()); }
+  void complete(double* memory) const;
   /// Begins a block with the state at t, and the largest displacement so far.
-  void begin(double t, const double* q, const double* v, double scale);
+  void begin(double t, const double* memory, double scale);
+  void save(double* memory) const;
   /// Tries a step of the ladder, or of any other length; accept() takes it, to end at t.
   Trial attempt_rung(int level) { return attempt(modal_.ladder(level)); }
   Trial attempt_length(double h);
@@ -67,6 +71,10 @@ class ExponentialStep {
   void find_bounds();
   /// Takes the stops in turn, each with the forces of all others as they are; the largest change of a path.
   double sweep(solve::StepFlow& flow);
+  /// Takes the forces of the stops that are closed at the start as they would be at constant speed.
+  void guess(solve::StepFlow& flow);
+  /// Adds to the force at a stop, and what that does to all paths; the largest change of a path.
+  double add_force(solve::StepFlow& flow, Index stop, const ForceMoments& more);
   void find_error(solve::StepFlow& flow);
   void apply_forces(const solve::StepFlow& flow);
   /// Without stops: the flow from a knot to t.
@@ -76,6 +84,7 @@ class ExponentialStep {
   std::size_t orders_;  ///< polynomials that the force is projected onto
   double tolerance_;
   std::vector<StopForce> stops_;
+  std::vector<OwnForce> own_;
   bool has_far_forces_ = false;
   ModalKnots knots_;
 

@@ -20,6 +20,7 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       orders_(static_cast<std::size_t>(order / 2)),
       tolerance_(tolerance),
       stop_(dynamics.contact(), 0),
+      own_(stop_.stiffness(), orders_),
       gap_(dynamics.contact().gap_of(0)),
       stop_shape_(modal.stop_shapes().matrix()(0, 0)),
       square_(modal.frequencies()[0] * modal.frequencies()[0]),
@@ -30,8 +31,13 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
   phases_.resize((most + 1) * harmonics_.size());
 }
 
-void SingleStep::begin(double t, const double* q, const double* v, double scale) {
-  now_ = {*q, *v};
+void SingleStep::save(double* memory) const {
+  memory[0] = now_.q;
+  memory[1] = now_.v;
+}
+
+void SingleStep::begin(double t, const double* memory, double scale) {
+  now_ = {memory[0], memory[1]};
   scale_ = scale;
   knots_.assign(1, {t, now_, 0.0, false, false, {}});
   times_.assign(1, t);
@@ -64,6 +70,7 @@ void SingleStep::fill(solve::StepFlow& from, Flow& flow) const {
     flow.force_v[k] = whole.force_v(static_cast<int>(k))[0] * stop_shape_;
   }
   flow.coupling = from.own_coupling(0);
+  flow.closed_inverse = own_.closed_inverse(flow.coupling);
   flow.harmonics.clear();
   for (std::size_t j = 0; j < harmonics_.size(); ++j)
     flow.harmonics.push_back({whole.harmonic_q(j, 0)[0], -whole.harmonic_q(j, 1)[0], whole.harmonic_v(j, 0)[0],
@@ -146,7 +153,9 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
     const bool is_solved = stop_.is_linear() && course != Course::changing && course == before;
     if (!is_solved) {
       const Projection projection = stop_.project(path, course);
-      const ForceMoments more = projection.correction(force_, coupling, stop_.stiffness(), orders_, orders_ == 3);
+      const ForceMoments more =
+          own_.correction(course == Course::closed ? flow.closed_inverse : own_.inverse(projection.closed, coupling),
+                          projection.force, force_);
       std::array<double, 3> moved{};
       for (std::size_t row = 0; row < 3; ++row) {
         moved[row] = coupling[row][0] * more[0] + coupling[row][1] * more[1] + coupling[row][2] * more[2];

@@ -17,7 +17,10 @@ class SingleStep {
 
   SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, std::size_t most);
 
-  void begin(double t, const double* q, const double* v, double scale);
+  Index memory_size() const { return 2; }
+  void complete(double*) const {}
+  void begin(double t, const double* memory, double scale);
+  void save(double* memory) const;
   Trial attempt_rung(int level);
   Trial attempt_length(double h);
   void accept(double t);
@@ -44,6 +47,7 @@ class SingleStep {
     double qq, qv, vq, vv, half_qq, half_qv, swing_q, swing_v;
     std::array<double, 3> force_q, force_v;
     PathCoupling coupling;
+    OwnForce::Matrix closed_inverse;
     /// q, v and half_q of each harmonic, by its cosine and its sine.
     std::vector<std::array<double, 6>> harmonics;
   };
@@ -69,6 +73,7 @@ class SingleStep {
   std::size_t orders_;
   double tolerance_;
   StopForce stop_;
+  OwnForce own_;
   double gap_, stop_shape_, square_, decay_;
   const std::vector<solve::ModalHarmonic>& harmonics_;
 

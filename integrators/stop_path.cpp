@@ -76,37 +76,41 @@ StopPath::StopPath(double w0, double hv0, double w1, double hv1, double bulge) {
   highest_ = std::max({w0, b1, b2, b3, w1});
 }
 
-ForceMoments Projection::correction(const ForceMoments& old, const PathCoupling& coupling, double stiffness,
-                                    std::size_t orders, bool bulges) const {
+OwnForce::Matrix OwnForce::inverse(const std::array<double, 7>& closed, const PathCoupling& coupling) const {
   // How c_2, c_3, c_4 of the path follow end, speed and middle.
   static constexpr double kQuartic[3][3] = {{-5.0, 1.0, 16.0}, {14.0, -3.0, -32.0}, {-8.0, 2.0, 16.0}};
   static constexpr double kCubic[3][3] = {{3.0, -1.0, 0.0}, {-2.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
-  const auto& shape = bulges ? kQuartic : kCubic;
-  std::array<double, 3> residual{};
-  for (std::size_t k = 0; k < orders; ++k) residual[k] = force[k] - old[k];
-  double moved[3][3], system[3][3];  // c_2, c_3, c_4 and the moments by f_0, f_1, f_2
-  for (std::size_t m = 0; m < 3; ++m)
-    for (std::size_t k = 0; k < 3; ++k)
-      moved[m][k] = shape[m][0] * coupling[0][k] + shape[m][1] * coupling[1][k] + shape[m][2] * coupling[2][k];
+  const auto& shape = orders_ == 3 ? kQuartic : kCubic;
+  double a[3][3];
   for (std::size_t k = 0; k < 3; ++k) {
-    double power[3];
+    double moved[3], power[3];  // c_2, c_3, c_4 and the integrals of the force by f_k
+    for (std::size_t m = 0; m < 3; ++m)
+      moved[m] = shape[m][0] * coupling[0][k] + shape[m][1] * coupling[1][k] + shape[m][2] * coupling[2][k];
     for (std::size_t j = 0; j < 3; ++j)
-      power[j] = stiffness * (closed[j + 2] * moved[0][k] + closed[j + 3] * moved[1][k] + closed[j + 4] * moved[2][k]);
+      power[j] = stiffness_ * (closed[j + 2] * moved[0] + closed[j + 3] * moved[1] + closed[j + 4] * moved[2]);
     const ForceMoments moments = from_powers(power[0], power[1], power[2]);
-    for (std::size_t j = 0; j < 3; ++j) system[j][k] = j < orders && k < orders ? moments[j] : 0.0;
-    system[k][k] += 1.0;
+    for (std::size_t j = 0; j < 3; ++j) a[j][k] = j < orders_ && k < orders_ ? moments[j] : 0.0;
+    a[k][k] += 1.0;
   }
   // By the adjugate.
-  const auto& a = system;
   const double c0 = a[1][1] * a[2][2] - a[1][2] * a[2][1], c1 = a[1][2] * a[2][0] - a[1][0] * a[2][2],
                c2 = a[1][0] * a[2][1] - a[1][1] * a[2][0];
-  const double determinant = a[0][0] * c0 + a[0][1] * c1 + a[0][2] * c2, r = 1.0 / determinant;
-  const auto& b = residual;
-  return {
-      r * (c0 * b[0] + (a[0][2] * a[2][1] - a[0][1] * a[2][2]) * b[1] + (a[0][1] * a[1][2] - a[0][2] * a[1][1]) * b[2]),
-      r * (c1 * b[0] + (a[0][0] * a[2][2] - a[0][2] * a[2][0]) * b[1] + (a[0][2] * a[1][0] - a[0][0] * a[1][2]) * b[2]),
-      r * (c2 * b[0] + (a[0][1] * a[2][0] - a[0][0] * a[2][1]) * b[1] +
-           (a[0][0] * a[1][1] - a[0][1] * a[1][0]) * b[2])};
+  const double r = 1.0 / (a[0][0] * c0 + a[0][1] * c1 + a[0][2] * c2);
+  return {r * c0, r * (a[0][2] * a[2][1] - a[0][1] * a[2][2]), r * (a[0][1] * a[1][2] - a[0][2] * a[1][1]),
+          r * c1, r * (a[0][0] * a[2][2] - a[0][2] * a[2][0]), r * (a[0][2] * a[1][0] - a[0][0] * a[1][2]),
+          r * c2, r * (a[0][1] * a[2][0] - a[0][0] * a[2][1]), r * (a[0][0] * a[1][1] - a[0][1] * a[1][0])};
+}
+
+OwnForce::Matrix OwnForce::closed_inverse(const PathCoupling& coupling) const {
+  return inverse(kReciprocals, coupling);
+}
+
+ForceMoments OwnForce::correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const {
+  std::array<double, 3> r{};
+  for (std::size_t k = 0; k < orders_; ++k) r[k] = projected[k] - old[k];
+  return {inverse[0] * r[0] + inverse[1] * r[1] + inverse[2] * r[2],
+          inverse[3] * r[0] + inverse[4] * r[1] + inverse[5] * r[2],
+          inverse[6] * r[0] + inverse[7] * r[1] + inverse[8] * r[2]};
 }
 
 StopForce::StopForce(solve::Contact& contact, Index stop)

@@ -39,11 +39,28 @@ using PathCoupling = std::array<std::array<double, 3>, 3>;
 struct Projection {
   ForceMoments force{};
   std::array<double, 7> closed{};
+};
 
-  /// One step of Newton's method for f = projection(path moved by `coupling` f): the change of f from `old`, of which
-  /// the first `orders` entries count. `bulges`: the path takes the displacement in the middle.
-  ForceMoments correction(const ForceMoments& old, const PathCoupling& coupling, double stiffness, std::size_t orders,
-                          bool bulges) const;
+/// Newton's method for f = projection(path moved by what f does to it) of one stop, the stop a spring over the places
+/// where it is closed.
+class OwnForce {
+ public:
+  using Matrix = std::array<double, 9>;
+
+  /// Of the force the first `orders` entries count; where there are three, the path takes the displacement in the
+  /// middle.
+  OwnForce(double stiffness, std::size_t orders) : stiffness_(stiffness), orders_(orders) {}
+
+  /// (1 - d projection / d f)^-1, by rows.
+  Matrix inverse(const std::array<double, 7>& closed, const PathCoupling& coupling) const;
+  /// Of a stop that is closed throughout.
+  Matrix closed_inverse(const PathCoupling& coupling) const;
+  /// The change of f from `old`.
+  ForceMoments correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const;
+
+ private:
+  double stiffness_;
+  std::size_t orders_;
 };
 
 /// The projection of a stop's force along a given path onto P_0, P_1 and P_2:

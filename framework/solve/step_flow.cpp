@@ -47,7 +47,8 @@ StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& 
     : whole(std::move(whole_flow)),
       half(std::move(half_flow)),
       stops_(stops),
-      columns_(static_cast<std::size_t>(stops.count())) {
+      columns_(static_cast<std::size_t>(stops.count())),
+      derived_(columns_.size()) {
   if (stops.count() == 0) return;
   const Eigen::ArrayXd angle = h() * frequencies;
   swing_q = (kHermite * angle.square().square()).min(2.0) * stops.matrix().cwiseAbs().rowwise().maxCoeff().array();

@@ -53,6 +53,13 @@ class BUTEE_EXPORT StepFlow {
   /// What forces P_0, P_1, P_2 at stop i do to itself: rows end, speed and middle as in StopMotion.
   using Coupling = std::array<std::array<double, 3>, 3>;
   Coupling own_coupling(Index i);
+  /// Room for what a method derives from it for each stop.
+  struct Derived {
+    bool is_known = false;
+    Coupling coupling{};
+    std::array<double, 9> inverse{};
+  };
+  Derived& derived(Index i) { return derived_[static_cast<std::size_t>(i)]; }
 
   /// Adds what a force at stop i does to all stops: the largest |end| + speed_weight |speed| + |middle| of it.
   double add_force(Index i, const std::array<double, 3>& force, double speed_weight, StopMotion& motion);
@@ -71,6 +78,7 @@ class BUTEE_EXPORT StepFlow {
 
   const StopShapes& stops_;
   std::vector<Eigen::ArrayXXd> columns_;
+  std::vector<Derived> derived_;
 };
 
 }  // namespace butee::solve
