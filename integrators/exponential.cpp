@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -200,7 +201,18 @@ template class Exponential<SingleStep>;
 
 std::unique_ptr<time::Integrator> make_exponential(solve::Dynamics& dynamics, const ExponentialOptions& options) {
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
-  return std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
+  auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
+  const ModalSystem& modal = dynamics.modal(options.modes);
+  if (modal.is_complete()) return integrator;
+  std::string note = "exponential with the lowest " + std::to_string(modal.size());
+  note += " of " + std::to_string(dynamics.size()) + " modes: ";
+  if (modal.stop_count() > 0)
+    note += "those left out hold up to " + to_short_text(100.0 * modal.truncation()) +
+            " % of what a stop gives way under its own force, which no tolerance makes good";
+  else
+    note += "what the others hold is left out, whatever the tolerance";
+  integrator->set_choice(note + "; give more modes, or another type, where that is too much");
+  return integrator;
 }
 
 time::IntegratorType exponential_type() {
