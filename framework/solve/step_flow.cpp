@@ -12,8 +12,8 @@ namespace {
 /// that.
 constexpr double kHermite = 1.0 / 384.0;
 
-Lane magnitude(const Lane& x) {
-  return x < 0.0 ? -x : x;
+void add_magnitude(double weight, const Lane& x, Lane& to) {
+  to += weight * (x < 0.0 ? -x : x);
 }
 
 }  // namespace
@@ -106,7 +106,10 @@ double StepFlow::add_force(Index i, const std::array<double, 3>& force, double s
     add(motion.end, sums[0]);
     add(motion.speed, sums[1]);
     add(motion.middle, sums[2]);
-    const Lane change = magnitude(sums[0]) + speed_weight * magnitude(sums[1]) + magnitude(sums[2]);
+    Lane change{};
+    add_magnitude(1.0, sums[0], change);
+    add_magnitude(speed_weight, sums[1], change);
+    add_magnitude(1.0, sums[2], change);
     largest = change > largest ? change : largest;
   }
   double most = largest[0];
