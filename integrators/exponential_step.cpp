@@ -218,6 +218,7 @@ double ExponentialStep::sweep(StepFlow& flow) {
     const ForceMoments more = own_[place].correction(
         course == StopForce::Course::closed ? known.inverse : own_[place].inverse(projection.closed, known.coupling),
         projection.force, old);
+    if (orders_ == 1) force_[1][i] = projection.force[1];  // for the estimate alone
     if (more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0) continue;
     const double moved = add_force(flow, i, more);
     if (!std::isfinite(moved)) return moved;

@@ -129,7 +129,7 @@ Trial SingleStep::attempt(const Flow& flow) {
   } else if (!stop_.is_linear()) {
     force_[0] = stop_.far_force(StopPath(w, hv, path_[0], path_[1], 0.0));
   }
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < orders_; ++k) {
     q1 += force_[k] * flow.force_q[k];
     v1 += force_[k] * flow.force_v[k];
   }
@@ -162,6 +162,7 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
         path_[row] += moved[row];
         force_[row] += more[row];
       }
+      if (orders_ == 1) force_[1] = projection.force[1];  // for the estimate alone
       change = std::abs(moved[0]) + kBump * std::abs(moved[1]) + std::abs(moved[2]);
       if (!std::isfinite(change)) return Trial::too_long;
     }
