@@ -12,7 +12,7 @@ namespace butee::integrators {
 /// The memory of a state holds LocalErrorControl's part, then h_old (0 at the start) and (a_n - a_{n-1})/h_old.
 class AccelerationError {
  public:
-  AccelerationError(const solve::Dynamics& dynamics, double tolerance)
+  AccelerationError(solve::Dynamics& dynamics, double tolerance)
       : control_(dynamics, tolerance, {3.0, 2.0}, LocalErrorControl::Steps::ladder) {}
 
   const time::StepController& controller() const { return control_.controller(); }

@@ -72,17 +72,14 @@ std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, doub
 }
 
 time::IntegratorType auto_type() {
-  return {"auto",
-          {"AUTO"},
-          "looks at the scene and takes the method that suits it; the default",
-          {LocalErrorControl::parameter(1e-4)},
-          kUnconditional,
-          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "auto",
+          .aliases = {"AUTO"},
+          .summary = "looks at the scene and takes the method that suits it; the default",
+          .parameters = {LocalErrorControl::parameter(1e-4)},
+          .finds_first_step = true,
+          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return make_automatic(dynamics, p.number("tolerance"), p.number("end_time"));
-          },
-          {},
-          false,
-          true};
+          }};
 }
 
 }  // namespace butee::integrators

@@ -54,18 +54,18 @@ namespace {
 time::IntegratorType type_of(bool is_adaptive) {
   std::vector<config::Parameter> parameters;
   if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
-  return {is_adaptive ? "bathe_adaptive" : "bathe",
-          {is_adaptive ? "BATHE2" : "BATHE1"},
-          is_adaptive ? "composite trapezoid and backward differences, L-stable, steps by the local error"
-                      : "composite trapezoid and backward differences, L-stable, fixed steps",
-          std::move(parameters),
-          kUnconditional,
-          [is_adaptive](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = is_adaptive ? "bathe_adaptive" : "bathe",
+          .aliases = {is_adaptive ? "BATHE2" : "BATHE1"},
+          .summary = is_adaptive ? "composite trapezoid and backward differences, L-stable, steps by the local error"
+                                 : "composite trapezoid and backward differences, L-stable, fixed steps",
+          .parameters = std::move(parameters),
+          .order = 2.0,
+          .fixed_step = !is_adaptive,
+          .finds_first_step = is_adaptive,
+          .make = [is_adaptive](const config::Parameters& p,
+                                solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Bathe>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
-          },
-          {},
-          !is_adaptive,
-          is_adaptive};
+          }};
 }
 
 }  // namespace

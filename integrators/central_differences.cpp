@@ -29,18 +29,20 @@ namespace {
 time::IntegratorType type_of(bool is_adaptive) {
   std::vector<config::Parameter> parameters;
   if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-3));
-  return {is_adaptive ? "central_differences_adaptive" : "central_differences",
-          {is_adaptive ? "CD2" : "CD1"},
-          is_adaptive ? "central differences, explicit, steps by the local error"
-                      : "central differences, explicit, fixed steps",
-          std::move(parameters),
-          2.0,
-          [is_adaptive](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = is_adaptive ? "central_differences_adaptive" : "central_differences",
+          .aliases = {is_adaptive ? "CD2" : "CD1"},
+          .summary = is_adaptive ? "central differences, explicit, steps by the local error"
+                                 : "central differences, explicit, fixed steps",
+          .parameters = std::move(parameters),
+          .order = 2.0,
+          .stability_limit = 2.0,
+          .damping_limit = 1.0,
+          .fixed_step = !is_adaptive,
+          .finds_first_step = is_adaptive,
+          .make = [is_adaptive](const config::Parameters& p,
+                                solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<CentralDifferences>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
-          },
-          {},
-          !is_adaptive,
-          is_adaptive};
+          }};
 }
 
 }  // namespace

@@ -71,18 +71,18 @@ namespace {
 time::IntegratorType type_of(bool is_adaptive) {
   std::vector<config::Parameter> parameters;
   if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
-  return {is_adaptive ? "discrete_gradient_adaptive" : "discrete_gradient",
-          {is_adaptive ? "DG2" : "DG1"},
-          is_adaptive ? "midpoint rule that cannot gain energy at a stop, steps by the local error"
-                      : "midpoint rule that cannot gain energy at a stop, fixed steps",
-          std::move(parameters),
-          kUnconditional,
-          [is_adaptive](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = is_adaptive ? "discrete_gradient_adaptive" : "discrete_gradient",
+          .aliases = {is_adaptive ? "DG2" : "DG1"},
+          .summary = is_adaptive ? "midpoint rule that cannot gain energy at a stop, steps by the local error"
+                                 : "midpoint rule that cannot gain energy at a stop, fixed steps",
+          .parameters = std::move(parameters),
+          .order = 2.0,
+          .fixed_step = !is_adaptive,
+          .finds_first_step = is_adaptive,
+          .make = [is_adaptive](const config::Parameters& p,
+                                solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<DiscreteGradient>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
-          },
-          {},
-          !is_adaptive,
-          is_adaptive};
+          }};
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ constexpr std::array<double, 7> kError = {71.0 / 57600,      0.0,        -71.0 /
 constexpr double kShare = 0.05;
 /// Of h omega on the imaginary axis beyond which undamped motion grows at once.
 constexpr double kLimit = 1.0;
+/// Where |R| = 1 for R(z) = 1 + z + ... + z^5/120 + z^6/600, and h c/m on the negative real axis.
+constexpr double kStabilityLimit = 0.99718900, kDampingLimit = 3.30656789;
 
 }  // namespace
 
@@ -71,17 +73,17 @@ void DormandPrince::do_interpolate(const time::State& from, const time::State& t
 }
 
 time::IntegratorType dopri5_type() {
-  return {"dopri5",
-          {"DOPRI5"},
-          "explicit Runge-Kutta of order 5(4), steps by the local error",
-          {LocalErrorControl::parameter(1e-4)},
-          kLimit,
-          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "dopri5",
+          .aliases = {"DOPRI5"},
+          .summary = "explicit Runge-Kutta of order 5(4), steps by the local error",
+          .parameters = {LocalErrorControl::parameter(1e-4)},
+          .order = 5.0,
+          .stability_limit = kStabilityLimit,
+          .damping_limit = kDampingLimit,
+          .finds_first_step = true,
+          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<DormandPrince>(dynamics, p.number("tolerance"));
-          },
-          {},
-          false,
-          true};
+          }};
 }
 
 }  // namespace butee::integrators

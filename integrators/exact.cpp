@@ -126,20 +126,19 @@ void Exact::do_interpolate(const State& from, const State& to, double t, std::sp
 }
 
 time::IntegratorType exact_type() {
-  return {"exact",
-          {"taylor"},
-          "Taylor series with every change of contact located; no truncation error above rounding",
-          {config::integer("order", "the order of the series").at_least(4).at_most(60).or_else(30),
-           config::number("tolerance", "1", "the size of the last terms of a series relative to the largest")
-               .above(0)
-               .at_most(0.1)
-               .or_else(1e-20)
-               .sweep(1e-4, 1e-20)},
-          kUnconditional,
-          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<Exact>(dynamics, static_cast<int>(p.integer("order")), p.number("tolerance"));
-          },
-          {}};
+  return {
+      .name = "exact",
+      .aliases = {"taylor"},
+      .summary = "Taylor series with every change of contact located; no truncation error above rounding",
+      .parameters = {config::integer("order", "the order of the series").at_least(4).at_most(60).or_else(30),
+                     config::number("tolerance", "1", "the size of the last terms of a series relative to the largest")
+                         .above(0)
+                         .at_most(0.1)
+                         .or_else(1e-20)
+                         .sweep(1e-4, 1e-20)},
+      .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+        return std::make_unique<Exact>(dynamics, static_cast<int>(p.integer("order")), p.number("tolerance"));
+      }};
 }
 
 }  // namespace butee::integrators

@@ -21,6 +21,7 @@ class Exact final : public time::Integrator {
  public:
   Exact(solve::Dynamics& dynamics, int order, double tolerance);
 
+  bool minds_load_kinks() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
 
  private:

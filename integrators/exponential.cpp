@@ -216,28 +216,28 @@ std::unique_ptr<time::Integrator> make_exponential(solve::Dynamics& dynamics, co
 }
 
 time::IntegratorType exponential_type() {
-  return {"exponential",
-          {"EXP"},
-          "the linear part exactly, mode by mode; the stops by the projection of their force; adaptive",
-          {config::number("tolerance", "1", "relative error aimed at, of the largest displacement of a stop so far")
-               .above(0)
-               .at_most(0.1)
-               .or_else(1e-4)
-               .sweep(1e-1, 1e-9),
-           config::integer("order", "2, 4 or 6").at_least(2).at_most(6).or_else(std::int64_t{6}),
-           config::integer("modes", "the lowest modes to take; 0: all up to 600 DOFs, 300 above")
-               .at_least(0)
-               .or_else(std::int64_t{0})},
-          kUnconditional,
-          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "exponential",
+          .aliases = {"EXP"},
+          .summary = "the linear part exactly, mode by mode; the stops by the projection of their force; adaptive",
+          .parameters = {config::number("tolerance", "1",
+                                        "relative error aimed at, of the largest displacement of a stop so far")
+                             .above(0)
+                             .at_most(0.1)
+                             .or_else(1e-4)
+                             .sweep(1e-1, 1e-9),
+                         config::integer("order", "2, 4 or 6").at_least(2).at_most(6).or_else(std::int64_t{6}),
+                         config::integer("modes", "the lowest modes to take; 0: all up to 600 DOFs, 300 above")
+                             .at_least(0)
+                             .or_else(std::int64_t{0})},
+          .finds_first_step = true,
+          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return make_exponential(dynamics, {p.number("tolerance"), static_cast<int>(p.integer("order")),
                                                static_cast<Index>(p.integer("modes"))});
           },
-          [](const config::Parameters& p, config::Diagnostics& diagnostics) {
-            if (p.integer("order") % 2 != 0) p.complain(diagnostics, "order", "must be 2, 4 or 6");
-          },
-          false,
-          true};
+          .check =
+              [](const config::Parameters& p, config::Diagnostics& diagnostics) {
+                if (p.integer("order") % 2 != 0) p.complain(diagnostics, "order", "must be 2, 4 or 6");
+              }};
 }
 
 }  // namespace butee::integrators

@@ -39,6 +39,7 @@ class Exponential final : public time::Integrator {
  public:
   Exponential(solve::Dynamics& dynamics, const ExponentialOptions& options);
 
+  bool minds_load_kinks() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
   double first_step(const time::State& state) const override;
   bool lands_on_outputs() const override { return !step_.has_stops(); }

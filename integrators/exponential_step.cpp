@@ -134,8 +134,12 @@ void ExponentialStep::find_stops() {
 }
 
 void ExponentialStep::find_reachable(const StepFlow& flow) {
-  // How far modes too fast for a cubic can carry a stop away from it.
-  const double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum();
+  // How far modes and loads too fast for a cubic can carry a stop away from it.
+  double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + flow.swing_harmonics;
+  const double t = knots_.last();
+  for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads())
+    swing += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + flow.h()))) *
+             (flow.swing_force * load.shape.abs()).sum();
   reach_ = w_.abs().max(w_new_.abs()) + (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
   for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {

@@ -9,8 +9,8 @@ namespace {
 constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
 /// Calibrated in tests/verification/tolerance_test.cpp.
 constexpr double kShare = 0.002;
-/// Of h omega of the whole step, by its eight parts.
-constexpr double kLimit = 1.5;
+/// Of h omega and h c/m of the whole step, where the stability polynomial leaves the unit circle.
+constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
 }  // namespace
 
@@ -79,17 +79,17 @@ void Extrapolation::do_interpolate(const time::State& from, const time::State& t
 }
 
 time::IntegratorType extrapolation8_type() {
-  return {"extrapolation8",
-          {"GBS8"},
-          "extrapolated midpoint rule of order 8, explicit, steps by the local error",
-          {LocalErrorControl::parameter(1e-6)},
-          kLimit,
-          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "extrapolation8",
+          .aliases = {"GBS8"},
+          .summary = "extrapolated midpoint rule of order 8, explicit, steps by the local error",
+          .parameters = {LocalErrorControl::parameter(1e-6)},
+          .order = 8.0,
+          .stability_limit = kLimit,
+          .damping_limit = kDampingLimit,
+          .finds_first_step = true,
+          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Extrapolation>(dynamics, p.number("tolerance"));
-          },
-          {},
-          false,
-          true};
+          }};
 }
 
 }  // namespace butee::integrators

@@ -54,17 +54,17 @@ time::IntegratorType type_of(std::string name, std::string alias, std::string su
                              std::function<AlphaParameters(const Parameters&)> read, bool is_adaptive) {
   std::vector<Parameter> parameters = {std::move(dissipation)};
   if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
-  return {std::move(name),
-          {std::move(alias)},
-          std::move(summary),
-          std::move(parameters),
-          kUnconditional,
-          [read, is_adaptive](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<GeneralizedAlpha>(dynamics, read(p), is_adaptive ? p.number("tolerance") : 0.0);
-          },
-          {},
-          !is_adaptive,
-          is_adaptive};
+  return {
+      .name = std::move(name),
+      .aliases = {std::move(alias)},
+      .summary = std::move(summary),
+      .parameters = std::move(parameters),
+      .order = 2.0,
+      .fixed_step = !is_adaptive,
+      .finds_first_step = is_adaptive,
+      .make = [read, is_adaptive](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+        return std::make_unique<GeneralizedAlpha>(dynamics, read(p), is_adaptive ? p.number("tolerance") : 0.0);
+      }};
 }
 
 time::IntegratorType chung_hulbert(bool is_adaptive) {

@@ -15,12 +15,16 @@ constexpr double kSmallest = 1e-4;
 /// Steps of the ladder within a factor of two; one is gone up where the estimate would allow for kReserve.
 constexpr double kRungs = 4.0;
 constexpr double kReserve = 3.0;
+/// The error of a step that went through a stop unseen: enough to be redone, by a ladder with about half its length.
+constexpr double kMissed = 8.0;
 constexpr double kMostDown = 9.0, kMostUp = 9.0;
 
 }  // namespace
 
-LocalErrorControl::LocalErrorControl(const solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps)
+LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps)
     : dynamics_(dynamics),
+      missed_(dynamics),
+      tolerance_(tolerance),
       threshold_(orders.share * std::pow(tolerance, orders.estimate / orders.method)),
       estimate_order_(orders.estimate),
       steps_(steps),
@@ -51,6 +55,11 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   to.memory.head(kMemory) << scale_x, scale_v, std::max(r, kSmallest);
   if (!std::isfinite(r)) {
     report.status = time::StepStatus::not_finite;
+    return;
+  }
+  if (r <= 1.0 && missed_.happened(from, to, h, tolerance_)) {
+    report.error = kMissed;
+    report.proposal = steps_ == Steps::any ? 0.5 * h : ladder_step(h, kMissed);
     return;
   }
   report.error = r;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "butee/time/integrator.hpp"
+#include "integrators/missed_contact.hpp"
 
 namespace butee::integrators {
 
@@ -11,6 +12,7 @@ namespace butee::integrators {
 ///
 /// or, where steps cost a factorization, on a ladder that is gone up only with some reserve,
 /// for a method of order p whose estimate falls with h^q, so that the error at the end falls with the tolerance. The
+/// A step that goes through a stop unseen is redone with half its length (MissedContact). The
 /// norm of the mass matrix weighs displacements and rotations as they move mass. What it remembers (both largest norms,
 /// r_old) is the first part of State::memory. Sources: K. Gustafsson, ACM TOMS 17 (1991) 533-554,
 /// doi 10.1145/210232.210242; E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4.
@@ -30,7 +32,7 @@ class LocalErrorControl {
   enum class Steps { any, ladder };
 
   /// `dynamics` must outlive it.
-  LocalErrorControl(const solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps);
+  LocalErrorControl(solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps);
 
   const time::StepController& controller() const { return controller_; }
   /// A step that is short for the stiffest entry of the system, s.
@@ -59,7 +61,8 @@ class LocalErrorControl {
 
   const solve::Dynamics& dynamics_;
   Proposed controller_;
-  double threshold_, estimate_order_, first_step_;
+  MissedContact missed_;
+  double tolerance_, threshold_, estimate_order_, first_step_;
   Steps steps_;
   Vector work_;
 };

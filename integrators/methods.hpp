@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <numbers>
 
 #include "butee/time/integrator.hpp"
@@ -11,7 +10,8 @@ namespace butee::integrators {
 
 /// Stability of classical Runge-Kutta on the imaginary axis: h omega <= 2 sqrt 2.
 inline constexpr double kRungeKutta4Limit = 2.0 * std::numbers::sqrt2;
-inline constexpr double kUnconditional = std::numeric_limits<double>::infinity();
+/// And on the negative real axis: h c/m <= 2.785.
+inline constexpr double kRungeKutta4DampingLimit = 2.7852935634052818;
 
 /// Newton's iteration of the methods that do not ask for its parameters: to rounding, as the estimates of the local
 /// error expect.

@@ -1,5 +1,8 @@
 #include "integrators/newmark.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -19,6 +22,11 @@ std::vector<Parameter> NewmarkParameters::declare() {
 
 NewmarkParameters NewmarkParameters::read(const Parameters& p) {
   return {p.number("beta"), p.number("gamma")};
+}
+
+double NewmarkParameters::stability_limit() const {
+  const double excess = 0.5 * gamma - beta;
+  return excess > 0.0 ? 1.0 / std::sqrt(excess) : std::numeric_limits<double>::infinity();
 }
 
 Newmark::Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
@@ -62,31 +70,30 @@ NewtonOptions newton_options(const Parameters& p) {
 }  // namespace
 
 IntegratorType newmark_type() {
-  return {"newmark",
-          {"NM1"},
-          "Newmark with Newton-Raphson, fixed steps",
-          newton_parameters(),
-          kUnconditional,
-          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "newmark",
+          .aliases = {"NM1"},
+          .summary = "Newmark with Newton-Raphson, fixed steps",
+          .parameters = newton_parameters(),
+          .order = 2.0,
+          .fixed_step = true,
+          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Newmark>(dynamics, NewmarkParameters::read(p), newton_options(p));
-          },
-          {},
-          true};
+          }};
 }
 
 IntegratorType newmark_adaptive_type() {
   std::vector<Parameter> parameters = newton_parameters();
   for (const Parameter& parameter : ZienkiewiczXie::parameters()) parameters.push_back(parameter);
-  return {"newmark_adaptive",
-          {"NM2"},
-          "Newmark with Newton-Raphson, steps by Zienkiewicz and Xie's error",
-          std::move(parameters),
-          kUnconditional,
-          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "newmark_adaptive",
+          .aliases = {"NM2"},
+          .summary = "Newmark with Newton-Raphson, steps by Zienkiewicz and Xie's error",
+          .parameters = std::move(parameters),
+          .order = 2.0,
+          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Newmark>(dynamics, NewmarkParameters::read(p), newton_options(p),
                                              ZienkiewiczXie::make(p));
           },
-          ZienkiewiczXie::check};
+          .check = ZienkiewiczXie::check};
 }
 
 }  // namespace butee::integrators

@@ -17,6 +17,8 @@ struct NewmarkParameters {
 
   static std::vector<config::Parameter> declare();
   static NewmarkParameters read(const config::Parameters& parameters);
+  /// The largest h omega: 1/sqrt(gamma/2 - beta) where beta < gamma/2, else infinite.
+  double stability_limit() const;
 };
 
 /// newmark (NM1) and, with a controller, newmark_adaptive (NM2): Newmark with Newton-Raphson.
@@ -31,6 +33,7 @@ class Newmark final : public time::Integrator {
   Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
           std::unique_ptr<ZienkiewiczXie> controller = nullptr);
 
+  double stability_limit() const override { return parameters_.stability_limit(); }
   const time::StepController* controller() const override { return controller_.get(); }
 
  private:

@@ -38,30 +38,29 @@ StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, S
 }
 
 IntegratorType newmark_modified_type() {
-  return {"newmark_modified",
-          {"NMM1"},
-          "Newmark with the stops' secant stiffness of the last step instead of Newton, fixed steps",
-          NewmarkParameters::declare(),
-          kUnconditional,
-          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "newmark_modified",
+          .aliases = {"NMM1"},
+          .summary = "Newmark with the stops' secant stiffness of the last step instead of Newton, fixed steps",
+          .parameters = NewmarkParameters::declare(),
+          .order = 2.0,
+          .fixed_step = true,
+          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p));
-          },
-          {},
-          true};
+          }};
 }
 
 IntegratorType newmark_modified_adaptive_type() {
   std::vector<config::Parameter> parameters = NewmarkParameters::declare();
   for (const config::Parameter& parameter : ZienkiewiczXie::parameters()) parameters.push_back(parameter);
-  return {"newmark_modified_adaptive",
-          {"NMM2"},
-          "Newmark with the stops' secant stiffness of the last step, steps by Zienkiewicz and Xie's error",
-          std::move(parameters),
-          kUnconditional,
-          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "newmark_modified_adaptive",
+          .aliases = {"NMM2"},
+          .summary = "Newmark with the stops' secant stiffness of the last step, steps by Zienkiewicz and Xie's error",
+          .parameters = std::move(parameters),
+          .order = 2.0,
+          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p), ZienkiewiczXie::make(p));
           },
-          ZienkiewiczXie::check};
+          .check = ZienkiewiczXie::check};
 }
 
 }  // namespace butee::integrators

@@ -95,17 +95,15 @@ time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step
 }
 
 time::IntegratorType rodas4_type() {
-  return {"rodas4",
-          {"RODAS"},
-          "Rosenbrock method of order 4(3), one matrix and six solves a step, steps by the local error",
-          {LocalErrorControl::parameter(1e-4)},
-          kUnconditional,
-          [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "rodas4",
+          .aliases = {"RODAS"},
+          .summary = "Rosenbrock method of order 4(3), one matrix and six solves a step, steps by the local error",
+          .parameters = {LocalErrorControl::parameter(1e-4)},
+          .order = 4.0,
+          .finds_first_step = true,
+          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Rodas4>(dynamics, p.number("tolerance"));
-          },
-          {},
-          false,
-          true};
+          }};
 }
 
 }  // namespace butee::integrators

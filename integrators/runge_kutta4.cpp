@@ -32,16 +32,16 @@ time::StepReport RungeKutta4::do_step(const time::State& from, const time::Step&
 }
 
 time::IntegratorType rk4_type() {
-  return {"rk4",
-          {"RK4-1"},
-          "classical Runge-Kutta of order 4, fixed steps",
-          {},
-          kRungeKutta4Limit,
-          [](const config::Parameters&, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "rk4",
+          .aliases = {"RK4-1"},
+          .summary = "classical Runge-Kutta of order 4, fixed steps",
+          .order = 4.0,
+          .stability_limit = kRungeKutta4Limit,
+          .damping_limit = kRungeKutta4DampingLimit,
+          .fixed_step = true,
+          .make = [](const config::Parameters&, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<RungeKutta4>(dynamics);
-          },
-          {},
-          true};
+          }};
 }
 
 }  // namespace butee::integrators

@@ -65,6 +65,7 @@ void SingleStep::fill(solve::StepFlow& from, Flow& flow) const {
   flow.half_qv = half.qv()[0];
   flow.swing_q = from.swing_q[0];
   flow.swing_v = from.swing_v[0];
+  flow.swing_harmonics = from.swing_harmonics;
   for (std::size_t k = 0; k < 3; ++k) {
     flow.force_q[k] = whole.force_q(static_cast<int>(k))[0] * stop_shape_;
     flow.force_v[k] = whole.force_v(static_cast<int>(k))[0] * stop_shape_;
@@ -121,7 +122,7 @@ Trial SingleStep::attempt(const Flow& flow) {
   error_ = 0.0;
   force_ = {};
   const double reach = std::max(std::abs(w), std::abs(path_[0])) + kBump * (std::abs(hv) + std::abs(path_[1])) +
-                       flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v);
+                       flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v) + flow.swing_harmonics;
   is_quiet_ = reach <= gap_;
   if (!is_quiet_) {
     const Trial trial = iterate(flow, w, hv);

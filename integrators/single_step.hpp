@@ -44,7 +44,7 @@ class SingleStep {
   struct Flow {
     int level = 0;
     double h = 0.0;  ///< 0: not filled yet
-    double qq, qv, vq, vv, half_qq, half_qv, swing_q, swing_v;
+    double qq, qv, vq, vv, half_qq, half_qv, swing_q, swing_v, swing_harmonics;
     std::array<double, 3> force_q, force_v;
     PathCoupling coupling;
     OwnForce::Matrix closed_inverse;

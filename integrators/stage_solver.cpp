@@ -43,6 +43,7 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
     if (!has_stops && !options_.checks_linear_too) return report;
     increment = on_x * residual_.norm();
   }
+  residual_.cwiseAbs().maxCoeff(&report.worst_dof);
   report.kept_failure = options_.keep_failures;
   report.status = options_.keep_failures ? StepStatus::ok : StepStatus::newton_failed;
   return report;

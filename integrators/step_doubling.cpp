@@ -46,6 +46,8 @@ time::StepReport StepDoublingRungeKutta4::do_step(const time::State& from, const
 
 namespace {
 
+// The limits are those of the two half steps, which are kept.
+
 config::Parameter tolerance() {
   return number("tolerance", "m, rad, m/s, rad/s", "eps0, the largest difference of a step against two halves, over 15")
       .above(0)
@@ -55,33 +57,37 @@ config::Parameter tolerance() {
 }  // namespace
 
 IntegratorType rk4_fixed_factors_type() {
-  return {"rk4_fixed_factors",
-          {"RK4-2"},
-          "Runge-Kutta 4 with step doubling, the step changed by constant factors",
-          {tolerance(), number("shrink", "1", "a, by which a rejected step is divided").above(1).try_first(1.1),
-           number("grow", "1", "b, by which the step is multiplied where the error is below a hundredth")
-               .at_least(1)
-               .try_first(2.0)},
-          kRungeKutta4Limit,
-          [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+  return {.name = "rk4_fixed_factors",
+          .aliases = {"RK4-2"},
+          .summary = "Runge-Kutta 4 with step doubling, the step changed by constant factors",
+          .parameters = {tolerance(),
+                         number("shrink", "1", "a, by which a rejected step is divided").above(1).try_first(1.1),
+                         number("grow", "1", "b, by which the step is multiplied where the error is below a hundredth")
+                             .at_least(1)
+                             .try_first(2.0)},
+          .order = 4.0,
+          .stability_limit = 2.0 * kRungeKutta4Limit,
+          .damping_limit = 2.0 * kRungeKutta4DampingLimit,
+          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<StepDoublingRungeKutta4>(
                 dynamics, std::make_unique<FixedFactors>(p.number("tolerance"), p.number("shrink"), p.number("grow")));
-          },
-          {}};
+          }};
 }
 
 IntegratorType rk4_error_scaled_type() {
   return {
-      "rk4_error_scaled",
-      {"RK4-3"},
-      "Runge-Kutta 4 with step doubling, the step changed by the error",
-      {tolerance(), number("safety", "1", "s, the safety factor on the new step").above(0).at_most(1).try_first(0.9)},
-      kRungeKutta4Limit,
-      [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+      .name = "rk4_error_scaled",
+      .aliases = {"RK4-3"},
+      .summary = "Runge-Kutta 4 with step doubling, the step changed by the error",
+      .parameters = {tolerance(),
+                     number("safety", "1", "s, the safety factor on the new step").above(0).at_most(1).try_first(0.9)},
+      .order = 4.0,
+      .stability_limit = 2.0 * kRungeKutta4Limit,
+      .damping_limit = 2.0 * kRungeKutta4DampingLimit,
+      .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         return std::make_unique<StepDoublingRungeKutta4>(
             dynamics, std::make_unique<ErrorScaled>(p.number("tolerance"), p.number("safety")));
-      },
-      {}};
+      }};
 }
 
 }  // namespace butee::integrators

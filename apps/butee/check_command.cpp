@@ -7,6 +7,7 @@
 #include <Eigen/SparseCholesky>
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
+#include <butee/solve/free_motion.hpp>
 #include <butee/solve/frequencies.hpp>
 #include <butee/solve/modal_damping.hpp>
 
@@ -32,7 +33,7 @@ void print_contents(const model::Model& model, const model::System& system) {
   std::size_t loads = model.loads.size();
   Index stops = 0;
   for (const auto& group : system.stops) stops += static_cast<Index>(group.size());
-  std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : model.title.c_str());
+  std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : printable(model.title).c_str());
   std::printf("elements   %zu on %d nodes\n", model.elements.size(), model.nodes.size());
   std::printf("DOFs       %td free, %td fixed\n", system.size(), system.dofs.fixed_count());
   std::printf("stops      %td on free DOFs\n", stops);
@@ -185,7 +186,8 @@ int check_command(const ModelArguments& arguments) {
     if (open->lowest < kZeroFrequency * open->highest)
       std::printf(
           "free       with all stops open the structure can move as a rigid body or a mechanism (lowest frequency ~ "
-          "0)\n");
+          "0): %s\n",
+          solve::describe_softest_motion(system.stiffness, system.dofs).c_str());
   }
   std::fflush(stdout);
   warn_of_pull(system);

@@ -32,5 +32,8 @@ Command add_run_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_plugins_command(CLI::App& program);
+Command add_new_plugin_command(CLI::App& program);
+Command add_test_plugin_command(CLI::App& program);
+Command add_stability_command(CLI::App& program);
 
 }  // namespace butee::app

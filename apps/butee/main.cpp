@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -18,8 +21,10 @@ int parse_and_run(int argc, char** argv) {
   CLI::App program("butee: transient dynamics of beams and oscillators that strike stops");
   program.set_version_flag("--version", "butee " BUTEE_VERSION);
   program.require_subcommand(1);
-  const std::vector<Command> commands = {add_run_command(program), add_check_command(program),
-                                         add_compare_command(program), add_plugins_command(program)};
+  const std::vector<Command> commands = {add_run_command(program),        add_check_command(program),
+                                         add_compare_command(program),    add_plugins_command(program),
+                                         add_new_plugin_command(program), add_test_plugin_command(program),
+                                         add_stability_command(program)};
 
   std::vector<std::string> known;
   for (const Command& command : commands) known.push_back(command.app->get_name());
@@ -36,18 +41,32 @@ int parse_and_run(int argc, char** argv) {
   return kBadInput;
 }
 
+/// What could not be printed is a failure, unless nobody wanted to read it.
+int flushed(int status) {
+  errno = 0;
+  if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EPIPE) return status;
+  butee::log::error(std::string("standard output: cannot be written: ") + std::strerror(errno));
+  return status == kDone ? kFailed : status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A reader of our output that closes early, such as head, ends the output and not the run.
+  std::signal(SIGPIPE, SIG_IGN);
+  // A file that grows beyond its limit is a file that cannot be written, with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return parse_and_run(argc, argv);
+    return flushed(parse_and_run(argc, argv));
   } catch (const butee::InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    std::fprintf(stderr, "%s\n", butee::printable(error.what(), true).c_str());
     return kBadInput;
   } catch (const std::bad_alloc&) {
     butee::log::error("out of memory");
   } catch (const std::exception& error) {
     butee::log::error(error.what());
+  } catch (...) {
+    butee::log::error("a module threw something that is no exception of the standard library");
   }
   return kFailed;
 }

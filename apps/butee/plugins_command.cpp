@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -20,13 +21,26 @@ struct Row {
   std::string name, aliases, summary;
   const std::vector<Parameter>* parameters;
   std::string module;
+  std::string properties = {};
 };
+
+/// "order 4, fixed steps, bounded up to h omega = 2.83".
+std::string properties_of(const time::IntegratorType& type) {
+  std::vector<std::string> said;
+  if (type.order > 0.0) said.push_back("order " + to_short_text(type.order));
+  said.emplace_back(type.fixed_step ? "fixed steps" : "steps of its own");
+  if (std::isfinite(type.stability_limit))
+    said.push_back("free motion stays bounded up to h omega = " + to_short_text(type.stability_limit));
+  if (type.finds_first_step) said.emplace_back("time_step may be left out");
+  return join(said);
+}
 
 std::vector<Row> rows_of(const plugin::Catalogue& catalogue) {
   std::vector<Row> rows;
   for (const auto& entry : catalogue.integrators()) {
     const auto& type = entry.declaration;
-    rows.push_back({"integrator", type.name, join(type.aliases), type.summary, &type.parameters, entry.module});
+    rows.push_back({"integrator", type.name, join(type.aliases), type.summary, &type.parameters, entry.module,
+                    properties_of(type)});
   }
   const model::ModelTypes& types = catalogue.types();
   const auto add = [&](const char* kind, const auto& list) {
@@ -57,6 +71,7 @@ std::string default_text(const Parameter& parameter) {
 void print_details(const Row& row) {
   std::printf("%s %s%s\n  %s\n", row.kind, row.name.c_str(),
               row.aliases.empty() ? "" : (" (alias " + row.aliases + ")").c_str(), row.summary.c_str());
+  if (!row.properties.empty()) std::printf("  %s\n", row.properties.c_str());
   if (!row.module.empty()) std::printf("  module %s\n", row.module.c_str());
   std::vector<std::vector<std::string>> cells = {{"parameter", "unit", "default", "allowed", "meaning"}};
   for (const Parameter& p : *row.parameters) cells.push_back({p.name, p.unit, default_text(p), p.describe(), p.help});

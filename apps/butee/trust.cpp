@@ -10,7 +10,8 @@
 #include <butee/record/impacts.hpp>
 #include <butee/record/probes.hpp>
 
-#include "perturb.hpp"
+#include "assembly.hpp"
+#include "interruption.hpp"
 
 namespace butee::app {
 namespace {
@@ -79,16 +80,15 @@ class Follower final : public time::Observer {
 };
 
 Repetition repeat(Session& session, double perturbation) {
-  model::System system = assemble(session.model);
-  if (perturbation != 0.0) perturb(system.initial_displacement, perturbation);
-  solve::Dynamics dynamics(system);
-  const auto integrator = session.catalogue.load(session.integrator.name).make(session.integrator.parameters, dynamics);
-  time::Simulation simulation(dynamics, *integrator, session.integrator.options);
+  Assembly assembly(session, perturbation);
+  solve::Dynamics& dynamics = assembly.dynamics;
+  time::Simulation& simulation = assembly.simulation;
   Follower follower(session, dynamics);
   simulation.add(follower);
   record::ImpactRecorder impacts(dynamics);
   if (dynamics.stop_count() > 0) simulation.add(impacts);
-  const time::RunReport& report = simulation.run();
+  const time::RunReport& report = simulation.run([] { return interruption() == nullptr; });
+  if (interruption() != nullptr) throw RunError("interrupted while finding out how far to trust the run");
   if (!report.completed)
     throw RunError("a run that was to tell how far to trust the first one failed: " + report.message);
   Repetition result{std::move(follower.courses), {}};

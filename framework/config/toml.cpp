@@ -8,6 +8,7 @@
 
 #include <toml.hpp>
 
+#include "butee/config/toml_limits.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 
@@ -127,36 +128,8 @@ std::string shorten(const std::string& what, const std::string& name) {
   return name + ":" + (line.empty() ? "1" : line) + ": not valid TOML: " + sentence;
 }
 
-/// toml11 recurses for every bracket, so the depth is bounded before it may use up the stack.
-void check_nesting(const std::string& text) {
-  constexpr int kDeepest = 100;
-  int depth = 0, line = 1;
-  char quote = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '\n') {
-      quote = 0;
-      ++line;
-    } else if (quote != 0) {
-      if (c == '\\' && quote == '"') ++i;
-      if (c == quote) quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '#') {
-      i = std::min(text.find('\n', i), text.size()) - 1;
-    } else if (c == '[' || c == '{') {
-      ++depth;
-    } else if ((c == ']' || c == '}') && depth > 0) {
-      --depth;
-    }
-    if (depth > kDeepest)
-      throw InputError(":" + std::to_string(line) + ": more than " + std::to_string(kDeepest) +
-                       " brackets stand in one another");
-  }
-}
-
 Parsed parse(const std::string& text, const std::string& name) {
-  check_nesting(text);
+  check_limits(text);
   std::istringstream stream(text);
   return toml::parse<toml::discard_comments, std::map, std::vector>(stream, name);
 }

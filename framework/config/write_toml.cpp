@@ -8,6 +8,8 @@
 namespace butee::config {
 namespace {
 
+constexpr std::size_t kWidth = 110;
+
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -41,9 +43,30 @@ std::string number_text(double value) {
   return to_text(value);
 }
 
+/// As to_toml(), with arrays over many lines where one would be long.
+std::string folded(const Value& value) {
+  const auto width = [](const std::string& text) { return text.size() - (text.rfind('\n') + 1); };
+  if (const Array* array = value.array()) {
+    std::string text = to_toml(value);
+    if (text.size() <= kWidth) return text;
+    text = "[";
+    for (const Value& item : *array) {
+      const std::string part = folded(item) + ",";
+      text += width(text) + part.size() > kWidth ? "\n  " : " ";
+      text += part;
+    }
+    return text + "\n]";
+  }
+  const Table* table = value.table();
+  if (table == nullptr || table->entries.empty()) return to_toml(value);
+  std::vector<std::string> parts;
+  for (const auto& [key, item] : table->entries) parts.push_back(key_text(key) + " = " + folded(item));
+  return "{ " + join(parts) + " }";
+}
+
 void write_table(const Table& table, const std::string& path, std::string& out) {
   for (const auto& [key, value] : table.entries)
-    if (value.table() == nullptr && !is_array_of_tables(value)) out += key_text(key) + " = " + to_toml(value) + "\n";
+    if (value.table() == nullptr && !is_array_of_tables(value)) out += key_text(key) + " = " + folded(value) + "\n";
   for (const auto& [key, value] : table.entries) {
     const std::string inner = path.empty() ? key_text(key) : path + "." + key_text(key);
     if (const Table* sub = value.table()) {

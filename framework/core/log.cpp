@@ -5,6 +5,8 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "butee/core/text.hpp"
+
 namespace butee::log {
 namespace {
 
@@ -35,16 +37,16 @@ bool is_quiet() {
 }
 
 void debug(const std::string& message) {
-  logger().debug(message);
+  logger().debug(printable(message, true));
 }
 void info(const std::string& message) {
-  logger().info(message);
+  logger().info(printable(message, true));
 }
 void warning(const std::string& message) {
-  logger().warn(message);
+  logger().warn(printable(message, true));
 }
 void error(const std::string& message) {
-  logger().error(message);
+  logger().error(printable(message, true));
 }
 
 }  // namespace butee::log

@@ -70,6 +70,19 @@ std::string to_short_text(double value) {
   return {buffer.data(), end};
 }
 
+std::string printable(std::string_view text, bool with_lines) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    // U+0080 to U+009F, two bytes each in UTF-8, are control characters too.
+    const bool is_long = c == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    const bool is_control = is_long || c == 0x7F || (c < 0x20 && c != '\t' && !(c == '\n' && with_lines));
+    shown += is_control ? '?' : text[i];
+    if (is_long) ++i;
+  }
+  return shown;
+}
+
 bool is_plain_name(std::string_view text) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
   return !text.empty() && std::all_of(text.begin(), text.end(), plain);

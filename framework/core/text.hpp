@@ -23,6 +23,10 @@ BUTEE_EXPORT std::string to_text(double value);
 /// `value` with 6 significant digits, for messages.
 BUTEE_EXPORT std::string to_short_text(double value);
 
+/// The text without control characters, which a terminal would obey: a line break stays where `with_lines`, all others
+/// become "?".
+BUTEE_EXPORT std::string printable(std::string_view text, bool with_lines = false);
+
 /// True for a non-empty text of [A-Za-z0-9_-] alone.
 BUTEE_EXPORT bool is_plain_name(std::string_view text);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "butee/core/memory.hpp"
 #include "butee/core/text.hpp"
 #include "butee/model/scene_reader.hpp"
 
@@ -7,6 +8,14 @@ namespace butee::model {
 
 using config::Parameters;
 using config::Value;
+
+namespace {
+
+/// What a run of a chain of beams takes for a node with two degrees of freedom at the least, as measured with 1e6
+/// elements; scenes that are no chains take more.
+constexpr double kBytesOfNode = 2000.0;
+
+}  // namespace
 
 /// Answers an element type's questions from the scene that is being read.
 class ReadingContext final : public ElementContext {
@@ -110,11 +119,21 @@ std::optional<SceneReader::PendingElement> SceneReader::read_element(const Value
   const auto same_name = [&](const auto& other) { return named && other == parameters->text("name"); };
   if (std::any_of(element_names_.begin(), element_names_.end(), same_name))
     parameters->complain(diagnostics_, "name", "is taken by another element; names are unique");
+  if (coordinates) check_size(*coordinates, path, entry);
   if (diagnostics_.error_count() > errors_before) return std::nullopt;
 
   if (named) element_names_.push_back(parameters->text("name"));
   const NodeId own_node = coordinates ? model_.nodes.add(parameters->text("name"), *coordinates) : -1;
   return PendingElement{&type, std::move(*parameters), own_node};
+}
+
+void SceneReader::check_size(const std::vector<double>& coordinates, const std::string& path, const Value& entry) {
+  const double nodes = static_cast<double>(model_.nodes.size()) + static_cast<double>(coordinates.size());
+  const std::string complaint = memory_complaint(nodes * kBytesOfNode);
+  if (!complaint.empty())
+    diagnostics_.error(path, entry.at,
+                       "with this element the scene has " + to_short_text(2.0 * nodes) + " degrees of freedom and " +
+                           complaint + "; take fewer elements");
 }
 
 }  // namespace butee::model

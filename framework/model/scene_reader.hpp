@@ -28,6 +28,7 @@ class SceneReader {
   void read_sections();
   void read_elements();
   std::optional<PendingElement> read_element(const config::Value& entry, const std::string& path);
+  void check_size(const std::vector<double>& coordinates, const std::string& path, const config::Value& entry);
   void excuse_names_of(const config::Value& entry);
   void read_supports();
   void read_contacts();

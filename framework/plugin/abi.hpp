@@ -15,6 +15,7 @@ struct butee_abi_tag {
   std::uint32_t interface_version;  ///< BUTEE_INTERFACE_VERSION
   std::uint32_t eigen_version;      ///< world * 10000 + major * 100 + minor
   std::uint32_t eigen_alignment;    ///< EIGEN_MAX_ALIGN_BYTES
+  std::uint32_t eigen_layout;       ///< bytes of Eigen::Index, plus 256 where matrices are stored by rows
   std::uint32_t cxx11_abi;          ///< _GLIBCXX_USE_CXX11_ABI
   std::uint32_t checked_library;    ///< 1: _GLIBCXX_DEBUG, which changes the layout of containers
   std::uint32_t sanitizers;         ///< 1: AddressSanitizer
@@ -31,6 +32,7 @@ inline butee_abi_tag abi_tag() {
   tag.interface_version = BUTEE_INTERFACE_VERSION;
   tag.eigen_version = EIGEN_WORLD_VERSION * 10000 + EIGEN_MAJOR_VERSION * 100 + EIGEN_MINOR_VERSION;
   tag.eigen_alignment = EIGEN_MAX_ALIGN_BYTES;
+  tag.eigen_layout = sizeof(Eigen::Index) + (Eigen::MatrixXd::IsRowMajor ? 256 : 0);
 #ifdef _GLIBCXX_USE_CXX11_ABI
   tag.cxx11_abi = _GLIBCXX_USE_CXX11_ABI;
 #endif

@@ -30,6 +30,10 @@ std::vector<Parameter> parameters_of(const IntegratorEntry& entry) {
   return all;
 }
 
+time::MethodLimits limits_of(const time::IntegratorType& type) {
+  return {type.name, type.stability_limit, type.damping_limit, type.finds_first_step};
+}
+
 /// The methods that have a parameter of this name.
 std::vector<std::string> owners_of(const std::string& key, const Catalogue& catalogue) {
   std::vector<std::string> owners;
@@ -54,7 +58,8 @@ class ChoiceReader {
     if (chosen == nullptr || diagnostics_.error_count() > errors_before) return std::nullopt;
     const double end_time = parameters->number("end_time");
     if (!parameters->has("time_step"))
-      return IntegratorChoice{chosen->declaration.name, {0.0, end_time}, std::move(*parameters)};
+      return IntegratorChoice{
+          chosen->declaration.name, {0.0, end_time, limits_of(chosen->declaration)}, std::move(*parameters)};
     const double time_step = parameters->number("time_step");
     if (time_step > end_time) {
       parameters->complain(diagnostics_, "time_step", "must not be larger than end_time = " + to_text(end_time) + " s");
@@ -65,7 +70,8 @@ class ChoiceReader {
                            "is lost in rounding beside end_time = " + to_text(end_time) + " s; make it larger");
       return std::nullopt;
     }
-    return IntegratorChoice{chosen->declaration.name, {time_step, end_time}, std::move(*parameters)};
+    return IntegratorChoice{
+        chosen->declaration.name, {time_step, end_time, limits_of(chosen->declaration)}, std::move(*parameters)};
   }
 
  private:

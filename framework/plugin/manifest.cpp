@@ -15,7 +15,7 @@ using config::Parameter;
 using config::Table;
 using config::Value;
 
-constexpr std::int64_t kManifestSchema = 2;
+constexpr std::int64_t kManifestSchema = 5;
 constexpr std::array<const char*, 7> kKinds = {"number", "integer", "boolean", "text", "numbers", "texts", "table"};
 
 Value text_array(const std::vector<std::string>& texts) {
@@ -130,6 +130,9 @@ std::string write_manifest(const ModuleTypes& types) {
     Table table = common_part(type);
     table["aliases"] = text_array(type.aliases);
     table["stability_limit"] = Value(type.stability_limit);
+    table["order"] = Value(type.order);
+    table["fixed_step"] = Value(type.fixed_step);
+    table["damping_limit"] = Value(type.damping_limit);
     table["finds_first_step"] = Value(type.finds_first_step);
     list.emplace_back(std::move(table));
   }
@@ -151,6 +154,9 @@ ModuleTypes read_manifest(const std::string& path) {
       const Table& table = *get<Array>(root, "integrator")[i].table();
       types.integrators[i].aliases = texts(table, "aliases");
       types.integrators[i].stability_limit = get<double>(table, "stability_limit");
+      types.integrators[i].order = get<double>(table, "order");
+      types.integrators[i].fixed_step = get<bool>(table, "fixed_step");
+      types.integrators[i].damping_limit = get<double>(table, "damping_limit");
       types.integrators[i].finds_first_step = get<bool>(table, "finds_first_step");
     }
     read_types(root, "law", types.laws);

@@ -6,6 +6,7 @@
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/plugin/abi.hpp"
+#include "butee/plugin/crash_watch.hpp"
 
 namespace butee::plugin {
 namespace {
@@ -34,6 +35,7 @@ std::string differences(const butee_abi_tag& theirs) {
   compare("interface version", ours.interface_version, theirs.interface_version);
   compare("Eigen version", ours.eigen_version, theirs.eigen_version);
   compare("Eigen alignment (EIGEN_MAX_ALIGN_BYTES)", ours.eigen_alignment, theirs.eigen_alignment);
+  compare("Eigen layout (index size, storage order)", ours.eigen_layout, theirs.eigen_layout);
   compare("C++11 ABI (_GLIBCXX_USE_CXX11_ABI)", ours.cxx11_abi, theirs.cxx11_abi);
   compare("checked standard library (_GLIBCXX_DEBUG)", ours.checked_library, theirs.checked_library);
   compare("AddressSanitizer", ours.sanitizers, theirs.sanitizers);
@@ -44,6 +46,7 @@ std::string differences(const butee_abi_tag& theirs) {
 }  // namespace
 
 Registrar load_module(const std::string& path) {
+  const CrashWatch watch(path);
   void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (handle == nullptr) throw RunError(path + ": cannot be loaded: " + last_error());
   const auto tag = symbol<const butee_abi_tag* (*)()>(handle, "butee_plugin_abi", path);
@@ -56,6 +59,8 @@ Registrar load_module(const std::string& path) {
     enter(&registrar);
   } catch (const std::exception& error) {
     throw RunError(path + ": failed while registering: " + error.what());
+  } catch (...) {
+    throw RunError(path + ": failed while registering, with something that is no exception of the standard library");
   }
   return registrar;
 }

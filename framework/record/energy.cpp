@@ -56,6 +56,18 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
   largest_ = std::max(largest_, std::abs(last_total_));
 }
 
+void EnergyRecorder::save(ByteWriter& to) const {
+  for (const double number :
+       {last_.of_loads, last_.of_damping, first_total_, last_total_, largest_, work_, dissipated_})
+    to.put(number);
+}
+
+void EnergyRecorder::restore(ByteReader& from) {
+  for (double* number :
+       {&last_.of_loads, &last_.of_damping, &first_total_, &last_total_, &largest_, &work_, &dissipated_})
+    from.take(*number);
+}
+
 double EnergyRecorder::balance_error() const {
   return largest_ > 0.0 ? (last_total_ - first_total_ + dissipated_ - work_) / largest_ : 0.0;
 }

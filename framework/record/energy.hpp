@@ -30,6 +30,8 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
   bool watches_every_step() const override { return true; }
+  void save(ByteWriter& to) const override;
+  void restore(ByteReader& from) override;
 
   double work() const { return work_; }
   double dissipated() const { return dissipated_; }

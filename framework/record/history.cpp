@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "butee/core/error.hpp"
+
 namespace butee::record {
 namespace {
 
@@ -113,6 +115,26 @@ void HistoryRecorder::finish() {
     write_row(0.0, 0.0);
   }
   if (writer_ != nullptr) writer_->flush();
+}
+
+void HistoryRecorder::save(ByteWriter& to) const {
+  to.put(rows_);
+  to.put(steps_);
+  to.put(next_row_);
+  to.put(first_row_);
+  to.put(peak_values_);
+  to.put(writer_ != nullptr ? writer_->position() : std::uint64_t{0});
+}
+
+void HistoryRecorder::restore(ByteReader& from) {
+  from.take(rows_);
+  from.take(steps_);
+  from.take(next_row_);
+  from.take(first_row_);
+  from.take(peak_values_);
+  require(first_row_.size() == values_.size() && peak_values_.size() == current_.size(), "a history of these probes");
+  const auto position = from.take<std::uint64_t>();
+  if (writer_ != nullptr) writer_->go_back(position);
 }
 
 void HistoryRecorder::update_peaks() {

@@ -20,6 +20,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   void finish() override;
   double next_instant(double t) const override;
   bool watches_every_step() const override { return every_ > 0; }
+  void save(ByteWriter& to) const override;
+  void restore(ByteReader& from) override;
   double file_seconds() const override { return writer_ != nullptr ? writer_->seconds() : 0.0; }
 
   /// "t", the probes' columns, "h"

@@ -11,6 +11,23 @@ namespace {
 
 /// Halvings of an interval that take it below the spacing of doubles.
 constexpr int kBisections = 60;
+/// Of an impact as bytes, its name empty.
+constexpr std::size_t kLeastBytes = 53;
+
+void put(const Impact& impact, ByteWriter& to) {
+  to.put(impact.t_in);
+  to.put(impact.t_out.has_value());
+  to.put(impact.t_out.value_or(0.0));
+  for (const double number : {impact.peak_force, impact.impulse, impact.impact_speed}) to.put(number);
+}
+
+void take(Impact& impact, ByteReader& from) {
+  from.take(impact.t_in);
+  const bool is_over = from.take<bool>();
+  const auto t_out = from.take<double>();
+  impact.t_out = is_over ? std::optional(t_out) : std::nullopt;
+  for (double* number : {&impact.peak_force, &impact.impulse, &impact.impact_speed}) from.take(*number);
+}
 
 }  // namespace
 
@@ -134,6 +151,32 @@ void ImpactRecorder::accumulate(Watch& watch, const time::AcceptedStep& step, do
       (motion(watch, step, half).speed > 0.0 ? low : high) = half;
     }
     watch.current.peak_force = std::max(watch.current.peak_force, force(watch, motion(watch, step, low).penetration));
+  }
+}
+
+void ImpactRecorder::save(ByteWriter& to) const {
+  for (const Watch& watch : watches_) {
+    to.put(watch.closed);
+    put(watch.current, to);
+  }
+  to.put(std::uint64_t{done_.size()});
+  for (const Impact& impact : done_) {
+    to.put(impact.node);
+    to.put(impact.side);
+    put(impact, to);
+  }
+}
+
+void ImpactRecorder::restore(ByteReader& from) {
+  for (Watch& watch : watches_) {
+    from.take(watch.closed);
+    take(watch.current, from);
+  }
+  done_.assign(from.count(kLeastBytes), {});
+  for (Impact& impact : done_) {
+    from.take(impact.node);
+    from.take(impact.side);
+    take(impact, from);
   }
 }
 

@@ -30,6 +30,8 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
   bool watches_every_step() const override { return true; }
+  void save(ByteWriter& to) const override;
+  void restore(ByteReader& from) override;
 
   /// In the order of t_in, those still closed included.
   std::vector<Impact> impacts() const;

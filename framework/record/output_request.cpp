@@ -64,6 +64,9 @@ class OutputReader {
         read_parameters(table, "output",
                         {config::number("interval", "s", "the time between two rows").above(0).optional(),
                          config::integer("every", "a row at every so manyth accepted step").at_least(1).optional(),
+                         config::integer("checkpoint", "keep the run on disk after every so manyth accepted step")
+                             .at_least(1)
+                             .optional(),
                          config::boolean("energy", "follow work, dissipation and the balance").or_else(false),
                          config::boolean("impacts", "write impacts.csv").or_else(false),
                          config::boolean("trust", "find out how far the answer can be trusted").or_else(false),
@@ -88,6 +91,7 @@ class OutputReader {
     if (request.interval && end_time_ / *request.interval > kMostRows)
       p->complain(diagnostics_, "interval",
                   "gives more than 1e9 rows until end_time = " + to_text(end_time_) + " s; make it larger");
+    if (p->has("checkpoint")) request.checkpoint = p->integer("checkpoint");
     request.energy = p->flag("energy");
     request.impacts = p->flag("impacts");
     request.trust = p->flag("trust");

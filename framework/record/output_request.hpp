@@ -24,6 +24,7 @@ struct ProbeRequest {
 struct OutputRequest {
   std::optional<double> interval;  ///< s; rows at 0, interval, 2 interval, ..., end_time
   std::int64_t every = 0;          ///< rows at every so manyth accepted step, where interval is absent
+  std::int64_t checkpoint = 0;     ///< a checkpoint after every so manyth accepted step; 0: none
   bool energy = false;
   bool impacts = false;
   bool trust = false;            ///< find out how far the answer can be trusted

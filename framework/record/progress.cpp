@@ -21,13 +21,20 @@ bool has_terminal() {
   return isatty(STDERR_FILENO) == 1;
 }
 
-void ProgressBar::start(const time::State&) {
+void ProgressBar::start(const time::State& state) {
+  begin_t_ = state.t;
   begin_ = drawn_ = Clock::now();
   steps_ = 0;
   look_again_ = kStepsBetweenLooks;
 }
 
+void ProgressBar::restore(ByteReader&) {
+  start({});
+  begin_t_ = -1.0;
+}
+
 void ProgressBar::step(const time::AcceptedStep& step) {
+  if (begin_t_ < 0.0) begin_t_ = step.from.t;
   if (++steps_ < look_again_) return;
   look_again_ = steps_ + kStepsBetweenLooks;
   const auto now = Clock::now();
@@ -45,7 +52,7 @@ void ProgressBar::draw(double t, double h) {
       std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(kWidth - filled), '.');
   std::fprintf(stderr, "\r[%s] %3.0f %%  t = %.4g of %.4g s  h = %.2e s  %.3g steps/s  %.0f s left \033[K", bar.c_str(),
                100.0 * done, t, end_time_, h, static_cast<double>(steps_) / seconds,
-               done > 0.0 ? seconds * (1.0 - done) / done : 0.0);
+               t > begin_t_ ? seconds * (end_time_ - t) / (t - begin_t_) : 0.0);
   std::fflush(stderr);
 }
 

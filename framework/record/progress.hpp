@@ -14,12 +14,13 @@ class BUTEE_EXPORT ProgressBar final : public time::Observer {
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
   void finish() override;
+  void restore(ByteReader& from) override;
 
  private:
   using Clock = std::chrono::steady_clock;
   void draw(double t, double h);
 
-  double end_time_;
+  double end_time_, begin_t_ = 0.0;
   Clock::time_point begin_, drawn_;
   std::int64_t steps_ = 0, look_again_ = 0;
   bool shown_ = false;

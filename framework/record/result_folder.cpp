@@ -1,11 +1,12 @@
 #include "butee/record/result_folder.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
+#include "butee/core/bytes.hpp"
 #include "butee/core/error.hpp"
+#include "butee/record/file.hpp"
 
 namespace butee::record {
 
@@ -14,7 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kMark = "# butee: the model as run";
-constexpr const char* kOurFiles[] = {"history.csv", "impacts.csv", "summary.json"};
+constexpr const char* kOurFiles[] = {"history.csv",    "impacts.csv",           "summary.json",
+                                     "checkpoint.bin", "checkpoint-before.bin", "checkpoint-next.bin"};
 
 bool is_ours(const fs::path& folder) {
   std::ifstream model(folder / "model.toml");
@@ -26,6 +28,16 @@ bool is_ours(const fs::path& folder) {
 
 std::string ResultFolder::file(const std::string& name) const {
   return (fs::path(path_) / name).string();
+}
+
+std::string ResultFolder::read(const std::string& name) const {
+  std::ifstream stream(file(name), std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::uint64_t ResultFolder::checksum_of(const std::string& name) const {
+  const std::string text = read(name);
+  return checksum(std::as_bytes(std::span(text)));
 }
 
 void ResultFolder::check() const {
@@ -41,6 +53,14 @@ void ResultFolder::check() const {
         path_ + ": is not empty and holds no results of butee, so it is left alone; choose another folder with -o");
 }
 
+void ResultFolder::check_is_ours() const {
+  if (!is_ours(path_)) throw InputError(path_ + ": holds no results of butee that a run could go on from");
+}
+
+bool ResultFolder::is_complete() const {
+  return read("summary.json").find("\"status\": \"completed\"") != std::string::npos;
+}
+
 void ResultFolder::prepare(const std::string& model_text) const {
   std::error_code error;
   fs::create_directories(path_, error);
@@ -50,16 +70,7 @@ void ResultFolder::prepare(const std::string& model_text) const {
 }
 
 void ResultFolder::write(const std::string& name, const std::string& text) const {
-  const std::string target = file(name), draft = target + ".part";
-  {
-    std::ofstream stream(draft, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw RunError(target + ": cannot be written: " + std::strerror(errno));
-  }
-  std::error_code error;
-  fs::rename(draft, target, error);
-  if (error) throw RunError(target + ": cannot be written: " + error.message());
+  write_whole(file(name), std::as_bytes(std::span(text)));
 }
 
 }  // namespace butee::record

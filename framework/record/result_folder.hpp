@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <butee/export.hpp>
@@ -15,6 +16,11 @@ class BUTEE_EXPORT ResultFolder {
   /// Throws InputError where the folder is not ours to write. Writes nothing.
   void check() const;
 
+  /// Throws InputError where the folder is not one of ours, with results of an earlier run.
+  void check_is_ours() const;
+  /// True where the run whose results are here was completed.
+  bool is_complete() const;
+
   /// Makes the folder, takes away our files of an earlier run and writes model.toml. Throws RunError.
   void prepare(const std::string& model_text) const;
 
@@ -22,6 +28,9 @@ class BUTEE_EXPORT ResultFolder {
   void write(const std::string& name, const std::string& text) const;
 
   std::string file(const std::string& name) const;
+  /// What a file holds, and its checksum; of nothing where there is none.
+  std::string read(const std::string& name) const;
+  std::uint64_t checksum_of(const std::string& name) const;
   const std::string& path() const { return path_; }
 
  private:

@@ -38,6 +38,7 @@ std::string to_json(const Summary& summary) {
   Json json;
   json["status"] = report.completed ? "completed" : "failed";
   json["message"] = report.message;
+  if (!report.warnings.empty()) json["warnings"] = report.warnings;
   json["integrator"] = summary.integrator;
   if (!summary.choice.empty()) json["choice"] = summary.choice;
   json["t_end"] = number(report.t_end);

@@ -14,4 +14,10 @@ struct Counters {
   std::int64_t solves = 0;               ///< solutions with a factorization
 };
 
+inline Counters operator+(const Counters& a, const Counters& b) {
+  return {a.force_evaluations + b.force_evaluations, a.contact_evaluations + b.contact_evaluations,
+          a.law_evaluations + b.law_evaluations,     a.factorizations + b.factorizations,
+          a.factor_updates + b.factor_updates,       a.solves + b.solves};
+}
+
 }  // namespace butee::solve

@@ -5,6 +5,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/solve/force_balance.hpp"
+#include "butee/solve/free_motion.hpp"
 
 namespace butee::solve {
 Dynamics::Dynamics(const model::System& system)
@@ -168,7 +169,9 @@ LinearSolver& Dynamics::mass_solver() {
   if (!mass_solver_) {
     mass_solver_.emplace(system_.mass, counters_);
     if (!mass_solver_->factorize(system_.mass))
-      throw InputError("the mass matrix is not positive definite: check the masses and the sections of the scene");
+      throw InputError(
+          "the mass matrix is not positive definite: no mass, or too little beside the others, resists the motion of " +
+          describe_softest_motion(system_.mass, system_.dofs) + "; check the masses and sections there");
   }
   return *mass_solver_;
 }

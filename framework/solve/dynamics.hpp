@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "butee/solve/contact.hpp"
@@ -31,6 +32,8 @@ class BUTEE_EXPORT Dynamics {
 
   /// F := F(t)
   void external_force(double t, VectorRef force);
+  /// Says that the loads' functions of time are others than before.
+  void loads_changed() { load_time_ = std::numeric_limits<double>::quiet_NaN(); }
   /// F := dF/dt(t), from the loads' Taylor series or, where they have none, a difference over `h` s
   void external_force_rate(double t, double h, VectorRef rate);
   /// F += F_c(x)

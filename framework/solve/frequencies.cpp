@@ -13,12 +13,15 @@
 #include <Eigen/SparseCholesky>
 
 #include "butee/core/error.hpp"
+#include "butee/core/memory.hpp"
 #include "butee/solve/contact.hpp"
 
 namespace butee::solve {
 namespace {
 
 constexpr Index kDense = 200;
+/// Vectors of the size of the system that a mode takes while it is computed, with all copies of it.
+constexpr double kVectorsOfMode = 6.0;
 /// Of the eigenvectors; a Ritz value is accurate to its square, where the highest eigenvalues of a long beam lie too
 /// close for more.
 constexpr double kLanczosTolerance = 1e-4;
@@ -137,6 +140,10 @@ std::optional<FrequencyRange> frequency_range(const model::System& system, StopS
 
 std::optional<Modes> lowest_modes(const model::System& system, Index count) {
   require(count >= 1 && count <= system.size(), "a system has as many modes as DOFs");
+  const double numbers = kVectorsOfMode * static_cast<double>(count) * static_cast<double>(system.size());
+  if (const std::string complaint = memory_complaint(numbers * sizeof(double)); !complaint.empty())
+    throw InputError("the " + std::to_string(count) + " lowest modes of " + std::to_string(system.size()) +
+                     " degrees of freedom: that " + complaint + "; take fewer modes, or a method that needs none");
   if (system.size() <= kDense || 2 * count + 1 > system.size()) return dense_modes(system, count);
   const auto highest = highest_eigenvalue(system.stiffness, system.mass);
   if (!highest) return std::nullopt;

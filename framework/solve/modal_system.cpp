@@ -150,7 +150,7 @@ StepFlow& ModalSystem::ladder(int level) {
   std::unique_ptr<StepFlow>& step = rungs_[level].step;
   if (!step) {
     ModalFlow half = refined_ladder(level - 2);
-    step = std::make_unique<StepFlow>(refined_ladder(level), std::move(half), stop_shapes_, frequencies_);
+    step = std::make_unique<StepFlow>(refined_ladder(level), std::move(half), stop_shapes_, frequencies_, harmonics_);
   }
   return *step;
 }
@@ -166,7 +166,7 @@ StepFlow& ModalSystem::odd(double h) {
   half.refine(frequencies_, decay_);
   whole.refine(frequencies_, decay_);
   std::unique_ptr<StepFlow>& slot = odd_[oldest_];
-  slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_, frequencies_);
+  slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_, frequencies_, harmonics_);
   oldest_ = (oldest_ + 1) % kOddFlows;
   return *slot;
 }

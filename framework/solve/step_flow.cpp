@@ -43,16 +43,26 @@ void StopShapes::force(std::span<const Index> stops, const double* f, double* r)
 }
 
 StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& stops,
-                   const Eigen::ArrayXd& frequencies)
+                   const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics)
     : whole(std::move(whole_flow)),
       half(std::move(half_flow)),
       stops_(stops),
       columns_(static_cast<std::size_t>(stops.count())),
       derived_(columns_.size()) {
   if (stops.count() == 0) return;
-  const Eigen::ArrayXd angle = h() * frequencies;
-  swing_q = (kHermite * angle.square().square()).min(2.0) * stops.matrix().cwiseAbs().rowwise().maxCoeff().array();
+  const Eigen::ArrayXd angle = h() * frequencies, shape = stops.matrix().cwiseAbs().rowwise().maxCoeff().array();
+  swing_q = (kHermite * angle.square().square()).min(2.0) * shape;
   swing_v = (frequencies > 0.0).select(swing_q / frequencies, 0.0);
+  // Within a step a force moves a mode by no more than this (also in resonance), and away from the cubic by no more
+  // than h^4/384 times the fourth derivative, f'' - omega^2 f.
+  const Eigen::ArrayXd most = h() * h() * (angle > 2.0).select((angle + 2.0) / angle.square().max(1.0), 1.0) * shape;
+  swing_force = most * (kHermite * angle.square()).min(1.0);
+  for (const ModalHarmonic& harmonic : harmonics) {
+    const double turn = h() * harmonic.angular_frequency;
+    swing_harmonics += (most * (kHermite * (angle.square() + turn * turn)).min(1.0) *
+                        (harmonic.cosine.square() + harmonic.sine.square()).sqrt())
+                           .sum();
+  }
 }
 
 Index StepFlow::padded(Index stops) {

@@ -43,7 +43,8 @@ struct StopMotion {
 class BUTEE_EXPORT StepFlow {
  public:
   /// `stops` must outlive it.
-  StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& stops, const Eigen::ArrayXd& frequencies);
+  StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& stops, const Eigen::ArrayXd& frequencies,
+           const std::vector<ModalHarmonic>& harmonics);
 
   double h() const { return whole.h(); }
 
@@ -67,6 +68,9 @@ class BUTEE_EXPORT StepFlow {
   ModalFlow whole, half;
   /// How far a mode with q and v at the start can carry any stop away from the cubic through both ends of its path.
   Eigen::ArrayXd swing_q, swing_v;
+  /// The same of a modal force that does not change over the step, and of all harmonic loads together, m.
+  Eigen::ArrayXd swing_force;
+  double swing_harmonics = 0.0;
 
  private:
   /// The nine columns of stop i: end, speed and middle by P_0, then by P_1 and P_2. Computed at their first use.

@@ -60,6 +60,13 @@ class BUTEE_EXPORT Integrator {
     return 0.0;
   }
 
+  /// The largest stable h omega where its parameters narrow what its IntegratorType declares.
+  virtual double stability_limit() const { return std::numeric_limits<double>::infinity(); }
+
+  /// True where the method itself minds the instants at which a load or its derivative jumps. Steps of all other
+  /// adaptive methods end there: a load that lasts shorter than a step could pass unseen.
+  virtual bool minds_load_kinks() const { return false; }
+
   /// True where steps best end at the instants that observers ask for, since any length is as good.
   virtual bool lands_on_outputs() const { return false; }
 
@@ -87,20 +94,29 @@ class BUTEE_EXPORT Integrator {
 };
 
 /// A registered method: its names, parameters and maker. `time_step` and `end_time` are read for it.
+///
+///     {.name = "my_method", .summary = "...", .parameters = {...}, .order = 2.0, .fixed_step = true, .make = ...}
 struct IntegratorType {
-  std::string name;
-  std::vector<std::string> aliases;
-  std::string summary;
-  std::vector<config::Parameter> parameters;
+  std::string name{};
+  std::vector<std::string> aliases{};
+  std::string summary{};
+  std::vector<config::Parameter> parameters{};
+  /// The order of convergence of x and v with equal steps of smooth motion; 0: not stated, or no such order.
+  double order = 0.0;
   /// The largest h omega at which undamped oscillation stays bounded; infinite for unconditionally stable methods.
   double stability_limit = std::numeric_limits<double>::infinity();
-  std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make;
-  /// Reports values that are each allowed but do not go together. May be empty.
-  std::function<void(const config::Parameters&, config::Diagnostics&)> check;
+  /// The largest h c/m at which a mass with a dashpot c alone comes to rest; infinite for unconditionally stable ones.
+  double damping_limit = std::numeric_limits<double>::infinity();
   /// True where time_step alone sets the accuracy, so that comparisons sweep it.
   bool fixed_step = false;
   /// True where the method finds its first step itself, so that time_step may be absent.
   bool finds_first_step = false;
+  /// False where a method remembers more than the State holds, so that a run taken up again from a checkpoint would not
+  /// be the unbroken one to the last bit; checkpoints are then refused.
+  bool restarts_exactly = true;
+  std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make{};
+  /// Reports values that are each allowed but do not go together. May be empty.
+  std::function<void(const config::Parameters&, config::Diagnostics&)> check{};
 };
 
 }  // namespace butee::time

@@ -18,15 +18,30 @@ constexpr double kSmallestStep = 1e-14;
 /// No sensible control rejects one step this often; shrink factors close to 1 need many.
 constexpr int kMostRejections = 5000;
 
+/// A method that chooses its steps is looked at after so many; it has stalled where it would need more than kMostSteps.
+constexpr std::int64_t kStallLooks = 200000;
+constexpr double kMostSteps = 1e12;
+
 using Clock = std::chrono::steady_clock;
+
+MethodLimits narrowed(MethodLimits limits, const Integrator& integrator) {
+  limits.stability = std::min(limits.stability, integrator.stability_limit());
+  return limits;
+}
 
 }  // namespace
 
 Simulation::Simulation(solve::Dynamics& dynamics, Integrator& integrator, SimulationOptions options)
-    : dynamics_(dynamics), integrator_(integrator), options_(options), next_h_(options.time_step) {
-  require(options.time_step >= 0.0 && options.end_time > 0.0, "end_time is positive, and time_step where it is given");
+    : dynamics_(dynamics),
+      integrator_(integrator),
+      options_{options.time_step, options.end_time, narrowed(options.limits, integrator)},
+      growth_(dynamics, options_.limits, integrator),
+      next_h_(options_.time_step) {
+  require(options_.time_step >= 0.0 && options_.end_time > 0.0,
+          "end_time is positive, and time_step where it is given");
   state_.x = dynamics.system().initial_displacement;
   state_.v = dynamics.system().initial_velocity;
+  if (integrator.controller() != nullptr && !integrator.minds_load_kinks()) kinks_ = dynamics.load_kinks();
 }
 
 Step Simulation::propose() const {
@@ -36,14 +51,20 @@ Step Simulation::propose() const {
       const double landing = std::min(next_landing(), end);
       return {landing - state_.t, landing, watched_};
     }
-    if (state_.t + next_h_ >= end) return {end - state_.t, end, watched_};
+    const double landing = std::min(next_kink(), end);
+    if (state_.t + next_h_ >= landing) return {landing - state_.t, landing, watched_};
     return {next_h_, state_.t + next_h_, watched_};
   }
   const double h = options_.time_step;
-  const double t_end = static_cast<double>(accepted_ + 1) * h;
+  const double t_end = origin_ + static_cast<double>(accepted_ + 1) * h;
   if (t_end < end - kDivides * h) return {h, t_end};
   const bool divides = t_end <= end + kDivides * h;
   return {divides ? h : end - state_.t, end};
+}
+
+double Simulation::next_kink() const {
+  const auto next = std::upper_bound(kinks_.begin(), kinks_.end(), state_.t);
+  return next == kinks_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
 double Simulation::next_landing() const {
@@ -66,8 +87,34 @@ void Simulation::start() {
   if (next_h_ == 0.0) next_h_ = integrator_.first_step(state_);
   require(next_h_ > 0.0, "a method without a first step of its own has a time_step");
   for (Observer* observer : observers_) observer->start(state_);
-  if (!state_.a.allFinite())
-    fail({next_h_, 0.0}, "the initial acceleration is not finite; check loads, masses and initial values");
+  growth_.start(state_);
+  if (!state_.a.allFinite()) fail({next_h_, 0.0}, describe_start(dynamics_, state_));
+}
+
+void Simulation::set_end_time(double end_time) {
+  require(end_time >= state_.t && end_time > 0.0, "a run ends after the present instant");
+  require(!over_ || report_.completed, "a run that has failed does not go on");
+  options_.end_time = end_time;
+  over_ = started_ && state_.t >= end_time;
+  report_.completed = over_;
+  origin_ = state_.t;
+  accepted_ = 0;
+}
+
+void Simulation::set_motion(ConstVectorRef x, ConstVectorRef v) {
+  require(x.size() == state_.x.size() && v.size() == state_.v.size(), "a motion of this system's size");
+  start();
+  state_.x = x;
+  state_.v = v;
+  integrator_.start(state_);
+  growth_.start(state_);
+}
+
+void Simulation::loads_changed(bool jump) {
+  start();
+  dynamics_.loads_changed();
+  if (jump) integrator_.start(state_);
+  growth_.start(state_);
 }
 
 bool Simulation::advance() {
@@ -76,6 +123,11 @@ bool Simulation::advance() {
   const StepController* controller = integrator_.controller();
   for (int rejections = 0; rejections <= kMostRejections; ++rejections) {
     const Step step = propose();
+    if (!(step.t_end > state_.t)) {
+      fail(step, "the step is lost in the rounding of t; it moves fastest in " + fastest_dof(dynamics_, state_) +
+                     ", where the scene is too stiff or a law too sharp for this method");
+      return false;
+    }
     const StepReport result = integrator_.step(state_, step, next_);
     report_.newton_iterations += result.newton_iterations;
     report_.rejected += result.inner_rejected;
@@ -83,7 +135,7 @@ bool Simulation::advance() {
 
     if (controller == nullptr) {
       if (result.status != StepStatus::ok) {
-        fail(step, diagnosis(result));
+        fail(step, describe_failure(dynamics_, options_.limits, state_, step, result));
         return false;
       }
       accept(step, result);
@@ -91,7 +143,9 @@ bool Simulation::advance() {
     }
     StepDecision decision{false, 0.5 * step.h};
     if (result.status == StepStatus::ok) decision = controller->decide(step.h, result);
-    next_h_ = std::min(decision.next_h, options_.end_time);
+    // A step that a kink of the loads cut short says nothing against the length that was wanted.
+    const double wanted = decision.accept && step.h < next_h_ ? next_h_ : 0.0;
+    next_h_ = std::min(std::max(decision.next_h, wanted), options_.end_time);
     if (decision.accept) {
       accept(step, result);
       return !over_;
@@ -99,7 +153,7 @@ bool Simulation::advance() {
     ++report_.rejected;
     if (!(next_h_ > kSmallestStep * options_.end_time)) {
       fail(step, "the step fell below its floor of " + to_short_text(kSmallestStep * options_.end_time) +
-                     " s: " + diagnosis(result));
+                     " s: " + describe_failure(dynamics_, options_.limits, state_, step, result));
       return false;
     }
   }
@@ -115,9 +169,31 @@ void Simulation::accept(const Step& step, const StepReport& result) {
   const double h = (next_.t < step.t_end ? next_.t - state_.t : step.h) / result.inner_steps;
   for (Observer* observer : observers_) observer->step({state_, next_, h, integrator_});
   std::swap(state_, next_);
-  if (state_.t < options_.end_time) return;
+  const bool is_last = !(state_.t < options_.end_time);
+  if (growth_.step(next_, state_, h, is_last)) {
+    fail({h, state_.t}, growth_.describe(state_, h));
+    return;
+  }
+  if (accepted_ % kStallLooks == 0 && !is_last && has_stalled()) {
+    fail({h, state_.t}, "the last " + std::to_string(kStallLooks) + " steps went over " +
+                            to_short_text(state_.t - stall_t_) +
+                            " s, so that the end is out of reach; it moves fastest in " +
+                            fastest_dof(dynamics_, state_) + ". Loosen the tolerance, or take another method");
+    return;
+  }
+  if (!is_last) return;
   over_ = true;
   report_.completed = true;
+  report_.warnings = growth_.warnings();
+}
+
+bool Simulation::has_stalled() {
+  if (integrator_.controller() == nullptr) return false;
+  const double progress = state_.t - stall_t_,
+               least = options_.end_time * static_cast<double>(kStallLooks) / kMostSteps;
+  if (progress >= 0.0 && progress < least) return true;
+  stall_t_ = state_.t;
+  return false;
 }
 
 void Simulation::fail(const Step& step, const std::string& reason) {
@@ -127,27 +203,11 @@ void Simulation::fail(const Step& step, const std::string& reason) {
                     ", h = " + to_short_text(step.h) + " s: " + reason;
 }
 
-std::string Simulation::diagnosis(const StepReport& report) const {
-  switch (report.status) {
-    case StepStatus::not_finite: {
-      Index largest = 0;
-      state_.v.cwiseAbs().maxCoeff(&largest);
-      return "the solution is no longer finite; it moves fastest in " + dynamics_.dof_name(largest) +
-             ". A step beyond the stability limit does this: try a smaller time_step or an implicit method";
-    }
-    case StepStatus::newton_failed:
-      return "Newton's iteration did not meet its tolerances within " + std::to_string(report.newton_iterations) +
-             " solves; use a smaller time_step, more max_iterations, looser tolerances, or on_newton_failure = "
-             "\"keep\"";
-    case StepStatus::singular:
-      return "the effective matrix is not positive definite; check stiffnesses and masses, or use a smaller time_step";
-    case StepStatus::ok:
-      break;
-  }
-  return "the error measure " + to_short_text(report.error) + " stays above the tolerance";
+const RunReport& Simulation::run() {
+  return run({});
 }
 
-const RunReport& Simulation::run() {
+const RunReport& Simulation::run(const std::function<bool()>& goes_on) {
   const auto file_seconds = [this] {
     double sum = 0.0;
     for (const Observer* observer : observers_) sum += observer->file_seconds();
@@ -156,7 +216,7 @@ const RunReport& Simulation::run() {
   start();
   const double files_before = file_seconds();
   const auto begin = Clock::now();
-  while (advance()) {
+  while (advance() && (!goes_on || goes_on())) {
   }
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin).count();
   report_.wall_seconds += std::max(0.0, elapsed - (file_seconds() - files_before));

@@ -40,6 +40,7 @@ struct StepReport {
   bool kept_failure = false;  ///< went on although Newton failed
   int inner_steps = 1;        ///< that the method took within the step
   int inner_rejected = 0;     ///< and those it redid
+  Index worst_dof = -1;       ///< where Newton's residual was the largest, of a failed iteration
 };
 
 }  // namespace butee::time

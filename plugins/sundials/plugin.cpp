@@ -6,35 +6,33 @@ using namespace butee;
 using config::number;
 
 time::IntegratorType type_of(std::string name, std::string summary, plugins::Family family) {
-  return {std::move(name),
-          {},
-          std::move(summary),
-          {number("tolerance", "1", "relative tolerance of each component")
-               .above(0)
-               .at_most(0.1)
-               .or_else(1e-4)
-               .sweep(1e-1, 1e-9),
-           number("absolute_tolerance", "m, rad, m/s, rad/s",
-                  "of each component; 0: tolerance times the largest gap, or times 1 mm")
-               .at_least(0)
-               .or_else(0.0),
-           config::integer("order", "the order, the highest of cvode; 0: the solver's choice")
-               .at_least(0)
-               .at_most(12)
-               .or_else(std::int64_t{0})},
-          std::numeric_limits<double>::infinity(),
-          [family](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            double length = 0.0;
-            for (Index i = 0; i < dynamics.stop_count(); ++i) length = std::max(length, dynamics.contact().gap_of(i));
-            if (length == 0.0) length = 1e-3;
-            const double given = p.number("absolute_tolerance");
-            return std::make_unique<plugins::SundialsIntegrator>(dynamics, family, p.number("tolerance"),
-                                                                 given > 0.0 ? given : p.number("tolerance") * length,
-                                                                 static_cast<int>(p.integer("order")));
-          },
-          {},
-          false,
-          true};
+  return {
+      .name = std::move(name),
+      .summary = std::move(summary),
+      .parameters = {number("tolerance", "1", "relative tolerance of each component")
+                         .above(0)
+                         .at_most(0.1)
+                         .or_else(1e-4)
+                         .sweep(1e-1, 1e-9),
+                     number("absolute_tolerance", "m, rad, m/s, rad/s",
+                            "of each component; 0: tolerance times the largest gap, or times 1 mm")
+                         .at_least(0)
+                         .or_else(0.0),
+                     config::integer("order", "the order, the highest of cvode; 0: the solver's choice")
+                         .at_least(0)
+                         .at_most(12)
+                         .or_else(std::int64_t{0})},
+      .finds_first_step = true,
+      .restarts_exactly = false,
+      .make = [family](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+        double length = 0.0;
+        for (Index i = 0; i < dynamics.stop_count(); ++i) length = std::max(length, dynamics.contact().gap_of(i));
+        if (length == 0.0) length = 1e-3;
+        const double given = p.number("absolute_tolerance");
+        return std::make_unique<plugins::SundialsIntegrator>(dynamics, family, p.number("tolerance"),
+                                                             given > 0.0 ? given : p.number("tolerance") * length,
+                                                             static_cast<int>(p.integer("order")));
+      }};
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -27,6 +28,7 @@ Names allowed_rooms(const std::string& folder) {
     return rooms;
   };
   if (folder == "framework/plugin") return {"core", "config", "model", "solve", "time", "plugin"};
+  if (folder == "framework/embed") return {"core", "config", "model", "solve", "time", "record", "plugin", "embed"};
   if (folder.rfind("framework/", 0) == 0) return up_to(folder.substr(10));
   if (folder == "elements" || folder == "contact") return up_to("model");
   if (folder == "integrators") return up_to("time");
@@ -34,15 +36,15 @@ Names allowed_rooms(const std::string& folder) {
   return {"core", "config", "model", "solve", "time", "record", "plugin"};
 }
 
-/// Third-party headers and the only places that may include them.
+/// Third-party headers and the only files, or folders, that may include them.
 const std::map<std::string, Names> kDoors = {
     {"suitesparse/", {"framework/solve/symmetric_factor.cpp"}},
     {"toml.hpp", {"framework/config/toml.cpp"}},
     {"dlfcn.h", {"framework/plugin/module.cpp"}},
     {"spdlog/", {"framework/core/log.cpp"}},
-    {"nlohmann/", {"framework/record/summary.cpp"}},
+    {"nlohmann/", {"framework/record/summary.cpp", "apps/"}},
     {"Spectra/", {"framework/solve/frequencies.cpp"}},
-    {"CLI/", {"apps/butee/main.cpp"}},
+    {"CLI/", {"apps/"}},
 };
 
 struct Include {
@@ -108,7 +110,10 @@ TEST(IncludeRules, LibrariesStandBehindOneDoor) {
   for (const Include& include : all_includes())
     for (const auto& [library, places] : kDoors) {
       if (include.target.rfind(library, 0) != 0) continue;
-      EXPECT_TRUE(places.count(include.file) > 0) << include.file << " includes " << include.target;
+      const bool may = std::any_of(places.begin(), places.end(), [&](const std::string& place) {
+        return place.back() == '/' ? include.file.rfind(place, 0) == 0 : include.file == place;
+      });
+      EXPECT_TRUE(may) << include.file << " includes " << include.target;
       ++seen[library];
     }
   EXPECT_EQ(seen.size(), kDoors.size());

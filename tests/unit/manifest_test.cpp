@@ -34,6 +34,11 @@ void expect_same(const time::IntegratorType& got, const time::IntegratorType& wa
   EXPECT_EQ(got.name, wanted.name);
   EXPECT_EQ(got.aliases, wanted.aliases);
   EXPECT_EQ(got.summary, wanted.summary);
+  EXPECT_EQ(got.order, wanted.order);
+  EXPECT_EQ(got.stability_limit, wanted.stability_limit);
+  EXPECT_EQ(got.damping_limit, wanted.damping_limit);
+  EXPECT_EQ(got.fixed_step, wanted.fixed_step);
+  EXPECT_EQ(got.finds_first_step, wanted.finds_first_step);
   ASSERT_EQ(got.parameters.size(), wanted.parameters.size());
   for (std::size_t i = 0; i < got.parameters.size(); ++i) expect_same(got.parameters[i], wanted.parameters[i]);
 }
@@ -86,8 +91,8 @@ TEST(Manifest, stands_beside_its_module) {
 TEST(Manifest, what_is_none_is_refused) {
   const TemporaryFolder folder;
   for (const char* text : {"", "manifest = 1\n[[law]]\nname = \"a\"\nsummary = \"\"\nparameter = []\n",
-                           "manifest = 2\n", "manifest = 2\nintegrator = []\n", "manifest = 2\nintegrator = [3]\n",
-                           "manifest = 2\n[[integrator]]\nname = \"a\"\naliases = [1]\n", "not toml"}) {
+                           "manifest = 3\n", "manifest = 3\nintegrator = []\n", "manifest = 3\nintegrator = [3]\n",
+                           "manifest = 3\n[[integrator]]\nname = \"a\"\naliases = [1]\n", "not toml"}) {
     folder.write("wrong.toml", text);
     EXPECT_THROW(plugin::read_manifest(folder.file("wrong.toml")), InputError) << text;
   }

@@ -197,6 +197,19 @@ std::string markdown(const Study& study, const std::vector<SceneResult>& results
   return out.str();
 }
 
+/// A text from a scene, which gnuplot is not to obey: within single quotes, where nothing but their end has a meaning.
+std::string gnuplot_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : printable(text)) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string shell_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 bool draw(const SceneResult& result, const std::string& folder) {
   const std::string base = folder + "/work-precision-" + result.scene;
   std::ofstream data(base + ".dat");
@@ -217,7 +230,7 @@ bool draw(const SceneResult& result, const std::string& folder) {
             "lc rgb '#c8c8c8', lt 1 lc rgb '#eeeeee'\n"
             "set border 3\nset tics nomirror out\nset key outside right center reverse Left samplen 2 spacing 1.2\n"
          << "set xlabel 'time of one run / ms'\nset ylabel 'relative rms error of " << result.column << "' noenhanced\n"
-         << "set title '" << (result.title.empty() ? result.scene : result.title) << "' noenhanced\n"
+         << "set title " << gnuplot_text(result.title.empty() ? result.scene : result.title) << " noenhanced\n"
          << "set style increment user\n";
   const std::array<const char*, 10> colours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e",
                                                "#17becf", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"};
@@ -225,16 +238,16 @@ bool draw(const SceneResult& result, const std::string& folder) {
   if (result.reference.uncertainty > 0.0)
     plot += number(result.reference.uncertainty, 6) + " w l lc rgb '#000000' dt 3 t 'reference itself', ";
   for (std::size_t i = 0; i < drawn.size(); ++i)
-    plot += "'" + base + ".dat' index " + std::to_string(i) + " w lp lw 1.6 ps 0.8 pt " +
+    plot += gnuplot_text(base + ".dat") + " index " + std::to_string(i) + " w lp lw 1.6 ps 0.8 pt " +
             std::to_string(std::array{4, 5, 6, 7, 8, 9, 10, 11, 12, 13}[i % 10]) + " lc rgb '" + colours[i % 10] +
             "' t '" + drawn[i] + "' noenhanced, ";
   plot.resize(plot.size() - 2);
   for (const auto& [terminal, suffix] : {std::pair{"pngcairo size 1200,750 font 'sans,13'", ".png"},
                                          std::pair{"svg size 900,560 font 'sans,13'", ".svg"}})
-    script << "set terminal " << terminal << "\nset output '" << base << suffix << "'\n" << plot << "\n";
+    script << "set terminal " << terminal << "\nset output " << gnuplot_text(base + suffix) << "\n" << plot << "\n";
   script << "set output\n";
   script.close();
-  return !drawn.empty() && std::system(("gnuplot '" + base + ".gp' > /dev/null 2>&1").c_str()) == 0;
+  return !drawn.empty() && std::system(("gnuplot " + shell_text(base + ".gp") + " > /dev/null 2>&1").c_str()) == 0;
 }
 
 }  // namespace butee::app::compare

@@ -6,7 +6,7 @@
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
 
-#include "../perturb.hpp"
+#include "../assembly.hpp"
 
 namespace butee::app::compare {
 
@@ -101,11 +101,9 @@ Question question_of(const Session& session, const std::vector<std::string>& col
 Answer run_once(Session& session, const Question& question, double time_limit, double perturbation) {
   Answer answer;
   const auto begin = Clock::now();
-  model::System system = assemble(session.model);
-  if (perturbation != 0.0) perturb(system.initial_displacement, perturbation);
-  solve::Dynamics dynamics(system);
-  const auto integrator = session.catalogue.load(session.integrator.name).make(session.integrator.parameters, dynamics);
-  time::Simulation simulation(dynamics, *integrator, session.integrator.options);
+  Assembly assembly(session, perturbation);
+  solve::Dynamics& dynamics = assembly.dynamics;
+  time::Simulation& simulation = assembly.simulation;
   Sampler sampler(question, dynamics);
   simulation.add(sampler);
   bool goes_on = true;

@@ -1,5 +1,5 @@
 #include <butee/plugin/entry.hpp>
 
 BUTEE_PLUGIN(registrar) {
-  registrar.add({"mine", {"RK4-1"}, "takes an alias that is taken", {}, 0.0, {}, {}});
+  registrar.add({.name = "mine", .aliases = {"RK4-1"}, .summary = "takes an alias that is taken"});
 }

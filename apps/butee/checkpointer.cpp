@@ -1,0 +1,64 @@
+#include "checkpointer.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
+
+namespace butee::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+}  // namespace
+
+void check_checkpoints(Session& session) {
+  if (session.output.checkpoint == 0) return;
+  const time::IntegratorType& type = session.catalogue.load(session.integrator.name);
+  if (type.restarts_exactly) return;
+  const config::Value& given = *session.document.root.table()->find("output")->table()->find("checkpoint");
+  throw InputError(
+      describe(session.document, given.at) + ": output.checkpoint: " + type.name +
+      " keeps a history of its own that no checkpoint holds, so that a run could not go on from one to the "
+      "last bit; leave checkpoint out, or take another method");
+}
+
+Checkpointer::Checkpointer(const Session& session, Assembly& assembly, const record::ResultFolder& folder,
+                           record::CsvWriter& history)
+    : assembly_(assembly), folder_(folder), history_(history), every_(session.output.checkpoint) {
+  next_.method = session.integrator.name;
+  next_.model = folder.checksum_of("model.toml");
+}
+
+void Checkpointer::go_on_from(const record::Checkpoint& checkpoint) {
+  before_ = checkpoint.counters;
+  next_.setup_seconds += checkpoint.setup_seconds;
+}
+
+solve::Counters Checkpointer::counters() const {
+  return before_ + assembly_.dynamics.counters();
+}
+
+void Checkpointer::write() {
+  const auto begin = Clock::now();
+  const double history_seconds = history_.seconds();
+  since_ = 0;
+  history_.sync();
+  next_.history = history_.position();
+  next_.counters = counters();
+  assembly_.simulation.take_snapshot(next_.snapshot);
+  next_.snapshot.report.wall_seconds += seconds_since(begin_) - seconds_ - history_.seconds();
+  try {
+    folder_.write(next_);
+  } catch (const RunError& error) {
+    log::warning(std::string(error.what()) + "; the run goes on, and the checkpoint before this one is kept");
+  }
+  seconds_ += seconds_since(begin) - (history_.seconds() - history_seconds);
+}
+
+}  // namespace butee::app

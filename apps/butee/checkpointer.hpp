@@ -1,0 +1,47 @@
+#pragma once
+
+#include <chrono>
+
+#include <butee/record/checkpoint.hpp>
+#include <butee/record/csv_writer.hpp>
+
+#include "assembly.hpp"
+
+namespace butee::app {
+
+/// Throws InputError where [output] asks for checkpoints of a method that cannot go on from them bit for bit.
+void check_checkpoints(Session& session);
+
+/// Keeps a run on disk after every so manyth step.
+class Checkpointer final : public time::Observer {
+ public:
+  /// All must outlive it.
+  Checkpointer(const Session& session, Assembly& assembly, const record::ResultFolder& folder,
+               record::CsvWriter& history);
+
+  /// What the run had cost when it was taken up again, and has now.
+  void go_on_from(const record::Checkpoint& checkpoint);
+  void set_setup_seconds(double seconds) { next_.setup_seconds = seconds; }
+  solve::Counters counters() const;
+
+  void step(const time::AcceptedStep&) override { ++since_; }
+  double file_seconds() const override { return seconds_; }
+
+  bool is_due() const { return since_ >= every_; }
+  /// Between two steps.
+  void write();
+  /// After the end of a run that is not to go on.
+  void clear() const { folder_.clear(); }
+
+ private:
+  Assembly& assembly_;
+  record::CheckpointFolder folder_;
+  record::CsvWriter& history_;
+  std::int64_t every_, since_ = 0;
+  record::Checkpoint next_;
+  solve::Counters before_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double seconds_ = 0.0;  ///< spent here
+};
+
+}  // namespace butee::app

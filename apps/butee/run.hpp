@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include <butee/record/checkpoint.hpp>
+#include <butee/record/history.hpp>
+#include <butee/record/impacts.hpp>
+#include <butee/record/progress.hpp>
+#include <butee/record/summary.hpp>
+
+#include "assembly.hpp"
+#include "checkpointer.hpp"
+
+namespace butee::app {
+
+/// One integration from assembly to the end, with its files.
+class Run {
+ public:
+  /// Assembles and takes the first factorization; nothing is written yet. Throws InputError where the scene cannot be
+  /// run.
+  Run(Session& session, bool with_progress);
+
+  /// Integrates; the files go to `folder` where one is given. Goes on from a checkpoint of the folder where one is
+  /// given. Whatever ends the integration early is told by the summary's report.
+  record::Summary perform(const record::ResultFolder* folder, const record::Checkpoint* from = nullptr);
+
+ private:
+  Run(Session& session, bool with_progress, std::chrono::steady_clock::time_point begin);
+  void attach_observers(const record::ResultFolder* folder, const record::Checkpoint* from);
+  void integrate();
+  void summarize();
+  void write_files(const record::ResultFolder& folder);
+  void fail(const std::string& reason);
+  /// Does the work; what it throws becomes the report of a failed run.
+  template <class Work>
+  void guarded(Work work);
+
+  Session& session_;
+  bool with_progress_;
+  Assembly assembly_;
+  record::Summary summary_;
+  std::optional<record::CsvWriter> writer_;
+  std::optional<record::HistoryRecorder> history_;
+  std::optional<record::EnergyRecorder> energy_;
+  std::optional<record::ImpactRecorder> impacts_;
+  std::optional<record::ProgressBar> progress_;
+  std::optional<Checkpointer> checkpointer_;
+};
+
+}  // namespace butee::app

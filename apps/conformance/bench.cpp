@@ -1,0 +1,77 @@
+#include "apps/conformance/bench.hpp"
+
+#include <cmath>
+
+#include <butee/config/override.hpp>
+#include <butee/config/toml.hpp>
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
+
+namespace butee::conformance {
+
+Bench::Bench(const plugin::Catalogue& catalogue, const std::string& scene, const std::vector<std::string>& overrides)
+    : catalogue_(catalogue) {
+  config::Document document = config::parse_toml(scene, "the suite's scene");
+  for (const std::string& assignment : overrides) config::apply_override(document, assignment);
+  config::Diagnostics diagnostics(document);
+  scene_ = plugin::read_scene(document, catalogue_, diagnostics);
+  diagnostics.throw_if_any();
+  const auto& type = catalogue_.load(scene_.integrator->name);
+  if (type.check) type.check(scene_.integrator->parameters, diagnostics);
+  diagnostics.throw_if_any();
+  system_ = std::make_unique<model::System>(assemble(scene_.model));
+  dynamics_ = std::make_unique<solve::Dynamics>(*system_);
+  integrator_ = type.make(scene_.integrator->parameters, *dynamics_);
+  require(integrator_ != nullptr, "the maker of an integrator returns one");
+  simulation_ = std::make_unique<time::Simulation>(*dynamics_, *integrator_, scene_.integrator->options);
+}
+
+Index Bench::dof(const std::string& selector) const {
+  const auto selection = scene_.model.nodes.select(selector);
+  require(selection.nodes.size() == 1, "a selector of one node");
+  return system_->dofs.index({selection.nodes.front(), DofKind::u});
+}
+
+time::State Bench::initial_state() {
+  time::State state;
+  state.x = system_->initial_displacement;
+  state.v = system_->initial_velocity;
+  integrator_->start(state);
+  return state;
+}
+
+std::string integrator_table(const std::string& name, const std::string& keys, double time_step, double end_time) {
+  std::string table = "[integrator]\ntype = \"" + name + "\"\n";
+  table += "time_step = " + to_text(time_step) + "\n";
+  table += "end_time = " + to_text(end_time) + "\n";
+  return table + keys;
+}
+
+std::string integrator_table(const Subject& subject, double time_step, double end_time) {
+  return integrator_table(subject.name, subject.keys, time_step, end_time);
+}
+
+std::string rattling_beam(int elements, const std::string& law, const std::string& damping) {
+  std::string scene =
+      "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = 0.02\n"
+      "[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 4.0\nelements = ";
+  scene += std::to_string(elements);
+  scene +=
+      "\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n"
+      "[[contact]]\ntype = \"stop\"\nnodes = \"b:all\"\ngap = 1e-3\n";
+  scene += law;
+  scene +=
+      "[[load]]\ntype = \"harmonic\"\nnode = \"b:middle\"\namplitude = 500.0\nangular_frequency = 60.0\n"
+      "[initial]\nvelocity = [{nodes = \"b:1..5\", value = 0.8}]\n[damping]\n";
+  return scene + damping;
+}
+
+std::vector<std::string> accept_all(const Subject& subject) {
+  constexpr double kEverything = 1e30;
+  for (const config::Parameter& p : subject.catalogue.find(subject.name)->declaration.parameters)
+    if (p.name == "tolerance" && !subject.catalogue.find(subject.name)->declaration.fixed_step)
+      return {"integrator.tolerance=" + to_text(std::min(p.upper, kEverything))};
+  return {};
+}
+
+}  // namespace butee::conformance

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <butee/plugin/scene.hpp>
+
+#include "apps/conformance/check.hpp"
+
+namespace butee::conformance {
+
+/// A scene that a check looks at, assembled with the method it names.
+class Bench {
+ public:
+  /// Reads `scene`; with `overrides` such as "integrator.tolerance=1e-8". Throws InputError where it is refused.
+  Bench(const plugin::Catalogue& catalogue, const std::string& scene, const std::vector<std::string>& overrides = {});
+
+  const model::System& system() const { return *system_; }
+  solve::Dynamics& dynamics() { return *dynamics_; }
+  time::Integrator& integrator() { return *integrator_; }
+  time::Simulation& simulation() { return *simulation_; }
+  /// The free DOF u of a selector that names one node.
+  Index dof(const std::string& selector) const;
+  /// The scene's initial state, completed by the method.
+  time::State initial_state();
+
+ private:
+  plugin::Catalogue catalogue_;
+  plugin::Scene scene_;
+  std::unique_ptr<model::System> system_;
+  std::unique_ptr<solve::Dynamics> dynamics_;
+  std::unique_ptr<time::Integrator> integrator_;
+  std::unique_ptr<time::Simulation> simulation_;
+};
+
+/// "[integrator]" for the subject.
+std::string integrator_table(const Subject& subject, double time_step, double end_time);
+/// The same for a method of butee's own with these TOML lines.
+std::string integrator_table(const std::string& name, const std::string& keys, double time_step, double end_time);
+
+/// A short pinned beam of `elements` elements that strikes its stops at once. `law` and `damping` are TOML lines.
+std::string rattling_beam(int elements, const std::string& law, const std::string& damping);
+
+/// Laws for it: one that its motion resolves, and one with a kink.
+inline constexpr const char* kBentLaw = "law = \"arctan\"\nstiffness = 1e6\nregularization = 1e5\n";
+inline constexpr const char* kLinearLaw = "law = \"linear\"\nstiffness = 1e6\n";
+inline constexpr const char* kRayleighDamping = "mass_proportional = 0.5\nstiffness_proportional = 1e-5\n";
+
+/// The overrides with which an adaptive method accepts every step, so that equal steps can be taken with it: the
+/// loosest tolerance that its declaration allows.
+std::vector<std::string> accept_all(const Subject& subject);
+
+}  // namespace butee::conformance

@@ -1,0 +1,71 @@
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <butee/core/text.hpp>
+
+#include "apps/conformance/bench.hpp"
+
+namespace butee::conformance {
+namespace {
+
+/// A beam, two masses on springs, and the element under test.
+std::string scene(const Subject& subject) {
+  std::string text =
+      "schema = 1\n[material.steel]\nyoung_modulus = 2e11\ndensity = 7900\n[section.pipe]\nshape = \"circle\"\nradius "
+      "= 0.02\n"
+      "[[element]]\ntype = \"beam\"\nname = \"string\"\nmaterial = \"steel\"\nsection = \"pipe\"\nlength = "
+      "4.0\nelements = 4\n"
+      "[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 2.0\n[[element]]\ntype = \"mass\"\nname = \"b\"\nmass = 1.0\n"
+      "[[element]]\ntype = \"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 500.0\n[[element]]\ntype = \"";
+  text += subject.name + "\"\n" + subject.keys;
+  text +=
+      "[[support]]\nnodes = [\"string:first\", \"string:last\"]\nfix = [\"u\"]\n"
+      "[initial]\nvelocity = [{nodes = \"string:2\", value = 0.1}, {nodes = \"a\", value = 0.1}]\n";
+  return text;
+}
+
+std::string complaint(const std::string& name, const SparseMatrix& sparse) {
+  if (sparse.size() == 0) return "";
+  const Eigen::MatrixXd matrix(sparse);
+  if (!matrix.allFinite()) return name + " is not finite";
+  // Sums of symmetric contributions round alike; a semi-definite matrix has eigenvalues of rounding.
+  constexpr double kRounding = 1e-12;
+  const double scale = matrix.cwiseAbs().maxCoeff();
+  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kRounding * scale) return name + " is not symmetric";
+  const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (lowest < -1e3 * kRounding * scale)
+    return name + " is indefinite: its lowest eigenvalue is " + to_short_text(lowest);
+  return "";
+}
+
+Finding check_matrices(const Subject& subject) {
+  Bench bench(subject.catalogue, scene(subject) + integrator_table("rk4", "", 1e-6, 1e-3));
+  const model::System& system = bench.system();
+  for (const auto& found :
+       {complaint("the mass matrix", system.mass), complaint("the stiffness matrix", system.stiffness),
+        complaint("the damping matrix", system.dashpots)})
+    if (!found.empty()) return {false, found};
+  return {true, "symmetric and not negative, " + std::to_string(system.size()) + " free DOFs"};
+}
+
+/// Without loads and stops no energy may come from anywhere.
+Finding check_motion(const Subject& subject) {
+  Bench bench(subject.catalogue, scene(subject) + integrator_table("rodas4", "tolerance = 1e-6\n", 1e-5, 0.2));
+  const auto energy = [&](const time::State& state) {
+    return 0.5 * state.v.dot(bench.system().mass * state.v) + 0.5 * state.x.dot(bench.system().stiffness * state.x);
+  };
+  const double before = energy(bench.initial_state());
+  if (!bench.simulation().run().completed) return {false, bench.simulation().report().message};
+  const double after = energy(bench.simulation().state());
+  return {after <= before * (1.0 + 1e-3),
+          "free motion keeps " + to_short_text(100.0 * after / before) + " % of its energy over 0.2 s"};
+}
+
+}  // namespace
+
+std::vector<Check> element_checks() {
+  return {{"matrices", "mass, damping and stiffness are symmetric and not negative", check_matrices},
+          {"motion", "free motion gains no energy", check_motion}};
+}
+
+}  // namespace butee::conformance

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <functional>
+
+#include "apps/conformance/check.hpp"
+
+namespace butee::conformance {
+
+/// Runs `work` in a process of its own: a signal, an exception or more than `time_limit` seconds are findings.
+Finding run_isolated(const std::function<Finding()>& work, double time_limit);
+
+}  // namespace butee::conformance

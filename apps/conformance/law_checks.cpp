@@ -1,0 +1,146 @@
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <butee/config/toml.hpp>
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
+
+#include "apps/conformance/bench.hpp"
+
+namespace butee::conformance {
+namespace {
+
+/// The law of a stop with the subject's keys.
+std::unique_ptr<model::ContactLaw> make_law(const Subject& subject) {
+  const config::Document document = config::parse_toml(subject.keys, "the suite's law");
+  config::Diagnostics diagnostics(document);
+  const auto* type = model::find_type(subject.catalogue.types().laws, subject.name);
+  const auto parameters = config::read_parameters(document.root, "contact[0]", type->parameters, diagnostics);
+  diagnostics.throw_if_any();
+  auto law = type->make(*parameters, diagnostics);
+  diagnostics.throw_if_any();
+  require(law != nullptr, "the maker of a law returns one");
+  return law;
+}
+
+/// Penetrations from 1 nm to 1 m, open and closed.
+std::vector<double> penetrations() {
+  std::vector<double> g;
+  for (int decade = -9; decade <= 0; ++decade)
+    for (const double digit : {1.0, 2.7, 6.1})
+      for (const double sign : {1.0, -1.0}) g.push_back(sign * digit * std::pow(10.0, decade));
+  return g;
+}
+
+double force(const model::ContactLaw& law, double g) {
+  return law.secant(g) * g;
+}
+
+/// Differences over 1e-5 of g leave 1e-10 of a smooth function; bends within that reach are allowed for.
+constexpr double kReach = 1e-5, kDifference = 1e-6;
+
+Finding check_derivatives(const Subject& subject) {
+  const auto law = make_law(subject);
+  if (law->energy(0.0) != 0.0) return {false, "V(0) = " + to_text(law->energy(0.0)) + " instead of 0"};
+  for (const double g : penetrations()) {
+    const double d = kReach * std::abs(g),
+                 scale = std::abs(force(*law, g)) + 1e-12 * law->closed_stiffness() * std::abs(g);
+    const double slope = (law->energy(g + d) - law->energy(g - d)) / (2.0 * d);
+    // An energy of both signs loses digits where it is much larger than F g.
+    const double lost = 1e-15 * std::abs(law->energy(g)) / d;
+    if (!(std::abs(slope - force(*law, g)) <= kDifference * scale + lost))
+      return {false, "at g = " + to_short_text(g) + " m dV/dg = " + to_text(slope) +
+                         " and F = K_c g = " + to_text(force(*law, g))};
+    const double tangent = (force(*law, g + d) - force(*law, g - d)) / (2.0 * d);
+    if (!(std::abs(tangent - law->tangent(g)) <=
+          kDifference * (std::abs(law->tangent(g)) + 1e-6 * law->closed_stiffness())))
+      return {false, "at g = " + to_short_text(g) + " m dF/dg = " + to_text(tangent) +
+                         " and tangent() = " + to_text(law->tangent(g))};
+  }
+  return {true, "dV/dg = F and dF/dg = tangent from 1 nm to 6 m"};
+}
+
+Finding check_batches(const Subject& subject) {
+  const auto law = make_law(subject);
+  const auto g = penetrations();
+  // A law may take another formula for many stops, good to the last digits of k_c.
+  const double rounding = 1e-13 * law->closed_stiffness();
+  for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{17}, g.size()}) {
+    std::vector<double> secant(count), again(count), tangent(count);
+    law->secants({g.data(), count}, secant);
+    law->tangents({g.data(), count}, again, tangent);
+    for (std::size_t i = 0; i < count; ++i)
+      for (const auto& [name, got, expected] : {std::tuple("secants()", secant[i], law->secant(g[i])),
+                                                std::tuple("the secants of tangents()", again[i], law->secant(g[i])),
+                                                std::tuple("tangents()", tangent[i], law->tangent(g[i]))})
+        if (!(std::abs(got - expected) <= 1e-12 * std::abs(expected) + rounding))
+          return {false, std::string(name) + " for " + std::to_string(count) + " stops gives " + to_text(got) +
+                             " at g = " + to_short_text(g[i]) + " m, one stop " + to_text(expected)};
+  }
+  return {true, "one stop or many, the same"};
+}
+
+Finding check_bounds(const Subject& subject) {
+  const auto law = make_law(subject);
+  if (!(law->closed_stiffness() > 0.0) || !std::isfinite(law->closed_stiffness()))
+    return {false, "closed_stiffness() = " + to_text(law->closed_stiffness()) + " N/m"};
+  for (const double g : penetrations()) {
+    if (!std::isfinite(law->secant(g) + law->tangent(g) + law->energy(g)))
+      return {false, "not finite at g = " + to_short_text(g) + " m"};
+    if (g > 0.0 && force(*law, g) < 0.0) return {false, "pulls at a penetration of " + to_short_text(g) + " m"};
+  }
+  if (const double pull = std::abs(force(*law, -1.0)); pull > law->far_force() * (1.0 + 1e-6) + 1e-300)
+    return {false, "acts with " + to_short_text(pull) + " N on a stop that is open by 1 m; far_force() says " +
+                       to_short_text(law->far_force())};
+  for (const double g : {0.0, -0.0})
+    if (!std::isfinite(law->secant(g) + law->tangent(g))) return {false, "not finite at g = 0"};
+  return {true,
+          "finite from 1 nm to 6 m, never pulls closed, k_c = " + to_short_text(law->closed_stiffness()) + " N/m"};
+}
+
+Finding check_series(const Subject& subject) {
+  const auto law = make_law(subject);
+  if (law->is_piecewise_linear()) return {true, "piecewise linear"};
+  const auto series = law->force_series();
+  if (series == nullptr) return {true, "none, so that the method `exact` does not take it"};
+  for (const double g : {1e-6, 1e-4, 1e-2}) {
+    // F(g + rate s) at s = 1 from twelve terms, of which each is a twentieth of the last.
+    std::array<double, 12> path{};
+    path[0] = g;
+    path[1] = 0.01 * g;
+    double sum = 0.0;
+    for (std::size_t n = 0; n < path.size(); ++n) sum += series->next({path.data(), n + 1});
+    const double expected = force(*law, g + path[1]);
+    if (!(std::abs(sum - expected) <= 1e-9 * std::abs(expected)))
+      return {false,
+              "at g = " + to_short_text(g) + " m the series gives " + to_text(sum) + " N, F is " + to_text(expected)};
+  }
+  return {true, "the Taylor series sums to the force"};
+}
+
+/// A mass thrown at a stop: what it gives to the stop it gets back.
+Finding check_rebound(const Subject& subject) {
+  std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n"
+      "[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n"
+      "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\nsides = \"positive\"\ngap = 0.01\nlaw = \"";
+  scene += subject.name + "\"\n" + subject.keys;
+  Bench bench(subject.catalogue, scene + integrator_table("dopri5", "tolerance = 1e-8\n", 1e-6, 0.5));
+  const auto& report = bench.simulation().run();
+  if (!report.completed) return {false, report.message};
+  const double v = bench.simulation().state().v[0];
+  return {std::abs(v + 1.0) <= 1e-4, "thrown at 1 m/s it comes back with " + to_short_text(-v) + " m/s"};
+}
+
+}  // namespace
+
+std::vector<Check> law_checks() {
+  return {{"bounds", "force, stiffness and energy are finite, and a closed stop never pulls", check_bounds},
+          {"derivatives", "the force is the slope of the energy, the tangent that of the force", check_derivatives},
+          {"batches", "the loops over many stops give what a single stop gives", check_batches},
+          {"series", "a Taylor series, where there is one, sums to the force", check_series},
+          {"rebound", "a stop gives back what it took", check_rebound}};
+}
+
+}  // namespace butee::conformance

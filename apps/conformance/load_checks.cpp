@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <butee/config/toml.hpp>
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
+
+#include "apps/conformance/bench.hpp"
+
+namespace butee::conformance {
+namespace {
+
+std::unique_ptr<model::TimeFunction> make_load(const Subject& subject) {
+  const config::Document document = config::parse_toml(subject.keys, "the suite's load");
+  config::Diagnostics diagnostics(document);
+  const auto* type = model::find_type(subject.catalogue.types().loads, subject.name);
+  const auto parameters = config::read_parameters(document.root, "load[0]", type->parameters, diagnostics);
+  diagnostics.throw_if_any();
+  auto load = type->make(*parameters, diagnostics);
+  diagnostics.throw_if_any();
+  require(load != nullptr, "the maker of a load returns one");
+  return load;
+}
+
+/// Instants from 0 to 10 s that hit no round number.
+std::vector<double> instants() {
+  std::vector<double> t;
+  for (int i = 0; i < 400; ++i) t.push_back(0.025 * i + 0.0013 * std::sin(1.7 * i) + 0.0021);
+  return t;
+}
+
+double largest(const model::TimeFunction& load) {
+  double value = 0.0;
+  for (const double t : instants()) value = std::max(value, std::abs(load.value(t)));
+  return value;
+}
+
+/// True where no kink lies in [t, t + h].
+bool is_smooth(const model::TimeFunction& load, double t, double h) {
+  const auto kinks = load.kinks();
+  return std::none_of(kinks.begin(), kinks.end(), [&](double kink) { return kink >= t && kink <= t + h; });
+}
+
+Finding check_values(const Subject& subject) {
+  const auto load = make_load(subject);
+  double jump = 0.0, at = 0.0;
+  for (const double t : instants()) {
+    if (!std::isfinite(load->value(t))) return {false, "not finite at t = " + to_short_text(t) + " s"};
+    if (load->value(t) != load->value(t)) return {false, "another value at the same t = " + to_short_text(t) + " s"};
+    if (load->vanishes() && load->value(t) != 0.0)
+      return {false, "vanishes() is true and the value at " + to_short_text(t) + " s is not 0"};
+    constexpr double kInstant = 1e-9;
+    if (const double step = std::abs(load->value(t + kInstant) - load->value(t));
+        is_smooth(*load, t, kInstant) && step > jump)
+      jump = step, at = t;
+  }
+  if (jump > 1e-3 * largest(*load))
+    return {false, "jumps at t = " + to_short_text(at) + " s, which kinks() does not say"};
+  return {true, "finite, largest value " + to_short_text(largest(*load)) + " in 10 s"};
+}
+
+Finding check_kinks(const Subject& subject) {
+  const auto kinks = make_load(subject)->kinks();
+  for (const double kink : kinks)
+    if (!std::isfinite(kink)) return {false, "one of the kinks is not finite"};
+  return {std::is_sorted(kinks.begin(), kinks.end()), std::to_string(kinks.size()) + " kinks, ascending"};
+}
+
+Finding check_taylor(const Subject& subject) {
+  const auto load = make_load(subject);
+  std::array<double, 12> series{};
+  if (!load->taylor(0.0, 1e-3, series))
+    return {true, "none, so that the methods `exact` and `exponential` do not take it"};
+  const double scale = largest(*load);
+  for (const double t : instants()) {
+    constexpr double kSpan = 1e-3;
+    if (!is_smooth(*load, t, kSpan)) continue;
+    if (!load->taylor(t, kSpan, series)) return {false, "a series at t = 0 and none at " + to_short_text(t) + " s"};
+    double sum = 0.0;
+    for (std::size_t k = series.size(); k-- > 0;) sum = 0.5 * sum + series[k];
+    const double expected = load->value(t + 0.5 * kSpan);
+    // Twelve terms over a millisecond: rounding, for whatever changes within more than some tenths of one.
+    if (!(std::abs(sum - expected) <= 1e-9 * scale))
+      return {false, "from t = " + to_short_text(t) + " s the series gives " + to_text(sum) +
+                         " half a millisecond later, value() " + to_text(expected)};
+  }
+  return {true, "the Taylor series sums to the value"};
+}
+
+Finding check_harmonic(const Subject& subject) {
+  const auto load = make_load(subject);
+  const auto harmonic = load->harmonic();
+  if (!harmonic) return {true, "no pure harmonic"};
+  for (const double t : instants()) {
+    const double expected = harmonic->amplitude * std::cos(harmonic->angular_frequency * t + harmonic->phase);
+    if (!(std::abs(expected - load->value(t)) <= 1e-10 * std::abs(harmonic->amplitude)))
+      return {false, "harmonic() gives " + to_text(expected) + " at t = " + to_short_text(t) + " s, value() " +
+                         to_text(load->value(t))};
+  }
+  return {true, "harmonic() is the value"};
+}
+
+/// A mass on a spring under the load, by two methods.
+Finding check_motion(const Subject& subject) {
+  std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\n"
+      "stiffness = 900.0\n[initial]\ndisplacement = [{nodes = \"m\", value = 0.01}]\n[[load]]\nnode = \"m\"\ntype = \"";
+  scene += subject.name + "\"\n" + subject.keys;
+  Bench one(subject.catalogue, scene + integrator_table("rk4", "", 1e-4, 1.0));
+  Bench other(subject.catalogue, scene + integrator_table("newmark_modified", "", 1e-4, 1.0));
+  for (Bench* bench : {&one, &other})
+    if (!bench->simulation().run().completed) return {false, bench->simulation().report().message};
+  const double x = one.simulation().state().x[0], y = other.simulation().state().x[0];
+  const double scale = std::abs(x) + std::abs(one.simulation().state().v[0]) / 30.0 + 0.01;
+  return {std::abs(x - y) <= 1e-3 * scale, "a mass on a spring moves to " + to_short_text(x) + " m with rk4, " +
+                                               to_short_text(y) + " m with newmark_modified"};
+}
+
+}  // namespace
+
+std::vector<Check> load_checks() {
+  return {{"values", "finite, and jumps only where kinks() says so", check_values},
+          {"kinks", "the kinks are ascending", check_kinks},
+          {"series", "the Taylor series, where there is one, sums to the value", check_taylor},
+          {"harmonic", "harmonic(), where it says something, is the value", check_harmonic},
+          {"motion", "two methods agree on the motion under the load", check_motion}};
+}
+
+}  // namespace butee::conformance

@@ -1,0 +1,121 @@
+#include <cmath>
+
+#include <butee/core/text.hpp>
+
+#include "apps/conformance/allocation_count.hpp"
+#include "apps/conformance/bench.hpp"
+#include "apps/conformance/integrator_checks.hpp"
+
+namespace butee::conformance {
+namespace {
+
+using time::State;
+using time::StepStatus;
+
+constexpr double kStep = 1e-5, kEnd = 2e-2;
+
+Bench beam(const Subject& subject) {
+  return {subject.catalogue, rattling_beam(6, kBentLaw, kRayleighDamping) + integrator_table(subject, kStep, kEnd)};
+}
+
+/// So many steps, but not past the middle of the run.
+void advance(Bench& bench, int steps) {
+  for (int i = 0; i < steps && bench.simulation().state().t < 0.5 * kEnd; ++i)
+    if (!bench.simulation().advance()) return;
+}
+
+/// "" where two states are equal to the last bit, else where they differ.
+std::string difference(const State& a, const State& b) {
+  if (a.t != b.t) return "t " + to_text(a.t) + " and " + to_text(b.t);
+  for (const auto& [name, one, other] : {std::tuple("x", &a.x, &b.x), std::tuple("v", &a.v, &b.v),
+                                         std::tuple("a", &a.a, &b.a), std::tuple("memory", &a.memory, &b.memory)}) {
+    if (one->size() != other->size()) return std::string(name) + " has another length";
+    if (*one != *other)
+      return std::string(name) + " differs by up to " + to_short_text((*one - *other).cwiseAbs().maxCoeff());
+  }
+  return "";
+}
+
+}  // namespace
+
+Finding check_purity(const Subject& subject) {
+  Bench bench = beam(subject);
+  advance(bench, 50);
+  const State from = bench.simulation().state();
+  State first, other, again;
+  bench.integrator().step(from, {kStep, from.t + kStep}, first);
+  for (const double h : {2e-5, 7e-6, 1e-7}) bench.integrator().step(first, {h, first.t + h}, other);
+  bench.integrator().step(from, {kStep, from.t + kStep}, again);
+  const std::string found = difference(first, again);
+  return {found.empty(), found.empty() ? "the same bits after other steps"
+                                       : "the same step from the same state, after others: " + found +
+                                             ". What a method remembers belongs into State::memory"};
+}
+
+Finding check_restart(const Subject& subject) {
+  Bench bench = beam(subject), fresh = beam(subject);
+  advance(bench, 200);
+  const State from = bench.simulation().state();
+  State continued, restarted;
+  bench.integrator().step(from, {3e-6, from.t + 3e-6}, continued);
+  fresh.integrator().step(from, {3e-6, from.t + 3e-6}, restarted);
+  const std::string found = difference(continued, restarted);
+  return {found.empty(), found.empty() ? "the same bits from a new integrator"
+                                       : "a new integrator goes on differently from the same state: " + found +
+                                             ". What a method remembers belongs into State::memory"};
+}
+
+Finding check_interpolation(const Subject& subject) {
+  Bench bench = beam(subject);
+  advance(bench, 20);
+  const State from = bench.simulation().state();
+  State to;
+  if (bench.integrator().step(from, {kStep, from.t + kStep}, to).status != StepStatus::ok)
+    return {false, "a step of 1e-5 s failed"};
+  const Index dof = bench.dof("b:middle");
+  // The ends are met up to the rounding of the weights of the interpolation.
+  constexpr double kRounding = 1e-13;
+  for (const State* end : {&from, static_cast<const State*>(&to)}) {
+    double x = 0.0, v = 0.0, a = 0.0;
+    bench.integrator().interpolate(from, to, end->t, {&dof, 1}, {{&x, 1}, {&v, 1}, {&a, 1}});
+    for (const auto& [name, got, expected] :
+         {std::tuple("x", x, end->x[dof]), std::tuple("v", v, end->v[dof]), std::tuple("a", a, end->a[dof])})
+      if (!(std::abs(got - expected) <= kRounding * std::abs(expected)))
+        return {false, std::string("at an end of the step ") + name + " is " + to_text(got) + " instead of " +
+                           to_text(expected)};
+  }
+  return {true, "meets both ends of a step"};
+}
+
+Finding check_allocation(const Subject& subject) {
+  if (allocation_count() < 0) return {true, "not counted under the sanitizers"};
+  // Modal damping of every mode makes the large system dense, that of two modes a sparse one of low rank.
+  for (const auto& [elements, damping] :
+       {std::pair(6, "mass_proportional = 0.5\n"), std::pair(100, "mass_proportional = 0.5\n"),
+        std::pair(6, "modal = 0.02\n"), std::pair(100, "modal = 0.02\n"), std::pair(100, "modal = [0.02, 0.01]\n")}) {
+    Bench bench(subject.catalogue, rattling_beam(elements, kBentLaw, damping) + integrator_table(subject, 1e-6, 1.0));
+    for (int i = 0; i < 20; ++i)
+      if (!bench.simulation().advance()) return {false, bench.simulation().report().message};
+    const State begin = bench.simulation().state();
+    State from, to;
+    const auto take_steps = [&] {
+      from = begin;
+      for (int i = 0; i < 100; ++i) {
+        bench.integrator().step(from, {1e-6, from.t + 1e-6}, to);
+        std::swap(from, to);
+      }
+    };
+    // The same way again: caches, such as the pieces of a step with many changes of contact, grow at their first use,
+    // and a warning that fifteen steps in a row give rise to comes once.
+    take_steps();
+    take_steps();
+    const long before = allocation_count();
+    take_steps();
+    if (const long made = allocation_count() - before; made > 0)
+      return {false, std::to_string(made) + " allocations in 100 steps of a beam of " + std::to_string(elements) +
+                         " elements with " + damping};
+  }
+  return {true, "none in 100 steps of five scenes"};
+}
+
+}  // namespace butee::conformance

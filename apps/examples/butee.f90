@@ -1,0 +1,191 @@
+! The Fortran 2003 interface of butee, over butee.h. Compile it with your own compiler and link with libbutee.
+!
+! Every function returns butee_ok or what went wrong; butee_message() says it in words. Degrees of freedom count from 0.
+module butee
+  use, intrinsic :: iso_c_binding
+  implicit none
+  private
+  public :: butee_open_file, butee_open_text, butee_close, butee_size, butee_dof, butee_time, butee_advance_to, &
+            butee_advance_step, butee_motion, butee_all_motion, butee_set_motion, butee_set_force, &
+            butee_set_force_line, butee_contact_force, butee_energy, butee_save, butee_restore, butee_free_snapshot, &
+            butee_message, butee_version
+
+  integer(c_int), parameter, public :: butee_ok = 0, butee_run_failed = 1, butee_bad_input = 2, butee_bad_call = 3
+  integer(c_int), parameter, public :: butee_u = 0, butee_theta = 1
+
+  interface
+    function c_open_file(path, forced, made) bind(c, name="butee_open_file") result(status)
+      import :: c_int, c_char, c_ptr
+      character(kind=c_char), intent(in) :: path(*), forced(*)
+      type(c_ptr), intent(out) :: made
+      integer(c_int) :: status
+    end function
+    function c_open_text(toml, forced, made) bind(c, name="butee_open_text") result(status)
+      import :: c_int, c_char, c_ptr
+      character(kind=c_char), intent(in) :: toml(*), forced(*)
+      type(c_ptr), intent(out) :: made
+      integer(c_int) :: status
+    end function
+    subroutine butee_close(structure) bind(c)
+      import :: c_ptr
+      type(c_ptr), value :: structure
+    end subroutine
+    function butee_size(structure, size) bind(c) result(status)
+      import :: c_int, c_int64_t, c_ptr
+      type(c_ptr), value :: structure
+      integer(c_int64_t), intent(out) :: size
+      integer(c_int) :: status
+    end function
+    function c_dof(structure, selector, kind, dof) bind(c, name="butee_dof") result(status)
+      import :: c_int, c_int64_t, c_char, c_ptr
+      type(c_ptr), value :: structure
+      character(kind=c_char), intent(in) :: selector(*)
+      integer(c_int), value :: kind
+      integer(c_int64_t), intent(out) :: dof
+      integer(c_int) :: status
+    end function
+    function butee_time(structure, t) bind(c) result(status)
+      import :: c_int, c_double, c_ptr
+      type(c_ptr), value :: structure
+      real(c_double), intent(out) :: t
+      integer(c_int) :: status
+    end function
+    function butee_advance_to(structure, t) bind(c) result(status)
+      import :: c_int, c_double, c_ptr
+      type(c_ptr), value :: structure
+      real(c_double), value :: t
+      integer(c_int) :: status
+    end function
+    function butee_advance_step(structure, limit, t) bind(c) result(status)
+      import :: c_int, c_double, c_ptr
+      type(c_ptr), value :: structure
+      real(c_double), value :: limit
+      real(c_double), intent(out) :: t
+      integer(c_int) :: status
+    end function
+    function butee_motion(structure, dof, u, v, a) bind(c) result(status)
+      import :: c_int, c_int64_t, c_double, c_ptr
+      type(c_ptr), value :: structure
+      integer(c_int64_t), value :: dof
+      real(c_double), intent(out) :: u, v, a
+      integer(c_int) :: status
+    end function
+    function butee_all_motion(structure, size, u, v, a) bind(c) result(status)
+      import :: c_int, c_int64_t, c_double, c_ptr
+      type(c_ptr), value :: structure
+      integer(c_int64_t), value :: size
+      real(c_double), intent(out) :: u(size), v(size), a(size)
+      integer(c_int) :: status
+    end function
+    function butee_set_motion(structure, size, u, v) bind(c) result(status)
+      import :: c_int, c_int64_t, c_double, c_ptr
+      type(c_ptr), value :: structure
+      integer(c_int64_t), value :: size
+      real(c_double), intent(in) :: u(size), v(size)
+      integer(c_int) :: status
+    end function
+    function butee_set_force(structure, dof, force) bind(c) result(status)
+      import :: c_int, c_int64_t, c_double, c_ptr
+      type(c_ptr), value :: structure
+      integer(c_int64_t), value :: dof
+      real(c_double), value :: force
+      integer(c_int) :: status
+    end function
+    function butee_set_force_line(structure, dof, from, to, until) bind(c) result(status)
+      import :: c_int, c_int64_t, c_double, c_ptr
+      type(c_ptr), value :: structure
+      integer(c_int64_t), value :: dof
+      real(c_double), value :: from, to, until
+      integer(c_int) :: status
+    end function
+    function butee_contact_force(structure, dof, force) bind(c) result(status)
+      import :: c_int, c_int64_t, c_double, c_ptr
+      type(c_ptr), value :: structure
+      integer(c_int64_t), value :: dof
+      real(c_double), intent(out) :: force
+      integer(c_int) :: status
+    end function
+    function butee_energy(structure, kinetic, strain, contact) bind(c) result(status)
+      import :: c_int, c_double, c_ptr
+      type(c_ptr), value :: structure
+      real(c_double), intent(out) :: kinetic, strain, contact
+      integer(c_int) :: status
+    end function
+    function butee_save(structure, made) bind(c) result(status)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: structure
+      type(c_ptr), intent(out) :: made
+      integer(c_int) :: status
+    end function
+    function butee_restore(structure, snapshot) bind(c) result(status)
+      import :: c_int, c_ptr
+      type(c_ptr), value :: structure, snapshot
+      integer(c_int) :: status
+    end function
+    subroutine butee_free_snapshot(snapshot) bind(c)
+      import :: c_ptr
+      type(c_ptr), value :: snapshot
+    end subroutine
+    function c_message() bind(c, name="butee_message") result(text)
+      import :: c_ptr
+      type(c_ptr) :: text
+    end function
+    function c_version() bind(c, name="butee_version") result(text)
+      import :: c_ptr
+      type(c_ptr) :: text
+    end function
+    function c_strlen(text) bind(c, name="strlen") result(length)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: text
+      integer(c_size_t) :: length
+    end function
+  end interface
+
+contains
+
+  function butee_open_file(path, forced, made) result(status)
+    character(*), intent(in) :: path, forced
+    type(c_ptr), intent(out) :: made
+    integer(c_int) :: status
+    status = c_open_file(trim(path)//c_null_char, trim(forced)//c_null_char, made)
+  end function
+
+  function butee_open_text(toml, forced, made) result(status)
+    character(*), intent(in) :: toml, forced
+    type(c_ptr), intent(out) :: made
+    integer(c_int) :: status
+    status = c_open_text(trim(toml)//c_null_char, trim(forced)//c_null_char, made)
+  end function
+
+  function butee_dof(structure, selector, kind, dof) result(status)
+    type(c_ptr), intent(in) :: structure
+    character(*), intent(in) :: selector
+    integer(c_int), intent(in) :: kind
+    integer(c_int64_t), intent(out) :: dof
+    integer(c_int) :: status
+    status = c_dof(structure, trim(selector)//c_null_char, kind, dof)
+  end function
+
+  function butee_message() result(text)
+    character(:), allocatable :: text
+    text = to_text(c_message())
+  end function
+
+  function butee_version() result(text)
+    character(:), allocatable :: text
+    text = to_text(c_version())
+  end function
+
+  function to_text(from) result(text)
+    type(c_ptr), intent(in) :: from
+    character(:), allocatable :: text
+    character(kind=c_char), pointer :: letters(:)
+    integer :: i
+    call c_f_pointer(from, letters, [c_strlen(from)])
+    allocate (character(size(letters)) :: text)
+    do i = 1, size(letters)
+      text(i:i) = letters(i)
+    end do
+  end function
+
+end module butee

@@ -1,0 +1,210 @@
+#include <new>
+#include <sstream>
+
+#include <butee/version.hpp>
+
+#include "butee/core/error.hpp"
+#include "butee/embed/butee.h"
+#include "butee/embed/structure.hpp"
+
+using butee::embed::Structure;
+using butee::embed::StructureOptions;
+
+struct butee_structure {
+  Structure structure;
+};
+
+struct butee_snapshot {
+  Structure::Snapshot snapshot;
+};
+
+namespace {
+
+thread_local std::string last_message;
+
+/// Runs `work` and turns whatever it throws into a status and a message.
+template <class Work>
+int guarded(const Work& work) noexcept {
+  try {
+    try {
+      work();
+      return BUTEE_OK;
+    } catch (const butee::InputError& error) {
+      last_message = error.what();
+      return BUTEE_BAD_INPUT;
+    } catch (const butee::LogicError& error) {
+      last_message = std::string("butee needs ") + error.what();
+      return BUTEE_BAD_CALL;
+    } catch (const std::bad_alloc&) {
+      last_message = "out of memory";
+    } catch (const std::exception& error) {
+      last_message = error.what();
+    }
+  } catch (...) {
+    last_message.clear();
+  }
+  return BUTEE_RUN_FAILED;
+}
+
+template <class... Pointers>
+void need(const Pointers*... pointers) {
+  butee::require((... && (pointers != nullptr)), "pointers that are not null");
+}
+
+StructureOptions options_of(const char* forced) {
+  StructureOptions options;
+  std::istringstream words(forced != nullptr ? forced : "");
+  for (std::string word; words >> word;) options.forced.push_back(word);
+  return options;
+}
+
+void put(double* where, double value) {
+  if (where != nullptr) *where = value;
+}
+
+butee::Index checked(const butee_structure* structure, std::int64_t dof) {
+  need(structure);
+  butee::require(dof >= 0 && dof < structure->structure.size(), "a degree of freedom from 0 to size - 1");
+  return dof;
+}
+
+}  // namespace
+
+extern "C" {
+
+const char* butee_version(void) {
+  return BUTEE_VERSION;
+}
+
+const char* butee_message(void) {
+  return last_message.c_str();
+}
+
+int butee_open_file(const char* path, const char* forced, butee_structure** made) {
+  return guarded([&] {
+    need(path, made);
+    *made = nullptr;
+    *made = new butee_structure{Structure::from_file(path, options_of(forced))};
+  });
+}
+
+int butee_open_text(const char* toml, const char* forced, butee_structure** made) {
+  return guarded([&] {
+    need(toml, made);
+    *made = nullptr;
+    *made = new butee_structure{Structure::from_toml(toml, options_of(forced))};
+  });
+}
+
+void butee_close(butee_structure* structure) {
+  delete structure;
+}
+
+int butee_size(const butee_structure* structure, int64_t* size) {
+  return guarded([&] {
+    need(structure, size);
+    *size = structure->structure.size();
+  });
+}
+
+int butee_dof(const butee_structure* structure, const char* selector, int kind, int64_t* dof) {
+  return guarded([&] {
+    need(structure, selector, dof);
+    butee::require(kind == BUTEE_U || kind == BUTEE_THETA, "BUTEE_U or BUTEE_THETA as the kind");
+    *dof = structure->structure.dof(selector, kind == BUTEE_U ? butee::DofKind::u : butee::DofKind::theta);
+  });
+}
+
+int butee_time(const butee_structure* structure, double* t) {
+  return guarded([&] {
+    need(structure, t);
+    *t = structure->structure.time();
+  });
+}
+
+int butee_advance_to(butee_structure* structure, double t) {
+  return guarded([&] {
+    need(structure);
+    structure->structure.advance_to(t);
+  });
+}
+
+int butee_advance_step(butee_structure* structure, double limit, double* t) {
+  return guarded([&] {
+    need(structure, t);
+    *t = structure->structure.advance_step(limit);
+  });
+}
+
+int butee_motion(const butee_structure* structure, int64_t dof, double* u, double* v, double* a) {
+  return guarded([&] {
+    const butee::Index index = checked(structure, dof);
+    put(u, structure->structure.displacement(index));
+    put(v, structure->structure.velocity(index));
+    put(a, structure->structure.acceleration(index));
+  });
+}
+
+int butee_all_motion(const butee_structure* structure, int64_t size, double* u, double* v, double* a) {
+  return guarded([&] {
+    need(structure);
+    const butee::time::State& state = structure->structure.state();
+    butee::require(size == state.x.size(), "arrays of the structure's size");
+    for (const auto& [to, from] : {std::pair(u, &state.x), std::pair(v, &state.v), std::pair(a, &state.a)})
+      if (to != nullptr) Eigen::Map<butee::Vector>(to, size) = *from;
+  });
+}
+
+int butee_set_motion(butee_structure* structure, int64_t size, const double* u, const double* v) {
+  return guarded([&] {
+    need(structure, u, v);
+    butee::require(size == structure->structure.size(), "arrays of the structure's size");
+    structure->structure.set_motion(Eigen::Map<const butee::Vector>(u, size), Eigen::Map<const butee::Vector>(v, size));
+  });
+}
+
+int butee_set_force(butee_structure* structure, int64_t dof, double value) {
+  return guarded([&] { structure->structure.set_force(checked(structure, dof), value); });
+}
+
+int butee_set_force_line(butee_structure* structure, int64_t dof, double from, double to, double until) {
+  return guarded([&] { structure->structure.set_force(checked(structure, dof), from, to, until); });
+}
+
+int butee_contact_force(const butee_structure* structure, int64_t dof, double* force) {
+  return guarded([&] {
+    need(force);
+    *force = structure->structure.contact_force(checked(structure, dof));
+  });
+}
+
+int butee_energy(const butee_structure* structure, double* kinetic, double* strain, double* contact) {
+  return guarded([&] {
+    need(structure);
+    const butee::record::Energy energy = structure->structure.energy();
+    put(kinetic, energy.kinetic);
+    put(strain, energy.strain);
+    put(contact, energy.contact);
+  });
+}
+
+int butee_save(const butee_structure* structure, butee_snapshot** made) {
+  return guarded([&] {
+    need(structure, made);
+    *made = nullptr;
+    *made = new butee_snapshot{structure->structure.snapshot()};
+  });
+}
+
+int butee_restore(butee_structure* structure, const butee_snapshot* snapshot) {
+  return guarded([&] {
+    need(structure, snapshot);
+    structure->structure.restore(snapshot->snapshot);
+  });
+}
+
+void butee_free_snapshot(butee_snapshot* snapshot) {
+  delete snapshot;
+}
+
+}  // extern "C"

@@ -1,0 +1,228 @@
+#include "butee/embed/structure.hpp"
+
+#include <map>
+#include <optional>
+
+#include "butee/config/override.hpp"
+#include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+#include "butee/plugin/scene.hpp"
+
+namespace butee::embed {
+
+/// Everything a structure owns, in the order in which the parts refer to each other.
+struct Structure::Parts {
+  plugin::Catalogue catalogue;
+  plugin::Scene scene;
+  std::map<Index, NodalForce*> forces;  ///< by DOF; owned by the model's loads
+  std::optional<model::System> system;
+  std::optional<solve::Dynamics> dynamics;
+  std::unique_ptr<time::Integrator> integrator;
+  std::optional<time::Simulation> simulation;
+
+  std::vector<model::NodalDof> select(const std::string& selector, DofKind kind) const;
+  void add_forces(const std::string& selector, std::vector<std::pair<model::NodalDof, NodalForce*>>& made);
+  NodalForce& force_on(Index dof);
+};
+
+std::vector<model::NodalDof> Structure::Parts::select(const std::string& selector, DofKind kind) const {
+  const auto selection = scene.model.nodes.select(selector);
+  if (selection.nodes.empty()) throw InputError(selector + ": " + selection.problem);
+  std::vector<model::NodalDof> dofs;
+  for (const model::NodeId node : selection.nodes) dofs.push_back({node, kind});
+  return dofs;
+}
+
+void Structure::Parts::add_forces(const std::string& selector,
+                                  std::vector<std::pair<model::NodalDof, NodalForce*>>& made) {
+  const std::size_t point = selector.rfind('.');
+  const std::string ending = point == std::string::npos ? "" : selector.substr(point);
+  const bool on_theta = ending == ".theta";
+  const std::string nodes = on_theta || ending == ".u" ? selector.substr(0, point) : selector;
+  const model::DofTable table = number_dofs(scene.model);
+  for (const model::NodalDof dof : select(nodes, on_theta ? DofKind::theta : DofKind::u)) {
+    if (table.index(dof) < 0) continue;
+    auto force = std::make_unique<NodalForce>();
+    made.emplace_back(dof, force.get());
+    scene.model.loads.push_back({{{dof, 1.0}}, std::move(force)});
+  }
+  if (made.empty()) throw InputError(selector + ": names no free degree of freedom that a force could act on");
+}
+
+NodalForce& Structure::Parts::force_on(Index dof) {
+  const auto found = forces.find(dof);
+  if (found != forces.end()) return *found->second;
+  throw InputError((dof >= 0 && dof < system->size() ? dynamics->dof_name(dof) : "DOF " + std::to_string(dof)) +
+                   ": no forces were announced for it; name its node in StructureOptions::forced");
+}
+
+Structure::Structure(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Structure::Structure(Structure&& other) noexcept = default;
+Structure& Structure::operator=(Structure&& other) noexcept = default;
+Structure::~Structure() = default;
+
+Structure Structure::from_file(const std::string& path, const StructureOptions& options) {
+  return from_document(config::load_toml(path), options);
+}
+
+Structure Structure::from_toml(const std::string& text, const StructureOptions& options) {
+  return from_document(config::parse_toml(text, "scene"), options);
+}
+
+Structure Structure::from_document(config::Document document, const StructureOptions& options) {
+  for (const std::string& assignment : options.overrides) config::apply_override(document, assignment);
+  // The run ends where advance_to() says.
+  config::Value& integrator = (*document.root.table())["integrator"];
+  if (config::Table* table = integrator.table(); table != nullptr && table->find("end_time") == nullptr)
+    (*table)["end_time"] = config::Value(1.0);
+
+  auto parts = std::make_unique<Parts>();
+  parts->catalogue = plugin::Catalogue::with_plugins(options.plugins);
+  config::Diagnostics diagnostics(document);
+  parts->scene = plugin::read_scene(document, parts->catalogue, diagnostics);
+  diagnostics.throw_if_any();
+  const plugin::IntegratorChoice& choice = *parts->scene.integrator;
+  const time::IntegratorType& type = parts->catalogue.load(choice.name);
+  if (type.check) type.check(choice.parameters, diagnostics);
+  diagnostics.throw_if_any();
+
+  std::vector<std::pair<model::NodalDof, NodalForce*>> made;
+  for (const std::string& selector : options.forced) parts->add_forces(selector, made);
+  parts->system.emplace(assemble(parts->scene.model));
+  for (const auto& [dof, force] : made) parts->forces[parts->system->dofs.index(dof)] = force;
+  parts->dynamics.emplace(*parts->system);
+  parts->integrator = type.make(choice.parameters, *parts->dynamics);
+  parts->simulation.emplace(*parts->dynamics, *parts->integrator, choice.options);
+  return Structure(std::move(parts));
+}
+
+Index Structure::size() const {
+  return parts_->system->size();
+}
+
+std::string Structure::dof_name(Index dof) const {
+  require(dof >= 0 && dof < size(), "a DOF of this structure");
+  return parts_->dynamics->dof_name(dof);
+}
+
+Index Structure::dof(const std::string& selector, DofKind kind) const {
+  const auto dofs = parts_->select(selector, kind);
+  if (dofs.size() != 1)
+    throw InputError(selector + ": names " + std::to_string(dofs.size()) + " nodes; dofs() takes several");
+  const Index index = parts_->system->dofs.index(dofs.front());
+  if (index >= 0) return index;
+  throw InputError(selector + ": " + name_of(kind) +
+                   (index == model::DofTable::kFixed ? " is fixed by a support there" : " does not exist there"));
+}
+
+std::vector<Index> Structure::dofs(const std::string& selector, DofKind kind) const {
+  std::vector<Index> free;
+  for (const model::NodalDof dof : parts_->select(selector, kind))
+    if (const Index index = parts_->system->dofs.index(dof); index >= 0) free.push_back(index);
+  return free;
+}
+
+void Structure::advance_to(double t) {
+  time::Simulation& simulation = *parts_->simulation;
+  simulation.start();
+  require(t >= time(), "a structure goes forwards; restore() goes back");
+  if (t == time() && !simulation.report().message.empty()) throw RunError(simulation.report().message);
+  if (t == time()) return;
+  if (simulation.report().message.empty()) simulation.set_end_time(t);
+  while (simulation.advance()) {
+  }
+  if (!simulation.report().completed) throw RunError(simulation.report().message);
+}
+
+double Structure::advance_step(double limit) {
+  time::Simulation& simulation = *parts_->simulation;
+  simulation.start();
+  require(limit > time(), "a structure goes forwards");
+  if (simulation.report().message.empty()) simulation.set_end_time(limit);
+  simulation.advance();
+  if (!simulation.report().message.empty()) throw RunError(simulation.report().message);
+  return time();
+}
+
+const time::State& Structure::state() const {
+  parts_->simulation->start();
+  return parts_->simulation->state();
+}
+
+void Structure::set_motion(ConstVectorRef displacements, ConstVectorRef velocities) {
+  parts_->simulation->set_motion(displacements, velocities);
+}
+
+void Structure::set_displacement(Index dof, double value) {
+  require(dof >= 0 && dof < size(), "a DOF of this structure");
+  Vector x = state().x;
+  x[dof] = value;
+  set_motion(x, Vector(state().v));
+}
+
+void Structure::set_velocity(Index dof, double value) {
+  require(dof >= 0 && dof < size(), "a DOF of this structure");
+  Vector v = state().v;
+  v[dof] = value;
+  set_motion(Vector(state().x), v);
+}
+
+void Structure::set_force(Index dof, double value) {
+  set_force(dof, value, value, time() + 1.0);
+}
+
+void Structure::set_force(Index dof, double from, double to, double until) {
+  require(until > time(), "the end of a force's line lies ahead");
+  NodalForce& force = parts_->force_on(dof);
+  const bool jump = force.value(time()) != from;
+  force.line = {from, (to - from) / (until - time()), time()};
+  parts_->simulation->loads_changed(jump);
+}
+
+double Structure::force(Index dof) const {
+  return parts_->force_on(dof).value(time());
+}
+
+double Structure::contact_force(Index dof) const {
+  require(dof >= 0 && dof < size(), "a DOF of this structure");
+  Vector force = Vector::Zero(size());
+  parts_->dynamics->add_contact_force(state().x, force);
+  return force[dof];
+}
+
+Structure::Snapshot Structure::snapshot() const {
+  Snapshot snapshot{parts_->simulation->snapshot(), {}};
+  for (const auto& [dof, force] : parts_->forces) snapshot.forces.push_back(force->line);
+  return snapshot;
+}
+
+void Structure::restore(const Snapshot& snapshot) {
+  require(snapshot.forces.size() == parts_->forces.size(), "a snapshot of this structure");
+  parts_->simulation->restore(snapshot.run);
+  auto line = snapshot.forces.begin();
+  for (const auto& [dof, force] : parts_->forces) force->line = *line++;
+  parts_->dynamics->loads_changed();
+}
+
+void Structure::observe(time::Observer& observer) {
+  parts_->simulation->add(observer);
+}
+
+record::Energy Structure::energy() const {
+  return record::energy_of(state(), *parts_->dynamics);
+}
+
+const std::string& Structure::method() const {
+  return parts_->scene.integrator->name;
+}
+
+const solve::Counters& Structure::counters() const {
+  return parts_->dynamics->counters();
+}
+
+const time::RunReport& Structure::report() const {
+  return parts_->simulation->report();
+}
+
+}  // namespace butee::embed

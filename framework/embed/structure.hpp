@@ -1,0 +1,96 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "butee/config/value.hpp"
+#include "butee/embed/nodal_force.hpp"
+#include "butee/record/energy.hpp"
+#include "butee/time/simulation.hpp"
+
+namespace butee::embed {
+
+/// How a structure is made of its scene.
+struct StructureOptions {
+  std::vector<std::string> overrides;  ///< "integrator.type=NM1", as --set of the program
+  std::vector<std::string> plugins;    ///< modules or folders of modules, as --plugin
+  /// Selectors of the nodes on which forces will be set: "string:middle", or "string:all.theta" for moments.
+  std::vector<std::string> forced;
+};
+
+/// The structure of a scene as a part of another program: it is advanced as far as that wants, read, pushed and set
+/// back.
+///
+/// Each structure has a state of its own and shares nothing with others, so that several may live in one process and on
+/// several threads, each used by one thread at a time. The scene's [integrator] says with which method and tolerance;
+/// its end_time is of no importance. Between two calls of advance_to() forces are straight lines in time, so that a
+/// partitioned iteration is of second order in its windows. Bad input throws InputError, a failed step RunError with
+/// the diagnosis. Checked in tests/embed against the same system solved as one.
+class BUTEE_EXPORT Structure {
+ public:
+  /// Reads a scene from a file, from TOML text, or as built in code with Scene. Throws InputError with every mistake.
+  static Structure from_file(const std::string& path, const StructureOptions& options = {});
+  static Structure from_toml(const std::string& text, const StructureOptions& options = {});
+  static Structure from_document(config::Document document, const StructureOptions& options = {});
+  Structure(Structure&& other) noexcept;
+  Structure& operator=(Structure&& other) noexcept;
+  ~Structure();
+
+  /// The number of free degrees of freedom, and the names of all of them, "u of string:17".
+  Index size() const;
+  std::string dof_name(Index dof) const;
+  /// The free DOF of a selector that names one node: an index into the vectors of state(). Throws InputError where
+  /// there is none, or where it is fixed.
+  Index dof(const std::string& selector, DofKind kind = DofKind::u) const;
+  /// The same of a selector that names several nodes, in its order, fixed ones left out.
+  std::vector<Index> dofs(const std::string& selector, DofKind kind = DofKind::u) const;
+
+  double time() const { return state().t; }
+  /// Goes on to `t` exactly, s. Throws RunError where a step fails; the state is then that of the last good step.
+  void advance_to(double t);
+  /// Takes one step of the method's own length, not beyond `limit`, and returns the new time.
+  double advance_step(double limit);
+
+  /// Displacements, velocities and accelerations, m or rad and s.
+  const time::State& state() const;
+  double displacement(Index dof) const { return state().x[dof]; }
+  double velocity(Index dof) const { return state().v[dof]; }
+  double acceleration(Index dof) const { return state().a[dof]; }
+  /// Takes another motion at the present time; the method starts anew from it.
+  void set_motion(ConstVectorRef displacements, ConstVectorRef velocities);
+  void set_displacement(Index dof, double value);
+  void set_velocity(Index dof, double value);
+
+  /// A force on a DOF of StructureOptions::forced, N or N m: `value` from now on.
+  void set_force(Index dof, double value);
+  /// A force that goes from `from` now to `to` at time `until`, s, in a straight line (and on beyond).
+  void set_force(Index dof, double from, double to, double until);
+  double force(Index dof) const;
+  /// The force of the stops on a DOF, N.
+  double contact_force(Index dof) const;
+
+  /// The motion, the method's memory and the forces set, to go back to. A value.
+  struct Snapshot {
+    time::Snapshot run;
+    std::vector<NodalForce::Line> forces;
+  };
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
+
+  /// Watches every step from now on; before the first one. `observer` must outlive the structure.
+  void observe(time::Observer& observer);
+  record::Energy energy() const;
+  /// The method's name, what has been counted, and what it came to so far.
+  const std::string& method() const;
+  const solve::Counters& counters() const;
+  const time::RunReport& report() const;
+
+ private:
+  struct Parts;
+  explicit Structure(std::unique_ptr<Parts> parts);
+
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace butee::embed

@@ -1,0 +1,34 @@
+#include "butee/plugin/crash_watch.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <unistd.h>
+
+namespace butee::plugin {
+namespace {
+
+/// What the handler writes: it can call no function that takes memory.
+std::array<char, 4096> line{};
+
+extern "C" void tell(int) {
+  const ssize_t written = write(STDERR_FILENO, line.data(), std::strlen(line.data()));
+  (void)written;
+}
+
+}  // namespace
+
+CrashWatch::CrashWatch(const std::string& module) {
+  const std::string text = "butee: error: " + module + ": crashed the program while it was loaded\n";
+  line.fill('\0');
+  std::copy_n(text.begin(), std::min(text.size(), line.size() - 1), line.begin());
+  struct sigaction action {};
+  action.sa_handler = tell;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &before_[i]);
+}
+
+CrashWatch::~CrashWatch() {
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+}
+
+}  // namespace butee::plugin

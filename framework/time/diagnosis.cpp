@@ -1,0 +1,187 @@
+#include "butee/time/diagnosis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "butee/core/text.hpp"
+#include "butee/solve/free_motion.hpp"
+#include "butee/solve/frequencies.hpp"
+
+namespace butee::time {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Damped modes are found densely up to this size.
+constexpr Index kDense = 100;
+/// What is recommended of a critical step.
+constexpr double kSafe = 0.9;
+/// A force beyond this leaves no room for what it does.
+constexpr double kHuge = 1e150;
+
+/// 1/h for an eigenvalue of the motion.
+double rate(const MethodLimits& limits, double imaginary, double real) {
+  return std::abs(imaginary) / limits.stability + std::abs(real) / limits.damping;
+}
+
+/// Of a mode with damping c per mass: lambda^2 + c lambda + omega^2 = 0.
+double rate_of_mode(const MethodLimits& limits, double omega, double c) {
+  const double square = omega * omega - 0.25 * c * c;
+  if (square >= 0.0) return rate(limits, std::sqrt(square), 0.5 * c);
+  return rate(limits, 0.0, 0.5 * c + std::sqrt(-square));
+}
+
+std::optional<double> dense_rate(solve::Dynamics& dynamics, const MethodLimits& limits, const SparseMatrix& stiffness) {
+  const Index n = dynamics.size();
+  Eigen::MatrixXd damping(n, n);
+  Vector column(n);
+  for (Index i = 0; i < n; ++i) {
+    dynamics.damping_force(Vector::Unit(n, i), column);
+    damping.col(i) = column;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> mass{Eigen::MatrixXd(dynamics.system().mass)};
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  motion.topRightCorner(n, n).setIdentity();
+  motion.bottomLeftCorner(n, n) = -mass.solve(Eigen::MatrixXd(stiffness));
+  motion.bottomRightCorner(n, n) = -mass.solve(damping);
+  if (mass.info() != Eigen::Success || !motion.allFinite()) return std::nullopt;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(motion, false);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  double largest = 0.0;
+  for (Index i = 0; i < 2 * n; ++i)
+    largest = std::max(largest, rate(limits, solver.eigenvalues()[i].imag(), solver.eigenvalues()[i].real()));
+  return largest;
+}
+
+std::optional<double> critical_rate(solve::Dynamics& dynamics, const MethodLimits& limits, solve::StopState stops) {
+  const model::System& system = dynamics.system();
+  const bool has_others = system.dashpots.size() > 0 || system.damping.is_modal();
+  if (dynamics.has_damping() && dynamics.size() <= kDense)
+    return dense_rate(dynamics, limits, solve::stiffness_with_stops(system, stops));
+  const auto range = solve::frequency_range(system, stops);
+  if (!range) return std::nullopt;
+  if (has_others) return rate(limits, range->highest, 0.0);
+  const double m = system.damping.mass_proportional, k = system.damping.stiffness_proportional;
+  // The damping of the highest mode belongs to its frequency with open stops; with closed ones that is on the safe
+  // side.
+  return rate_of_mode(limits, range->highest, m + k * range->highest * range->highest);
+}
+
+std::string overflowing_load(solve::Dynamics& dynamics, double t) {
+  Vector force(dynamics.size());
+  dynamics.external_force(t, force);
+  for (Index i = 0; i < force.size(); ++i)
+    if (!(std::abs(force[i]) < kHuge))
+      return "the load on " + dynamics.dof_name(i) + " is " + to_short_text(force[i]) +
+             " N at t = " + to_short_text(t) + " s, which no motion can follow; check [[load]]";
+  return {};
+}
+
+std::string overflow(solve::Dynamics& dynamics, const MethodLimits& limits, const State& from, const Step& step) {
+  for (const double t : {from.t, 0.5 * (from.t + step.t_end), step.t_end})
+    if (const std::string load = overflowing_load(dynamics, t); !load.empty()) return load;
+  return "the solution is no longer finite; it moves fastest in " + fastest_dof(dynamics, from) + ". " +
+         describe_remedy(dynamics, limits, step.h);
+}
+
+std::string singular(solve::Dynamics& dynamics, const Step& step) {
+  const model::System& system = dynamics.system();
+  const SparseMatrix effective =
+      system.mass + 0.25 * step.h * step.h * solve::stiffness_with_stops(system, solve::StopState::closed);
+  return "the effective matrix is not positive definite; what resists least is the motion of " +
+         solve::describe_softest_motion(effective, system.dofs) +
+         ". Check the masses and stiffnesses there, which may be too far apart for 16 digits, or use a smaller step "
+         "than " +
+         to_short_text(step.h) + " s";
+}
+
+}  // namespace
+
+std::optional<CriticalSteps> critical_steps(solve::Dynamics& dynamics, const MethodLimits& limits) {
+  if (!limits.is_bounded()) return std::nullopt;
+  const auto open = critical_rate(dynamics, limits, solve::StopState::open);
+  const auto closed = dynamics.stop_count() > 0 ? critical_rate(dynamics, limits, solve::StopState::closed) : open;
+  if (!open || !closed) return std::nullopt;
+  const auto step = [](double r) { return r > 0.0 ? 1.0 / r : kInfinity; };
+  return CriticalSteps{step(*open), step(*closed)};
+}
+
+std::string describe_remedy(solve::Dynamics& dynamics, const MethodLimits& limits, double h) {
+  const bool has_stops = dynamics.stop_count() > 0;
+  const auto critical = critical_steps(dynamics, limits);
+  if (critical && h > critical->closed) {
+    std::string text = "h = " + to_short_text(h) + " s is " + to_short_text(h / critical->closed) +
+                       " times the critical step of " + limits.name + ", " + to_short_text(critical->closed) + " s";
+    if (has_stops)
+      text +=
+          " with all stops closed (" + to_short_text(critical->open) + " s with all open), the limit of its stability";
+    else
+      text += ", the limit of its stability";
+    return text + ": take a time_step of " + to_short_text(kSafe * critical->closed) +
+           " s or less, or a method that is stable at any step, such as newmark or auto";
+  }
+  std::string text;
+  if (critical)
+    text = "h = " + to_short_text(h) + " s is within the stability of " + limits.name + " (critical step " +
+           to_short_text(critical->closed) + " s)" + (has_stops ? ", so that changes of contact are to blame" : "") +
+           ": ";
+  text += "take a time_step of " + to_short_text(0.25 * h) + " s or less, or a method with error control, such as auto";
+  if (has_stops) text += "; discrete_gradient cannot gain energy at a stop";
+  return text;
+}
+
+std::string fastest_dof(const solve::Dynamics& dynamics, const State& state) {
+  const model::System& system = dynamics.system();
+  // Scaled, so that squares of what is about to overflow are numbers still.
+  const double speed = std::max(state.v.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min()),
+               size = std::max(state.x.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
+  const double ratio = size / speed;
+  Index largest = 0;
+  double most = -1.0;
+  for (Index i = 0; i < state.v.size(); ++i) {
+    const double v = state.v[i] / speed, x = state.x[i] / size * ratio;
+    const double energy = system.mass.coeff(i, i) * v * v + system.stiffness.coeff(i, i) * x * x;
+    if (energy > most) {
+      most = energy;
+      largest = i;
+    }
+  }
+  return dynamics.dof_name(largest);
+}
+
+std::string describe_failure(solve::Dynamics& dynamics, const MethodLimits& limits, const State& from, const Step& step,
+                             const StepReport& report) {
+  switch (report.status) {
+    case StepStatus::not_finite:
+      return overflow(dynamics, limits, from, step);
+    case StepStatus::newton_failed:
+      return "Newton's iteration did not meet its tolerances within " + std::to_string(report.newton_iterations) +
+             " solves" +
+             (report.worst_dof >= 0 ? "; the residual is largest in " + dynamics.dof_name(report.worst_dof) : "") +
+             ". Use a time_step of " + to_short_text(0.25 * step.h) +
+             " s or less, more max_iterations, looser tolerances, or on_newton_failure = \"keep\"; or a method without "
+             "Newton's iteration, such as auto";
+    case StepStatus::singular:
+      return singular(dynamics, step);
+    case StepStatus::ok:
+      break;
+  }
+  std::string text = "the error measure " + to_short_text(report.error) +
+                     " stays above the tolerance; it moves fastest in " + fastest_dof(dynamics, from);
+  for (const double t : {from.t, step.t_end})
+    if (const std::string load = overflowing_load(dynamics, t); !load.empty()) return text + ", and " + load;
+  return text + ". Loosen the tolerance, or look for a jump there: a load, or a stop too stiff for its mass";
+}
+
+std::string describe_start(solve::Dynamics& dynamics, const State& state) {
+  std::string text = "the initial acceleration is not finite; ";
+  if (const std::string load = overflowing_load(dynamics, state.t); !load.empty()) return text + load;
+  for (Index i = 0; i < state.a.size(); ++i)
+    if (!std::isfinite(state.a[i]))
+      return text + "it is " + to_short_text(state.a[i]) + " in " + dynamics.dof_name(i) +
+             "; check the loads, masses and initial values there";
+  return text + "check loads, masses and initial values";
+}
+
+}  // namespace butee::time

@@ -1,0 +1,192 @@
+#include "butee/time/growth_watch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "butee/core/text.hpp"
+
+namespace butee::time {
+namespace {
+
+constexpr std::int64_t kFirstLook = 16, kBetweenLooks = 256;
+/// Growth of the energy that no load explains, and of which less is rounding.
+const double kTooMuch = std::log(100.0);
+constexpr double kNoGrowth = 0.01;
+/// Instants within a span at which loads are looked at, apart from their kinks.
+constexpr int kInstants = 16;
+constexpr double kGoldenRatio = 0.6180339887498949;
+/// The error of one step by the trapezoidal rule, relative to the largest displacement: that of h omega = 1.
+constexpr double kCoarse = 0.08;
+/// The error of a step that leaves a hundred of them accurate.
+constexpr double kFine = 1e-4;
+constexpr double kPi = 3.141592653589793;
+/// What comes so near a stop at a look, in gaps, is taken to meet it between two looks.
+constexpr double kNear = 0.1;
+/// h omega of a stop above which an impact is over within three steps.
+constexpr double kCoarseImpact = 1.0;
+
+}  // namespace
+
+GrowthWatch::GrowthWatch(solve::Dynamics& dynamics, const MethodLimits& limits, const Integrator& integrator)
+    : dynamics_(dynamics),
+      limits_(limits),
+      has_fixed_steps_(integrator.controller() == nullptr),
+      may_be_coarse_(has_fixed_steps_ || (!limits.keeps_tolerance && !integrator.minds_load_kinks())),
+      is_watching_(limits.is_bounded() || dynamics.stop_count() > 0) {}
+
+void GrowthWatch::start(const State& state) {
+  prepare();
+  count_ = 0;
+  excess_ = 0.0;
+  next_look_ = is_watching_ || may_be_coarse_ ? kFirstLook : std::numeric_limits<std::int64_t>::max();
+  last_time_ = begin_time_ = state.t;
+  last_energy_ = begin_energy_ = energy(state);
+  if (!may_be_coarse_ || dynamics_.stop_count() == 0) return;
+  const Vector stiffness = dynamics_.contact().closed_stiffness();
+  for (Index i = 0; i < dynamics_.stop_count(); ++i)
+    for (const Index dof : {dynamics_.contact().dof_a(i), dynamics_.contact().dof_b(i)})
+      if (dof >= 0)
+        contact_frequency_ =
+            std::max(contact_frequency_, std::sqrt(stiffness[i] / dynamics_.system().mass.coeff(dof, dof)));
+}
+
+void GrowthWatch::prepare() {
+  work_ = zero_ = stored_ = Vector::Zero(dynamics_.size());
+  stops_ = Vector::Zero(dynamics_.stop_count());
+  load_norms_.reserve(dynamics_.system().loads.size());
+  kinks_ = dynamics_.load_kinks();
+}
+
+void GrowthWatch::save(ByteWriter& to) const {
+  for (const std::int64_t count : {count_, next_look_}) to.put(count);
+  for (const double number : {last_time_, last_energy_, excess_, begin_time_, begin_energy_, largest_x_, coarseness_,
+                              coarse_step_, longest_step_, contact_frequency_})
+    to.put(number);
+  to.put(is_met_);
+}
+
+void GrowthWatch::restore(ByteReader& from) {
+  prepare();
+  for (std::int64_t* count : {&count_, &next_look_}) from.take(*count);
+  for (double* number : {&last_time_, &last_energy_, &excess_, &begin_time_, &begin_energy_, &largest_x_, &coarseness_,
+                         &coarse_step_, &longest_step_, &contact_frequency_})
+    from.take(*number);
+  from.take(is_met_);
+}
+
+double GrowthWatch::energy(const State& state) {
+  dynamics_.inertia_force(state.v, work_);
+  double sum = 0.5 * state.v.dot(work_);
+  dynamics_.elastic_force(state.x, work_);
+  sum += 0.5 * state.x.dot(work_);
+  if (stops_.size() == 0) return sum;
+  const solve::Contact& contact = dynamics_.contact();
+  contact.displacement(state.x, stops_);
+  contact.penetration(stops_, stops_);
+  for (Index i = 0; i < stops_.size(); ++i) {
+    sum += contact.law_of(i).energy(stops_[i]);
+    is_met_ = is_met_ || stops_[i] >= -kNear * contact.gap_of(i);
+  }
+  return sum;
+}
+
+void GrowthWatch::find_load_norms() {
+  for (const model::FreeLoad& load : dynamics_.system().loads) {
+    work_.setZero();
+    for (std::size_t i = 0; i < load.dofs.size(); ++i) work_[load.dofs[i]] += load.weights[i];
+    dynamics_.respond(zero_, zero_, work_);
+    double square = 0.0;
+    for (std::size_t i = 0; i < load.dofs.size(); ++i) square += load.weights[i] * work_[load.dofs[i]];
+    load_norms_.push_back(std::sqrt(std::max(0.0, square)));
+  }
+}
+
+double GrowthWatch::push(double from, double to) {
+  const auto& loads = dynamics_.system().loads;
+  if (load_norms_.size() < loads.size()) find_load_norms();
+  const auto at = [&](double t) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < loads.size(); ++i) sum += load_norms_[i] * std::abs(loads[i].in_time->value(t));
+    return sum;
+  };
+  double largest = std::max(at(from), at(to));
+  // Not evenly, since that could meet every zero of a harmonic load.
+  for (int i = 1; i <= kInstants; ++i) {
+    const double turns = kGoldenRatio * i;
+    largest = std::max(largest, at(from + (turns - std::floor(turns)) * (to - from)));
+  }
+  for (auto kink = std::lower_bound(kinks_.begin(), kinks_.end(), from); kink != kinks_.end() && *kink <= to; ++kink)
+    largest = std::max({largest, at(*kink), at(std::nextafter(*kink, from))});
+  return largest * (to - from) / std::sqrt(2.0);
+}
+
+bool GrowthWatch::look(const State& from, const State& to, double h) {
+  if (work_.size() == 0 || from.t < last_time_) start(from);  // restored, or gone back to an earlier state
+  next_look_ = count_ + (count_ < kBetweenLooks ? count_ : kBetweenLooks);
+  if (may_be_coarse_) note_coarseness(from, to, h);
+  if (!is_watching_) return false;
+  const double now = energy(to);
+  double growth = 0.0;
+  if (now > last_energy_) {
+    const double explained = std::sqrt(std::max(0.0, last_energy_)) + push(last_time_, to.t);
+    growth = explained > 0.0 ? std::log(now / explained / explained) : 0.0;
+  }
+  if (growth > kNoGrowth) {
+    excess_ += growth;
+  } else {
+    excess_ = 0.0;
+    begin_time_ = to.t;
+    begin_energy_ = now;
+  }
+  last_time_ = to.t;
+  last_energy_ = now;
+  return excess_ > kTooMuch;
+}
+
+std::string GrowthWatch::describe(const State& state, double h) const {
+  return "the motion grows without a cause: from t = " + to_short_text(begin_time_) + " s to " +
+         to_short_text(state.t) + " s its energy rose from " + to_short_text(begin_energy_) + " J to " +
+         to_short_text(last_energy_) + " J, at least " + to_short_text(std::exp(excess_)) +
+         " times what loads explain. It moves fastest in " + fastest_dof(dynamics_, state) + ". " +
+         describe_remedy(dynamics_, limits_, h);
+}
+
+void GrowthWatch::note_coarseness(const State& from, const State& to, double h) {
+  const auto norm = [this](ConstVectorRef y) {
+    dynamics_.inertia_force(y, work_);
+    return std::sqrt(std::max(0.0, y.dot(work_)));
+  };
+  largest_x_ = std::max(largest_x_, norm(to.x));
+  if (!(largest_x_ > 0.0)) return;
+  stored_ = to.a - from.a;
+  const double error = h * h / 12.0 * norm(stored_) / largest_x_;
+  longest_step_ = std::max(longest_step_, h);
+  if (!(error > coarseness_)) return;
+  coarseness_ = error;
+  coarse_step_ = h;
+}
+
+std::vector<std::string> GrowthWatch::warnings() const {
+  std::vector<std::string> all;
+  if (!may_be_coarse_) return all;
+  const auto take = [this](double h) {
+    return has_fixed_steps_
+               ? ". Take a time_step of " + to_short_text(h) +
+                     " s or less, or a method with error control, such as auto"
+               : ". Tighten its control, so that steps come down to " + to_short_text(h) + " s, or take auto";
+  };
+  const std::string prefix = limits_.name + ": ";
+  if (coarseness_ > kCoarse)
+    all.push_back(prefix + "steps of " + to_short_text(coarse_step_) +
+                  " s are too long for the motion that they follow; the error of a single one was up to " +
+                  to_short_text(coarseness_) + " of the largest displacement" +
+                  take(coarse_step_ * std::cbrt(kFine / coarseness_)));
+  if (is_met_ && longest_step_ * contact_frequency_ > kCoarseImpact)
+    all.push_back(prefix + "an impact at the stiffest stop lasts " + to_short_text(kPi / contact_frequency_) +
+                  " s or less, so that steps of " + to_short_text(longest_step_) + " s do not resolve its force" +
+                  take(0.1 / contact_frequency_));
+  return all;
+}
+
+}  // namespace butee::time

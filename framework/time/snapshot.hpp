@@ -1,0 +1,12 @@
+#pragma once
+
+#include "butee/core/bytes.hpp"
+#include "butee/time/simulation.hpp"
+
+namespace butee::time {
+
+/// A snapshot as bytes, for files and messages, and back. read_snapshot() throws RunError where the bytes are none.
+BUTEE_EXPORT void write_snapshot(const Snapshot& snapshot, ByteWriter& to);
+BUTEE_EXPORT Snapshot read_snapshot(ByteReader& from);
+
+}  // namespace butee::time

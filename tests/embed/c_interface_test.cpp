@@ -1,0 +1,91 @@
+#include <array>
+#include <butee/embed/butee.h>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+/// A free mass of 2 kg that is thrown at a stop 10 mm away.
+const char* const kScene =
+    "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n"
+    "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\nsides = \"positive\"\ngap = 0.01\nlaw = \"linear\"\nstiffness = 1e5\n"
+    "[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n[integrator]\ntolerance = 1e-8\n";
+
+class CInterface : public testing::Test {
+ protected:
+  void SetUp() override {
+    setenv("BUTEE_PLUGIN_PATH", BUTEE_TEST_PLUGINS, 1);
+    ASSERT_EQ(butee_open_text(kScene, "m", &mass_), BUTEE_OK) << butee_message();
+    ASSERT_EQ(butee_dof(mass_, "m", BUTEE_U, &dof_), BUTEE_OK);
+  }
+  void TearDown() override { butee_close(mass_); }
+
+  butee_structure* mass_ = nullptr;
+  int64_t dof_ = -1;
+};
+
+TEST_F(CInterface, AdvancesReadsAndGoesBack) {
+  int64_t size = 0;
+  ASSERT_EQ(butee_size(mass_, &size), BUTEE_OK);
+  EXPECT_EQ(size, 1);
+  double t = -1.0, u = 0.0, v = 0.0, a = 0.0;
+  ASSERT_EQ(butee_advance_to(mass_, 0.009), BUTEE_OK);
+  ASSERT_EQ(butee_motion(mass_, dof_, &u, &v, nullptr), BUTEE_OK);
+  EXPECT_NEAR(u, 0.009, 1e-15);
+  butee_snapshot* snapshot = nullptr;
+  ASSERT_EQ(butee_save(mass_, &snapshot), BUTEE_OK);
+  // Half a period of the mass on its stop later it is on its way back.
+  ASSERT_EQ(butee_advance_to(mass_, 0.03), BUTEE_OK);
+  ASSERT_EQ(butee_motion(mass_, dof_, nullptr, &v, nullptr), BUTEE_OK);
+  EXPECT_NEAR(v, -1.0, 1e-6);
+  ASSERT_EQ(butee_restore(mass_, snapshot), BUTEE_OK);
+  butee_free_snapshot(snapshot);
+  ASSERT_EQ(butee_time(mass_, &t), BUTEE_OK);
+  EXPECT_EQ(t, 0.009);
+
+  ASSERT_EQ(butee_set_force(mass_, dof_, 4.0), BUTEE_OK);
+  ASSERT_EQ(butee_all_motion(mass_, 1, &u, &v, &a), BUTEE_OK);
+  EXPECT_EQ(a, 2.0);
+  const double there = 0.012, still = 0.0;
+  ASSERT_EQ(butee_set_motion(mass_, 1, &there, &still), BUTEE_OK);
+  double force = 0.0, kinetic = 0.0, strain = 0.0, contact = 0.0;
+  ASSERT_EQ(butee_contact_force(mass_, dof_, &force), BUTEE_OK);
+  EXPECT_NEAR(force, -200.0, 1e-9);
+  ASSERT_EQ(butee_energy(mass_, &kinetic, &strain, &contact), BUTEE_OK);
+  EXPECT_NEAR(contact, 0.5 * 1e5 * 4e-6, 1e-12);
+  EXPECT_EQ(kinetic + strain, 0.0);
+  ASSERT_EQ(butee_set_force_line(mass_, dof_, 4.0, 0.0, 1.0), BUTEE_OK);
+  ASSERT_EQ(butee_advance_step(mass_, 0.1, &t), BUTEE_OK);
+  EXPECT_GT(t, 0.009);
+}
+
+TEST_F(CInterface, TurnsEveryMistakeIntoAStatusAndAMessage) {
+  butee_structure* none = reinterpret_cast<butee_structure*>(this);
+  EXPECT_EQ(butee_open_text("schema = 2", nullptr, &none), BUTEE_BAD_INPUT);
+  EXPECT_EQ(none, nullptr);
+  EXPECT_NE(std::strstr(butee_message(), "schema"), nullptr) << butee_message();
+  EXPECT_EQ(butee_open_file("nowhere.toml", nullptr, &none), BUTEE_BAD_INPUT);
+  EXPECT_EQ(butee_open_file(nullptr, nullptr, &none), BUTEE_BAD_CALL);
+  int64_t dof = 7;
+  EXPECT_EQ(butee_dof(mass_, "nobody", BUTEE_U, &dof), BUTEE_BAD_INPUT);
+  EXPECT_EQ(butee_dof(mass_, "m", 5, &dof), BUTEE_BAD_CALL);
+  EXPECT_EQ(butee_dof(nullptr, "m", BUTEE_U, &dof), BUTEE_BAD_CALL);
+  EXPECT_EQ(dof, 7);
+  double number = 0.0;
+  EXPECT_EQ(butee_motion(mass_, 1, &number, &number, &number), BUTEE_BAD_CALL);
+  EXPECT_EQ(butee_all_motion(mass_, 2, &number, &number, &number), BUTEE_BAD_CALL);
+  EXPECT_EQ(butee_advance_to(mass_, -1.0), BUTEE_BAD_CALL);
+  EXPECT_EQ(butee_set_force(mass_, -3, 1.0), BUTEE_BAD_CALL);
+  EXPECT_EQ(butee_set_force(mass_, dof_, 1e308), BUTEE_OK);
+  EXPECT_EQ(butee_advance_to(mass_, 1e3), BUTEE_RUN_FAILED);
+  EXPECT_NE(std::strstr(butee_message(), "t = "), nullptr) << butee_message();
+  butee_close(nullptr);
+  butee_free_snapshot(nullptr);
+}
+
+}  // namespace
+}  // namespace butee::test

@@ -1,0 +1,174 @@
+#include <cmath>
+#include <numeric>
+#include <thread>
+
+#include <butee/core/error.hpp>
+#include <butee/embed/structure.hpp>
+#include <gtest/gtest.h>
+
+#include "conformance/methods.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+using embed::Structure;
+using embed::StructureOptions;
+
+/// A mass on a spring beside a stop, pushed from outside.
+std::string oscillator(const std::string& integrator) {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n"
+         "[[element]]\ntype = \"spring\"\nnode = \"m\"\nstiffness = 800.0\ndamping = 1.5\n" +
+         integrator;
+}
+
+const std::string kExact = "[integrator]\ntype = \"exponential\"\ntolerance = 1e-10\n";
+
+StructureOptions with_plugins(StructureOptions options = {}) {
+  options.plugins = {BUTEE_TEST_PLUGINS};
+  return options;
+}
+
+/// The whole of a paper's scene, and the same in uneven pieces.
+TEST(Structure, AdvancesAsAWholeRunDoes) {
+  constexpr double kEnd = 0.05;
+  for (const std::string method : {"exponential", "rodas4", "newmark_modified", "rk4"}) {
+    SceneRun whole = SceneRun::of_model("beam3", {"integrator.type=" + method, "integrator.end_time=0.05"});
+    ASSERT_TRUE(whole.run().completed);
+    Structure beam =
+        Structure::from_file(model_path("beam3"), with_plugins({.overrides = {"integrator.type=" + method}}));
+    for (const double t : {0.0101, 0.0102, 0.0307, kEnd}) {
+      beam.advance_to(t);
+      EXPECT_EQ(beam.time(), t);
+    }
+    const Vector& x = whole.simulation().state().x;
+    // Pieces change the steps, by as much as the tolerances leave, and cut fixed ones short.
+    EXPECT_LT((beam.state().x - x).lpNorm<Eigen::Infinity>(), 3e-3 * x.lpNorm<Eigen::Infinity>()) << method;
+  }
+}
+
+/// m x'' + c x' + k x = f from rest, f constant: the closed form after a force that is switched at 0.1 s.
+TEST(Structure, FeelsForcesThatAreSetBetweenSteps) {
+  for (const std::string method :
+       {"exponential", "rodas4", "newmark", "rk4", "dopri5", "generalized_alpha_adaptive", "exact"}) {
+    const std::string keys =
+        method == "newmark" ? "residual_tolerance = 1e-12\nincrement_tolerance = 1e-12\nmax_iterations = 9\n" : "";
+    Structure mass =
+        Structure::from_toml(oscillator("[integrator]\ntype = \"" + method + "\"\ntime_step = 1e-4\n" + keys),
+                             with_plugins({.forced = {"m"}}));
+    const Index dof = mass.dof("m");
+    const double d = 1.5 / 4.0, w = std::sqrt(400.0 - d * d);
+    const auto step_response = [&](double t) {
+      return t <= 0.0 ? 0.0 : (1.0 - std::exp(-d * t) * (std::cos(w * t) + d / w * std::sin(w * t))) / 800.0;
+    };
+    mass.set_force(dof, 30.0);
+    mass.advance_to(0.1);
+    EXPECT_EQ(mass.force(dof), 30.0);
+    mass.set_force(dof, -12.0);
+    mass.advance_to(0.25);
+    const double expected = 30.0 * step_response(0.25) - 42.0 * step_response(0.15);
+    // Second order with h omega = 2e-3, or the default tolerances.
+    EXPECT_NEAR(mass.displacement(dof), expected, 2e-4 * 30.0 / 800.0) << method;
+  }
+}
+
+/// A force in a straight line is a ramp: x = (t - sin(w t)/w) slope/k without damping.
+TEST(Structure, FollowsForcesInStraightLinesExactly) {
+  Structure mass = Structure::from_toml(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 800.0\n" +
+          kExact,
+      with_plugins({.forced = {"m"}}));
+  const Index dof = mass.dof("m");
+  double t = 0.0;
+  for (const double next : {0.01, 0.03, 0.1, 0.17}) {
+    mass.set_force(dof, 50.0 * t, 50.0 * next, next);
+    mass.advance_to(t = next);
+  }
+  EXPECT_NEAR(mass.displacement(dof), (t - std::sin(20.0 * t) / 20.0) * 50.0 / 800.0, 1e-13);
+}
+
+TEST(Structure, GoesBackToASnapshotBitForBit) {
+  for (const MethodCase& method : method_cases()) {
+    const std::string text = with_linear_law("beam3");
+    StructureOptions options = with_plugins({.overrides = {"integrator.type=" + method.name}, .forced = {"string:5"}});
+    Structure beam = Structure::from_toml(text, options);
+    const Index dof = beam.dof("string:5");
+    beam.set_force(dof, 100.0);
+    beam.advance_to(2e-3);
+    const Structure::Snapshot before = beam.snapshot();
+    const auto go_on = [&] {
+      beam.set_force(dof, 100.0, 700.0, 4e-3);
+      beam.advance_to(4e-3);
+      return beam.state().x;
+    };
+    const Vector first = go_on();
+    beam.set_force(dof, -1e4);
+    beam.advance_to(5e-3);
+    beam.restore(before);
+    EXPECT_EQ(beam.time(), 2e-3);
+    EXPECT_EQ(beam.force(dof), 100.0);
+    EXPECT_TRUE(first == go_on()) << method.name;
+  }
+}
+
+TEST(Structure, TakesAnotherMotion) {
+  Structure mass = Structure::from_toml(oscillator(kExact), with_plugins());
+  const Index dof = mass.dof("m");
+  mass.advance_to(0.1);
+  mass.set_displacement(dof, 0.02);
+  mass.set_velocity(dof, -0.3);
+  EXPECT_EQ(mass.displacement(dof), 0.02);
+  EXPECT_NEAR(mass.acceleration(dof), (-800.0 * 0.02 + 1.5 * 0.3) / 2.0, 1e-12);
+  mass.advance_to(0.3);
+  const double d = 1.5 / 4.0, w = std::sqrt(400.0 - d * d), t = 0.2;
+  EXPECT_NEAR(mass.displacement(dof),
+              std::exp(-d * t) * (0.02 * std::cos(w * t) + (-0.3 + d * 0.02) / w * std::sin(w * t)), 1e-12);
+}
+
+TEST(Structure, TakesStepsOfTheMethod) {
+  Structure mass = Structure::from_toml(oscillator("[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\n"), with_plugins());
+  EXPECT_EQ(mass.advance_step(1.0), 1e-3);
+  EXPECT_EQ(mass.advance_step(1.0), 2e-3);
+  EXPECT_EQ(mass.advance_step(2.5e-3), 2.5e-3);
+  EXPECT_EQ(mass.report().steps, 3);
+}
+
+TEST(Structure, SaysWhatIsWrong) {
+  Structure mass = Structure::from_toml(oscillator(kExact), with_plugins());
+  EXPECT_THROW(mass.dof("n"), InputError);
+  EXPECT_THROW(mass.dof("m", DofKind::theta), InputError);
+  EXPECT_THROW(mass.set_force(mass.dof("m"), 1.0), InputError);
+  EXPECT_THROW(mass.advance_to(-1.0), LogicError);
+  EXPECT_THROW(Structure::from_toml("schema = 1\n[integrator]\ntype = \"rk5\"\n", with_plugins()), InputError);
+  EXPECT_THROW(Structure::from_toml(oscillator(kExact), with_plugins({.forced = {"nobody"}})), InputError);
+  // A failed run stays where the last good step ended, and does not go on.
+  Structure lost = Structure::from_toml(oscillator("[integrator]\ntype = \"rk4\"\ntime_step = 1.0\n"),
+                                        with_plugins({.forced = {"m"}}));
+  lost.set_force(0, 1e300);
+  EXPECT_THROW(lost.advance_to(1e4), RunError);
+  EXPECT_TRUE(lost.state().x.allFinite());
+  EXPECT_THROW(lost.advance_to(2e4), RunError);
+}
+
+/// Structures share nothing: many on their own threads give the bits of one alone. Data races are seen by the preset
+/// tsan.
+TEST(Structure, LivesOnManyThreads) {
+  const auto run = [](const std::string& method) {
+    Structure beam =
+        Structure::from_toml(with_linear_law("beam3"), with_plugins({.overrides = {"integrator.type=" + method}}));
+    beam.advance_to(5e-3);
+    return beam.state().x;
+  };
+  const std::vector<std::string> methods = {"exponential", "rodas4", "newmark_modified",
+                                            "NM2",         "exact",  "extrapolation8"};
+  std::vector<Vector> alone, together(methods.size());
+  for (const std::string& method : methods) alone.push_back(run(method));
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < methods.size(); ++i) threads.emplace_back([&, i] { together[i] = run(methods[i]); });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < methods.size(); ++i) EXPECT_TRUE(alone[i] == together[i]) << methods[i];
+}
+
+}  // namespace
+}  // namespace butee::test

@@ -1,0 +1,64 @@
+#include "scene_input.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <butee/config/toml.hpp>
+#include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
+
+namespace butee::fuzz {
+namespace {
+
+constexpr std::int64_t kMostElements = 16;
+
+/// Bounds every number under the key `elements`.
+void shrink(config::Value& value) {
+  if (config::Array* array = value.array())
+    for (config::Value& item : *array) shrink(item);
+  if (config::Table* table = value.table())
+    for (auto& [key, item] : table->entries) {
+      auto* count = std::get_if<std::int64_t>(&item.data);
+      if (key == "elements" && count != nullptr && *count > kMostElements) *count = 1 + *count % kMostElements;
+      shrink(item);
+    }
+}
+
+}  // namespace
+
+plugin::Catalogue& catalogue() {
+  static plugin::Catalogue instance = [] {
+    log::set_level(log::Level::quiet);
+    plugin::Catalogue made;
+    for (const auto& file : std::filesystem::directory_iterator(BUTEE_TEST_PLUGINS))
+      if (file.path().extension() == ".so" && file.path().stem() != "sundials") made.add(file.path().string());
+    std::vector<std::string> names;
+    for (const auto& entry : made.integrators()) names.push_back(entry.declaration.name);
+    for (const std::string& name : names) made.load(name);
+    return made;
+  }();
+  return instance;
+}
+
+std::optional<SceneInput> read_scene_input(const std::uint8_t* data, std::size_t size) {
+  try {
+    config::Document document = config::parse_toml(std::string(reinterpret_cast<const char*>(data), size), "input");
+    shrink(document.root);
+    // What is written as the model as run has to be readable.
+    config::parse_toml(config::write_toml(*document.root.table()), "written");
+    config::Diagnostics diagnostics(document);
+    plugin::Scene scene = plugin::read_scene(document, catalogue(), diagnostics);
+    const double end_time = scene.integrator ? scene.integrator->options.end_time : 1.0;
+    record::OutputRequest output = record::read_output(document.root, scene.model, end_time, diagnostics);
+    if (scene.integrator)
+      if (const auto& check = catalogue().load(scene.integrator->name).check)
+        check(scene.integrator->parameters, diagnostics);
+    diagnostics.throw_if_any();
+    return SceneInput{std::move(scene), std::move(output)};
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace butee::fuzz

@@ -1,0 +1,146 @@
+#include <cstdlib>
+#include <filesystem>
+#include <sys/wait.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A second of an oscillator: about 20 kB of history.
+constexpr const char* kScene = R"(schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 1.0
+[[element]]
+type      = "spring"
+node      = "a"
+stiffness = 1.0e4
+[initial]
+displacement = [{nodes = "a", value = 1.0e-2}]
+[integrator]
+type      = "rk4"
+time_step = 1.0e-3
+end_time  = 1.0
+[output]
+interval = 1.0e-3
+)";
+
+/// A command line of sh in a folder; $BUTEE is the program.
+Outcome shell(const TemporaryFolder& folder, const std::string& command) {
+  const TemporaryFolder streams;
+  const std::string line = "cd " + folder.path() + " && BUTEE=" + BUTEE_TEST_PROGRAM + " && { " + command + "; } >" +
+                           streams.file("out") + " 2>" + streams.file("err") + " </dev/null";
+  const int status = std::system(line.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(streams.file("out")), read_file(streams.file("err"))};
+}
+
+class Faults : public testing::Test {
+ protected:
+  Faults() { folder_.write("scene.toml", kScene); }
+  std::string result(const std::string& name) const { return read_file(folder_.file("scene-results/" + name)); }
+
+  TemporaryFolder folder_;
+};
+
+/// A limit on the size of files stands for a disk that is full: the write that goes beyond it fails half done.
+TEST_F(Faults, a_full_disk_leaves_whole_lines_and_a_summary) {
+  const Outcome outcome = shell(folder_, "ulimit -f 16; exec $BUTEE run scene.toml -q");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("history.csv: cannot be written: File too large"), std::string::npos) << outcome.errors;
+  const std::string history = result("history.csv");
+  EXPECT_GT(history.size(), 1000U);
+  EXPECT_EQ(history.back(), '\n');
+  const CsvTable table(folder_.file("scene-results/history.csv"));
+  EXPECT_EQ(table.column("t").size(), table.column("h").size());
+  const Json summary = Json::parse(result("summary.json"));
+  EXPECT_EQ(summary["status"], "failed");
+  EXPECT_NE(std::string(summary["message"]).find("history.csv"), std::string::npos);
+}
+
+/// Then the disk has room again, and the run goes on.
+TEST_F(Faults, a_run_that_filled_the_disk_can_go_on) {
+  ASSERT_EQ(shell(folder_, "$BUTEE run scene.toml -q -o whole").status, 0);
+  const Outcome full = shell(folder_, "ulimit -f 16; exec $BUTEE run scene.toml -q --set output.checkpoint=100");
+  EXPECT_EQ(full.status, 1);
+  const Outcome resumed = shell(folder_, "$BUTEE run -q --resume scene-results");
+  EXPECT_EQ(resumed.status, 0) << resumed.errors;
+  EXPECT_EQ(result("history.csv"), read_file(folder_.file("whole/history.csv")));
+}
+
+TEST_F(Faults, a_folder_that_cannot_be_made_is_told) {
+  folder_.write("file", "");
+  const Outcome outcome = shell(folder_, "$BUTEE run scene.toml -o file/deeper");
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_NE(outcome.errors.find("file/deeper: "), std::string::npos) << outcome.errors;
+  const Outcome device = shell(folder_, "$BUTEE run scene.toml -o /proc/butee-results");
+  EXPECT_EQ(device.status, 1);
+  EXPECT_NE(device.errors.find("/proc/butee-results: cannot be made"), std::string::npos) << device.errors;
+}
+
+TEST_F(Faults, a_reader_that_goes_away_ends_the_output_and_not_the_run) {
+  const Outcome outcome = shell(folder_, "{ $BUTEE run scene.toml 2>&1; echo $? >status; } | :");
+  EXPECT_EQ(read_file(folder_.file("status")), "0\n") << outcome.errors;
+  EXPECT_EQ(Json::parse(result("summary.json"))["status"], "completed");
+  const Outcome listing = shell(folder_, "{ $BUTEE plugins; echo $? >status; } | :");
+  EXPECT_EQ(read_file(folder_.file("status")), "0\n");
+}
+
+TEST_F(Faults, output_that_finds_no_room_is_a_failure) {
+  const Outcome outcome = shell(folder_, "$BUTEE plugins >/dev/full");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("standard output: cannot be written: No space left"), std::string::npos)
+      << outcome.errors;
+}
+
+std::string beams(int count, const std::string& elements) {
+  std::string scene =
+      "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = "
+      "0.02\n[integrator]\ntime_step = 1e-5\nend_time = 1.0\ntype = \"rk4\"\n";
+  for (int i = 0; i < count; ++i)
+    scene += "[[element]]\ntype = \"beam\"\nname = \"b" + std::to_string(i) +
+             "\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 1.0\nelements = " + elements + "\n";
+  return scene;
+}
+
+/// What could never fit is refused before memory is asked for, with what it would take.
+TEST_F(Faults, an_absurd_scene_is_refused_with_its_size) {
+  folder_.write("absurd.toml", beams(1, "2000000000"));
+  const Outcome absurd = shell(folder_, "$BUTEE run absurd.toml");
+  EXPECT_EQ(absurd.status, 2);
+  EXPECT_NE(absurd.errors.find("elements = 2000000000"), std::string::npos) << absurd.errors;
+  folder_.write("large.toml", beams(100, "5000000"));
+  const Outcome large = shell(folder_, "$BUTEE check large.toml");
+  EXPECT_EQ(large.status, 2);
+  EXPECT_NE(large.errors.find("degrees of freedom and needs about"), std::string::npos) << large.errors;
+  EXPECT_FALSE(fs::exists(folder_.file("large-results")));
+}
+
+#ifndef __SANITIZE_ADDRESS__  // which reserves more address space than any limit leaves
+TEST_F(Faults, the_limit_is_that_of_the_process) {
+  folder_.write("large.toml", beams(1, "1000000"));
+  const Outcome outcome = shell(folder_, "ulimit -v 1000000; exec $BUTEE run large.toml");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("more than the 1.024 GB"), std::string::npos) << outcome.errors;
+}
+
+TEST_F(Faults, modes_that_never_fit_are_refused) {
+  folder_.write("modes.toml", beams(1, "8000") +
+                                  "[damping]\nmodal = 0.02\n[[support]]\nnodes = \"b0:first\"\nfix = "
+                                  "[\"u\", \"theta\"]\n");
+  const Outcome outcome = shell(folder_, "ulimit -v 4000000; exec $BUTEE run modes.toml");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("lowest modes of"), std::string::npos) << outcome.errors;
+}
+#endif
+
+}  // namespace
+}  // namespace butee::test

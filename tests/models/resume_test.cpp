@@ -1,0 +1,197 @@
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+
+#include <butee/core/text.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "conformance/methods.hpp"
+#include "support/process.hpp"
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using namespace std::chrono_literals;
+
+/// A pinned beam that strikes its stops, with everything that a run can write.
+std::string scene_of(const MethodCase& method, double end_time, int checkpoint) {
+  return "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\n"
+         "radius = 0.02\n"
+         "[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 4.0\nelements = 6\n"
+         "[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n"
+         "[[contact]]\ntype = \"stop\"\nnodes = \"b:all\"\ngap = 1e-3\nstiffness = 1e6\nlaw = \"linear\"\n"
+         "[[load]]\ntype = \"harmonic\"\nnode = \"b:middle\"\namplitude = 500.0\nangular_frequency = 60.0\n"
+         "[damping]\nmass_proportional = 0.5\n"
+         "[initial]\nvelocity = [{nodes = \"b:1..5\", value = 0.8}]\n"
+         "[integrator]\ntype = \"" +
+         method.name + "\"\ntime_step = 1e-5\nend_time = " + to_text(end_time) + "\n" + method.keys +
+         "[output]\ninterval = 1e-4\nenergy = true\nimpacts = true\n" +
+         (checkpoint > 0 ? "checkpoint = " + std::to_string(checkpoint) + "\n" : "");
+}
+
+/// Everything in summary.json that is a result: not the times, and not what setting up once more cost.
+Json results(const std::string& path) {
+  Json json = Json::parse(read_file(path));
+  for (const char* key : {"setup_seconds", "wall_seconds", "force_evaluations", "contact_evaluations",
+                          "law_evaluations", "factorizations", "factor_updates", "solves"})
+    json.erase(key);
+  return json;
+}
+
+void expect_same_results(const TemporaryFolder& folder, const std::string& a, const std::string& b) {
+  for (const char* name : {"/history.csv", "/impacts.csv"})
+    EXPECT_TRUE(read_file(folder.file(a + name)) == read_file(folder.file(b + name))) << name;
+  EXPECT_EQ(results(folder.file(a + "/summary.json")), results(folder.file(b + "/summary.json")));
+}
+
+const std::vector<std::string> kResume = {"run", "--resume", "broken", "-q"};
+
+/// Kills a run, and every run that goes on with it, after random times until one lives; the number of kills.
+int kill_until_done(const TemporaryFolder& folder, std::mt19937& random, std::chrono::microseconds whole) {
+  std::uniform_int_distribution<std::int64_t> delay(0, whole.count() * 3 / 4);
+  for (int kills = 0;; ++kills) {
+    const bool goes_on = fs::exists(folder.file("broken/model.toml"));
+    Process process(goes_on ? kResume : std::vector<std::string>{"run", "scene.toml", "-o", "broken", "-q"},
+                    folder.path());
+    // Later kills come later, so that every run ends at last.
+    if (!process.ends_within(std::chrono::microseconds(delay(random)) * (1 + kills / 10))) {
+      process.send(SIGKILL);
+      process.wait();
+      continue;
+    }
+    EXPECT_EQ(process.wait(), 0);
+    return kills;
+  }
+}
+
+class Resume : public testing::TestWithParam<MethodCase> {};
+
+/// BUTEE_KILLS asks for more than the few of every day: the kills of each method.
+TEST_P(Resume, AKilledRunEndsLikeTheUnbrokenOne) {
+  const char* asked = std::getenv("BUTEE_KILLS");
+  const int wanted = asked != nullptr ? std::atoi(asked) : 2;
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene_of(GetParam(), 2e-2, 7));
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "whole", "-q"}, folder.path()).status, 0);
+  const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+  std::mt19937 random(static_cast<std::mt19937::result_type>(std::hash<std::string>()(GetParam().name)));
+  int kills = 0;
+  while (kills < wanted) {
+    fs::remove_all(folder.file("broken"));
+    kills += kill_until_done(folder, random, whole);
+    expect_same_results(folder, "whole", "broken");
+    if (HasFailure()) break;
+  }
+  RecordProperty("kills", kills);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, Resume, testing::ValuesIn(method_cases()),
+                         [](const auto& one) { return one.param.name; });
+
+class Checkpointed : public testing::Test {
+ protected:
+  Outcome run(std::vector<std::string> arguments) { return run_program(arguments, folder_.path()); }
+  /// A run that a signal ended in the middle.
+  void interrupt(int signal) {
+    folder_.write("scene.toml", scene_of(kMethod, 100.0, 50));
+    Process process({"run", "scene.toml", "-o", "broken", "-q"}, folder_.path());
+    while (!fs::exists(folder_.file("broken/checkpoint-before.bin")) && !process.ends_within(1ms)) continue;
+    process.send(signal);
+    EXPECT_EQ(process.wait(), 1);
+  }
+  Json summary() const { return Json::parse(read_file(folder_.file("broken/summary.json"))); }
+
+  const MethodCase kMethod{"newmark_modified", "", 2.0};
+  TemporaryFolder folder_;
+};
+
+TEST_F(Checkpointed, a_signal_ends_a_run_after_its_step) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    interrupt(signal);
+    EXPECT_EQ(summary()["status"], "failed");
+    const std::string message = summary()["message"];
+    EXPECT_NE(message.find(signal == SIGINT ? "interrupted by SIGINT" : "interrupted by SIGTERM"), std::string::npos)
+        << message;
+    EXPECT_EQ(read_file(folder_.file("broken/history.csv")).back(), '\n');
+    EXPECT_TRUE(fs::exists(folder_.file("broken/checkpoint.bin")));
+    EXPECT_TRUE(fs::exists(folder_.file("broken/impacts.csv")));
+  }
+}
+
+/// A run of a hundred seconds that was interrupted, with the horizon drawn in by hand: refused, since it is no longer
+/// the same model.
+TEST_F(Checkpointed, another_model_is_refused) {
+  interrupt(SIGINT);
+  std::string model = read_file(folder_.file("broken/model.toml"));
+  const auto at = model.find("end_time = 100");
+  ASSERT_NE(at, std::string::npos);
+  folder_.write("broken/model.toml", model.replace(at, 14, "end_time = 101"));
+  const Outcome outcome = run(kResume);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("is not the model"), std::string::npos) << outcome.errors;
+}
+
+TEST_F(Checkpointed, damaged_checkpoints_are_told_and_passed_over) {
+  folder_.write("scene.toml", scene_of(kMethod, 2e-2, 50));
+  ASSERT_EQ(run({"run", "scene.toml", "-o", "whole", "-q"}).status, 0);
+  for (const bool both : {false, true}) {
+    fs::remove_all(folder_.file("broken"));
+    {
+      Process process({"run", "scene.toml", "-o", "broken", "-q"}, folder_.path());
+      while (!fs::exists(folder_.file("broken/checkpoint-before.bin")) && !process.ends_within(100us)) continue;
+      process.send(SIGKILL);
+      process.wait();
+    }
+    if (!fs::exists(folder_.file("broken/checkpoint.bin"))) continue;  // It was done before the signal came.
+    folder_.write("broken/checkpoint.bin", "no checkpoint");
+    if (both) folder_.write("broken/checkpoint-before.bin", "neither");
+    const Outcome outcome = run(kResume);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("checkpoint.bin: "), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.errors.find("checkpoint-before.bin: ") != std::string::npos, both) << outcome.errors;
+    expect_same_results(folder_, "whole", "broken");
+  }
+}
+
+TEST_F(Checkpointed, what_cannot_go_on_says_so) {
+  EXPECT_EQ(run({"run", "--resume", "nowhere"}).status, 2);
+  folder_.write("scene.toml", scene_of(kMethod, 1e-3, 0));
+  ASSERT_EQ(run({"run", "scene.toml", "-o", "broken", "-q"}).status, 0);
+  const Outcome complete = run({"run", "--resume", "broken"});
+  EXPECT_EQ(complete.status, 0);
+  EXPECT_NE(complete.errors.find("nothing is left to do"), std::string::npos) << complete.errors;
+  fs::remove(folder_.file("broken/summary.json"));
+  const Outcome without = run(kResume);
+  EXPECT_EQ(without.status, 2);
+  EXPECT_NE(without.errors.find("kept no checkpoints"), std::string::npos) << without.errors;
+  EXPECT_EQ(run({"run", "scene.toml", "--resume", "broken"}).status, 2);
+  EXPECT_EQ(run({"run", "--resume", "broken", "--set", "integrator.end_time=2.0"}).status, 2);
+}
+
+TEST_F(Checkpointed, a_method_with_a_history_of_its_own_is_refused) {
+  if (!fs::exists(std::string(BUTEE_TEST_PLUGINS) + "/sundials.so")) GTEST_SKIP() << "built without SUNDIALS";
+  for (const char* method : {"cvode_bdf", "cvode_adams", "arkode_erk", "arkode_dirk"}) {
+    folder_.write("scene.toml", scene_of({method, "", 0.0}, 1e-3, 5));
+    const Outcome outcome = run({"run", "scene.toml", "-o", "broken"});
+    EXPECT_EQ(outcome.status, 2) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("output.checkpoint"), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(fs::exists(folder_.file("broken")));
+  }
+}
+
+TEST_F(Checkpointed, a_completed_run_leaves_none) {
+  folder_.write("scene.toml", scene_of(kMethod, 5e-3, 5));
+  ASSERT_EQ(run({"run", "scene.toml", "-o", "broken", "-q", "--repeat", "2"}).status, 0);
+  for (const auto& entry : fs::directory_iterator(folder_.file("broken")))
+    EXPECT_FALSE(entry.path().filename().string().starts_with("checkpoint")) << entry.path();
+}
+
+}  // namespace
+}  // namespace butee::test

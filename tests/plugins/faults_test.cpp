@@ -1,0 +1,84 @@
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string broken(const std::string& name) {
+  return std::string(BUTEE_TEST_BROKEN) + "/" + name + ".so";
+}
+
+std::string scene_with(const std::string& method) {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n"
+         "[initial]\ndisplacement = [{nodes = \"a\", value = 1.0}]\n"
+         "[integrator]\ntype = \"" +
+         method + "\"\ntime_step = 1e-3\nend_time = 1.0\n[output]\ninterval = 1e-3\n";
+}
+
+struct Case {
+  const char* method;
+  const char* says;
+};
+
+/// Whatever a method does after its fifth step, the rows before it are kept and the summary says what happened.
+TEST(FaultyModules, a_method_that_breaks_in_a_step_fails_the_run) {
+  for (const Case& one : {Case{"throws_in_step", "the oracle is out"}, Case{"gives_nan", "no longer finite"},
+                          Case{"goes_back", "a step ends where it was to end"},
+                          Case{"throws_a_number", "no exception of the standard library"}}) {
+    SCOPED_TRACE(one.method);
+    const TemporaryFolder folder;
+    folder.write("scene.toml", scene_with(one.method));
+    const Outcome outcome = run_program({"run", "scene.toml", "--plugin", broken("failing_methods")}, folder.path());
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.errors.find(one.says), std::string::npos) << outcome.errors;
+    const auto summary = nlohmann::json::parse(read_file(folder.file("scene-results/summary.json")));
+    EXPECT_EQ(summary["status"], "failed");
+    EXPECT_NE(std::string(summary["message"]).find(one.says), std::string::npos) << summary["message"];
+    EXPECT_EQ(summary["steps"], 5);
+    EXPECT_EQ(CsvTable(folder.file("scene-results/history.csv")).rows(), 6U);
+  }
+}
+
+TEST(FaultyModules, a_method_that_cannot_be_made_leaves_nothing) {
+  for (const Case& one :
+       {Case{"throws_in_make", "no licence for this scene"}, Case{"makes_nothing", "made no method"}}) {
+    SCOPED_TRACE(one.method);
+    const TemporaryFolder folder;
+    folder.write("scene.toml", scene_with(one.method));
+    const Outcome outcome = run_program({"run", "scene.toml", "--plugin", broken("failing_methods")}, folder.path());
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.errors.find(one.says), std::string::npos) << outcome.errors;
+    EXPECT_EQ(folder.entries(), std::vector<std::string>{"scene.toml"});
+  }
+}
+
+/// Nothing can catch it, but the last line names the module.
+TEST(FaultyModules, one_that_crashes_while_it_is_loaded_is_named) {
+  for (const char* name : {"static_crash", "static_throw"}) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_program({"plugins", "--plugin", broken(name)}, folder.path());
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_NE(outcome.errors.find(std::string(name) + ".so: crashed the program while it was loaded"),
+              std::string::npos)
+        << outcome.errors;
+  }
+}
+
+TEST(FaultyModules, one_that_was_built_for_another_version_is_refused_with_the_difference) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene_with("rk4"));
+  const Outcome outcome = run_program({"run", "scene.toml", "--plugin", broken("other_interface")}, folder.path());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("built for another butee: interface version"), std::string::npos) << outcome.errors;
+  EXPECT_FALSE(fs::exists(folder.file("scene-results")));
+}
+
+}  // namespace
+}  // namespace butee::test

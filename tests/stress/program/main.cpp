@@ -1,0 +1,133 @@
+// The whole stress suite: butee_stress --full [--report FILE]. Without --full the reduced one that ctest runs.
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+#include "stress/long_runs.hpp"
+#include "stress/tally.hpp"
+
+namespace {
+
+using namespace butee::stress;
+
+/// Ends the program, with a word of what it was at, where a run neither ends nor is cut.
+class Watchdog {
+ public:
+  explicit Watchdog(int seconds) : seconds_(seconds), thread_([this] { watch(); }) {}
+  ~Watchdog() {
+    is_done_ = true;
+    thread_.join();
+  }
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+
+  void note(const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    what_ = what;
+    ++count_;
+  }
+
+ private:
+  void watch() {
+    long last = -1;
+    int still = 0;
+    while (!is_done_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      const long now = count_;
+      still = now == last ? still + 1 : 0;
+      last = now;
+      if (still < 5 * seconds_) continue;
+      const std::lock_guard lock(mutex_);
+      std::fprintf(stderr, "hung after %s\n", what_.c_str());
+      std::_Exit(1);
+    }
+  }
+
+  int seconds_;
+  std::mutex mutex_;
+  std::string what_ = "the start";
+  std::atomic<long> count_ = 0;
+  std::atomic<bool> is_done_ = false;
+  std::thread thread_;
+};
+
+struct Options {
+  bool full = false, no_long_runs = false, verbose = false;
+  int scenes = 0, points = 0;
+  std::uint64_t seed = 1;
+  std::int64_t work = 0;
+  std::string method, only, report;
+};
+
+int run_suite(Options options) {
+  if (options.scenes == 0) options.scenes = options.full ? 10000 : 40;
+  if (options.points == 0) options.points = options.full ? 13 : 3;
+  if (options.work == 0) options.work = options.full ? 40000 : 20000;
+  std::vector<Method> chosen;
+  for (const Method& method : methods())
+    if (options.method.empty() || options.method == method.name) chosen.push_back(method);
+
+  Watchdog watchdog(120);
+  Tally corners, random;
+  const auto note = [&](const Scene& scene, const Method& method, const Outcome& outcome) {
+    watchdog.note(scene.name + ", " + method.name);
+    if (options.verbose || is_failure(outcome.verdict))
+      std::printf("%s, %s: %s, error %g, allowed %g, %s\n", scene.name.c_str(), method.name.c_str(),
+                  name_of(outcome.verdict), outcome.error, outcome.allowed, outcome.message.c_str());
+    std::fflush(stdout);
+  };
+  std::vector<Scene> scenes;
+  for (Scene& scene : corner_scenes(options.points))
+    if (options.only.empty() || scene.name == options.only) scenes.push_back(std::move(scene));
+  run_all(scenes, chosen, options.work, corners, note);
+  for (int i = 0; i < options.scenes; ++i) {
+    Scene scene = random_scene(options.seed + static_cast<std::uint64_t>(i));
+    if (!options.only.empty() && scene.name != options.only) continue;
+    if (options.verbose) std::printf("%s\n%s", scene.name.c_str(), scene.toml.c_str());
+    run_all({std::move(scene)}, chosen, options.work, random, note);
+  }
+  std::string text = "# Stress suite\n\nMade by `butee_stress" + std::string(options.full ? " --full" : "") +
+                     "`, seed " + std::to_string(options.seed) + ", at most " + std::to_string(options.work) +
+                     " evaluations and solves a run. What the columns mean: tests/stress/README.md.\n\n## Corners, " +
+                     std::to_string(corners.scenes) + " scenes\n\n" + corners.markdown() + "\n## Random scenes, " +
+                     std::to_string(random.scenes) + "\n\n" + random.markdown();
+  bool is_good = corners.failures().empty() && random.failures().empty();
+  if (!options.no_long_runs) {
+    text += "\n## Long runs\n\n| method | steps | sound | what came out | CPU s |\n|---|---|---|---|---|\n";
+    for (const Method& method : chosen) {
+      const LongRun run = run_long(method, options.full ? 1000000 : 20000);
+      watchdog.note("the long run of " + method.name);
+      is_good = is_good && run.is_sound;
+      text += "| `" + method.name + "` | " + std::to_string(run.steps) + " | " + (run.is_sound ? "yes" : "NO") + " | " +
+              run.message + " | " + std::to_string(run.seconds) + " |\n";
+    }
+  }
+  std::printf("%s", text.c_str());
+  if (!options.report.empty()) std::ofstream(options.report) << text;
+  return is_good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("butee_stress: every method on scenes that no one would build");
+  Options options;
+  program.add_flag("--full", options.full, "ten thousand random scenes instead of forty");
+  program.add_flag("--no-long-runs", options.no_long_runs, "leave out the runs of very many steps");
+  program.add_flag("-v,--verbose", options.verbose, "every run");
+  program.add_option("--scenes", options.scenes, "so many random scenes");
+  program.add_option("--points", options.points, "so many points of each sweep");
+  program.add_option("--seed", options.seed, "of the first random scene");
+  program.add_option("--work", options.work, "evaluations and solves of a run");
+  program.add_option("--method", options.method, "this method alone");
+  program.add_option("--only", options.only, "the scene of this name alone");
+  program.add_option("--report", options.report, "a file for the report");
+  CLI11_PARSE(program, argc, argv);
+  return run_suite(options);
+}

@@ -1,0 +1,244 @@
+#include "run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
+#include <butee/plugin/catalogue.hpp>
+#include <butee/solve/frequencies.hpp>
+
+namespace butee::stress {
+namespace {
+
+using test::SceneRun;
+
+constexpr int kInstants = 200;
+/// Error at the end for an error of one tolerance at the start: that of many steps, and of more than one DOF.
+constexpr double kReserve = 30.0;
+/// Where that much error is allowed there is nothing left to compare.
+constexpr double kHorizon = 0.3;
+/// A motion so many times as large as the true one is no inaccuracy.
+constexpr double kGrown = 1e3;
+/// A series of order 30 is as many evaluations.
+constexpr std::int64_t kReferenceWork = 25;
+/// CPU seconds; a bound of work is reached long before.
+constexpr double kHung = 20.0;
+
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+std::vector<double> instants_of(const Scene& scene) {
+  std::vector<double> instants;
+  for (int i = 1; i <= kInstants; ++i) instants.push_back(scene.end_time * i / kInstants);
+  return instants;
+}
+
+/// Takes all displacements at given instants.
+class Follower final : public time::Observer {
+ public:
+  Follower(Index size, std::vector<double> instants) : instants_(std::move(instants)), row_(size) {
+    for (Index i = 0; i < size; ++i) all_.push_back(i);
+  }
+  void step(const time::AcceptedStep& step) override {
+    largest = std::max(largest, step.to.x.lpNorm<Eigen::Infinity>());
+    is_finite = is_finite && step.to.x.allFinite() && step.to.v.allFinite() && step.to.a.allFinite();
+    while (rows.size() < instants_.size() && instants_[rows.size()] <= step.to.t) {
+      step.integrator.interpolate(step.from, step.to, instants_[rows.size()], all_,
+                                  {{row_.data(), static_cast<std::size_t>(row_.size())}, {}, {}});
+      is_finite = is_finite && row_.allFinite();
+      rows.push_back(row_);
+    }
+  }
+  double next_instant(double t) const override {
+    const auto next = std::upper_bound(instants_.begin(), instants_.end(), t);
+    return next == instants_.end() ? std::numeric_limits<double>::infinity() : *next;
+  }
+
+  std::vector<Vector> rows;
+  double largest = 0.0;
+  bool is_finite = true;
+
+ private:
+  std::vector<double> instants_;
+  std::vector<Index> all_;
+  Vector row_;
+};
+
+std::int64_t work_of(const solve::Counters& c) {
+  return c.force_evaluations + c.contact_evaluations + c.solves + c.factorizations;
+}
+
+enum class End { over, cut, hung };
+
+End advance(SceneRun& run, std::int64_t work) {
+  const double begin = cpu_seconds();
+  for (std::int64_t i = 0; i < work; ++i) {
+    if (!run.simulation().advance()) return End::over;
+    if (work_of(run.dynamics().counters()) > work) return End::cut;
+    if (i % 64 == 0 && cpu_seconds() - begin > kHung) return End::hung;
+  }
+  return End::cut;
+}
+
+std::string integrator(const Scene& scene, const std::string& keys) {
+  return "[integrator]\n" + keys + "end_time = " + to_text(scene.end_time) + "\n";
+}
+
+/// Moves the start by `size` and `speed`, differently in every DOF.
+struct Shift {
+  double size = 0.0, speed = 0.0;
+};
+
+struct Course {
+  std::vector<Vector> rows;
+  double end = 0.0;
+};
+
+Course exact_course(const Scene& scene, const Shift& shift, std::int64_t work) {
+  SceneRun run(scene.toml +
+               integrator(scene, "type = \"exact\"\ntime_step = " + to_text(1e-3 * scene.end_time) + "\n"));
+  auto& system = const_cast<model::System&>(run.system());
+  for (Index i = 0; i < system.size(); ++i) {
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    system.initial_displacement[i] += sign * shift.size;
+    system.initial_velocity[i] += sign * shift.speed;
+  }
+  time::Simulation simulation(run.dynamics(), run.integrator(), {1e-3 * scene.end_time, scene.end_time, {}});
+  Follower follower(run.dynamics().size(), instants_of(scene));
+  simulation.add(follower);
+  for (std::int64_t i = 0; i < work && work_of(run.dynamics().counters()) < work && simulation.advance();) ++i;
+  if (!follower.is_finite) return {};
+  return {std::move(follower.rows), simulation.state().t};
+}
+
+std::string settings(const Scene& scene, const Method& method, double critical_step) {
+  const std::string type = "type = \"" + method.name + "\"\n";
+  const double step = std::min(scene.step_factor * critical_step, 0.2 * scene.end_time);
+  const std::string time_step = "time_step = " + to_text(step) + "\n";
+  if (method.is_controlled) return type + "tolerance = " + to_text(scene.tolerance) + "\n";
+  if (method.name == "rk4_fixed_factors")
+    return type + time_step + "shrink = 1.3\ngrow = 1.5\ntolerance = " + to_text(scene.tolerance * scene.size) + "\n";
+  if (method.name == "rk4_error_scaled")
+    return type + time_step + "safety = 0.8\ntolerance = " + to_text(scene.tolerance * scene.size) + "\n";
+  std::string keys = type + time_step;
+  if (method.name == "newmark" || method.name == "newmark_adaptive")
+    keys += "residual_tolerance = 1e-9\nincrement_tolerance = 1e-9\nmax_iterations = 30\n";
+  if (method.name == "newmark_adaptive" || method.name == "newmark_modified_adaptive")
+    keys += "target_error = " + to_text(0.1 * scene.tolerance) + "\n";
+  return keys;
+}
+
+Outcome judge(const Method& method, const Reference& reference, const Follower& follower, Outcome outcome) {
+  if (!follower.is_finite) {
+    outcome.verdict = Verdict::not_finite;
+    return outcome;
+  }
+  if (!reference.exists()) return outcome;
+  double largest_allowed = 0.0;
+  for (std::size_t i = 0; i < std::min(reference.instants().size(), follower.rows.size()); ++i) {
+    const double error = (follower.rows[i] - reference.at(i)).lpNorm<Eigen::Infinity>() / reference.peak();
+    outcome.error = std::max(outcome.error, error);
+    if (error > outcome.excess * reference.allowed(i)) {
+      outcome.excess = error / reference.allowed(i);
+      largest_allowed = reference.allowed(i);
+    }
+  }
+  outcome.allowed = largest_allowed;
+  if (follower.largest > kGrown * reference.peak())
+    outcome.verdict = Verdict::grown;
+  else if (outcome.excess <= 1.0)
+    outcome.verdict = Verdict::correct;
+  else
+    outcome.verdict = method.is_controlled ? Verdict::wrong : Verdict::inaccurate;
+  return outcome;
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  const char* const names[] = {"correct", "inaccurate", "diagnosed",  "refused", "unjudged",
+                               "wrong",   "grown",      "not finite", "silent",  "hung"};
+  return names[static_cast<int>(verdict)];
+}
+
+bool is_failure(Verdict verdict) {
+  return static_cast<int>(verdict) >= static_cast<int>(Verdict::wrong);
+}
+
+std::vector<Method> methods() {
+  plugin::Catalogue catalogue;
+  catalogue.add(BUTEE_TEST_PLUGINS);
+  std::vector<Method> all;
+  for (const auto& entry : catalogue.integrators()) {
+    const auto& type = entry.declaration;
+    if (type.name == "exact") continue;
+    // The ones that need no first step are those whose tolerance is relative and kept.
+    all.push_back({type.name, type.finds_first_step, type.name != "exponential"});
+  }
+  return all;
+}
+
+Reference::Reference(const Scene& scene, std::int64_t work) {
+  work *= kReferenceWork;
+  {
+    SceneRun run(scene.toml + integrator(scene, "type = \"exact\"\ntime_step = " + to_text(scene.end_time) + "\n"));
+    const auto range = solve::frequency_range(run.system(), solve::StopState::closed);
+    critical_step_ = range && range->highest > 0.0 ? 2.0 / range->highest : scene.end_time;
+  }
+  const Course course = exact_course(scene, {}, work);
+  double speed = 0.0;
+  for (std::size_t i = 0; i < course.rows.size(); ++i) {
+    peak_ = std::max(peak_, course.rows[i].lpNorm<Eigen::Infinity>());
+    const Vector before = i > 0 ? course.rows[i - 1] : Vector::Zero(course.rows[i].size());
+    speed = std::max(speed, (course.rows[i] - before).lpNorm<Eigen::Infinity>() * kInstants / scene.end_time);
+  }
+  if (!(peak_ > 0.0)) return;
+  std::vector<Course> others;
+  for (const double sign : {1.0, -1.0}) {
+    const double part = sign * scene.tolerance;
+    others.push_back(exact_course(scene, {part * peak_, part * speed}, work));
+  }
+  const std::vector<double> instants = instants_of(scene);
+  double apart = scene.tolerance;
+  for (std::size_t i = 0; i < course.rows.size(); ++i) {
+    for (const Course& other : others) {
+      if (i >= other.rows.size()) return;
+      apart = std::max(apart, (other.rows[i] - course.rows[i]).lpNorm<Eigen::Infinity>() / peak_);
+    }
+    if (kReserve * apart > kHorizon && i > 0) return;
+    instants_.push_back(instants[i]);
+    motion_.push_back(course.rows[i]);
+    allowed_.push_back(std::min(kReserve * apart, kHorizon));
+    end_ = instants[i];
+  }
+}
+
+Outcome run(const Scene& scene, const Method& method, const Reference& reference, std::int64_t work) {
+  Outcome outcome;
+  const double begin = cpu_seconds();
+  try {
+    SceneRun run(scene.toml + integrator(scene, settings(scene, method, reference.critical_step())));
+    Follower follower(run.dynamics().size(), instants_of(scene));
+    run.simulation().add(follower);
+    const End end = advance(run, work);
+    outcome.seconds = cpu_seconds() - begin;
+    outcome.was_cut = end == End::cut;
+    const time::RunReport& report = run.simulation().report();
+    outcome.message = report.message;
+    outcome.has_warned = !report.warnings.empty();
+    outcome = judge(method, reference, follower, std::move(outcome));
+    if (end == End::hung) outcome.verdict = Verdict::hung;
+    const bool stopped = end == End::over && !report.completed;
+    if (stopped && outcome.verdict != Verdict::not_finite)
+      outcome.verdict = outcome.message.find("t = ") != std::string::npos ? Verdict::diagnosed : Verdict::silent;
+  } catch (const InputError& error) {
+    outcome.verdict = Verdict::refused;
+    outcome.message = error.what();
+  }
+  return outcome;
+}
+
+}  // namespace butee::stress

@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+
+#include "stress/long_runs.hpp"
+#include "stress/tally.hpp"
+
+namespace butee::stress {
+namespace {
+
+/// Evaluations and solves of a run, which is cut there: some ten thousand steps of a small scene.
+constexpr std::int64_t kWork = 20000;
+
+void expect_no_failure(const Tally& tally, std::size_t scenes) {
+  for (const Failure& f : tally.failures())
+    ADD_FAILURE() << f.scene << ", " << f.method << ": " << name_of(f.outcome.verdict) << ", error " << f.outcome.error
+                  << ", allowed " << f.outcome.allowed << " " << f.outcome.message;
+  EXPECT_EQ(tally.scenes, static_cast<std::int64_t>(scenes));
+  EXPECT_EQ(tally.rows().size(), methods().size());
+  for (const auto& [name, row] : tally.rows()) {
+    EXPECT_EQ(row.runs, tally.scenes) << name;
+    EXPECT_GT(row.counts[static_cast<std::size_t>(Verdict::correct)], 0) << name << " never was correct";
+  }
+  EXPECT_GT(tally.count(Verdict::diagnosed), 0);
+}
+
+TEST(Stress, CornersOfTheSpaceOfScenes) {
+  const auto scenes = corner_scenes(3);
+  Tally tally;
+  run_all(scenes, methods(), kWork, tally);
+  expect_no_failure(tally, scenes.size());
+}
+
+TEST(Stress, RandomScenes) {
+  std::vector<Scene> scenes;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) scenes.push_back(random_scene(seed));
+  Tally tally;
+  run_all(scenes, methods(), kWork, tally);
+  expect_no_failure(tally, scenes.size());
+}
+
+TEST(Stress, LongRunsStayWithinTheirMotion) {
+  for (const Method& method : methods()) {
+    const LongRun run = run_long(method, 20000);
+    EXPECT_TRUE(run.is_sound) << method.name << ": " << run.message;
+    EXPECT_GT(run.steps, 1000) << method.name;
+  }
+}
+
+TEST(StressScenes, AreTheSameForTheSameSeed) {
+  EXPECT_EQ(random_scene(7).toml, random_scene(7).toml);
+  EXPECT_NE(random_scene(7).toml, random_scene(8).toml);
+  // The generator's own numbers: another machine makes the same scenes.
+  Random random(1);
+  EXPECT_EQ(random.next(), 0x910a2dec89025cc1U);
+}
+
+}  // namespace
+}  // namespace butee::stress

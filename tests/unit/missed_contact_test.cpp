@@ -1,0 +1,88 @@
+#include "integrators/missed_contact.hpp"
+
+#include <cmath>
+
+#include <butee/core/text.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test {
+namespace {
+
+std::string mass_at_a_stop(const std::string& sides, const std::string& integrator, const std::string& more = "") {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+         "\"m\"\nstiffness = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.9\nlaw = \"linear\"\nstiffness "
+         "= "
+         "1e6\nsides = \"" +
+         sides + "\"\n" + more + "[integrator]\nend_time = 3.0\n" + integrator;
+}
+
+/// States of the free motion x = sin t, which is beyond 0.9 from t = 1.12 to 2.02.
+time::State at(double t) {
+  return {t, Vector::Constant(1, std::sin(t)), Vector::Constant(1, std::cos(t)), {}, {}};
+}
+
+TEST(MissedContact, IsOneThatBothEndsOfAStepAreFreeOf) {
+  SceneRun run(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"));
+  integrators::MissedContact missed(run.dynamics());
+  const auto happened = [&](double from, double to, double tolerance) {
+    return missed.happened(at(from), at(to), to - from, tolerance);
+  };
+  EXPECT_TRUE(happened(1.0, 2.1, 1e-3));
+  EXPECT_TRUE(happened(1.0, 2.1, 0.1));    // sin reaches 1, a depth of 0.1.
+  EXPECT_FALSE(happened(1.0, 2.1, 0.13));  // 0.1/0.9 is less than that.
+  EXPECT_FALSE(happened(0.2, 0.9, 1e-6));  // It does not turn.
+  EXPECT_FALSE(happened(0.2, 1.3, 1e-6));  // It ends in the stop, which every method sees.
+  EXPECT_TRUE(happened(1.0 + 3.141592653589793, 2.1 + 3.141592653589793, 1e-3));
+}
+
+TEST(MissedContact, KnowsOneSidedStops) {
+  for (const auto& [sides, above, below] : {std::tuple{"positive", true, false}, std::tuple{"negative", false, true}}) {
+    SceneRun run(mass_at_a_stop(sides, "type = \"exact\"\ntime_step = 1.0\n"));
+    integrators::MissedContact missed(run.dynamics());
+    EXPECT_EQ(missed.happened(at(1.0), at(2.1), 1.1, 1e-3), above) << sides;
+    EXPECT_EQ(missed.happened(at(4.1), at(5.2), 1.1, 1e-3), below) << sides;
+  }
+}
+
+class ShortEvents : public testing::TestWithParam<std::string> {};
+
+std::string method(const std::string& name, double tolerance) {
+  return "type = \"" + name + "\"\ntolerance = " + to_text(tolerance) + "\n";
+}
+
+/// A mass at rest gets 2 N s within a thousandth of a second, which is over long before a step would end.
+TEST_P(ShortEvents, APulseIsNotPassedOver) {
+  const std::string pulse =
+      "[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = [0.0, 1.0, 1.0005, 1.001]\nvalues = [0.0, 0.0, 4000.0, 0.0]\n"
+      "[initial]\nvelocity = [{nodes = \"m\", value = 1e-6}]\n";
+  SceneRun run(mass_at_a_stop("both", method(GetParam(), 1e-3), pulse),
+               {"contact[0].gap=1e3", "integrator.end_time=2.0"});
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  // 2 sin(t - 1.0005) from the instant of the pulse on; a pulse is not quite an instant.
+  EXPECT_NEAR(run.simulation().state().x[0], 2.0 * std::sin(0.9995), 0.02);
+}
+
+/// A grazing impact on a hard stop, at the turning point of a slow motion.
+TEST_P(ShortEvents, AnImpactAtATurningPointIsNotPassedOver) {
+  const double speed = 0.9 * 1.002;  // 2e-3 beyond the gap, at 6 % of the speed
+  const std::string start = "[initial]\nvelocity = [{nodes = \"m\", value = " + to_text(speed) + "}]\n";
+  SceneRun run(mass_at_a_stop("positive", method(GetParam(), 1e-4), start), {"integrator.end_time=3.0"});
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  SceneRun exact(mass_at_a_stop("positive", "type = \"exact\"\ntime_step = 1e-2\n", start));
+  ASSERT_TRUE(exact.run().completed);
+  const double free = speed * std::sin(3.0), struck = exact.simulation().state().x[0];
+  ASSERT_GT(std::abs(struck - free), 0.05);  // What the impact is worth.
+  // An impact magnifies what came before it, here about tenfold.
+  EXPECT_NEAR(run.simulation().state().x[0], struck, 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, ShortEvents,
+                         testing::Values("exponential", "rodas4", "dopri5", "extrapolation8", "bathe_adaptive",
+                                         "generalized_alpha_adaptive", "hht_alpha_adaptive",
+                                         "discrete_gradient_adaptive", "central_differences_adaptive", "auto"),
+                         [](const auto& one) { return one.param; });
+
+}  // namespace
+}  // namespace butee::test
