@@ -14,10 +14,11 @@ struct Choice {
   std::string why;
 };
 
-/// exponential where all modes can be had and nothing but the stops couples them, rodas4 for all else.
-Choice choose(const solve::Dynamics& dynamics);
+/// exponential where all modes can be had and nothing but the stops couples them, rodas4 for all else, and where it is
+/// expected to be done before the modes of a large system are found.
+Choice choose(solve::Dynamics& dynamics, double tolerance, double end_time);
 
 /// The chosen method with this tolerance; it knows why it was chosen.
-std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, double tolerance);
+std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, double tolerance, double end_time);
 
 }  // namespace butee::integrators

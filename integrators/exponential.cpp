@@ -5,34 +5,26 @@
 #include <limits>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
 namespace {
 
 using solve::ModalSystem;
-using solve::StepFlow;
 using time::State;
 using time::StepReport;
 using time::StepStatus;
-using Trial = ExponentialStep::Trial;
 
 /// Steps in a block; its knots stay in the cache.
 constexpr int kBlock = 32;
-/// What the state carries behind q and v: the rung of the ladder, the scale of errors, and whether the last step was
-/// without stops within reach.
+/// What the state carries behind the memory of a step: the rung of the ladder, the scale of errors, and whether the
+/// last step was without stops within reach.
 constexpr Index kExtras = 3;
 /// Rungs that a step without stops within reach may be above those with.
 constexpr int kQuietRungs = 2;
 /// So many rungs below the first step no step is worth trying.
 constexpr int kMostRungsDown = 80;
-/// A step between outputs is rounded to so many digits, so that equal intervals are equal.
-constexpr double kSameDigits = 1e10;
-
-double rounded(double h) {
-  const double unit = std::pow(10.0, std::floor(std::log10(h))) / kSameDigits;
-  return std::round(h / unit) * unit;
-}
 
 /// The displacement in the middle of a step may depart from the cubic by this part of the scale. At order 4 that is
 /// what the error is made of; at order 2 the error is of a lower power of h. At order 6, which takes the departure into
@@ -51,40 +43,43 @@ double middle_tolerance(const ExponentialOptions& options) {
 
 }  // namespace
 
-Exponential::Exponential(solve::Dynamics& dynamics, const ExponentialOptions& options)
+template <class Step>
+Exponential<Step>::Exponential(solve::Dynamics& dynamics, const ExponentialOptions& options)
     : Integrator(dynamics),
       options_(options),
       modal_(dynamics.modal(options.modes)),
-      step_(dynamics, modal_, options.order, middle_tolerance(options)),
-      knots_(dynamics, modal_, kBlock),
-      kinks_(dynamics.load_kinks()),
-      acceleration_(Eigen::ArrayXd::Zero(modal_.size())) {
+      step_(dynamics, modal_, options.order, middle_tolerance(options), kBlock),
+      kinks_(dynamics.load_kinks()) {
   first_level_ = find_first_level();
 }
 
-int Exponential::find_first_level() const {
+template <class Step>
+int Exponential<Step>::find_first_level() const {
   if (!step_.has_stops()) return 0;
   const Vector stiffness = dynamics().contact().closed_stiffness();
   double square = 0.0;
   for (Index i = 0; i < modal_.stop_count(); ++i)
-    square = std::max(square, stiffness[i] * modal_.stop_shapes().col(i).squaredNorm());
+    square = std::max(square, stiffness[i] * modal_.stop_shapes().of(i).squaredNorm());
   const double h = std::pow(options_.tolerance, options_.order == 2 ? 0.5 : 0.25) * 4.0 / std::sqrt(square);
   return static_cast<int>(std::floor(2.0 * std::log2(std::min(h, 1.0 / std::sqrt(square)))));
 }
 
-double Exponential::first_step(const State&) const {
+template <class Step>
+double Exponential<Step>::first_step(const State&) const {
   return step_.has_stops() ? kBlock * ModalSystem::ladder_step(first_level_) : std::numeric_limits<double>::infinity();
 }
 
-void Exponential::do_start(State& state) {
+template <class Step>
+void Exponential<Step>::do_start(State& state) {
   const Index n = modal_.size();
-  state.memory.resize(2 * n + kExtras);
+  state.memory.resize(step_.memory_size() + kExtras);
   modal_.to_modal(state.x, state.memory.head(n));
   modal_.to_modal(state.v, state.memory.segment(n, n));
+  step_.complete(state.memory.data());
   double scale = 0.0;
   if (step_.has_stops()) {
     Vector w(modal_.stop_count());
-    modal_.stop_displacement(state.memory.data(), w.data());
+    modal_.stop_shapes().displacement(state.memory.data(), w.data());
     scale = w.lpNorm<Eigen::Infinity>();
   }
   state.memory.tail(kExtras) << static_cast<double>(first_level_), scale, 0.0;
@@ -98,54 +93,52 @@ void Exponential::do_start(State& state) {
   }
 }
 
-StepReport Exponential::do_step(const State& from, const time::Step& step, State& to) {
+template <class Step>
+StepReport Exponential<Step>::do_step(const State& from, const time::Step& step, State& to) {
   StepReport report = follow(from, step);
   if (report.status != StepStatus::ok) return report;
-  const Index n = modal_.size();
-  to.t = knots_.last();
-  to.memory.head(n) = step_.q();
-  to.memory.segment(n, n) = step_.v();
+  to.t = step_.t();
+  step_.save(to.memory.data());
   to.memory.tail(kExtras) << static_cast<double>(level_), step_.scale(), is_quiet_ ? 1.0 : 0.0;
-  modal_.to_physical(step_.q().data(), to.x);
-  modal_.to_physical(step_.v().data(), to.v);
+  modal_.to_physical(step_.q(), to.x);
+  modal_.to_physical(step_.v(), to.v);
   dynamics().acceleration(to.t, to.x, to.v, to.a);
   report.error =
       step_.has_stops() ? kBlock * ModalSystem::ladder_step(level_) : std::numeric_limits<double>::infinity();
   return report;
 }
 
-StepReport Exponential::follow(const State& from, const time::Step& step) {
-  const Index n = modal_.size();
+template <class Step>
+StepReport Exponential<Step>::follow(const State& from, const time::Step& step) {
+  const auto extras = from.memory.tail(kExtras);
   begin_t_ = from.t;
   end_t_ = std::numeric_limits<double>::quiet_NaN();
   begin_memory_ = from.memory;
-  step_.begin(from.memory.data(), from.memory.data() + n, from.memory[2 * n + 1]);
-  level_ = static_cast<int>(from.memory[2 * n]);
-  is_quiet_ = from.memory[2 * n + 2] != 0.0;
-  knots_.begin(from.t, step_.q(), step_.v());
+  step_.begin(from.t, from.memory.data(), extras[1]);
+  level_ = static_cast<int>(extras[0]);
+  is_quiet_ = extras[2] != 0.0;
   StepReport report;
   report.inner_steps = 0;
   const int most = step.single ? 1 : kBlock;
-  while (report.inner_steps < most && knots_.last() < step.t_end) {
-    const double rest = report.inner_steps == 0 ? step.h : step.t_end - knots_.last();
+  while (report.inner_steps < most && step_.t() < step.t_end) {
+    const double rest = report.inner_steps == 0 ? step.h : step.t_end - step_.t();
     if (!advance(rest, step.t_end, report)) break;
   }
-  end_t_ = knots_.last();
+  end_t_ = step_.t();
   return report;
 }
 
-bool Exponential::advance(double rest, double end, StepReport& report) {
-  const double t = knots_.last(), kink = next_kink(t), limit = std::min(rest, kink - t);
+template <class Step>
+bool Exponential<Step>::advance(double rest, double end, StepReport& report) {
+  const double t = step_.t(), kink = next_kink(t), limit = std::min(rest, kink - t);
   int rungs = level_ + (is_quiet_ ? kQuietRungs : 0);
   while (true) {
     const bool fits = step_.has_stops() && ModalSystem::ladder_step(rungs) <= limit;
     // What is left of a block is shorter than a step: the next block takes it with whole ones.
     if (!fits && kink - t >= rest && report.inner_steps > 0) return false;
-    StepFlow& flow = fits ? modal_.ladder(rungs) : modal_.odd(step_.has_stops() ? limit : rounded(limit));
-    const Trial trial = step_.attempt(flow, t);
+    const Trial trial = fits ? step_.attempt_rung(rungs) : step_.attempt_length(limit);
     if (trial == Trial::accepted) {
-      step_.accept();
-      knots_.add(fits ? t + flow.h() : std::min(kink, end), step_.q(), step_.v());
+      step_.accept(fits ? t + ModalSystem::ladder_step(rungs) : std::min(kink, end));
       ++report.inner_steps;
       is_quiet_ = step_.is_quiet();
       if (fits && !is_quiet_ && step_.is_easy()) ++level_;
@@ -159,57 +152,67 @@ bool Exponential::advance(double rest, double end, StepReport& report) {
     if (fits && rungs > level_) {
       rungs = level_;  // A stop came within reach of a long step.
     } else {
-      rungs = fits ? rungs - 1 : static_cast<int>(std::ceil(2.0 * std::log2(flow.h()))) - 1;
+      rungs = fits ? rungs - 1 : static_cast<int>(std::ceil(2.0 * std::log2(limit))) - 1;
       level_ = std::min(level_, rungs);
     }
   }
 }
 
-double Exponential::next_kink(double t) const {
+template <class Step>
+double Exponential<Step>::next_kink(double t) const {
   const auto next = std::upper_bound(kinks_.begin(), kinks_.end(), t);
   return next == kinks_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
-bool Exponential::holds(const State& from, double t_end) const {
+template <class Step>
+bool Exponential<Step>::holds(const State& from, double t_end) const {
   return from.t == begin_t_ && t_end == end_t_ && from.memory == begin_memory_;
 }
 
-std::span<const double> Exponential::knots(const State& from, const State& to) const {
+template <class Step>
+std::span<const double> Exponential<Step>::knots(const State& from, const State& to) const {
   if (!holds(from, to.t)) return {};
-  return knots_.inner();
+  return step_.knots();
 }
 
-void Exponential::evaluate_exactly(double t, std::span<const Index> dofs, time::Interpolated out) {
-  const std::size_t knot = knots_.before(t);
-  const double begin = knots_.time(knot);
-  step_.begin(knots_.q(knot), knots_.v(knot), 0.0);
-  if (t > begin) step_.follow(modal_.odd(rounded(t - begin)).whole, begin);
-  acceleration_ = -modal_.frequencies().square() * step_.q() - 2.0 * modal_.decay() * step_.v();
-  modal_.add_load(t, acceleration_);
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const auto shape = modal_.shape_rows().col(dofs[i]);
-    if (!out.x.empty()) out.x[i] = shape.dot(step_.q().matrix());
-    if (!out.v.empty()) out.v[i] = shape.dot(step_.v().matrix());
-    if (!out.a.empty()) out.a[i] = shape.dot(acceleration_.matrix());
-  }
-}
-
-void Exponential::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
-                                 time::Interpolated out) const {
-  if (t == from.t || t == to.t) {
-    const State& end = t == from.t ? from : to;
-    for (std::size_t i = 0; i < dofs.size(); ++i) {
-      if (!out.x.empty()) out.x[i] = end.x[dofs[i]];
-      if (!out.v.empty()) out.v[i] = end.v[dofs[i]];
-      if (!out.a.empty()) out.a[i] = end.a[dofs[i]];
+template <class Step>
+void Exponential<Step>::do_interpolate_all(const State& from, const State& to, std::span<const double> times,
+                                           std::span<const Index> dofs, time::Interpolated out) const {
+  std::size_t first = 0, last = times.size();
+  const auto copy = [&](const State& end, std::size_t instant) {
+    for (std::size_t i = 0, place = instant * dofs.size(); i < dofs.size(); ++i, ++place) {
+      if (!out.x.empty()) out.x[place] = end.x[dofs[i]];
+      if (!out.v.empty()) out.v[place] = end.v[dofs[i]];
+      if (!out.a.empty()) out.a[place] = end.a[dofs[i]];
     }
-    return;
-  }
+  };
+  for (; first < last && times[first] == from.t; ++first) copy(from, first);
+  for (; last > first && times[last - 1] == to.t; --last) copy(to, last - 1);
+  if (first == last) return;
   // Recomputing a block that is no longer the last changes nothing that anyone could see.
   auto& self = const_cast<Exponential&>(*this);
   if (!holds(from, to.t)) self.follow(from, {to.t - from.t, to.t});
-  if (step_.has_stops()) return self.knots_.interpolate(t, dofs, out);
-  self.evaluate_exactly(t, dofs, out);
+  const auto rest = [&](std::span<double> all) { return all.empty() ? all : all.subspan(first * dofs.size()); };
+  self.step_.interpolate(times.subspan(first, last - first), dofs, {rest(out.x), rest(out.v), rest(out.a)});
+}
+
+template class Exponential<ExponentialStep>;
+template class Exponential<SingleStep>;
+
+std::unique_ptr<time::Integrator> make_exponential(solve::Dynamics& dynamics, const ExponentialOptions& options) {
+  if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
+  auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
+  const ModalSystem& modal = dynamics.modal(options.modes);
+  if (modal.is_complete()) return integrator;
+  std::string note = "exponential with the lowest " + std::to_string(modal.size());
+  note += " of " + std::to_string(dynamics.size()) + " modes: ";
+  if (modal.stop_count() > 0)
+    note += "those left out hold up to " + to_short_text(100.0 * modal.truncation()) +
+            " % of what a stop gives way under its own force, which no tolerance makes good";
+  else
+    note += "what the others hold is left out, whatever the tolerance";
+  integrator->set_choice(note + "; give more modes, or another type, where that is too much");
+  return integrator;
 }
 
 time::IntegratorType exponential_type() {
@@ -228,9 +231,8 @@ time::IntegratorType exponential_type() {
                              .or_else(std::int64_t{0})},
           .finds_first_step = true,
           .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<Exponential>(
-                dynamics, ExponentialOptions{p.number("tolerance"), static_cast<int>(p.integer("order")),
-                                             static_cast<Index>(p.integer("modes"))});
+            return make_exponential(dynamics, {p.number("tolerance"), static_cast<int>(p.integer("order")),
+                                               static_cast<Index>(p.integer("modes"))});
           },
           .check =
               [](const config::Parameters& p, config::Diagnostics& diagnostics) {

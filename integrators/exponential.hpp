@@ -5,7 +5,7 @@
 
 #include "butee/time/integrator.hpp"
 #include "integrators/exponential_step.hpp"
-#include "integrators/modal_knots.hpp"
+#include "integrators/single_step.hpp"
 
 namespace butee::integrators {
 
@@ -31,6 +31,10 @@ struct ExponentialOptions {
 /// gives independently of the path. Checked in tests/models/exponential_test.cpp against 80-bit references.
 /// Sources: energy-preserving collocation by projection, E. Hairer, JNAIAM 5 (2010) 73-84; exponential integrators, M.
 /// Hochbruck and A. Ostermann, Acta Numerica 19 (2010) 209-286, doi 10.1017/S0962492910000048.
+///
+/// `Step` takes the steps: ExponentialStep those of any system, SingleStep those of one DOF with one stop, the same
+/// arithmetic in plain numbers. make_exponential() knows which.
+template <class Step>
 class Exponential final : public time::Integrator {
  public:
   Exponential(solve::Dynamics& dynamics, const ExponentialOptions& options);
@@ -49,15 +53,13 @@ class Exponential final : public time::Integrator {
 
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                      time::Interpolated out) const override;
+  void do_interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
+                          std::span<const Index> dofs, time::Interpolated out) const override;
 
   /// Takes steps from `from` until `step` is done or the block is full, filling the knots.
   time::StepReport follow(const time::State& from, const time::Step& step);
   /// Takes a single one, of at most `rest` s and to `end` at the latest; false where none fits or none can be taken.
   bool advance(double rest, double end, time::StepReport& report);
-  /// Without stops: the flow from the knot before t.
-  void evaluate_exactly(double t, std::span<const Index> dofs, time::Interpolated out);
   double next_kink(double t) const;
   int find_first_level() const;
   bool holds(const time::State& from, double t_end) const;
@@ -65,16 +67,16 @@ class Exponential final : public time::Integrator {
   ExponentialOptions options_;
   Controller controller_;
   solve::ModalSystem& modal_;
-  ExponentialStep step_;
-  ModalKnots knots_;
+  Step step_;
   std::vector<double> kinks_;
   int first_level_ = 0, level_ = 0;
   bool is_quiet_ = false;
-  Eigen::ArrayXd acceleration_;
 
   // What the knots belong to.
   double begin_t_ = 0.0, end_t_ = -1.0;
   Vector begin_memory_;
 };
+
+std::unique_ptr<time::Integrator> make_exponential(solve::Dynamics& dynamics, const ExponentialOptions& options);
 
 }  // namespace butee::integrators

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "butee/solve/dynamics.hpp"
 
@@ -12,79 +13,92 @@ using Eigen::ArrayXd;
 using solve::ModalFlow;
 using solve::StepFlow;
 
-/// A step that would do with less than this part of its tolerance is followed by one a rung longer, whose error is four
-/// times that; the rest is reserve against going back and forth.
-constexpr double kEasy = 0.1;
-/// The iteration ends where the path changes by less than this part of the tolerance, or by rounding.
-constexpr double kConverged = 0.02;
-constexpr double kRounding = 1e-15;
-/// Sweeps; where they do not suffice the step is too long for the stiffness of the stops.
-constexpr int kMostSweeps = 25;
-/// The bump functions of cubic Hermite interpolation are at most 4/27.
-constexpr double kBump = 4.0 / 27.0;
+/// A step between outputs is rounded to so many digits, so that equal intervals are equal.
+constexpr double kSameDigits = 1e10;
+
+double rounded(double h) {
+  const double unit = std::pow(10.0, std::floor(std::log10(h))) / kSameDigits;
+  return std::round(h / unit) * unit;
+}
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance)
-    : modal_(modal), orders_(static_cast<std::size_t>(order / 2)), tolerance_(tolerance) {
+ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance,
+                                 std::size_t most)
+    : modal_(modal),
+      orders_(static_cast<std::size_t>(order / 2)),
+      tolerance_(tolerance),
+      knots_(dynamics, modal, most) {
   solve::Contact& contact = dynamics.contact();
-  gaps_.resize(contact.size());
-  for (Index i = 0; i < contact.size(); ++i) {
-    stops_.emplace_back(contact, i);
-    gaps_[i] = contact.gap_of(i);
-    has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
-  }
+  const Index padded = StepFlow::padded(contact.size());
   for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &sums_[0], &sums_[1], &sums_[2]})
     array->setZero(modal_.size());
-  for (ArrayXd* array : {&w_, &wv_, &w_new_, &wv_new_, &reach_}) array->setZero(contact.size());
-  far_forces_.setZero(contact.size());
-  active_.reserve(stops_.size());
-  far_.reserve(stops_.size());
-  phases_.reserve(modal_.harmonics().size());
+  for (ArrayXd* array : {&w_, &wv_, &w_new_, &wv_new_, &reach_, &hv_, &path_.end, &path_.speed, &path_.middle, &bulge_,
+                         &excess_, &force_[0], &force_[1], &force_[2]})
+    array->setZero(padded);
+  gaps_.setConstant(padded, kInfinite);
+  upper_ = gaps_;
+  lower_ = -gaps_;
+  for (Index i = 0; i < contact.size(); ++i) {
+    stops_.emplace_back(contact, i);
+    own_.emplace_back(stops_.back().stiffness(), orders_);
+    gaps_[i] = contact.gap_of(i);
+    if (contact.sides_of(i) != model::Sides::negative) upper_[i] = gaps_[i];
+    if (contact.sides_of(i) != model::Sides::positive) lower_[i] = -gaps_[i];
+    has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
+  }
+  for (std::vector<Index>* list : {&reachable_, &touched_, &far_}) list->reserve(stops_.size());
+  is_touched_.assign(stops_.size(), false);
 }
 
-void ExponentialStep::begin(const double* q, const double* v, double scale) {
-  q_ = Eigen::Map<const ArrayXd>(q, modal_.size());
-  v_ = Eigen::Map<const ArrayXd>(v, modal_.size());
+void ExponentialStep::complete(double* memory) const {
+  const Index n = modal_.size();
+  if (has_stops())
+    modal_.stop_shapes().displacement(memory, memory + n, memory + 2 * n, memory + 2 * n + modal_.stop_count());
+}
+
+void ExponentialStep::begin(double t, const double* memory, double scale) {
+  const Index n = modal_.size(), m = modal_.stop_count();
+  q_ = Eigen::Map<const ArrayXd>(memory, n);
+  v_ = Eigen::Map<const ArrayXd>(memory + n, n);
+  w_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n, m);
+  wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + m, m);
   scale_ = scale;
-  if (!has_stops()) return;
-  modal_.stop_displacement(q_.data(), w_.data());
-  modal_.stop_displacement(v_.data(), wv_.data());
+  knots_.begin(t, q_.data(), v_.data(), w_.data());
 }
 
-void ExponentialStep::accept() {
+void ExponentialStep::save(double* memory) const {
+  const Index n = modal_.size(), m = modal_.stop_count();
+  Eigen::Map<ArrayXd>(memory, n) = q_;
+  Eigen::Map<ArrayXd>(memory + n, n) = v_;
+  Eigen::Map<ArrayXd>(memory + 2 * n, m) = w_.head(m);
+  Eigen::Map<ArrayXd>(memory + 2 * n + m, m) = wv_.head(m);
+}
+
+void ExponentialStep::accept(double t) {
   q_.swap(q_new_);
   v_.swap(v_new_);
   w_.swap(w_new_);
   wv_.swap(wv_new_);
+  knots_.add(t, q_.data(), v_.data(), w_.data());
 }
 
-bool ExponentialStep::is_easy() const {
-  return error_ < kEasy * tolerance_ * scale_;
+Trial ExponentialStep::attempt_length(double h) {
+  return attempt(modal_.odd(has_stops() ? h : rounded(h)));
 }
 
-void ExponentialStep::follow(const ModalFlow& flow, double t) {
-  note_phases(t);
-  propagate(flow, t, true, q_new_, v_new_);
-  q_.swap(q_new_);
-  v_.swap(v_new_);
-}
-
-void ExponentialStep::note_phases(double t) {
-  phases_.clear();
-  for (const solve::ModalHarmonic& harmonic : modal_.harmonics()) {
-    const double angle = harmonic.angular_frequency * t;
-    phases_.push_back({std::cos(angle), std::sin(angle)});
-  }
-}
-
-void ExponentialStep::propagate(const ModalFlow& flow, double t, bool with_speed, ArrayXd& q, ArrayXd& v) const {
-  q = flow.qq() * q_ + flow.qv() * v_;
-  if (with_speed) v = flow.vq() * q_ + flow.vv() * v_;
-  for (std::size_t j = 0; j < flow.angular_frequencies().size(); ++j) {
-    const auto [c, s] = phases_[j];
+void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd& q, ArrayXd* v) {
+  const std::span<const Phase> phases = knots_.phases(knot);
+  const double t = knots_.time(knot);
+  const Eigen::Map<const ArrayXd> q0(knots_.q(knot), modal_.size()), v0(knots_.v(knot), modal_.size());
+  q = flow.qq() * q0 + flow.qv() * v0;
+  if (v != nullptr) *v = flow.vq() * q0 + flow.vv() * v0;
+  for (std::size_t j = 0; j < phases.size(); ++j) {
+    const auto [c, s] = phases[j];
     q += c * flow.harmonic_q(j, 0) - s * flow.harmonic_q(j, 1);
-    if (with_speed) v += c * flow.harmonic_v(j, 0) - s * flow.harmonic_v(j, 1);
+    if (v != nullptr) *v += c * flow.harmonic_v(j, 0) - s * flow.harmonic_v(j, 1);
   }
   for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads()) {
     const double h = flow.h(), f0 = load.in_time->value(t), f1 = load.in_time->value(t + 0.5 * h),
@@ -92,21 +106,21 @@ void ExponentialStep::propagate(const ModalFlow& flow, double t, bool with_speed
     // The parabola through three values, in P_0, P_1 and P_2.
     const double p0 = (f0 + 4.0 * f1 + f2) / 6.0, p1 = 0.5 * (f2 - f0), p2 = (f0 - 2.0 * f1 + f2) / 3.0;
     q += load.shape * (p0 * flow.force_q(0) + p1 * flow.force_q(1) + p2 * flow.force_q(2));
-    if (with_speed) v += load.shape * (p0 * flow.force_v(0) + p1 * flow.force_v(1) + p2 * flow.force_v(2));
+    if (v != nullptr) *v += load.shape * (p0 * flow.force_v(0) + p1 * flow.force_v(1) + p2 * flow.force_v(2));
   }
 }
 
-ExponentialStep::Trial ExponentialStep::attempt(StepFlow& flow, double t) {
-  note_phases(t);
-  propagate(flow.whole, t, true, q_new_, v_new_);
-  active_.clear();
+Trial ExponentialStep::attempt(StepFlow& flow) {
+  propagate(flow.whole, knots_.steps(), q_new_, &v_new_);
+  reachable_.clear();
   error_ = 0.0;
   if (!has_stops()) return q_new_.allFinite() && v_new_.allFinite() ? Trial::accepted : Trial::not_finite;
   find_stops();
   if (!std::isfinite(w_new_.sum() + wv_new_.sum())) return Trial::not_finite;
-  find_active(flow, t);
+  find_reachable(flow);
+  if (!reachable_.empty()) propagate(flow.half, knots_.steps(), q_half_, nullptr);
   if (has_far_forces_) add_far_forces(flow);
-  if (!active_.empty()) {
+  if (!reachable_.empty()) {
     const Trial trial = iterate(flow);
     if (trial != Trial::accepted) return trial;
     apply_forces(flow);
@@ -116,122 +130,171 @@ ExponentialStep::Trial ExponentialStep::attempt(StepFlow& flow, double t) {
 }
 
 void ExponentialStep::find_stops() {
-  modal_.stop_displacement(q_new_.data(), w_new_.data());
-  modal_.stop_displacement(v_new_.data(), wv_new_.data());
+  modal_.stop_shapes().displacement(q_new_.data(), v_new_.data(), w_new_.data(), wv_new_.data());
 }
 
-void ExponentialStep::find_active(const StepFlow& flow, double t) {
-  const double h = flow.h();
+void ExponentialStep::find_reachable(const StepFlow& flow) {
   // How far modes and loads too fast for a cubic can carry a stop away from it.
-  double swing = (flow.swing_q * q_.abs()).sum() + (flow.swing_v * v_.abs()).sum() + flow.swing_harmonics;
+  double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + flow.swing_harmonics;
+  const double t = knots_.last();
   for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads())
-    swing += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + h))) *
+    swing += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + flow.h()))) *
              (flow.swing_force * load.shape.abs()).sum();
-  reach_ = w_.abs().max(w_new_.abs()) + kBump * h * (wv_.abs() + wv_new_.abs()) + swing;
+  reach_ = w_.abs().max(w_new_.abs()) + (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
-  bool has_half = false;
-  for (Index i = 0; i < w_.size(); ++i) {
-    if (reach_[i] <= gaps_[i]) {
-      if (has_far_forces_) far_.push_back(i);
-      continue;
-    }
-    if (!has_half) propagate(flow.half, t, false, q_half_, q_half_);
-    has_half = true;
-    Active active{};
-    active.stop = i;
-    active.w0 = w_[i];
-    active.hv0 = h * wv_[i];
-    active_.push_back(active);
+  for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {
+    if (reach_[i] > gaps_[i])
+      reachable_.push_back(i);
+    else if (has_far_forces_)
+      far_.push_back(i);
   }
 }
 
 void ExponentialStep::add_far_forces(const StepFlow& flow) {
   if (far_.empty()) return;
   const double h = flow.h();
-  ArrayXd& sum = sums_[0];
-  far_forces_.setZero();
+  ArrayXd &sum = sums_[0], &pull = force_[0];
+  pull.setZero();
   for (const Index i : far_) {
     const StopPath path(w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0);
-    far_forces_[i] = stops_[static_cast<std::size_t>(i)].far_force(path);
+    pull[i] = stops_[static_cast<std::size_t>(i)].far_force(path);
   }
-  sum.matrix().noalias() = modal_.stop_shapes() * far_forces_;
+  modal_.stop_shapes().force(far_, pull.data(), sum.data());
   q_new_ += sum * flow.whole.force_q(0);
   v_new_ += sum * flow.whole.force_v(0);
-  if (!active_.empty()) q_half_ += sum * flow.half.force_q(0);
+  if (!reachable_.empty()) q_half_ += sum * flow.half.force_q(0);
   find_stops();
 }
 
-ExponentialStep::Trial ExponentialStep::iterate(StepFlow& flow) {
-  const double h = flow.h();
-  for (Active& a : active_) {
-    a.w1 = w_new_[a.stop];
-    a.hv1 = h * wv_new_[a.stop];
-    a.middle = q_half_.matrix().dot(modal_.stop_shapes().col(a.stop));
-    a.force = {};
-  }
+Trial ExponentialStep::iterate(StepFlow& flow) {
+  hv_ = flow.h() * wv_;
+  path_.end = w_new_;
+  path_.speed = flow.h() * wv_new_;
+  modal_.stop_shapes().displacement(q_half_.data(), path_.middle.data());
+  for (ArrayXd& force : force_) force.setZero();
+  for (const Index i : touched_) is_touched_[static_cast<std::size_t>(i)] = false;
+  touched_.clear();
+  guess(flow);
+  double last = 0.0;
   for (int i = 0; i < kMostSweeps; ++i) {
     const double change = sweep(flow);
     if (!std::isfinite(change)) return Trial::too_long;
-    double scale = scale_;
-    for (const Active& a : active_) scale = std::max(scale, std::abs(a.w1));
-    if (change > std::max(kConverged * tolerance_, kRounding) * scale) continue;
+    const double scale = std::max(scale_, path_.end.abs().maxCoeff());
+    const double next = change * (change / last), enough = std::max(kConverged * tolerance_, kRounding) * scale;
+    const bool is_expected = i > 0 && change < last && next <= kExpected * enough;
+    last = change;
+    if (change > enough && !is_expected) continue;
     find_error(flow);
     return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
   }
   return Trial::too_long;
 }
 
-void ExponentialStep::find_error(StepFlow& flow) {
-  for (const Active& a : active_) {
-    if (a.course == StopForce::Course::open && std::abs(a.bulge) + reach_[a.stop] <= gaps_[a.stop]) continue;
-    double error = std::abs(a.bulge);
-    if (orders_ == 1) error += std::abs(flow.coupling(a.stop, a.stop).end[1] * a.force[1]);
-    error_ = std::max(error_, error);
-  }
+void ExponentialStep::find_bounds() {
+  bulge_ = path_.middle - (0.5 * (w_ + path_.end) + 0.125 * (hv_ - path_.speed));
+  // The Bernstein coefficients of the path, as in StopPath.
+  const double bulges = orders_ == 3 ? 16.0 / 6.0 : 0.0;
+  const auto b1 = w_ + 0.25 * hv_;
+  const auto b2 = 0.5 * (w_ + path_.end) + (hv_ - path_.speed) * (1.0 / 6.0) + bulges * bulge_;
+  const auto b3 = path_.end - 0.25 * path_.speed;
+  excess_ =
+      (w_.max(path_.end).max(b1).max(b2).max(b3) - upper_).max(lower_ - w_.min(path_.end).min(b1).min(b2).min(b3));
 }
 
 double ExponentialStep::sweep(StepFlow& flow) {
-  const double h = flow.h();
+  find_bounds();
   double change = 0.0;
-  for (Active& a : active_) {
-    a.bulge = a.middle - (0.5 * (a.w0 + a.w1) + 0.125 * (a.hv0 - a.hv1));
-    const StopPath path(a.w0, a.hv0, a.w1, a.hv1, orders_ == 3 ? a.bulge : 0.0);
-    StopForce& stop = stops_[static_cast<std::size_t>(a.stop)];
-    a.course = stop.course(path);
-    const ForceMoments force = stop.moments(path, a.course);
-    ForceMoments more{};
-    for (std::size_t k = 0; k < orders_; ++k) more[k] = force[k] - a.force[k];
-    a.force = force;
-    if (more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0) continue;
-    for (Active& b : active_) {
-      const StepFlow::Coupling& c = flow.coupling(b.stop, a.stop);
-      const double w = c.end[0] * more[0] + c.end[1] * more[1] + c.end[2] * more[2],
-                   hv = h * (c.speed[0] * more[0] + c.speed[1] * more[1] + c.speed[2] * more[2]),
-                   middle = c.middle[0] * more[0] + c.middle[1] * more[1] + c.middle[2] * more[2];
-      b.w1 += w;
-      b.hv1 += hv;
-      b.middle += middle;
-      change = std::max(change, std::abs(w) + kBump * std::abs(hv) + std::abs(middle));
+  for (const Index i : reachable_) {
+    const auto place = static_cast<std::size_t>(i);
+    StopForce& stop = stops_[place];
+    if (stop.is_linear() && !is_touched_[place] && excess_[i] <= 0.0) continue;
+    const double bulge = path_.middle[i] - (0.5 * (w_[i] + path_.end[i]) + 0.125 * (hv_[i] - path_.speed[i]));
+    const StopPath path(w_[i], hv_[i], path_.end[i], path_.speed[i], orders_ == 3 ? bulge : 0.0);
+    const StopForce::Course course = stop.course(path);
+    const Projection projection = stop.project(path, course);
+    const ForceMoments old = {force_[0][i], force_[1][i], force_[2][i]};
+    StepFlow::Derived& known = flow.derived(i);
+    if (!known.is_known) {
+      known.coupling = flow.own_coupling(i);
+      known.inverse = own_[place].closed_inverse(known.coupling);
+      known.is_known = true;
     }
+    const ForceMoments more = own_[place].correction(
+        course == StopForce::Course::closed ? known.inverse : own_[place].inverse(projection.closed, known.coupling),
+        projection.force, old);
+    if (orders_ == 1) force_[1][i] = projection.force[1];  // for the estimate alone
+    if (more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0) continue;
+    const double moved = add_force(flow, i, more);
+    if (!std::isfinite(moved)) return moved;
+    change = std::max(change, moved);
   }
   return change;
 }
 
+double ExponentialStep::add_force(StepFlow& flow, Index stop, const ForceMoments& more) {
+  const auto place = static_cast<std::size_t>(stop);
+  if (!is_touched_[place]) touched_.push_back(stop);
+  is_touched_[place] = true;
+  for (std::size_t k = 0; k < 3; ++k) force_[k][stop] += more[k];
+  return flow.add_force(stop, more, kBump, path_);
+}
+
+void ExponentialStep::guess(StepFlow& flow) {
+  for (const Index i : reachable_) {
+    const double side = w_[i] > upper_[i] ? 1.0 : w_[i] < lower_[i] ? -1.0 : 0.0;
+    if (side == 0.0) continue;
+    const double stiffness = stops_[static_cast<std::size_t>(i)].stiffness();
+    const double at_start = stiffness * (side * gaps_[i] - w_[i]), half_rise = -0.5 * stiffness * hv_[i];
+    add_force(flow, i, {at_start + half_rise, orders_ > 1 ? half_rise : 0.0, 0.0});
+  }
+}
+
+void ExponentialStep::find_error(StepFlow& flow) {
+  for (const Index i : reachable_) {
+    double error = std::abs(bulge_[i]);
+    if (orders_ == 1) error += std::abs(flow.own_coupling(i)[0][1] * force_[1][i]);
+    error_ = std::max(error_, error);
+  }
+}
+
 void ExponentialStep::apply_forces(const StepFlow& flow) {
-  bool any = false;
-  for (std::size_t k = 0; k < orders_; ++k) sums_[k].setZero();
-  for (const Active& a : active_) {
-    if (a.force[0] == 0.0 && a.force[1] == 0.0 && a.force[2] == 0.0) continue;
-    any = true;
-    const auto shape = modal_.stop_shapes().col(a.stop).array();
-    for (std::size_t k = 0; k < orders_; ++k) sums_[k] += a.force[k] * shape;
+  w_new_ = path_.end;
+  wv_new_ = path_.speed * (1.0 / flow.h());
+  if (touched_.empty()) return;
+  const ModalFlow& whole = flow.whole;
+  for (std::size_t k = 0; k < orders_; ++k) modal_.stop_shapes().force(touched_, force_[k].data(), sums_[k].data());
+  if (orders_ == 3) {
+    q_new_ += sums_[0] * whole.force_q(0) + sums_[1] * whole.force_q(1) + sums_[2] * whole.force_q(2);
+    v_new_ += sums_[0] * whole.force_v(0) + sums_[1] * whole.force_v(1) + sums_[2] * whole.force_v(2);
+  } else {
+    for (std::size_t k = 0; k < orders_; ++k) {
+      q_new_ += sums_[k] * whole.force_q(static_cast<int>(k));
+      v_new_ += sums_[k] * whole.force_v(static_cast<int>(k));
+    }
   }
-  if (!any) return;
-  for (std::size_t k = 0; k < orders_; ++k) {
-    q_new_ += sums_[k] * flow.whole.force_q(static_cast<int>(k));
-    v_new_ += sums_[k] * flow.whole.force_v(static_cast<int>(k));
+}
+
+void ExponentialStep::interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
+  if (has_stops()) return knots_.interpolate(times, dofs, out);
+  for (std::size_t i = 0; i < times.size(); ++i) evaluate_exactly(times[i], dofs, i * dofs.size(), out);
+}
+
+void ExponentialStep::evaluate_exactly(double t, std::span<const Index> dofs, std::size_t place,
+                                       time::Interpolated out) {
+  const std::size_t knot = knots_.before(t);
+  ArrayXd &q = q_new_, &v = v_new_, &a = q_half_;
+  q = Eigen::Map<const ArrayXd>(knots_.q(knot), q.size());
+  v = Eigen::Map<const ArrayXd>(knots_.v(knot), v.size());
+  if (t > knots_.time(knot)) propagate(modal_.odd(rounded(t - knots_.time(knot))).whole, knot, q, &v);
+  a = -modal_.frequencies().square() * q - 2.0 * modal_.decay() * v;
+  modal_.add_load(t, a);
+  for (const Index dof : dofs) {
+    const auto shape = modal_.shape_rows().col(dof).array();
+    if (!out.x.empty()) out.x[place] = (shape * q).sum();
+    if (!out.v.empty()) out.v[place] = (shape * v).sum();
+    if (!out.a.empty()) out.a[place] = (shape * a).sum();
+    ++place;
   }
-  find_stops();
 }
 
 }  // namespace butee::integrators

@@ -4,81 +4,105 @@
 #include <vector>
 
 #include "butee/solve/modal_system.hpp"
+#include "integrators/modal_knots.hpp"
 #include "integrators/stop_path.hpp"
 
 namespace butee::integrators {
 
-/// The arithmetic of one step of the method `exponential`: the flow of the modes, and the forces and paths of the stops
+/// What became of an attempt at a step.
+enum class Trial { accepted, too_long, not_finite };
+
+/// A step that would do with less than this part of its tolerance is followed by one a rung longer, whose error is four
+/// times that; the rest is reserve against going back and forth.
+inline constexpr double kEasy = 0.1;
+/// The iteration for the forces ends where the paths change by less than this part of the tolerance, or by rounding.
+inline constexpr double kConverged = 0.02;
+inline constexpr double kRounding = 1e-15;
+/// Or where the next sweep would change them, if it contracts as the last did, by less than this part of that.
+inline constexpr double kExpected = 0.1;
+/// Sweeps; where they do not suffice the step is too long for the stiffness of the stops.
+inline constexpr int kMostSweeps = 25;
+/// The bump functions of cubic Hermite interpolation are at most 4/27.
+inline constexpr double kBump = 4.0 / 27.0;
+
+/// The steps of the method `exponential` within a block: the flow of the modes, and the forces and paths of the stops
 /// within reach, found together by sweeps.
 class ExponentialStep {
  public:
   /// `order` 2, 4 or 6. `tolerance` bounds the displacement in the middle of a step that the cubic through its ends
-  /// does not explain, relative to the largest displacement of a stop so far.
-  ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance);
+  /// does not explain, relative to the largest displacement of a stop so far. Blocks are of up to `most` steps.
+  ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, std::size_t most);
 
-  enum class Trial { accepted, too_long, not_finite };
+  /// What a state has to remember: q, v, and displacements and speeds of the stops, which complete() adds to q and v.
+  Index memory_size() const { return 2 * (modal_.size() + modal_.stop_count()); }
+  void complete(double* memory) const;
+  /// Begins a block with the state at t, and the largest displacement so far.
+  void begin(double t, const double* memory, double scale);
+  void save(double* memory) const;
+  /// Tries a step of the ladder, or of any other length; accept() takes it, to end at t.
+  Trial attempt_rung(int level) { return attempt(modal_.ladder(level)); }
+  Trial attempt_length(double h);
+  void accept(double t);
 
-  /// Takes the state at t, and the largest displacement so far.
-  void begin(const double* q, const double* v, double scale);
-  /// Tries a step from there; accept() makes its end the state.
-  Trial attempt(solve::StepFlow& flow, double t);
-  void accept();
-
-  /// Without stops: takes the state along a flow.
-  void follow(const solve::ModalFlow& flow, double t);
-
-  const Eigen::ArrayXd& q() const { return q_; }
-  const Eigen::ArrayXd& v() const { return v_; }
+  double t() const { return knots_.last(); }
+  const double* q() const { return q_.data(); }
+  const double* v() const { return v_.data(); }
   double scale() const { return scale_; }
   /// No stop was within reach in the last attempt.
-  bool is_quiet() const { return active_.empty(); }
+  bool is_quiet() const { return reachable_.empty(); }
   /// It would do with a longer step.
-  bool is_easy() const;
+  bool is_easy() const { return error_ < kEasy * tolerance_ * scale_; }
   bool has_stops() const { return !stops_.empty(); }
 
- private:
-  /// A stop within reach during a step.
-  struct Active {
-    Index stop;
-    double w0, hv0;          ///< at the start
-    double w1, hv1, middle;  ///< at the end and in the middle, with all forces found so far
-    double bulge;            ///< by which the middle departs from the cubic through the ends
-    ForceMoments force;
-    StopForce::Course course;
-  };
-  struct Phase {
-    double cosine, sine;
-  };
+  /// The instants between the steps of the block.
+  std::span<const double> knots() const { return knots_.inner(); }
+  /// The motion within the block, of which the state stays what it is.
+  void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out);
 
-  /// cos and sin of the harmonic loads at the start of a step.
-  void note_phases(double t);
-  void propagate(const solve::ModalFlow& flow, double t, bool with_speed, Eigen::ArrayXd& q, Eigen::ArrayXd& v) const;
+ private:
+  Trial attempt(solve::StepFlow& flow);
+  /// From a knot; `v` only where it is given.
+  void propagate(const solve::ModalFlow& flow, std::size_t knot, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
   void find_stops();
-  void find_active(const solve::StepFlow& flow, double t);
+  void find_reachable(const solve::StepFlow& flow);
   void add_far_forces(const solve::StepFlow& flow);
   Trial iterate(solve::StepFlow& flow);
-  /// Takes the active stops in turn, each with the forces of all others as they are; the largest change of a path.
+  /// Fills bulge_ and excess_ for the paths as they are.
+  void find_bounds();
+  /// Takes the stops in turn, each with the forces of all others as they are; the largest change of a path.
   double sweep(solve::StepFlow& flow);
+  /// Takes the forces of the stops that are closed at the start as they would be at constant speed.
+  void guess(solve::StepFlow& flow);
+  /// Adds to the force at a stop, and what that does to all paths; the largest change of a path.
+  double add_force(solve::StepFlow& flow, Index stop, const ForceMoments& more);
   void find_error(solve::StepFlow& flow);
   void apply_forces(const solve::StepFlow& flow);
+  /// Without stops: the flow from a knot to t.
+  void evaluate_exactly(double t, std::span<const Index> dofs, std::size_t place, time::Interpolated out);
 
   solve::ModalSystem& modal_;
   std::size_t orders_;  ///< polynomials that the force is projected onto
   double tolerance_;
   std::vector<StopForce> stops_;
-  Eigen::ArrayXd gaps_;
+  std::vector<OwnForce> own_;
   bool has_far_forces_ = false;
+  ModalKnots knots_;
 
   Eigen::ArrayXd q_, v_;
-  Eigen::ArrayXd w_, wv_;  ///< displacements and speeds of the stops
   double scale_ = 0.0;
-  std::vector<Phase> phases_;
-
-  Eigen::ArrayXd q_new_, v_new_, q_half_, w_new_, wv_new_, reach_;
-  std::vector<Active> active_;
-  std::vector<Index> far_;
-  Vector far_forces_;
+  Eigen::ArrayXd q_new_, v_new_, q_half_;
   std::array<Eigen::ArrayXd, 3> sums_;
+
+  // An entry a stop, padded to whole registers.
+  Eigen::ArrayXd gaps_, upper_, lower_;  ///< where it acts; infinite where it does not
+  Eigen::ArrayXd w_, wv_, w_new_, wv_new_, reach_;
+  Eigen::ArrayXd hv_;       ///< speed times h at the start
+  solve::StopMotion path_;  ///< with all forces found so far
+  Eigen::ArrayXd bulge_;    ///< by which the middle departs from the cubic through the ends
+  Eigen::ArrayXd excess_;   ///< by which a bound of the path is beyond the gap
+  std::array<Eigen::ArrayXd, 3> force_;
+  std::vector<Index> reachable_, touched_, far_;
+  std::vector<bool> is_touched_;
   double error_ = 0.0;
 };
 

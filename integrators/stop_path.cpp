@@ -12,6 +12,8 @@ constexpr int kDegree = 4;
 constexpr int kParts = 4;
 /// The most steps towards a root within a bracket, Newton's or halvings.
 constexpr int kRefinements = 60;
+/// A correction of Newton's method below this, in parts of a step, leaves one of the order of its square.
+constexpr double kNearRoot = 1e-8;
 /// A law bends sharply where it does so over less than this part of the range of the path: what it adds to a linear
 /// stop there is then of the second order in that part.
 constexpr double kSharp = 1e-3;
@@ -52,10 +54,12 @@ double root(const std::array<double, 5>& c, double low, double high) {
   double s = low + (high - low) * at_low / (at_low - at_high);
   for (int k = 0; k < kRefinements; ++k) {
     const double w = value(c, s), correction = w / slope(c, s);
-    if (std::abs(correction) < 1e-15) break;
     (has_opposite_signs(w, at_low) ? high : low) = s;
     s -= correction;
-    if (!(s > low && s < high)) s = 0.5 * (low + high);
+    if (!(s > low && s < high))
+      s = 0.5 * (low + high);
+    else if (std::abs(correction) < kNearRoot)
+      break;
   }
   return s;
 }
@@ -70,6 +74,43 @@ StopPath::StopPath(double w0, double hv0, double w1, double hv1, double bulge) {
   const double b1 = 0.25 * w0 + 0.75 * p1, b2 = 0.5 * (p1 + p2) + b / 6.0, b3 = 0.75 * p2 + 0.25 * w1;
   lowest_ = std::min({w0, b1, b2, b3, w1});
   highest_ = std::max({w0, b1, b2, b3, w1});
+}
+
+OwnForce::Matrix OwnForce::inverse(const std::array<double, 7>& closed, const PathCoupling& coupling) const {
+  // How c_2, c_3, c_4 of the path follow end, speed and middle.
+  static constexpr double kQuartic[3][3] = {{-5.0, 1.0, 16.0}, {14.0, -3.0, -32.0}, {-8.0, 2.0, 16.0}};
+  static constexpr double kCubic[3][3] = {{3.0, -1.0, 0.0}, {-2.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
+  const auto& shape = orders_ == 3 ? kQuartic : kCubic;
+  double a[3][3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    double moved[3], power[3];  // c_2, c_3, c_4 and the integrals of the force by f_k
+    for (std::size_t m = 0; m < 3; ++m)
+      moved[m] = shape[m][0] * coupling[0][k] + shape[m][1] * coupling[1][k] + shape[m][2] * coupling[2][k];
+    for (std::size_t j = 0; j < 3; ++j)
+      power[j] = stiffness_ * (closed[j + 2] * moved[0] + closed[j + 3] * moved[1] + closed[j + 4] * moved[2]);
+    const ForceMoments moments = from_powers(power[0], power[1], power[2]);
+    for (std::size_t j = 0; j < 3; ++j) a[j][k] = j < orders_ && k < orders_ ? moments[j] : 0.0;
+    a[k][k] += 1.0;
+  }
+  // By the adjugate.
+  const double c0 = a[1][1] * a[2][2] - a[1][2] * a[2][1], c1 = a[1][2] * a[2][0] - a[1][0] * a[2][2],
+               c2 = a[1][0] * a[2][1] - a[1][1] * a[2][0];
+  const double r = 1.0 / (a[0][0] * c0 + a[0][1] * c1 + a[0][2] * c2);
+  return {r * c0, r * (a[0][2] * a[2][1] - a[0][1] * a[2][2]), r * (a[0][1] * a[1][2] - a[0][2] * a[1][1]),
+          r * c1, r * (a[0][0] * a[2][2] - a[0][2] * a[2][0]), r * (a[0][2] * a[1][0] - a[0][0] * a[1][2]),
+          r * c2, r * (a[0][1] * a[2][0] - a[0][0] * a[2][1]), r * (a[0][0] * a[1][1] - a[0][1] * a[1][0])};
+}
+
+OwnForce::Matrix OwnForce::closed_inverse(const PathCoupling& coupling) const {
+  return inverse(kReciprocals, coupling);
+}
+
+ForceMoments OwnForce::correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const {
+  std::array<double, 3> r{};
+  for (std::size_t k = 0; k < orders_; ++k) r[k] = projected[k] - old[k];
+  return {inverse[0] * r[0] + inverse[1] * r[1] + inverse[2] * r[2],
+          inverse[3] * r[0] + inverse[4] * r[1] + inverse[5] * r[2],
+          inverse[6] * r[0] + inverse[7] * r[1] + inverse[8] * r[2]};
 }
 
 StopForce::StopForce(solve::Contact& contact, Index stop)
@@ -91,23 +132,45 @@ StopForce::Course StopForce::course(const StopPath& path) const {
   return Course::changing;
 }
 
-ForceMoments StopForce::moments(const StopPath& path, Course course) {
-  if (course == Course::open && is_linear_) return {};
+bool StopPath::is_monotonic() const {
+  const double d1 = c_[1] + (2.0 / 3.0) * c_[2], d2 = d1 + (2.0 / 3.0) * c_[2] + c_[3],
+               d3 = c_[1] + 2.0 * c_[2] + 3.0 * c_[3] + 4.0 * c_[4];
+  return (c_[1] > 0.0 && d1 > 0.0 && d2 > 0.0 && d3 > 0.0) || (c_[1] < 0.0 && d1 < 0.0 && d2 < 0.0 && d3 < 0.0);
+}
+
+Projection StopForce::project(const StopPath& path, Course course) {
+  Projection sum;
+  if (course == Course::open && is_linear_) return sum;
   if (course == Course::closed) {
     const double side = side_at(path.value(0.5));
-    ForceMoments sum = of_spring(path, 0.0, 1.0, side);
-    if (!is_linear_) add(sum, of_rest(path, 0.0, 1.0, side));
+    add_spring(path, 0.0, 1.0, side, sum);
+    if (!is_linear_) add(sum.force, of_rest(path, 0.0, 1.0, side));
     return sum;
   }
+  if (is_linear_ && of_one_crossing(path, sum)) return sum;
   return of_pieces(path);
+}
+
+bool StopForce::of_one_crossing(const StopPath& path, Projection& to) const {
+  const double side = on_upper_ && path.highest() > gap_ ? 1.0 : -1.0, border = side * gap_;
+  // Both borders are within reach, or the path turns somewhere.
+  if (side > 0.0 && on_lower_ && path.lowest() < -gap_) return false;
+  if (!path.is_monotonic()) return false;
+  std::array<double, 5> c = path.coefficients();
+  c[0] -= border;
+  const double begin = side * value(c, 0.0), end = side * value(c, 1.0);
+  if ((begin > 0.0) == (end > 0.0)) return false;
+  const double s = root(c, 0.0, 1.0);
+  add_spring(path, begin > 0.0 ? 0.0 : s, begin > 0.0 ? s : 1.0, side, to);
+  return true;
 }
 
 double StopForce::far_force(const StopPath& path) {
   if (path.lowest() > 0.0 || path.highest() < 0.0) return contact_.force_of(stop_, path.value(0.5));
-  return of_pieces(path)[0];
+  return of_pieces(path).force[0];
 }
 
-ForceMoments StopForce::of_spring(const StopPath& path, double begin, double end, double side) const {
+void StopForce::add_spring(const StopPath& path, double begin, double end, double side, Projection& to) const {
   const std::array<double, 5>& c = path.coefficients();
   std::array<double, 3> power{};
   std::array<double, 7> integral = kReciprocals;  // of s^k over the piece
@@ -119,7 +182,8 @@ ForceMoments StopForce::of_spring(const StopPath& path, double begin, double end
     power[j] = (c[0] - side * gap_) * integral[j];
     for (std::size_t k = 1; k < 5; ++k) power[j] += c[k] * integral[j + k];
   }
-  return from_powers(-stiffness_ * power[0], -stiffness_ * power[1], -stiffness_ * power[2]);
+  for (std::size_t k = 0; k < 7; ++k) to.closed[k] += integral[k];
+  add(to.force, from_powers(-stiffness_ * power[0], -stiffness_ * power[1], -stiffness_ * power[2]));
 }
 
 ForceMoments StopForce::of_rest(const StopPath& path, double begin, double end, double side) {
@@ -146,22 +210,22 @@ ForceMoments StopForce::of_graded_rest(const StopPath& path, double graded, doub
   return sum;
 }
 
-ForceMoments StopForce::of_pieces(const StopPath& path) {
+Projection StopForce::of_pieces(const StopPath& path) {
   find_places(path);
   const bool is_sharp = bend_width_ <= kSharp * (path.highest() - path.lowest());
-  ForceMoments sum{};
+  Projection sum;
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const Place &begin = places_[i], &end = places_[i + 1];
     const double middle = 0.5 * (begin.s + end.s), side = side_at(path.value(middle));
-    if (side != 0.0) add(sum, of_spring(path, begin.s, end.s, side));
+    if (side != 0.0) add_spring(path, begin.s, end.s, side, sum);
     if (is_linear_) continue;
     if (is_sharp) {
-      add(sum, of_rest(path, begin.s, end.s, side));
+      add(sum.force, of_rest(path, begin.s, end.s, side));
       continue;
     }
     for (const Place& place : {begin, end})
-      add(sum, place.is_bend ? of_graded_rest(path, place.s, middle, side)
-                             : of_rest(path, std::min(place.s, middle), std::max(place.s, middle), side));
+      add(sum.force, place.is_bend ? of_graded_rest(path, place.s, middle, side)
+                                   : of_rest(path, std::min(place.s, middle), std::max(place.s, middle), side));
   }
   return sum;
 }

@@ -19,6 +19,8 @@ class StopPath {
   /// Bounds of the path, by its Bernstein coefficients.
   double lowest() const { return lowest_; }
   double highest() const { return highest_; }
+  /// It does not turn, as far as the Bernstein coefficients of its slope tell.
+  bool is_monotonic() const;
 
  private:
   std::array<double, 5> c_;
@@ -27,6 +29,39 @@ class StopPath {
 
 /// The coefficients of a stop's force over a step in the Legendre polynomials P_0, P_1, P_2 of [0, 1].
 using ForceMoments = std::array<double, 3>;
+
+/// What forces P_0, P_1, P_2 do to the displacement and the speed (times h) at the end and to the displacement in the
+/// middle.
+using PathCoupling = std::array<std::array<double, 3>, 3>;
+
+/// Force moments along a path, and the integrals of 1, s, ... s^6 over the places where the stop is a spring, by which
+/// they follow the path.
+struct Projection {
+  ForceMoments force{};
+  std::array<double, 7> closed{};
+};
+
+/// Newton's method for f = projection(path moved by what f does to it) of one stop, the stop a spring over the places
+/// where it is closed.
+class OwnForce {
+ public:
+  using Matrix = std::array<double, 9>;
+
+  /// Of the force the first `orders` entries count; where there are three, the path takes the displacement in the
+  /// middle.
+  OwnForce(double stiffness, std::size_t orders) : stiffness_(stiffness), orders_(orders) {}
+
+  /// (1 - d projection / d f)^-1, by rows.
+  Matrix inverse(const std::array<double, 7>& closed, const PathCoupling& coupling) const;
+  /// Of a stop that is closed throughout.
+  Matrix closed_inverse(const PathCoupling& coupling) const;
+  /// The change of f from `old`.
+  ForceMoments correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const;
+
+ private:
+  double stiffness_;
+  std::size_t orders_;
+};
 
 /// The projection of a stop's force along a given path onto P_0, P_1 and P_2:
 ///
@@ -48,19 +83,24 @@ class StopForce {
     changing
   };
   Course course(const StopPath& path) const;
-  ForceMoments moments(const StopPath& path, Course course);
+  Projection project(const StopPath& path, Course course);
   /// The mean force alone along a path without contact: the pull of a regularised law.
   double far_force(const StopPath& path);
+  double stiffness() const { return stiffness_; }
+  /// Without pull or smooth bend: nothing but a spring while closed.
+  bool is_linear() const { return is_linear_; }
 
  private:
-  ForceMoments of_spring(const StopPath& path, double begin, double end, double side) const;
+  void add_spring(const StopPath& path, double begin, double end, double side, Projection& to) const;
   /// What the law adds to a spring on `side` (0: to nothing).
   ForceMoments of_rest(const StopPath& path, double begin, double end, double side);
   /// The same by panels that shrink towards `graded`.
   ForceMoments of_graded_rest(const StopPath& path, double graded, double other, double side);
   /// +1, -1: the side on which a spring acts; 0: none.
   double side_at(double w) const { return on_upper_ && w > gap_ ? 1.0 : on_lower_ && w < -gap_ ? -1.0 : 0.0; }
-  ForceMoments of_pieces(const StopPath& path);
+  Projection of_pieces(const StopPath& path);
+  /// Of a linear stop whose border the path crosses once; false where it is not of that kind.
+  bool of_one_crossing(const StopPath& path, Projection& to) const;
   /// Fills places_ with 0, the places where the path crosses a border of the law, and 1.
   void find_places(const StopPath& path);
   void add_crossings(const StopPath& path, double border);

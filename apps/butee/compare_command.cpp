@@ -146,7 +146,7 @@ class Comparison {
     if (!answer.completed) row.outcome = answer.message;
     row.error = error_of(answer.values, result.reference);
     // The reference's own method: what is known of its error is the uncertainty.
-    if (row.method == "exact") row.error.rms = std::max(row.error.rms, result.reference.uncertainty);
+    if (row.method == result.reference.method) row.error.rms = std::max(row.error.rms, result.reference.uncertainty);
     row.seconds = answer.seconds;
     row.steps = answer.report.steps;
     row.rejected = answer.report.rejected;

@@ -8,6 +8,9 @@
 namespace butee::record {
 namespace {
 
+/// Rows of one step that are interpolated together.
+constexpr std::size_t kMostAtOnce = 64;
+
 /// The requested quantities and u of every probe.
 std::vector<ProbeRequest> peak_requests(std::vector<ProbeRequest> requests, const model::DofTable& dofs) {
   for (ProbeRequest& request : requests) {
@@ -28,7 +31,9 @@ HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, 
       writer_(writer),
       values_(probes_.columns().size()),
       current_(peak_probes_.columns().size()),
-      peak_values_(current_.size(), 0.0) {}
+      peak_values_(current_.size(), 0.0) {
+  due_.reserve(kMostAtOnce);
+}
 
 std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) {
   std::vector<std::string> all = {"t"};
@@ -47,20 +52,35 @@ void HistoryRecorder::start(const time::State& state) {
 
 void HistoryRecorder::step(const time::AcceptedStep& step) {
   if (!peak_values_.empty()) {
-    for (const double t : step.integrator.knots(step.from, step.to)) {
-      peak_probes_.evaluate(step, t, current_);
+    const std::span<const double> knots = step.integrator.knots(step.from, step.to);
+    peak_probes_.sample(step, knots);
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+      peak_probes_.take(i, current_);
       update_peaks();
     }
     peak_probes_.evaluate(step.to, current_);
     update_peaks();
   }
+  due_.clear();
   times_.visit(step, [&](double t) {
-    if (t == step.from.t)
+    if (t == step.from.t) {
       values_ = first_row_;
-    else
-      probes_.evaluate(step, t, values_);
-    write_row(t, step.h);
+      return write_row(t, step.h);
+    }
+    due_.push_back(t);
+    if (due_.size() == kMostAtOnce) write_due(step);
   });
+  write_due(step);
+}
+
+void HistoryRecorder::write_due(const time::AcceptedStep& step) {
+  if (due_.empty()) return;
+  probes_.sample(step, due_);
+  for (std::size_t i = 0; i < due_.size(); ++i) {
+    probes_.take(i, values_);
+    write_row(due_[i], step.h);
+  }
+  due_.clear();
 }
 
 void HistoryRecorder::write_row(double t, double h) {

@@ -32,6 +32,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   std::map<std::string, double> peaks() const;
 
  private:
+  void write_due(const time::AcceptedStep& step);
   void write_row(double t, double h);
   void update_peaks();
 
@@ -39,6 +40,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   Probes probes_, peak_probes_;
   CsvWriter* writer_;
   std::vector<double> row_, first_row_;
+  std::vector<double> due_;                    ///< instants of rows within a step
   std::vector<double> values_;                 ///< of probes_
   std::vector<double> current_, peak_values_;  ///< of peak_probes_
 };

@@ -17,9 +17,6 @@ Probes::Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynam
       columns_.push_back(request.label + "." + name_of(quantity));
       sources_.push_back(column);
     }
-  x_.resize(dofs_.size());
-  v_.resize(needs_v_ ? dofs_.size() : 0);
-  a_.resize(needs_a_ ? dofs_.size() : 0);
 }
 
 const std::vector<double>* Probes::samples_of(Quantity quantity) const {
@@ -59,38 +56,53 @@ void Probes::add_stops(Index dof) {
   }
 }
 
-void Probes::evaluate(const time::AcceptedStep& step, double t, std::span<double> values) {
-  if (t == step.to.t) return evaluate(step.to, values);
-  step.integrator.interpolate(step.from, step.to, t, dofs_, {x_, v_, a_});
-  evaluate_sampled(values);
+void Probes::make_room(std::size_t instants) {
+  const std::size_t size = instants * dofs_.size();
+  if (x_.size() < size) x_.resize(size);
+  if (needs_v_ && v_.size() < size) v_.resize(size);
+  if (needs_a_ && a_.size() < size) a_.resize(size);
+}
+
+void Probes::copy(const time::State& state, std::size_t instant) {
+  for (std::size_t i = 0, place = instant * dofs_.size(); i < dofs_.size(); ++i, ++place) {
+    x_[place] = state.x[dofs_[i]];
+    if (needs_v_) v_[place] = state.v[dofs_[i]];
+    if (needs_a_) a_[place] = state.a[dofs_[i]];
+  }
+}
+
+void Probes::sample(const time::AcceptedStep& step, std::span<const double> times) {
+  if (times.empty()) return;
+  make_room(times.size());
+  std::size_t within = times.size();
+  for (; within > 0 && times[within - 1] == step.to.t; --within) copy(step.to, within - 1);
+  step.integrator.interpolate(step.from, step.to, times.first(within), dofs_, {x_, v_, a_});
 }
 
 void Probes::evaluate(const time::State& state, std::span<double> values) {
-  for (std::size_t i = 0; i < dofs_.size(); ++i) {
-    x_[i] = state.x[dofs_[i]];
-    if (needs_v_) v_[i] = state.v[dofs_[i]];
-    if (needs_a_) a_[i] = state.a[dofs_[i]];
-  }
-  evaluate_sampled(values);
+  make_room(1);
+  copy(state, 0);
+  take(0, values);
 }
 
-double Probes::contact_force(const Column& column) {
+double Probes::contact_force(const Column& column, const double* x) {
   double force = 0.0;
   for (std::size_t i = column.first_stop; i < column.last_stop; ++i) {
     const ProbedStop& stop = stops_[i];
-    const double a = stop.slot_a == kFixed ? 0.0 : x_[stop.slot_a], b = stop.slot_b == kFixed ? 0.0 : x_[stop.slot_b];
+    const double a = stop.slot_a == kFixed ? 0.0 : x[stop.slot_a], b = stop.slot_b == kFixed ? 0.0 : x[stop.slot_b];
     force += stop.sign * dynamics_.contact().force_of(stop.stop, a - b);
   }
   return force;
 }
 
-void Probes::evaluate_sampled(std::span<double> values) {
+void Probes::take(std::size_t instant, std::span<double> values) {
+  const std::size_t begin = instant * dofs_.size();
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Column& column = sources_[i];
     if (column.samples == nullptr)
-      values[i] = contact_force(column);
+      values[i] = contact_force(column, x_.data() + begin);
     else
-      values[i] = column.slot == kFixed ? 0.0 : (*column.samples)[column.slot];
+      values[i] = column.slot == kFixed ? 0.0 : (*column.samples)[begin + column.slot];
   }
 }
 

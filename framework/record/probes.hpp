@@ -20,13 +20,21 @@ class BUTEE_EXPORT Probes {
   /// "mid.u", one for each column.
   const std::vector<std::string>& columns() const { return columns_; }
 
+  /// Looks at the step at these instants, ascending; take(i, ...) then gives the values at the i-th.
+  void sample(const time::AcceptedStep& step, std::span<const double> times);
+  void take(std::size_t instant, std::span<double> values);
+
   /// The values at `t` in the step, one for each column.
-  void evaluate(const time::AcceptedStep& step, double t, std::span<double> values);
+  void evaluate(const time::AcceptedStep& step, double t, std::span<double> values) {
+    sample(step, {&t, 1});
+    take(0, values);
+  }
   /// The values in a state.
   void evaluate(const time::State& state, std::span<double> values);
 
  private:
-  /// Where a column's value comes from: place `slot` of x_, v_ or a_, or without samples the stops [first, last).
+  /// Where a column's value comes from: place `slot` of an instant's part of x_, v_ or a_, or without samples the stops
+  /// [first, last).
   struct Column {
     const std::vector<double>* samples;
     std::size_t slot;
@@ -44,8 +52,9 @@ class BUTEE_EXPORT Probes {
   std::size_t slot(Index dof);
   void add_stops(Index dof);
   const std::vector<double>* samples_of(Quantity quantity) const;
-  double contact_force(const Column& column);
-  void evaluate_sampled(std::span<double> values);
+  double contact_force(const Column& column, const double* x);
+  void make_room(std::size_t instants);
+  void copy(const time::State& state, std::size_t instant);
 
   solve::Dynamics& dynamics_;
   std::vector<std::string> columns_;

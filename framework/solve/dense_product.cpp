@@ -17,6 +17,13 @@ inline void add_column(const double* matrix, Index j, double factor, std::array<
   for (std::size_t i = 0; i < lanes; ++i) sums[i] += column[i] * factor;
 }
 
+template <std::size_t lanes>
+inline void put(const std::array<Lane, lanes>& sums, double* y, std::size_t rows) {
+  for (std::size_t i = 0; i + 1 < lanes; ++i) store(sums[i], y + i * static_cast<std::size_t>(kLaneSize));
+  for (std::size_t i = (lanes - 1) * static_cast<std::size_t>(kLaneSize), k = 0; i < rows; ++i, ++k)
+    y[i] = sums[lanes - 1][k];
+}
+
 struct Chosen {
   static constexpr auto pick = [](const Index* columns, Index j) { return columns[j]; };
 };
@@ -33,9 +40,22 @@ void multiply_lanes(const double* matrix, const Index* columns, Index count, con
     const Index j = Columns::pick(columns, k);
     add_column(matrix, j, x[j], sums);
   }
-  for (std::size_t i = 0; i + 1 < lanes; ++i) store(sums[i], y + i * static_cast<std::size_t>(kLaneSize));
-  for (std::size_t i = (lanes - 1) * static_cast<std::size_t>(kLaneSize), k = 0; i < rows; ++i, ++k)
-    y[i] = sums[lanes - 1][k];
+  put(sums, y, rows);
+}
+
+template <std::size_t lanes>
+void multiply_two(const double* matrix, Index count, const double* x0, const double* x1, double* y0, double* y1,
+                  std::size_t rows) {
+  std::array<Lane, lanes> first{}, second{};
+  for (Index j = 0; j < count; ++j) {
+    const auto* column = reinterpret_cast<const Lane*>(matrix + j * static_cast<Index>(lanes) * kLaneSize);
+    for (std::size_t i = 0; i < lanes; ++i) {
+      first[i] += column[i] * x0[j];
+      second[i] += column[i] * x1[j];
+    }
+  }
+  put(first, y0, rows);
+  put(second, y1, rows);
 }
 
 using Kernel = void (*)(const double*, const Index*, Index, const double*, double*, std::size_t);
@@ -45,6 +65,14 @@ constexpr std::array<Kernel, sizeof...(lanes)> kernels(std::index_sequence<lanes
   return {&multiply_lanes<lanes + 1, Columns>...};
 }
 
+using TwoKernel = void (*)(const double*, Index, const double*, const double*, double*, double*, std::size_t);
+
+template <std::size_t... lanes>
+constexpr std::array<TwoKernel, sizeof...(lanes)> two_kernels(std::index_sequence<lanes...>) {
+  return {&multiply_two<lanes + 1>...};
+}
+
+constexpr auto kTwo = two_kernels(std::make_index_sequence<kMostLanes>{});
 constexpr auto kAll = kernels<All>(std::make_index_sequence<kMostLanes>{});
 constexpr auto kChosen = kernels<Chosen>(std::make_index_sequence<kMostLanes>{});
 
@@ -59,6 +87,10 @@ DenseProduct::DenseProduct(const Eigen::MatrixXd& matrix)
 
 void DenseProduct::multiply(const double* x, double* y) const {
   kAll[static_cast<std::size_t>(lanes_ - 1)](padded_.data(), nullptr, columns_, x, y, static_cast<std::size_t>(rows_));
+}
+
+void DenseProduct::multiply(const double* x0, const double* x1, double* y0, double* y1) const {
+  kTwo[static_cast<std::size_t>(lanes_ - 1)](padded_.data(), columns_, x0, x1, y0, y1, static_cast<std::size_t>(rows_));
 }
 
 void DenseProduct::multiply(std::span<const Index> columns, const double* x, double* y) const {

@@ -21,7 +21,9 @@ class BUTEE_EXPORT DenseProduct {
   bool empty() const { return columns_ == 0; }
   /// y := A x; y has the rows and x the columns of A; they do not overlap.
   void multiply(const double* x, double* y) const;
-  /// The same where all other entries of x are zero.
+  /// The same for two vectors, y0 := A x0 and y1 := A x1, reading A once.
+  void multiply(const double* x0, const double* x1, double* y0, double* y1) const;
+  /// y := A x where all entries of x but these are zero.
   void multiply(std::span<const Index> columns, const double* x, double* y) const;
 
  private:

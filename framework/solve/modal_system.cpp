@@ -15,9 +15,6 @@ namespace {
 /// proportional damping stays far below.
 constexpr double kUncoupled = 1e-9;
 constexpr std::size_t kOddFlows = 6;
-/// The error of cubic Hermite interpolation is at most this times (omega h)^4 and the amplitude, and at most twice
-/// that.
-constexpr double kHermite = 1.0 / 384.0;
 
 Modes find_modes(const model::System& system, Index count) {
   if (count == 0) count = system.size() <= ModalSystem::kAllModes ? system.size() : ModalSystem::kAllModes / 2;
@@ -84,12 +81,12 @@ void ModalSystem::project_loads(const Dynamics& dynamics) {
 
 void ModalSystem::project_stops(Dynamics& dynamics) {
   const Contact& contact = dynamics.contact();
-  stop_shapes_ = Eigen::MatrixXd::Zero(size(), contact.size());
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(size(), contact.size());
   for (Index i = 0; i < contact.size(); ++i) {
-    if (contact.dof_a(i) >= 0) stop_shapes_.col(i) += rows_.col(contact.dof_a(i));
-    if (contact.dof_b(i) >= 0) stop_shapes_.col(i) -= rows_.col(contact.dof_b(i));
+    if (contact.dof_a(i) >= 0) shapes.col(i) += rows_.col(contact.dof_a(i));
+    if (contact.dof_b(i) >= 0) shapes.col(i) -= rows_.col(contact.dof_b(i));
   }
-  if (contact.size() <= DenseProduct::kMostRows) fast_stops_ = DenseProduct(stop_shapes_.transpose());
+  stop_shapes_ = StopShapes(std::move(shapes));
   if (is_complete()) return;
   // What a stop's own force moves it, by all modes and by those that are kept; a weak spring to the ground on every
   // DOF, far below the first mode left out, lets rigid motion pass.
@@ -106,7 +103,7 @@ void ModalSystem::project_stops(Dynamics& dynamics) {
     Vector moved = force;
     if (!effective.solve(open, moved)) continue;
     const double all = force.dot(moved) / shift;
-    const double kept = (stop_shapes_.col(i).array().square() / (frequencies_.square() + shift)).sum();
+    const double kept = (stop_shapes_.of(i).array().square() / (frequencies_.square() + shift)).sum();
     truncation_ = std::max(truncation_, 1.0 - kept / all);
   }
 }
@@ -118,11 +115,6 @@ void ModalSystem::to_modal(ConstVectorRef x, Eigen::Ref<Eigen::VectorXd> q) cons
 void ModalSystem::to_physical(const double* q, VectorRef x) const {
   if (!fast_shapes_.empty()) return fast_shapes_.multiply(q, x.data());
   x.noalias() = shapes_ * Eigen::Map<const Vector>(q, size());
-}
-
-void ModalSystem::stop_displacement(const double* q, double* w) const {
-  if (!fast_stops_.empty()) return fast_stops_.multiply(q, w);
-  Eigen::Map<Vector>(w, stop_count()).noalias() = stop_shapes_.transpose() * Eigen::Map<const Vector>(q, size());
 }
 
 void ModalSystem::add_load(double t, Eigen::Ref<Eigen::ArrayXd> r) const {
@@ -177,45 +169,6 @@ StepFlow& ModalSystem::odd(double h) {
   slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_, frequencies_, harmonics_);
   oldest_ = (oldest_ + 1) % kOddFlows;
   return *slot;
-}
-
-StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const Eigen::MatrixXd& stop_shapes,
-                   const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics)
-    : whole(std::move(whole_flow)),
-      half(std::move(half_flow)),
-      stop_shapes_(stop_shapes),
-      places_(static_cast<std::size_t>(stop_shapes.cols() * (stop_shapes.cols() + 1) / 2), -1) {
-  if (stop_shapes.cols() == 0) return;
-  const Eigen::ArrayXd angle = h() * frequencies, shape = stop_shapes.cwiseAbs().rowwise().maxCoeff().array();
-  swing_q = (kHermite * angle.square().square()).min(2.0) * shape;
-  swing_v = (frequencies > 0.0).select(swing_q / frequencies, 0.0);
-  // Within a step a force moves a mode by no more than this (also in resonance), and away from the cubic by no more
-  // than h^4/384 times the fourth derivative, f'' - omega^2 f.
-  const Eigen::ArrayXd most = h() * h() * (angle > 2.0).select((angle + 2.0) / angle.square().max(1.0), 1.0) * shape;
-  swing_force = most * (kHermite * angle.square()).min(1.0);
-  for (const ModalHarmonic& harmonic : harmonics) {
-    const double turn = h() * harmonic.angular_frequency;
-    swing_harmonics += (most * (kHermite * (angle.square() + turn * turn)).min(1.0) *
-                        (harmonic.cosine.square() + harmonic.sine.square()).sqrt())
-                           .sum();
-  }
-}
-
-const StepFlow::Coupling& StepFlow::compute_coupling(Index i, Index j) {
-  std::int32_t& place = places_[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
-  place = static_cast<std::int32_t>(couplings_.size());
-  const Eigen::VectorXd shape = stop_shapes_.col(i).cwiseProduct(stop_shapes_.col(j));
-  Coupling& c = couplings_.emplace_back();
-  // Rows: what P_0, P_1, P_2 do to q and v.
-  const Eigen::Matrix<double, 6, 1> end = whole.forces().transpose() * shape, first = half.forces().transpose() * shape;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto row = static_cast<Index>(2 * k);
-    c.end[k] = end[row];
-    c.speed[k] = end[row + 1];
-  }
-  // P_k of the step, written in those of its first half.
-  c.middle = {first[0], 0.5 * (first[2] - first[0]), 0.25 * first[4] - 0.75 * first[2]};
-  return c;
 }
 
 }  // namespace butee::solve

@@ -42,13 +42,24 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
   return report;
 }
 
-void Integrator::interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
-                             Interpolated out) const {
-  require(to.t > from.t && t >= from.t && t <= to.t, "interpolation within a step");
-  do_interpolate(from, to, t, dofs, out);
+void Integrator::interpolate(const State& from, const State& to, std::span<const double> times,
+                             std::span<const Index> dofs, Interpolated out) const {
+  if (times.empty()) return;
+  require(to.t > from.t && times.front() >= from.t && times.back() <= to.t, "interpolation within a step");
+  do_interpolate_all(from, to, times, dofs, out);
 }
 
 void Integrator::do_start(State&) {}
+
+void Integrator::do_interpolate_all(const State& from, const State& to, std::span<const double> times,
+                                    std::span<const Index> dofs, Interpolated out) const {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto row = [&](std::span<double> all) {
+      return all.empty() ? all : all.subspan(i * dofs.size(), dofs.size());
+    };
+    do_interpolate(from, to, times[i], dofs, {row(out.x), row(out.v), row(out.a)});
+  }
+}
 
 void Integrator::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
                                 Interpolated out) const {

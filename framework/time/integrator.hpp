@@ -14,7 +14,7 @@
 
 namespace butee::time {
 
-/// Where interpolate() writes: one entry per DOF asked for; an empty span is not computed.
+/// Where interpolate() writes: one entry per DOF asked for, instant by instant; an empty span is not computed.
 struct Interpolated {
   std::span<double> x, v, a;
 };
@@ -39,7 +39,12 @@ class BUTEE_EXPORT Integrator {
   StepReport step(const State& from, const Step& step, State& to);
 
   /// The motion of `dofs` at `t` in [from.t, to.t] of an accepted step.
-  void interpolate(const State& from, const State& to, double t, std::span<const Index> dofs, Interpolated out) const;
+  void interpolate(const State& from, const State& to, double t, std::span<const Index> dofs, Interpolated out) const {
+    interpolate(from, to, {&t, 1}, dofs, out);
+  }
+  /// The same at several instants, ascending.
+  void interpolate(const State& from, const State& to, std::span<const double> times, std::span<const Index> dofs,
+                   Interpolated out) const;
 
   /// What chose this method, and why, where the scene did not: "exponential, tolerance 1e-4: ...".
   const std::string& choice() const { return choice_; }
@@ -80,6 +85,9 @@ class BUTEE_EXPORT Integrator {
   /// Default: cubic Hermite for x from (x, v) and for v from (v, a), linear for a.
   virtual void do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
                               Interpolated out) const;
+  /// Default: one instant after the other. To be overridden where they have something in common.
+  virtual void do_interpolate_all(const State& from, const State& to, std::span<const double> times,
+                                  std::span<const Index> dofs, Interpolated out) const;
 
   solve::Dynamics& dynamics_;
   std::string choice_;

@@ -177,5 +177,26 @@ TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
   EXPECT_LT(number("horizon"), 0.9);
 }
 
+TEST(Compare, TakesExponentialWhereExactRefusesTheLaw) {
+  const TemporaryFolder folder;
+  std::string scene = kSwing;
+  scene.insert(scene.find("[initial]"),
+               "[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 0.5\nlaw = \"smooth\"\nstiffness = 2e3\nwidth = "
+               "0.1\n");
+  folder.write("swing.toml", scene);
+  folder.write("study.toml",
+               "schema = 1\n[study]\ntitle = \"a bend\"\nscenes = [\"swing.toml\"]\ntargets = [1e-3]\n"
+               "[[study.method]]\ntype = \"rk4\"\nsweep = \"time_step\"\nvalues = [1e-3]\n");
+  const auto outcome = run_program({"compare", "study.toml", "-q"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string report = read_file(folder.file("study-compare/report.md"));
+  EXPECT_NE(report.find("Reference: exponential with a tolerance of 1e-09"), std::string::npos) << report;
+  EXPECT_NE(report.find("since exact refuses the scene"), std::string::npos);
+  // A method of order 4 with 500 steps over two contacts is good to far better than this.
+  const auto rows = rows_of(read_file(folder.file("study-compare/runs.csv")));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_LT(error_in(rows.begin()->second), 1e-4);
+}
+
 }  // namespace
 }  // namespace butee::test

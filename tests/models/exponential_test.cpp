@@ -138,6 +138,66 @@ TEST(Exponential, WithoutStopsGoesFromOutputToOutputWithoutError) {
   }
 }
 
+std::string oscillator(const std::string& stops) {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+         "\"m\"\nstiffness = 50.0\n[damping]\nmass_proportional = 0.3\n[[load]]\ntype = \"harmonic\"\nnode = "
+         "\"m\"\namplitude = 20.0\nangular_frequency = 4.3\nphase = 0.2\n[initial]\nvelocity = [{nodes = \"m\", value "
+         "= "
+         "1.0}]\n" +
+         stops + "[integrator]\ntype = \"exponential\"\ntolerance = 1e-4\nend_time = 6.0\n";
+}
+
+TEST(Exponential, InPlainNumbersIsTheSameAsInVectors) {
+  const auto stop = [](const std::string& sides) {
+    return "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.2\nlaw = \"linear\"\nstiffness = 5e3\nsides = \"" +
+           sides + "\"\n";
+  };
+  std::vector<double> times;
+  for (int i = 0; i <= 60; ++i) times.push_back(0.1 * i);
+  const auto sample = [&](const std::string& stops) {
+    SceneRun run(oscillator(stops));
+    Sampler sampler(run.dof("m"), times);
+    run.simulation().add(sampler);
+    EXPECT_TRUE(run.run().completed);
+    return std::pair(sampler.x, run.simulation().report().steps);
+  };
+  // One stop goes in plain numbers, the same as two of one side each does not.
+  const auto [x, steps] = sample(stop("both"));
+  const auto [same, as_many] = sample(stop("positive") + stop("negative"));
+  // The iterations of the two end differently, well within the tolerance of 1e-4.
+  EXPECT_LE(relative_rms(x, same), 1e-5);
+  EXPECT_NEAR(static_cast<double>(steps), static_cast<double>(as_many), 0.05 * static_cast<double>(steps));
+  EXPECT_GT(steps, 100);
+}
+
+TEST(Exponential, WithTheLowestModesComesCloserTheMoreThereAreAndSaysWhatIsLeftOut) {
+  const std::string stops =
+                        "[[contact]]\ntype = \"stop\"\nnodes = \"b:3..6\"\ngap = 2e-3\nlaw = \"linear\"\nstiffness "
+                        "= 2e5\n",
+                    rest = "[integrator]\ntype = \"exponential\"\nend_time = 0.1\n";
+  std::string scene = frame("", stops + rest);
+  scene.erase(scene.find("[initial]"), scene.find("[[contact]]") - scene.find("[initial]"));
+  std::vector<double> times;
+  for (int i = 0; i <= 50; ++i) times.push_back(0.002 * i);
+  const auto sample = [&](int modes, std::string* choice = nullptr) {
+    SceneRun run(scene, {"integrator.modes=" + std::to_string(modes)});
+    if (choice != nullptr) *choice = run.integrator().choice();
+    Sampler sampler(run.dof("b:4"), times);
+    run.simulation().add(sampler);
+    EXPECT_TRUE(run.run().completed);
+    return sampler.x;
+  };
+  std::string all, few;
+  const std::vector<double> full = sample(0, &all);
+  EXPECT_TRUE(all.empty()) << all;
+  const double with_four = relative_rms(sample(4, &few), full), with_ten = relative_rms(sample(10), full);
+  EXPECT_NE(few.find("lowest 4 of 18 modes"), std::string::npos) << few;
+  EXPECT_NE(few.find(" % of what a stop gives way"), std::string::npos) << few;
+  // What four modes leave out of a stop's compliance shows; ten hold nearly all of it.
+  EXPECT_GT(with_four, 1e-4);
+  EXPECT_LT(with_ten, 0.3 * with_four);
+}
+
 TEST(Exponential, RefusesDampingThatCouplesTheModes) {
   const std::string dashpot = "[[element]]\ntype = \"spring\"\nnode = \"b:3\"\nstiffness = 1e3\ndamping = 200.0\n";
   try {

@@ -11,14 +11,16 @@ namespace butee::app::compare {
 /// The answer that others are measured against, and how far it can itself be trusted.
 struct Reference {
   std::string origin;        ///< what it was made by
+  std::string method;        ///< the method among them, if any
   Values values;             ///< at the times of the question, up to the horizon
   double horizon = 0.0;      ///< s; beyond it two computations part company
   bool parted = false;       ///< false: they agree to the end
   double uncertainty = 0.0;  ///< relative rms of their difference up to the horizon, of the worst column
 };
 
-/// Computes it twice by the method `exact` at different orders, or reads the study's file. Throws InputError where the
-/// scene is not for `exact`, RunError where a run fails.
+/// Computes it twice by the method `exact` at different orders, where that refuses the scene twice by `exponential` at
+/// tight tolerances, or reads the study's file. Throws InputError where the scene is for neither, RunError where a run
+/// fails.
 Reference find_reference(const Study& study, const config::Document& scene, plugin::Catalogue& catalogue,
                          const Question& question);
 

@@ -40,8 +40,12 @@ class Sampler final : public time::Observer {
       take([&](auto to) { probes_.evaluate(state, to); });
   }
   void step(const time::AcceptedStep& step) override {
-    while (taken_ < question_.times.size() && question_.times[taken_] <= step.to.t)
-      take([&](auto to) { probes_.evaluate(step, question_.times[taken_], to); });
+    const auto begin = question_.times.begin() + static_cast<std::ptrdiff_t>(taken_);
+    const auto end = std::upper_bound(begin, question_.times.end(), step.to.t);
+    if (begin == end) return;
+    probes_.sample(step, {begin, end});
+    for (std::size_t i = 0, count = static_cast<std::size_t>(end - begin); i < count; ++i)
+      take([&](auto to) { probes_.take(i, to); });
   }
 
   double next_instant(double t) const override {

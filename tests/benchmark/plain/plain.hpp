@@ -35,12 +35,14 @@ struct Options {
   int max_iterations = 10;                                   // NM1, NM2
   double target_error = 0, band_low = 0.5, band_high = 4.0;  // NM2, NMM2
   double beta = 0.25, gamma = 0.5;                           // all Newmark methods
+  std::vector<double> samples;                               // instants, ascending, at which u is wanted
 };
 
 struct Result {
   long steps = 0, rejected = 0, newton = 0, newton_failures = 0;
   double u_end = 0, v_end = 0;    // of the loaded DOF
   double peak_u = 0, peak_v = 0;  // its largest |u| and |v| over t = 0 and all accepted steps
+  std::vector<double> u_samples;  // u of the loaded DOF at options.samples, cubic between the steps
   double seconds = 0;             // of the integration alone
   bool completed = true;          // false: the step fell below its floor
 };

@@ -170,9 +170,9 @@ Verdict judge(double error, double h, const Options& options) {
 
 void run_newmark(const Problem& problem, Method method, const Options& options, Result& result) {
   Newmark newmark(problem, options);
-  const auto keep = [&] {
+  const auto keep = [&](double t, double h) {
     newmark.keep();
-    record(result, newmark.x[problem.loaded], newmark.v[problem.loaded]);
+    record(result, options, t, h, newmark.x[problem.loaded], newmark.v[problem.loaded]);
   };
   const bool secant = method == Method::kNmm1 || method == Method::kNmm2;
   const bool adaptive = method == Method::kNm2 || method == Method::kNmm2;
@@ -182,7 +182,7 @@ void run_newmark(const Problem& problem, Method method, const Options& options, 
         newmark.try_secant(t, h);
       else
         newmark.try_newton(t, h, result);
-      keep();
+      keep(t, h);
     });
     return;
   }
@@ -192,7 +192,7 @@ void run_newmark(const Problem& problem, Method method, const Options& options, 
     else if (!newmark.try_newton(t, h, result))
       return {false, 0.5 * h};
     const Verdict verdict = judge(newmark.error(h), h, options);
-    if (verdict.accepted) keep();
+    if (verdict.accepted) keep(t, h);
     return verdict;
   });
 }

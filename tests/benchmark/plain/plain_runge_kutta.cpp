@@ -108,7 +108,7 @@ void run_runge_kutta(const Problem& problem, Method method, const Options& optio
   if (method == Method::kRk41) {
     march_fixed(options, [&](double t, double h) {
       rk.step(t, h);
-      record(result, rk.x[problem.loaded], rk.v[problem.loaded]);
+      record(result, options, t, h, rk.x[problem.loaded], rk.v[problem.loaded]);
     });
     return;
   }
@@ -118,7 +118,7 @@ void run_runge_kutta(const Problem& problem, Method method, const Options& optio
         method == Method::kRk42 ? judge_fixed_factors(error, h, options) : judge_error_scaled(error, h, options);
     if (verdict.accepted) {
       rk.keep_halves();
-      record(result, rk.x[problem.loaded], rk.v[problem.loaded]);
+      record(result, options, t, h, rk.x[problem.loaded], rk.v[problem.loaded]);
     }
     return verdict;
   });

@@ -10,8 +10,15 @@ namespace plain {
 /// An adaptive method gives up below this part of its initial step.
 inline constexpr double kStepFloor = 1e-10;
 
-inline void record(Result& result, double u, double v) {
+/// The step from t to t + h that ended with u and v.
+inline void record(Result& result, const Options& options, double t, double h, double u, double v) {
   ++result.steps;
+  while (result.u_samples.size() < options.samples.size()) {
+    const double s = (options.samples[result.u_samples.size()] - t) / h, r = 1.0 - s;
+    if (s > 1.0 + 1e-9) break;
+    result.u_samples.push_back(r * r * ((1.0 + 2.0 * s) * result.u_end + s * h * result.v_end) +
+                               s * s * ((3.0 - 2.0 * s) * u - r * h * v));
+  }
   result.u_end = u;
   result.v_end = v;
   result.peak_u = std::max(result.peak_u, std::abs(u));

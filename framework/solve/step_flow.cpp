@@ -1,0 +1,132 @@
+#include "butee/solve/step_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "butee/solve/lanes.hpp"
+
+namespace butee::solve {
+namespace {
+
+/// The error of cubic Hermite interpolation is at most this times (omega h)^4 and the amplitude, and at most twice
+/// that.
+constexpr double kHermite = 1.0 / 384.0;
+
+void add_magnitude(double weight, const Lane& x, Lane& to) {
+  to += weight * (x < 0.0 ? -x : x);
+}
+
+}  // namespace
+
+StopShapes::StopShapes(Eigen::MatrixXd shapes) : shapes_(std::move(shapes)) {
+  if (count() == 0) return;
+  if (count() <= DenseProduct::kMostRows) to_stops_ = DenseProduct(shapes_.transpose());
+  if (modes() <= DenseProduct::kMostRows) to_modes_ = DenseProduct(shapes_);
+}
+
+void StopShapes::displacement(const double* q, double* w) const {
+  if (!to_stops_.empty()) return to_stops_.multiply(q, w);
+  Eigen::Map<Vector>(w, count()).noalias() = shapes_.transpose() * Eigen::Map<const Vector>(q, modes());
+}
+
+void StopShapes::displacement(const double* q, const double* v, double* w, double* wv) const {
+  if (!to_stops_.empty()) return to_stops_.multiply(q, v, w, wv);
+  displacement(q, w);
+  displacement(v, wv);
+}
+
+void StopShapes::force(std::span<const Index> stops, const double* f, double* r) const {
+  if (!to_modes_.empty()) return to_modes_.multiply(stops, f, r);
+  Eigen::Map<Vector> sum(r, modes());
+  sum.setZero();
+  for (const Index i : stops) sum += f[i] * shapes_.col(i);
+}
+
+StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& stops,
+                   const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics)
+    : whole(std::move(whole_flow)),
+      half(std::move(half_flow)),
+      stops_(stops),
+      columns_(static_cast<std::size_t>(stops.count())),
+      derived_(columns_.size()) {
+  if (stops.count() == 0) return;
+  const Eigen::ArrayXd angle = h() * frequencies, shape = stops.matrix().cwiseAbs().rowwise().maxCoeff().array();
+  swing_q = (kHermite * angle.square().square()).min(2.0) * shape;
+  swing_v = (frequencies > 0.0).select(swing_q / frequencies, 0.0);
+  // Within a step a force moves a mode by no more than this (also in resonance), and away from the cubic by no more
+  // than h^4/384 times the fourth derivative, f'' - omega^2 f.
+  const Eigen::ArrayXd most = h() * h() * (angle > 2.0).select((angle + 2.0) / angle.square().max(1.0), 1.0) * shape;
+  swing_force = most * (kHermite * angle.square()).min(1.0);
+  for (const ModalHarmonic& harmonic : harmonics) {
+    const double turn = h() * harmonic.angular_frequency;
+    swing_harmonics += (most * (kHermite * (angle.square() + turn * turn)).min(1.0) *
+                        (harmonic.cosine.square() + harmonic.sine.square()).sqrt())
+                           .sum();
+  }
+}
+
+Index StepFlow::padded(Index stops) {
+  return lanes_for(stops) * kLaneSize;
+}
+
+const Eigen::ArrayXXd& StepFlow::compute_columns(Index i) {
+  Eigen::ArrayXXd& columns = columns_[static_cast<std::size_t>(i)];
+  columns.setZero(padded(stops_.count()), 9);
+  const auto shape = stops_.of(i).array();
+  Eigen::ArrayXd q(shape.size()), v(shape.size());
+  for (int k = 0; k < 3; ++k) {
+    q = whole.force_q(k) * shape;
+    v = h() * whole.force_v(k) * shape;
+    stops_.displacement(q.data(), v.data(), columns.col(3 * k).data(), columns.col(3 * k + 1).data());
+    // P_k of the step, written in those of its first half.
+    if (k == 0) q = half.force_q(0) * shape;
+    if (k == 1) q = 0.5 * (half.force_q(1) - half.force_q(0)) * shape;
+    if (k == 2) q = (0.25 * half.force_q(2) - 0.75 * half.force_q(1)) * shape;
+    stops_.displacement(q.data(), columns.col(3 * k + 2).data());
+  }
+  return columns;
+}
+
+StepFlow::Coupling StepFlow::own_coupling(Index i) {
+  const Eigen::ArrayXXd& all = columns(i);
+  Coupling own{};
+  for (Index row = 0; row < 3; ++row)
+    for (Index k = 0; k < 3; ++k) own[static_cast<std::size_t>(row)][static_cast<std::size_t>(k)] = all(i, 3 * k + row);
+  return own;
+}
+
+double StepFlow::add_force(Index i, const std::array<double, 3>& force, double speed_weight, StopMotion& motion) {
+  const Eigen::ArrayXXd& all = columns(i);
+  const Index size = all.rows();
+  const double* column = all.data();
+  Lane largest{};
+  for (Index begin = 0; begin < size; begin += kLaneSize) {
+    std::array<Lane, 3> sums{};
+    for (Index k = 0; k < 3; ++k)
+      for (Index row = 0; row < 3; ++row) {
+        Lane part;
+        load(column + (3 * k + row) * size + begin, part);
+        sums[static_cast<std::size_t>(row)] += part * force[static_cast<std::size_t>(k)];
+      }
+    const auto add = [&](Eigen::ArrayXd& to, const Lane& sum) {
+      Lane old;
+      load(to.data() + begin, old);
+      store(old + sum, to.data() + begin);
+    };
+    add(motion.end, sums[0]);
+    add(motion.speed, sums[1]);
+    add(motion.middle, sums[2]);
+    Lane change{};
+    add_magnitude(1.0, sums[0], change);
+    add_magnitude(speed_weight, sums[1], change);
+    add_magnitude(1.0, sums[2], change);
+    largest = change > largest ? change : largest;
+  }
+  double most = largest[0];
+  for (Index k = 1; k < kLaneSize; ++k) most = std::max(most, largest[k]);
+  // A NaN loses every comparison; the sum shows it.
+  const double all_of_them = sum(largest);
+  return std::isfinite(all_of_them) && std::isfinite(motion.end[i]) ? most : all_of_them + motion.end[i];
+}
+
+}  // namespace butee::solve

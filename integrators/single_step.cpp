@@ -1,0 +1,217 @@
+#include "integrators/single_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "butee/solve/dynamics.hpp"
+
+namespace butee::integrators {
+
+bool SingleStep::can_take(const solve::Dynamics& dynamics) {
+  const auto& loads = dynamics.system().loads;
+  return dynamics.size() == 1 && dynamics.stop_count() == 1 &&
+         std::all_of(loads.begin(), loads.end(), [](const auto& load) { return load.in_time->harmonic().has_value(); });
+}
+
+SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance,
+                       std::size_t most)
+    : dynamics_(dynamics),
+      modal_(modal),
+      orders_(static_cast<std::size_t>(order / 2)),
+      tolerance_(tolerance),
+      stop_(dynamics.contact(), 0),
+      own_(stop_.stiffness(), orders_),
+      gap_(dynamics.contact().gap_of(0)),
+      stop_shape_(modal.stop_shapes().matrix()(0, 0)),
+      square_(modal.frequencies()[0] * modal.frequencies()[0]),
+      decay_(modal.decay()[0]),
+      harmonics_(modal.harmonics()) {
+  knots_.reserve(most + 1);
+  times_.reserve(most + 1);
+  phases_.resize((most + 1) * harmonics_.size());
+}
+
+void SingleStep::save(double* memory) const {
+  memory[0] = now_.q;
+  memory[1] = now_.v;
+}
+
+void SingleStep::begin(double t, const double* memory, double scale) {
+  now_ = {memory[0], memory[1]};
+  scale_ = scale;
+  knots_.assign(1, {t, now_, 0.0, false, false, {}});
+  times_.assign(1, t);
+}
+
+void SingleStep::accept(double t) {
+  now_ = next_;
+  knots_.push_back({t, now_, 0.0, false, false, {}});
+  times_.push_back(t);
+}
+
+std::span<const double> SingleStep::knots() const {
+  if (times_.size() < 3) return {};
+  return {times_.data() + 1, times_.size() - 2};
+}
+
+void SingleStep::fill(solve::StepFlow& from, Flow& flow) const {
+  const solve::ModalFlow &whole = from.whole, &half = from.half;
+  flow.h = from.h();
+  flow.qq = whole.qq()[0];
+  flow.qv = whole.qv()[0];
+  flow.vq = whole.vq()[0];
+  flow.vv = whole.vv()[0];
+  flow.half_qq = half.qq()[0];
+  flow.half_qv = half.qv()[0];
+  flow.swing_q = from.swing_q[0];
+  flow.swing_v = from.swing_v[0];
+  flow.swing_harmonics = from.swing_harmonics;
+  for (std::size_t k = 0; k < 3; ++k) {
+    flow.force_q[k] = whole.force_q(static_cast<int>(k))[0] * stop_shape_;
+    flow.force_v[k] = whole.force_v(static_cast<int>(k))[0] * stop_shape_;
+  }
+  flow.coupling = from.own_coupling(0);
+  flow.closed_inverse = own_.closed_inverse(flow.coupling);
+  flow.harmonics.clear();
+  for (std::size_t j = 0; j < harmonics_.size(); ++j)
+    flow.harmonics.push_back({whole.harmonic_q(j, 0)[0], -whole.harmonic_q(j, 1)[0], whole.harmonic_v(j, 0)[0],
+                              -whole.harmonic_v(j, 1)[0], half.harmonic_q(j, 0)[0], -half.harmonic_q(j, 1)[0]});
+}
+
+Trial SingleStep::attempt_rung(int level) {
+  Flow& flow = flows_[static_cast<std::size_t>(level & 7)];
+  if (flow.h == 0.0 || flow.level != level) {
+    fill(modal_.ladder(level), flow);
+    flow.level = level;
+  }
+  return attempt(flow);
+}
+
+Trial SingleStep::attempt_length(double h) {
+  fill(modal_.odd(h), odd_);
+  return attempt(odd_);
+}
+
+void SingleStep::find_load(std::size_t knot) {
+  Knot& at = knots_[knot];
+  if (at.has_load) return;
+  at.has_load = true;
+  at.harmonic_force = 0.0;
+  for (std::size_t j = 0; j < harmonics_.size(); ++j) {
+    const double angle = harmonics_[j].angular_frequency * at.t, c = std::cos(angle), s = std::sin(angle);
+    phases_[knot * harmonics_.size() + j] = {c, s};
+    at.harmonic_force += c * harmonics_[j].cosine[0] + s * harmonics_[j].sine[0];
+  }
+}
+
+Trial SingleStep::attempt(const Flow& flow) {
+  const std::size_t knot = knots_.size() - 1;
+  find_load(knot);
+  const auto [q, v] = now_;
+  double q1 = flow.qq * q + flow.qv * v, v1 = flow.vq * q + flow.vv * v, middle = flow.half_qq * q + flow.half_qv * v;
+  for (std::size_t j = 0; j < harmonics_.size(); ++j) {
+    const auto [c, s] = phases_[knot * harmonics_.size() + j];
+    const std::array<double, 6>& load = flow.harmonics[j];
+    q1 += c * load[0] + s * load[1];
+    v1 += c * load[2] + s * load[3];
+    middle += c * load[4] + s * load[5];
+  }
+  if (!std::isfinite(q1 + v1)) return Trial::not_finite;
+  const double h = flow.h, shape = stop_shape_, w = shape * q, hv = h * shape * v;
+  path_ = {shape * q1, h * shape * v1, shape * middle};
+  error_ = 0.0;
+  force_ = {};
+  const double reach = std::max(std::abs(w), std::abs(path_[0])) + kBump * (std::abs(hv) + std::abs(path_[1])) +
+                       flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v) + flow.swing_harmonics;
+  is_quiet_ = reach <= gap_;
+  if (!is_quiet_) {
+    const Trial trial = iterate(flow, w, hv);
+    if (trial != Trial::accepted) return trial;
+  } else if (!stop_.is_linear()) {
+    force_[0] = stop_.far_force(StopPath(w, hv, path_[0], path_[1], 0.0));
+  }
+  for (std::size_t k = 0; k < orders_; ++k) {
+    q1 += force_[k] * flow.force_q[k];
+    v1 += force_[k] * flow.force_v[k];
+  }
+  next_ = {q1, v1};
+  scale_ = std::max(scale_, std::abs(shape * q1));
+  return Trial::accepted;
+}
+
+Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
+  using Course = StopForce::Course;
+  double last = 0.0;
+  Course before = Course::changing;
+  const auto& coupling = flow.coupling;
+  for (int i = 0; i < kMostSweeps; ++i) {
+    const double bulge = path_[2] - (0.5 * (w + path_[0]) + 0.125 * (hv - path_[1]));
+    const StopPath path(w, hv, path_[0], path_[1], orders_ == 3 ? bulge : 0.0);
+    const Course course = stop_.course(path);
+    const double scale = std::max(scale_, std::abs(path_[0]));
+    double change = 0.0;
+    // A spring throughout, whose equations were solved before, or no force at all.
+    const bool is_solved = stop_.is_linear() && course != Course::changing && course == before;
+    if (!is_solved) {
+      const Projection projection = stop_.project(path, course);
+      const ForceMoments more =
+          own_.correction(course == Course::closed ? flow.closed_inverse : own_.inverse(projection.closed, coupling),
+                          projection.force, force_);
+      std::array<double, 3> moved{};
+      for (std::size_t row = 0; row < 3; ++row) {
+        moved[row] = coupling[row][0] * more[0] + coupling[row][1] * more[1] + coupling[row][2] * more[2];
+        path_[row] += moved[row];
+        force_[row] += more[row];
+      }
+      if (orders_ == 1) force_[1] = projection.force[1];  // for the estimate alone
+      change = std::abs(moved[0]) + kBump * std::abs(moved[1]) + std::abs(moved[2]);
+      if (!std::isfinite(change)) return Trial::too_long;
+    }
+    before = course;
+    const double next = change * (change / last), enough = std::max(kConverged * tolerance_, kRounding) * scale;
+    const bool is_expected = i > 0 && change < last && next <= kExpected * enough;
+    last = change;
+    if (change > enough && !is_expected) continue;
+    error_ = std::abs(bulge);
+    if (orders_ == 1) error_ += std::abs(coupling[0][1] * force_[1]);
+    return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
+  }
+  return Trial::too_long;
+}
+
+const Motion& SingleStep::motion_at(std::size_t knot) {
+  Knot& at = knots_[knot];
+  if (at.has_motion) return at.motion;
+  at.has_motion = true;
+  find_load(knot);
+  const double shape = modal_.shapes()(0, 0);
+  const double force = dynamics_.contact().force_of(0, stop_shape_ * at.at.q);
+  const double a = at.harmonic_force + stop_shape_ * force - square_ * at.at.q - 2.0 * decay_ * at.at.v;
+  return at.motion = {shape * at.at.q, shape * at.at.v, shape * a};
+}
+
+void SingleStep::interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
+  if (dofs.empty()) return;
+  const auto put = [&](std::size_t place, const Motion& motion) {
+    if (!out.x.empty()) out.x[place] = motion.x;
+    if (!out.v.empty()) out.v[place] = motion.v;
+    if (!out.a.empty()) out.a[place] = motion.a;
+  };
+  std::size_t knot = 0;
+  for (std::size_t i = 0; i < times.size();) {
+    while (knot + 2 < knots_.size() && knots_[knot + 1].t <= times[i]) ++knot;
+    if (times[i] == knots_[knot].t) {
+      put(i++, motion_at(knot));
+      continue;
+    }
+    const double begin = knots_[knot].t, end = knots_[knot + 1].t, r = 1.0 / (end - begin);
+    const Quintic course(end - begin, motion_at(knot), motion_at(knot + 1));
+    for (; i < times.size() && times[i] < end; ++i) {
+      const double s = (times[i] - begin) * r;
+      put(i, {course.value(s), course.slope(s), course.curvature(s)});
+    }
+    if (knot + 2 == knots_.size() && i < times.size() && times[i] >= end) put(i++, motion_at(knot + 1));
+  }
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "butee/solve/modal_system.hpp"
+#include "integrators/exponential_step.hpp"
+
+namespace butee::integrators {
+
+/// What ExponentialStep does, for a single DOF with a single stop under harmonic loads: the same arithmetic in plain
+/// numbers, without a loop over modes or stops.
+class SingleStep {
+ public:
+  /// A system of that kind.
+  static bool can_take(const solve::Dynamics& dynamics);
+
+  SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, std::size_t most);
+
+  Index memory_size() const { return 2; }
+  void complete(double*) const {}
+  void begin(double t, const double* memory, double scale);
+  void save(double* memory) const;
+  Trial attempt_rung(int level);
+  Trial attempt_length(double h);
+  void accept(double t);
+
+  double t() const { return knots_.back().t; }
+  const double* q() const { return &now_.q; }
+  const double* v() const { return &now_.v; }
+  double scale() const { return scale_; }
+  bool is_quiet() const { return is_quiet_; }
+  bool is_easy() const { return error_ < kEasy * tolerance_ * scale_; }
+  static constexpr bool has_stops() { return true; }
+
+  std::span<const double> knots() const;
+  void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out);
+
+ private:
+  struct Point {
+    double q, v;
+  };
+  /// A solve::StepFlow of one mode and one stop.
+  struct Flow {
+    int level = 0;
+    double h = 0.0;  ///< 0: not filled yet
+    double qq, qv, vq, vv, half_qq, half_qv, swing_q, swing_v, swing_harmonics;
+    std::array<double, 3> force_q, force_v;
+    PathCoupling coupling;
+    OwnForce::Matrix closed_inverse;
+    /// q, v and half_q of each harmonic, by its cosine and its sine.
+    std::vector<std::array<double, 6>> harmonics;
+  };
+  /// Where a step begins or ends.
+  struct Knot {
+    double t;
+    Point at;
+    double harmonic_force;    ///< modal
+    bool has_load = false;    ///< its phases and harmonic_force are known
+    bool has_motion = false;  ///< motion is known
+    Motion motion;
+  };
+
+  void fill(solve::StepFlow& from, Flow& flow) const;
+  void find_load(std::size_t knot);
+  Trial attempt(const Flow& flow);
+  /// Fills force_ along the path that begins at w, hv and would end at path_ without the stop.
+  Trial iterate(const Flow& flow, double w, double hv);
+  const Motion& motion_at(std::size_t knot);
+
+  solve::Dynamics& dynamics_;
+  solve::ModalSystem& modal_;
+  std::size_t orders_;
+  double tolerance_;
+  StopForce stop_;
+  OwnForce own_;
+  double gap_, stop_shape_, square_, decay_;
+  const std::vector<solve::ModalHarmonic>& harmonics_;
+
+  std::array<Flow, 8> flows_;  ///< of rungs, by their last three bits
+  Flow odd_;
+  std::vector<Knot> knots_;
+  std::vector<double> times_;  ///< of the knots
+  std::vector<Phase> phases_;  ///< by knot and harmonic
+
+  Point now_{}, next_{};
+  double scale_ = 0.0, w_next_ = 0.0, error_ = 0.0;
+  bool is_quiet_ = false;
+  std::array<double, 3> path_{};  ///< end, speed times h, middle, with the forces found so far
+  ForceMoments force_{};
+};
+
+}  // namespace butee::integrators
