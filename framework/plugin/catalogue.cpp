@@ -100,15 +100,19 @@ void Catalogue::add_module(const std::string& given_path, bool must_have_manifes
   } else {
     found = std::move(load_module(path).types());
   }
+  add(std::move(found), path);
+  known_.insert(path);
+}
+
+void Catalogue::add(ModuleTypes found, const std::string& path) {
   for (const IntegratorType& type : found.integrators) {
     std::vector<std::string> names = type.aliases;
     names.push_back(type.name);
     for (const std::string& name : names)
       if (const IntegratorEntry* taken = find(name)) refuse("integrator", name, taken->module, path);
   }
-  // All or nothing: a copy takes the module's types, and is kept where none of them is refused.
+  // All or nothing: a copy takes the types, and is kept where none of them is refused.
   Catalogue next = *this;
-  next.known_.insert(path);
   next.add_types("law", std::move(found.laws), &ModuleTypes::laws, path, next.types_.laws);
   next.add_types("load", std::move(found.loads), &ModuleTypes::loads, path, next.types_.loads);
   next.add_types("element", std::move(found.elements), &ModuleTypes::elements, path, next.types_.elements);

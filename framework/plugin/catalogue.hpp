@@ -31,6 +31,9 @@ class BUTEE_EXPORT Catalogue {
   /// loaded to learn its names. Throws RunError for a broken module and where a name is taken, naming both files.
   void add(const std::string& file_or_folder);
 
+  /// Adds types that are in this process already, all or none of them; `origin` is what messages call their source.
+  void add(ModuleTypes found, const std::string& origin);
+
   const model::ModelTypes& types() const { return types_; }
   const std::vector<IntegratorEntry>& integrators() const { return integrators_; }
 

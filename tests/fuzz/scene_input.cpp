@@ -1,12 +1,12 @@
 #include "scene_input.hpp"
 
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+
+#include "integrators/methods.hpp"
 
 namespace butee::fuzz {
 namespace {
@@ -29,13 +29,34 @@ void shrink(config::Value& value) {
 
 plugin::Catalogue& catalogue() {
   static plugin::Catalogue instance = [] {
+    using namespace integrators;
     log::set_level(log::Level::quiet);
+    plugin::ModuleTypes types;
+    types.integrators = {auto_type(),
+                         bathe_type(),
+                         bathe_adaptive_type(),
+                         central_differences_type(),
+                         central_differences_adaptive_type(),
+                         discrete_gradient_type(),
+                         discrete_gradient_adaptive_type(),
+                         dopri5_type(),
+                         exact_type(),
+                         extrapolation8_type(),
+                         exponential_type(),
+                         generalized_alpha_type(),
+                         generalized_alpha_adaptive_type(),
+                         hht_alpha_type(),
+                         hht_alpha_adaptive_type(),
+                         rodas4_type(),
+                         rk4_type(),
+                         rk4_fixed_factors_type(),
+                         rk4_error_scaled_type(),
+                         newmark_type(),
+                         newmark_adaptive_type(),
+                         newmark_modified_type(),
+                         newmark_modified_adaptive_type()};
     plugin::Catalogue made;
-    for (const auto& file : std::filesystem::directory_iterator(BUTEE_TEST_PLUGINS))
-      if (file.path().extension() == ".so" && file.path().stem() != "sundials") made.add(file.path().string());
-    std::vector<std::string> names;
-    for (const auto& entry : made.integrators()) names.push_back(entry.declaration.name);
-    for (const std::string& name : names) made.load(name);
+    made.add(std::move(types), "the fuzz target");
     return made;
   }();
   return instance;

@@ -15,7 +15,7 @@ struct SceneInput {
   record::OutputRequest output;
 };
 
-/// All methods of the build tree but those of SUNDIALS, loaded.
+/// The standard types and every method of integrators/.
 plugin::Catalogue& catalogue();
 
 /// Reads the bytes as the program reads a scene; nothing where they are refused with an InputError, as bad input has to
