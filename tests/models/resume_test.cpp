@@ -100,6 +100,7 @@ class Checkpointed : public testing::Test {
   Outcome run(std::vector<std::string> arguments) { return run_program(arguments, folder_.path()); }
   /// A run that a signal ended in the middle.
   void interrupt(int signal) {
+    fs::remove_all(folder_.file("broken"));
     folder_.write("scene.toml", scene_of(kMethod, 100.0, 50));
     Process process({"run", "scene.toml", "-o", "broken", "-q"}, folder_.path());
     while (!fs::exists(folder_.file("broken/checkpoint-before.bin")) && !process.ends_within(1ms)) continue;
