@@ -27,15 +27,18 @@ constexpr double kShiftPart = 1e-2;
 /// The place between two eigenvalues at which they are counted, relative.
 constexpr double kCountedBelow = 1e-6;
 /// Eigenvalues below this part of the shift are rounding of the iteration.
-constexpr double kZeroBesideShift = 1e-15;
+constexpr double kZeroBesideShift = 1e-18;
 /// An eigenvalue is zero where it is within so many times the rounding of its elements.
 constexpr double kZeroInRounding = 4.0;
 constexpr int kMostBisections = 200;
 /// Residuals of Lanczos' vectors, relative; looser where rounding of the factor, in extended precision, is larger.
-constexpr double kTolerance = 1e-12, kLoosest = 1e-7, kBesideRounding = 1e-3;
+constexpr double kTolerance = 1e-12, kLoosest = 1e-4, kBesideRounding = 1e-3;
 /// Corrections of a solution with the factor by its residual; each takes as many digits away from its error as the
-/// factor has right.
-constexpr int kCorrections = 3;
+/// factor has right. They end where one is this part of the solution, or no longer half of the one before.
+constexpr int kCorrections = 12;
+constexpr double kCorrected = 1e-15;
+/// Steps of inverse iteration after Lanczos, whose factor was not corrected.
+constexpr int kInverseSteps = 2;
 
 /// Diagonal entries bound the highest eigenvalue from below, within a factor of some tens for beams.
 double scale_of(const Structure& structure) {
@@ -113,11 +116,17 @@ Eigen::MatrixXd image_of(const Structure& structure, const ShiftedFactor& factor
                          const Eigen::MatrixXd& x) {
   const ExtendedColumns inertia = structure.mass() * x.cast<long double>();
   Eigen::MatrixXd image = factor.solve(inertia).cast<double>();
+  double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kCorrections; ++i) {
     const ExtendedColumns moved = structure.mass() * image.cast<long double>();
     const ExtendedColumns residual =
         inertia - structure.elastic(image).forces + static_cast<long double>(shift) * moved;
-    image += factor.solve(residual).cast<double>();
+    const Eigen::MatrixXd correction = factor.solve(residual).cast<double>();
+    const double size = correction.norm() / image.norm();
+    if (!(size < 0.5 * before)) break;
+    image += correction;
+    if (size < kCorrected) break;
+    before = size;
   }
   return image;
 }
@@ -143,7 +152,8 @@ Pairs iterate(const Structure& structure, ShiftedFactor& factor, double bound, d
     if (!more) return {};
     Eigen::MatrixXd all(structure.size(), found.cols() + more->cols());
     all << found, *more;
-    const Pairs pairs = refine(structure, image_of(structure, factor, shift, all));
+    for (int i = 0; i < kInverseSteps; ++i) all = -shift * image_of(structure, factor, shift, all);
+    const Pairs pairs = refine(structure, all);
     if (pairs.shapes.size() == 0) return {};
     found = pairs.shapes;
     const double last = pairs.values[count - 1], limit = (1.0 - kCountedBelow) * last;
