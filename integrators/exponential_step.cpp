@@ -20,6 +20,8 @@ constexpr double kConverged = 0.02;
 constexpr double kRounding = 1e-15;
 /// Sweeps; where they do not suffice the step is too long for the stiffness of the stops.
 constexpr int kMostSweeps = 25;
+/// Nearer to a stop than so many widths of the bend of its law, the force is more than a constant pull.
+constexpr double kBends = 10.0, kHuge = 1e100;
 /// The bump functions of cubic Hermite interpolation are at most 4/27.
 constexpr double kBump = 4.0 / 27.0;
 
@@ -29,9 +31,11 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
     : modal_(modal), orders_(static_cast<std::size_t>(order / 2)), tolerance_(tolerance) {
   solve::Contact& contact = dynamics.contact();
   gaps_.resize(contact.size());
+  borders_.resize(contact.size());
   for (Index i = 0; i < contact.size(); ++i) {
     stops_.emplace_back(contact, i);
     gaps_[i] = contact.gap_of(i);
+    borders_[i] = gaps_[i] - kBends * std::min(contact.law_of(i).bend_width(), kHuge);
     has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
   }
   for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &sums_[0], &sums_[1], &sums_[2]})
@@ -131,7 +135,7 @@ void ExponentialStep::find_active(const StepFlow& flow, double t) {
   far_.clear();
   bool has_half = false;
   for (Index i = 0; i < w_.size(); ++i) {
-    if (reach_[i] <= gaps_[i]) {
+    if (reach_[i] <= borders_[i]) {
       if (has_far_forces_) far_.push_back(i);
       continue;
     }
@@ -183,7 +187,7 @@ ExponentialStep::Trial ExponentialStep::iterate(StepFlow& flow) {
 
 void ExponentialStep::find_error(StepFlow& flow) {
   for (const Active& a : active_) {
-    if (a.course == StopForce::Course::open && std::abs(a.bulge) + reach_[a.stop] <= gaps_[a.stop]) continue;
+    if (a.course == StopForce::Course::open && std::abs(a.bulge) + reach_[a.stop] <= borders_[a.stop]) continue;
     double error = std::abs(a.bulge);
     if (orders_ == 1) error += std::abs(flow.coupling(a.stop, a.stop).end[1] * a.force[1]);
     error_ = std::max(error_, error);

@@ -66,7 +66,7 @@ class ExponentialStep {
   std::size_t orders_;  ///< polynomials that the force is projected onto
   double tolerance_;
   std::vector<StopForce> stops_;
-  Eigen::ArrayXd gaps_;
+  Eigen::ArrayXd gaps_, borders_;  ///< the latter: up to where the force of an open stop hardly changes
   bool has_far_forces_ = false;
 
   Eigen::ArrayXd q_, v_;
