@@ -39,12 +39,14 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
                          &excess_, &force_[0], &force_[1], &force_[2]})
     array->setZero(padded);
   gaps_.setConstant(padded, kInfinite);
+  borders_ = gaps_;
   upper_ = gaps_;
   lower_ = -gaps_;
   for (Index i = 0; i < contact.size(); ++i) {
     stops_.emplace_back(contact, i);
     own_.emplace_back(stops_.back().stiffness(), orders_);
     gaps_[i] = contact.gap_of(i);
+    borders_[i] = calm_border(contact, i);
     if (contact.sides_of(i) != model::Sides::negative) upper_[i] = gaps_[i];
     if (contact.sides_of(i) != model::Sides::positive) lower_[i] = -gaps_[i];
     has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
@@ -143,7 +145,7 @@ void ExponentialStep::find_reachable(const StepFlow& flow) {
   reach_ = w_.abs().max(w_new_.abs()) + (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
   for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {
-    if (reach_[i] > gaps_[i])
+    if (reach_[i] > borders_[i])
       reachable_.push_back(i);
     else if (has_far_forces_)
       far_.push_back(i);

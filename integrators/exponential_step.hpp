@@ -95,6 +95,7 @@ class ExponentialStep {
 
   // An entry a stop, padded to whole registers.
   Eigen::ArrayXd gaps_, upper_, lower_;  ///< where it acts; infinite where it does not
+  Eigen::ArrayXd borders_;               ///< up to where the force of an open stop hardly changes
   Eigen::ArrayXd w_, wv_, w_new_, wv_new_, reach_;
   Eigen::ArrayXd hv_;       ///< speed times h at the start
   solve::StopMotion path_;  ///< with all forces found so far

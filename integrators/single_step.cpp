@@ -22,6 +22,7 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       stop_(dynamics.contact(), 0),
       own_(stop_.stiffness(), orders_),
       gap_(dynamics.contact().gap_of(0)),
+      calm_border_(calm_border(dynamics.contact(), 0)),
       stop_shape_(modal.stop_shapes().matrix()(0, 0)),
       square_(modal.frequencies()[0] * modal.frequencies()[0]),
       decay_(modal.decay()[0]),
@@ -123,7 +124,7 @@ Trial SingleStep::attempt(const Flow& flow) {
   force_ = {};
   const double reach = std::max(std::abs(w), std::abs(path_[0])) + kBump * (std::abs(hv) + std::abs(path_[1])) +
                        flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v) + flow.swing_harmonics;
-  is_quiet_ = reach <= gap_;
+  is_quiet_ = reach <= calm_border_;
   if (!is_quiet_) {
     const Trial trial = iterate(flow, w, hv);
     if (trial != Trial::accepted) return trial;

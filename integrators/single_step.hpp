@@ -74,7 +74,7 @@ class SingleStep {
   double tolerance_;
   StopForce stop_;
   OwnForce own_;
-  double gap_, stop_shape_, square_, decay_;
+  double gap_, calm_border_, stop_shape_, square_, decay_;
   const std::vector<solve::ModalHarmonic>& harmonics_;
 
   std::array<Flow, 8> flows_;  ///< of rungs, by their last three bits

@@ -260,4 +260,9 @@ void StopForce::add_crossings(const StopPath& path, double border) {
   }
 }
 
+double calm_border(const solve::Contact& contact, Index stop) {
+  constexpr double kBends = 10.0, kHuge = 1e100;
+  return contact.gap_of(stop) - kBends * std::min(contact.law_of(stop).bend_width(), kHuge);
+}
+
 }  // namespace butee::integrators

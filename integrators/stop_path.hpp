@@ -116,4 +116,8 @@ class StopForce {
   std::vector<Place> places_;
 };
 
+/// The displacement up to which an open stop exerts hardly more than a constant pull, m: nearer to its gap than some
+/// widths of the bend of its law the force changes.
+double calm_border(const solve::Contact& contact, Index stop);
+
 }  // namespace butee::integrators

@@ -21,7 +21,7 @@ std::string scene(const Method& method, double end_time) {
       "1e5\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 20.0\nangular_frequency = 100.05\n"
       "[integrator]\ntype = \"" +
       method.name + "\"\nend_time = " + to_text(end_time) + "\n";
-  if (method.is_controlled) return text + "tolerance = 1e-4\n";
+  if (method.is_controlled || method.is_foreign) return text + "tolerance = 1e-4\n";
   text += "time_step = " + to_text(kPeriod / kFixedSteps) + "\n";
   if (method.name == "rk4_fixed_factors") text += "shrink = 1.3\ngrow = 1.5\ntolerance = 1e-4\n";
   if (method.name == "rk4_error_scaled") text += "safety = 0.8\ntolerance = 1e-4\n";
@@ -51,7 +51,8 @@ class Tenths final : public time::Observer {
 
 LongRun run_long(const Method& method, std::int64_t steps) {
   LongRun result;
-  const double end_time = kPeriod * static_cast<double>(steps) / (method.is_controlled ? kChosenSteps : kFixedSteps);
+  const double end_time =
+      kPeriod * static_cast<double>(steps) / (method.is_controlled || method.is_foreign ? kChosenSteps : kFixedSteps);
   test::SceneRun run(scene(method, end_time));
   Tenths tenths(end_time);
   run.simulation().add(tenths);

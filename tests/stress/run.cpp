@@ -118,7 +118,7 @@ std::string settings(const Scene& scene, const Method& method, double critical_s
   const std::string type = "type = \"" + method.name + "\"\n";
   const double step = std::min(scene.step_factor * critical_step, 0.2 * scene.end_time);
   const std::string time_step = "time_step = " + to_text(step) + "\n";
-  if (method.is_controlled) return type + "tolerance = " + to_text(scene.tolerance) + "\n";
+  if (method.is_controlled || method.is_foreign) return type + "tolerance = " + to_text(scene.tolerance) + "\n";
   if (method.name == "rk4_fixed_factors")
     return type + time_step + "shrink = 1.3\ngrow = 1.5\ntolerance = " + to_text(scene.tolerance * scene.size) + "\n";
   if (method.name == "rk4_error_scaled")
@@ -175,8 +175,10 @@ std::vector<Method> methods() {
   for (const auto& entry : catalogue.integrators()) {
     const auto& type = entry.declaration;
     if (type.name == "exact") continue;
-    // The ones that need no first step are those whose tolerance is relative and kept.
-    all.push_back({type.name, type.finds_first_step, type.name != "exponential"});
+    // The ones that need no first step are those whose tolerance is relative and kept. That of SUNDIALS is one of each
+    // component and step: it is there to compare with, and its errors are recorded.
+    const bool is_foreign = entry.module.find("sundials") != std::string::npos;
+    all.push_back({type.name, type.finds_first_step && !is_foreign, is_foreign});
   }
   return all;
 }

@@ -13,7 +13,7 @@ namespace butee::stress {
 struct Method {
   std::string name;
   bool is_controlled = false;  ///< its tolerance is a promise: its answers are correct or it stops
-  bool takes_coupled_modes = true;
+  bool is_foreign = false;     ///< of SUNDIALS
 };
 
 /// Every method of the catalogue but `exact`, which judges them.

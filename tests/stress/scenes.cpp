@@ -78,8 +78,8 @@ Scene chain(const std::string& name, const Recipe& r, int count, bool between, b
   Scene scene;
   scene.name = name;
   scene.size = r.size();
-  scene.couples_modes = with_dashpots && r.ratio > 0.0;
-  const double c = scene.couples_modes ? 2.0 * r.ratio * std::sqrt(r.stiffness * r.mass) : 0.0;
+  const bool couples_modes = with_dashpots && r.ratio > 0.0;
+  const double c = couples_modes ? 2.0 * r.ratio * std::sqrt(r.stiffness * r.mass) : 0.0;
   scene.toml = "schema = 1\n";
   for (int i = 0; i < count; ++i) scene.toml += mass("m" + std::to_string(i), r.mass * random.decades(-0.5, 0.5));
   scene.toml += spring("node = \"m0\"\n", r.stiffness, c);
@@ -92,7 +92,7 @@ Scene chain(const std::string& name, const Recipe& r, int count, bool between, b
   scene.toml += stop(r, between ? "between = [\"m" + std::to_string(count - 2) + "\", \"" + last + "\"]\n"
                                 : "nodes = \"" + last + "\"\n");
   scene.toml += load(r, last, r.force * r.stiffness * r.size(), r.omega());
-  if (!scene.couples_modes && r.ratio > 0.0)
+  if (!couples_modes && r.ratio > 0.0)
     scene.toml += "[damping]\n" + (random.chance(0.5) ? key("mass_proportional", 2.0 * r.ratio * r.omega())
                                                       : key("stiffness_proportional", 2.0 * r.ratio / r.omega()));
   scene.toml += initial(last, r.start * r.size(), r.speed * r.omega() * r.size());

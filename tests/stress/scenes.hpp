@@ -8,13 +8,12 @@ namespace butee::stress {
 
 /// A scene without a method.
 struct Scene {
-  std::string name;            ///< tells what is special in it, and how to make it again
-  std::string toml;            ///< all but [integrator]
-  double end_time = 0.0;       ///< s
-  double tolerance = 1e-4;     ///< for methods with error control, and for the starts that tell the trust horizon
-  double step_factor = 0.1;    ///< of fixed steps, in critical steps of central differences with all stops closed
-  double size = 1e-3;          ///< m, of its motion, roughly
-  bool couples_modes = false;  ///< dashpots on several DOFs: methods that work mode by mode refuse it
+  std::string name;          ///< tells what is special in it, and how to make it again
+  std::string toml;          ///< all but [integrator]
+  double end_time = 0.0;     ///< s
+  double tolerance = 1e-4;   ///< for methods with error control, and for the starts that tell the trust horizon
+  double step_factor = 0.1;  ///< of fixed steps, in critical steps of central differences with all stops closed
+  double size = 1e-3;        ///< m, of its motion, roughly
 };
 
 /// Reproducible everywhere: the 64-bit SplitMix generator.

@@ -89,12 +89,12 @@ std::optional<Eigen::Vector3d> OneStepMap::step(const Eigen::Vector3d& from, dou
 }
 
 std::optional<Eigen::Matrix3d> OneStepMap::at(double h) {
-  // Displaced in all of them, so that a stop that is closed where it starts is closed.
-  const Eigen::Vector3d one(1.0, 0.0, 0.0), moving(1.0, 1.0, 0.0), pushed(1.0, 0.0, 1.0), other(2.0, -1.0, 0.5);
+  // Displaced and moving in all of them: a stop is closed where it starts, and errors have something to be relative to.
+  const Eigen::Vector3d one(1.0, 1.0, 0.0), moving(1.0, 2.0, 0.0), pushed(1.0, 1.0, 1.0), other(2.0, -1.0, 0.5);
   const auto first = step(one, h), second = step(moving, h), third = step(pushed, h), fourth = step(other, h);
   if (!first || !second || !third || !fourth) return std::nullopt;
   Eigen::Matrix3d map;
-  map << *first, *second - *first, *third - *first;
+  map << 2.0 * *first - *second, *second - *first, *third - *first;
   if ((map * other - *fourth).norm() > kLinear * (map.norm() + 1.0)) {
     refusal_ = "a step of h = " + to_short_text(h) + " s is not linear in the state";
     return std::nullopt;
