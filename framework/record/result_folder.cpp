@@ -15,14 +15,28 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kMark = "# butee: the model as run";
-constexpr const char* kOurFiles[] = {"history.csv",    "impacts.csv",           "energy.csv",
-                                     "fields.h5",      "fields.xdmf",           "summary.json",
-                                     "checkpoint.bin", "checkpoint-before.bin", "checkpoint-next.bin"};
+constexpr const char* kDraft = "model.toml.part";
+constexpr const char* kOurFiles[] = {"history.csv",         "impacts.csv",
+                                     "energy.csv",          "fields.h5",
+                                     "fields.xdmf",         "summary.json",
+                                     "checkpoint.bin",      "checkpoint-before.bin",
+                                     "checkpoint-next.bin", "checkpoint-next.bin.part",
+                                     "summary.json.part"};
 
 bool is_ours(const fs::path& folder) {
   std::ifstream model(folder / "model.toml");
   std::string first;
   return std::getline(model, first) && first == kMark;
+}
+
+/// A run that was killed before model.toml was in its place leaves the draft of it, and nothing else.
+bool holds_nothing(const fs::path& folder, std::error_code& error) {
+  fs::directory_iterator entry(folder, error);
+  while (!error && entry != fs::directory_iterator()) {
+    if (entry->path().filename() != kDraft) return false;
+    entry.increment(error);
+  }
+  return true;
 }
 
 }  // namespace
@@ -47,7 +61,7 @@ void ResultFolder::check() const {
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status))
     throw InputError(path_ + ": is a file, not a folder for results; choose another with -o");
-  const bool empty = fs::is_empty(path_, error);
+  const bool empty = holds_nothing(path_, error);
   if (error) throw InputError(path_ + ": cannot be read: " + error.message());
   if (!empty && !is_ours(path_))
     throw InputError(

@@ -111,6 +111,22 @@ TEST(HostileScenes, cannot_give_gnuplot_commands) {
   EXPECT_EQ(folder.entries(), (std::vector<std::string>{"out", "scene.toml", "study.toml"}));
 }
 
+/// Where a title stands within double quotes, a backquote would begin a command.
+TEST(HostileScenes, cannot_give_plots_commands) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", "title = \"`touch backquoted` \\\" ; system 'touch quoted' #\"\n" + scene_with("rk4"));
+  ASSERT_EQ(run_program({"run", "scene.toml", "-q"}, folder.path()).status, 0);
+  run_program({"plot", "scene-results", "-q"}, folder.path());
+  int scripts = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
+    EXPECT_FALSE(entry.path().filename() == "backquoted" || entry.path().filename() == "quoted") << entry.path();
+    if (entry.path().extension() != ".gp") continue;
+    EXPECT_EQ(read_file(entry.path().string()).find('`'), std::string::npos) << entry.path();
+    ++scripts;
+  }
+  EXPECT_GT(scripts, 0);
+}
+
 /// Texts on which the parser would take minutes or all of the stack are refused at once.
 TEST(HostileScenes, of_great_depth_are_refused_before_they_are_parsed) {
   const auto repeated = [](const std::string& text, int times) {

@@ -62,6 +62,8 @@ std::string data_of(const std::vector<Curve>& curves, const Scale& x, const Scal
 std::string folded_title(std::string title) {
   std::replace(title.begin(), title.end(), '"', '\'');
   std::replace(title.begin(), title.end(), '\\', '/');
+  std::replace(title.begin(), title.end(), '`',
+               '\'');  // Within double quotes a command, whose output would stand there.
   std::replace(title.begin(), title.end(), '\n', ' ');
   if (title.size() <= kTitleWidth) return title;
   std::size_t best = std::string::npos;
