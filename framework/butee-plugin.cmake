@@ -13,7 +13,7 @@ function(butee_add_plugin name)
   target_link_libraries(${target} PRIVATE butee::framework)
   set_target_properties(${target} PROPERTIES
     PREFIX "" OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${folder}
-    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON DEFINE_SYMBOL "")
   add_custom_command(TARGET ${target} POST_BUILD
     COMMAND $<TARGET_FILE:butee::program> plugins --write-manifest $<TARGET_FILE:${target}>
     VERBATIM COMMENT "Writing the manifest of ${name}")
