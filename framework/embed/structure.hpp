@@ -13,10 +13,10 @@ namespace butee::embed {
 
 /// How a structure is made of its scene.
 struct StructureOptions {
-  std::vector<std::string> overrides;  ///< "integrator.type=NM1", as --set of the program
-  std::vector<std::string> plugins;    ///< modules or folders of modules, as --plugin
+  std::vector<std::string> overrides{};  ///< "integrator.type=NM1", as --set of the program
+  std::vector<std::string> plugins{};    ///< modules or folders of modules, as --plugin
   /// Selectors of the nodes on which forces will be set: "string:middle", or "string:all.theta" for moments.
-  std::vector<std::string> forced;
+  std::vector<std::string> forced{};
 };
 
 /// The structure of a scene as a part of another program: it is advanced as far as that wants, read, pushed and set

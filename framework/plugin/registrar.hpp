@@ -9,11 +9,11 @@ namespace butee::plugin {
 
 /// The types that a module holds.
 struct ModuleTypes {
-  std::vector<time::IntegratorType> integrators;
-  std::vector<model::LawType> laws;
-  std::vector<model::LoadType> loads;
-  std::vector<model::ElementType> elements;
-  std::vector<model::FieldFormat> formats;
+  std::vector<time::IntegratorType> integrators{};
+  std::vector<model::LawType> laws{};
+  std::vector<model::LoadType> loads{};
+  std::vector<model::ElementType> elements{};
+  std::vector<model::FieldFormat> formats{};
 };
 
 /// Takes the types that a module registers. Nothing counts until the whole module has been read without a mistake.
