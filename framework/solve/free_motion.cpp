@@ -60,7 +60,15 @@ std::string describe_softest_motion(const SparseMatrix& matrix, const model::Dof
     scale[i] = diagonal > 0.0 && std::isfinite(diagonal) ? 1.0 / std::sqrt(diagonal) : 1.0;
   }
   const SparseMatrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
-  Vector shape = softest(scaled).cwiseProduct(scale);
+  Vector shape = softest(scaled);
+  // No motion of several: one of them alone is too light or too soft for a number.
+  if (constexpr double kDistinct = 1e-6; shape.dot(scaled * shape) > kDistinct * shape.squaredNorm()) {
+    Index largest = 0;
+    scale.maxCoeff(&largest);
+    shape = Vector::Unit(matrix.rows(), largest);
+  } else {
+    shape = shape.cwiseProduct(scale);
+  }
   if (!shape.allFinite()) shape.setOnes();
   return describe_motion(shape, dofs);
 }

@@ -32,7 +32,7 @@ constexpr double kZeroBesideShift = 1e-18;
 constexpr double kZeroInRounding = 4.0;
 constexpr int kMostBisections = 200;
 /// Residuals of Lanczos' vectors, relative; looser where rounding of the factor, in extended precision, is larger.
-constexpr double kTolerance = 1e-12, kLoosest = 1e-4, kBesideRounding = 1e-3;
+constexpr double kTolerance = 1e-12, kLoosest = 1e-4, kBesideRounding = 1e-1;
 /// Corrections of a solution with the factor by its residual; each takes as many digits away from its error as the
 /// factor has right. They end where one is this part of the solution, or no longer half of the one before.
 constexpr int kCorrections = 12;

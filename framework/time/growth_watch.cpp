@@ -154,9 +154,10 @@ bool GrowthWatch::look(const State& from, const State& to, double h) {
 std::string GrowthWatch::describe(const State& state, double h) const {
   return "the motion grows without a cause: from t = " + to_short_text(begin_time_) + " s to " +
          to_short_text(state.t) + " s its energy rose from " + to_short_text(begin_energy_) + " J to " +
-         to_short_text(last_energy_) + " J, at least " + to_short_text(std::exp(excess_)) +
-         " times what loads explain. It moves fastest in " + fastest_dof(dynamics_, state) + ". " +
-         describe_remedy(dynamics_, limits_, h);
+         (std::isfinite(last_energy_) ? to_short_text(last_energy_) + " J, at least " +
+                                            to_short_text(std::exp(excess_)) + " times what loads explain"
+                                      : "more than a number can hold") +
+         ". It moves fastest in " + fastest_dof(dynamics_, state) + ". " + describe_remedy(dynamics_, limits_, h);
 }
 
 void GrowthWatch::note_coarseness(const State& from, const State& to, double h) {

@@ -72,7 +72,7 @@ TEST(Modules, ManifestsSayWhatTheModulesDeclare) {
     const auto written = plugin::read_manifest(plugin::manifest_path(file.path().string()));
     const auto declared = plugin::load_module(file.path().string()).types();
     EXPECT_EQ(plugin::write_manifest(written), plugin::write_manifest(declared));
-    if (file.path().stem() != "sundials") ++compared;  // optional
+    if (file.path().stem() != "sundials" && file.path().stem() != "hdf5") ++compared;  // optional
   }
   EXPECT_EQ(compared, 19);
 }

@@ -134,7 +134,9 @@ std::string output_text(const plugin::Catalogue&) {
   impacts          true: impacts.csv, a row for each closing of a stop             (false)
   trust            true: find out how far the answer can be trusted                (false; butee help trust)
   trust_accuracy   the accuracy it is to be trusted to, of the peak                (0.01)
-  formats          ["csv"] and what modules bring
+  checkpoint       every so manyth accepted step the run is kept; butee run --resume DIR goes on
+  formats          ["csv"] and what modules bring: "hdf5", the fields of all nodes
+  fields           {nodes, quantities, interval} of such fields, where not all of them are wanted
 
   [[output.probe]]
   label        the name of its columns: label.u, label.v, ...

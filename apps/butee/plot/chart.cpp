@@ -76,7 +76,7 @@ std::string folded_title(std::string title) {
 }
 
 std::string Picture::script(const std::vector<std::string>& formats) const {
-  return "# Made by `butee plot`. Change what you like and draw it again: gnuplot " + name + ".gp\n" + data + "\n" +
+  return "# Made by butee plot. Change what you like and draw it again: gnuplot " + name + ".gp\n" + data + "\n" +
          gnuplot::style() + set + "\n" + gnuplot::draw_into(formats, name, plot);
 }
 
