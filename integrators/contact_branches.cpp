@@ -9,6 +9,8 @@ namespace butee::integrators {
 namespace {
 
 constexpr int kNone = 2;
+/// The border g = 0 of a smooth law, beside w = 0 (0) and the borders of a linear one (+1, -1).
+constexpr int kBend = 3;
 /// So close to a border, relative to the gap and to the motion of a piece, rounding does not tell the sides apart; the
 /// direction of the motion does.
 constexpr double kOnBorder = 1e-14;
@@ -116,6 +118,21 @@ void ContactBranches::watch(const Eigen::MatrixXd& w, Index stop, int border, do
   if (root && (!first || *root * until < first->at)) first = Change{*root * until, stop, border};
 }
 
+void ContactBranches::watch_bend(const Eigen::MatrixXd& w, Index stop, double until, std::optional<Change>& first) {
+  const Branch& branch = branches_[static_cast<std::size_t>(stop)];
+  const double gap = gap_[static_cast<std::size_t>(stop)], side = branch.side;
+  double moves = 0.0, power = until, direction = 0.0;
+  for (Index k = 1; k < w.cols(); ++k, power *= until) {
+    moves += std::abs(w(stop, k)) * power;
+    if (direction == 0.0) direction = side * w(stop, k);
+  }
+  const double g = side * w(stop, 0) - gap;
+  const bool is_on_it = branch.crossed == kBend || std::abs(g) <= kOnBorder * (gap + moves);
+  // On the border, what it moves away to is where it is.
+  const double where = (is_on_it ? direction : g) < 0.0 ? -1.0 : 1.0;
+  watch(w, stop, kBend, where * side, -where * gap, until, first);
+}
+
 std::optional<ContactBranches::Change> ContactBranches::first_change(const Eigen::MatrixXd& w, double until) {
   std::optional<Change> first;
   for (Index i = 0; i < w.rows(); ++i) {
@@ -124,6 +141,7 @@ std::optional<ContactBranches::Change> ContactBranches::first_change(const Eigen
     switch (branch.status) {
       case Status::smooth:
         if (has_both_sides(i)) watch(w, i, 0, branch.side, 0.0, until, first);
+        watch_bend(w, i, until, first);
         break;
       case Status::closed:
         watch(w, i, static_cast<int>(branch.side), branch.side, -gap, until, first);
@@ -143,6 +161,7 @@ void ContactBranches::apply(const Change& change) {
   for (Branch& branch : branches_) branch.crossed = kNone;
   Branch& branch = branches_[static_cast<std::size_t>(change.stop)];
   branch.crossed = change.border;
+  if (change.border == kBend) return;
   if (branch.status == Status::smooth) {
     branch.side = -branch.side;
   } else if (branch.status == Status::open) {

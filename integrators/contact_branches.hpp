@@ -53,6 +53,9 @@ class ContactBranches {
   /// Looks for the sign change of offset + factor w and keeps it where it comes first.
   void watch(const Eigen::MatrixXd& w, Index stop, int border, double factor, double offset, double until,
              std::optional<Change>& first);
+  /// Of a smooth law: where the path meets g = 0. Its bend may be so narrow that the series of the far force does not
+  /// know of it, and would carry the path across.
+  void watch_bend(const Eigen::MatrixXd& w, Index stop, double until, std::optional<Change>& first);
 
   const solve::Contact& contact_;
   std::vector<Branch> branches_;

@@ -210,7 +210,7 @@ Reference::Reference(const Scene& scene, std::int64_t work) {
       if (i >= other.rows.size()) return;
       apart = std::max(apart, (other.rows[i] - course.rows[i]).lpNorm<Eigen::Infinity>() / peak_);
     }
-    if (kReserve * apart > kHorizon && i > 0) return;
+    if (kReserve * apart > kHorizon) return;
     instants_.push_back(instants[i]);
     motion_.push_back(course.rows[i]);
     allowed_.push_back(std::min(kReserve * apart, kHorizon));
