@@ -19,6 +19,8 @@ class AccelerationError {
   double first_step() const { return control_.first_step(); }
   void start(time::State& state);
   void judge(const time::State& from, time::State& to, double h, time::StepReport& report);
+  /// Of a state whose acceleration was replaced: the next step is judged as the first one is.
+  static void forget_slope(time::State& state) { state.memory.segment(kOldStep, 1 + state.x.size()).setZero(); }
 
  private:
   static constexpr Index kOldStep = LocalErrorControl::kMemory, kSlope = kOldStep + 1;

@@ -8,14 +8,14 @@ namespace {
 
 constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
 /// Calibrated in tests/verification/tolerance_test.cpp.
-constexpr double kShare = 0.002;
+constexpr double kShare = 0.002, kKink = 10.0;
 /// Of h omega and h c/m of the whole step, where the stability polynomial leaves the unit circle.
 constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
 }  // namespace
 
 Extrapolation::Extrapolation(solve::Dynamics& dynamics, double tolerance)
-    : Integrator(dynamics), control_(dynamics, tolerance, {7.0, 8.0, kShare}, LocalErrorControl::Steps::any) {
+    : Integrator(dynamics), control_(dynamics, tolerance, {7.0, 8.0, kShare, kKink}, LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
   a_ = Vector::Zero(dynamics.size());
 }
@@ -64,12 +64,11 @@ time::StepReport Extrapolation::do_step(const time::State& from, const time::Ste
   // The last row: x_[2] is of order 6, x_[3] of order 8.
   next_x_ = to.x - x_[kColumns - 2];
   next_v_ = to.v - v_[kColumns - 2];
+  to.a = from.a;
   time::StepReport report;
   control_.judge(from, to, step.h, next_x_, next_v_, report);
   if (report.error <= 1.0 && report.status == time::StepStatus::ok)
     dynamics().acceleration(step.t_end, to.x, to.v, to.a);
-  else
-    to.a = from.a;
   return report;
 }
 

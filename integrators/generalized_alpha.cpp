@@ -22,7 +22,9 @@ AlphaParameters AlphaParameters::hht(double alpha) {
 
 GeneralizedAlpha::GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters, double tolerance)
     : Integrator(dynamics), parameters_(parameters), stage_(dynamics, kNewton) {
-  if (tolerance > 0.0) control_.emplace(dynamics, tolerance);
+  if (!(tolerance > 0.0)) return;
+  control_.emplace(dynamics, tolerance);
+  contact_.emplace(dynamics);
 }
 
 void GeneralizedAlpha::do_start(State& state) {
@@ -44,7 +46,11 @@ StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, 
   to.a = (a_ - alpha_m * from.a) / on_m;
   to.x += beta * h * h * (to.a - from.a);
   to.v += gamma * h * (to.a - from.a);
-  if (control_) control_->judge(from, to, h, report);
+  if (!control_) return report;
+  const bool changed = contact_->changed(from, to);
+  if (changed) dynamics().acceleration(step.t_end, to.x, to.v, to.a);
+  control_->judge(from, to, h, report);
+  if (changed) control_->forget_slope(to);
   return report;
 }
 

@@ -25,9 +25,10 @@ struct AlphaParameters {
 /// algorithmic acceleration carried and the load at the method's own time; unconditionally stable for linear motion.
 /// One stage solve a step, contact by Newton in stop space.
 ///
-/// Steps by AccelerationError, which sees velocity too. Orders are checked in tests/conformance.
-/// Sources: J. Chung and G. M. Hulbert, J. Appl. Mech. 60 (1993) 371-375, doi 10.1115/1.2900803; H. M. Hilber, T. J. R.
-/// Hughes and R. L. Taylor, Earthquake Eng. Struct. Dyn. 5 (1977) 283-292, doi 10.1002/eqe.4290050306.
+/// Steps by AccelerationError, which sees velocity too. The balance is one of an instant within the step, where a stop
+/// that closes later is still open, and a belongs to that instant: so where a stop closed or opened the controlled
+/// variants judge and go on with the acceleration of the end itself (one evaluation and one solve with M). Orders are
+/// checked in tests/conformance.
 class GeneralizedAlpha final : public time::Integrator {
  public:
   /// `tolerance` 0: fixed steps.
@@ -43,6 +44,7 @@ class GeneralizedAlpha final : public time::Integrator {
   AlphaParameters parameters_;
   StageSolver stage_;
   std::optional<AccelerationError> control_;
+  std::optional<ContactOnTheWay> contact_;
   Vector x_, v_, a_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace butee::integrators {
 namespace {
@@ -19,23 +18,36 @@ constexpr double kReserve = 3.0;
 constexpr double kMissed = 8.0;
 constexpr double kMostDown = 9.0, kMostUp = 9.0;
 
+/// The highest k/m of a single DOF, 1/s^2.
+double highest(const Vector& stiffness, const Vector& mass) {
+  double square = 0.0;
+  for (Index i = 0; i < mass.size(); ++i)
+    if (stiffness[i] > 0.0) square = std::max(square, stiffness[i] / mass[i]);
+  return square;
+}
+
 }  // namespace
 
 LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps)
     : dynamics_(dynamics),
-      missed_(dynamics),
+      contact_(dynamics),
       tolerance_(tolerance),
       threshold_(orders.share * std::pow(tolerance, orders.estimate / orders.method)),
       estimate_order_(orders.estimate),
+      kink_(orders.kink),
       steps_(steps),
       work_(dynamics.size()) {
   const model::System& system = dynamics.system();
-  double square = std::numeric_limits<double>::infinity();
-  for (Index i = 0; i < system.size(); ++i) {
-    const double stiffness = system.stiffness.coeff(i, i);
-    if (stiffness > 0.0) square = std::min(square, system.mass.coeff(i, i) / stiffness);
-  }
-  first_step_ = std::isfinite(square) ? 0.1 * std::sqrt(square) : 1e-6;
+  Vector stiffness = system.stiffness.diagonal();
+  const Vector mass = system.mass.diagonal();
+  const double square = highest(stiffness, mass);
+  first_step_ = square > 0.0 ? 0.1 / std::sqrt(square) : 1e-6;
+  const solve::Contact& contact = dynamics.contact();
+  const Vector closed = contact.closed_stiffness();
+  for (Index i = 0; i < contact.size(); ++i)
+    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
+      if (dof >= 0) stiffness[dof] += closed[i];
+  omega_ = std::sqrt(highest(stiffness, mass));
 }
 
 double LocalErrorControl::norm(ConstVectorRef y) {
@@ -47,17 +59,26 @@ void LocalErrorControl::start(time::State& state) {
   state.memory.head(kMemory) << norm(state.x), norm(state.v), 1.0;
 }
 
+double LocalErrorControl::relative_error(const time::State& from, const time::State& to, double error_x, double error_v,
+                                         double scale_x, double scale_v) {
+  const auto relative = [](double error, double scale) { return error > 0.0 ? error / scale : 0.0; };
+  const double r = std::max(relative(error_x, scale_x), relative(error_v, scale_v));
+  if (!(r > threshold_) || omega_ == 0.0) return r;
+  const double v = std::max(norm(from.a), norm(to.a)) / omega_;
+  return std::max(relative(error_x, std::max(scale_x, v / omega_)), relative(error_v, std::max(scale_v, v)));
+}
+
 void LocalErrorControl::judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
                               ConstVectorRef error_v, time::StepReport& report) {
   const double scale_x = std::max(from.memory[0], norm(to.x)), scale_v = std::max(from.memory[1], norm(to.v));
-  const auto relative = [](double error, double scale) { return error > 0.0 ? error / scale : 0.0; };
-  const double r = std::max(relative(norm(error_x), scale_x), relative(norm(error_v), scale_v)) / threshold_;
+  double r = relative_error(from, to, norm(error_x), norm(error_v), scale_x, scale_v) / threshold_;
+  if (kink_ > 1.0 && r <= 1.0 && contact_.changed(from, to)) r *= kink_;
   to.memory.head(kMemory) << scale_x, scale_v, std::max(r, kSmallest);
   if (!std::isfinite(r)) {
     report.status = time::StepStatus::not_finite;
     return;
   }
-  if (r <= 1.0 && missed_.happened(from, to, h, tolerance_)) {
+  if (r <= 1.0 && contact_.was_missed(from, to, h, tolerance_)) {
     report.error = kMissed;
     report.proposal = steps_ == Steps::any ? 0.5 * h : ladder_step(h, kMissed);
     return;

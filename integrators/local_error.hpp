@@ -1,7 +1,7 @@
 #pragma once
 
 #include "butee/time/integrator.hpp"
-#include "integrators/missed_contact.hpp"
+#include "integrators/contact_on_the_way.hpp"
 
 namespace butee::integrators {
 
@@ -12,7 +12,7 @@ namespace butee::integrators {
 ///
 /// or, where steps cost a factorization, on a ladder that is gone up only with some reserve,
 /// for a method of order p whose estimate falls with h^q, so that the error at the end falls with the tolerance. The
-/// A step that goes through a stop unseen is redone with half its length (MissedContact). The
+/// A step that goes through a stop unseen is redone with half its length (ContactOnTheWay). The
 /// norm of the mass matrix weighs displacements and rotations as they move mass. What it remembers (both largest norms,
 /// r_old) is the first part of State::memory. Sources: K. Gustafsson, ACM TOMS 17 (1991) 533-554,
 /// doi 10.1145/210232.210242; E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4.
@@ -27,6 +27,8 @@ class LocalErrorControl {
     /// The part of the tolerance that a step may use up, less for long steps, whose estimates a kink within them can
     /// pass unseen.
     double share = 1.0;
+    /// By how much the estimate of a step in which a stop closes or opens is taken for too small.
+    double kink = 1.0;
   };
   /// Whether steps are taken from a ladder of ratio 2^(1/4), so that factorizations are found again.
   enum class Steps { any, ladder };
@@ -56,13 +58,16 @@ class LocalErrorControl {
   };
 
   double norm(ConstVectorRef y);
+  double relative_error(const time::State& from, const time::State& to, double error_x, double error_v, double scale_x,
+                        double scale_v);
   double any_step(double h, double r, double old) const;
   double ladder_step(double h, double r) const;
 
   const solve::Dynamics& dynamics_;
   Proposed controller_;
-  MissedContact missed_;
-  double tolerance_, threshold_, estimate_order_, first_step_;
+  ContactOnTheWay contact_;
+  double tolerance_, threshold_, estimate_order_, kink_, first_step_;
+  double omega_ = 0.0;  ///< 0 where nothing has a stiffness
   Steps steps_;
   Vector work_;
 };

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
+
+#include "butee/solve/dense_pairs.hpp"
 
 namespace butee::solve {
 namespace {
@@ -17,9 +18,8 @@ constexpr std::size_t kNamed = 4;
 
 Vector softest(const SparseMatrix& scaled) {
   if (scaled.rows() <= kDense) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(scaled)};
-    if (solver.info() == Eigen::Success) return solver.eigenvectors().col(0);
-    return Vector::Ones(scaled.rows());
+    const auto pairs = dense_pairs(Eigen::MatrixXd(scaled));
+    return pairs ? Vector(pairs->vectors.col(0)) : Vector::Ones(scaled.rows());
   }
   // With the smallest pivot d_p, L^T y = e_p gives y^T A y = d_p.
   const Eigen::SimplicialLDLT<SparseMatrix> factor(scaled);

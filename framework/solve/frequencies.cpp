@@ -1,20 +1,16 @@
 #include "butee/solve/frequencies.hpp"
 
-#include <Spectra/MatOp/SparseCholesky.h>
-#include <Spectra/MatOp/SparseSymMatProd.h>
-#include <Spectra/MatOp/SymShiftInvert.h>
-#include <Spectra/SymGEigsShiftSolver.h>
-#include <Spectra/SymGEigsSolver.h>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
 #include "butee/core/error.hpp"
 #include "butee/core/memory.hpp"
 #include "butee/solve/contact.hpp"
+#include "butee/solve/dense_pairs.hpp"
+#include "butee/solve/lanczos.hpp"
 
 namespace butee::solve {
 namespace {
@@ -34,47 +30,46 @@ constexpr double kRigid = 1e-13;
 /// The place between two eigenvalues at which they are counted, relative to the larger.
 constexpr double kCountedBelow = 1e-6;
 
-using Product = Spectra::SparseSymMatProd<double>;
-
 double frequency(double eigenvalue) {
   return std::sqrt(std::max(eigenvalue, 0.0));
 }
 
-std::optional<double> highest_eigenvalue(const SparseMatrix& stiffness, const SparseMatrix& mass) {
-  Product product(stiffness);
-  Spectra::SparseCholesky<double> cholesky(mass);
-  Spectra::SymGEigsSolver<Product, Spectra::SparseCholesky<double>, Spectra::GEigsMode::Cholesky> solver(
-      product, cholesky, 1, kLanczosVectors);
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestAlge, kLanczosRestarts, kLanczosTolerance);
-  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
-  return solver.eigenvalues()[0];
-}
+/// A^-1 of a sparse matrix.
+class Inverse final : public SymmetricMap {
+ public:
+  explicit Inverse(const SparseMatrix& matrix) : factor_(matrix) {}
 
-/// Eigenvalues, ascending, and their vectors.
-struct Pairs {
-  Vector values;
-  Eigen::MatrixXd vectors;
+  bool is_regular() const { return factor_.info() == Eigen::Success; }
+  void apply(const double* x, double* y) const override {
+    Eigen::Map<Vector>(y, factor_.rows()) = factor_.solve(Eigen::Map<const Vector>(x, factor_.rows()));
+  }
+
+ private:
+  Eigen::SimplicialLDLT<SparseMatrix> factor_;
 };
+
+std::optional<double> highest_eigenvalue(const SparseMatrix& stiffness, const SparseMatrix& mass) {
+  const Inverse map(mass);
+  if (!map.is_regular()) return std::nullopt;
+  const auto pairs = largest_pairs(map, stiffness, 1, {kLanczosVectors, kLanczosRestarts, kLanczosTolerance});
+  if (!pairs) return std::nullopt;
+  return pairs->values[0];
+}
 
 /// A shift a little below zero keeps the matrix regular where the structure can move as a rigid body.
 std::optional<Pairs> lowest_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass, double highest, Index count,
                                   double tolerance) {
-  using Operation = Spectra::SymShiftInvert<double, Eigen::Sparse, Eigen::Sparse>;
   const double shift = -1e-12 * highest;
-  Operation operation(stiffness, mass);
-  Product product(mass);
+  const Inverse map(stiffness - shift * mass);
+  if (!map.is_regular()) return std::nullopt;
   const Index vectors = std::min(stiffness.rows(), std::max<Index>(2 * count + 1, kLanczosVectors));
-  Spectra::SymGEigsShiftSolver<Operation, Product, Spectra::GEigsMode::ShiftInvert> solver(operation, product, count,
-                                                                                           vectors, shift);
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, kLanczosRestarts, tolerance);
-  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
-  const Vector values = solver.eigenvalues();
+  const auto pairs = largest_pairs(map, mass, count, {vectors, kLanczosRestarts, tolerance});
+  if (!pairs) return std::nullopt;
+  const Vector values = pairs->values.cwiseInverse().array() + shift;
   std::vector<Index> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), Index{0});
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return values[a] < values[b]; });
-  return Pairs{values(order), solver.eigenvectors()(Eigen::all, order)};
+  return Pairs{values(order), pairs->vectors(Eigen::all, order)};
 }
 
 /// Sylvester's law of inertia: as many eigenvalues lie below `limit` as K - limit M has negative pivots.
@@ -97,11 +92,9 @@ Modes modes_of(const Pairs& pairs, double highest) {
 }
 
 std::optional<Modes> dense_modes(const model::System& system, Index count) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(system.stiffness),
-                                                                         Eigen::MatrixXd(system.mass));
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  return modes_of({solver.eigenvalues().head(count), solver.eigenvectors().leftCols(count)},
-                  solver.eigenvalues().maxCoeff());
+  const auto pairs = dense_pairs(Eigen::MatrixXd(system.stiffness), Eigen::MatrixXd(system.mass));
+  if (!pairs) return std::nullopt;
+  return modes_of({pairs->values.head(count), pairs->vectors.leftCols(count)}, pairs->values.maxCoeff());
 }
 
 }  // namespace
@@ -126,10 +119,9 @@ SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) 
 std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops) {
   const SparseMatrix stiffness = stiffness_with_stops(system, stops);
   if (system.size() <= kDense) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-        Eigen::MatrixXd(stiffness), Eigen::MatrixXd(system.mass), Eigen::EigenvaluesOnly);
-    if (solver.info() != Eigen::Success) return std::nullopt;
-    return FrequencyRange{frequency(solver.eigenvalues().minCoeff()), frequency(solver.eigenvalues().maxCoeff())};
+    const auto values = dense_values(Eigen::MatrixXd(stiffness), Eigen::MatrixXd(system.mass));
+    if (!values) return std::nullopt;
+    return FrequencyRange{frequency(values->minCoeff()), frequency(values->maxCoeff())};
   }
   const auto highest = highest_eigenvalue(stiffness, system.mass);
   if (!highest) return std::nullopt;

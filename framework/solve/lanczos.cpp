@@ -3,6 +3,7 @@
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/SparseCholesky>
 
@@ -49,20 +50,32 @@ namespace {
 constexpr Index kRestarts = 300;
 constexpr Index kSpareVectors = 20;
 
-/// y := scale P (K - shift M)^-1 x, where P takes out what was found before.
+/// What Spectra iterates with.
 class Operation {
  public:
   using Scalar = double;
 
-  Operation(const ShiftedFactor& factor, const SparseMatrix& mass, double scale, const Eigen::MatrixXd& found)
+  Operation(const SymmetricMap& map, Index size) : map_(map), size_(size) {}
+
+  Index rows() const { return size_; }
+  Index cols() const { return size_; }
+  void set_shift(double) {}
+  void perform_op(const double* x, double* y) const { map_.apply(x, y); }
+
+ private:
+  const SymmetricMap& map_;
+  Index size_;
+};
+
+/// y := scale P (K - shift M)^-1 x, where P takes out what was found before.
+class Deflated final : public SymmetricMap {
+ public:
+  Deflated(const ShiftedFactor& factor, const SparseMatrix& mass, double scale, const Eigen::MatrixXd& found)
       : factor_(factor), scale_(scale), found_(found), weighted_(mass * found) {}
 
-  Index rows() const { return weighted_.rows(); }
-  Index cols() const { return weighted_.rows(); }
-  void set_shift(double) {}
-  void perform_op(const double* x, double* y) const {
+  void apply(const double* x, double* y) const override {
     factor_.solve(x, y);
-    Eigen::Map<Vector> result(y, rows());
+    Eigen::Map<Vector> result(y, weighted_.rows());
     result *= scale_;
     for (int i = 0; i < 2 && found_.cols() > 0; ++i) result -= found_ * (weighted_.transpose() * result);
   }
@@ -80,17 +93,25 @@ Index lanczos_vectors(Index count, Index size) {
   return std::min(size, 2 * count + kSpareVectors);
 }
 
+std::optional<Pairs> largest_pairs(const SymmetricMap& map, const SparseMatrix& metric, Index count,
+                                   const LanczosLimits& limits) {
+  using Product = Spectra::SparseSymMatProd<double>;
+  Operation operation(map, metric.rows());
+  Product product(metric);
+  Spectra::SymGEigsShiftSolver<Operation, Product, Spectra::GEigsMode::ShiftInvert> solver(operation, product, count,
+                                                                                           limits.vectors, 0.0);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, limits.restarts, limits.tolerance);
+  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
+  return Pairs{solver.eigenvalues().cwiseInverse(), solver.eigenvectors()};
+}
+
 std::optional<Eigen::MatrixXd> lanczos(const ShiftedFactor& factor, const SparseMatrix& mass, double scale, Index count,
                                        double tolerance, const Eigen::MatrixXd& found) {
-  using Product = Spectra::SparseSymMatProd<double>;
-  Operation operation(factor, mass, scale, found);
-  Product product(mass);
-  Spectra::SymGEigsShiftSolver<Operation, Product, Spectra::GEigsMode::ShiftInvert> solver(
-      operation, product, count, lanczos_vectors(count, mass.rows()), 0.0);
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestMagn, kRestarts, tolerance);
-  if (solver.info() != Spectra::CompInfo::Successful) return std::nullopt;
-  return solver.eigenvectors();
+  const Deflated map(factor, mass, scale, found);
+  auto pairs = largest_pairs(map, mass, count, {lanczos_vectors(count, mass.rows()), kRestarts, tolerance});
+  if (!pairs) return std::nullopt;
+  return std::move(pairs->vectors);
 }
 
 }  // namespace butee::solve

@@ -3,9 +3,31 @@
 #include <memory>
 #include <optional>
 
+#include "butee/solve/dense_pairs.hpp"
 #include "butee/solve/structure.hpp"
 
 namespace butee::solve {
+
+/// y := R x of a symmetric matrix that is known by what it does.
+class SymmetricMap {
+ public:
+  virtual ~SymmetricMap() = default;
+  virtual void apply(const double* x, double* y) const = 0;
+};
+
+struct LanczosLimits {
+  Index vectors = 0;       ///< kept at a time
+  Index restarts = 0;      ///< at most
+  double tolerance = 0.0;  ///< of the residuals, relative
+};
+
+/// The `count` pairs R G x = nu x whose nu are largest in magnitude, X^T G X = 1, G symmetric and not negative, by
+/// Lanczos' method with restarts (Spectra); nothing where it did not converge. Private to the framework.
+///
+/// R = (K - s M)^-1 and G = M give the eigenvalues lambda = s + 1 / nu of K x = lambda M x beside the shift s; R = M^-1
+/// and G = K the highest, lambda = nu.
+std::optional<Pairs> largest_pairs(const SymmetricMap& map, const SparseMatrix& metric, Index count,
+                                   const LanczosLimits& limits);
 
 /// K - shift M as L D L^T in extended precision, for shift-invert iterations. Private to the framework.
 class ShiftedFactor {

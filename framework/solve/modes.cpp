@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
-
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
+#include "butee/solve/dense_pairs.hpp"
 #include "butee/solve/lanczos.hpp"
 
 namespace butee::solve {
@@ -76,32 +75,28 @@ double bound_of(ShiftedFactor& factor, double scale, Index count) {
   return high;
 }
 
-struct Pairs {
+struct RitzPairs {
   Eigen::MatrixXd shapes;
   Vector values;    ///< lambda
   Vector rounding;  ///< of lambda
 };
 
 /// Coefficients C with C^T M C = 1 and C^T K C diagonal, ascending; empty where that failed.
-template <class Scalar>
 ExtendedColumns ritz(const ExtendedColumns& stiffness, const ExtendedColumns& mass) {
-  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(
-      Matrix(((stiffness + stiffness.transpose()) / 2.0L).template cast<Scalar>()),
-      Matrix(((mass + mass.transpose()) / 2.0L).template cast<Scalar>()));
-  if (solver.info() != Eigen::Success) return {};
-  return solver.eigenvectors().template cast<long double>();
+  const ExtendedColumns k = (stiffness + stiffness.transpose()) / 2.0L, m = (mass + mass.transpose()) / 2.0L;
+  if (k.cols() <= kExtendedRitz) return extended_vectors(k, m);
+  const auto pairs = dense_pairs(k.cast<double>(), m.cast<double>());
+  return pairs ? ExtendedColumns(pairs->vectors.cast<long double>()) : ExtendedColumns();
 }
 
 /// Rayleigh and Ritz: the best that the span of `shapes` holds, ascending.
-Pairs refine(const Structure& structure, const Eigen::MatrixXd& shapes) {
+RitzPairs refine(const Structure& structure, const Eigen::MatrixXd& shapes) {
   const ExtendedColumns x = shapes.cast<long double>();
   const ExtendedColumns stiffness = x.transpose() * structure.elastic(shapes).forces;
   const ExtendedColumns mass = x.transpose() * (structure.mass() * x);
-  const ExtendedColumns coefficients =
-      shapes.cols() <= kExtendedRitz ? ritz<long double>(stiffness, mass) : ritz<double>(stiffness, mass);
+  const ExtendedColumns coefficients = ritz(stiffness, mass);
   if (coefficients.size() == 0) return {};
-  Pairs pairs;
+  RitzPairs pairs;
   pairs.shapes = (x * coefficients).cast<double>();
   const Structure::Elastic elastic = structure.elastic(pairs.shapes, true);
   pairs.values.resize(shapes.cols());
@@ -136,13 +131,13 @@ double tolerance_of(double scale, double shift) {
   return std::clamp(kBesideRounding * kUnit * scale / -shift, kTolerance, kLoosest);
 }
 
-Pairs first_of(const Pairs& pairs, Index count) {
+RitzPairs first_of(const RitzPairs& pairs, Index count) {
   return {pairs.shapes.leftCols(count), pairs.values.head(count), pairs.rounding.head(count)};
 }
 
 /// The pairs by Lanczos' method, complete; empty where that did not succeed.
-Pairs iterate(const Structure& structure, ShiftedFactor& factor, double bound, double shift, Index count,
-              double tolerance) {
+RitzPairs iterate(const Structure& structure, ShiftedFactor& factor, double bound, double shift, Index count,
+                  double tolerance) {
   const SparseMatrix mass = structure.mass().cast<double>();
   Eigen::MatrixXd found(structure.size(), 0);
   Index wanted = count;
@@ -153,7 +148,7 @@ Pairs iterate(const Structure& structure, ShiftedFactor& factor, double bound, d
     Eigen::MatrixXd all(structure.size(), found.cols() + more->cols());
     all << found, *more;
     for (int i = 0; i < kInverseSteps; ++i) all = -shift * image_of(structure, factor, shift, all);
-    const Pairs pairs = refine(structure, all);
+    const RitzPairs pairs = refine(structure, all);
     if (pairs.shapes.size() == 0) return {};
     found = pairs.shapes;
     const double last = pairs.values[count - 1], limit = (1.0 - kCountedBelow) * last;
@@ -167,14 +162,14 @@ Pairs iterate(const Structure& structure, ShiftedFactor& factor, double bound, d
   return {};
 }
 
-Pairs solve_densely(const Structure& structure, Index count) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      Eigen::MatrixXd(structure.stiffness().cast<double>()), Eigen::MatrixXd(structure.mass().cast<double>()));
-  if (solver.info() != Eigen::Success) return {};
-  return refine(structure, solver.eigenvectors().leftCols(count));
+RitzPairs solve_densely(const Structure& structure, Index count) {
+  const auto pairs = dense_pairs(Eigen::MatrixXd(structure.stiffness().cast<double>()),
+                                 Eigen::MatrixXd(structure.mass().cast<double>()));
+  if (!pairs) return {};
+  return refine(structure, pairs->vectors.leftCols(count));
 }
 
-Vector residuals_of(const Structure& structure, const ShiftedFactor& factor, const Pairs& pairs, double shift) {
+Vector residuals_of(const Structure& structure, const ShiftedFactor& factor, const RitzPairs& pairs, double shift) {
   const SparseMatrix mass = structure.mass().cast<double>();
   const Eigen::MatrixXd images = image_of(structure, factor, shift, pairs.shapes);
   Vector residuals(pairs.values.size());
@@ -186,7 +181,7 @@ Vector residuals_of(const Structure& structure, const ShiftedFactor& factor, con
 }
 
 /// Rigid motion gets the frequency 0, every shape a sign of its own.
-void finish(NaturalModes& modes, Pairs pairs, double shift) {
+void finish(NaturalModes& modes, RitzPairs pairs, double shift) {
   const Index count = pairs.values.size();
   modes.frequencies.resize(count);
   modes.rounding.setZero(count);
@@ -224,8 +219,9 @@ NaturalModes find_modes(const Structure& structure, Index count) {
   ShiftedFactor factor(structure.stiffness(), structure.mass());
   const double bound = scale > 0.0 ? (modes.dense ? scale : bound_of(factor, scale, count)) : 1.0;
   modes.shift = -kShiftPart * bound;
-  Pairs pairs = modes.dense ? solve_densely(structure, count)
-                            : iterate(structure, factor, bound, modes.shift, count, tolerance_of(scale, modes.shift));
+  RitzPairs pairs = modes.dense
+                        ? solve_densely(structure, count)
+                        : iterate(structure, factor, bound, modes.shift, count, tolerance_of(scale, modes.shift));
   if (pairs.shapes.size() == 0 || !pairs.values.allFinite()) {
     modes.problem = "the eigenvalue solver did not converge";
     return modes;

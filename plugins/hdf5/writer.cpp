@@ -134,12 +134,14 @@ void FieldFile::commit() {
   check(H5Fflush(file_, H5F_SCOPE_LOCAL), "write fields.h5");
   const std::size_t all = records_ + times_.size();
   for (const double t : times_) xdmf_.add(records_++, all, t);
+  xdmf_.publish();
   times_.clear();
   committed_ = Clock::now();
 }
 
 void FieldFile::finish() {
   commit();
+  xdmf_.finish();
   bool closed = time_.reset();
   for (Handle& set : sets_) closed = set.reset() && closed;
   sets_.clear();

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 namespace butee::plugins::hdf5 {
 namespace {
@@ -9,6 +10,8 @@ namespace {
 constexpr std::int64_t kPolyvertex = 1, kPolyline = 2;  ///< XDMF's numbers of cell types
 constexpr const char* kEnd = "  </Grid>\n</Domain></Xdmf>\n";
 constexpr const char* kReal = "NumberType=\"Float\" Precision=\"8\"";
+/// Copies take up no more than one part in so many of the time.
+constexpr int kShareOfTime = 50;
 constexpr const char* kWhole = "NumberType=\"Int\" Precision=\"4\"";
 
 std::string escaped(const std::string& text) {
@@ -56,10 +59,11 @@ std::vector<std::int64_t> mixed_topology(const model::FieldLayout& layout) {
 }
 
 XdmfFile::XdmfFile(const std::string& folder, const model::FieldLayout& layout)
-    : path_(folder + "/fields.xdmf"), nodes_(layout.nodes.size()), file_(std::fopen(path_.c_str(), "wb")) {
-  if (!file_) throw RunError(path_ + ": cannot be written: " + std::strerror(errno));
-  // Without a buffer a record goes to the system in one piece, so that the file is whole at any instant.
-  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
+    : path_(folder + "/fields.xdmf"),
+      part_(path_ + ".part"),
+      nodes_(layout.nodes.size()),
+      file_(std::fopen(part_.c_str(), "w+b")) {
+  if (!file_) complain(part_, errno);
   layout_.fields = layout.fields;
   const std::string count = std::to_string(nodes_);
   mesh_ = "<Topology TopologyType=\"Mixed\" NumberOfElements=\"" + std::to_string(cell_count(layout)) + "\">";
@@ -97,12 +101,38 @@ void XdmfFile::add(std::size_t record, std::size_t records, double t) {
   write(text);
 }
 
+void XdmfFile::complain(const std::string& path, int error) const {
+  throw RunError(path + ": cannot be written: " + std::strerror(error));
+}
+
 void XdmfFile::write(const std::string& text) {
-  const std::string whole = text + kEnd;
-  const bool ok = std::fseek(file_.get(), end_, SEEK_SET) == 0 &&
-                  std::fwrite(whole.data(), 1, whole.size(), file_.get()) == whole.size();
-  if (!ok) throw RunError(path_ + ": cannot be written: " + std::strerror(errno));
-  end_ += static_cast<long>(text.size());
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) complain(part_, errno);
+}
+
+void XdmfFile::close_document() {
+  write(kEnd);
+  if (std::fflush(file_.get()) != 0) complain(part_, errno);
+}
+
+void XdmfFile::publish() {
+  const Clock::time_point now = Clock::now();
+  if (now - published_ < kShareOfTime * cost_) return;
+  close_document();
+  const std::string copy = path_ + ".new";
+  std::error_code error;
+  std::filesystem::copy_file(part_, copy, std::filesystem::copy_options::overwrite_existing, error);
+  if (!error) std::filesystem::rename(copy, path_, error);
+  if (error) complain(path_, error.value());
+  if (std::fseek(file_.get(), -static_cast<long>(std::strlen(kEnd)), SEEK_END) != 0) complain(part_, errno);
+  published_ = Clock::now();
+  cost_ = published_ - now;
+}
+
+void XdmfFile::finish() {
+  close_document();
+  std::error_code error;
+  std::filesystem::rename(part_, path_, error);
+  if (error) complain(path_, error.value());
 }
 
 }  // namespace butee::plugins::hdf5

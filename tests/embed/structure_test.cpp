@@ -2,6 +2,7 @@
 #include <numeric>
 #include <thread>
 
+#include <butee/config/model_builder.hpp>
 #include <butee/core/error.hpp>
 #include <butee/embed/structure.hpp>
 #include <gtest/gtest.h>
@@ -168,6 +169,60 @@ TEST(Structure, LivesOnManyThreads) {
   for (std::size_t i = 0; i < methods.size(); ++i) threads.emplace_back([&, i] { together[i] = run(methods[i]); });
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < methods.size(); ++i) EXPECT_TRUE(alone[i] == together[i]) << methods[i];
+}
+
+/// The same structure from keys in code, as TOML text of them, and from a text written by hand.
+TEST(ModelBuilder, MakesTheStructureOfAFileWithTheSameKeys) {
+  config::ModelBuilder model;
+  model.set("material.steel", {{"young_modulus", 2.1e11}, {"density", 7850}})
+      .set("section.rod", {{"shape", "circle"}, {"radius", 0.02}})
+      .add("element", {{"type", "beam"},
+                       {"name", "b"},
+                       {"material", "steel"},
+                       {"section", "rod"},
+                       {"length", 2.0},
+                       {"elements", 4}})
+      .add("support", {{"nodes", {"b:first", "b:last"}}, {"fix", {"u"}}})
+      .add("contact", {{"type", "stop"},
+                       {"nodes", "b:middle"},
+                       {"sides", "positive"},
+                       {"gap", 1e-3},
+                       {"law", "linear"},
+                       {"stiffness", 1e7}})
+      .set("initial", {{"velocity", {config::Keys{{"nodes", "b:middle"}, {"value", 1.5}}}}})
+      .set("integrator", {{"type", "exponential"}, {"tolerance", 1e-6}});
+  const std::string text = R"(schema = 1
+material.steel = {young_modulus = 2.1e11, density = 7850}
+section.rod = {shape = "circle", radius = 0.02}
+element = [{type = "beam", name = "b", material = "steel", section = "rod", length = 2.0, elements = 4}]
+support = [{nodes = ["b:first", "b:last"], fix = ["u"]}]
+contact = [{type = "stop", nodes = "b:middle", sides = "positive", gap = 1e-3, law = "linear", stiffness = 1e7}]
+initial = {velocity = [{nodes = "b:middle", value = 1.5}]}
+integrator = {type = "exponential", tolerance = 1e-6}
+)";
+  Structure by_keys = Structure::from_document(model.document(), with_plugins());
+  Structure by_own_text = Structure::from_toml(model.toml(), with_plugins());
+  Structure by_hand = Structure::from_toml(text, with_plugins());
+  for (Structure* structure : {&by_keys, &by_own_text, &by_hand}) structure->advance_to(0.01);
+  EXPECT_NE(by_hand.contact_force(by_hand.dof("b:middle")), 0.0);
+  EXPECT_EQ(by_keys.state().x, by_hand.state().x);
+  EXPECT_EQ(by_own_text.state().x, by_hand.state().x);
+}
+
+TEST(ModelBuilder, SaysInWhichCallAMistakeIs) {
+  config::ModelBuilder model;
+  model.add("element", {{"type", "mass"}, {"name", "m"}, {"mass", 1.0}})
+      .add("element", {{"type", "spring"}, {"node", "m"}, {"stiffness", -4.0}})
+      .set("integrator", {{"type", "rk4"}, {"time_step", 1e-3}});
+  try {
+    Structure::from_document(model.document(), with_plugins());
+    FAIL() << "a negative stiffness passed";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("model in code:2: element[1].stiffness = -4"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(model.set("element.x", {{"y", 1}}), LogicError);
+  EXPECT_THROW(model.add("integrator", {{"y", 1}}), LogicError);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
-#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "stress/long_runs.hpp"
-#include "stress/tally.hpp"
+#include "stress/suite/long_runs.hpp"
+#include "stress/suite/tally.hpp"
 
 namespace butee::stress {
 namespace {
@@ -12,38 +11,8 @@ namespace {
 /// Evaluations and solves of a run, which is cut there: some ten thousand steps of a small scene.
 constexpr std::int64_t kWork = 20000;
 
-/// What is known to go wrong and not mended yet (see the README): of a stop of 1e8 and more N/m, impacts that last a
-/// fraction of the steps that the tolerance leaves; of lambda = 1e14, `exact` or all others, which agree among
-/// themselves. Everything else that goes wrong is a failure.
-const std::set<std::pair<std::string, std::string>>& known_failures() {
-  static const auto list = [] {
-    std::set<std::pair<std::string, std::string>> known = {
-        {"closed at the start, stop 1e14", "auto"},
-        {"closed at the start, stop 1e14", "exponential"},
-        {"closed at the start, stop 1e8", "generalized_alpha_adaptive"},
-        {"stop's stiffness 1e14", "hht_alpha_adaptive"},
-        {"stop's stiffness 1e8", "generalized_alpha_adaptive"},
-        {"random 5", "generalized_alpha_adaptive"},
-        {"random 7", "auto"},
-        {"random 7", "exponential"},
-        {"random 7", "rodas4"},
-        {"random 8", "rodas4"},
-        {"random 12", "generalized_alpha_adaptive"},
-        {"random 12", "hht_alpha_adaptive"},
-        {"random 14", "generalized_alpha_adaptive"}};
-    for (const char* method :
-         {"auto", "bathe_adaptive", "central_differences_adaptive", "discrete_gradient_adaptive", "dopri5",
-          "exponential", "extrapolation8", "generalized_alpha_adaptive", "hht_alpha_adaptive", "rodas4"})
-      known.emplace("lambda 1e14", method);
-    return known;
-  }();
-  return list;
-}
-
 void expect_no_failure(const Tally& tally, std::size_t scenes) {
   for (const Failure& f : tally.failures()) {
-    const bool is_known = f.outcome.verdict == Verdict::wrong && known_failures().contains({f.scene, f.method});
-    if (is_known) continue;
     ADD_FAILURE() << f.scene << ", " << f.method << ": " << name_of(f.outcome.verdict) << ", error " << f.outcome.error
                   << ", allowed " << f.outcome.allowed << " " << f.outcome.message;
   }

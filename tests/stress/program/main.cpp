@@ -9,8 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "stress/long_runs.hpp"
-#include "stress/tally.hpp"
+#include "stress/suite/long_runs.hpp"
+#include "stress/suite/tally.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "integrators/missed_contact.hpp"
+#include "integrators/contact_on_the_way.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +18,27 @@ double peak(double h, double w0, double v0, double w1, double v1) {
 
 }  // namespace
 
-MissedContact::MissedContact(solve::Dynamics& dynamics) : contact_(&dynamics.contact()) {
+ContactOnTheWay::ContactOnTheWay(solve::Dynamics& dynamics) : contact_(&dynamics.contact()) {
   w0_ = w1_ = v0_ = v1_ = Vector::Zero(contact_->size());
 }
 
-bool MissedContact::happened(const time::State& from, const time::State& to, double h, double tolerance) {
+bool ContactOnTheWay::changed(const time::State& from, const time::State& to) {
+  if (contact_->size() == 0) return false;
+  contact_->displacement(from.x, w0_);
+  contact_->displacement(to.x, w1_);
+  const auto closed_on = [&](Index i, double w) {
+    const model::Sides sides = contact_->sides_of(i);
+    const double gap = contact_->gap_of(i);
+    if (w > gap) return sides == model::Sides::negative ? 0 : 1;
+    if (w < -gap) return sides == model::Sides::positive ? 0 : -1;
+    return 0;
+  };
+  for (Index i = 0; i < w0_.size(); ++i)
+    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i])) return true;
+  return false;
+}
+
+bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h, double tolerance) {
   if (contact_->size() == 0) return false;
   contact_->displacement(from.v, v0_);
   contact_->displacement(to.v, v1_);

@@ -1,4 +1,4 @@
-#include "integrators/missed_contact.hpp"
+#include "integrators/contact_on_the_way.hpp"
 
 #include <cmath>
 
@@ -23,11 +23,11 @@ time::State at(double t) {
   return {t, Vector::Constant(1, std::sin(t)), Vector::Constant(1, std::cos(t)), {}, {}};
 }
 
-TEST(MissedContact, IsOneThatBothEndsOfAStepAreFreeOf) {
+TEST(ContactOnTheWay, IsOneThatBothEndsOfAStepAreFreeOf) {
   SceneRun run(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"));
-  integrators::MissedContact missed(run.dynamics());
+  integrators::ContactOnTheWay contact(run.dynamics());
   const auto happened = [&](double from, double to, double tolerance) {
-    return missed.happened(at(from), at(to), to - from, tolerance);
+    return contact.was_missed(at(from), at(to), to - from, tolerance);
   };
   EXPECT_TRUE(happened(1.0, 2.1, 1e-3));
   EXPECT_TRUE(happened(1.0, 2.1, 0.1));    // sin reaches 1, a depth of 0.1.
@@ -37,12 +37,12 @@ TEST(MissedContact, IsOneThatBothEndsOfAStepAreFreeOf) {
   EXPECT_TRUE(happened(1.0 + 3.141592653589793, 2.1 + 3.141592653589793, 1e-3));
 }
 
-TEST(MissedContact, KnowsOneSidedStops) {
+TEST(ContactOnTheWay, KnowsOneSidedStops) {
   for (const auto& [sides, above, below] : {std::tuple{"positive", true, false}, std::tuple{"negative", false, true}}) {
     SceneRun run(mass_at_a_stop(sides, "type = \"exact\"\ntime_step = 1.0\n"));
-    integrators::MissedContact missed(run.dynamics());
-    EXPECT_EQ(missed.happened(at(1.0), at(2.1), 1.1, 1e-3), above) << sides;
-    EXPECT_EQ(missed.happened(at(4.1), at(5.2), 1.1, 1e-3), below) << sides;
+    integrators::ContactOnTheWay contact(run.dynamics());
+    EXPECT_EQ(contact.was_missed(at(1.0), at(2.1), 1.1, 1e-3), above) << sides;
+    EXPECT_EQ(contact.was_missed(at(4.1), at(5.2), 1.1, 1e-3), below) << sides;
   }
 }
 
