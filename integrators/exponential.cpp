@@ -18,9 +18,9 @@ using time::StepStatus;
 
 /// Steps in a block; its knots stay in the cache.
 constexpr int kBlock = 32;
-/// What the state carries behind the memory of a step: the rung of the ladder, the scale of errors, and whether the
-/// last step was without stops within reach.
-constexpr Index kExtras = 3;
+/// What the state carries behind the memory of a step: the rung of the ladder, the largest displacement and speed of
+/// a stop, and whether the last step was without stops within reach.
+constexpr Index kExtras = 4;
 /// Rungs that a step without stops within reach may be above those with.
 constexpr int kQuietRungs = 2;
 /// So many rungs below the first step no step is worth trying.
@@ -76,13 +76,14 @@ void Exponential<Step>::do_start(State& state) {
   modal_.to_modal(state.x, state.memory.head(n));
   modal_.to_modal(state.v, state.memory.segment(n, n));
   step_.complete(state.memory.data());
-  double scale = 0.0;
+  StopScale scale;
   if (step_.has_stops()) {
-    Vector w(modal_.stop_count());
+    Vector w(modal_.stop_count()), speed(modal_.stop_count());
     modal_.stop_shapes().displacement(state.memory.data(), w.data());
-    scale = w.lpNorm<Eigen::Infinity>();
+    modal_.stop_shapes().displacement(state.memory.data() + n, speed.data());
+    scale = {w.lpNorm<Eigen::Infinity>(), speed.lpNorm<Eigen::Infinity>()};
   }
-  state.memory.tail(kExtras) << static_cast<double>(first_level_), scale, 0.0;
+  state.memory.tail(kExtras) << static_cast<double>(first_level_), scale.displacement, scale.speed, 0.0;
   if (modal_.is_complete()) return;
   Vector kept(state.x.size());
   for (const Vector* given : {&state.x, &state.v}) {
@@ -99,7 +100,8 @@ StepReport Exponential<Step>::do_step(const State& from, const time::Step& step,
   if (report.status != StepStatus::ok) return report;
   to.t = step_.t();
   step_.save(to.memory.data());
-  to.memory.tail(kExtras) << static_cast<double>(level_), step_.scale(), is_quiet_ ? 1.0 : 0.0;
+  to.memory.tail(kExtras) << static_cast<double>(level_), step_.scale().displacement, step_.scale().speed,
+      is_quiet_ ? 1.0 : 0.0;
   modal_.to_physical(step_.q(), to.x);
   modal_.to_physical(step_.v(), to.v);
   dynamics().acceleration(to.t, to.x, to.v, to.a);
@@ -114,9 +116,9 @@ StepReport Exponential<Step>::follow(const State& from, const time::Step& step) 
   begin_t_ = from.t;
   end_t_ = std::numeric_limits<double>::quiet_NaN();
   begin_memory_ = from.memory;
-  step_.begin(from.t, from.memory.data(), extras[1]);
+  step_.begin(from.t, from.memory.data(), {extras[1], extras[2]});
   level_ = static_cast<int>(extras[0]);
-  is_quiet_ = extras[2] != 0.0;
+  is_quiet_ = extras[3] != 0.0;
   StepReport report;
   report.inner_steps = 0;
   const int most = step.single ? 1 : kBlock;

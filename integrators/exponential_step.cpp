@@ -61,7 +61,7 @@ void ExponentialStep::complete(double* memory) const {
     modal_.stop_shapes().displacement(memory, memory + n, memory + 2 * n, memory + 2 * n + modal_.stop_count());
 }
 
-void ExponentialStep::begin(double t, const double* memory, double scale) {
+void ExponentialStep::begin(double t, const double* memory, StopScale scale) {
   const Index n = modal_.size(), m = modal_.stop_count();
   q_ = Eigen::Map<const ArrayXd>(memory, n);
   v_ = Eigen::Map<const ArrayXd>(memory + n, n);
@@ -127,7 +127,8 @@ Trial ExponentialStep::attempt(StepFlow& flow) {
     if (trial != Trial::accepted) return trial;
     apply_forces(flow);
   }
-  scale_ = std::max(scale_, w_new_.abs().maxCoeff());
+  scale_.displacement = std::max(scale_.displacement, w_new_.abs().maxCoeff());
+  scale_.speed = std::max(scale_.speed, wv_new_.abs().maxCoeff());
   return Trial::accepted;
 }
 
@@ -181,12 +182,12 @@ Trial ExponentialStep::iterate(StepFlow& flow) {
   for (int i = 0; i < kMostSweeps; ++i) {
     const double change = sweep(flow);
     if (!std::isfinite(change)) return Trial::too_long;
-    const double scale = std::max(scale_, path_.end.abs().maxCoeff());
+    const double scale = std::max(scale_.displacement, path_.end.abs().maxCoeff());
     const double next = change * (change / last), enough = std::max(kConverged * tolerance_, kRounding) * scale;
     const bool is_expected = i > 0 && change < last && next <= kExpected * enough;
     last = change;
     if (change > enough && !is_expected) continue;
-    find_error(flow);
+    find_error(flow, scale);
     return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
   }
   return Trial::too_long;
@@ -251,9 +252,15 @@ void ExponentialStep::guess(StepFlow& flow) {
   }
 }
 
-void ExponentialStep::find_error(StepFlow& flow) {
+void ExponentialStep::find_error(StepFlow& flow, double displacement) {
+  const double h = flow.h(), h_speed = std::max(hv_.abs().maxCoeff(), path_.speed.abs().maxCoeff());
   for (const Index i : reachable_) {
+    const auto place = static_cast<std::size_t>(i);
     double error = std::abs(bulge_[i]);
+    if (is_touched_[place]) {
+      const double stiff = stops_[place].stiffness() * flow.derived(i).coupling[1][0];
+      error = error_of_path(error, stiff, h, h_speed, {displacement, scale_.speed});
+    }
     if (orders_ == 1) error += std::abs(flow.own_coupling(i)[0][1] * force_[1][i]);
     error_ = std::max(error_, error);
   }

@@ -37,7 +37,7 @@ void SingleStep::save(double* memory) const {
   memory[1] = now_.v;
 }
 
-void SingleStep::begin(double t, const double* memory, double scale) {
+void SingleStep::begin(double t, const double* memory, StopScale scale) {
   now_ = {memory[0], memory[1]};
   scale_ = scale;
   knots_.assign(1, {t, now_, 0.0, false, false, {}});
@@ -136,7 +136,8 @@ Trial SingleStep::attempt(const Flow& flow) {
     v1 += force_[k] * flow.force_v[k];
   }
   next_ = {q1, v1};
-  scale_ = std::max(scale_, std::abs(shape * q1));
+  scale_.displacement = std::max(scale_.displacement, std::abs(shape * q1));
+  scale_.speed = std::max(scale_.speed, std::abs(shape * v1));
   return Trial::accepted;
 }
 
@@ -149,7 +150,7 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
     const double bulge = path_[2] - (0.5 * (w + path_[0]) + 0.125 * (hv - path_[1]));
     const StopPath path(w, hv, path_[0], path_[1], orders_ == 3 ? bulge : 0.0);
     const Course course = stop_.course(path);
-    const double scale = std::max(scale_, std::abs(path_[0]));
+    const double scale = std::max(scale_.displacement, std::abs(path_[0]));
     double change = 0.0;
     // A spring throughout, whose equations were solved before, or no force at all.
     const bool is_solved = stop_.is_linear() && course != Course::changing && course == before;
@@ -174,6 +175,9 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
     last = change;
     if (change > enough && !is_expected) continue;
     error_ = std::abs(bulge);
+    if (force_[0] != 0.0)
+      error_ = error_of_path(error_, stop_.stiffness() * coupling[1][0], flow.h,
+                             std::max(std::abs(hv), std::abs(path_[1])), {scale, scale_.speed});
     if (orders_ == 1) error_ += std::abs(coupling[0][1] * force_[1]);
     return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
   }

@@ -19,7 +19,7 @@ class SingleStep {
 
   Index memory_size() const { return 2; }
   void complete(double*) const {}
-  void begin(double t, const double* memory, double scale);
+  void begin(double t, const double* memory, StopScale scale);
   void save(double* memory) const;
   Trial attempt_rung(int level);
   Trial attempt_length(double h);
@@ -28,9 +28,9 @@ class SingleStep {
   double t() const { return knots_.back().t; }
   const double* q() const { return &now_.q; }
   const double* v() const { return &now_.v; }
-  double scale() const { return scale_; }
+  StopScale scale() const { return scale_; }
   bool is_quiet() const { return is_quiet_; }
-  bool is_easy() const { return error_ < kEasy * tolerance_ * scale_; }
+  bool is_easy() const { return error_ < kEasy * tolerance_ * scale_.displacement; }
   static constexpr bool has_stops() { return true; }
 
   std::span<const double> knots() const;
@@ -84,7 +84,8 @@ class SingleStep {
   std::vector<Phase> phases_;  ///< by knot and harmonic
 
   Point now_{}, next_{};
-  double scale_ = 0.0, w_next_ = 0.0, error_ = 0.0;
+  StopScale scale_;
+  double w_next_ = 0.0, error_ = 0.0;
   bool is_quiet_ = false;
   std::array<double, 3> path_{};  ///< end, speed times h, middle, with the forces found so far
   ForceMoments force_{};
