@@ -18,6 +18,7 @@ function(butee_desk_after_modules)
 endfunction()
 cmake_language(DEFER DIRECTORY ${PROJECT_SOURCE_DIR} CALL butee_desk_after_modules)
 
+install(FILES copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${desk_folder}/butee.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${desk_folder}/butee.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME butee)
 install(FILES ${desk_folder}/_butee DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)

@@ -13,7 +13,7 @@ namespace butee::integrators {
 class AccelerationError {
  public:
   AccelerationError(solve::Dynamics& dynamics, double tolerance)
-      : control_(dynamics, tolerance, {3.0, 2.0}, LocalErrorControl::Steps::ladder) {}
+      : control_(dynamics, tolerance, {3.0, 2.0, 1.0, kKink}, LocalErrorControl::Steps::ladder) {}
 
   const time::StepController& controller() const { return control_.controller(); }
   double first_step() const { return control_.first_step(); }
@@ -23,6 +23,7 @@ class AccelerationError {
   static void forget_slope(time::State& state) { state.memory.segment(kOldStep, 1 + state.x.size()).setZero(); }
 
  private:
+  static constexpr double kKink = 4.0;
   static constexpr Index kOldStep = LocalErrorControl::kMemory, kSlope = kOldStep + 1;
 
   LocalErrorControl control_;

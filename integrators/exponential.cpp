@@ -19,9 +19,9 @@ using time::StepStatus;
 /// Steps in a block; its knots stay in the cache.
 constexpr int kBlock = 32;
 /// What the state carries behind the memory of a step: the rung of the ladder, the largest displacement and speed of
-/// a stop, and whether the last step was without stops within reach.
-constexpr Index kExtras = 4;
-/// Rungs that a step without stops within reach may be above those with.
+/// a stop, whether the last step was a quiet one, without stops within reach, and by how many rungs those are longer.
+constexpr Index kExtras = 5;
+/// That is at most
 constexpr int kQuietRungs = 2;
 /// So many rungs below the first step no step is worth trying.
 constexpr int kMostRungsDown = 80;
@@ -48,7 +48,7 @@ Exponential<Step>::Exponential(solve::Dynamics& dynamics, const ExponentialOptio
     : Integrator(dynamics),
       options_(options),
       modal_(dynamics.modal(options.modes)),
-      step_(dynamics, modal_, options.order, middle_tolerance(options), kBlock),
+      step_(dynamics, modal_, options.order, middle_tolerance(options), options.tolerance, kBlock),
       kinks_(dynamics.load_kinks()) {
   first_level_ = find_first_level();
 }
@@ -61,7 +61,10 @@ int Exponential<Step>::find_first_level() const {
   for (Index i = 0; i < modal_.stop_count(); ++i)
     square = std::max(square, stiffness[i] * modal_.stop_shapes().of(i).squaredNorm());
   const double h = std::pow(options_.tolerance, options_.order == 2 ? 0.5 : 0.25) * 4.0 / std::sqrt(square);
-  return static_cast<int>(std::floor(2.0 * std::log2(std::min(h, 1.0 / std::sqrt(square)))));
+  // Nor beyond what shows the slowest motion as one.
+  const double lowest = modal_.frequencies().minCoeff();
+  const double most = std::min(1.0 / std::sqrt(square), lowest > 0.0 ? 1.0 / lowest : h);
+  return static_cast<int>(std::floor(2.0 * std::log2(std::min(h, most))));
 }
 
 template <class Step>
@@ -83,7 +86,8 @@ void Exponential<Step>::do_start(State& state) {
     modal_.stop_shapes().displacement(state.memory.data() + n, speed.data());
     scale = {w.lpNorm<Eigen::Infinity>(), speed.lpNorm<Eigen::Infinity>()};
   }
-  state.memory.tail(kExtras) << static_cast<double>(first_level_), scale.displacement, scale.speed, 0.0;
+  state.memory.tail(kExtras) << static_cast<double>(first_level_), scale.displacement, scale.speed, 0.0,
+      static_cast<double>(kQuietRungs);
   if (modal_.is_complete()) return;
   Vector kept(state.x.size());
   for (const Vector* given : {&state.x, &state.v}) {
@@ -101,7 +105,7 @@ StepReport Exponential<Step>::do_step(const State& from, const time::Step& step,
   to.t = step_.t();
   step_.save(to.memory.data());
   to.memory.tail(kExtras) << static_cast<double>(level_), step_.scale().displacement, step_.scale().speed,
-      is_quiet_ ? 1.0 : 0.0;
+      is_quiet_ ? 1.0 : 0.0, static_cast<double>(quiet_rungs_);
   modal_.to_physical(step_.q(), to.x);
   modal_.to_physical(step_.v(), to.v);
   dynamics().acceleration(to.t, to.x, to.v, to.a);
@@ -119,6 +123,7 @@ StepReport Exponential<Step>::follow(const State& from, const time::Step& step) 
   step_.begin(from.t, from.memory.data(), {extras[1], extras[2]});
   level_ = static_cast<int>(extras[0]);
   is_quiet_ = extras[3] != 0.0;
+  quiet_rungs_ = static_cast<int>(extras[4]);
   StepReport report;
   report.inner_steps = 0;
   const int most = step.single ? 1 : kBlock;
@@ -133,7 +138,7 @@ StepReport Exponential<Step>::follow(const State& from, const time::Step& step) 
 template <class Step>
 bool Exponential<Step>::advance(double rest, double end, StepReport& report) {
   const double t = step_.t(), kink = next_kink(t), limit = std::min(rest, kink - t);
-  int rungs = level_ + (is_quiet_ ? kQuietRungs : 0);
+  int rungs = level_ + (is_quiet_ ? quiet_rungs_ : 0);
   while (true) {
     const bool fits = step_.has_stops() && ModalSystem::ladder_step(rungs) <= limit;
     // What is left of a block is shorter than a step: the next block takes it with whole ones.
@@ -143,7 +148,12 @@ bool Exponential<Step>::advance(double rest, double end, StepReport& report) {
       step_.accept(fits ? t + ModalSystem::ladder_step(rungs) : std::min(kink, end));
       ++report.inner_steps;
       is_quiet_ = step_.is_quiet();
-      if (fits && !is_quiet_ && step_.is_easy()) ++level_;
+      if (!is_quiet_) {
+        quiet_rungs_ = kQuietRungs;
+        if (fits && step_.is_easy()) ++level_;
+      } else if (fits && quiet_rungs_ < kQuietRungs && step_.is_very_smooth()) {
+        ++quiet_rungs_;
+      }
       return true;
     }
     if (trial == Trial::not_finite || rungs <= first_level_ - kMostRungsDown) {
@@ -151,7 +161,10 @@ bool Exponential<Step>::advance(double rest, double end, StepReport& report) {
       return false;
     }
     ++report.inner_rejected;
-    if (fits && rungs > level_) {
+    if (step_.is_quiet()) {
+      rungs = fits ? rungs - 1 : static_cast<int>(std::ceil(2.0 * std::log2(limit))) - 1;
+      quiet_rungs_ = rungs - level_;
+    } else if (fits && rungs > level_) {
       rungs = level_;  // A stop came within reach of a long step.
     } else {
       rungs = fits ? rungs - 1 : static_cast<int>(std::ceil(2.0 * std::log2(limit))) - 1;

@@ -71,6 +71,7 @@ class Exponential final : public time::Integrator {
   std::vector<double> kinks_;
   int first_level_ = 0, level_ = 0;
   bool is_quiet_ = false;
+  int quiet_rungs_ = 0;
 
   // What the knots belong to.
   double begin_t_ = 0.0, end_t_ = -1.0;

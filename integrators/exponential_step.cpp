@@ -26,14 +26,17 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }  // namespace
 
 ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance,
-                                 std::size_t most)
+                                 double output_tolerance, std::size_t most)
     : modal_(modal),
       orders_(static_cast<std::size_t>(order / 2)),
       tolerance_(tolerance),
-      knots_(dynamics, modal, most) {
+      output_tolerance_(output_tolerance),
+      squares_(modal.frequencies().square()),
+      is_strongly_damped_((4.0 * modal.decay() > modal.frequencies()).any()),
+      knots_(dynamics, modal, 2 * most) {
   solve::Contact& contact = dynamics.contact();
   const Index padded = StepFlow::padded(contact.size());
-  for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &sums_[0], &sums_[1], &sums_[2]})
+  for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2]})
     array->setZero(modal_.size());
   for (ArrayXd* array : {&w_, &wv_, &w_new_, &wv_new_, &reach_, &hv_, &path_.end, &path_.speed, &path_.middle, &bulge_,
                          &excess_, &force_[0], &force_[1], &force_[2]})
@@ -51,6 +54,8 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
     if (contact.sides_of(i) != model::Sides::positive) lower_[i] = -gaps_[i];
     has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
   }
+  for (const solve::ModalHarmonic& harmonic : modal.harmonics())
+    load_frequency_ = std::max(load_frequency_, harmonic.angular_frequency);
   for (std::vector<Index>* list : {&reachable_, &touched_, &far_}) list->reserve(stops_.size());
   is_touched_.assign(stops_.size(), false);
 }
@@ -80,6 +85,7 @@ void ExponentialStep::save(double* memory) const {
 }
 
 void ExponentialStep::accept(double t) {
+  if (middle_knot_ > 0.0) knots_.add(middle_knot_, q_half_.data(), v_half_.data(), path_.middle.data());
   q_.swap(q_new_);
   v_.swap(v_new_);
   w_.swap(w_new_);
@@ -115,12 +121,13 @@ void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd
 Trial ExponentialStep::attempt(StepFlow& flow) {
   propagate(flow.whole, knots_.steps(), q_new_, &v_new_);
   reachable_.clear();
-  error_ = 0.0;
+  error_ = middle_knot_ = 0.0;
   if (!has_stops()) return q_new_.allFinite() && v_new_.allFinite() ? Trial::accepted : Trial::not_finite;
   find_stops();
   if (!std::isfinite(w_new_.sum() + wv_new_.sum())) return Trial::not_finite;
   find_reachable(flow);
   if (!reachable_.empty()) propagate(flow.half, knots_.steps(), q_half_, nullptr);
+  if (reachable_.empty() && !is_smooth(flow)) return Trial::too_long;
   if (has_far_forces_) add_far_forces(flow);
   if (!reachable_.empty()) {
     const Trial trial = iterate(flow);
@@ -138,11 +145,12 @@ void ExponentialStep::find_stops() {
 
 void ExponentialStep::find_reachable(const StepFlow& flow) {
   // How far modes and loads too fast for a cubic can carry a stop away from it.
-  double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + flow.swing_harmonics;
+  load_swing_ = flow.swing_harmonics;
   const double t = knots_.last();
   for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads())
-    swing += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + flow.h()))) *
-             (flow.swing_force * load.shape.abs()).sum();
+    load_swing_ += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + flow.h()))) *
+                   (flow.swing_force * load.shape.abs()).sum();
+  const double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + load_swing_;
   reach_ = w_.abs().max(w_new_.abs()) + (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
   for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {
@@ -151,6 +159,37 @@ void ExponentialStep::find_reachable(const StepFlow& flow) {
     else if (has_far_forces_)
       far_.push_back(i);
   }
+}
+
+bool ExponentialStep::is_smooth(const StepFlow& flow) {
+  const double square = flow.h() * flow.h() * kQuintic, turn = flow.h() * load_frequency_;
+  const double scale = std::max(scale_.displacement, w_new_.abs().maxCoeff()), allowed = output_tolerance_ * scale;
+  const double bound = load_swing_ * std::min(1.0, kQuintic * turn * turn) +
+                       ((flow.swing_q * q_.abs() + flow.swing_v * v_.abs()) * (square * squares_).min(1.0)).sum();
+  unsmooth_ = bound > 0.0 ? bound / allowed : 0.0;
+  if (unsmooth_ <= 1.0 && !is_strongly_damped_) return true;
+  propagate(flow.half, knots_.steps(), q_half_, &v_half_);
+  modal_.stop_shapes().displacement(q_half_.data(), path_.middle.data());
+  const double h = flow.h(), t = knots_.last();
+  find_accelerations(t, q_, v_, reach_);
+  find_accelerations(t + h, q_new_, v_new_, excess_);
+  const double miss =
+      (path_.middle - 0.5 * (w_ + w_new_) - (5.0 / 32.0 * h) * (wv_ - wv_new_) - (h * h / 64.0) * (reach_ + excess_))
+          .head(modal_.stop_count())
+          .abs()
+          .maxCoeff();
+  unsmooth_ = miss > 0.0 ? miss / allowed : 0.0;
+  if (unsmooth_ > 1.0 && !has_far_forces_) {
+    middle_knot_ = t + 0.5 * h;
+    unsmooth_ /= kHalved;
+  }
+  return unsmooth_ <= 1.0;
+}
+
+void ExponentialStep::find_accelerations(double t, const ArrayXd& q, const ArrayXd& v, ArrayXd& a) {
+  sums_[0] = -squares_ * q - 2.0 * modal_.decay() * v;
+  modal_.add_load(t, sums_[0]);
+  modal_.stop_shapes().displacement(sums_[0].data(), a.data());
 }
 
 void ExponentialStep::add_far_forces(const StepFlow& flow) {

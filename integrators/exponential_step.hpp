@@ -44,13 +44,24 @@ inline double error_of_path(double bulge, double stiff, double h, double h_speed
   return bulge * (of_speed * scale.displacement > speed ? of_speed * scale.displacement / speed : 1.0);
 }
 
+/// Between the ends of a step that no force of a stop bends, outputs lie on a quintic. Its error is that of the cubic,
+/// (omega h)^4/384 of the amplitude, times (omega h)^2/120.
+inline constexpr double kQuintic = 1.0 / 120.0;
+/// A step of which outputs use up less than this part of what they may be wrong by is followed by one a rung longer,
+/// eight times that.
+inline constexpr double kVerySmooth = 0.05;
+/// With a knot in the middle of the step outputs are wrong by 1/64.
+inline constexpr double kHalved = 40.0;
+
 /// The steps of the method `exponential` within a block: the flow of the modes, and the forces and paths of the stops
 /// within reach, found together by sweeps.
 class ExponentialStep {
  public:
   /// `order` 2, 4 or 6. `tolerance` bounds the displacement in the middle of a step that the cubic through its ends
-  /// does not explain, relative to the largest displacement of a stop so far. Blocks are of up to `most` steps.
-  ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, std::size_t most);
+  /// does not explain, relative to the largest displacement of a stop so far, and `output_tolerance` what outputs
+  /// within a step without contact are wrong by. Blocks are of up to `most` steps.
+  ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance,
+                  double output_tolerance, std::size_t most);
 
   /// What a state has to remember: q, v, and displacements and speeds of the stops, which complete() adds to q and v.
   Index memory_size() const { return 2 * (modal_.size() + modal_.stop_count()); }
@@ -69,6 +80,8 @@ class ExponentialStep {
   StopScale scale() const { return scale_; }
   /// No stop was within reach in the last attempt.
   bool is_quiet() const { return reachable_.empty(); }
+  /// Such a step might be longer, for what outputs within it may be wrong by.
+  bool is_very_smooth() const { return unsmooth_ < kVerySmooth; }
   /// It would do with a longer step.
   bool is_easy() const { return error_ < kEasy * tolerance_ * scale_.displacement; }
   bool has_stops() const { return !stops_.empty(); }
@@ -84,6 +97,11 @@ class ExponentialStep {
   void propagate(const solve::ModalFlow& flow, std::size_t knot, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
   void find_stops();
   void find_reachable(const solve::StepFlow& flow);
+  /// Whether quintics are enough for outputs within a step without contact: by a bound that takes all modes for in
+  /// phase, or else by the exact displacements in the middle, where a knot is laid if one through the ends is not.
+  bool is_smooth(const solve::StepFlow& flow);
+  /// Of the stops, without their forces.
+  void find_accelerations(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v, Eigen::ArrayXd& a);
   void add_far_forces(const solve::StepFlow& flow);
   Trial iterate(solve::StepFlow& flow);
   /// Fills bulge_ and excess_ for the paths as they are.
@@ -101,25 +119,31 @@ class ExponentialStep {
 
   solve::ModalSystem& modal_;
   std::size_t orders_;  ///< polynomials that the force is projected onto
-  double tolerance_;
+  double tolerance_, output_tolerance_;
   std::vector<StopForce> stops_;
   std::vector<OwnForce> own_;
   bool has_far_forces_ = false;
+  Eigen::ArrayXd squares_;       ///< omega^2
+  bool is_strongly_damped_;      ///< a mode decays so fast that bounds by omega know too little
+  double load_frequency_ = 0.0;  ///< the highest Omega
   ModalKnots knots_;
 
   Eigen::ArrayXd q_, v_;
   StopScale scale_;
-  Eigen::ArrayXd q_new_, v_new_, q_half_;
+  Eigen::ArrayXd q_new_, v_new_, q_half_, v_half_;
+  double middle_knot_ = 0.0;  ///< its time; 0: there is none
   std::array<Eigen::ArrayXd, 3> sums_;
 
   // An entry a stop, padded to whole registers.
   Eigen::ArrayXd gaps_, upper_, lower_;  ///< where it acts; infinite where it does not
   Eigen::ArrayXd borders_;               ///< up to where the force of an open stop hardly changes
   Eigen::ArrayXd w_, wv_, w_new_, wv_new_, reach_;
-  Eigen::ArrayXd hv_;       ///< speed times h at the start
-  solve::StopMotion path_;  ///< with all forces found so far
-  Eigen::ArrayXd bulge_;    ///< by which the middle departs from the cubic through the ends
-  Eigen::ArrayXd excess_;   ///< by which a bound of the path is beyond the gap
+  double unsmooth_ = 0.0;    ///< the error of outputs, in parts of what it may be
+  double load_swing_ = 0.0;  ///< how far loads can carry a stop away from the cubic
+  Eigen::ArrayXd hv_;        ///< speed times h at the start
+  solve::StopMotion path_;   ///< with all forces found so far
+  Eigen::ArrayXd bulge_;     ///< by which the middle departs from the cubic through the ends
+  Eigen::ArrayXd excess_;    ///< by which a bound of the path is beyond the gap
   std::array<Eigen::ArrayXd, 3> force_;
   std::vector<Index> reachable_, touched_, far_;
   std::vector<bool> is_touched_;

@@ -42,7 +42,8 @@ class LocalErrorControl {
 
   /// Fills the memory of a state at the start; it has at least kMemory entries.
   void start(time::State& state);
-  /// Judges a step with the errors e_x and e_v: fills error and proposal of the report, and the memory of `to`.
+  /// Judges a step with the errors e_x and e_v; `to` has its acceleration, or that of `from`. Fills error and proposal
+  /// of the report, and the memory of `to`.
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
              time::StepReport& report);
 

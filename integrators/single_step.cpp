@@ -14,11 +14,12 @@ bool SingleStep::can_take(const solve::Dynamics& dynamics) {
 }
 
 SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance,
-                       std::size_t most)
+                       double output_tolerance, std::size_t most)
     : dynamics_(dynamics),
       modal_(modal),
       orders_(static_cast<std::size_t>(order / 2)),
       tolerance_(tolerance),
+      output_tolerance_(output_tolerance),
       stop_(dynamics.contact(), 0),
       own_(stop_.stiffness(), orders_),
       gap_(dynamics.contact().gap_of(0)),
@@ -27,6 +28,8 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       square_(modal.frequencies()[0] * modal.frequencies()[0]),
       decay_(modal.decay()[0]),
       harmonics_(modal.harmonics()) {
+  for (const solve::ModalHarmonic& harmonic : harmonics_)
+    load_frequency_ = std::max(load_frequency_, harmonic.angular_frequency);
   knots_.reserve(most + 1);
   times_.reserve(most + 1);
   phases_.resize((most + 1) * harmonics_.size());
@@ -122,9 +125,17 @@ Trial SingleStep::attempt(const Flow& flow) {
   path_ = {shape * q1, h * shape * v1, shape * middle};
   error_ = 0.0;
   force_ = {};
-  const double reach = std::max(std::abs(w), std::abs(path_[0])) + kBump * (std::abs(hv) + std::abs(path_[1])) +
-                       flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v) + flow.swing_harmonics;
+  const double swing = flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v);
+  const double reach = std::max(std::abs(w), std::abs(path_[0])) + kBump * (std::abs(hv) + std::abs(path_[1])) + swing +
+                       flow.swing_harmonics;
   is_quiet_ = reach <= calm_border_;
+  if (is_quiet_) {
+    const double turn = h * load_frequency_;
+    const double error = swing * std::min(1.0, kQuintic * h * h * (square_ + 4.0 * decay_ * decay_)) +
+                         flow.swing_harmonics * std::min(1.0, kQuintic * turn * turn);
+    unsmooth_ = error > 0.0 ? error / (output_tolerance_ * std::max(scale_.displacement, std::abs(path_[0]))) : 0.0;
+    if (unsmooth_ > 1.0) return Trial::too_long;
+  }
   if (!is_quiet_) {
     const Trial trial = iterate(flow, w, hv);
     if (trial != Trial::accepted) return trial;

@@ -15,7 +15,8 @@ class SingleStep {
   /// A system of that kind.
   static bool can_take(const solve::Dynamics& dynamics);
 
-  SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, std::size_t most);
+  SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, double output_tolerance,
+             std::size_t most);
 
   Index memory_size() const { return 2; }
   void complete(double*) const {}
@@ -30,6 +31,7 @@ class SingleStep {
   const double* v() const { return &now_.v; }
   StopScale scale() const { return scale_; }
   bool is_quiet() const { return is_quiet_; }
+  bool is_very_smooth() const { return unsmooth_ < kVerySmooth; }
   bool is_easy() const { return error_ < kEasy * tolerance_ * scale_.displacement; }
   static constexpr bool has_stops() { return true; }
 
@@ -71,7 +73,7 @@ class SingleStep {
   solve::Dynamics& dynamics_;
   solve::ModalSystem& modal_;
   std::size_t orders_;
-  double tolerance_;
+  double tolerance_, output_tolerance_, load_frequency_ = 0.0;
   StopForce stop_;
   OwnForce own_;
   double gap_, calm_border_, stop_shape_, square_, decay_;
@@ -85,7 +87,7 @@ class SingleStep {
 
   Point now_{}, next_{};
   StopScale scale_;
-  double w_next_ = 0.0, error_ = 0.0;
+  double w_next_ = 0.0, error_ = 0.0, unsmooth_ = 0.0;
   bool is_quiet_ = false;
   std::array<double, 3> path_{};  ///< end, speed times h, middle, with the forces found so far
   ForceMoments force_{};

@@ -16,9 +16,9 @@ namespace butee::time {
 ///
 /// holds for every true motion, since damping and stops only take energy. E is looked at after 16, 32 ... 256 accepted
 /// steps and after every 256 from then on, and the bound is evaluated only where E has grown. What exceeds it is
-/// excess; a run of looks that adds up to a hundredfold (more where only displacements are controlled) is no motion of
-/// this system. Methods that no step makes unstable are watched only where there are stops. Of fixed steps it also
-/// notes how coarse they are. Checked in tests/unit/growth_watch_test.cpp.
+/// excess; a run of looks that adds up to a hundredfold (more of explicit methods that control displacements alone) is
+/// no motion of this system. Methods that no step makes unstable are watched only where there are stops. Of fixed steps
+/// it also notes how coarse they are. Checked in tests/unit/growth_watch_test.cpp.
 class BUTEE_EXPORT GrowthWatch {
  public:
   /// `dynamics` must outlive it.

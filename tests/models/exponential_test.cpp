@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
@@ -168,6 +169,46 @@ TEST(Exponential, InPlainNumbersIsTheSameAsInVectors) {
   EXPECT_LE(relative_rms(x, same), 1e-5);
   EXPECT_NEAR(static_cast<double>(steps), static_cast<double>(as_many), 0.05 * static_cast<double>(steps));
   EXPECT_GT(steps, 100);
+}
+
+/// One driven mass, 40 outputs a period of its own, by `exponential` and by `exact`; relative rms.
+double error_of_driven_mass(double stop_stiffness, double gap, double tuning, double damping_ratio,
+                            const std::string& tolerance) {
+  constexpr double kStiffness = 1e4, kFrequency = 100.0, kPi = 3.141592653589793;  // of 1 kg
+  const auto line = [](const char* key, double value) { return std::string(key) + " = " + to_text(value) + "\n"; };
+  const std::string text =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n" +
+      std::string("[[element]]\ntype = \"spring\"\nnode = \"m\"\n") + line("stiffness", kStiffness) +
+      line("damping", 2.0 * damping_ratio * kFrequency) +
+      "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\nlaw = \"linear\"\n" + line("gap", gap) +
+      line("stiffness", stop_stiffness) + "[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 20.0\n" +
+      line("angular_frequency", tuning * kFrequency) + "[integrator]\n" + line("end_time", 12.0 * kPi / kFrequency);
+  std::vector<double> times;
+  for (int i = 1; i <= 240; ++i) times.push_back(i * 2.0 * kPi / kFrequency / 40.0);
+  times.pop_back();
+  const auto course = [&](const std::string& keys) {
+    SceneRun scene(text + keys);
+    Sampler sampler(scene.dof("m"), times);
+    scene.simulation().add(sampler);
+    EXPECT_TRUE(scene.run().completed) << scene.simulation().report().message;
+    return sampler.x;
+  };
+  return relative_rms(course("type = \"exponential\"\ntolerance = " + tolerance + "\n"),
+                      course("type = \"exact\"\ntime_step = 1e-3\n"));
+}
+
+/// An impact at the stiffest of these is over within 3e-7 s, a millionth of a period, in which the mass moves 1e-8 m:
+/// displacements alone would let a step go over it.
+TEST(Exponential, GetsTheSpeedRightAfterShortImpacts) {
+  for (const double stiffness : {1e8, 1e10, 1e12, 1e14})
+    EXPECT_LT(error_of_driven_mass(stiffness, 1e-3, 0.7, 0.02, "1e-4"), 3e-3) << stiffness;
+}
+
+/// Of a soft stop out of reach the steps are as long as one likes, outputs within them are not.
+TEST(Exponential, KeepsItsToleranceBetweenStepsWithoutContact) {
+  for (const double tuning : {0.1, 1.9, 5.0})
+    for (const double damping_ratio : {0.0, 0.9, 3.0})
+      EXPECT_LT(error_of_driven_mass(1e2, 1.0, tuning, damping_ratio, "1e-5"), 1e-5) << tuning << " " << damping_ratio;
 }
 
 TEST(Exponential, WithTheLowestModesComesCloserTheMoreThereAreAndSaysWhatIsLeftOut) {

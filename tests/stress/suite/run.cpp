@@ -18,7 +18,7 @@ constexpr int kInstants = 200;
 /// Error at the end for an error of one tolerance at the start: that of many steps, and of more than one DOF.
 constexpr double kReserve = 30.0;
 /// Where that much error is allowed there is nothing left to compare.
-constexpr double kHorizon = 0.3;
+constexpr double kHorizon = 0.1;
 /// A motion so many times as large as the true one is no inaccuracy.
 constexpr double kGrown = 1e3;
 /// A series of order 30 is as many evaluations.
@@ -199,10 +199,9 @@ Reference::Reference(const Scene& scene, std::int64_t work) {
   }
   if (!(peak_ > 0.0)) return;
   std::vector<Course> others;
-  for (const double sign : {1.0, -1.0}) {
-    const double part = sign * scene.tolerance;
-    others.push_back(exact_course(scene, {part * peak_, part * speed}, work));
-  }
+  for (const double in_place : {scene.tolerance, -scene.tolerance})
+    for (const double in_speed : {scene.tolerance, -scene.tolerance})
+      others.push_back(exact_course(scene, {in_place * peak_, in_speed * speed}, work));
   const std::vector<double> instants = instants_of(scene);
   double apart = scene.tolerance;
   for (std::size_t i = 0; i < course.rows.size(); ++i) {
