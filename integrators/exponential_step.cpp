@@ -54,8 +54,6 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
     if (contact.sides_of(i) != model::Sides::positive) lower_[i] = -gaps_[i];
     has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
   }
-  for (const solve::ModalHarmonic& harmonic : modal.harmonics())
-    load_frequency_ = std::max(load_frequency_, harmonic.angular_frequency);
   for (std::vector<Index>* list : {&reachable_, &touched_, &far_}) list->reserve(stops_.size());
   is_touched_.assign(stops_.size(), false);
 }
@@ -162,10 +160,10 @@ void ExponentialStep::find_reachable(const StepFlow& flow) {
 }
 
 bool ExponentialStep::is_smooth(const StepFlow& flow) {
-  const double square = flow.h() * flow.h() * kQuintic, turn = flow.h() * load_frequency_;
+  const double square = flow.h() * flow.h() * kQuintic;
   const double scale = std::max(scale_.displacement, w_new_.abs().maxCoeff()), allowed = output_tolerance_ * scale;
-  const double bound = load_swing_ * std::min(1.0, kQuintic * turn * turn) +
-                       ((flow.swing_q * q_.abs() + flow.swing_v * v_.abs()) * (square * squares_).min(1.0)).sum();
+  const double bound =
+      load_swing_ + ((flow.swing_q * q_.abs() + flow.swing_v * v_.abs()) * (square * squares_).min(1.0)).sum();
   unsmooth_ = bound > 0.0 ? bound / allowed : 0.0;
   if (unsmooth_ <= 1.0 && !is_strongly_damped_) return true;
   propagate(flow.half, knots_.steps(), q_half_, &v_half_);

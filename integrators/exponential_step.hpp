@@ -123,9 +123,8 @@ class ExponentialStep {
   std::vector<StopForce> stops_;
   std::vector<OwnForce> own_;
   bool has_far_forces_ = false;
-  Eigen::ArrayXd squares_;       ///< omega^2
-  bool is_strongly_damped_;      ///< a mode decays so fast that bounds by omega know too little
-  double load_frequency_ = 0.0;  ///< the highest Omega
+  Eigen::ArrayXd squares_;   ///< omega^2
+  bool is_strongly_damped_;  ///< a mode decays so fast that bounds by omega know too little
   ModalKnots knots_;
 
   Eigen::ArrayXd q_, v_;

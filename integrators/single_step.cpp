@@ -130,9 +130,13 @@ Trial SingleStep::attempt(const Flow& flow) {
                        flow.swing_harmonics;
   is_quiet_ = reach <= calm_border_;
   if (is_quiet_) {
+    // Of the slower and the faster of two decaying motions too, whose rates are within 2 delta + omega. What a load
+    // starts from rest is such a motion as well.
+    const double rate = square_ + 4.0 * decay_ * decay_, angle = h * h * rate;
     const double turn = h * load_frequency_;
-    const double error = swing * std::min(1.0, kQuintic * h * h * (square_ + 4.0 * decay_ * decay_)) +
-                         flow.swing_harmonics * std::min(1.0, kQuintic * turn * turn);
+    double error = flow.swing_harmonics * std::min(1.0, kQuintic * (angle + turn * turn));
+    if (rate > 0.0)
+      error += std::min(2.0, angle * angle * angle / 46080.0) * (std::abs(w) + std::abs(shape * v) / std::sqrt(rate));
     unsmooth_ = error > 0.0 ? error / (output_tolerance_ * std::max(scale_.displacement, std::abs(path_[0]))) : 0.0;
     if (unsmooth_ > 1.0) return Trial::too_long;
   }

@@ -203,7 +203,7 @@ integrator = {type = "exponential", tolerance = 1e-6}
   Structure by_keys = Structure::from_document(model.document(), with_plugins());
   Structure by_own_text = Structure::from_toml(model.toml(), with_plugins());
   Structure by_hand = Structure::from_toml(text, with_plugins());
-  for (Structure* structure : {&by_keys, &by_own_text, &by_hand}) structure->advance_to(0.01);
+  for (Structure* structure : {&by_keys, &by_own_text, &by_hand}) structure->advance_to(0.002);
   EXPECT_NE(by_hand.contact_force(by_hand.dof("b:middle")), 0.0);
   EXPECT_EQ(by_keys.state().x, by_hand.state().x);
   EXPECT_EQ(by_own_text.state().x, by_hand.state().x);
