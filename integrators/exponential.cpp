@@ -23,6 +23,9 @@ constexpr int kBlock = 32;
 constexpr Index kExtras = 5;
 /// That is at most
 constexpr int kQuietRungs = 2;
+/// What outputs between two quiet steps may be wrong by, in tolerances; the steps themselves go on from the exact
+/// state.
+constexpr double kOutputs = 2.0;
 /// So many rungs below the first step no step is worth trying.
 constexpr int kMostRungsDown = 80;
 
@@ -48,7 +51,7 @@ Exponential<Step>::Exponential(solve::Dynamics& dynamics, const ExponentialOptio
     : Integrator(dynamics),
       options_(options),
       modal_(dynamics.modal(options.modes)),
-      step_(dynamics, modal_, options.order, middle_tolerance(options), options.tolerance, kBlock),
+      step_(dynamics, modal_, options.order, middle_tolerance(options), kOutputs * options.tolerance, kBlock),
       kinks_(dynamics.load_kinks()) {
   first_level_ = find_first_level();
 }

@@ -50,8 +50,9 @@ inline constexpr double kQuintic = 1.0 / 120.0;
 /// A step of which outputs use up less than this part of what they may be wrong by is followed by one a rung longer,
 /// eight times that.
 inline constexpr double kVerySmooth = 0.05;
-/// With a knot in the middle of the step outputs are wrong by 1/64.
-inline constexpr double kHalved = 40.0;
+/// With a knot in the middle of the step outputs are wrong by 1/64, or by 1/4 where modes turn too fast for any
+/// quintic.
+inline constexpr double kHalved = 10.0;
 
 /// The steps of the method `exponential` within a block: the flow of the modes, and the forces and paths of the stops
 /// within reach, found together by sweeps.

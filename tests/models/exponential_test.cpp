@@ -58,10 +58,15 @@ TEST_P(ExponentialMethod, KeepsItsTolerance) {
   constexpr double kReserve = 10.0;
   std::vector<double> decades, errors;
   for (double tolerance = 1e-2; tolerance > 0.9e-7; tolerance *= 0.1) {
-    const Result result = run(tolerance);
-    EXPECT_LE(result.error, kReserve * tolerance * GetParam().amplification) << "at " << tolerance;
+    // Which steps are taken is chance in part: the mean of three.
+    double mean = 0.0;
+    for (const double factor : {0.8, 1.0, 1.25}) {
+      const double error = run(factor * tolerance).error;
+      EXPECT_LE(error, kReserve * factor * tolerance * GetParam().amplification) << "at " << factor * tolerance;
+      mean += std::log10(error) / 3.0;
+    }
     decades.push_back(std::log10(tolerance));
-    errors.push_back(std::log10(result.error));
+    errors.push_back(mean);
   }
   ASSERT_EQ(decades.size(), 6U);
   double slope = 0.0;
