@@ -45,7 +45,9 @@ ImpactRecorder::ImpactRecorder(solve::Dynamics& dynamics) : dynamics_(dynamics) 
       std::string name;
       for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) {
         watch.dofs.push_back(dof);
-        if (dof >= 0) name += (name.empty() ? "" : "|") + node(dof);
+        if (dof < 0) continue;
+        if (!name.empty()) name += '|';
+        name += node(dof);
       }
       watch.current.node = name;
       watch.current.side = side > 0.0 ? 1 : -1;

@@ -14,13 +14,16 @@ struct Pairs {
 
 /// All pairs of K x = lambda M x with X^T M X = 1, of dense symmetric matrices, M positive definite; nothing where the
 /// iteration did not converge. Private to the framework: the solvers of Eigen are compiled once, here.
-std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 
 /// The eigenvalues alone.
-std::optional<Vector> dense_values(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+BUTEE_EXPORT std::optional<Vector> dense_values(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 
 /// All pairs of a dense symmetric matrix.
-std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& matrix);
+BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& matrix);
+
+/// The eigenvalues of any square matrix.
+BUTEE_EXPORT std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix);
 
 /// The vectors of K x = lambda M x in extended precision; none where that failed.
 ExtendedColumns extended_vectors(const ExtendedColumns& stiffness, const ExtendedColumns& mass);

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "butee/core/text.hpp"
+#include "butee/solve/dense_pairs.hpp"
 #include "butee/solve/free_motion.hpp"
 #include "butee/solve/frequencies.hpp"
 
@@ -46,11 +45,11 @@ std::optional<double> dense_rate(solve::Dynamics& dynamics, const MethodLimits& 
   motion.bottomLeftCorner(n, n) = -mass.solve(Eigen::MatrixXd(stiffness));
   motion.bottomRightCorner(n, n) = -mass.solve(damping);
   if (mass.info() != Eigen::Success || !motion.allFinite()) return std::nullopt;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(motion, false);
-  if (solver.info() != Eigen::Success) return std::nullopt;
+  const auto values = solve::eigenvalues(motion);
+  if (!values) return std::nullopt;
   double largest = 0.0;
-  for (Index i = 0; i < 2 * n; ++i)
-    largest = std::max(largest, rate(limits, solver.eigenvalues()[i].imag(), solver.eigenvalues()[i].real()));
+  for (const std::complex<double>& value : *values)
+    largest = std::max(largest, rate(limits, value.imag(), value.real()));
   return largest;
 }
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include <Eigen/Dense>
+#include <butee/solve/dense_pairs.hpp>
 #include <butee/solve/frequencies.hpp>
 #include <gtest/gtest.h>
 
@@ -58,23 +59,26 @@ Vector some_vector(Index size) {
 
 /// C of one ratio without any mode: 2 zeta M^(1/2) (M^(-1/2) K M^(-1/2))^(1/2) M^(1/2).
 Eigen::MatrixXd damping_of_all(const model::System& system, double zeta) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> mass{Eigen::MatrixXd(system.mass)};
-  const Eigen::MatrixXd root = mass.operatorSqrt(), inverse = mass.operatorInverseSqrt();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dynamic{Eigen::MatrixXd(inverse * system.stiffness * inverse)};
-  const Vector omega = dynamic.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  const Eigen::MatrixXd& turn = dynamic.eigenvectors();
-  return 2.0 * zeta * root * turn * omega.asDiagonal() * turn.transpose() * root;
+  const solve::Pairs mass = solve::dense_pairs(Eigen::MatrixXd(system.mass)).value();
+  const auto power = [&](double exponent) {
+    const Vector powers = mass.values.array().pow(exponent);
+    return Eigen::MatrixXd(mass.vectors * powers.asDiagonal() * mass.vectors.transpose());
+  };
+  const Eigen::MatrixXd root = power(0.5), inverse = power(-0.5);
+  const solve::Pairs dynamic = solve::dense_pairs(Eigen::MatrixXd(inverse * system.stiffness * inverse)).value();
+  const Vector omega = dynamic.values.cwiseMax(0.0).cwiseSqrt();
+  return 2.0 * zeta * root * dynamic.vectors * omega.asDiagonal() * dynamic.vectors.transpose() * root;
 }
 
 /// C of a list of ratios, M Phi diag(2 zeta omega) Phi^T M.
 Eigen::MatrixXd damping_of_lowest(const model::System& system, const std::vector<double>& zeta) {
   const Eigen::MatrixXd mass(system.mass);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(system.stiffness), mass);
+  const solve::Pairs pairs = solve::dense_pairs(Eigen::MatrixXd(system.stiffness), mass).value();
   Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   for (std::size_t i = 0; i < zeta.size(); ++i) {
     const auto mode = static_cast<Index>(i);
-    const double omega = std::sqrt(std::max(solver.eigenvalues()[mode], 0.0));
-    const Vector shape = mass * solver.eigenvectors().col(mode);
+    const double omega = std::sqrt(std::max(pairs.values[mode], 0.0));
+    const Vector shape = mass * pairs.vectors.col(mode);
     damping += 2.0 * zeta[i] * omega * shape * shape.transpose();
   }
   return damping;

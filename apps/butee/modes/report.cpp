@@ -115,7 +115,7 @@ std::string shapes_csv(const Analysis& analysis, const model::Model& model, cons
       if (!group->lone()) text += exact(group->coordinates[static_cast<std::size_t>(i)]);
       for (Index mode = 0; mode < std::ssize(analysis.modes); ++mode)
         for (const DofKind kind : {DofKind::u, DofKind::theta})
-          text += "," + cell(analysis, system.dofs, {node, kind}, mode);
+          text.append(1, ',').append(cell(analysis, system.dofs, {node, kind}, mode));
       text += "\n";
     }
   return text;

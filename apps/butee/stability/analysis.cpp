@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <butee/solve/dense_pairs.hpp>
 
 namespace butee::app::stability {
 namespace {
@@ -16,8 +16,15 @@ constexpr double kFirstDrawn = 1e-2, kLastDrawn = 1e2;
 constexpr double kReal = 1e-7;
 constexpr double kPi = 3.141592653589793;
 
+/// NaN where there are none.
+Eigen::Vector3cd eigenvalues_of(const Eigen::Matrix3d& map) {
+  const auto values = solve::eigenvalues(map);
+  if (!values) return Eigen::Vector3cd::Constant(std::numeric_limits<double>::quiet_NaN());
+  return *values;
+}
+
 double radius_of(const Eigen::Matrix3d& map) {
-  return Eigen::EigenSolver<Eigen::Matrix3d>(map, false).eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues_of(map).cwiseAbs().maxCoeff();
 }
 
 enum class Verdict { stable, unstable, no_map };
@@ -46,7 +53,7 @@ void sample(OneStepMap& map, double ratio, double stop_ratio, std::vector<Sample
 
 Properties properties_of(const Eigen::Matrix3d& map, double h_omega, double ratio) {
   Properties properties;
-  const Eigen::Vector3cd values = Eigen::EigenSolver<Eigen::Matrix3d>(map, false).eigenvalues();
+  const Eigen::Vector3cd values = eigenvalues_of(map);
   properties.radius = values.cwiseAbs().maxCoeff();
   const std::complex<double>* principal = nullptr;
   for (const auto& value : values)
