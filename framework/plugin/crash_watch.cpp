@@ -18,7 +18,12 @@ extern "C" void tell(int signal) {
 
 }  // namespace
 
-CrashWatch::CrashWatch(const std::string& module) {
+std::recursive_mutex& CrashWatch::mutex() {
+  static std::recursive_mutex one;
+  return one;
+}
+
+CrashWatch::CrashWatch(const std::string& module) : alone_(mutex()) {
   const std::string text = "butee: error: " + module + ": crashed the program while it was loaded\n";
   line.fill('\0');
   std::copy_n(text.begin(), std::min(text.size(), line.size() - 1), line.begin());
