@@ -15,8 +15,8 @@ constexpr int kMostRows = 12, kNarrowest = 40, kWidest = 120, kMostName = 14;
 struct Glyphs {
   std::string beam, node, above, below, support, clamp, load, moment, spring, mass, lone, between;
 };
-const Glyphs kBoxes = {"━", "╋", "▼", "▲", "△", "▐", "↓", "↻", "≷", "●", "●", "┆"};
-const Glyphs kPlain = {"=", "+", "v", "^", "A", "|", "!", "@", "z", "O", "o", ":"};
+const Glyphs kBoxes = {"━", "╋", "▼", "▲", "△", "▐", "↕", "↻", "≷", "●", "●", "┆"};
+const Glyphs kPlain = {"=", "+", "v", "^", "A", "|", "I", "@", "z", "O", "o", ":"};
 
 /// One line of cells, each holding one character of any number of bytes.
 class Line {
@@ -59,14 +59,43 @@ class TextDrawing {
     const int rows = std::min(layout_.rows, kMostRows);
     for (int row = 0; row < rows; ++row) text += draw_row(row);
     if (rows < layout_.rows) text += "(and " + std::to_string(layout_.rows - rows) + " rows more)\n";
-    for (std::size_t i = 0; i < layout_.stop_labels.size(); ++i) {
-      const std::string line = glyphs_.above + " " + glyphs_.below + " stops: " + layout_.stop_labels[i];
-      text += line + "\n";
-    }
+    text += supports();
+    for (std::size_t i = 0; i < layout_.stop_labels.size(); ++i)
+      text += stops_of(static_cast<int>(i)) + "stops: " + layout_.stop_labels[i] + "\n";
     return text;
   }
 
  private:
+  /// What the signs of supports mean, where there are any.
+  std::string supports() const {
+    bool u = false, theta = false;
+    for (const SupportMark& support : layout_.supports) {
+      u = u || support.u;
+      theta = theta || support.theta;
+    }
+    std::string text;
+    if (u) text += glyphs_.support + " u held   ";
+    if (theta) text += glyphs_.clamp + " theta held";
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text.empty() ? "" : text + "\n";
+  }
+
+  /// The signs of a group of stops, a positive side above.
+  std::string stops_of(int group) const {
+    bool above = false, below = false, between = false;
+    for (const StopMark& stop : layout_.stops) {
+      if (stop.group != group) continue;
+      between = between || stop.other.has_value();
+      above = above || (!stop.other && stop.positive);
+      below = below || (!stop.other && stop.negative);
+    }
+    std::string text;
+    for (const auto& [is_there, glyph] :
+         {std::pair{above, glyphs_.above}, std::pair{below, glyphs_.below}, std::pair{between, glyphs_.between}})
+      if (is_there) text += glyph + " ";
+    return text;
+  }
+
   int column(double x) const {
     const double span = layout_.right - layout_.left;
     const int room = width_ - name_width_ - 1;
@@ -92,7 +121,8 @@ class TextDrawing {
     for (const MassMark& mass : layout_.masses)
       if (mass.at.row == row) beam.put(column(mass.at.x), glyphs_.mass);
     for (const SpringMark& spring : layout_.springs) {
-      if (!spring.b && spring.a.row == row) below.put(column(spring.a.x), glyphs_.spring);
+      // Beside the node, under which a stop or a support may stand.
+      if (!spring.b && spring.a.row == row) below.put(column(spring.a.x) - 2, glyphs_.spring);
       if (spring.b && std::min(spring.a.row, spring.b->row) == row) link.put(column(spring.a.x), glyphs_.spring);
     }
     for (const StopMark& stop : layout_.stops) {

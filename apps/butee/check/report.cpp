@@ -33,7 +33,8 @@ Index stop_count(const model::System& system) {
 
 void print_contents(const model::Model& model, const model::System& system, const Survey& survey) {
   std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : printable(model.title).c_str());
-  std::printf("elements   %zu on %d nodes\n", model.elements.size(), model.nodes.size());
+  std::printf("elements   %zu on %d %s\n", model.elements.size(), model.nodes.size(),
+              model.nodes.size() == 1 ? "node" : "nodes");
   std::printf("mass       %s kg", text(survey.total_mass).c_str());
   if (survey.lumped_mass > 0.0) std::printf(", of it %s kg on single nodes", text(survey.lumped_mass).c_str());
   std::printf("\nDOFs       %td free, %td fixed\n", system.size(), system.dofs.fixed_count());
@@ -84,13 +85,19 @@ std::vector<std::string> skipped(const Session& session, const model::System& sy
   return lines;
 }
 
+/// "3 ... 4", or "3" where both read the same.
+std::string span(double low, double high) {
+  const std::string first = text(low), last = text(high);
+  return first == last ? first : first + " ... " + last;
+}
+
 void print_range(const char* label, const std::optional<solve::FrequencyRange>& range) {
   if (!range) {
     std::printf("%s (the eigenvalue solver did not converge)\n", label);
     return;
   }
-  std::printf("%s %s ... %s rad/s (%s ... %s Hz)\n", label, text(range->lowest).c_str(), text(range->highest).c_str(),
-              text(range->lowest / kTwoPi).c_str(), text(range->highest / kTwoPi).c_str());
+  std::printf("%s %s rad/s (%s Hz)\n", label, span(range->lowest, range->highest).c_str(),
+              span(range->lowest / kTwoPi, range->highest / kTwoPi).c_str());
 }
 
 void print_step(const Session& session, double open, double closed) {
@@ -117,8 +124,8 @@ void print_step(const Session& session, double open, double closed) {
 void print_mechanics(const Mechanics& mechanics) {
   if (mechanics.sampled == 0) return;
   if (mechanics.least_ratio)
-    std::printf("stiffness  of a closed stop: %s ... %s times that of the structure where it acts\n",
-                text(*mechanics.least_ratio).c_str(), text(*mechanics.largest_ratio).c_str());
+    std::printf("stiffness  of a closed stop: %s times that of the structure where it acts\n",
+                span(*mechanics.least_ratio, *mechanics.largest_ratio).c_str());
   if (std::isfinite(mechanics.shortest_contact))
     std::printf("contact    an impact lasts about %s s or longer\n", text(mechanics.shortest_contact).c_str());
   if (mechanics.static_deflection && mechanics.smallest_gap > 0.0)

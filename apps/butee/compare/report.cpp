@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include <butee/core/text.hpp>
@@ -172,6 +173,14 @@ std::vector<Row> read_csv(const std::string& path) {
   return rows;
 }
 
+namespace {
+
+bool is_drawn(const Row& row) {
+  return row.completed() && row.error.rms < 2.0 && row.error.rms > 0.0;
+}
+
+}  // namespace
+
 const Row* fastest(const std::vector<Row>& rows, double target) {
   const Row* best = nullptr;
   for (const Row& row : rows)
@@ -199,33 +208,73 @@ std::string markdown(const Study& study, const std::vector<SceneResult>& results
   return out.str();
 }
 
+namespace {
+
+/// Methods that a picture tells apart; the others are grey.
+constexpr std::size_t kTold = 10;
+/// The error at which methods are ranked.
+constexpr double kRanked = 1e-3;
+
+/// The methods with points to draw, the fastest to an error of kRanked first.
+std::vector<std::string> ranked_methods(const SceneResult& result) {
+  std::vector<std::pair<double, std::string>> ranked;
+  for (const std::string& method : methods_of(result.rows)) {
+    double least = std::numeric_limits<double>::infinity(), best = least;
+    for (const Row& row : result.rows) {
+      if (row.method != method || !is_drawn(row)) continue;
+      best = std::min(best, row.error.rms);
+      if (row.error.rms <= kRanked) least = std::min(least, row.seconds);
+    }
+    // Those that do not come so far follow by how far they come.
+    if (std::isfinite(best)) ranked.emplace_back(std::isfinite(least) ? least : 1e9 * best, method);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+  std::vector<std::string> methods;
+  for (auto& entry : ranked) methods.push_back(std::move(entry.second));
+  return methods;
+}
+
+}  // namespace
+
 bool draw(const SceneResult& result, const std::string& folder) {
   const std::string name = "work-precision-" + result.scene;
-  std::vector<std::string> drawn;
-  std::string script = "# error against time, a block for each method\n$runs << EOD\n";
-  for (const std::string& method : methods_of(result.rows)) {
-    std::string points;
-    for (const Row& row : result.rows)
-      if (row.method == method && row.completed() && row.error.rms < 2.0 && row.error.rms > 0.0)
-        points += number(row.seconds * 1e3, 6) + " " + number(row.error.rms, 6) + "\n";
-    if (points.empty()) continue;
-    drawn.push_back(method);
-    script += points + "\n\n";
-  }
+  const std::vector<std::string> drawn = ranked_methods(result);
   if (drawn.empty()) return false;
-  script += "EOD\n" + gnuplot::style() +
-            "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\n"
-            "set grid xtics ytics mxtics mytics lt 1 lc rgb '#c8c8c8', lt 1 lc rgb '#eeeeee'\n"
-            "set key outside right center reverse Left samplen 2 spacing 1.1\nset xlabel 'time of one run / ms'\n"
+  std::string script = "# error against time, a block for each method\n$runs << EOD\n";
+  double least = 1.0;
+  for (const std::string& method : drawn) {
+    for (const Row& row : result.rows) {
+      if (row.method != method || !is_drawn(row)) continue;
+      least = std::min(least, row.error.rms);
+      script += number(row.seconds * 1e3, 6) + " " + number(row.error.rms, 6) + "\n";
+    }
+    script += "\n\n";
+  }
+  const double own = result.reference.uncertainty;
+  const bool shows_reference = own > 0.1 * least;
+  std::vector<std::string> legend(drawn.begin(),
+                                  drawn.begin() + static_cast<std::ptrdiff_t>(std::min(kTold, drawn.size())));
+  if (drawn.size() > kTold) legend.push_back("others");
+  if (shows_reference) legend.push_back("reference itself");
+  script += "EOD\n" + gnuplot::style() + gnuplot::legend_below(legend) +
+            "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset yrange [" + number(0.3 * least, 3) +
+            ":*]\nset grid xtics ytics mxtics mytics lt 1 lc rgb '#c8c8c8', lt 1 lc rgb '#eeeeee'\n"
+            "set xlabel 'time of one run / ms'\n"
             "set ylabel 'relative rms error of " +
             result.column + "' noenhanced\nset title " +
             gnuplot::quoted(printable(result.title.empty() ? result.scene : result.title)) + " noenhanced\n";
   std::string plot = "plot ";
-  if (result.reference.uncertainty > 0.0)
-    plot += number(result.reference.uncertainty, 6) + " w l lc rgb '#000000' dt 3 t 'reference itself', ";
-  for (std::size_t i = 0; i < drawn.size(); ++i)
-    plot += "$runs index " + std::to_string(i) + " w lp lw 1.6 ps 0.8 pt " + std::to_string(4 + i % 10) + " lc rgb '" +
-            gnuplot::kColours[i % gnuplot::kColours.size()] + "' t " + gnuplot::quoted(drawn[i]) + ", ";
+  if (shows_reference) plot += number(own, 6) + " w l lc rgb '#000000' dt 3 t 'reference itself', ";
+  // The grey ones first, under the others.
+  for (std::size_t i = drawn.size(); i-- > 0;) {
+    plot += "$runs index " + std::to_string(i);
+    if (i >= kTold)
+      plot += " w lp lw 0.8 ps 0.4 pt 7 lc rgb '#bbbbbb' " + (i == kTold ? "t 'others'" : std::string("notitle"));
+    else
+      plot += " w lp lw 1.6 ps 0.8 pt " + std::to_string(4 + i % 10) + " lc rgb '" + gnuplot::kColours[i] + "' t " +
+              gnuplot::quoted(drawn[i]);
+    plot += ", ";
+  }
   plot.resize(plot.size() - 2);
   gnuplot::write_script(folder, name, script + gnuplot::draw_into({"png", "svg"}, name, plot));
   return gnuplot::is_installed() && gnuplot::run_script(folder, name).empty();

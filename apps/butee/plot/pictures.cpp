@@ -46,7 +46,7 @@ std::vector<Chart> of_steps(const Drawing& drawing) {
   for (const Result& result : drawing.results) {
     const auto* steps = result.history.find("h");
     if (steps == nullptr || steps->empty()) continue;
-    Curve curve{drawing.several() ? result.label : "step in force", {}, {}, chart.curves.size()};
+    Curve curve{drawing.several() ? result.label : "step size", {}, {}, chart.curves.size()};
     for (std::size_t i = 0; i < steps->size(); ++i) {
       if (!((*steps)[i] > 0.0)) continue;
       curve.x.push_back(result.history.times()[i]);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 
 #include <butee/core/text.hpp>
 #include <nlohmann/json.hpp>
@@ -65,9 +66,10 @@ bool plot(const std::string& base, const std::string& commands) {
 
 std::string curve_plot(const std::vector<Analysis>& all, const std::string& data, double ratio) {
   std::string commands =
-      "reset\nset datafile separator ','\nset datafile missing ''\nset multiplot layout 3,1\nset logscale x\nset "
+      "reset\nset encoding utf8\nset datafile separator ','\nset datafile missing ''\nset multiplot layout 3,1\nset "
+      "logscale x\nset "
       "xlabel "
-      "'h omega'\nset grid\nset key outside right noenhanced\n";
+      "'h ω'\nset grid\nset key outside right noenhanced\n";
   const std::array<const char*, 3> labels = {"spectral radius", "numerical damping ratio", "period error"};
   const std::array<const char*, 3> ranges = {"[0:1.5]", "[-0.05:0.6]", "[-0.5:1]"};
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -85,12 +87,24 @@ std::string curve_plot(const std::vector<Analysis>& all, const std::string& data
 }
 
 std::string stop_plot(const Analysis& one, const std::string& data) {
-  return "reset\nset datafile separator ','\nset datafile missing ''\nset logscale xy\nset xlabel 'h omega'\nset "
+  // Cells of the grid of stops.csv, which is even in both logarithms.
+  const auto half_step = [&](double Sample::*quantity) {
+    double ratio = std::numeric_limits<double>::infinity();
+    for (const Sample& sample : one.stops) {
+      const double step = sample.*quantity / one.stops.front().*quantity;
+      if (step > 1.0 + 1e-9) ratio = std::min(ratio, step);
+    }
+    return std::isfinite(ratio) ? std::sqrt(ratio) : 1.5;
+  };
+  const std::string x = to_short_text(half_step(&Sample::h_omega)), y = to_short_text(half_step(&Sample::stop_ratio));
+  return "reset\nset encoding utf8\nset datafile separator ','\nset datafile missing ''\nset logscale xy\nset xlabel "
+         "'h ω'\nset "
          "ylabel "
-         "'k_c/k' noenhanced\nset cblabel 'spectral radius'\nset cbrange [0:2]\nset palette defined (0 '#2166ac', 0.99 "
+         "'k_c / k'\nset cblabel 'spectral radius'\nset cbrange [0:2]\nset palette defined (0 '#2166ac', 0.99 "
          "'#d1e5f0', 1.01 '#fddbc7', 2 '#b2182b')\nset title '" +
-         one.method + " with a closed stop' noenhanced\nset grid\nunset key\nplot " + quoted(data) +
-         " using 3:2:4 every ::1 with points pt 5 ps 1.6 palette\n";
+         one.method + " with a closed stop' noenhanced\nset grid\nunset key\nplot " + quoted(data) + " using 3:2:($3/" +
+         x + "):($3*" + x + "):($2/" + y + "):($2*" + y +
+         "):4 every ::1 with boxxyerror fillstyle solid noborder lc palette\n";
 }
 
 }  // namespace
