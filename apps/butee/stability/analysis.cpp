@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kSmallestStep = 1e-3;
 constexpr int kPerDecade = 20;
+/// Of curves, whose kinks at the limit would be cut otherwise.
+constexpr int kDrawnPerDecade = 60;
 constexpr int kBisections = 60;
 /// Steps that are drawn.
 constexpr double kFirstDrawn = 1e-2, kLastDrawn = 1e2;
@@ -40,9 +42,9 @@ double at_point(int i) {
 }
 
 void sample(OneStepMap& map, double ratio, double stop_ratio, std::vector<Sample>& samples) {
-  const int count = static_cast<int>(std::lround(std::log10(kLastDrawn / kFirstDrawn) * kPerDecade));
+  const int count = static_cast<int>(std::lround(std::log10(kLastDrawn / kFirstDrawn) * kDrawnPerDecade));
   for (int i = 0; i <= count; ++i) {
-    const double h = kFirstDrawn * std::pow(10.0, static_cast<double>(i) / kPerDecade);
+    const double h = kFirstDrawn * std::pow(10.0, static_cast<double>(i) / kDrawnPerDecade);
     Sample one{h, ratio, stop_ratio, {}};
     if (const auto matrix = map.at(h)) one.properties = properties_of(*matrix, h * std::sqrt(1.0 + stop_ratio), ratio);
     samples.push_back(one);

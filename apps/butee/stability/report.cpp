@@ -72,6 +72,7 @@ std::string curve_plot(const std::vector<Analysis>& all, const std::string& data
       "'h ω'\nset grid\nset key outside right noenhanced\n";
   const std::array<const char*, 3> labels = {"spectral radius", "numerical damping ratio", "period error"};
   const std::array<const char*, 3> ranges = {"[0:1.5]", "[-0.05:0.6]", "[-0.5:1]"};
+  commands += "set xrange [0.01:100]\n";
   for (std::size_t i = 0; i < labels.size(); ++i) {
     commands += "set ylabel '" + std::string(labels[i]) + "'\nset yrange " + ranges[i] + "\n";
     if (i == 0) commands += "set title 'damping ratio " + to_short_text(ratio) + "'\n";
@@ -100,7 +101,8 @@ std::string stop_plot(const Analysis& one, const std::string& data) {
   return "reset\nset encoding utf8\nset datafile separator ','\nset datafile missing ''\nset logscale xy\nset xlabel "
          "'h ω'\nset "
          "ylabel "
-         "'k_c / k'\nset cblabel 'spectral radius'\nset cbrange [0:2]\nset palette defined (0 '#2166ac', 0.99 "
+         "'k_c / k'\nset xrange [*:*] noextend\nset yrange [*:*] noextend\nset cblabel 'spectral radius'\nset cbrange "
+         "[0:2]\nset palette defined (0 '#2166ac', 0.99 "
          "'#d1e5f0', 1.01 '#fddbc7', 2 '#b2182b')\nset title '" +
          one.method + " with a closed stop' noenhanced\nset grid\nunset key\nplot " + quoted(data) + " using 3:2:($3/" +
          x + "):($3*" + x + "):($2/" + y + "):($2*" + y +
