@@ -118,8 +118,8 @@ TEST(CheckPicture, is_drawn_as_svg) {
     for (std::size_t at = svg.find(part); at != std::string::npos; at = svg.find(part, at + 1)) ++found;
     return found;
   };
-  // 35 stops on both sides, 2 supports, an arrow, a mark in the legend.
-  EXPECT_EQ(count("<polygon"), 2U * 35U + 2U + 1U + 1U);
+  // 35 stops on both sides, 2 supports, an arrow with two heads, a mark in the legend.
+  EXPECT_EQ(count("<polygon"), 2U * 35U + 2U + 2U + 1U);
   EXPECT_EQ(count("<text"), count("</text>"));
   EXPECT_EQ(run_program({"check", beam1(), "--picture", "no/such/folder.svg"}, folder.path()).status, 1);
 }

@@ -19,19 +19,20 @@ TEST(StabilityCommand, WritesCurvesAndLimits) {
   const CsvTable curves(folder.file("out/stability.csv")), stops(folder.file("out/stops.csv"));
   EXPECT_EQ(curves.header(), (std::vector<std::string>{"method", "damping_ratio", "h_omega", "spectral_radius",
                                                        "numerical_damping", "period_error"}));
-  EXPECT_EQ(curves.rows(), 2U * 81U);
-  EXPECT_EQ(stops.rows(), 81U);
+  constexpr std::size_t kPoints = 4 * 60 + 1;  // 60 a decade, from 0.01 to 100
+  EXPECT_EQ(curves.rows(), 2U * kPoints);
+  EXPECT_EQ(stops.rows(), kPoints);
   // Of RK4 without damping |R|^2 = 1 - y^6/72 + y^8/576 with y = h omega; a stop of 8 k triples y.
   const auto square = [](double y) { return 1.0 - std::pow(y, 6) / 72.0 + std::pow(y, 8) / 576.0; };
   int checked = 0;
-  for (std::size_t i = 0; i < 81; ++i) {
+  for (std::size_t i = 0; i < kPoints; ++i) {
     const double y = curves.column("h_omega")[i];
     if (y > 4.0) continue;
     EXPECT_NEAR(std::pow(curves.column("spectral_radius")[i], 2), square(y), 1e-9 * (1.0 + square(y))) << y;
     EXPECT_NEAR(std::pow(stops.column("spectral_radius")[i], 2), square(3.0 * y), 1e-8 * (1.0 + square(3.0 * y))) << y;
     ++checked;
   }
-  EXPECT_EQ(checked, 53);
+  EXPECT_EQ(checked, 157);  // up to 60 log10(400)
 }
 
 TEST(StabilityCommand, GivesEveryMethodAsJson) {

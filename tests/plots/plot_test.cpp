@@ -97,7 +97,7 @@ TEST_F(Plot, DrawsWhatTheResultsAllow) {
   expect_in(script("spectrum"), "from first 2, graph 0");  // Hz, of the load
   expect_in(script("spectrum"), "title 'load 2 Hz'");
   expect_in(script("phase"), "title 'once per load period'");
-  for (const char* part : {"kinetic", "strain", "contact", "total", "by work and dissipation"})
+  for (const char* part : {"kinetic", "strain", "contact", "total", "work - dissipated"})
     expect_in(script("energy"), part);
 }
 

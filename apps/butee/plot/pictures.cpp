@@ -88,13 +88,13 @@ std::vector<Chart> of_energy(const Drawing& drawing) {
       chart.curves.push_back({result.label, table.times(), total, chart.curves.size()});
       continue;
     }
-    chart.curves.push_back({"total", table.times(), total, 8});
+    chart.curves.push_back({.title = "total", .x = table.times(), .y = total, .colour = 8, .wide = true});
     const auto *work = table.find("work"), *dissipated = table.find("dissipated");
     if (work == nullptr || dissipated == nullptr || largest_of(*work) + largest_of(*dissipated) == 0.0) continue;
     std::vector<double> balance = total;
     for (std::size_t i = 0; i < balance.size(); ++i)
       balance[i] = total.front() + ((*work)[i] - work->front()) - ((*dissipated)[i] - dissipated->front());
-    chart.curves.push_back({"by work and dissipation", table.times(), balance, 4, false, true});
+    chart.curves.push_back({.title = "work - dissipated", .x = table.times(), .y = balance, .colour = 4});
   }
   if (chart.curves.empty()) return {};
   return {chart};
