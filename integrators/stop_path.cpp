@@ -261,8 +261,11 @@ void StopForce::add_crossings(const StopPath& path, double border) {
 }
 
 double calm_border(const solve::Contact& contact, Index stop) {
-  constexpr double kBends = 10.0, kHuge = 1e100;
-  return contact.gap_of(stop) - kBends * std::min(contact.law_of(stop).bend_width(), kHuge);
+  constexpr double kBends = 10.0, kHuge = 1e100, kBlunt = 100.0;
+  const model::ContactLaw& law = contact.law_of(stop);
+  const double bend = std::min(law.bend_width(), kHuge), gap = contact.gap_of(stop);
+  if (law.far_force() > 0.0 && gap < kBlunt * bend) return -kHuge;
+  return gap - kBends * bend;
 }
 
 }  // namespace butee::integrators

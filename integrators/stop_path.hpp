@@ -117,7 +117,8 @@ class StopForce {
 };
 
 /// The displacement up to which an open stop exerts hardly more than a constant pull, m: nearer to its gap than some
-/// widths of the bend of its law the force changes.
+/// widths of the bend of its law the force changes. A law so blunt that its bend is a part of the gap has no such
+/// place: a hundredth of the gap's width, and what its pull changes by is no less than the springs of the structure.
 double calm_border(const solve::Contact& contact, Index stop);
 
 }  // namespace butee::integrators
