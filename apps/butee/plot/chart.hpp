@@ -25,8 +25,8 @@ struct Curve {
   std::vector<double> x, y;
   std::size_t colour = 0;
   bool points = false;  ///< are not to be joined
-  bool wide = false;  ///< another one is drawn over it
-  bool path = false;  ///< x goes to and fro: a curve in the plane
+  bool wide = false;    ///< another one is drawn over it
+  bool path = false;    ///< x goes to and fro: a curve in the plane
 };
 
 /// A dashed line across the picture, in units of SI.
