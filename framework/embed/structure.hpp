@@ -29,7 +29,8 @@ struct StructureOptions {
 /// the diagnosis. Checked in tests/embed against the same system solved as one.
 class BUTEE_EXPORT Structure {
  public:
-  /// Reads a scene from a file, from TOML text, or as built in code with config::ModelBuilder. Throws InputError with every mistake.
+  /// Reads a scene from a file, from TOML text, or as built in code with config::ModelBuilder. Throws InputError with
+  /// every mistake.
   static Structure from_file(const std::string& path, const StructureOptions& options = {});
   static Structure from_toml(const std::string& text, const StructureOptions& options = {});
   static Structure from_document(config::Document document, const StructureOptions& options = {});
