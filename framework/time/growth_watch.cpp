@@ -12,9 +12,9 @@ namespace {
 constexpr std::int64_t kFirstLook = 16, kBetweenLooks = 256;
 /// Growth of the energy that no load explains, and of which less is rounding.
 const double kTooMuch = std::log(100.0);
-/// Of explicit methods that choose their steps by an error in displacements alone: at the border of their stability rotations
-/// grow, unseen, until steps are cut and they decay. That cost beam2 of the paper up to some thousandfold, with good
-/// displacements at the end.
+/// Of explicit methods that choose their steps by an error in displacements alone: at the border of their stability
+/// rotations grow, unseen, until steps are cut and they decay. That cost beam2 of the paper up to some thousandfold,
+/// with good displacements at the end.
 const double kTooMuchUnseen = std::log(1e5);
 constexpr double kNoGrowth = 0.01;
 /// Instants within a span at which loads are looked at, apart from their kinks.

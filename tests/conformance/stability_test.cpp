@@ -31,7 +31,8 @@ OneStepMap map_of(const std::string& method, const Oscillator& oscillator,
   return {catalogue(), method, settings, oscillator};
 }
 
-/// The limit is where the radius exceeds 1 by kStable, which is that much off over the slope of the radius, 4e-3 of dopri5.
+/// The limit is where the radius exceeds 1 by kStable, which is that much off over the slope of the radius, 4e-3 of
+/// dopri5.
 constexpr double kBisected = 3e-6;
 
 class Stability : public testing::TestWithParam<MethodCase> {};

@@ -12,10 +12,11 @@ namespace {
 
 /// The largest relative change of the energy over some hundred impacts, each a few steps long.
 double largest_change(const std::string& method, double h, const std::string& law) {
-  SceneRun run("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
-               "\"m\"\nstiffness = 50.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.1\nstiffness = 2e5\n" +
-               law + "\n[initial]\nvelocity = [{nodes = \"m\", value = 3.0}]\n[integrator]\ntype = \"" + method +
-               "\"\ntime_step = " + std::to_string(h) + "\nend_time = 20.0\n");
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 50.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.1\nstiffness = 2e5\n" +
+      law + "\n[initial]\nvelocity = [{nodes = \"m\", value = 3.0}]\n[integrator]\ntype = \"" + method +
+      "\"\ntime_step = " + std::to_string(h) + "\nend_time = 20.0\n");
   run.simulation().start();
   const auto energy = [&] {
     const record::Energy now = record::energy_of(run.simulation().state(), run.dynamics());
@@ -33,7 +34,8 @@ class DiscreteGradientKeepsEnergy : public testing::TestWithParam<std::string> {
 TEST_P(DiscreteGradientKeepsEnergy, AtAnyStep) {
   // Newton's tolerance of 1e-9 of the forces, some thousand times.
   constexpr double kNewton = 1e-6;
-  for (const double h : {0.01, 0.003, 0.001}) EXPECT_LT(largest_change("discrete_gradient", h, GetParam()), kNewton) << h;
+  for (const double h : {0.01, 0.003, 0.001})
+    EXPECT_LT(largest_change("discrete_gradient", h, GetParam()), kNewton) << h;
 }
 
 TEST_P(DiscreteGradientKeepsEnergy, WhereTheTrapezoidalRuleDoesNot) {
