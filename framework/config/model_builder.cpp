@@ -1,5 +1,7 @@
 #include "butee/config/model_builder.hpp"
 
+#include <algorithm>
+
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
 

@@ -39,10 +39,10 @@ struct Key {
 /// A model that is built in code instead of being read from a file, with the same tables and keys:
 ///
 ///     ModelBuilder model;
-///     model.set("material.steel", {{"young_modulus", 2.1e11}, {"density", 7850.0}})
-///         .add("element", {{"type", "mass"}, {"name", "rotor"}, {"mass", 100.0}})
-///         .add("contact", {{"type", "stop"}, {"nodes", "rotor"}, {"gap", 4e-4}, {"law", "linear"}, {"stiffness",
-///         1e10}}) .set("integrator", {{"tolerance", 1e-4}, {"end_time", 0.2}});
+///     model.set("material.steel", {{"young_modulus", 2.1e11}, {"density", 7850.0}});
+///     model.add("element", {{"type", "mass"}, {"name", "rotor"}, {"mass", 100.0}});
+///     model.add("support", {{"nodes", {"string:first", "string:last"}}, {"fix", {"u"}}});
+///     model.set("integrator", {{"tolerance", 1e-4}, {"end_time", 0.2}});
 ///     auto structure = embed::Structure::from_document(model.document());
 ///
 /// What is wrong with it is said when it is used, as of a file, where the number behind the colon is that of the call:

@@ -13,7 +13,7 @@ struct Pairs {
 };
 
 /// All pairs of K x = lambda M x with X^T M X = 1, of dense symmetric matrices, M positive definite; nothing where the
-/// iteration did not converge. Private to the framework: the solvers of Eigen are compiled once, here.
+/// iteration did not converge. For this project, not installed: the solvers of Eigen are compiled once, here.
 BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 
 /// The eigenvalues alone.

@@ -37,6 +37,22 @@ TEST(ContactOnTheWay, IsOneThatBothEndsOfAStepAreFreeOf) {
   EXPECT_TRUE(happened(1.0 + 3.141592653589793, 2.1 + 3.141592653589793, 1e-3));
 }
 
+TEST(ContactOnTheWay, HasChangedWhereOneEndAloneIsInTheStop) {
+  constexpr double kTurn = 3.141592653589793;
+  for (const auto& [sides, above, below] :
+       {std::tuple{"both", true, true}, std::tuple{"positive", true, false}, std::tuple{"negative", false, true}}) {
+    SceneRun run(mass_at_a_stop(sides, "type = \"exact\"\ntime_step = 1.0\n"));
+    integrators::ContactOnTheWay contact(run.dynamics());
+    EXPECT_FALSE(contact.changed(at(0.2), at(1.0))) << sides;
+    EXPECT_FALSE(contact.changed(at(1.3), at(1.8))) << sides;
+    EXPECT_EQ(contact.changed(at(1.0), at(1.3)), above) << sides;
+    EXPECT_EQ(contact.changed(at(1.8), at(2.1)), above) << sides;
+    EXPECT_EQ(contact.changed(at(kTurn + 1.0), at(kTurn + 1.3)), below) << sides;
+    // From one side's stop into the other's.
+    EXPECT_TRUE(contact.changed(at(1.5), at(kTurn + 1.5))) << sides;
+  }
+}
+
 TEST(ContactOnTheWay, KnowsOneSidedStops) {
   for (const auto& [sides, above, below] : {std::tuple{"positive", true, false}, std::tuple{"negative", false, true}}) {
     SceneRun run(mass_at_a_stop(sides, "type = \"exact\"\ntime_step = 1.0\n"));
