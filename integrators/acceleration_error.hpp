@@ -6,10 +6,10 @@ namespace butee::integrators {
 
 /// Local errors of second-order methods from the accelerations of two steps: those of the trapezoidal rule,
 ///
-///     e_x = h^2 (a_{n+1} - a_n)/12,    e_v = h^3 a''/12,    a'' = 2 [(a_{n+1} - a_n)/h - (a_n - a_{n-1})/h_old]/(h +
-///     h_old)
+///     e_x = h^3 s/12,    e_v = h^3 a''/12,    s = (a_{n+1} - a_n)/d,    a'' = 2 (s - s_old)/(d + d_old)
 ///
-/// The memory of a state holds LocalErrorControl's part, then h_old (0 at the start) and (a_n - a_{n-1})/h_old.
+/// where a_{n+1} is an acceleration that the equations gave at t_{n+1} - lag, and d the time from a_n to there. The
+/// memory of a state holds LocalErrorControl's part, then h, lag, d (0 where s is not known), s and a_n.
 class AccelerationError {
  public:
   AccelerationError(solve::Dynamics& dynamics, double tolerance)
@@ -18,13 +18,29 @@ class AccelerationError {
   const time::StepController& controller() const { return control_.controller(); }
   double first_step() const { return control_.first_step(); }
   void start(time::State& state);
-  void judge(const time::State& from, time::State& to, double h, time::StepReport& report);
-  /// Of a state whose acceleration was replaced: the next step is judged as the first one is.
-  static void forget_slope(time::State& state) { state.memory.segment(kOldStep, 1 + state.x.size()).setZero(); }
+  /// By the accelerations at the ends of steps.
+  void judge(const time::State& from, time::State& to, double h, time::StepReport& report) {
+    judge(from, to, h, to.a, 0.0, report);
+  }
+  void judge(const time::State& from, time::State& to, double h, ConstVectorRef a, double lag,
+             time::StepReport& report);
+  /// Of a state from which another motion begins: the next step is judged as the first one is.
+  static void forget_slope(time::State& state) { state.memory[kDistance] = 0.0; }
+
+  /// The length of the step to a state, s; 0 where no slope is known.
+  static double last_step(const time::State& state) {
+    return state.memory[kDistance] > 0.0 ? state.memory[kStep] : 0.0;
+  }
+  /// The acceleration at t + offset along the last slope.
+  static auto extrapolated(const time::State& state, double offset) {
+    const Index n = state.x.size();
+    return state.memory.segment(kSlope + n, n) + (state.memory[kLag] + offset) * state.memory.segment(kSlope, n);
+  }
 
  private:
   static constexpr double kKink = 4.0;
-  static constexpr Index kOldStep = LocalErrorControl::kMemory, kSlope = kOldStep + 1;
+  static constexpr Index kStep = LocalErrorControl::kMemory, kLag = kStep + 1, kDistance = kLag + 1,
+                         kSlope = kDistance + 1;
 
   LocalErrorControl control_;
   Vector slope_, error_x_, error_v_;

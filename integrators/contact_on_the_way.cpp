@@ -6,6 +6,9 @@
 namespace butee::integrators {
 namespace {
 
+/// A jump of the force by so much of what closes the gap, over the tolerance, moves nothing by the tolerance.
+constexpr double kUnfelt = 0.05;
+
 /// The largest value of the cubic through (w0, v0) and (w1, v1), a step of h apart, that rises at first and falls at
 /// last.
 double peak(double h, double w0, double v0, double w1, double v1) {
@@ -18,8 +21,14 @@ double peak(double h, double w0, double v0, double w1, double v1) {
 
 }  // namespace
 
-ContactOnTheWay::ContactOnTheWay(solve::Dynamics& dynamics) : contact_(&dynamics.contact()) {
+ContactOnTheWay::ContactOnTheWay(solve::Dynamics& dynamics, double tolerance)
+    : contact_(&dynamics.contact()), tolerance_(tolerance) {
   w0_ = w1_ = v0_ = v1_ = Vector::Zero(contact_->size());
+  const Vector closed = contact_->closed_stiffness();
+  for (Index i = 0; i < contact_->size(); ++i) {
+    const double gap = contact_->gap_of(i), force = std::abs(contact_->law_of(i).secant(-gap)) * gap;
+    jumps_.push_back(contact_->sides_of(i) == model::Sides::both && force > kUnfelt * tolerance * closed[i] * gap);
+  }
 }
 
 bool ContactOnTheWay::changed(const time::State& from, const time::State& to) {
@@ -34,11 +43,13 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to) {
     return 0;
   };
   for (Index i = 0; i < w0_.size(); ++i)
-    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i])) return true;
+    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i]) ||
+        (jumps_[static_cast<std::size_t>(i)] && std::signbit(w0_[i]) != std::signbit(w1_[i])))
+      return true;
   return false;
 }
 
-bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h, double tolerance) {
+bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h) {
   if (contact_->size() == 0) return false;
   contact_->displacement(from.v, v0_);
   contact_->displacement(to.v, v1_);
@@ -54,7 +65,7 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
     const double gap = contact_->gap_of(i), w0 = side * w0_[i], w1 = side * w1_[i];
     if (w0 >= gap || w1 >= gap) continue;
     const double depth = peak(h, w0, side * v0_[i], w1, side * v1_[i]) - gap;
-    if (depth > tolerance * std::max({gap, std::abs(w0), std::abs(w1)})) return true;
+    if (depth > tolerance_ * std::max({gap, std::abs(w0), std::abs(w1)})) return true;
   }
   return false;
 }

@@ -254,10 +254,17 @@ void ExponentialStep::find_error(StepFlow& flow, double displacement) {
     if (is_touched_[place]) {
       const double stiff = stops_[place].stiffness() * flow.derived(i).coupling[1][0];
       error = error_of_path(error, stiff, h, h_speed, {displacement, scale_.speed});
+      const double of_outputs = kKinkedOutput * stiff * std::max(std::abs(hv_[i]), std::abs(path_.speed[i]));
+      if (!stays_closed(i)) error = std::max(error, of_outputs * tolerance_ / (kAtKinks * output_tolerance_));
     }
     if (orders_ == 1) error += std::abs(flow.own_coupling(i)[0][1] * force_[1][i]);
     error_ = std::max(error_, error);
   }
+}
+
+bool ExponentialStep::stays_closed(Index stop) const {
+  const double from = w_[stop], to = path_.end[stop];
+  return (from > upper_[stop] && to > upper_[stop]) || (from < lower_[stop] && to < lower_[stop]);
 }
 
 void ExponentialStep::apply_forces(const StepFlow& flow) {

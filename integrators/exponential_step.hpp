@@ -47,6 +47,10 @@ inline double error_of_path(double bulge, double stiff, double h, double h_speed
 /// Between the ends of a step that no force of a stop bends, outputs lie on a quintic. Its error is that of the cubic,
 /// (omega h)^4/384 of the amplitude, times (omega h)^2/120.
 inline constexpr double kQuintic = 1.0 / 120.0;
+/// Where a stop closes or opens within a step, that quintic is wrong by up to this part of the speed times h (h
+/// omega_c)^2, most where it does so just before an end; and that may be so many times what other outputs may be wrong
+/// by.
+inline constexpr double kKinkedOutput = 1.3e-3, kAtKinks = 5.0;
 /// A step of which outputs use up less than this part of what they may be wrong by is followed by one a rung longer,
 /// eight times that.
 inline constexpr double kVerySmooth = 0.05;
@@ -114,6 +118,8 @@ class ExponentialStep {
   /// Adds to the force at a stop, and what that does to all paths; the largest change of a path.
   double add_force(solve::StepFlow& flow, Index stop, const ForceMoments& more);
   void find_error(solve::StepFlow& flow, double displacement);
+  /// Whether a stop is in contact at both ends of the step.
+  bool stays_closed(Index stop) const;
   void apply_forces(const solve::StepFlow& flow);
   /// Without stops: the flow from a knot to t.
   void evaluate_exactly(double t, std::span<const Index> dofs, std::size_t place, time::Interpolated out);

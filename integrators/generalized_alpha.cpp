@@ -24,33 +24,46 @@ GeneralizedAlpha::GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters pa
     : Integrator(dynamics), parameters_(parameters), stage_(dynamics, kNewton) {
   if (!(tolerance > 0.0)) return;
   control_.emplace(dynamics, tolerance);
-  contact_.emplace(dynamics);
+  contact_.emplace(dynamics, tolerance);
 }
 
 void GeneralizedAlpha::do_start(State& state) {
   if (control_) control_->start(state);
 }
 
+void GeneralizedAlpha::take_acceleration(const State& from, double h) {
+  old_a_ = from.a;
+  if (!control_) return;
+  const double last = AccelerationError::last_step(from);
+  if (last > 0.0 && last != h)
+    old_a_ = AccelerationError::extrapolated(from, (parameters_.alpha_m - parameters_.alpha_f) * h);
+}
+
 StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, State& to) {
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   const double h = step.h, on_m = 1.0 - alpha_m, on_f = 1.0 - alpha_f;
+  take_acceleration(from, h);
   // With a_{n+1} = a_n for a guess.
-  to.x = from.x + h * from.v + 0.5 * h * h * from.a;
-  to.v = from.v + h * from.a;
+  to.x = from.x + h * from.v + 0.5 * h * h * old_a_;
+  to.v = from.v + h * old_a_;
   x_ = on_f * to.x + alpha_f * from.x;
   v_ = on_f * to.v + alpha_f * from.v;
-  a_ = from.a;
+  a_ = old_a_;
   const double t = step.t_end - alpha_f * h, on_v = on_f * gamma * h / on_m, on_x = on_f * beta * h * h / on_m;
   StepReport report = stage_.solve(t, on_v, on_x, x_, v_, a_);
   if (report.status != time::StepStatus::ok) return report;
-  to.a = (a_ - alpha_m * from.a) / on_m;
-  to.x += beta * h * h * (to.a - from.a);
-  to.v += gamma * h * (to.a - from.a);
+  to.a = (a_ - alpha_m * old_a_) / on_m;
+  to.x += beta * h * h * (to.a - old_a_);
+  to.v += gamma * h * (to.a - old_a_);
   if (!control_) return report;
   const bool changed = contact_->changed(from, to);
-  if (changed) dynamics().acceleration(step.t_end, to.x, to.v, to.a);
+  if (!changed) {
+    control_->judge(from, to, h, a_, alpha_f * h, report);
+    return report;
+  }
+  dynamics().acceleration(step.t_end, to.x, to.v, to.a);
   control_->judge(from, to, h, report);
-  if (changed) control_->forget_slope(to);
+  control_->forget_slope(to);
   return report;
 }
 

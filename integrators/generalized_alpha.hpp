@@ -25,10 +25,12 @@ struct AlphaParameters {
 /// algorithmic acceleration carried and the load at the method's own time; unconditionally stable for linear motion.
 /// One stage solve a step, contact by Newton in stop space.
 ///
-/// Steps by AccelerationError, which sees velocity too. The balance is one of an instant within the step, where a stop
-/// that closes later is still open, and a belongs to that instant: so where a stop closed or opened the controlled
-/// variants judge and go on with the acceleration of the end itself (one evaluation and one solve with M). Orders are
-/// checked in tests/conformance.
+/// Steps by AccelerationError, which sees velocity too, from the accelerations that meet the balance. Those are of an
+/// instant within the step, where a stop that closes later is still open: so where a stop closed or opened the
+/// controlled variants judge and go on with the acceleration of the end itself (one evaluation and one solve with M).
+/// The algorithmic a_n is that of t_n + (alpha_m - alpha_f) h, as the expansion of the balance in h shows; where h
+/// changes it is taken anew from the balanced ones, or every change of step would cost an order. Orders are checked in
+/// tests/conformance.
 class GeneralizedAlpha final : public time::Integrator {
  public:
   /// `tolerance` 0: fixed steps.
@@ -40,12 +42,14 @@ class GeneralizedAlpha final : public time::Integrator {
  private:
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+  /// Fills old_a_ with a_n as a step of h needs it.
+  void take_acceleration(const time::State& from, double h);
 
   AlphaParameters parameters_;
   StageSolver stage_;
   std::optional<AccelerationError> control_;
   std::optional<ContactOnTheWay> contact_;
-  Vector x_, v_, a_;
+  Vector x_, v_, a_, old_a_;
 };
 
 }  // namespace butee::integrators

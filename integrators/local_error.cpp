@@ -30,8 +30,7 @@ double highest(const Vector& stiffness, const Vector& mass) {
 
 LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps)
     : dynamics_(dynamics),
-      contact_(dynamics),
-      tolerance_(tolerance),
+      contact_(dynamics, tolerance),
       threshold_(orders.share * std::pow(tolerance, orders.estimate / orders.method)),
       estimate_order_(orders.estimate),
       kink_(orders.kink),
@@ -78,7 +77,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     report.status = time::StepStatus::not_finite;
     return;
   }
-  if (r <= 1.0 && contact_.was_missed(from, to, h, tolerance_)) {
+  if (r <= 1.0 && contact_.was_missed(from, to, h)) {
     report.error = kMissed;
     report.proposal = steps_ == Steps::any ? 0.5 * h : ladder_step(h, kMissed);
     return;

@@ -67,7 +67,7 @@ class LocalErrorControl {
   const solve::Dynamics& dynamics_;
   Proposed controller_;
   ContactOnTheWay contact_;
-  double tolerance_, threshold_, estimate_order_, kink_, first_step_;
+  double threshold_, estimate_order_, kink_, first_step_;
   double omega_ = 0.0;  ///< 0 where nothing has a stiffness
   Steps steps_;
   Vector work_;

@@ -190,9 +190,12 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
     last = change;
     if (change > enough && !is_expected) continue;
     error_ = std::abs(bulge);
-    if (force_[0] != 0.0)
-      error_ = error_of_path(error_, stop_.stiffness() * coupling[1][0], flow.h,
-                             std::max(std::abs(hv), std::abs(path_[1])), {scale, scale_.speed});
+    if (force_[0] != 0.0) {
+      const double stiff = stop_.stiffness() * coupling[1][0], h_speed = std::max(std::abs(hv), std::abs(path_[1]));
+      error_ = error_of_path(error_, stiff, flow.h, h_speed, {scale, scale_.speed});
+      if (course != Course::closed)
+        error_ = std::max(error_, kKinkedOutput * stiff * h_speed * tolerance_ / (kAtKinks * output_tolerance_));
+    }
     if (orders_ == 1) error_ += std::abs(coupling[0][1] * force_[1]);
     return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
   }

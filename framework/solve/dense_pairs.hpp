@@ -6,6 +6,9 @@
 
 namespace butee::solve {
 
+/// Systems up to this size are solved densely, which is as fast as any other way and cannot fail to converge.
+inline constexpr Index kDense = 200;
+
 /// Eigenvalues, ascending, and their vectors, one in each column.
 struct Pairs {
   Vector values;

@@ -58,10 +58,10 @@ void multiply_two(const double* matrix, Index count, const double* x0, const dou
   put(second, y1, rows);
 }
 
-using Kernel = void (*)(const double*, const Index*, Index, const double*, double*, std::size_t);
+using OneKernel = void (*)(const double*, const Index*, Index, const double*, double*, std::size_t);
 
 template <class Columns, std::size_t... lanes>
-constexpr std::array<Kernel, sizeof...(lanes)> kernels(std::index_sequence<lanes...>) {
+constexpr std::array<OneKernel, sizeof...(lanes)> one_kernels(std::index_sequence<lanes...>) {
   return {&multiply_lanes<lanes + 1, Columns>...};
 }
 
@@ -73,8 +73,8 @@ constexpr std::array<TwoKernel, sizeof...(lanes)> two_kernels(std::index_sequenc
 }
 
 constexpr auto kTwo = two_kernels(std::make_index_sequence<kMostLanes>{});
-constexpr auto kAll = kernels<All>(std::make_index_sequence<kMostLanes>{});
-constexpr auto kChosen = kernels<Chosen>(std::make_index_sequence<kMostLanes>{});
+constexpr auto kAll = one_kernels<All>(std::make_index_sequence<kMostLanes>{});
+constexpr auto kChosen = one_kernels<Chosen>(std::make_index_sequence<kMostLanes>{});
 
 }  // namespace
 

@@ -11,7 +11,6 @@
 namespace butee::solve {
 namespace {
 
-constexpr Index kDense = 200;
 /// What moves less than this part of the largest is not named.
 constexpr double kTakesPart = 0.3;
 constexpr std::size_t kNamed = 4;

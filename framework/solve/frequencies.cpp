@@ -15,7 +15,6 @@
 namespace butee::solve {
 namespace {
 
-constexpr Index kDense = 200;
 /// Vectors of the size of the system that a mode takes while it is computed, with all copies of it.
 constexpr double kVectorsOfMode = 6.0;
 /// Of the eigenvectors; a Ritz value is accurate to its square, where the highest eigenvalues of a long beam lie too

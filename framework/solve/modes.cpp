@@ -12,9 +12,9 @@
 namespace butee::solve {
 namespace {
 
-/// Systems up to kDense, and those up to kLargestDense of which more than half of the modes are wanted, are solved
+/// Systems up to kSmall, and those up to kLargestDense of which more than half of the modes are wanted, are solved
 /// densely.
-constexpr Index kDense = 120, kLargestDense = 1200;
+constexpr Index kSmall = 120, kLargestDense = 1200;
 /// Of others: the most modes, and bytes for the vectors that Lanczos keeps.
 constexpr Index kMostModes = 1000;
 constexpr double kMostMemory = 4e9;
@@ -213,7 +213,7 @@ NaturalModes find_modes(const Structure& structure, Index count) {
   const Index size = structure.size();
   require(count >= 1 && count <= size, "a structure has as many modes as DOFs");
   NaturalModes modes;
-  modes.dense = size <= kDense || (lanczos_vectors(count, size) == size && size <= kLargestDense);
+  modes.dense = size <= kSmall || (lanczos_vectors(count, size) == size && size <= kLargestDense);
   if (!modes.dense) check_size(count, size);
   const double scale = scale_of(structure);
   ShiftedFactor factor(structure.stiffness(), structure.mass());

@@ -30,6 +30,11 @@ constexpr double kNear = 0.1;
 /// h omega of a stop above which an impact is over within three steps.
 constexpr double kCoarseImpact = 1.0;
 
+/// The logarithm of what is more than `explained`; 0 from nothing at all, where rounding decides.
+double excess_over(double explained, double energy) {
+  return explained > 0.0 ? std::log(energy / explained) : 0.0;
+}
+
 }  // namespace
 
 GrowthWatch::GrowthWatch(solve::Dynamics& dynamics, const MethodLimits& limits, const Integrator& integrator)
@@ -44,8 +49,9 @@ void GrowthWatch::start(const State& state) {
   count_ = 0;
   excess_ = 0.0;
   next_look_ = is_watching_ || may_be_coarse_ ? kFirstLook : std::numeric_limits<std::int64_t>::max();
-  last_time_ = begin_time_ = state.t;
-  last_energy_ = begin_energy_ = energy(state);
+  last_time_ = begin_time_ = start_time_ = state.t;
+  last_energy_ = begin_energy_ = start_energy_ = energy(state);
+  sound_energy_ = 0.0;
   if (!may_be_coarse_ || dynamics_.stop_count() == 0) return;
   const Vector stiffness = dynamics_.contact().closed_stiffness();
   for (Index i = 0; i < dynamics_.stop_count(); ++i)
@@ -64,8 +70,8 @@ void GrowthWatch::prepare() {
 
 void GrowthWatch::save(ByteWriter& to) const {
   for (const std::int64_t count : {count_, next_look_}) to.put(count);
-  for (const double number : {last_time_, last_energy_, excess_, begin_time_, begin_energy_, largest_x_, coarseness_,
-                              coarse_step_, longest_step_, contact_frequency_})
+  for (const double number : {last_time_, last_energy_, excess_, begin_time_, begin_energy_, start_time_, start_energy_,
+                              largest_x_, coarseness_, coarse_step_, longest_step_, contact_frequency_})
     to.put(number);
   to.put(is_met_);
 }
@@ -73,8 +79,8 @@ void GrowthWatch::save(ByteWriter& to) const {
 void GrowthWatch::restore(ByteReader& from) {
   prepare();
   for (std::int64_t* count : {&count_, &next_look_}) from.take(*count);
-  for (double* number : {&last_time_, &last_energy_, &excess_, &begin_time_, &begin_energy_, &largest_x_, &coarseness_,
-                         &coarse_step_, &longest_step_, &contact_frequency_})
+  for (double* number : {&last_time_, &last_energy_, &excess_, &begin_time_, &begin_energy_, &start_time_,
+                         &start_energy_, &largest_x_, &coarseness_, &coarse_step_, &longest_step_, &contact_frequency_})
     from.take(*number);
   from.take(is_met_);
 }
@@ -138,22 +144,37 @@ bool GrowthWatch::look(const State& from, const State& to, double h) {
   if (may_be_coarse_) note_coarseness(from, to, h);
   if (!is_watching_) return false;
   const double now = energy(to);
-  double growth = 0.0;
-  if (now > last_energy_) {
-    const double explained = std::sqrt(std::max(0.0, last_energy_)) + push(last_time_, to.t);
-    growth = explained > 0.0 ? std::log(now / explained / explained) : 0.0;
-  }
+  const double growth = now > last_energy_ ? excess_over(explained(last_energy_, last_time_, to.t), now) : 0.0;
   if (growth > kNoGrowth) {
     excess_ += growth;
-  } else {
+  } else if (std::isfinite(now)) {
     excess_ = 0.0;
     begin_time_ = to.t;
     begin_energy_ = now;
+  } else {
+    excess_ = std::numeric_limits<double>::infinity();
   }
   last_time_ = to.t;
   last_energy_ = now;
   const bool grows_unseen = !has_fixed_steps_ && !limits_.keeps_tolerance && limits_.is_bounded();
-  return excess_ > (grows_unseen ? kTooMuchUnseen : kTooMuch);
+  return excess_ > (grows_unseen ? kTooMuchUnseen : kTooMuch) || has_grown_since_start(to.t, now);
+}
+
+bool GrowthWatch::has_grown_since_start(double t, double now) {
+  if (!(now > sound_energy_)) return false;
+  // What loads explain only becomes more, so that this is asked for a few times in a run.
+  const double from_loads = explained(start_energy_, start_time_, t);
+  sound_energy_ = from_loads * std::exp(kTooMuchUnseen);
+  if (!(now > sound_energy_) || !(from_loads > 0.0)) return false;
+  excess_ = excess_over(from_loads, now);
+  begin_time_ = start_time_;
+  begin_energy_ = start_energy_;
+  return true;
+}
+
+double GrowthWatch::explained(double energy, double since, double t) {
+  const double root = std::sqrt(std::max(0.0, energy)) + push(since, t);
+  return root * root;
 }
 
 std::string GrowthWatch::describe(const State& state, double h) const {

@@ -16,9 +16,10 @@ namespace butee::time {
 ///
 /// holds for every true motion, since damping and stops only take energy. E is looked at after 16, 32 ... 256 accepted
 /// steps and after every 256 from then on, and the bound is evaluated only where E has grown. What exceeds it is
-/// excess; a run of looks that adds up to a hundredfold (more of explicit methods that control displacements alone) is
-/// no motion of this system. Methods that no step makes unstable are watched only where there are stops. Of fixed steps
-/// it also notes how coarse they are. Checked in tests/unit/growth_watch_test.cpp.
+/// excess; a run of looks that adds up to a hundredfold (more of explicit methods that control displacements alone), or
+/// what lies a hundred-thousandfold above the bound since the start, is no motion of this system. Methods that no step
+/// makes unstable are watched only where there are stops. Of fixed steps it also notes how coarse they are. Checked in
+/// tests/unit/growth_watch_test.cpp.
 class BUTEE_EXPORT GrowthWatch {
  public:
   /// `dynamics` must outlive it.
@@ -46,6 +47,9 @@ class BUTEE_EXPORT GrowthWatch {
   void prepare();
   bool look(const State& from, const State& to, double h);
   double energy(const State& state);
+  /// The most that loads can have made of an energy since an instant, J.
+  double explained(double energy, double since, double t);
+  bool has_grown_since_start(double t, double now);
   /// |F| at its largest between two instants, times their distance, over sqrt 2.
   double push(double from, double to);
   void find_load_norms();
@@ -61,7 +65,8 @@ class BUTEE_EXPORT GrowthWatch {
   std::int64_t count_ = 0, next_look_ = 0;
   double last_time_ = 0.0, last_energy_ = 0.0;
   double excess_ = 0.0;  ///< the logarithm of what no load explains, since it began
-  double begin_time_ = 0.0, begin_energy_ = 0.0;
+  double begin_time_ = 0.0, begin_energy_ = 0.0, start_time_ = 0.0, start_energy_ = 0.0;
+  double sound_energy_ = 0.0;  ///< below this nothing has grown since the start, J
 
   double largest_x_ = 0.0;  ///< |x|_M so far
   double coarseness_ = 0.0, coarse_step_ = 0.0, longest_step_ = 0.0;

@@ -40,6 +40,14 @@ TEST(Stress, RandomScenes) {
   expect_no_failure(tally, scenes.size());
 }
 
+/// Scenes that once got a wrong answer, or grew without a word, in a wider run.
+TEST(Stress, ScenesThatWereWrongOnce) {
+  Tally tally;
+  for (const std::uint64_t seed : {252U, 268U, 453U, 490U, 504U, 522U, 558U, 943U, 1584U, 1653U})
+    run_all({random_scene(seed)}, methods(), kWork, tally);
+  expect_no_failure(tally, 10);
+}
+
 TEST(Stress, LongRunsStayWithinTheirMotion) {
   for (const Method& method : methods()) {
     const LongRun run = run_long(method, 20000);

@@ -30,23 +30,23 @@ max_iterations      = 10
 
 constexpr int kTiedNode = 10;
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   return "\"" + text + "\"";
 }
 
 /// A beam with its supports, its stop and its load.
 std::string beam(const std::string& name, int elements) {
-  const std::string middle = quoted(name + ":" + std::to_string(elements / 2));
-  return "\n[[element]]\ntype = \"beam\"\nname = " + quoted(name) +
+  const std::string middle = in_quotes(name + ":" + std::to_string(elements / 2));
+  return "\n[[element]]\ntype = \"beam\"\nname = " + in_quotes(name) +
          "\nmaterial = \"steel\"\nsection = \"pipe\"\nlength = " + std::to_string(elements) +
-         ".0\nelements = " + std::to_string(elements) + "\n\n[[support]]\nnodes = [" + quoted(name + ":first") + ", " +
-         quoted(name + ":last") + "]\nfix = [\"u\"]\n\n[[contact]]\ntype = \"stop\"\nnodes = " + middle +
+         ".0\nelements = " + std::to_string(elements) + "\n\n[[support]]\nnodes = [" + in_quotes(name + ":first") +
+         ", " + in_quotes(name + ":last") + "]\nfix = [\"u\"]\n\n[[contact]]\ntype = \"stop\"\nnodes = " + middle +
          "\ngap = 1.0e-3\nlaw = \"linear\"\nstiffness = 1.0e7\n\n[[load]]\ntype = \"harmonic\"\nnode = " + middle +
          "\namplitude = 1.0e5\nangular_frequency = 62.8\n";
 }
 
 std::string tie(const std::string& a, const std::string& b) {
-  return "\n[[element]]\ntype = \"spring\"\nnodes = [" + quoted(a) + ", " + quoted(b) + "]\nstiffness = 1.0e5\n";
+  return "\n[[element]]\ntype = \"spring\"\nnodes = [" + in_quotes(a) + ", " + in_quotes(b) + "]\nstiffness = 1.0e5\n";
 }
 
 std::string name_of(int beam) {

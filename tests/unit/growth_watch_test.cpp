@@ -1,4 +1,6 @@
 // What a run says where it goes wrong: each message names where, why and what to do.
+#include <cmath>
+
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
 #include <gtest/gtest.h>
@@ -68,6 +70,44 @@ TEST(GrowthWatch, SeesGrowthThatIsTooSlowToOverflow) {
   const std::string message =
       failure_of(row_of_masses("type = \"rk4\"\ntime_step = " + to_text(2.832 / kHighest) + "\n"));
   expect_holds(message, {"grows without a cause", "critical step"});
+}
+
+TEST(GrowthWatch, SeesWhatIsBeyondAnyNumberAtItsFirstLook) {
+  // Ten decades a step: the energy of the sixteenth is inf - inf.
+  const double h = 1e3 / kHighest;
+  SceneRun run(row_of_masses("type = \"rk4\"\ntime_step = " + to_text(h) + "\n"),
+               {"integrator.end_time=" + to_text(16.0 * h)});
+  EXPECT_FALSE(run.run().completed);
+  expect_holds(run.simulation().report().message,
+               {"grows without a cause", "more than a number can hold", "critical step"});
+}
+
+/// Gains much over 256 steps and loses little over the next, so that no run of looks grows without end.
+class Ratchet final : public time::Integrator {
+ public:
+  using Integrator::Integrator;
+
+ private:
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override {
+    const double factor = std::pow(++count_ / 256 % 2 == 0 ? 5.0 : 0.9, 1.0 / 256.0);
+    to.x = factor * from.x;
+    to.v = factor * from.v;
+    dynamics().acceleration(step.t_end, to.x, to.v, to.a);
+    return {};
+  }
+
+  int count_ = 0;
+};
+
+TEST(GrowthWatch, SeesGrowthThatFallsBackNowAndThen) {
+  const std::string stop =
+      "[[contact]]\ntype = \"stop\"\nnodes = \"big\"\ngap = 1e3\nlaw = \"linear\"\nstiffness = 1e4\n";
+  SceneRun scene(row_of_masses("type = \"discrete_gradient\"\ntime_step = 1e-3\n", stop));
+  Ratchet ratchet(scene.dynamics());
+  time::Simulation simulation(scene.dynamics(), ratchet, {1e-3, 100.0, {}});
+  EXPECT_FALSE(simulation.run().completed);
+  EXPECT_LT(simulation.report().steps, 5000);
+  expect_holds(simulation.report().message, {"from t = 0 s", "grows without a cause"});
 }
 
 TEST(GrowthWatch, LetsLoadsDoTheirWork) {

@@ -20,10 +20,6 @@ constexpr double kRowsInContact = 4.0, kStepsInContact = 8.0;
 /// Fixed steps in a period of a load that follow it, and beam elements in a bending wave at its frequency.
 constexpr double kStepsInPeriod = 20.0, kElementsInWave = 8.0;
 
-std::string text(double value) {
-  return to_short_text(value);
-}
-
 class Adviser {
  public:
   Adviser(const Session& session, const model::System& system, const Facts& facts)
@@ -51,20 +47,20 @@ class Adviser {
     const double h = choice.options.time_step;
     if (h > 0.0 && facts_.open && facts_.closed && h > type.stability_limit / facts_.closed->highest)
       add("critical-step",
-          "time_step = " + text(h) + " s is larger than the critical step of " + choice.name + ", " +
-              text(type.stability_limit / facts_.closed->highest) + " s with all stops closed" +
+          "time_step = " + to_short_text(h) + " s is larger than the critical step of " + choice.name + ", " +
+              to_short_text(type.stability_limit / facts_.closed->highest) + " s with all stops closed" +
               (h > type.stability_limit / facts_.open->highest ? " and also with all stops open" : "") +
               ": the solution would grow without bound; take a smaller step or an implicit method");
     if (!type.fixed_step || h == 0.0) return;
     const double contact = facts_.mechanics.shortest_contact;
     if (!system_.stops.empty() && h * kStepsInContact > contact)
-      add("contact-step", "time_step = " + text(h) + " s: an impact can be as short as " + text(contact) +
-                              " s, which makes " + text(contact / h) + " steps; take " +
-                              text(contact / (2.5 * kStepsInContact)) +
+      add("contact-step", "time_step = " + to_short_text(h) + " s: an impact can be as short as " +
+                              to_short_text(contact) + " s, which makes " + to_short_text(contact / h) +
+                              " steps; take " + to_short_text(contact / (2.5 * kStepsInContact)) +
                               " s or less, or a method that chooses its steps itself (type = \"auto\")");
     if (const double period = shortest_period(); h * kStepsInPeriod > period)
-      add("load-step", "time_step = " + text(h) + " s makes only " + text(period / h) +
-                           " steps in the shortest period of a load, " + text(period) + " s");
+      add("load-step", "time_step = " + to_short_text(h) + " s makes only " + to_short_text(period / h) +
+                           " steps in the shortest period of a load, " + to_short_text(period) + " s");
   }
 
   double shortest_period() const {
@@ -80,10 +76,10 @@ class Adviser {
       const double felt = stops.law->secant(-kNearPart * stops.gap) / stops.law->closed_stiffness();
       if (felt > kSoftStart)
         add("regularization",
-            "a stop with the gap " + text(stops.gap) + " m has " + text(100.0 * felt) +
+            "a stop with the gap " + to_short_text(stops.gap) + " m has " + to_short_text(100.0 * felt) +
                 " % of its stiffness while it is still open by a tenth of that: the regularization is too small for "
                 "the gap; take at least " +
-                text(1.0 / (std::numbers::pi * std::numbers::pi * kNearPart * stops.gap * kSoftStart)) +
+                to_short_text(1.0 / (std::numbers::pi * std::numbers::pi * kNearPart * stops.gap * kSoftStart)) +
                 " 1/m, or law = \"linear\"");
     }
   }
@@ -104,13 +100,14 @@ class Adviser {
     if (pull == 0.0) return;
     const auto moved = pull_displacement(system_);
     if (!moved || *moved > kNoticeablePull * smallest_gap)
-      add("pull", "the arctan law pulls every open stop with up to " + text(pull) + " N however far it is open" +
-                      (moved ? "; all together move the structure at rest by " + text(*moved) + " m, " +
-                                   text(*moved / smallest_gap) + " of the gap"
+      add("pull", "the arctan law pulls every open stop with up to " + to_short_text(pull) +
+                      " N however far it is open" +
+                      (moved ? "; all together move the structure at rest by " + to_short_text(*moved) + " m, " +
+                                   to_short_text(*moved / smallest_gap) + " of the gap"
                              : "") +
                       ". A larger regularization weakens it, law = \"linear\" has none");
     if (at_rest)
-      add("jump", "with the arctan law the force of a stop on both sides jumps by " + text(2.0 * pull) +
+      add("jump", "with the arctan law the force of a stop on both sides jumps by " + to_short_text(2.0 * pull) +
                       " N at u = 0, where this scene starts: which way it is pulled is decided by rounding, and "
                       "answers are reproducible only so far. law = \"linear\" has no jump");
   }
@@ -130,10 +127,11 @@ class Adviser {
     const auto interval = session_.output.interval;
     const double contact = facts_.mechanics.shortest_contact;
     if (!interval || session_.output.impacts || system_.stops.empty() || *interval * kRowsInContact <= contact) return;
-    add("output-interval",
-        "a row every " + text(*interval) + " s, and an impact can be as short as " + text(contact) +
-            " s: history.csv will miss most of its course. Take interval = " + text(contact / (2.5 * kRowsInContact)) +
-            " or less, or [output] impacts = true, which lists every impact with its peak force");
+    add("output-interval", "a row every " + to_short_text(*interval) + " s, and an impact can be as short as " +
+                               to_short_text(contact) +
+                               " s: history.csv will miss most of its course. Take interval = " +
+                               to_short_text(contact / (2.5 * kRowsInContact)) +
+                               " or less, or [output] impacts = true, which lists every impact with its peak force");
   }
 
   /// A bending wave of angular frequency w is 2 pi (E I/(rho A w^2))^(1/4) long.
@@ -151,11 +149,11 @@ class Adviser {
       worst = &stretch;
     }
     if (fewest >= kElementsInWave) return;
-    add("mesh", "the element from " + session_.model.nodes.name(worst->a) + " to " +
-                    session_.model.nodes.name(worst->b) + " is " + text(worst->length) +
-                    " m long, and a bending wave at the fastest load's frequency " + text(worst->length * fewest) +
-                    " m, " + text(fewest) + " elements; take elements of " +
-                    text(worst->length * fewest / kElementsInWave) + " m or less");
+    add("mesh",
+        "the element from " + session_.model.nodes.name(worst->a) + " to " + session_.model.nodes.name(worst->b) +
+            " is " + to_short_text(worst->length) + " m long, and a bending wave at the fastest load's frequency " +
+            to_short_text(worst->length * fewest) + " m, " + to_short_text(fewest) + " elements; take elements of " +
+            to_short_text(worst->length * fewest / kElementsInWave) + " m or less");
   }
 
   /// A [material.X] or [section.X] that no element names.

@@ -21,10 +21,6 @@ constexpr Index kListedModes = 10;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kRungeKutta4 = 2.8284271247461903, kCentralDifferences = 2.0;
 
-std::string text(double value) {
-  return to_short_text(value);
-}
-
 Index stop_count(const model::System& system) {
   Index stops = 0;
   for (const auto& group : system.stops) stops += static_cast<Index>(group.size());
@@ -35,8 +31,8 @@ void print_contents(const model::Model& model, const model::System& system, cons
   std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : printable(model.title).c_str());
   std::printf("elements   %zu on %d %s\n", model.elements.size(), model.nodes.size(),
               model.nodes.size() == 1 ? "node" : "nodes");
-  std::printf("mass       %s kg", text(survey.total_mass).c_str());
-  if (survey.lumped_mass > 0.0) std::printf(", of it %s kg on single nodes", text(survey.lumped_mass).c_str());
+  std::printf("mass       %s kg", to_short_text(survey.total_mass).c_str());
+  if (survey.lumped_mass > 0.0) std::printf(", of it %s kg on single nodes", to_short_text(survey.lumped_mass).c_str());
   std::printf("\nDOFs       %td free, %td fixed\n", system.size(), system.dofs.fixed_count());
   std::printf("stops      %td on free DOFs\n", stop_count(system));
   std::printf("loads      %zu\n", model.loads.size());
@@ -47,15 +43,17 @@ void print_modal_damping(const model::System& system) {
   const model::Damping& damping = system.damping;
   (void)solve::ModalDamping::of(system);  // Throws where a run would.
   if (damping.every_mode != 0.0)
-    std::printf("damping    modal: the ratio %s in all %td modes\n", text(damping.every_mode).c_str(), system.size());
+    std::printf("damping    modal: the ratio %s in all %td modes\n", to_short_text(damping.every_mode).c_str(),
+                system.size());
   if (damping.lowest_modes.empty()) return;
   const auto count = static_cast<Index>(damping.lowest_modes.size());
   const auto modes = solve::lowest_modes(system, count);
   std::printf("damping    modal: ratios in the %td lowest modes, none in the %td above%s\n", count,
               system.size() - count, modes ? "" : " (the eigenvalue solver did not converge)");
   for (Index i = 0; modes && i < std::min(count, kListedModes); ++i)
-    std::printf("           %s at %s rad/s%s\n", text(damping.lowest_modes[static_cast<std::size_t>(i)]).c_str(),
-                text(modes->frequencies[i]).c_str(), modes->frequencies[i] == 0.0 ? " (rigid motion)" : "");
+    std::printf("           %s at %s rad/s%s\n",
+                to_short_text(damping.lowest_modes[static_cast<std::size_t>(i)]).c_str(),
+                to_short_text(modes->frequencies[i]).c_str(), modes->frequencies[i] == 0.0 ? " (rigid motion)" : "");
   if (count > kListedModes) std::printf("           ... and %td more\n", count - kListedModes);
 }
 
@@ -87,7 +85,7 @@ std::vector<std::string> skipped(const Session& session, const model::System& sy
 
 /// "3 ... 4", or "3" where both read the same.
 std::string span(double low, double high) {
-  const std::string first = text(low), last = text(high);
+  const std::string first = to_short_text(low), last = to_short_text(high);
   return first == last ? first : first + " ... " + last;
 }
 
@@ -106,19 +104,19 @@ void print_step(const Session& session, double open, double closed) {
   std::printf(
       "critical   step of classical Runge-Kutta %s s (stops open), %s s (all closed); of central differences %s s, %s "
       "s\n",
-      text(kRungeKutta4 / open).c_str(), text(kRungeKutta4 / closed).c_str(), text(kCentralDifferences / open).c_str(),
-      text(kCentralDifferences / closed).c_str());
+      to_short_text(kRungeKutta4 / open).c_str(), to_short_text(kRungeKutta4 / closed).c_str(),
+      to_short_text(kCentralDifferences / open).c_str(), to_short_text(kCentralDifferences / closed).c_str());
   if (h == 0.0) {
     std::printf("method     %s, which finds its steps itself\n", choice.name.c_str());
     return;
   }
-  std::printf("method     %s, time_step %s s\n", choice.name.c_str(), text(h).c_str());
+  std::printf("method     %s, time_step %s s\n", choice.name.c_str(), to_short_text(h).c_str());
   if (std::isinf(limit))
     std::printf(
         "           stable at every step for linear motion; %s steps in the shortest period with all stops closed\n",
-        text(kTwoPi / (closed * h)).c_str());
+        to_short_text(kTwoPi / (closed * h)).c_str());
   else if (h <= limit / closed)
-    std::printf("           below its critical step by a factor of %s\n", text(limit / (closed * h)).c_str());
+    std::printf("           below its critical step by a factor of %s\n", to_short_text(limit / (closed * h)).c_str());
 }
 
 void print_mechanics(const Mechanics& mechanics) {
@@ -127,12 +125,12 @@ void print_mechanics(const Mechanics& mechanics) {
     std::printf("stiffness  of a closed stop: %s times that of the structure where it acts\n",
                 span(*mechanics.least_ratio, *mechanics.largest_ratio).c_str());
   if (std::isfinite(mechanics.shortest_contact))
-    std::printf("contact    an impact lasts about %s s or longer\n", text(mechanics.shortest_contact).c_str());
+    std::printf("contact    an impact lasts about %s s or longer\n", to_short_text(mechanics.shortest_contact).c_str());
   if (mechanics.static_deflection && mechanics.smallest_gap > 0.0)
     std::printf(
         "static     the loads' largest values, at rest, would move a stop's node by %s m; the smallest gap is "
         "%s m\n",
-        text(*mechanics.static_deflection).c_str(), text(mechanics.smallest_gap).c_str());
+        to_short_text(*mechanics.static_deflection).c_str(), to_short_text(mechanics.smallest_gap).c_str());
 }
 
 std::string size_of(double bytes) {

@@ -10,6 +10,8 @@
 #include <butee/core/text.hpp>
 #include <butee/solve/modal_system.hpp>
 
+#include "../csv.hpp"
+
 namespace butee::app::compare {
 namespace {
 
@@ -66,13 +68,6 @@ void compare_both(const Values& other, const Question& question, Reference& refe
   reference.uncertainty = std::isfinite(difference.rms) ? difference.rms : 0.0;
 }
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::stringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
 /// A column of the file at the times of the question.
 std::vector<double> read_column(const std::string& path, const std::string& column, const Question& question) {
   std::ifstream file(path);
@@ -80,7 +75,7 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
   std::string line;
   while (std::getline(file, line) && line.starts_with('#')) {
   }
-  const std::vector<std::string> header = split(line);
+  const std::vector<std::string> header = split_csv(line);
   const auto place = [&](const std::string& name) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) throw InputError(path + ": there is no column \"" + name + "\"; it has " + join(header));
@@ -89,7 +84,7 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
   const std::size_t t = place("t"), value = place(column);
   std::vector<double> values;
   for (std::size_t number = 2; values.size() < question.times.size() && std::getline(file, line); ++number) {
-    const auto cells = split(line);
+    const auto cells = split_csv(line);
     try {
       const double at = question.times[values.size()];
       if (std::abs(std::stod(cells.at(t)) - at) <= kSameInstant * question.times.back())

@@ -10,6 +10,7 @@
 
 #include <butee/core/text.hpp>
 
+#include "../csv.hpp"
 #include "../gnuplot.hpp"
 
 namespace butee::app::compare {
@@ -94,22 +95,6 @@ void write_runs(std::ostream& out, const SceneResult& result) {
   }
 }
 
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::string cell;
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      cells.push_back(std::exchange(cell, {}));
-    else
-      cell += c;
-  }
-  cells.push_back(cell);
-  return cells;
-}
-
 std::string quoted(std::string text) {
   std::replace(text.begin(), text.end(), '"', '\'');
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -145,7 +130,7 @@ std::vector<Row> read_csv(const std::string& path) {
   std::getline(file, line);
   if (line != csv_header()) return rows;
   while (std::getline(file, line)) {
-    const auto cells = split(line);
+    const auto cells = split_csv(line);
     if (cells.size() != kColumns) continue;
     try {
       Row row;

@@ -6,15 +6,10 @@
 
 #include <butee/core/error.hpp>
 
+#include "../csv.hpp"
+
 namespace butee::app::plot {
 namespace {
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
 
 /// Reads exactly `row.size()` numbers; false where the line holds anything else.
 bool parse(const std::string& line, std::vector<double>& row) {
@@ -43,7 +38,7 @@ Table read_table(const std::string& path, Window window) {
   std::string line;
   Table table;
   if (!file || !std::getline(file, line)) throw InputError(path + ": cannot be read, or is empty");
-  table.names = split(line);
+  table.names = split_csv(line);
   if (table.names.empty() || table.names.front() != "t") throw InputError(path + ": its first column is not t");
   table.columns.resize(table.names.size());
   std::vector<double> row(table.names.size());

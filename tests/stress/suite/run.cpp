@@ -15,8 +15,13 @@ namespace {
 using test::SceneRun;
 
 constexpr int kInstants = 200;
-/// Error at the end for an error of one tolerance at the start: that of many steps, and of more than one DOF.
-constexpr double kReserve = 30.0;
+/// The starts that differ, in tolerances: as far as the errors of a few steps reach, which can fall to the other side of a
+/// ridge.
+constexpr double kMoved = 3.0;
+/// Error at the end for such a difference at the start: that of many steps, and of more than one DOF.
+constexpr double kReserve = 10.0;
+/// How wrong a clock may be, in tolerances.
+constexpr double kLate = 2.0;
 /// Where that much error is allowed there is nothing left to compare.
 constexpr double kHorizon = 0.1;
 /// A motion so many times as large as the true one is no inaccuracy.
@@ -36,7 +41,7 @@ std::vector<double> instants_of(const Scene& scene) {
   return instants;
 }
 
-/// Takes all displacements at given instants.
+/// Takes all displacements at given instants, and the largest speed until then.
 class Follower final : public time::Observer {
  public:
   Follower(Index size, std::vector<double> instants) : instants_(std::move(instants)), row_(size) {
@@ -44,12 +49,14 @@ class Follower final : public time::Observer {
   }
   void step(const time::AcceptedStep& step) override {
     largest = std::max(largest, step.to.x.lpNorm<Eigen::Infinity>());
+    speed_ = std::max(speed_, step.to.v.lpNorm<Eigen::Infinity>());
     is_finite = is_finite && step.to.x.allFinite() && step.to.v.allFinite() && step.to.a.allFinite();
     while (rows.size() < instants_.size() && instants_[rows.size()] <= step.to.t) {
       step.integrator.interpolate(step.from, step.to, instants_[rows.size()], all_,
                                   {{row_.data(), static_cast<std::size_t>(row_.size())}, {}, {}});
       is_finite = is_finite && row_.allFinite();
       rows.push_back(row_);
+      speeds.push_back(speed_);
     }
   }
   double next_instant(double t) const override {
@@ -58,6 +65,7 @@ class Follower final : public time::Observer {
   }
 
   std::vector<Vector> rows;
+  std::vector<double> speeds;
   double largest = 0.0;
   bool is_finite = true;
 
@@ -65,6 +73,7 @@ class Follower final : public time::Observer {
   std::vector<double> instants_;
   std::vector<Index> all_;
   Vector row_;
+  double speed_ = 0.0;
 };
 
 std::int64_t work_of(const solve::Counters& c) {
@@ -94,7 +103,7 @@ struct Shift {
 
 struct Course {
   std::vector<Vector> rows;
-  double end = 0.0;
+  std::vector<double> speeds;
 };
 
 Course exact_course(const Scene& scene, const Shift& shift, std::int64_t work) {
@@ -111,7 +120,7 @@ Course exact_course(const Scene& scene, const Shift& shift, std::int64_t work) {
   simulation.add(follower);
   for (std::int64_t i = 0; i < work && work_of(run.dynamics().counters()) < work && simulation.advance();) ++i;
   if (!follower.is_finite) return {};
-  return {std::move(follower.rows), simulation.state().t};
+  return {std::move(follower.rows), std::move(follower.speeds)};
 }
 
 std::string settings(const Scene& scene, const Method& method, double critical_step) {
@@ -191,29 +200,27 @@ Reference::Reference(const Scene& scene, std::int64_t work) {
     critical_step_ = range && range->highest > 0.0 ? 2.0 / range->highest : scene.end_time;
   }
   const Course course = exact_course(scene, {}, work);
-  double speed = 0.0;
-  for (std::size_t i = 0; i < course.rows.size(); ++i) {
-    peak_ = std::max(peak_, course.rows[i].lpNorm<Eigen::Infinity>());
-    const Vector before = i > 0 ? course.rows[i - 1] : Vector::Zero(course.rows[i].size());
-    speed = std::max(speed, (course.rows[i] - before).lpNorm<Eigen::Infinity>() * kInstants / scene.end_time);
-  }
+  for (const Vector& row : course.rows) peak_ = std::max(peak_, row.lpNorm<Eigen::Infinity>());
   if (!(peak_ > 0.0)) return;
+  const double speed = course.speeds.back();
   std::vector<Course> others;
-  for (const double in_place : {scene.tolerance, -scene.tolerance})
-    for (const double in_speed : {scene.tolerance, -scene.tolerance})
+  const double moved = kMoved * scene.tolerance;
+  for (const double in_place : {moved, -moved})
+    for (const double in_speed : {moved, -moved})
       others.push_back(exact_course(scene, {in_place * peak_, in_speed * speed}, work));
   const std::vector<double> instants = instants_of(scene);
-  double apart = scene.tolerance;
+  double apart = moved;
   for (std::size_t i = 0; i < course.rows.size(); ++i) {
     for (const Course& other : others) {
       if (i >= other.rows.size()) return;
       apart = std::max(apart, (other.rows[i] - course.rows[i]).lpNorm<Eigen::Infinity>() / peak_);
     }
-    if (kReserve * apart > kHorizon) return;
+    const double late = kLate * scene.tolerance * course.speeds[i] * instants[i] / peak_;
+    const double allowed = kReserve * apart + late;
+    if (allowed > kHorizon) return;
     instants_.push_back(instants[i]);
     motion_.push_back(course.rows[i]);
-    allowed_.push_back(std::min(kReserve * apart, kHorizon));
-    end_ = instants[i];
+    allowed_.push_back(allowed);
   }
 }
 

@@ -61,13 +61,11 @@ class Reference {
   double critical_step() const { return critical_step_; }
   const Vector& at(std::size_t i) const { return motion_[i]; }
   double allowed(std::size_t i) const { return allowed_[i]; }
-  /// Where there is no more of it, s.
-  double end() const { return end_; }
 
  private:
   std::vector<double> instants_, allowed_;
   std::vector<Vector> motion_;
-  double peak_ = 0.0, critical_step_ = 0.0, end_ = 0.0;
+  double peak_ = 0.0, critical_step_ = 0.0;
 };
 
 /// Runs one method, bounded by `work` evaluations and solves.
