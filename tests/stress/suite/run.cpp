@@ -17,9 +17,9 @@ using test::SceneRun;
 constexpr int kInstants = 200;
 /// The starts that differ, in tolerances: as far as the errors of a few steps reach, which can fall to the other side of a
 /// ridge.
-constexpr double kMoved = 3.0;
+constexpr double kMoved = 10.0;
 /// Error at the end for such a difference at the start: that of many steps, and of more than one DOF.
-constexpr double kReserve = 10.0;
+constexpr double kReserve = 3.0;
 /// How wrong a clock may be, in tolerances.
 constexpr double kLate = 2.0;
 /// Where that much error is allowed there is nothing left to compare.
