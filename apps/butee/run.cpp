@@ -1,12 +1,16 @@
 #include "run.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <new>
+#include <numbers>
 
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
 #include <butee/record/field_layout.hpp>
+#include <butee/solve/frequencies.hpp>
 
 #include "interruption.hpp"
 
@@ -14,6 +18,19 @@ namespace butee::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Rows within an impact that show its course.
+constexpr double kRowsInContact = 4.0;
+/// The force of a stop that is closed, over the pull of open ones.
+constexpr double kMoreThanPull = 1.1;
+
+/// The force of an open stop, in the middle of its gap: of the arctan law that is not 0.
+double largest_pull(const solve::Contact& contact) {
+  double largest = 0.0;
+  for (Index i = 0; i < contact.size(); ++i)
+    largest = std::max(largest, std::abs(contact.law_of(i).secant(-contact.gap_of(i))) * contact.gap_of(i));
+  return largest;
+}
 
 }  // namespace
 
@@ -119,6 +136,24 @@ void Run::summarize() {
   if (history_) summary_.peaks = history_->peaks();
   summary_.energy = record::energy_of(assembly_.simulation.state(), assembly_.dynamics);
   if (energy_) summary_.followed = {energy_->work(), energy_->dissipated(), energy_->balance_error()};
+  look_at_rows();
+}
+
+void Run::look_at_rows() {
+  const record::OutputRequest& output = session_.output;
+  const double frequency = solve::contact_frequency(assembly_.system, assembly_.dynamics.contact());
+  if (!output.interval || output.impacts || !(frequency > 0.0)) return;
+  const double contact = std::numbers::pi / frequency;
+  if (*output.interval * kRowsInContact <= contact) return;
+  const double pull = largest_pull(assembly_.dynamics.contact());
+  const bool has_struck = std::any_of(summary_.peaks.begin(), summary_.peaks.end(), [&](const auto& peak) {
+    return peak.first.ends_with(".contact_force") && peak.second > kMoreThanPull * pull;
+  });
+  if (!has_struck) return;
+  summary_.report.warnings.push_back("an impact lasts about " + to_short_text(contact) +
+                                     " s and history.csv has a row every " + to_short_text(*output.interval) +
+                                     " s, which do not show the course of its force. Take interval = " +
+                                     to_short_text(contact / (2.5 * kRowsInContact)) + ", or impacts = true");
 }
 
 void Run::write_files(const record::ResultFolder& folder) {

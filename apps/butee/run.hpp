@@ -32,6 +32,8 @@ class Run {
   void add_fields(const record::ResultFolder& folder);
   void integrate();
   void summarize();
+  /// Warns where a force was asked for and rows are too far apart to show it.
+  void look_at_rows();
   void write_files(const record::ResultFolder& folder);
   void fail(const std::string& reason);
   /// Does the work; what it throws becomes the report of a failed run.

@@ -1,5 +1,6 @@
 #include "butee/core/log.hpp"
 
+#include <atomic>
 #include <cstdio>
 #include <memory>
 
@@ -23,7 +24,17 @@ spdlog::logger& logger() {
   return *instance;
 }
 
+std::atomic<int> muted = 0;
+
 }  // namespace
+
+WithoutWarnings::WithoutWarnings() {
+  ++muted;
+}
+
+WithoutWarnings::~WithoutWarnings() {
+  --muted;
+}
 
 void set_level(Level level) {
   switch (level) {
@@ -47,7 +58,7 @@ void info(const std::string& message) {
   logger().info(printable(message, true));
 }
 void warning(const std::string& message) {
-  logger().warn(printable(message, true));
+  if (muted == 0) logger().warn(printable(message, true));
 }
 void error(const std::string& message) {
   logger().error(printable(message, true));

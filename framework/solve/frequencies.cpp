@@ -98,6 +98,15 @@ std::optional<Modes> dense_modes(const model::System& system, Index count) {
 
 }  // namespace
 
+double contact_frequency(const model::System& system, const Contact& contact) {
+  double square = 0.0;
+  const Vector stiffness = contact.closed_stiffness();
+  for (Index i = 0; i < contact.size(); ++i)
+    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
+      if (dof >= 0) square = std::max(square, stiffness[i] / system.mass.coeff(dof, dof));
+  return std::sqrt(square);
+}
+
 SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) {
   SparseMatrix stiffness = system.stiffness;
   if (stops == StopState::open) return stiffness;

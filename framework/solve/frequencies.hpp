@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "butee/model/system.hpp"
+#include "butee/solve/contact.hpp"
 
 namespace butee::solve {
 
@@ -29,6 +29,10 @@ struct Modes {
 ///
 /// Where omega_i is below 3e-7 of the highest frequency, rounding cannot tell it from rigid motion: it is set to zero.
 BUTEE_EXPORT std::optional<Modes> lowest_modes(const model::System& system, Index count);
+
+/// sqrt(k_c/m) of the stop with the highest, of the masses that its DOFs have on the diagonal of M, rad/s: an estimate
+/// from below of how fast an impact can be, which lasts pi over it. 0 without stops.
+BUTEE_EXPORT double contact_frequency(const model::System& system, const Contact& contact);
 
 /// K, or K + S^T k_c S with all stops closed.
 BUTEE_EXPORT SparseMatrix stiffness_with_stops(const model::System& system, StopState stops);

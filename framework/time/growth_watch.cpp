@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "butee/core/text.hpp"
+#include "butee/solve/frequencies.hpp"
 
 namespace butee::time {
 namespace {
@@ -42,7 +43,8 @@ GrowthWatch::GrowthWatch(solve::Dynamics& dynamics, const MethodLimits& limits, 
       limits_(limits),
       has_fixed_steps_(integrator.controller() == nullptr),
       may_be_coarse_(has_fixed_steps_ || (!limits.keeps_tolerance && !integrator.minds_load_kinks())),
-      is_watching_(limits.is_bounded() || dynamics.stop_count() > 0) {}
+      is_watching_(limits.is_bounded() || dynamics.stop_count() > 0),
+      too_much_(!has_fixed_steps_ && !limits.keeps_tolerance && limits.is_bounded() ? kTooMuchUnseen : kTooMuch) {}
 
 void GrowthWatch::start(const State& state) {
   prepare();
@@ -52,13 +54,7 @@ void GrowthWatch::start(const State& state) {
   last_time_ = begin_time_ = start_time_ = state.t;
   last_energy_ = begin_energy_ = start_energy_ = energy(state);
   sound_energy_ = 0.0;
-  if (!may_be_coarse_ || dynamics_.stop_count() == 0) return;
-  const Vector stiffness = dynamics_.contact().closed_stiffness();
-  for (Index i = 0; i < dynamics_.stop_count(); ++i)
-    for (const Index dof : {dynamics_.contact().dof_a(i), dynamics_.contact().dof_b(i)})
-      if (dof >= 0)
-        contact_frequency_ =
-            std::max(contact_frequency_, std::sqrt(stiffness[i] / dynamics_.system().mass.coeff(dof, dof)));
+  if (may_be_coarse_) contact_frequency_ = solve::contact_frequency(dynamics_.system(), dynamics_.contact());
 }
 
 void GrowthWatch::prepare() {
@@ -156,15 +152,14 @@ bool GrowthWatch::look(const State& from, const State& to, double h) {
   }
   last_time_ = to.t;
   last_energy_ = now;
-  const bool grows_unseen = !has_fixed_steps_ && !limits_.keeps_tolerance && limits_.is_bounded();
-  return excess_ > (grows_unseen ? kTooMuchUnseen : kTooMuch) || has_grown_since_start(to.t, now);
+  return excess_ > too_much_ || has_grown_since_start(to.t, now);
 }
 
 bool GrowthWatch::has_grown_since_start(double t, double now) {
   if (!(now > sound_energy_)) return false;
   // What loads explain only becomes more, so that this is asked for a few times in a run.
   const double from_loads = explained(start_energy_, start_time_, t);
-  sound_energy_ = from_loads * std::exp(kTooMuchUnseen);
+  sound_energy_ = from_loads * std::exp(too_much_);
   if (!(now > sound_energy_) || !(from_loads > 0.0)) return false;
   excess_ = excess_over(from_loads, now);
   begin_time_ = start_time_;

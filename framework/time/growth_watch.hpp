@@ -16,9 +16,9 @@ namespace butee::time {
 ///
 /// holds for every true motion, since damping and stops only take energy. E is looked at after 16, 32 ... 256 accepted
 /// steps and after every 256 from then on, and the bound is evaluated only where E has grown. What exceeds it is
-/// excess; a run of looks that adds up to a hundredfold (more of explicit methods that control displacements alone), or
-/// what lies a hundred-thousandfold above the bound since the start, is no motion of this system. Methods that no step
-/// makes unstable are watched only where there are stops. Of fixed steps it also notes how coarse they are. Checked in
+/// excess; a run of looks that adds up to a hundredfold, or as much above the bound since the start, is no motion of
+/// this system (more than that of explicit methods that control displacements alone). Methods that no step makes
+/// unstable are watched only where there are stops. Of fixed steps it also notes how coarse they are. Checked in
 /// tests/unit/growth_watch_test.cpp.
 class BUTEE_EXPORT GrowthWatch {
  public:
@@ -58,6 +58,7 @@ class BUTEE_EXPORT GrowthWatch {
   solve::Dynamics& dynamics_;
   MethodLimits limits_;
   bool has_fixed_steps_, may_be_coarse_, is_watching_;
+  double too_much_;  ///< the logarithm of what ends a run
   std::vector<double> kinks_;
   std::vector<double> load_norms_;  ///< sqrt(p.M^-1 p) of each load's pattern p; empty until it is asked for
   Vector work_, zero_, stops_, stored_;

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
 
 #include "../assembly.hpp"
@@ -100,6 +101,7 @@ Question question_of(const Session& session, const std::vector<std::string>& col
 
 Answer run_once(Session& session, const Question& question, double time_limit, double perturbation) {
   Answer answer;
+  const log::WithoutWarnings quiet;  // The table says which methods are slow, or fail.
   const auto begin = Clock::now();
   Assembly assembly(session, perturbation);
   solve::Dynamics& dynamics = assembly.dynamics;

@@ -133,7 +133,7 @@ std::vector<Chart> of_phase(const Drawing& drawing) {
 }
 
 std::vector<Chart> of_spectrum(const Drawing& drawing) {
-  constexpr double kDepth = 1e-5, kVisible = 3e-4;  // of the largest amplitude
+  constexpr double kDepth = 1e-9, kVisible = 3e-4;  // of the largest amplitude
   constexpr double kPeriods = 4.0;                  // multiples of the load's frequency that are always shown
   auto charts = grouped(drawing, "spectrum", false, [&](const Item& item, std::size_t place, Chart& chart) {
     const auto* u = item.result->column(item.label, "u");
@@ -151,9 +151,12 @@ std::vector<Chart> of_spectrum(const Drawing& drawing) {
     for (std::size_t i = 0; i < spectrum.frequencies.size(); ++i)
       if (spectrum.amplitudes[i] > kVisible * largest) limit = std::max(limit, spectrum.frequencies[i]);
     limit = std::min(limit, spectrum.frequencies.back());
+    double lowest = largest;
+    for (std::size_t i = 0; i < spectrum.frequencies.size() && spectrum.frequencies[i] <= limit; ++i)
+      lowest = std::min(lowest, spectrum.amplitudes[i]);
     chart.x_begin = 0.0;
     chart.x_end = std::max(chart.x_end.value_or(0.0), limit);
-    chart.y_begin = std::max(chart.y_begin.value_or(0.0), kDepth * largest);
+    chart.y_begin = std::min(chart.y_begin.value_or(largest), std::max(lowest, kDepth * largest));
     chart.curves.push_back({curve_name(drawing, item), spectrum.frequencies, spectrum.amplitudes, place});
     return true;
   });

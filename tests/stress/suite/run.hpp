@@ -27,7 +27,7 @@ enum class Verdict {
   refused,     ///< refused before the first step, with a message
   unjudged,    ///< finite and bounded, but there is no reference
   wrong,       ///< of a method with error control: more error than is allowed
-  grown,       ///< larger than anything that the scene can do, without a word
+  grown,       ///< larger than anything that the scene can do, without a word, a warning of its steps included
   not_finite,  ///< a result is no number
   silent,      ///< stopped without a diagnosis
   hung         ///< took more time than any run may
