@@ -9,25 +9,31 @@ namespace {
 /// A jump of the force by so much of what closes the gap, over the tolerance, moves nothing by the tolerance.
 constexpr double kUnfelt = 0.05;
 
-/// The largest value of the cubic through (w0, v0) and (w1, v1), a step of h apart, that rises at first and falls at
-/// last.
-double peak(double h, double w0, double v0, double w1, double v1) {
+/// The largest value that the motion through (w0, v0) and (w1, v1), a step of h apart, may have, which rises at first
+/// and falls at last: that of the cubic, and its error as its acceleration at the start tells it, where the true one is
+/// a0.
+double peak(double h, double w0, double v0, double a0, double w1, double v1) {
   // dw/ds = h v0 + 2 b s + 3 c s^2
   const double rise = w1 - w0, b = 3.0 * rise - h * (2.0 * v0 + v1), c = h * (v0 + v1) - 2.0 * rise;
   const double root = std::sqrt(std::max(0.0, b * b - 3.0 * c * h * v0));
   const double s = std::clamp(h * v0 / (root - b), 0.0, 1.0);
-  return w0 + s * (h * v0 + s * (b + s * c));
+  // w h^4/384 against w h^2/12.
+  const double error = std::abs(2.0 * b - h * h * a0) / 32.0;
+  return w0 + s * (h * v0 + s * (b + s * c)) + error;
 }
 
 }  // namespace
 
 ContactOnTheWay::ContactOnTheWay(solve::Dynamics& dynamics, double tolerance)
     : contact_(&dynamics.contact()), tolerance_(tolerance) {
-  w0_ = w1_ = v0_ = v1_ = Vector::Zero(contact_->size());
-  const Vector closed = contact_->closed_stiffness();
+  w0_ = w1_ = v0_ = v1_ = a0_ = Vector::Zero(contact_->size());
+  jumps_ = w0_;
+  const Vector closed = contact_->closed_stiffness(), mass = dynamics.system().mass.diagonal();
   for (Index i = 0; i < contact_->size(); ++i) {
     const double gap = contact_->gap_of(i), force = std::abs(contact_->law_of(i).secant(-gap)) * gap;
-    jumps_.push_back(contact_->sides_of(i) == model::Sides::both && force > kUnfelt * tolerance * closed[i] * gap);
+    if (contact_->sides_of(i) != model::Sides::both || !(force > kUnfelt * tolerance * closed[i] * gap)) continue;
+    for (const Index dof : {contact_->dof_a(i), contact_->dof_b(i)})
+      if (dof >= 0) jumps_[i] = std::max(jumps_[i], 2.0 * force / std::sqrt(mass[dof]));
   }
 }
 
@@ -43,10 +49,18 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to) {
     return 0;
   };
   for (Index i = 0; i < w0_.size(); ++i)
-    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i]) ||
-        (jumps_[static_cast<std::size_t>(i)] && std::signbit(w0_[i]) != std::signbit(w1_[i])))
-      return true;
+    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i]) || has_passed_middle(i)) return true;
   return false;
+}
+
+double ContactOnTheWay::jump(const time::State& from, const time::State& to) {
+  double largest = 0.0;
+  if (!(jumps_.array() > 0.0).any()) return largest;
+  contact_->displacement(from.x, w0_);
+  contact_->displacement(to.x, w1_);
+  for (Index i = 0; i < w0_.size(); ++i)
+    if (has_passed_middle(i)) largest = std::max(largest, jumps_[i]);
+  return largest;
 }
 
 bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h) {
@@ -57,15 +71,19 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
   if (!((v0_.array() * v1_.array()) < 0.0).any()) return false;
   contact_->displacement(from.x, w0_);
   contact_->displacement(to.x, w1_);
+  contact_->displacement(from.a, a0_);
   for (Index i = 0; i < w0_.size(); ++i) {
     const double side = v0_[i] > 0.0 ? 1.0 : -1.0;
     if (!(side * v0_[i] > 0.0 && side * v1_[i] < 0.0)) continue;
     const model::Sides sides = contact_->sides_of(i);
     if (sides != model::Sides::both && (sides == model::Sides::positive) != (side > 0.0)) continue;
     const double gap = contact_->gap_of(i), w0 = side * w0_[i], w1 = side * w1_[i];
-    if (w0 >= gap || w1 >= gap) continue;
-    const double depth = peak(h, w0, side * v0_[i], w1, side * v1_[i]) - gap;
-    if (depth > tolerance_ * std::max({gap, std::abs(w0), std::abs(w1)})) return true;
+    const auto is_passed = [&](double border) {
+      if (w0 >= border || w1 >= border) return false;
+      const double depth = peak(h, w0, side * v0_[i], side * a0_[i], w1, side * v1_[i]) - border;
+      return depth > tolerance_ * std::max({gap, std::abs(w0), std::abs(w1)});
+    };
+    if (is_passed(gap) || (jumps_[i] > 0.0 && is_passed(0.0))) return true;
   }
   return false;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "butee/time/integrator.hpp"
 
 namespace butee::integrators {
@@ -15,16 +17,23 @@ class ContactOnTheWay {
   /// jumped from one side to the other between them: a law that is blunt against the gap, such as arctan with a lambda
   /// of a few gaps, pulls at the middle already.
   bool changed(const time::State& from, const time::State& to);
-  /// True where a stop is open at both ends and was closed on the way, as the cubic through displacements and speeds at
-  /// both ends has it, by more than the tolerance times its displacement or gap. Whatever is less
-  /// is what the tolerance allows for anyway.
+  /// The largest such jump between them, as the acceleration sqrt(a.M a) that it makes; 0 where there is none. How
+  /// wrong a step becomes by it no estimate tells that has the jump in its middle, where errors of all stages cancel.
+  double jump(const time::State& from, const time::State& to);
+  /// True where a stop is open at both ends and was closed on the way, or beyond such a jump, as far as the cubic
+  /// through displacements and speeds at both ends can tell, by more than the tolerance times its displacement or gap.
+  /// Whatever is less is what the tolerance allows for anyway.
   bool was_missed(const time::State& from, const time::State& to, double h);
 
  private:
+  bool has_passed_middle(Index stop) const {
+    return jumps_[stop] > 0.0 && std::signbit(w0_[stop]) != std::signbit(w1_[stop]);
+  }
+
   solve::Contact* contact_;
   double tolerance_;
-  std::vector<bool> jumps_;  ///< of each stop: at the middle of the gap, by more than the tolerance allows for
-  Vector w0_, w1_, v0_, v1_;
+  Vector jumps_;  ///< of each stop at the middle of its gap, where it is more than the tolerance allows for, or 0
+  Vector w0_, w1_, v0_, v1_, a0_;
 };
 
 }  // namespace butee::integrators

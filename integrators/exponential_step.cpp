@@ -42,11 +42,12 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
     own_.emplace_back(stops_.back().stiffness(), orders_);
     gaps_[i] = contact.gap_of(i);
     borders_[i] = calm_border(contact, i);
+    pulls_.emplace_back(contact, i);
     if (contact.sides_of(i) != model::Sides::negative) upper_[i] = gaps_[i];
     if (contact.sides_of(i) != model::Sides::positive) lower_[i] = -gaps_[i];
     has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
   }
-  for (std::vector<Index>* list : {&reachable_, &touched_, &far_}) list->reserve(stops_.size());
+  for (std::vector<Index>* list : {&reachable_, &touched_, &far_, &jumping_}) list->reserve(stops_.size());
   is_touched_.assign(stops_.size(), false);
 }
 
@@ -129,7 +130,7 @@ void ExponentialStep::find_stops() {
   modal_.stop_shapes().displacement(q_new_.data(), v_new_.data(), w_new_.data(), wv_new_.data());
 }
 
-void ExponentialStep::find_reachable(const StepFlow& flow) {
+void ExponentialStep::find_reachable(StepFlow& flow) {
   // How far modes and loads too fast for a cubic can carry a stop away from it.
   load_swing_ = flow.swing_harmonics;
   const double t = knots_.last();
@@ -140,27 +141,11 @@ void ExponentialStep::find_reachable(const StepFlow& flow) {
   reach_ = w_.abs().max(w_new_.abs()) + (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
   for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {
-    if (reach_[i] > borders_[i])
+    if (reach_[i] > borders_[i] || (has_far_forces_ && !is_steady(flow, i)))
       reachable_.push_back(i);
     else if (has_far_forces_)
       far_.push_back(i);
   }
-}
-
-void ExponentialStep::add_far_forces(const StepFlow& flow) {
-  if (far_.empty()) return;
-  const double h = flow.h();
-  ArrayXd &sum = sums_[0], &pull = force_[0];
-  pull.setZero();
-  for (const Index i : far_) {
-    const StopPath path(w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0);
-    pull[i] = stops_[static_cast<std::size_t>(i)].far_force(path);
-  }
-  modal_.stop_shapes().force(far_, pull.data(), sum.data());
-  q_new_ += sum * flow.whole.force_q(0);
-  v_new_ += sum * flow.whole.force_v(0);
-  if (!reachable_.empty()) q_half_ += sum * flow.half.force_q(0);
-  find_stops();
 }
 
 Trial ExponentialStep::iterate(StepFlow& flow) {
@@ -198,6 +183,15 @@ void ExponentialStep::find_bounds() {
       (w_.max(path_.end).max(b1).max(b2).max(b3) - upper_).max(lower_ - w_.min(path_.end).min(b1).min(b2).min(b3));
 }
 
+const StepFlow::Derived& ExponentialStep::derived(StepFlow& flow, Index stop) const {
+  StepFlow::Derived& known = flow.derived(stop);
+  if (known.is_known) return known;
+  known.coupling = flow.own_coupling(stop);
+  known.inverse = own_[static_cast<std::size_t>(stop)].closed_inverse(known.coupling);
+  known.is_known = true;
+  return known;
+}
+
 double ExponentialStep::sweep(StepFlow& flow) {
   find_bounds();
   double change = 0.0;
@@ -210,12 +204,7 @@ double ExponentialStep::sweep(StepFlow& flow) {
     const StopForce::Course course = stop.course(path);
     const Projection projection = stop.project(path, course);
     const ForceMoments old = {force_[0][i], force_[1][i], force_[2][i]};
-    StepFlow::Derived& known = flow.derived(i);
-    if (!known.is_known) {
-      known.coupling = flow.own_coupling(i);
-      known.inverse = own_[place].closed_inverse(known.coupling);
-      known.is_known = true;
-    }
+    const StepFlow::Derived& known = derived(flow, i);
     const ForceMoments more = own_[place].correction(
         course == StopForce::Course::closed ? known.inverse : own_[place].inverse(projection.closed, known.coupling),
         projection.force, old);
@@ -253,7 +242,7 @@ void ExponentialStep::find_error(StepFlow& flow, double displacement) {
     double error = std::abs(bulge_[i]);
     if (is_touched_[place]) {
       const double stiff = stops_[place].stiffness() * flow.derived(i).coupling[1][0];
-      error = error_of_path(error, stiff, h, h_speed, {displacement, scale_.speed});
+      error = error_of_path(error, stiff, h, h_speed, {displacement, scale_.speed}, stays_closed(i));
       const double of_outputs = kKinkedOutput * stiff * std::max(std::abs(hv_[i]), std::abs(path_.speed[i]));
       if (!stays_closed(i)) error = std::max(error, of_outputs * tolerance_ / (kAtKinks * output_tolerance_));
     }

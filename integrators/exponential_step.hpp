@@ -33,14 +33,15 @@ struct StopScale {
 
 /// The part of the departure from the cubic, times (h omega_c)^4, that its force may get wrong in the speed after a
 /// step, times h. That of a whole impact within a step counts so much more than its small displacements: without it the
-/// speed after impacts at stops of 1e12 N/m came out wrong by percents at a tolerance of 1e-4.
-inline constexpr double kOfSpeed = 0.02;
+/// speed after impacts at stops of 1e12 N/m came out wrong by percents at a tolerance of 1e-4. More of it counts while
+/// a stop stays closed, where a mass that is pressed against it turns many times before it leaves with what is left.
+inline constexpr double kOfSpeed = 0.02, kOfSpeedClosed = 0.5;
 
 /// The error of a stop's path in a step of h, as one of displacement: that of the speed after it counts as much,
 /// relative to the largest speed. `bulge` is the departure, `stiff` = (h omega_c)^2 of the stop alone.
-inline double error_of_path(double bulge, double stiff, double h, double h_speed, StopScale scale) {
+inline double error_of_path(double bulge, double stiff, double h, double h_speed, StopScale scale, bool stays_closed) {
   const double speed = std::max(h * scale.speed, h_speed);
-  const double of_speed = kOfSpeed * stiff * stiff;
+  const double of_speed = (stays_closed ? kOfSpeedClosed : kOfSpeed) * stiff * stiff;
   return bulge * (of_speed * scale.displacement > speed ? of_speed * scale.displacement / speed : 1.0);
 }
 
@@ -101,13 +102,19 @@ class ExponentialStep {
   /// From a knot; `v` only where it is given.
   void propagate(const solve::ModalFlow& flow, std::size_t knot, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
   void find_stops();
-  void find_reachable(const solve::StepFlow& flow);
+  void find_reachable(solve::StepFlow& flow);
+  /// Whether the pull of an open stop is a constant, as far as the tolerance can tell.
+  bool is_steady(solve::StepFlow& flow, Index stop) const;
+  /// What follows for a stop from the length of the step alone.
+  const solve::StepFlow::Derived& derived(solve::StepFlow& flow, Index stop) const;
   /// Whether quintics are enough for outputs within a step without contact: by a bound that takes all modes for in
   /// phase, or else by the exact displacements in the middle, where a knot is laid if one through the ends is not.
   bool is_smooth(const solve::StepFlow& flow);
   /// Of the stops, without their forces.
   void find_accelerations(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v, Eigen::ArrayXd& a);
-  void add_far_forces(const solve::StepFlow& flow);
+  void add_far_forces(solve::StepFlow& flow);
+  /// What the moments of order k of the forces of some stops do.
+  void add_moments(const solve::StepFlow& flow, const std::vector<Index>& stops, int k);
   Trial iterate(solve::StepFlow& flow);
   /// Fills bulge_ and excess_ for the paths as they are.
   void find_bounds();
@@ -129,6 +136,7 @@ class ExponentialStep {
   double tolerance_, output_tolerance_;
   std::vector<StopForce> stops_;
   std::vector<OwnForce> own_;
+  std::vector<FarPull> pulls_;
   bool has_far_forces_ = false;
   Eigen::ArrayXd squares_;   ///< omega^2
   bool is_strongly_damped_;  ///< a mode decays so fast that bounds by omega know too little
@@ -152,6 +160,7 @@ class ExponentialStep {
   Eigen::ArrayXd excess_;    ///< by which a bound of the path is beyond the gap
   std::array<Eigen::ArrayXd, 3> force_;
   std::vector<Index> reachable_, touched_, far_;
+  std::vector<Index> jumping_;  ///< of those far away, the ones whose pull changes its sign
   std::vector<bool> is_touched_;
   double error_ = 0.0;
 };

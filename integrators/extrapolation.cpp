@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
 /// Calibrated in tests/verification/tolerance_test.cpp.
-constexpr double kShare = 0.002, kKink = 3.0;
+constexpr double kShare = 0.002, kKink = 5.0;
 /// Of h omega and h c/m of the whole step, where the stability polynomial leaves the unit circle.
 constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 

@@ -14,6 +14,8 @@ constexpr double kSmallest = 1e-4;
 /// Steps of the ladder within a factor of two; one is gone up where the estimate would allow for kReserve.
 constexpr double kRungs = 4.0;
 constexpr double kReserve = 3.0;
+/// The part of what a jump of the force makes in a step that its speed may be wrong by.
+constexpr double kOfJump = 0.1;
 /// The error of a step that went through a stop unseen: enough to be redone, by a ladder with about half its length.
 constexpr double kMissed = 8.0;
 constexpr double kMostDown = 9.0, kMostUp = 9.0;
@@ -72,6 +74,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const double scale_x = std::max(from.memory[0], norm(to.x)), scale_v = std::max(from.memory[1], norm(to.v));
   double r = relative_error(from, to, norm(error_x), norm(error_v), scale_x, scale_v) / threshold_;
   if (kink_ > 1.0 && r <= 1.0 && contact_.changed(from, to)) r *= kink_;
+  if (r <= 1.0) r = std::max(r, kOfJump * h * contact_.jump(from, to) / (scale_v * threshold_));
   to.memory.head(kMemory) << scale_x, scale_v, std::max(r, kSmallest);
   if (!std::isfinite(r)) {
     report.status = time::StepStatus::not_finite;

@@ -22,6 +22,7 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       output_tolerance_(output_tolerance),
       stop_(dynamics.contact(), 0),
       own_(stop_.stiffness(), orders_),
+      pull_(dynamics.contact(), 0),
       gap_(dynamics.contact().gap_of(0)),
       calm_border_(calm_border(dynamics.contact(), 0)),
       stop_shape_(modal.stop_shapes().matrix()(0, 0)),
@@ -128,7 +129,7 @@ Trial SingleStep::attempt(const Flow& flow) {
   const double swing = flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v);
   const double reach = std::max(std::abs(w), std::abs(path_[0])) + kBump * (std::abs(hv) + std::abs(path_[1])) + swing +
                        flow.swing_harmonics;
-  is_quiet_ = reach <= calm_border_;
+  is_quiet_ = reach <= calm_border_ && is_steady(flow, w, reach);
   if (is_quiet_) {
     // Of the slower and the faster of two decaying motions too, whose rates are within 2 delta + omega. What a load
     // starts from rest is such a motion as well.
@@ -144,7 +145,7 @@ Trial SingleStep::attempt(const Flow& flow) {
     const Trial trial = iterate(flow, w, hv);
     if (trial != Trial::accepted) return trial;
   } else if (!stop_.is_linear()) {
-    force_[0] = stop_.far_force(StopPath(w, hv, path_[0], path_[1], 0.0));
+    force_ = stop_.far_force(StopPath(w, hv, path_[0], path_[1], 0.0));
   }
   for (std::size_t k = 0; k < orders_; ++k) {
     q1 += force_[k] * flow.force_q[k];
@@ -154,6 +155,13 @@ Trial SingleStep::attempt(const Flow& flow) {
   scale_.displacement = std::max(scale_.displacement, std::abs(shape * q1));
   scale_.speed = std::max(scale_.speed, std::abs(shape * v1));
   return Trial::accepted;
+}
+
+bool SingleStep::is_steady(const Flow& flow, double w, double reach) const {
+  if (stop_.is_linear()) return true;
+  const double mobility = std::abs(flow.coupling[0][0]);
+  const double departure = pull_.departure(w, path_[0], reach, pull_.largest() * mobility);
+  return departure * mobility <= kUnfeltPull * tolerance_ * std::max(scale_.displacement, std::abs(path_[0]));
 }
 
 Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
@@ -192,7 +200,7 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
     error_ = std::abs(bulge);
     if (force_[0] != 0.0) {
       const double stiff = stop_.stiffness() * coupling[1][0], h_speed = std::max(std::abs(hv), std::abs(path_[1]));
-      error_ = error_of_path(error_, stiff, flow.h, h_speed, {scale, scale_.speed});
+      error_ = error_of_path(error_, stiff, flow.h, h_speed, {scale, scale_.speed}, course == Course::closed);
       if (course != Course::closed)
         error_ = std::max(error_, kKinkedOutput * stiff * h_speed * tolerance_ / (kAtKinks * output_tolerance_));
     }

@@ -68,6 +68,8 @@ class SingleStep {
   Trial attempt(const Flow& flow);
   /// Fills force_ along the path that begins at w, hv and would end at path_ without the stop.
   Trial iterate(const Flow& flow, double w, double hv);
+  /// Whether the pull of the open stop is a constant, as far as the tolerance can tell.
+  bool is_steady(const Flow& flow, double w, double reach) const;
   const Motion& motion_at(std::size_t knot);
 
   solve::Dynamics& dynamics_;
@@ -76,6 +78,7 @@ class SingleStep {
   double tolerance_, output_tolerance_, load_frequency_ = 0.0;
   StopForce stop_;
   OwnForce own_;
+  FarPull pull_;
   double gap_, calm_border_, stop_shape_, square_, decay_;
   const std::vector<solve::ModalHarmonic>& harmonics_;
 

@@ -165,9 +165,9 @@ bool StopForce::of_one_crossing(const StopPath& path, Projection& to) const {
   return true;
 }
 
-double StopForce::far_force(const StopPath& path) {
-  if (path.lowest() > 0.0 || path.highest() < 0.0) return contact_.force_of(stop_, path.value(0.5));
-  return of_pieces(path).force[0];
+ForceMoments StopForce::far_force(const StopPath& path) {
+  if (path.lowest() > 0.0 || path.highest() < 0.0) return {contact_.force_of(stop_, path.value(0.5)), 0.0, 0.0};
+  return of_pieces(path).force;
 }
 
 void StopForce::add_spring(const StopPath& path, double begin, double end, double side, Projection& to) const {
@@ -258,6 +258,21 @@ void StopForce::add_crossings(const StopPath& path, double border) {
     }
     s0 = s1;
   }
+}
+
+FarPull::FarPull(const solve::Contact& contact, Index stop)
+    : pull_(contact.law_of(stop).far_force()),
+      bend_(contact.law_of(stop).bend_width()),
+      gap_(contact.gap_of(stop)),
+      jumps_(contact.sides_of(stop) == model::Sides::both) {}
+
+double FarPull::departure(double w0, double w1, double reach, double shift) const {
+  if (!(pull_ > 0.0)) return 0.0;
+  // The next term of the arctan's series about infinity, and the part of the jump that comes too early or too late.
+  const double part = bend_ / (gap_ - reach), on_the_way = std::abs(w1 - w0);
+  const bool stays = (w0 > 0.0) == (w1 > 0.0) && std::min(std::abs(w0), std::abs(w1)) > shift;
+  const double jump = !jumps_ || stays ? 0.0 : 2.0 * (shift < on_the_way ? shift / on_the_way : 1.0);
+  return pull_ * std::max(part * part / 3.0, jump);
 }
 
 double calm_border(const solve::Contact& contact, Index stop) {

@@ -84,8 +84,8 @@ class StopForce {
   };
   Course course(const StopPath& path) const;
   Projection project(const StopPath& path, Course course);
-  /// The mean force alone along a path without contact: the pull of a regularised law.
-  double far_force(const StopPath& path);
+  /// Along a path without contact, the pull of a regularised law: a constant but for where it jumps.
+  ForceMoments far_force(const StopPath& path);
   double stiffness() const { return stiffness_; }
   /// Without pull or smooth bend: nothing but a spring while closed.
   bool is_linear() const { return is_linear_; }
@@ -115,6 +115,25 @@ class StopForce {
   };
   std::vector<Place> places_;
 };
+
+/// What an open stop with a regularised law pulls, which away from its gap is nearly constant but for its sign.
+class FarPull {
+ public:
+  FarPull(const solve::Contact& contact, Index stop);
+
+  double largest() const { return pull_; }  ///< N
+  /// The most by which the force within a path from w0 to w1, of at most `reach`, departs from a constant on either
+  /// side of the middle of the gap, where forces not yet found may move it by `shift`.
+  double departure(double w0, double w1, double reach, double shift) const;
+
+ private:
+  double pull_, bend_, gap_;
+  bool jumps_;  ///< in the middle of the gap, to the other side
+};
+
+/// The displacement in a step by which a departure from the far force may be wrong, in parts of the error that the
+/// step itself is allowed: it does so step by step in the same sense.
+inline constexpr double kUnfeltPull = 0.01;
 
 /// The displacement up to which an open stop exerts hardly more than a constant pull, m: nearer to its gap than some
 /// widths of the bend of its law the force changes. A law so blunt that its bend is a part of the gap has no such

@@ -22,6 +22,34 @@ void check_lines(const std::string& text) {
   }
 }
 
+/// The length of the UTF-8 sequence that begins at a byte, 0 where there is none: RFC 3629, section 4.
+std::size_t sequence_at(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) -> unsigned { return at + i < text.size() ? text[at + i] & 0xffU : 0U; };
+  const auto goes_on = [&](std::size_t i) { return (byte(i) & 0xc0U) == 0x80U; };
+  const unsigned first = byte(0), second = byte(1);
+  if (first < 0x80U) return 1;
+  if (first >= 0xc2U && first <= 0xdfU) return goes_on(1) ? 2 : 0;
+  if (first >= 0xe0U && first <= 0xefU) {
+    const bool is_short = first == 0xe0U && second < 0xa0U, is_surrogate = first == 0xedU && second > 0x9fU;
+    return goes_on(1) && goes_on(2) && !is_short && !is_surrogate ? 3 : 0;
+  }
+  if (first < 0xf0U || first > 0xf4U) return 0;
+  const bool is_short = first == 0xf0U && second < 0x90U, is_beyond = first == 0xf4U && second > 0x8fU;
+  return goes_on(1) && goes_on(2) && goes_on(3) && !is_short && !is_beyond ? 4 : 0;
+}
+
+void check_encoding(const std::string& text) {
+  std::size_t line = 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = sequence_at(text, at);
+    if (length == 0)
+      throw InputError(":" + std::to_string(line) + ": byte " + std::to_string(at + 1) +
+                       " of the file is no UTF-8 text, which TOML is; save the file in that encoding");
+    if (text[at] == '\n') ++line;
+    at += length;
+  }
+}
+
 /// Goes through a text from token to token, strings and comments as a whole.
 class LimitScanner {
  public:
@@ -102,6 +130,7 @@ void check_limits(const std::string& text) {
   if (text.size() > kLargest)
     throw InputError(":1: the file is larger than " + std::to_string(kLargest >> 20U) + " MB");
   check_lines(text);
+  check_encoding(text);
   LimitScanner(text).scan();
 }
 

@@ -20,7 +20,7 @@ std::string mass_at_a_stop(const std::string& sides, const std::string& integrat
 
 /// States of the free motion x = sin t, which is beyond 0.9 from t = 1.12 to 2.02.
 time::State at(double t) {
-  return {t, Vector::Constant(1, std::sin(t)), Vector::Constant(1, std::cos(t)), {}, {}};
+  return {t, Vector::Constant(1, std::sin(t)), Vector::Constant(1, std::cos(t)), Vector::Constant(1, -std::sin(t)), {}};
 }
 
 TEST(ContactOnTheWay, IsOneThatBothEndsOfAStepAreFreeOf) {
@@ -32,6 +32,8 @@ TEST(ContactOnTheWay, IsOneThatBothEndsOfAStepAreFreeOf) {
   EXPECT_TRUE(happened(1.0, 2.1, 1e-3));
   EXPECT_TRUE(happened(1.0, 2.1, 0.1));    // sin reaches 1, a depth of 0.1.
   EXPECT_FALSE(happened(1.0, 2.1, 0.13));  // 0.1/0.9 is less than that.
+  EXPECT_TRUE(happened(0.2, 2.9, 0.08));   // The cubic alone stays below the gap; it is wrong by 0.11.
+  EXPECT_FALSE(happened(0.2, 2.9, 0.12));
   EXPECT_FALSE(happened(0.2, 0.9, 1e-6));  // It does not turn.
   EXPECT_FALSE(happened(0.2, 1.3, 1e-6));  // It ends in the stop, which every method sees.
   EXPECT_TRUE(happened(1.0 + 3.141592653589793, 2.1 + 3.141592653589793, 1e-3));

@@ -16,10 +16,10 @@ namespace {
 using test::SceneRun;
 
 constexpr int kInstants = 200;
-/// The starts that differ, in tolerances: as far as the errors of a few steps reach, which can fall to the other side
+/// What is moved, in tolerances: as far as the errors of a few steps reach, which can fall to the other side
 /// of a ridge.
 constexpr double kMoved = 10.0;
-/// Error at the end for such a difference at the start: that of many steps, and of more than one DOF.
+/// Error at the end for such a difference before: that of many steps, and of more than one DOF.
 constexpr double kReserve = 3.0;
 /// How wrong a clock may be, in tolerances.
 constexpr double kLate = 2.0;
@@ -97,9 +97,9 @@ std::string integrator(const Scene& scene, const std::string& keys) {
   return "[integrator]\n" + keys + "end_time = " + to_text(scene.end_time) + "\n";
 }
 
-/// Moves the start by `size` and `speed`, differently in every DOF.
+/// Moves the motion by `size` and `speed`, differently in every DOF, at an instant.
 struct Shift {
-  double size = 0.0, speed = 0.0;
+  double size = 0.0, speed = 0.0, at = 0.0;
 };
 
 struct Course {
@@ -107,19 +107,30 @@ struct Course {
   std::vector<double> speeds;
 };
 
+void move(time::Simulation& simulation, const Shift& shift) {
+  Vector x = simulation.state().x, v = simulation.state().v;
+  for (Index i = 0; i < x.size(); ++i) {
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    x[i] += sign * shift.size;
+    v[i] += sign * shift.speed;
+  }
+  simulation.set_motion(x, v);
+}
+
 Course exact_course(const Scene& scene, const Shift& shift, std::int64_t work) {
   SceneRun run(scene.toml +
                integrator(scene, "type = \"exact\"\ntime_step = " + to_text(1e-3 * scene.end_time) + "\n"));
-  auto& system = const_cast<model::System&>(run.system());
-  for (Index i = 0; i < system.size(); ++i) {
-    const double sign = i % 2 == 0 ? 1.0 : -1.0;
-    system.initial_displacement[i] += sign * shift.size;
-    system.initial_velocity[i] += sign * shift.speed;
-  }
-  time::Simulation simulation(run.dynamics(), run.integrator(), {1e-3 * scene.end_time, scene.end_time, {}});
+  time::Simulation& simulation = run.simulation();
   Follower follower(run.dynamics().size(), instants_of(scene));
   simulation.add(follower);
-  for (std::int64_t i = 0; i < work && work_of(run.dynamics().counters()) < work && simulation.advance();) ++i;
+  bool is_moved = shift.size == 0.0;
+  for (std::int64_t i = 0; i < work && work_of(run.dynamics().counters()) < work; ++i) {
+    if (!is_moved && simulation.state().t >= shift.at) {
+      move(simulation, shift);
+      is_moved = true;
+    }
+    if (!simulation.advance()) break;
+  }
   if (!follower.is_finite) return {};
   return {std::move(follower.rows), std::move(follower.speeds)};
 }
@@ -208,7 +219,11 @@ Reference::Reference(const Scene& scene, std::int64_t work) {
   const double moved = kMoved * scene.tolerance;
   for (const double in_place : {moved, -moved})
     for (const double in_speed : {moved, -moved})
-      others.push_back(exact_course(scene, {in_place * peak_, in_speed * speed}, work));
+      others.push_back(exact_course(scene, {in_place * peak_, in_speed * speed, 0.0}, work));
+  // What is damped away before the motion begins in earnest says nothing of what comes then.
+  for (const double part : {0.3, 0.6})
+    for (const double size : {moved, -moved})
+      others.push_back(exact_course(scene, {size * peak_, size * speed, part * scene.end_time}, work));
   const std::vector<double> instants = instants_of(scene);
   double apart = moved;
   for (std::size_t i = 0; i < course.rows.size(); ++i) {
