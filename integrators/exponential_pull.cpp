@@ -11,13 +11,13 @@ using solve::StepFlow;
 bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
   const FarPull& pull = pulls_[static_cast<std::size_t>(stop)];
   const double mobility = std::abs(derived(flow, stop).coupling[0][0]);
-  const double departure = pull.departure(w_[stop], w_new_[stop], reach_[stop], pull.largest() * mobility);
-  return departure * mobility <= kUnfeltPull * tolerance_ * scale_.displacement;
+  return pull.unfelt(w_[stop], w_new_[stop], reach_[stop], mobility, steps_of(scale_, flow.h())) <=
+         kUnfeltPull * output_tolerance_ * scale_.displacement;
 }
 
 void ExponentialStep::add_far_forces(StepFlow& flow) {
   if (far_.empty()) return;
-  const double h = flow.h(), felt = kUnfeltPull * tolerance_ * scale_.displacement;
+  const double h = flow.h(), steps = steps_of(scale_, h), felt = kUnfeltPull * output_tolerance_ * scale_.displacement;
   jumping_.clear();
   force_[0].setZero();
   for (const Index i : far_) {
@@ -25,7 +25,7 @@ void ExponentialStep::add_far_forces(StepFlow& flow) {
     const StopPath path(w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0);
     const ForceMoments pull = stops_[place].far_force(path);
     force_[0][i] = pull[0];
-    if (pull[1] == 0.0 || pulls_[place].largest() * std::abs(derived(flow, i).coupling[0][0]) <= felt) continue;
+    if (pull[1] == 0.0 || pulls_[place].largest() * std::abs(derived(flow, i).coupling[0][0]) * steps <= felt) continue;
     if (jumping_.empty()) force_[1].setZero(), force_[2].setZero();
     force_[1][i] = pull[1];
     force_[2][i] = pull[2];

@@ -31,6 +31,11 @@ struct StopScale {
   double displacement = 0.0, speed = 0.0;
 };
 
+/// The motion's own time, in steps of h.
+inline double steps_of(StopScale scale, double h) {
+  return h * scale.speed < scale.displacement ? scale.displacement / (h * scale.speed) : 1.0;
+}
+
 /// The part of the departure from the cubic, times (h omega_c)^4, that its force may get wrong in the speed after a
 /// step, times h. That of a whole impact within a step counts so much more than its small displacements: without it the
 /// speed after impacts at stops of 1e12 N/m came out wrong by percents at a tolerance of 1e-4. More of it counts while

@@ -159,9 +159,10 @@ Trial SingleStep::attempt(const Flow& flow) {
 
 bool SingleStep::is_steady(const Flow& flow, double w, double reach) const {
   if (stop_.is_linear()) return true;
-  const double mobility = std::abs(flow.coupling[0][0]);
-  const double departure = pull_.departure(w, path_[0], reach, pull_.largest() * mobility);
-  return departure * mobility <= kUnfeltPull * tolerance_ * std::max(scale_.displacement, std::abs(path_[0]));
+  const double scale = std::max(scale_.displacement, std::abs(path_[0]));
+  const double steps = steps_of(scale_, flow.h);
+  return pull_.unfelt(w, path_[0], reach, std::abs(flow.coupling[0][0]), steps) <=
+         kUnfeltPull * output_tolerance_ * scale;
 }
 
 Trial SingleStep::iterate(const Flow& flow, double w, double hv) {

@@ -17,6 +17,8 @@ constexpr double kNearRoot = 1e-8;
 /// A law bends sharply where it does so over less than this part of the range of the path: what it adds to a linear
 /// stop there is then of the second order in that part.
 constexpr double kSharp = 1e-3;
+/// An end of the path this near to where the law bends, in parts of the path's range, is as the bend itself.
+constexpr double kBesideBend = 0.5;
 /// Panels beside a bend that is not sharp: each is shorter than the last by this factor.
 constexpr double kGrading = 0.15;
 constexpr int kPanels = 4;
@@ -141,10 +143,8 @@ bool StopPath::is_monotonic() const {
 Projection StopForce::project(const StopPath& path, Course course) {
   Projection sum;
   if (course == Course::open && is_linear_) return sum;
-  if (course == Course::closed) {
-    const double side = side_at(path.value(0.5));
-    add_spring(path, 0.0, 1.0, side, sum);
-    if (!is_linear_) add(sum.force, of_rest(path, 0.0, 1.0, side));
+  if (course == Course::closed && is_linear_) {
+    add_spring(path, 0.0, 1.0, side_at(path.value(0.5)), sum);
     return sum;
   }
   if (is_linear_ && of_one_crossing(path, sum)) return sum;
@@ -232,12 +232,17 @@ Projection StopForce::of_pieces(const StopPath& path) {
 
 void StopForce::find_places(const StopPath& path) {
   places_.assign(1, {0.0, false});
+  const double range = path.highest() - path.lowest();
+  const auto is_near_bend = [&](double w) {
+    return (on_upper_ && std::abs(w - gap_) < kBesideBend * range) ||
+           (on_lower_ && std::abs(w + gap_) < kBesideBend * range);
+  };
   if (on_upper_) add_crossings(path, gap_);
   if (on_lower_ && (gap_ > 0.0 || !on_upper_)) add_crossings(path, -gap_);
-  for (Place& place : places_) place.is_bend = place.s > 0.0;
+  for (Place& place : places_) place.is_bend = place.s > 0.0 || is_near_bend(path.value(0.0));
   if (!is_linear_ && on_upper_ && on_lower_ && gap_ > 0.0) add_crossings(path, 0.0);
   std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.s < b.s; });
-  places_.push_back({1.0, false});
+  places_.push_back({1.0, is_near_bend(path.value(1.0))});
 }
 
 void StopForce::add_crossings(const StopPath& path, double border) {
@@ -266,13 +271,13 @@ FarPull::FarPull(const solve::Contact& contact, Index stop)
       gap_(contact.gap_of(stop)),
       jumps_(contact.sides_of(stop) == model::Sides::both) {}
 
-double FarPull::departure(double w0, double w1, double reach, double shift) const {
-  if (!(pull_ > 0.0)) return 0.0;
-  // The next term of the arctan's series about infinity, and the part of the jump that comes too early or too late.
-  const double part = bend_ / (gap_ - reach), on_the_way = std::abs(w1 - w0);
+double FarPull::unfelt(double w0, double w1, double reach, double mobility, double steps) const {
+  // The next term of the arctan's series about infinity.
+  const double part = bend_ / (gap_ - reach), varying = part * part / 3.0 * steps * steps;
+  const double shift = pull_ * mobility, on_the_way = std::abs(w1 - w0);
   const bool stays = (w0 > 0.0) == (w1 > 0.0) && std::min(std::abs(w0), std::abs(w1)) > shift;
   const double jump = !jumps_ || stays ? 0.0 : 2.0 * (shift < on_the_way ? shift / on_the_way : 1.0);
-  return pull_ * std::max(part * part / 3.0, jump);
+  return pull_ * mobility * (varying + jump * steps);
 }
 
 double calm_border(const solve::Contact& contact, Index stop) {
