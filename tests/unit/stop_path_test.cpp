@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include <butee/core/text.hpp>
 #include <butee/solve/contact.hpp>
 #include <gtest/gtest.h>
 
@@ -82,6 +83,44 @@ TEST(StopForce, OfALinearLawIsExact) {
 TEST(StopForce, OfASmoothLawIsCloseToItsIntegral) {
   compare("law = \"arctan\"\nregularization = 1e5", 1e-5);
   compare("law = \"arctan\"\nregularization = 1e2", 1e-4);
+}
+
+TEST(StopForce, OfASmoothLawIsCloseBesideABendThatThePathEndsAt) {
+  for (const double lambda : {1e2, 1e3}) {
+    SceneRun run(scene("law = \"arctan\"\nregularization = " + to_text(lambda), "both"));
+    solve::Contact& contact = run.dynamics().contact();
+    StopForce force(contact, 0);
+    for (const double beside : {-1e-2, -1e-3, -1e-4, 1e-4, 1e-3, 1e-2})
+      for (const double from : {0.3, 0.7})
+        for (const bool at_end : {true, false}) {
+          const double to = 0.5 + beside, slope = 1.2 * (to - from);
+          const StopPath path =
+              at_end ? StopPath(from, slope, to, slope, 0.0) : StopPath(to, -slope, from, -slope, 0.0);
+          const ForceMoments computed = force.project(path, force.course(path)).force,
+                             expected = by_simpson(contact, path);
+          for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_NEAR(computed[k], expected[k], 2e-6) << lambda << " " << beside << " " << from << " " << at_end;
+        }
+  }
+}
+
+TEST(FarPull, IsAConstantAsFarAsItsSeriesAndItsJumpGo) {
+  constexpr double kMobility = 0.01, kSteps = 5.0;
+  SceneRun linear(scene("law = \"linear\"", "both"));
+  EXPECT_EQ(integrators::FarPull(linear.dynamics().contact(), 0).unfelt(0.1, -0.1, 0.2, kMobility, kSteps), 0.0);
+  SceneRun run(scene("law = \"arctan\"\nregularization = 1e2", "both"));
+  solve::Contact& contact = run.dynamics().contact();
+  const integrators::FarPull pull(contact, 0);
+  // What the constant is off by, with the square of the steps.
+  const double off = std::abs(std::abs(contact.force_of(0, 0.25)) - pull.largest());
+  const double bound = pull.unfelt(0.1, 0.2, 0.25, kMobility, kSteps);
+  EXPECT_NEAR(bound, off * kMobility * kSteps * kSteps, 0.01 * bound);
+  // Through the middle: twice the pull over the part of the way that the pull itself is worth.
+  const double shift = pull.largest() * kMobility;
+  EXPECT_NEAR(pull.unfelt(0.1, -0.1, 0.2, kMobility, kSteps) - pull.unfelt(0.05, 0.15, 0.2, kMobility, kSteps),
+              2.0 * shift * (shift / 0.2) * kSteps, 1e-12);
+  SceneRun one_sided(scene("law = \"arctan\"\nregularization = 1e2", "positive"));
+  EXPECT_EQ(integrators::FarPull(one_sided.dynamics().contact(), 0).unfelt(0.1, -0.1, 0.25, kMobility, kSteps), bound);
 }
 
 }  // namespace
