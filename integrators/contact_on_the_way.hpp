@@ -26,9 +26,8 @@ class ContactOnTheWay {
   bool was_missed(const time::State& from, const time::State& to, double h);
 
  private:
-  bool has_passed_middle(Index stop) const {
-    return jumps_[stop] > 0.0 && std::signbit(w0_[stop]) != std::signbit(w1_[stop]);
-  }
+  /// A start in the middle itself is on neither side.
+  bool has_passed_middle(Index stop) const { return jumps_[stop] > 0.0 && w0_[stop] * w1_[stop] < 0.0; }
 
   solve::Contact* contact_;
   double tolerance_;

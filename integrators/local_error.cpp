@@ -74,7 +74,8 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const double scale_x = std::max(from.memory[0], norm(to.x)), scale_v = std::max(from.memory[1], norm(to.v));
   double r = relative_error(from, to, norm(error_x), norm(error_v), scale_x, scale_v) / threshold_;
   if (kink_ > 1.0 && r <= 1.0 && contact_.changed(from, to)) r *= kink_;
-  if (r <= 1.0) r = std::max(r, kOfJump * h * contact_.jump(from, to) / (scale_v * threshold_));
+  if (const double jump = r <= 1.0 ? contact_.jump(from, to) : 0.0; jump > 0.0)
+    r = std::max(r, kOfJump * h * jump / (threshold_ * std::max(scale_v, std::max(norm(from.a), norm(to.a)) / omega_)));
   to.memory.head(kMemory) << scale_x, scale_v, std::max(r, kSmallest);
   if (!std::isfinite(r)) {
     report.status = time::StepStatus::not_finite;
