@@ -15,7 +15,8 @@ constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 }  // namespace
 
 Extrapolation::Extrapolation(solve::Dynamics& dynamics, double tolerance)
-    : Integrator(dynamics), control_(dynamics, tolerance, {7.0, 8.0, kShare, kKink}, LocalErrorControl::Steps::any) {
+    : Integrator(dynamics),
+      control_(dynamics, tolerance, {7.0, 8.0, kShare, kKink, kLimit}, LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
   a_ = Vector::Zero(dynamics.size());
 }

@@ -36,6 +36,7 @@ LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, double tolerance
       threshold_(orders.share * std::pow(tolerance, orders.estimate / orders.method)),
       estimate_order_(orders.estimate),
       kink_(orders.kink),
+      stability_(orders.stability),
       steps_(steps),
       work_(dynamics.size()) {
   const model::System& system = dynamics.system();
@@ -81,7 +82,8 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     report.status = time::StepStatus::not_finite;
     return;
   }
-  if (r <= 1.0 && contact_.was_missed(from, to, h)) {
+  const bool is_unstable = r <= 1.0 && h * omega_ > stability_ && contact_.changed(from, to);
+  if (r <= 1.0 && (is_unstable || contact_.was_missed(from, to, h))) {
     report.error = kMissed;
     report.proposal = steps_ == Steps::any ? 0.5 * h : ladder_step(h, kMissed);
     return;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "butee/time/integrator.hpp"
 #include "integrators/contact_on_the_way.hpp"
 
@@ -29,6 +31,9 @@ class LocalErrorControl {
     double share = 1.0;
     /// By how much the estimate of a step in which a stop closes or opens is taken for too small.
     double kink = 1.0;
+    /// Of an explicit method, the h omega at which it is stable within a closed stop: a longer step in which one closes
+    /// or opens is redone, whatever its estimate says.
+    double stability = std::numeric_limits<double>::infinity();
   };
   /// Whether steps are taken from a ladder of ratio 2^(1/4), so that factorizations are found again.
   enum class Steps { any, ladder };
@@ -67,7 +72,7 @@ class LocalErrorControl {
   const solve::Dynamics& dynamics_;
   Proposed controller_;
   ContactOnTheWay contact_;
-  double threshold_, estimate_order_, kink_, first_step_;
+  double threshold_, estimate_order_, kink_, stability_, first_step_;
   double omega_ = 0.0;  ///< 0 where nothing has a stiffness
   Steps steps_;
   Vector work_;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "butee/time/integrator.hpp"
 
@@ -37,6 +39,19 @@ class Quintic {
   std::array<double, 6> c_;
 };
 
+/// The accelerations that the quintic through two motions takes: their own, or the cubic's through x and v where one of
+/// them departs from that far more than the other. So it does where a step ends within a stiff stop: its acceleration,
+/// of the last instant alone, would bend the whole step.
+inline void leave_out_kinks(double h, Motion& from, Motion& to) {
+  constexpr double kFarMore = 10.0;
+  const double rise = 6.0 * (to.x - from.x) / h;
+  const double a0 = (rise - 4.0 * from.v - 2.0 * to.v) / h, a1 = (2.0 * from.v + 4.0 * to.v - rise) / h;
+  const double off0 = std::abs(from.a - a0), off1 = std::abs(to.a - a1);
+  if (std::max(off0, off1) <= kFarMore * std::min(off0, off1)) return;
+  from.a = a0;
+  to.a = a1;
+}
+
 /// The interpolant of a method of order 5 or more from x, v and a at both ends of a step.
 inline void interpolate_quintic(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                                 time::Interpolated out) {
@@ -50,7 +65,9 @@ inline void interpolate_quintic(const time::State& from, const time::State& to, 
       if (!out.a.empty()) out.a[i] = end.a[d];
       continue;
     }
-    const Quintic course(h, {from.x[d], from.v[d], from.a[d]}, {to.x[d], to.v[d], to.a[d]});
+    Motion begin = {from.x[d], from.v[d], from.a[d]}, end = {to.x[d], to.v[d], to.a[d]};
+    leave_out_kinks(h, begin, end);
+    const Quintic course(h, begin, end);
     if (!out.x.empty()) out.x[i] = course.value(s);
     if (!out.v.empty()) out.v[i] = course.slope(s);
     if (!out.a.empty()) out.a[i] = course.curvature(s);
