@@ -17,7 +17,7 @@ double peak(double h, double w0, double v0, double a0, double w1, double v1) {
   const double rise = w1 - w0, b = 3.0 * rise - h * (2.0 * v0 + v1), c = h * (v0 + v1) - 2.0 * rise;
   const double root = std::sqrt(std::max(0.0, b * b - 3.0 * c * h * v0));
   const double s = std::clamp(h * v0 / (root - b), 0.0, 1.0);
-  // w h^4/384 against w h^2/12.
+  // The fourth derivative times h^4/384 in the middle, and times h^2/12 in the acceleration at an end.
   const double error = std::abs(2.0 * b - h * h * a0) / 32.0;
   return w0 + s * (h * v0 + s * (b + s * c)) + error;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <new>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include <butee/record/field_layout.hpp>
 #include <butee/solve/frequencies.hpp>
 
+#include "check/advice.hpp"
 #include "interruption.hpp"
 
 namespace butee::app {
@@ -19,16 +19,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Rows within an impact that show its course.
-constexpr double kRowsInContact = 4.0;
 /// The force of a stop that is closed, over the pull of open ones.
 constexpr double kMoreThanPull = 1.1;
 
-/// The force of an open stop, in the middle of its gap: of the arctan law that is not 0.
+/// The largest force of an open stop, N: of the arctan law that is not 0.
 double largest_pull(const solve::Contact& contact) {
   double largest = 0.0;
-  for (Index i = 0; i < contact.size(); ++i)
-    largest = std::max(largest, std::abs(contact.law_of(i).secant(-contact.gap_of(i))) * contact.gap_of(i));
+  for (Index i = 0; i < contact.size(); ++i) largest = std::max(largest, contact.law_of(i).far_force());
   return largest;
 }
 
@@ -144,7 +141,7 @@ void Run::look_at_rows() {
   const double frequency = solve::contact_frequency(assembly_.system, assembly_.dynamics.contact());
   if (!output.interval || output.impacts || !(frequency > 0.0)) return;
   const double contact = std::numbers::pi / frequency;
-  if (*output.interval * kRowsInContact <= contact) return;
+  if (*output.interval * check::kRowsInContact <= contact) return;
   const double pull = largest_pull(assembly_.dynamics.contact());
   const bool has_struck = std::any_of(summary_.peaks.begin(), summary_.peaks.end(), [&](const auto& peak) {
     return peak.first.ends_with(".contact_force") && peak.second > kMoreThanPull * pull;
@@ -153,7 +150,7 @@ void Run::look_at_rows() {
   summary_.report.warnings.push_back("an impact lasts about " + to_short_text(contact) +
                                      " s and history.csv has a row every " + to_short_text(*output.interval) +
                                      " s, which do not show the course of its force. Take interval = " +
-                                     to_short_text(contact / (2.5 * kRowsInContact)) + ", or impacts = true");
+                                     to_short_text(contact / (2.5 * check::kRowsInContact)) + ", or impacts = true");
 }
 
 void Run::write_files(const record::ResultFolder& folder) {

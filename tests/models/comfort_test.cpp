@@ -205,6 +205,21 @@ TEST(Init, overwrites_nothing) {
   EXPECT_EQ(folder.entries(), (std::vector<std::string>{"beam.toml", "other.toml"}));
 }
 
+TEST(Run, SaysWhereRowsAreTooFarApartForAnImpact) {
+  const auto errors = [](const std::string& interval, const std::string& more) {
+    const TemporaryFolder folder;
+    return run_program({"run", model_path("oscillator"), "--set", "integrator.end_time=0.02", "--set",
+                        "integrator.type=\"rk4\"", "--set", "output.interval=" + interval, "--set", more, "-o", "out"},
+                       folder.path())
+        .errors;
+  };
+  const std::string mark = "do not show the course of its force";
+  EXPECT_TRUE(holds(errors("1e-3", "output.impacts=false"), mark));
+  EXPECT_FALSE(holds(errors("2e-5", "output.impacts=false"), mark));
+  EXPECT_FALSE(holds(errors("1e-3", "output.impacts=true"), mark));
+  EXPECT_FALSE(holds(errors("1e-3", "load[0].amplitude=1e-3"), mark));  // It never strikes.
+}
+
 TEST(Colours, are_for_terminals_and_can_be_refused) {
   const TemporaryFolder folder;
   const Outcome piped = run_program({"check", model_path("beam1")}, folder.path(), {"TERM=xterm-256color"});

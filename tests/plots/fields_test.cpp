@@ -1,13 +1,13 @@
-// Fields of all nodes: that they are what the probes say, where the nodes stand, that other programs read them, and
-// that a run that is killed leaves whole records.
+// Fields of all nodes: that they are what the probes say, that other programs read them, and that a run that is killed
+// leaves whole records.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 
-#include <butee/record/field_layout.hpp>
 #include <gtest/gtest.h>
 
+#include "plots/field_parts.hpp"
 #include "support/process.hpp"
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
@@ -17,35 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-
-constexpr const char* kParts = R"(schema = 1
-title = "a string & a rotor"
-[material.steel]
-young_modulus = 2.0e11
-density = 8000.0
-[section.pipe]
-shape = "general"
-area = 2.0e-3
-second_moment = 3.0e-6
-[[element]]
-type = "beam"
-name = "string"
-material = "steel"
-section = "pipe"
-length = 10.0
-elements = 10
-[[element]]
-type = "mass"
-name = "rotor"
-mass = 5.0
-[[element]]
-type = "spring"
-nodes = ["rotor", "string:3"]
-stiffness = 1.0e4
-[[support]]
-nodes = ["string:first", "string:last"]
-fix = ["u"]
-)";
 
 std::string scene(const std::string& more) {
   return std::string(kParts) + R"([[contact]]
@@ -183,48 +154,6 @@ TEST(Fields, KeepWhatIsAskedFor) {
   EXPECT_EQ(reader->layout().fields.size(), 2U);
   EXPECT_EQ(reader->times().size(), 16U);
   EXPECT_EQ(reader->times().back(), 0.3);
-}
-
-model::FieldLayout layout_of(const std::string& toml) {
-  const app::Session session = read_scene(toml);
-  const model::System system = assemble(session.model);
-  record::FieldRequest request;
-  for (model::NodeId i = 0; i < session.model.nodes.size(); ++i) request.nodes.push_back(i);
-  return make_layout(session.model, system, request);
-}
-
-std::array<double, 3> place(const model::FieldLayout& layout, const std::string& node) {
-  const auto found = std::find(layout.nodes.begin(), layout.nodes.end(), node);
-  return layout.positions.at(static_cast<std::size_t>(found - layout.nodes.begin()));
-}
-
-std::string beam(const std::string& name, const std::string& keys) {
-  return "[[element]]\ntype = \"beam\"\nname = \"" + name + "\"\nmaterial = \"steel\"\nsection = \"pipe\"\n" + keys +
-         "\n";
-}
-
-TEST(FieldLayout, PutsBeamsSideBySideAndEndToEnd) {
-  using Place = std::array<double, 3>;
-  const std::string parts = std::string(kParts) + beam("casing", "length = 10.0\nelements = 5") +
-                            beam("next", "length = 4.0\nelements = 2\nstart_node = \"string:last\"") +
-                            beam("branch", "length = 2.0\nelements = 2\nstart_node = \"string:5\"") +
-                            "[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\nend_time = 1e-3\n";
-  const model::FieldLayout layout = layout_of(parts);
-  EXPECT_EQ(place(layout, "string:3"), (Place{3.0, 0.0, 0.0}));
-  EXPECT_EQ(place(layout, "casing:1"), (Place{2.0, 0.0, 0.5}));  // 5 % of 10 m beside it
-  EXPECT_EQ(place(layout, "next:1"), (Place{12.0, 0.0, 0.0}));   // goes on behind the string
-  EXPECT_EQ(place(layout, "branch:1"), (Place{6.0, 0.0, 1.0}));  // from the middle of the string, beside it
-  EXPECT_EQ(place(layout, "rotor"), (Place{3.0, 0.0, 1.5}));     // where its spring ties it to
-  EXPECT_EQ(layout.lines.size(), 4U);
-}
-
-TEST(FieldLayout, PutsLoneNodesIntoARow) {
-  const std::string masses =
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
-      "\"b\"\nmass = 1.0\n[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\nend_time = 1e-3\n";
-  const model::FieldLayout layout = layout_of(masses);
-  EXPECT_EQ(place(layout, "b"), (std::array<double, 3>{1.0, 0.0, 0.0}));
-  EXPECT_TRUE(layout.lines.empty());
 }
 
 /// A Python that has the module, or "".

@@ -15,8 +15,8 @@ namespace {
 constexpr double kNoticeablePull = 1e-6;
 /// A stop that is open by this part of its gap should not feel more than this part of its stiffness.
 constexpr double kNearPart = 0.1, kSoftStart = 0.01;
-/// Rows, or fixed steps, in the shortest contact that show its course.
-constexpr double kRowsInContact = 4.0, kStepsInContact = 8.0;
+/// Fixed steps in the shortest contact that show its course.
+constexpr double kStepsInContact = 8.0;
 /// Fixed steps in a period of a load that follow it, and beam elements in a bending wave at its frequency.
 constexpr double kStepsInPeriod = 20.0, kElementsInWave = 8.0;
 

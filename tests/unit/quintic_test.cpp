@@ -1,0 +1,39 @@
+#include "integrators/quintic.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace butee::test {
+namespace {
+
+using time::State;
+
+State at(double t, double x, double v, double a) {
+  return {t, Vector::Constant(1, x), Vector::Constant(1, v), Vector::Constant(1, a), {}};
+}
+
+double middle(const State& from, const State& to) {
+  double x = 0.0;
+  const std::array<Index, 1> dofs = {0};
+  integrators::interpolate_quintic(from, to, 0.5 * (from.t + to.t), dofs, {{&x, 1}, {}, {}});
+  return x;
+}
+
+TEST(Quintic, IsOfOrderSixWhereTheMotionIsSmooth) {
+  const auto error = [](double h) {
+    const auto state = [](double t) { return at(t, std::sin(t), std::cos(t), -std::sin(t)); };
+    return std::abs(middle(state(0.3), state(0.3 + h)) - std::sin(0.3 + 0.5 * h));
+  };
+  EXPECT_LT(error(0.4), 1e-7);  // The cubic is wrong by h^4/384 = 7e-5.
+  EXPECT_NEAR(std::log2(error(0.4) / error(0.2)), 6.0, 0.3);
+}
+
+TEST(Quintic, IsNotBentByAnEndWithinAStiffStop) {
+  // Free flight at 1 m/s that has gone 1e-7 m into a stop of 1e14 N/m: -1e7 m/s^2, for a step of 1e-3 s.
+  const double x = middle(at(0.0, 0.0, 1.0, 0.0), at(1e-3, 1e-3, 1.0, -1e7));
+  EXPECT_NEAR(x, 5e-4, 1e-12);
+}
+
+}  // namespace
+}  // namespace butee::test
