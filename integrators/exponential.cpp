@@ -44,6 +44,20 @@ double middle_tolerance(const ExponentialOptions& options) {
   }
 }
 
+/// What a truncated basis lacks.
+std::string describe_basis(const ModalSystem& modal, Index dofs) {
+  const std::string share = to_short_text(100.0 * modal.truncation()) + " % of what a stop or a load moves itself by";
+  std::string text = "exponential with the lowest " + std::to_string(modal.size() - modal.static_count()) + " of " +
+                     std::to_string(dofs) + " modes";
+  if (modal.static_count() > 0)
+    text += " and " + std::to_string(modal.static_count()) + " static shapes: the modes left out hold up to " + share +
+            "; they follow forces slower than " + to_short_text(modal.highest_mode()) +
+            " rad/s, and what faster ones lose no tolerance makes good";
+  else
+    text += ": what the others hold, up to " + share + ", is left out, whatever the tolerance";
+  return text + "; give more modes, or another type, where that is too much";
+}
+
 }  // namespace
 
 template <class Step>
@@ -221,15 +235,7 @@ std::unique_ptr<time::Integrator> make_exponential(solve::Dynamics& dynamics, co
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
   auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
   const ModalSystem& modal = dynamics.modal(options.modes);
-  if (modal.is_complete()) return integrator;
-  std::string note = "exponential with the lowest " + std::to_string(modal.size());
-  note += " of " + std::to_string(dynamics.size()) + " modes: ";
-  if (modal.stop_count() > 0)
-    note += "those left out hold up to " + to_short_text(100.0 * modal.truncation()) +
-            " % of what a stop gives way under its own force, which no tolerance makes good";
-  else
-    note += "what the others hold is left out, whatever the tolerance";
-  integrator->set_choice(note + "; give more modes, or another type, where that is too much");
+  if (!modal.is_complete()) integrator->set_choice(describe_basis(modal, dynamics.size()));
   return integrator;
 }
 
@@ -244,7 +250,8 @@ time::IntegratorType exponential_type() {
                              .or_else(1e-4)
                              .sweep(1e-1, 1e-9),
                          config::integer("order", "2, 4 or 6").at_least(2).at_most(6).or_else(std::int64_t{6}),
-                         config::integer("modes", "the lowest modes to take; 0: all up to 600 DOFs, 300 above")
+                         config::integer(
+                             "modes", "the lowest modes to take; 0: all up to 600 DOFs, 300 above, with static shapes")
                              .at_least(0)
                              .or_else(std::int64_t{0})},
           .finds_first_step = true,

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <butee/core/blocks.hpp>
+
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -35,9 +37,12 @@ Newmark::Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, Newton
 
 StepReport Newmark::do_step(const State& from, const time::Step& step, State& to) {
   const double h = step.h;
-  to.a = from.a;
-  to.x = from.x + h * from.v + 0.5 * h * h * from.a;
-  to.v = from.v + h * from.a;
+  in_blocks(to.x.size(), [&](Index begin, Index count) {
+    const auto v = from.v.segment(begin, count), a = from.a.segment(begin, count);
+    to.a.segment(begin, count) = a;
+    to.x.segment(begin, count) = from.x.segment(begin, count) + h * v + 0.5 * h * h * a;
+    to.v.segment(begin, count) = v + h * a;
+  });
   StepReport report = stage_.solve(step.t_end, parameters_.gamma * h, parameters_.beta * h * h, to.x, to.v, to.a);
   if (controller_ != nullptr && report.status == time::StepStatus::ok) report.error = controller_->error(from, to, h);
   return report;

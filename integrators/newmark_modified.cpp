@@ -1,5 +1,7 @@
 #include "integrators/newmark_modified.hpp"
 
+#include <butee/core/blocks.hpp>
+
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -18,21 +20,23 @@ ModifiedNewmark::ModifiedNewmark(solve::Dynamics& dynamics, NewmarkParameters pa
 StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, State& to) {
   const double h = step.h, beta = parameters_.beta, gamma = parameters_.gamma;
   const double on_v = gamma * h, on_x = beta * h * h;
-  to.x = from.x + h * from.v + (0.5 - beta) * h * h * from.a;
-  to.v = from.v + (1.0 - gamma) * h * from.a;
+  in_blocks(to.x.size(), [&](Index begin, Index count) {
+    const auto v = from.v.segment(begin, count), a = from.a.segment(begin, count);
+    to.x.segment(begin, count) = from.x.segment(begin, count) + h * v + (0.5 - beta) * h * h * a;
+    to.v.segment(begin, count) = v + (1.0 - gamma) * h * a;
+  });
 
   if (dynamics().stop_count() > 0) dynamics().secant_contact(from.x, secant_, offset_);
-  dynamics().secant_forces(step.t_end, secant_, offset_, to.x, to.v, to.a);
-
-  solve::EffectiveSolver& effective = dynamics().effective();
-  effective.set_factors(on_v, on_x);
   StepReport report;
-  if (!effective.solve(secant_, to.a)) {
+  if (!dynamics().solve_secant(step.t_end, on_v, on_x, secant_, offset_, to.x, to.v, to.a)) {
     report.status = time::StepStatus::singular;
     return report;
   }
-  to.x += on_x * to.a;
-  to.v += on_v * to.a;
+  in_blocks(to.x.size(), [&](Index begin, Index count) {
+    const auto a = to.a.segment(begin, count);
+    to.x.segment(begin, count) += on_x * a;
+    to.v.segment(begin, count) += on_v * a;
+  });
   if (controller_ != nullptr) report.error = controller_->error(from, to, h);
   return report;
 }

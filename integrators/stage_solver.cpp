@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <butee/core/blocks.hpp>
+
 namespace butee::integrators {
 
 using time::StepReport;
@@ -22,14 +24,13 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
   while (true) {
     // The first look always leads to a solve, except at rest; later ones seldom do, and ask for the tangent then.
     const bool first = report.newton_iterations == 0;
-    const double scale = evaluate_residual(x, v, a, first);
-    if (!std::isfinite(scale)) {
+    const solve::ForceBalance balance = evaluate_residual(x, v, a, first);
+    if (!std::isfinite(balance.scale())) {
       report.status = StepStatus::not_finite;
       return report;
     }
-    const bool converged =
-        residual_.norm() <= options_.residual_tolerance * scale && increment <= options_.increment_tolerance * x.norm();
-    if (converged) return report;
+    const bool is_balanced = balance.residual() <= options_.residual_tolerance * balance.scale();
+    if (is_balanced && (first || increment <= options_.increment_tolerance * x.norm())) return report;
     if (report.newton_iterations == options_.max_iterations) break;
     if (!first && has_stops) contact(stop_displacement_, true, stop_force_, stop_tangent_);
     if (!effective.solve(stop_tangent_, residual_)) {
@@ -37,11 +38,9 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
       return report;
     }
     ++report.newton_iterations;
-    a += residual_;
-    v += on_v * residual_;
-    x += on_x * residual_;
+    const double correction = on_x * add_correction(on_v, on_x, x, v, a);
     if (!has_stops && !options_.checks_linear_too) return report;
-    increment = on_x * residual_.norm();
+    increment = correction;
   }
   residual_.cwiseAbs().maxCoeff(&report.worst_dof);
   report.kept_failure = options_.keep_failures;
@@ -49,7 +48,20 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
   return report;
 }
 
-double StageSolver::evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent) {
+double StageSolver::add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) const {
+  double square = 0.0;
+  in_blocks(a.size(), [&](Index begin, Index count) {
+    const auto correction = residual_.segment(begin, count);
+    a.segment(begin, count) += correction;
+    v.segment(begin, count) += on_v * correction;
+    x.segment(begin, count) += on_x * correction;
+    square += correction.squaredNorm();
+  });
+  return std::sqrt(square);
+}
+
+solve::ForceBalance StageSolver::evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
+                                                   bool with_tangent) {
   if (dynamics_.stop_count() > 0) {
     dynamics_.contact().displacement(x, stop_displacement_);
     contact(stop_displacement_, with_tangent, stop_force_, stop_tangent_);

@@ -34,7 +34,9 @@ class StageSolver {
  private:
   /// The stops' forces f and, where asked for, tangent stiffnesses k at displacements w.
   virtual void contact(ConstVectorRef w, bool with_tangent, VectorRef f, VectorRef k);
-  double evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
+  /// a += correction, and v and x with their factors, by the solution in residual_; returns its 2-norm.
+  double add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) const;
+  solve::ForceBalance evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
 
   solve::Dynamics& dynamics_;
   NewtonOptions options_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "butee/core/blocks.hpp"
 #include "butee/core/error.hpp"
-#include "butee/solve/force_balance.hpp"
 #include "butee/solve/free_motion.hpp"
 
 namespace butee::solve {
@@ -17,13 +17,16 @@ Dynamics::Dynamics(const model::System& system)
       stiffness_product_(system.stiffness),
       load_time_(std::numeric_limits<double>::quiet_NaN()),
       load_values_(system.loads.size()),
-      work_(Vector::Zero(system.size())),
+      contact_force_(Vector::Zero(contact_.size() > 0 ? system.size() : 0)),
+      stop_displacement_(Vector::Zero(contact_.size())),
+      stop_velocity_(stop_displacement_),
+      stop_force_(stop_displacement_),
+      shifted_(Vector::Zero(system.damping.is_rayleigh() ? system.size() : 0)),
+      modal_force_(Vector::Zero(modal_ ? system.size() : 0)),
+      work_(Vector::Zero(std::min(system.size(), kLargestBlock))),
       other_(work_),
       inertia_(work_),
-      damping_(work_),
-      contact_force_(work_),
-      stop_displacement_(Vector::Zero(contact_.size())),
-      stop_force_(stop_displacement_) {
+      damping_(work_) {
   if (system.dashpots.size() > 0) dashpot_product_ = SymmetricProduct(system.dashpots);
   if (size() == 1)
     single_damping_ = system.damping.mass_proportional * system.mass.coeff(0, 0) +
@@ -35,11 +38,14 @@ Dynamics::Dynamics(const model::System& system)
       loaded_dofs_.push_back({system.loads[j].dofs[i], system.loads[j].weights[i], j});
 }
 
+void Dynamics::find_load_values(double t) {
+  if (t == load_time_) return;
+  for (std::size_t i = 0; i < load_values_.size(); ++i) load_values_[i] = system_.loads[i].in_time->value(t);
+  load_time_ = t;
+}
+
 void Dynamics::external_force(double t, VectorRef force) {
-  if (t != load_time_) {
-    for (std::size_t i = 0; i < load_values_.size(); ++i) load_values_[i] = system_.loads[i].in_time->value(t);
-    load_time_ = t;
-  }
+  find_load_values(t);
   force.setZero();
   for (const LoadedDof& part : loaded_dofs_) force[part.dof] += part.weight * load_values_[part.load];
 }
@@ -71,35 +77,57 @@ void Dynamics::inertia_force(ConstVectorRef a, VectorRef y) const {
 }
 
 void Dynamics::damping_force(ConstVectorRef v, VectorRef y) {
+  in_blocks(size(), [&](Index begin, Index count) { damping_rows(v, begin, count, y.data() + begin); });
+  if (modal_) modal_->add_force(v, y);
+}
+
+void Dynamics::damping_rows(ConstVectorRef v, Index begin, Index count, double* y) {
   const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
+  Eigen::Map<Vector> sum(y, count);
   if (on_mass != 0.0) {
-    mass_product_.multiply(v.data(), y.data());
-    y *= on_mass;
+    mass_product_.multiply(v.data(), begin, count, y);
+    sum *= on_mass;
   } else {
-    y.setZero();
+    sum.setZero();
   }
   if (on_stiffness != 0.0) {
-    stiffness_product_.multiply(v.data(), other_.data());
-    y += on_stiffness * other_;
+    stiffness_product_.multiply(v.data(), begin, count, other_.data());
+    sum += on_stiffness * other_.head(count);
   }
   if (system_.dashpots.size() > 0) {
-    dashpot_product_.multiply(v.data(), other_.data());
-    y += other_;
+    dashpot_product_.multiply(v.data(), begin, count, other_.data());
+    sum += other_.head(count);
   }
-  if (modal_) modal_->add_force(v, y);
 }
 
 void Dynamics::subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r) {
   if (size() == 1) {
-    elastic_force(x, work_);
-    r[0] -= single_damping_ * v[0] + work_[0];
+    r[0] -= single_damping_ * v[0] + stiffness_product_.first() * x[0];
     return;
   }
-  elastic_force(x, work_);
-  r -= work_;
-  if (!has_damping_) return;
-  damping_force(v, work_);
-  r -= work_;
+  const bool has_local_damping = has_damping_ && !modal_;
+  in_blocks(size(), [&](Index begin, Index count) {
+    auto rows = r.segment(begin, count);
+    stiffness_product_.multiply(x.data(), begin, count, work_.data());
+    rows -= work_.head(count);
+    if (!has_local_damping) return;
+    damping_rows(v, begin, count, damping_.data());
+    rows -= damping_.head(count);
+  });
+  if (!modal_) return;
+  damping_force(v, modal_force_);
+  r -= modal_force_;
+}
+
+void Dynamics::subtract_products(const double* x, double on_v, ConstVectorRef v, VectorRef r) {
+  in_blocks(size(), [&](Index begin, Index count) {
+    auto rows = r.segment(begin, count);
+    stiffness_product_.multiply(x, begin, count, work_.data());
+    rows -= work_.head(count);
+    if (system_.dashpots.size() == 0) return;
+    dashpot_product_.multiply(v.data(), begin, count, work_.data());
+    rows -= on_v * work_.head(count);
+  });
 }
 
 void Dynamics::total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef r) {
@@ -114,30 +142,71 @@ void Dynamics::secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c) {
   contact_.secant(stop_displacement_, kappa, c);
 }
 
-void Dynamics::secant_forces(double t, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x, ConstVectorRef v,
-                             VectorRef r) {
-  external_force(t, r);
+bool Dynamics::solve_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
+                            ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+  external_force(t, a);
+  if (size() == 1) return solve_single_secant(on_v, on_x, kappa, c, x, v, a);
+  // The solution for a + s v instead of a lacks the product M v: what C v asks for is then a shift of x in K x.
+  const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
+  const double s = on_mass / (1.0 + on_v * on_mass), shift = on_stiffness - s * (on_x + on_v * on_stiffness);
   if (stop_count() > 0) {
     contact_.displacement(x, stop_displacement_);
+    if (s != 0.0) {
+      contact_.displacement(v, stop_velocity_);
+      stop_displacement_ -= s * on_x * stop_velocity_;
+    }
     stop_force_ = c - kappa.cwiseProduct(stop_displacement_);
-    contact_.scatter(stop_force_, r);
+    contact_.scatter(stop_force_, a);
   }
-  subtract_internal_force(x, v, r);
+  if (shift != 0.0) shifted_ = x + shift * v;
+  subtract_products(shift != 0.0 ? shifted_.data() : x.data(), 1.0 - s * on_v, v, a);
+  if (modal_) {
+    modal_force_.setZero();
+    modal_->add_force(v, modal_force_);
+    a -= modal_force_;
+  }
+  effective().set_factors(on_v, on_x);
+  if (!effective().solve(kappa, a)) return false;
+  if (s != 0.0) a -= s * v;
+  return true;
 }
 
-double Dynamics::residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v,
-                          ConstVectorRef a, VectorRef r) {
+bool Dynamics::solve_single_secant(double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x,
+                                   ConstVectorRef v, VectorRef a) {
+  contact_.displacement(x, stop_displacement_);
+  stop_force_ = c - kappa.cwiseProduct(stop_displacement_);
+  contact_.scatter(stop_force_, a);
+  ++counters_.factorizations;
+  ++counters_.solves;
+  const double stiffness = stiffness_product_.first();
+  const double matrix = mass_product_.first() + on_v * single_damping_ + on_x * (stiffness + kappa.sum());
+  a[0] = (a[0] - single_damping_ * v[0] - stiffness * x[0]) / matrix;
+  return matrix > 0.0;
+}
+
+ForceBalance Dynamics::residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v,
+                                ConstVectorRef a, VectorRef r) {
   const bool has_stops = stop_count() > 0;
   if (has_stops) {
     contact_force_.setZero();
     contact_.scatter(stop_force, contact_force_);
   }
-  inertia_force(a, inertia_);
-  if (has_damping_) damping_force(v, damping_);
-  elastic_force(x, work_);
-  return force_balance({load.data(), has_stops ? contact_force_.data() : nullptr, inertia_.data(),
-                        has_damping_ ? damping_.data() : nullptr, work_.data()},
-                       size(), r.data());
+  if (modal_) damping_force(v, modal_force_);
+  ForceBalance balance;
+  in_blocks(size(), [&](Index begin, Index count) {
+    ForceTerms terms{load.data() + begin, nullptr, inertia_.data(), nullptr, work_.data()};
+    mass_product_.multiply(a.data(), begin, count, inertia_.data());
+    stiffness_product_.multiply(x.data(), begin, count, work_.data());
+    if (has_stops) terms.contact = contact_force_.data() + begin;
+    if (modal_) {
+      terms.damping = modal_force_.data() + begin;
+    } else if (has_damping_) {
+      damping_rows(v, begin, count, damping_.data());
+      terms.damping = damping_.data();
+    }
+    balance.add(terms, count, r.data() + begin);
+  });
+  return balance;
 }
 
 void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
@@ -148,18 +217,13 @@ void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, Vector
 
 void Dynamics::respond(ConstVectorRef x, ConstVectorRef v, VectorRef a) {
   ++counters_.force_evaluations;
+  if (size() == 1) {
+    a[0] -= single_damping_ * v[0] + stiffness_product_.first() * x[0];
+    return mass_solver().solve(a);
+  }
   const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
-  if (on_stiffness != 0.0) {
-    other_ = x + on_stiffness * v;
-    stiffness_product_.multiply(other_.data(), work_.data());
-  } else {
-    stiffness_product_.multiply(x.data(), work_.data());
-  }
-  a -= work_;
-  if (system_.dashpots.size() > 0) {
-    dashpot_product_.multiply(v.data(), work_.data());
-    a -= work_;
-  }
+  if (on_stiffness != 0.0) shifted_ = x + on_stiffness * v;
+  subtract_products(on_stiffness != 0.0 ? shifted_.data() : x.data(), 1.0, v, a);
   mass_solver().solve(a);
   if (on_mass != 0.0) a -= on_mass * v;
   if (modal_) modal_->subtract_deceleration(v, a);

@@ -6,6 +6,7 @@
 
 #include "butee/solve/contact.hpp"
 #include "butee/solve/effective_solver.hpp"
+#include "butee/solve/force_balance.hpp"
 #include "butee/solve/modal_damping.hpp"
 #include "butee/solve/modal_system.hpp"
 #include "butee/solve/symmetric_product.hpp"
@@ -50,13 +51,16 @@ class BUTEE_EXPORT Dynamics {
 
   /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that meets F_c at x
   void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
-  /// r := F(t) + S^T (c - kappa S x) - C v - K x
-  void secant_forces(double t, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef r);
+  /// a := the solution of (M + on_v C + on_x (K + S^T kappa S)) a = F(t) + S^T (c - kappa S x) - C v - K x, so that the
+  /// equations of motion with those stops hold at x + on_x a and v + on_v a. False where the matrix is not positive
+  /// definite.
+  [[nodiscard]] bool solve_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
+                                  ConstVectorRef x, ConstVectorRef v, VectorRef a);
 
-  /// r := F + F_c - M a - C v - K x with the forces of `load` and, in stop space, of `stop_force`; returns
-  /// |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), against which |r| is small or not.
-  double residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
-                  VectorRef r);
+  /// r := F + F_c - M a - C v - K x with the forces of `load` and, in stop space, of `stop_force`; returns |r| and
+  /// |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), against which it is small or not.
+  ForceBalance residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v,
+                        ConstVectorRef a, VectorRef r);
 
   /// a := M^-1 (F(t) + F_c(x) - C v - K x)
   void acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a);
@@ -82,8 +86,15 @@ class BUTEE_EXPORT Dynamics {
   };
 
   LinearSolver& mass_solver();
+  void find_load_values(double t);
+  bool solve_single_secant(double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x,
+                           ConstVectorRef v, VectorRef a);
   /// r -= C v + K x
   void subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r);
+  /// r -= K x + on_v D v with the dashpots D
+  void subtract_products(const double* x, double on_v, ConstVectorRef v, VectorRef r);
+  /// y := a block of the rows of C v, but for modal damping
+  void damping_rows(ConstVectorRef v, Index begin, Index count, double* y);
 
   const model::System& system_;
   Counters counters_;
@@ -99,7 +110,9 @@ class BUTEE_EXPORT Dynamics {
   double load_time_;
   std::array<double, 2> load_series_{};
   std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant
-  Vector work_, other_, inertia_, damping_, contact_force_, stop_displacement_, stop_force_;
+  Vector contact_force_, stop_displacement_, stop_velocity_, stop_force_;
+  Vector shifted_, modal_force_;             ///< x + s v and C v, of systems with Rayleigh and with modal damping
+  Vector work_, other_, inertia_, damping_;  ///< of a block of rows
 };
 
 }  // namespace butee::solve

@@ -8,54 +8,68 @@ namespace butee::solve {
 namespace {
 
 /// Adds `sign` times a piece of a term to the residual and its squares to the sum of squares.
-inline void add(double sign, const double* term, Lane& residual, Lane& squares) {
+inline void take(double sign, const double* term, Lane& residual, Lane& squares) {
   Lane piece;
   load(term, piece);
   residual += sign * piece;
   squares += piece * piece;
 }
 
-inline void add(double sign, double term, double& residual, double& squares) {
-  residual += sign * term;
-  squares += term * term;
+inline void take(double sign, const double* term, double& residual, double& squares) {
+  residual += sign * *term;
+  squares += *term * *term;
 }
 
-template <bool has_contact, bool has_damping>
-double balance(const ForceTerms& terms, Index size, double* residual) {
-  Lane load{}, contact{}, inertia{}, damping{}, elastic{};
-  Index i = 0;
-  for (; i + kLaneSize <= size; i += kLaneSize) {
-    Lane r{};
-    add(1.0, terms.load + i, r, load);
-    if constexpr (has_contact) add(1.0, terms.contact + i, r, contact);
-    add(-1.0, terms.inertia + i, r, inertia);
-    if constexpr (has_damping) add(-1.0, terms.damping + i, r, damping);
-    add(-1.0, terms.elastic + i, r, elastic);
-    store(r, residual + i);
-  }
-  double last_load = sum(load), last_contact = sum(contact), last_inertia = sum(inertia), last_damping = sum(damping),
-         last_elastic = sum(elastic);
-  for (; i < size; ++i) {
-    double r = 0.0;
-    add(1.0, terms.load[i], r, last_load);
-    if constexpr (has_contact) add(1.0, terms.contact[i], r, last_contact);
-    add(-1.0, terms.inertia[i], r, last_inertia);
-    if constexpr (has_damping) add(-1.0, terms.damping[i], r, last_damping);
-    add(-1.0, terms.elastic[i], r, last_elastic);
-    residual[i] = r;
-  }
-  return std::sqrt(last_load) + std::sqrt(last_contact) + std::sqrt(last_inertia) + std::sqrt(last_damping) +
-         std::sqrt(last_elastic);
+/// One row, or as many as a lane has.
+template <bool has_contact, bool has_damping, class Piece>
+inline void take_all(const ForceTerms& terms, Index i, Piece& r, std::array<Piece, 5>& squares) {
+  take(1.0, terms.load + i, r, squares[0]);
+  if constexpr (has_contact) take(1.0, terms.contact + i, r, squares[1]);
+  take(-1.0, terms.inertia + i, r, squares[2]);
+  if constexpr (has_damping) take(-1.0, terms.damping + i, r, squares[3]);
+  take(-1.0, terms.elastic + i, r, squares[4]);
 }
 
 }  // namespace
 
-double force_balance(const ForceTerms& terms, Index size, double* residual) {
+template <bool has_contact, bool has_damping>
+void ForceBalance::add_terms(const ForceTerms& terms, Index count, double* residual) {
+  std::array<Lane, 5> squares{};
+  Lane residual_squares{};
+  Index i = 0;
+  for (; i + kLaneSize <= count; i += kLaneSize) {
+    Lane r{};
+    take_all<has_contact, has_damping>(terms, i, r, squares);
+    residual_squares += r * r;
+    store(r, residual + i);
+  }
+  for (std::size_t k = 0; k < squares.size(); ++k) squares_[k] += sum(squares[k]);
+  residual_square_ += sum(residual_squares);
+  for (const Index end = i + count % kLaneSize; i < end; ++i) {
+    double r = 0.0;
+    take_all<has_contact, has_damping>(terms, i, r, squares_);
+    residual_square_ += r * r;
+    residual[i] = r;
+  }
+}
+
+void ForceBalance::add(const ForceTerms& terms, Index count, double* residual) {
   if (terms.contact != nullptr)
-    return terms.damping != nullptr ? balance<true, true>(terms, size, residual)
-                                    : balance<true, false>(terms, size, residual);
-  return terms.damping != nullptr ? balance<false, true>(terms, size, residual)
-                                  : balance<false, false>(terms, size, residual);
+    terms.damping != nullptr ? add_terms<true, true>(terms, count, residual)
+                             : add_terms<true, false>(terms, count, residual);
+  else
+    terms.damping != nullptr ? add_terms<false, true>(terms, count, residual)
+                             : add_terms<false, false>(terms, count, residual);
+}
+
+double ForceBalance::residual() const {
+  return std::sqrt(residual_square_);
+}
+
+double ForceBalance::scale() const {
+  double sum = 0.0;
+  for (const double square : squares_) sum += std::sqrt(square);
+  return sum;
 }
 
 }  // namespace butee::solve

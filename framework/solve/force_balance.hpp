@@ -1,10 +1,14 @@
 #pragma once
 
+#include <array>
+
+#include <butee/export.hpp>
+
 #include "butee/core/types.hpp"
 
 namespace butee::solve {
 
-/// The forces of one instant, n entries each; contact and damping are null where a scene has none.
+/// The forces of one instant, or of a block of its rows; contact and damping are null where a scene has none.
 struct ForceTerms {
   const double* load;     ///< F
   const double* contact;  ///< F_c
@@ -13,7 +17,23 @@ struct ForceTerms {
   const double* elastic;  ///< K x
 };
 
-/// residual := F + F_c - M a - C v - K x; returns |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), in one pass.
-double force_balance(const ForceTerms& terms, Index size, double* residual);
+/// What is left of the equation of motion, block of rows by block.
+class BUTEE_EXPORT ForceBalance {
+ public:
+  /// residual := F + F_c - M a - C v - K x, `count` rows, in one pass.
+  void add(const ForceTerms& terms, Index count, double* residual);
+
+  /// |residual| of all rows (2-norm)
+  double residual() const;
+  /// |F| + |F_c| + |M a| + |C v| + |K x| of all rows (2-norms)
+  double scale() const;
+
+ private:
+  template <bool has_contact, bool has_damping>
+  void add_terms(const ForceTerms& terms, Index count, double* residual);
+
+  std::array<double, 5> squares_{};
+  double residual_square_ = 0.0;
+};
 
 }  // namespace butee::solve

@@ -7,6 +7,7 @@
 #include "butee/core/error.hpp"
 #include "butee/solve/dynamics.hpp"
 #include "butee/solve/frequencies.hpp"
+#include "butee/solve/static_shapes.hpp"
 
 namespace butee::solve {
 namespace {
@@ -26,11 +27,30 @@ Modes find_modes(const model::System& system, Index count) {
   return std::move(*modes);
 }
 
+/// A column for every stop, with unit forces, and one for every load.
+Eigen::MatrixXd forces_of(const model::System& system) {
+  std::vector<Vector> columns;
+  for (const model::FreeStops& stops : system.stops)
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      Vector& force = columns.emplace_back(Vector::Zero(system.size()));
+      if (stops.a[i] >= 0) force[stops.a[i]] += 1.0;
+      if (stops.b[i] >= 0) force[stops.b[i]] -= 1.0;
+    }
+  for (const model::FreeLoad& load : system.loads) {
+    Vector& force = columns.emplace_back(Vector::Zero(system.size()));
+    for (std::size_t i = 0; i < load.dofs.size(); ++i) force[load.dofs[i]] += load.weights[i];
+  }
+  Eigen::MatrixXd all(system.size(), static_cast<Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j) all.col(static_cast<Index>(j)) = columns[j];
+  return all;
+}
+
 }  // namespace
 
 ModalSystem::ModalSystem(Dynamics& dynamics, Index count) {
   const model::System& system = dynamics.system();
   Modes modes = find_modes(system, count);
+  if (modes.frequencies.size() < system.size()) add_static(system, modes);
   frequencies_ = modes.frequencies.array();
   shapes_ = std::move(modes.shapes);
   rows_ = shapes_.transpose();
@@ -38,7 +58,17 @@ ModalSystem::ModalSystem(Dynamics& dynamics, Index count) {
   if (shapes_.rows() <= DenseProduct::kMostRows) fast_shapes_ = DenseProduct(shapes_);
   find_decay(dynamics);
   project_loads(dynamics);
-  if (dynamics.stop_count() > 0) project_stops(dynamics);
+  if (dynamics.stop_count() > 0) project_stops(dynamics.contact());
+}
+
+void ModalSystem::add_static(const model::System& system, Modes& modes) {
+  const Index modes_alone = modes.frequencies.size();
+  auto count = static_cast<Index>(system.loads.size());
+  for (const model::FreeStops& stops : system.stops) count += static_cast<Index>(stops.size());
+  if (count == 0) return;
+  const Vector shares = count <= kMostStaticShapes ? add_static_shapes(system, forces_of(system), modes) : Vector();
+  static_count_ = modes.frequencies.size() - modes_alone;
+  truncation_ = shares.size() > 0 ? shares.maxCoeff() : 1.0;
 }
 
 void ModalSystem::find_decay(Dynamics& dynamics) {
@@ -79,33 +109,13 @@ void ModalSystem::project_loads(const Dynamics& dynamics) {
   }
 }
 
-void ModalSystem::project_stops(Dynamics& dynamics) {
-  const Contact& contact = dynamics.contact();
+void ModalSystem::project_stops(const Contact& contact) {
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(size(), contact.size());
   for (Index i = 0; i < contact.size(); ++i) {
     if (contact.dof_a(i) >= 0) shapes.col(i) += rows_.col(contact.dof_a(i));
     if (contact.dof_b(i) >= 0) shapes.col(i) -= rows_.col(contact.dof_b(i));
   }
   stop_shapes_ = StopShapes(std::move(shapes));
-  if (is_complete()) return;
-  // What a stop's own force moves it, by all modes and by those that are kept; a weak spring to the ground on every
-  // DOF, far below the first mode left out, lets rigid motion pass.
-  const double last = frequencies_[size() - 1];
-  const double shift = 1e-4 * last * last;
-  EffectiveSolver& effective = dynamics.effective();
-  effective.set_factors(0.0, 1.0 / shift);
-  const Vector open = Vector::Zero(contact.size());
-  Vector force(shapes_.rows());
-  for (Index i = 0; i < contact.size(); ++i) {
-    force.setZero();
-    if (contact.dof_a(i) >= 0) force[contact.dof_a(i)] += 1.0;
-    if (contact.dof_b(i) >= 0) force[contact.dof_b(i)] -= 1.0;
-    Vector moved = force;
-    if (!effective.solve(open, moved)) continue;
-    const double all = force.dot(moved) / shift;
-    const double kept = (stop_shapes_.of(i).array().square() / (frequencies_.square() + shift)).sum();
-    truncation_ = std::max(truncation_, 1.0 - kept / all);
-  }
 }
 
 void ModalSystem::to_modal(ConstVectorRef x, Eigen::Ref<Eigen::VectorXd> q) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "butee/model/system.hpp"
+#include "butee/solve/frequencies.hpp"
 #include "butee/solve/step_flow.hpp"
 
 namespace butee::solve {
@@ -21,8 +22,12 @@ class BUTEE_EXPORT ModalSystem {
   /// Systems up to this size take all their modes.
   static constexpr Index kAllModes = 600;
 
-  /// `count` modes, the lowest; 0: all of them up to kAllModes, else kAllModes/2. Throws InputError where dashpots or
-  /// other damping couple the modes, or they could not be computed. `dynamics` must outlive it.
+  /// A truncated basis is given the static shapes of so many stops and loads at most.
+  static constexpr Index kMostStaticShapes = 300;
+
+  /// `count` modes, the lowest; 0: all of them up to kAllModes, else kAllModes/2. Where those are not all, the static
+  /// shapes of stops and loads are added (static_shapes.hpp). Throws InputError where dashpots or other damping couple
+  /// the modes, or they could not be computed. `dynamics` must outlive it.
   ModalSystem(Dynamics& dynamics, Index count);
 
   Index size() const { return frequencies_.size(); }
@@ -34,8 +39,12 @@ class BUTEE_EXPORT ModalSystem {
   const Eigen::MatrixXd& shapes() const { return shapes_; }           ///< Phi, n x p
   const Eigen::MatrixXd& shape_rows() const { return rows_; }         ///< Phi^T, p x n: a column for each DOF
   const StopShapes& stop_shapes() const { return stop_shapes_; }      ///< Phi^T S^T, p x m
-  /// The largest share of a static displacement of a stop under its own force that the modes left out would carry; 0
-  /// with all modes.
+  /// omega of the last one that is a mode, rad/s
+  double highest_mode() const { return frequencies_[size() - static_count_ - 1]; }
+  /// The shapes among them that are no modes, but the static response of those left out.
+  Index static_count() const { return static_count_; }
+  /// The largest share of the static displacement of a stop or a load under its own force that the modes left out
+  /// carry: as static shapes where static_count() is not 0, else not at all. 0 with all modes.
   double truncation() const { return truncation_; }
 
   void to_modal(ConstVectorRef x, Eigen::Ref<Eigen::VectorXd> q) const;
@@ -58,9 +67,10 @@ class BUTEE_EXPORT ModalSystem {
   StepFlow& odd(double h);
 
  private:
+  void add_static(const model::System& system, Modes& modes);
   void find_decay(Dynamics& dynamics);
   void project_loads(const Dynamics& dynamics);
-  void project_stops(Dynamics& dynamics);
+  void project_stops(const Contact& contact);
   ModalFlow refined_ladder(int level);
   const ModalFlow& raw_ladder(int level);
 
@@ -70,6 +80,7 @@ class BUTEE_EXPORT ModalSystem {
   StopShapes stop_shapes_;
   std::vector<ModalHarmonic> harmonics_;
   std::vector<OtherLoad> other_loads_;
+  Index static_count_ = 0;
   double truncation_ = 0.0;
 
   struct Rung {

@@ -52,22 +52,31 @@ inline void multiply_lane(const Diagonals<band>& d, Index i, const Lane& before,
   sum += other;
 }
 
-/// x and y have three lanes or more.
+/// Rows of a product, and the size of all of it.
+struct Rows {
+  Index begin, end, size;
+};
+
+/// All of x, and the rows, are three lanes or more; rows that do not begin or end the matrix do so with whole lanes.
 template <std::size_t band>
-void multiply_lanes(const Diagonals<band>& d, Index size, const double* x, double* y) {
+void multiply_lanes(const Diagonals<band>& d, Rows rows, const double* x, double* y) {
   constexpr auto kDistances = std::make_index_sequence<band>{};
+  const Index begin = rows.begin, size = rows.size;
   Lane before{}, here, next, sum;
   const auto row = [&](Index i) {
     multiply_lane(d, i, before, here, next, sum, kDistances);
-    store(sum, y + i);
+    store(sum, y + (i - begin));
   };
-  load(x, here);
-  for (Index i = 0; i + 2 * kLaneSize <= size; i += kLaneSize) {
+  if (begin > 0) load(x + begin - kLaneSize, before);
+  load(x + begin, here);
+  const Index end_of_lanes = rows.end < size ? rows.end : size - kLaneSize;
+  for (Index i = begin; i + kLaneSize <= end_of_lanes; i += kLaneSize) {
     load(x + i + kLaneSize, next);
     row(i);
     before = here;
     here = next;
   }
+  if (rows.end < size) return;
   // The last rows, some of them once more.
   const Index last = size - kLaneSize;
   load(x + last - 2 * kLaneSize, before);
@@ -97,13 +106,12 @@ void multiply_few(const Diagonals<band>& d, Index size, const double* x, double*
 }
 
 template <std::size_t band>
-void multiply_diagonals(const double* const* above, const double* const* below, Index size, const double* x,
-                        double* y) {
+void multiply_diagonals(const double* const* above, const double* const* below, Rows rows, const double* x, double* y) {
   const Diagonals<band> diagonals(above, below);
-  size < kFew ? multiply_few(diagonals, size, x, y) : multiply_lanes(diagonals, size, x, y);
+  rows.size < kFew ? multiply_few(diagonals, rows.size, x, y) : multiply_lanes(diagonals, rows, x, y);
 }
 
-using BandKernel = void (*)(const double* const*, const double* const*, Index, const double*, double*);
+using BandKernel = void (*)(const double* const*, const double* const*, Rows, const double*, double*);
 
 template <std::size_t... bands>
 constexpr std::array<BandKernel, sizeof...(bands)> band_kernels(std::index_sequence<bands...>) {
@@ -140,31 +148,31 @@ SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix)
   }
 }
 
-void SymmetricProduct::multiply_many(const double* x, double* y) const {
+void SymmetricProduct::multiply(const double* x, Index begin, Index count, double* y) const {
   if (rows_ != nullptr)
-    multiply_rows(x, y);
+    multiply_rows(x, begin, count, y);
   else
-    multiply_band(x, y);
+    multiply_band(x, begin, count, y);
 }
 
-void SymmetricProduct::multiply_band(const double* x, double* y) const {
+void SymmetricProduct::multiply_band(const double* x, Index begin, Index count, double* y) const {
   static constexpr auto kKernels = band_kernels(std::make_index_sequence<kWidestBand + 1>{});
   std::array<const double*, kWidestBand + 1> above{}, below{};
   for (std::size_t k = 0; k < above_.size(); ++k) {
     above[k] = above_[k].data() + kPadding;
     below[k] = below_.empty() ? above[k] - k : below_[k].data();
   }
-  kKernels[above_.size() - 1](above.data(), below.data(), size_, x, y);
+  kKernels[above_.size() - 1](above.data(), below.data(), {begin, begin + count, size_}, x, y);
 }
 
-void SymmetricProduct::multiply_rows(const double* __restrict x, double* __restrict y) const {
+void SymmetricProduct::multiply_rows(const double* __restrict x, Index begin, Index count, double* __restrict y) const {
   const int* start = rows_->outerIndexPtr();
   const int* index = rows_->innerIndexPtr();
   const double* value = rows_->valuePtr();
-  for (Index i = 0; i < size_; ++i) {
+  for (Index i = begin; i < begin + count; ++i) {
     double sum = 0.0;
     for (int k = start[i]; k < start[i + 1]; ++k) sum += value[k] * x[index[k]];
-    y[i] = sum;
+    y[i - begin] = sum;
   }
 }
 

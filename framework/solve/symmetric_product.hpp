@@ -16,21 +16,25 @@ class BUTEE_EXPORT SymmetricProduct {
   /// Takes a symmetric matrix stored in full; by rows it refers to `matrix`, which must outlive it.
   explicit SymmetricProduct(const SparseMatrix& matrix);
 
+  /// A(0, 0)
+  double first() const { return first_; }
   /// y := A x; x and y have size() and do not overlap.
   void multiply(const double* x, double* y) const {
     if (size_ == 1)
       y[0] = first_ * x[0];
     else
-      multiply_many(x, y);
+      multiply(x, 0, size_, y);
   }
+  /// y := rows begin to begin + count of A x, into y[0] to y[count - 1]: all of them, or blocks as in_blocks() cuts
+  /// them.
+  void multiply(const double* x, Index begin, Index count, double* y) const;
 
  private:
-  void multiply_many(const double* x, double* y) const;
-  void multiply_band(const double* x, double* y) const;
-  void multiply_rows(const double* x, double* y) const;
+  void multiply_band(const double* x, Index begin, Index count, double* y) const;
+  void multiply_rows(const double* x, Index begin, Index count, double* y) const;
 
   Index size_ = 0;
-  double first_ = 0.0;  ///< A(0, 0)
+  double first_ = 0.0;
   const SparseMatrix* rows_ = nullptr;
   /// A(i, i + k) and A(i, i - k), k = 0 ... band, with zeros around; empty where kept by rows, below_ where large too.
   std::vector<Vector> above_, below_;
