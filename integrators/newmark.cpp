@@ -37,11 +37,12 @@ Newmark::Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, Newton
 
 StepReport Newmark::do_step(const State& from, const time::Step& step, State& to) {
   const double h = step.h;
-  in_blocks(to.x.size(), [&](Index begin, Index count) {
-    const auto v = from.v.segment(begin, count), a = from.a.segment(begin, count);
-    to.a.segment(begin, count) = a;
-    to.x.segment(begin, count) = from.x.segment(begin, count) + h * v + 0.5 * h * h * a;
-    to.v.segment(begin, count) = v + h * a;
+  const double *x0 = from.x.data(), *v0 = from.v.data(), *a0 = from.a.data();
+  double *x = to.x.data(), *v = to.v.data(), *a = to.a.data();
+  for_rows(to.x.size(), [=](Index i) {
+    a[i] = a0[i];
+    x[i] = x0[i] + h * v0[i] + 0.5 * h * h * a0[i];
+    v[i] = v0[i] + h * a0[i];
   });
   StepReport report = stage_.solve(step.t_end, parameters_.gamma * h, parameters_.beta * h * h, to.x, to.v, to.a);
   if (controller_ != nullptr && report.status == time::StepStatus::ok) report.error = controller_->error(from, to, h);

@@ -20,22 +20,21 @@ ModifiedNewmark::ModifiedNewmark(solve::Dynamics& dynamics, NewmarkParameters pa
 StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, State& to) {
   const double h = step.h, beta = parameters_.beta, gamma = parameters_.gamma;
   const double on_v = gamma * h, on_x = beta * h * h;
-  in_blocks(to.x.size(), [&](Index begin, Index count) {
-    const auto v = from.v.segment(begin, count), a = from.a.segment(begin, count);
-    to.x.segment(begin, count) = from.x.segment(begin, count) + h * v + (0.5 - beta) * h * h * a;
-    to.v.segment(begin, count) = v + (1.0 - gamma) * h * a;
+  const double *x0 = from.x.data(), *v0 = from.v.data(), *a0 = from.a.data();
+  double *x = to.x.data(), *v = to.v.data(), *a = to.a.data();
+  for_rows(to.x.size(), [=](Index i) {
+    x[i] = x0[i] + h * v0[i] + (0.5 - beta) * h * h * a0[i];
+    v[i] = v0[i] + (1.0 - gamma) * h * a0[i];
   });
-
   if (dynamics().stop_count() > 0) dynamics().secant_contact(from.x, secant_, offset_);
   StepReport report;
   if (!dynamics().solve_secant(step.t_end, on_v, on_x, secant_, offset_, to.x, to.v, to.a)) {
     report.status = time::StepStatus::singular;
     return report;
   }
-  in_blocks(to.x.size(), [&](Index begin, Index count) {
-    const auto a = to.a.segment(begin, count);
-    to.x.segment(begin, count) += on_x * a;
-    to.v.segment(begin, count) += on_v * a;
+  for_rows(to.x.size(), [=](Index i) {
+    x[i] += on_x * a[i];
+    v[i] += on_v * a[i];
   });
   if (controller_ != nullptr) report.error = controller_->error(from, to, h);
   return report;

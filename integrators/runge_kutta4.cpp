@@ -1,6 +1,7 @@
 #include "integrators/runge_kutta4.hpp"
 
 #include <butee/core/blocks.hpp>
+#include <butee/core/zeros.hpp>
 
 #include "integrators/methods.hpp"
 
@@ -9,24 +10,30 @@ namespace butee::integrators {
 void RungeKutta4Kernel::advance(double t, double h, double t_end, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
                                 VectorRef x_new, VectorRef v_new) {
   const Index n = x.size();
-  for (Vector* vector : {&x_, &v2_, &v3_, &v4_, &a2_, &a3_, &a4_}) vector->resize(n);
+  for (Vector* vector : {&x_, &v_, &a2_, &a3_, &a4_}) make_room(*vector, n);
+  const double *x0 = x.data(), *v0 = v.data(), *a1 = a.data(), *a2 = a2_.data(), *a3 = a3_.data(), *a4 = a4_.data();
+  double *xs = x_.data(), *vs = v_.data(), *x1 = x_new.data(), *v1 = v_new.data();
 
-  const auto stage = [&](double on, ConstVectorRef slope_x, ConstVectorRef slope_v, Vector& v_stage) {
-    in_blocks(n, [&](Index begin, Index count) {
-      x_.segment(begin, count) = x.segment(begin, count) + on * slope_x.segment(begin, count);
-      v_stage.segment(begin, count) = v.segment(begin, count) + on * slope_v.segment(begin, count);
-    });
-  };
-  stage(0.5 * h, v, a, v2_);
-  dynamics_.acceleration(t + 0.5 * h, x_, v2_, a2_);
-  stage(0.5 * h, v2_, a2_, v3_);
-  dynamics_.acceleration(t + 0.5 * h, x_, v3_, a3_);
-  stage(h, v3_, a3_, v4_);
-  dynamics_.acceleration(t_end, x_, v4_, a4_);
-  in_blocks(n, [&](Index begin, Index count) {
-    const auto of = [&](const auto& vector) { return vector.segment(begin, count); };
-    x_new.segment(begin, count) = of(x) + h / 6.0 * (of(v) + 2.0 * of(v2_) + 2.0 * of(v3_) + of(v4_));
-    v_new.segment(begin, count) = of(v) + h / 6.0 * (of(a) + 2.0 * of(a2_) + 2.0 * of(a3_) + of(a4_));
+  // The slopes of x are the stages' v, which are v + h a of the stage before.
+  const double half = 0.5 * h, square = h * h;
+  for_rows(n, [=](Index i) {
+    xs[i] = x0[i] + half * v0[i];
+    vs[i] = v0[i] + half * a1[i];
+  });
+  dynamics_.acceleration(t + half, x_, v_, a2_);
+  for_rows(n, [=](Index i) {
+    xs[i] = x0[i] + half * v0[i] + 0.25 * square * a1[i];
+    vs[i] = v0[i] + half * a2[i];
+  });
+  dynamics_.acceleration(t + half, x_, v_, a3_);
+  for_rows(n, [=](Index i) {
+    xs[i] = x0[i] + h * v0[i] + 0.5 * square * a2[i];
+    vs[i] = v0[i] + h * a3[i];
+  });
+  dynamics_.acceleration(t_end, x_, v_, a4_);
+  for_rows(n, [=](Index i) {
+    x1[i] = x0[i] + h * v0[i] + square / 6.0 * (a1[i] + a2[i] + a3[i]);
+    v1[i] = v0[i] + h / 6.0 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
   });
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "butee/time/integrator.hpp"
 
 namespace butee::integrators {
@@ -19,7 +17,7 @@ class RungeKutta4Kernel {
 
  private:
   solve::Dynamics& dynamics_;
-  Vector x_, v2_, v3_, v4_, a2_, a3_, a4_;
+  Vector x_, v_, a2_, a3_, a4_;
 };
 
 /// rk4 (RK4-1): classical Runge-Kutta with fixed steps.

@@ -3,14 +3,24 @@
 #include <cmath>
 
 #include <butee/core/blocks.hpp>
+#include <butee/core/zeros.hpp>
 
 namespace butee::integrators {
 
 using time::StepReport;
 using time::StepStatus;
 
+namespace {
+
+double square_of(ConstVectorRef y, Index begin, Index count) {
+  return count == 1 ? y[begin] * y[begin] : y.segment(begin, count).squaredNorm();
+}
+
+}  // namespace
+
 StageSolver::StageSolver(solve::Dynamics& dynamics, NewtonOptions options) : dynamics_(dynamics), options_(options) {
-  load_ = residual_ = Vector::Zero(dynamics.size());
+  load_ = zeros(dynamics.size());
+  residual_ = zeros(dynamics.size());
   stop_displacement_ = stop_force_ = stop_tangent_ = Vector::Zero(dynamics.stop_count());
 }
 
@@ -25,12 +35,13 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
     // The first look always leads to a solve, except at rest; later ones seldom do, and ask for the tangent then.
     const bool first = report.newton_iterations == 0;
     const solve::ForceBalance balance = evaluate_residual(x, v, a, first);
-    if (!std::isfinite(balance.scale())) {
+    const double scale = balance.scale();
+    if (!std::isfinite(scale)) {
       report.status = StepStatus::not_finite;
       return report;
     }
-    const bool is_balanced = balance.residual() <= options_.residual_tolerance * balance.scale();
-    if (is_balanced && (first || increment <= options_.increment_tolerance * x.norm())) return report;
+    const bool is_balanced = balance.residual() <= options_.residual_tolerance * scale;
+    if (is_balanced && (first || increment <= options_.increment_tolerance * x_norm_)) return report;
     if (report.newton_iterations == options_.max_iterations) break;
     if (!first && has_stops) contact(stop_displacement_, true, stop_force_, stop_tangent_);
     if (!effective.solve(stop_tangent_, residual_)) {
@@ -38,9 +49,8 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
       return report;
     }
     ++report.newton_iterations;
-    const double correction = on_x * add_correction(on_v, on_x, x, v, a);
+    increment = on_x * add_correction(on_v, on_x, x, v, a);
     if (!has_stops && !options_.checks_linear_too) return report;
-    increment = correction;
   }
   residual_.cwiseAbs().maxCoeff(&report.worst_dof);
   report.kept_failure = options_.keep_failures;
@@ -48,15 +58,20 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
   return report;
 }
 
-double StageSolver::add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) const {
-  double square = 0.0;
+double StageSolver::add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) {
+  double square = 0.0, x_square = 0.0;
   in_blocks(a.size(), [&](Index begin, Index count) {
-    const auto correction = residual_.segment(begin, count);
-    a.segment(begin, count) += correction;
-    v.segment(begin, count) += on_v * correction;
-    x.segment(begin, count) += on_x * correction;
-    square += correction.squaredNorm();
+    const double* correction = residual_.data() + begin;
+    double *x_end = x.data() + begin, *v_end = v.data() + begin, *a_end = a.data() + begin;
+    for_rows(count, [=](Index i) {
+      a_end[i] += correction[i];
+      v_end[i] += on_v * correction[i];
+      x_end[i] += on_x * correction[i];
+    });
+    square += square_of(residual_, begin, count);
+    x_square += square_of(x, begin, count);
   });
+  x_norm_ = std::sqrt(x_square);
   return std::sqrt(square);
 }
 

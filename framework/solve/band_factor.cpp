@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "butee/core/error.hpp"
+#include "butee/core/zeros.hpp"
 
 namespace butee::solve {
 
@@ -90,8 +91,14 @@ void solve_middle(const View& f, const Recent<band>& last, double* x) {
   for (Index i = 0; i < count; ++i) x[begin + i] = solved[static_cast<std::size_t>(i)];
 }
 
-template <std::size_t band>
-void solve_twisted(const View& f, double* x) {
+/// What is taken from a solution: factor v.
+struct Subtrahend {
+  double factor;
+  const double* v;
+};
+
+template <std::size_t band, bool subtracts>
+void solve_twisted(const View& f, double* x, [[maybe_unused]] const Subtrahend& less) {
   constexpr auto kBand = static_cast<Index>(band);
   double* mirrored = x + f.size - 1;
   Recent<band> recent{};
@@ -104,29 +111,39 @@ void solve_twisted(const View& f, double* x) {
   }
   solve_middle<band>(f, recent, x);
   for (Index k = 0; k < kBand; ++k) recent[static_cast<std::size_t>(k)] = Pair{x[f.steps + k], mirrored[-f.steps - k]};
+  if constexpr (subtracts)
+    for (Index i = f.steps; i < f.size - f.steps; ++i) x[i] -= less.factor * less.v[i];
   for (Index s = f.steps - 1; s >= 0; --s) {
     Pair value = Pair{x[s], mirrored[-s]} * pair_at(f.reciprocal, s);
     subtract<band>(f.backward + 2 * kBand * s, recent, value);
+    push(value, recent);
+    if constexpr (subtracts) value -= less.factor * Pair{less.v[s], less.v[f.size - 1 - s]};
     x[s] = value[0];
     mirrored[-s] = value[1];
-    push(value, recent);
   }
 }
 
-using Kernel = void (*)(const View&, double*);
+using Kernel = void (*)(const View&, double*, const Subtrahend&);
 
-template <std::size_t... bands>
+template <bool subtracts, std::size_t... bands>
 constexpr std::array<Kernel, sizeof...(bands)> kernels(std::index_sequence<bands...>) {
-  return {&solve_twisted<bands + 1>...};
+  return {&solve_twisted<bands + 1, subtracts>...};
+}
+
+template <bool subtracts>
+void solve_any(Index band, const View& factor, double* x, const Subtrahend& less) {
+  static constexpr auto kKernels =
+      kernels<subtracts>(std::make_index_sequence<static_cast<std::size_t>(BandFactor::kWidestBand)>{});
+  kKernels[static_cast<std::size_t>(band - 1)](factor, x, less);
 }
 
 }  // namespace
 
 BandFactor::BandFactor(Index size, Index band) : size_(size), band_(band), steps_((size - band) / 2) {
   require(fits(size, band), "a band too wide for the matrix");
-  forward_.resize(static_cast<std::size_t>(2 * band * (steps_ + band)));
-  backward_.resize(static_cast<std::size_t>(2 * band * steps_));
-  reciprocal_.resize(static_cast<std::size_t>(2 * steps_));
+  forward_ = zeros(2 * band * (steps_ + band));
+  backward_ = zeros(2 * band * steps_);
+  reciprocal_ = zeros(2 * steps_);
 }
 
 bool BandFactor::factorize(const SparseMatrix& matrix) {
@@ -156,14 +173,14 @@ bool BandFactor::factorize(const SparseMatrix& matrix) {
 }
 
 bool BandFactor::store(const Chain& top, const Chain& bottom, const Eigen::MatrixXd& middle) {
-  const auto put = [this](std::vector<double>& to, Index s, Index k, double from_top, double from_bottom) {
-    const auto place = static_cast<std::size_t>(2 * (s * band_ + k - 1));
+  const auto put = [this](Vector& to, Index s, Index k, double from_top, double from_bottom) {
+    const Index place = 2 * (s * band_ + k - 1);
     to[place] = from_top;
     to[place + 1] = from_bottom;
   };
   for (Index s = 0; s < steps_; ++s) {
-    reciprocal_[static_cast<std::size_t>(2 * s)] = 1.0 / top.at(s, 0);
-    reciprocal_[static_cast<std::size_t>(2 * s + 1)] = 1.0 / bottom.at(s, 0);
+    reciprocal_[2 * s] = 1.0 / top.at(s, 0);
+    reciprocal_[2 * s + 1] = 1.0 / bottom.at(s, 0);
     for (Index k = 1; k <= band_; ++k) {
       put(backward_, s, k, top.at(s, k), bottom.at(s, k));
       put(forward_, s + k, k, top.at(s, k), bottom.at(s, k));
@@ -177,9 +194,13 @@ bool BandFactor::store(const Chain& top, const Chain& bottom, const Eigen::Matri
 }
 
 void BandFactor::solve(double* b) const {
-  static constexpr auto kKernels = kernels(std::make_index_sequence<static_cast<std::size_t>(kWidestBand)>{});
-  kKernels[static_cast<std::size_t>(band_ - 1)](
-      {size_, steps_, forward_.data(), backward_.data(), reciprocal_.data(), middle_inverse_.data()}, b);
+  solve_any<false>(
+      band_, {size_, steps_, forward_.data(), backward_.data(), reciprocal_.data(), middle_inverse_.data()}, b, {});
+}
+
+void BandFactor::solve_less(double* b, double factor, const double* v) const {
+  solve_any<true>(band_, {size_, steps_, forward_.data(), backward_.data(), reciprocal_.data(), middle_inverse_.data()},
+                  b, {factor, v});
 }
 
 }  // namespace butee::solve

@@ -5,9 +5,26 @@
 
 #include "butee/core/blocks.hpp"
 #include "butee/core/error.hpp"
+#include "butee/core/zeros.hpp"
 #include "butee/solve/free_motion.hpp"
 
 namespace butee::solve {
+namespace {
+
+/// The last block is longer than others.
+std::size_t block_of(Index row) {
+  return static_cast<std::size_t>(row / kBlock);
+}
+
+void clear(VectorRef y) {
+  if (y.size() == 1)
+    y[0] = 0.0;
+  else
+    y.setZero();
+}
+
+}  // namespace
+
 Dynamics::Dynamics(const model::System& system)
     : system_(system),
       contact_(system, counters_),
@@ -17,16 +34,23 @@ Dynamics::Dynamics(const model::System& system)
       stiffness_product_(system.stiffness),
       load_time_(std::numeric_limits<double>::quiet_NaN()),
       load_values_(system.loads.size()),
-      contact_force_(Vector::Zero(contact_.size() > 0 ? system.size() : 0)),
+      contact_force_(zeros(contact_.size() > 0 ? system.size() : 0)),
       stop_displacement_(Vector::Zero(contact_.size())),
       stop_velocity_(stop_displacement_),
       stop_force_(stop_displacement_),
-      shifted_(Vector::Zero(system.damping.is_rayleigh() ? system.size() : 0)),
+      shifted_(zeros(system.damping.is_rayleigh() ? system.size() : 0)),
       modal_force_(Vector::Zero(modal_ ? system.size() : 0)),
       work_(Vector::Zero(std::min(system.size(), kLargestBlock))),
       other_(work_),
       inertia_(work_),
       damping_(work_) {
+  in_blocks(size(), [this](Index, Index) { has_stops_.push_back(false); });
+  has_loads_ = has_stops_;
+  const auto mark = [](std::vector<bool>& blocks, Index dof) {
+    if (dof >= 0) blocks[std::min(block_of(dof), blocks.size() - 1)] = true;
+  };
+  for (Index i = 0; i < stop_count(); ++i)
+    for (const Index dof : {contact_.dof_a(i), contact_.dof_b(i)}) mark(has_stops_, dof);
   if (system.dashpots.size() > 0) dashpot_product_ = SymmetricProduct(system.dashpots);
   if (size() == 1)
     single_damping_ = system.damping.mass_proportional * system.mass.coeff(0, 0) +
@@ -36,17 +60,19 @@ Dynamics::Dynamics(const model::System& system)
   for (std::size_t j = 0; j < system.loads.size(); ++j)
     for (std::size_t i = 0; i < system.loads[j].dofs.size(); ++i)
       loaded_dofs_.push_back({system.loads[j].dofs[i], system.loads[j].weights[i], j});
-}
-
-void Dynamics::find_load_values(double t) {
-  if (t == load_time_) return;
-  for (std::size_t i = 0; i < load_values_.size(); ++i) load_values_[i] = system_.loads[i].in_time->value(t);
-  load_time_ = t;
+  for (const LoadedDof& part : loaded_dofs_) mark(has_loads_, part.dof);
 }
 
 void Dynamics::external_force(double t, VectorRef force) {
-  find_load_values(t);
-  force.setZero();
+  clear(force);
+  add_external_force(t, force);
+}
+
+void Dynamics::add_external_force(double t, VectorRef force) {
+  if (t != load_time_) {
+    for (std::size_t i = 0; i < load_values_.size(); ++i) load_values_[i] = system_.loads[i].in_time->value(t);
+    load_time_ = t;
+  }
   for (const LoadedDof& part : loaded_dofs_) force[part.dof] += part.weight * load_values_[part.load];
 }
 
@@ -119,14 +145,18 @@ void Dynamics::subtract_internal_force(ConstVectorRef x, ConstVectorRef v, Vecto
   r -= modal_force_;
 }
 
-void Dynamics::subtract_products(const double* x, double on_v, ConstVectorRef v, VectorRef r) {
+void Dynamics::subtract_products(From from, const double* x, double on_v, ConstVectorRef v, VectorRef r) {
   in_blocks(size(), [&](Index begin, Index count) {
     auto rows = r.segment(begin, count);
+    const auto product = work_.head(count);
     stiffness_product_.multiply(x, begin, count, work_.data());
-    rows -= work_.head(count);
+    if (from == From::nothing)
+      rows = -product;
+    else
+      rows -= product;
     if (system_.dashpots.size() == 0) return;
     dashpot_product_.multiply(v.data(), begin, count, work_.data());
-    rows -= on_v * work_.head(count);
+    rows -= on_v * product;
   });
 }
 
@@ -144,11 +174,17 @@ void Dynamics::secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c) {
 
 bool Dynamics::solve_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
                             ConstVectorRef x, ConstVectorRef v, VectorRef a) {
-  external_force(t, a);
-  if (size() == 1) return solve_single_secant(on_v, on_x, kappa, c, x, v, a);
+  return size() == 1 ? solve_single_secant(t, on_v, on_x, kappa, c, x, v, a)
+                     : solve_secant_of_many(t, on_v, on_x, kappa, c, x, v, a);
+}
+
+bool Dynamics::solve_secant_of_many(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
+                                    ConstVectorRef x, ConstVectorRef v, VectorRef a) {
   // The solution for a + s v instead of a lacks the product M v: what C v asks for is then a shift of x in K x.
   const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
   const double s = on_mass / (1.0 + on_v * on_mass), shift = on_stiffness - s * (on_x + on_v * on_stiffness);
+  subtract_products(From::nothing, shifted(x, shift, v), 1.0 - s * on_v, v, a);
+  add_external_force(t, a);
   if (stop_count() > 0) {
     contact_.displacement(x, stop_displacement_);
     if (s != 0.0) {
@@ -158,8 +194,6 @@ bool Dynamics::solve_secant(double t, double on_v, double on_x, ConstVectorRef k
     stop_force_ = c - kappa.cwiseProduct(stop_displacement_);
     contact_.scatter(stop_force_, a);
   }
-  if (shift != 0.0) shifted_ = x + shift * v;
-  subtract_products(shift != 0.0 ? shifted_.data() : x.data(), 1.0 - s * on_v, v, a);
   if (modal_) {
     modal_force_.setZero();
     modal_->add_force(v, modal_force_);
@@ -171,16 +205,25 @@ bool Dynamics::solve_secant(double t, double on_v, double on_x, ConstVectorRef k
   return true;
 }
 
-bool Dynamics::solve_single_secant(double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x,
-                                   ConstVectorRef v, VectorRef a) {
-  contact_.displacement(x, stop_displacement_);
-  stop_force_ = c - kappa.cwiseProduct(stop_displacement_);
-  contact_.scatter(stop_force_, a);
+const double* Dynamics::shifted(ConstVectorRef x, double shift, ConstVectorRef v) {
+  if (shift == 0.0) return x.data();
+  shifted_ = x + shift * v;
+  return shifted_.data();
+}
+
+bool Dynamics::solve_single_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
+                                   ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+  a[0] = 0.0;
+  add_external_force(t, a);
+  double stiffness = stiffness_product_.first(), force = a[0];
+  for (Index i = 0; i < stop_count(); ++i) {
+    stiffness += kappa[i];
+    force += contact_.dof_a(i) >= 0 ? c[i] : -c[i];
+  }
   ++counters_.factorizations;
   ++counters_.solves;
-  const double stiffness = stiffness_product_.first();
-  const double matrix = mass_product_.first() + on_v * single_damping_ + on_x * (stiffness + kappa.sum());
-  a[0] = (a[0] - single_damping_ * v[0] - stiffness * x[0]) / matrix;
+  const double matrix = mass_product_.first() + on_v * single_damping_ + on_x * stiffness;
+  a[0] = (force - single_damping_ * v[0] - stiffness * x[0]) / matrix;
   return matrix > 0.0;
 }
 
@@ -188,16 +231,27 @@ ForceBalance Dynamics::residual(ConstVectorRef load, ConstVectorRef stop_force, 
                                 ConstVectorRef a, VectorRef r) {
   const bool has_stops = stop_count() > 0;
   if (has_stops) {
-    contact_force_.setZero();
+    in_blocks(size(), [&](Index begin, Index count) {
+      if (has_stops_[block_of(begin)]) clear(contact_force_.segment(begin, count));
+    });
     contact_.scatter(stop_force, contact_force_);
   }
-  if (modal_) damping_force(v, modal_force_);
   ForceBalance balance;
+  if (size() == 1) {
+    const double inertia = mass_product_.first() * a[0], damping = single_damping_ * v[0],
+                 elastic = stiffness_product_.first() * x[0];
+    balance.add({load.data(), has_stops ? contact_force_.data() : nullptr, &inertia, has_damping_ ? &damping : nullptr,
+                 &elastic},
+                1, r.data());
+    return balance;
+  }
+  if (modal_) damping_force(v, modal_force_);
   in_blocks(size(), [&](Index begin, Index count) {
-    ForceTerms terms{load.data() + begin, nullptr, inertia_.data(), nullptr, work_.data()};
+    ForceTerms terms{nullptr, nullptr, inertia_.data(), nullptr, work_.data()};
     mass_product_.multiply(a.data(), begin, count, inertia_.data());
     stiffness_product_.multiply(x.data(), begin, count, work_.data());
-    if (has_stops) terms.contact = contact_force_.data() + begin;
+    if (has_loads_[block_of(begin)]) terms.load = load.data() + begin;
+    if (has_stops && has_stops_[block_of(begin)]) terms.contact = contact_force_.data() + begin;
     if (modal_) {
       terms.damping = modal_force_.data() + begin;
     } else if (has_damping_) {
@@ -210,22 +264,28 @@ ForceBalance Dynamics::residual(ConstVectorRef load, ConstVectorRef stop_force, 
 }
 
 void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
-  external_force(t, a);
+  subtract_from(From::nothing, x, v, a);
+  add_external_force(t, a);
   add_contact_force(x, a);
-  respond(x, v, a);
+  solve_mass(v, a);
 }
 
 void Dynamics::respond(ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+  subtract_from(From::given, x, v, a);
+  solve_mass(v, a);
+}
+
+void Dynamics::subtract_from(From from, ConstVectorRef x, ConstVectorRef v, VectorRef r) {
   ++counters_.force_evaluations;
-  if (size() == 1) {
-    a[0] -= single_damping_ * v[0] + stiffness_product_.first() * x[0];
-    return mass_solver().solve(a);
-  }
-  const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
-  if (on_stiffness != 0.0) shifted_ = x + on_stiffness * v;
-  subtract_products(on_stiffness != 0.0 ? shifted_.data() : x.data(), 1.0, v, a);
-  mass_solver().solve(a);
-  if (on_mass != 0.0) a -= on_mass * v;
+  if (size() == 1)
+    r[0] = (from == From::given ? r[0] : 0.0) - (single_damping_ * v[0] + stiffness_product_.first() * x[0]);
+  else
+    subtract_products(from, shifted(x, system_.damping.stiffness_proportional, v), 1.0, v, r);
+}
+
+void Dynamics::solve_mass(ConstVectorRef v, VectorRef a) {
+  if (size() == 1) return mass_solver().solve(a);
+  mass_solver().solve_less(a, system_.damping.mass_proportional, v);
   if (modal_) modal_->subtract_deceleration(v, a);
 }
 

@@ -57,7 +57,8 @@ class BUTEE_EXPORT Dynamics {
   [[nodiscard]] bool solve_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
                                   ConstVectorRef x, ConstVectorRef v, VectorRef a);
 
-  /// r := F + F_c - M a - C v - K x with the forces of `load` and, in stop space, of `stop_force`; returns |r| and
+  /// r := F + F_c - M a - C v - K x with the forces of `load`, zero where no load acts,
+  /// and, in stop space, of `stop_force`; returns |r| and
   /// |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), against which it is small or not.
   ForceBalance residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v,
                         ConstVectorRef a, VectorRef r);
@@ -86,13 +87,24 @@ class BUTEE_EXPORT Dynamics {
   };
 
   LinearSolver& mass_solver();
-  void find_load_values(double t);
-  bool solve_single_secant(double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x,
+  enum class From { given, nothing };
+
+  /// F += F(t)
+  void add_external_force(double t, VectorRef force);
+  /// x + shift v
+  const double* shifted(ConstVectorRef x, double shift, ConstVectorRef v);
+  bool solve_secant_of_many(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
+                            ConstVectorRef x, ConstVectorRef v, VectorRef a);
+  bool solve_single_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x,
                            ConstVectorRef v, VectorRef a);
   /// r -= C v + K x
   void subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r);
+  /// r -= what of C v + K x is no multiple of M v, and no modal damping; from nothing, r was 0.
+  void subtract_from(From from, ConstVectorRef x, ConstVectorRef v, VectorRef r);
   /// r -= K x + on_v D v with the dashpots D
-  void subtract_products(const double* x, double on_v, ConstVectorRef v, VectorRef r);
+  void subtract_products(From from, const double* x, double on_v, ConstVectorRef v, VectorRef r);
+  /// a := M^-1 a, less the deceleration by damping that subtract_from() left out
+  void solve_mass(ConstVectorRef v, VectorRef a);
   /// y := a block of the rows of C v, but for modal damping
   void damping_rows(ConstVectorRef v, Index begin, Index count, double* y);
 
@@ -110,6 +122,7 @@ class BUTEE_EXPORT Dynamics {
   double load_time_;
   std::array<double, 2> load_series_{};
   std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant
+  std::vector<bool> has_stops_, has_loads_;  ///< of each block of rows
   Vector contact_force_, stop_displacement_, stop_velocity_, stop_force_;
   Vector shifted_, modal_force_;             ///< x + s v and C v, of systems with Rayleigh and with modal damping
   Vector work_, other_, inertia_, damping_;  ///< of a block of rows

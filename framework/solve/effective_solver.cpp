@@ -97,8 +97,10 @@ bool EffectiveSolver::solve(ConstVectorRef kappa, VectorRef b) {
 bool EffectiveSolver::solve_scalar(ConstVectorRef kappa, VectorRef b) {
   ++counters_.factorizations;
   ++counters_.solves;
+  double stiffness = 0.0;
+  for (Index i = 0; i < kappa.size(); ++i) stiffness += kappa[i];
   const double modal = modal_ != nullptr ? damping_factor_ * modal_->single() : 0.0;
-  const double a = base_.coeffs()[0] + modal + stiffness_factor_ * kappa.sum();
+  const double a = base_.valuePtr()[0] + modal + stiffness_factor_ * stiffness;
   if (!(a > 0.0)) return false;
   b[0] /= a;
   return true;

@@ -21,9 +21,9 @@ inline void take(double sign, const double* term, double& residual, double& squa
 }
 
 /// One row, or as many as a lane has.
-template <bool has_contact, bool has_damping, class Piece>
+template <bool has_load, bool has_contact, bool has_damping, class Piece>
 inline void take_all(const ForceTerms& terms, Index i, Piece& r, std::array<Piece, 5>& squares) {
-  take(1.0, terms.load + i, r, squares[0]);
+  if constexpr (has_load) take(1.0, terms.load + i, r, squares[0]);
   if constexpr (has_contact) take(1.0, terms.contact + i, r, squares[1]);
   take(-1.0, terms.inertia + i, r, squares[2]);
   if constexpr (has_damping) take(-1.0, terms.damping + i, r, squares[3]);
@@ -32,34 +32,42 @@ inline void take_all(const ForceTerms& terms, Index i, Piece& r, std::array<Piec
 
 }  // namespace
 
-template <bool has_contact, bool has_damping>
+template <bool has_load, bool has_contact, bool has_damping>
 void ForceBalance::add_terms(const ForceTerms& terms, Index count, double* residual) {
-  std::array<Lane, 5> squares{};
-  Lane residual_squares{};
   Index i = 0;
-  for (; i + kLaneSize <= count; i += kLaneSize) {
-    Lane r{};
-    take_all<has_contact, has_damping>(terms, i, r, squares);
-    residual_squares += r * r;
-    store(r, residual + i);
+  if (count >= kLaneSize) {
+    std::array<Lane, 5> squares{};
+    Lane residual_squares{};
+    for (; i + kLaneSize <= count; i += kLaneSize) {
+      Lane r{};
+      take_all<has_load, has_contact, has_damping>(terms, i, r, squares);
+      residual_squares += r * r;
+      store(r, residual + i);
+    }
+    for (std::size_t k = 0; k < squares.size(); ++k) squares_[k] += sum(squares[k]);
+    residual_square_ += sum(residual_squares);
   }
-  for (std::size_t k = 0; k < squares.size(); ++k) squares_[k] += sum(squares[k]);
-  residual_square_ += sum(residual_squares);
   for (const Index end = i + count % kLaneSize; i < end; ++i) {
     double r = 0.0;
-    take_all<has_contact, has_damping>(terms, i, r, squares_);
+    take_all<has_load, has_contact, has_damping>(terms, i, r, squares_);
     residual_square_ += r * r;
     residual[i] = r;
   }
 }
 
+template <bool has_load, bool has_contact>
+void ForceBalance::add_with(const ForceTerms& terms, Index count, double* residual) {
+  terms.damping != nullptr ? add_terms<has_load, has_contact, true>(terms, count, residual)
+                           : add_terms<has_load, has_contact, false>(terms, count, residual);
+}
+
 void ForceBalance::add(const ForceTerms& terms, Index count, double* residual) {
   if (terms.contact != nullptr)
-    terms.damping != nullptr ? add_terms<true, true>(terms, count, residual)
-                             : add_terms<true, false>(terms, count, residual);
+    terms.load != nullptr ? add_with<true, true>(terms, count, residual)
+                          : add_with<false, true>(terms, count, residual);
   else
-    terms.damping != nullptr ? add_terms<false, true>(terms, count, residual)
-                             : add_terms<false, false>(terms, count, residual);
+    terms.load != nullptr ? add_with<true, false>(terms, count, residual)
+                          : add_with<false, false>(terms, count, residual);
 }
 
 double ForceBalance::residual() const {

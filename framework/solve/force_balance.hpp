@@ -8,7 +8,7 @@
 
 namespace butee::solve {
 
-/// The forces of one instant, or of a block of its rows; contact and damping are null where a scene has none.
+/// The forces of one instant, or of a block of its rows; load, contact and damping are null where there is none.
 struct ForceTerms {
   const double* load;     ///< F
   const double* contact;  ///< F_c
@@ -29,7 +29,9 @@ class BUTEE_EXPORT ForceBalance {
   double scale() const;
 
  private:
-  template <bool has_contact, bool has_damping>
+  template <bool has_load, bool has_contact>
+  void add_with(const ForceTerms& terms, Index count, double* residual);
+  template <bool has_load, bool has_contact, bool has_damping>
   void add_terms(const ForceTerms& terms, Index count, double* residual);
 
   std::array<double, 5> squares_{};

@@ -52,6 +52,16 @@ void LinearSolver::solve(VectorRef b) {
   if (low_rank_) low_rank_->correct(b);
 }
 
+void LinearSolver::solve_less(VectorRef b, double factor, ConstVectorRef v) {
+  if (!band_ || low_rank_ || factor == 0.0) {
+    solve(b);
+    if (factor != 0.0) b -= factor * v;
+    return;
+  }
+  ++counters_->solves;
+  band_->solve_less(b.data(), factor, v.data());
+}
+
 void LinearSolver::solve_sparse(VectorRef b) {
   if (factor_) return factor_->solve(b);
   ++counters_->solves;

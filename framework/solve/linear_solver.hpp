@@ -30,6 +30,8 @@ class BUTEE_EXPORT LinearSolver {
 
   /// b := A^-1 b. After a successful factorize().
   void solve(VectorRef b);
+  /// b := A^-1 b - factor v
+  void solve_less(VectorRef b, double factor, ConstVectorRef v);
 
  private:
   bool factorize_sparse(const SparseMatrix& matrix);

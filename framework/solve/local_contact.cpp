@@ -11,10 +11,9 @@ namespace {
 
 /// A stop is near where its stiffness changes displacements by more than this.
 constexpr double kNear = 1e-3;
-/// Stops whose stiffness changes the solution by less than this are left out: it is as much as a mass wrong by as much,
-/// and a tenth of what rounding makes of the solution of an equation with the mass matrix of a hundred slender
-/// elements.
-constexpr double kHidden = 1e-12;
+/// Stops whose stiffness changes the solution by less than this are left out. That is as if masses were wrong by as
+/// much; what it changes in the displacements at the end of a step, k times the solution, is far below their rounding.
+constexpr double kHidden = 1e-11;
 /// Sweeps go on until what they change is lost in rounding.
 constexpr double kRounding = 1e-17;
 

@@ -14,7 +14,8 @@ namespace butee::solve {
 ///
 /// Stops that matter (k kappa_i sum_j |G_ij| > 1e-3: closed or nearly so) are solved by a small dense Cholesky
 /// factorization, the tiny stiffnesses that open stops of a regularised law keep by sweeps in stop space, to rounding;
-/// those that rounding hides are left out. Checked against a full factorization in tests/unit/solver_test.cpp.
+/// those that would change x by less than 1e-11 are left out. Checked against a full factorization in
+/// tests/unit/solver_test.cpp.
 class BUTEE_EXPORT LocalContact {
  public:
   /// With more stops than this a full factorization of a sparse system is the better way.

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "butee/core/zeros.hpp"
 #include "butee/solve/lanes.hpp"
 
 namespace butee::solve {
@@ -16,6 +17,8 @@ constexpr Index kPadding = kLaneSize;
 /// Up to this size the diagonals below are kept as well, so that every load is aligned; for large matrices reading more
 /// memory costs more than that gains.
 constexpr Index kInCache = 2048;
+/// Doubles of a page, and those by which diagonals of a large matrix are shifted against pages.
+constexpr Index kPage = 512, kApart = 17 * kLaneSize;
 
 /// Entries from k places further on in (here, next), or further back in (before, here).
 template <int k>
@@ -130,22 +133,22 @@ Index bandwidth(const SparseMatrix& matrix) {
 
 SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix)
     : size_(matrix.rows()), first_(size_ > 0 ? matrix.coeff(0, 0) : 0.0) {
-  const Index band = bandwidth(matrix);
-  if (band > static_cast<Index>(kWidestBand)) {
+  band_ = bandwidth(matrix);
+  if (band_ > static_cast<Index>(kWidestBand)) {
     rows_ = &matrix;
     return;
   }
+  // Diagonals a multiple of a page apart would compete for the same places of a cache.
   const Index padded = kPadding + lanes_for(size_) * kLaneSize;
-  for (Index k = 0; k <= band; ++k) above_.push_back(Vector::Zero(padded));
+  stride_ = size_ <= kInCache ? padded : (padded / kPage + 1) * kPage + kApart;
+  above_ = zeros((band_ + 1) * stride_);
   for (Index j = 0; j < matrix.cols(); ++j)
     for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
-      if (entry.row() <= j) above_[static_cast<std::size_t>(j - entry.row())][kPadding + entry.row()] = entry.value();
+      if (entry.row() <= j) above_[(j - entry.row()) * stride_ + kPadding + entry.row()] = entry.value();
   if (size_ > kInCache) return;
-  for (Index k = 0; k <= band; ++k) {
-    below_.push_back(Vector::Zero(padded));
-    below_.back().head(padded - kPadding) =
-        above_[static_cast<std::size_t>(k)].segment(kPadding - k, padded - kPadding);
-  }
+  below_ = zeros(above_.size());
+  for (Index k = 0; k <= band_; ++k)
+    below_.segment(k * stride_, padded - kPadding) = above_.segment(k * stride_ + kPadding - k, padded - kPadding);
 }
 
 void SymmetricProduct::multiply(const double* x, Index begin, Index count, double* y) const {
@@ -158,11 +161,12 @@ void SymmetricProduct::multiply(const double* x, Index begin, Index count, doubl
 void SymmetricProduct::multiply_band(const double* x, Index begin, Index count, double* y) const {
   static constexpr auto kKernels = band_kernels(std::make_index_sequence<kWidestBand + 1>{});
   std::array<const double*, kWidestBand + 1> above{}, below{};
-  for (std::size_t k = 0; k < above_.size(); ++k) {
-    above[k] = above_[k].data() + kPadding;
-    below[k] = below_.empty() ? above[k] - k : below_[k].data();
+  for (Index k = 0; k <= band_; ++k) {
+    const double* diagonal = above_.data() + k * stride_ + kPadding;
+    above[static_cast<std::size_t>(k)] = diagonal;
+    below[static_cast<std::size_t>(k)] = below_.size() == 0 ? diagonal - k : below_.data() + k * stride_;
   }
-  kKernels[above_.size() - 1](above.data(), below.data(), {begin, begin + count, size_}, x, y);
+  kKernels[static_cast<std::size_t>(band_)](above.data(), below.data(), {begin, begin + count, size_}, x, y);
 }
 
 void SymmetricProduct::multiply_rows(const double* __restrict x, Index begin, Index count, double* __restrict y) const {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include <butee/export.hpp>
 
 #include "butee/core/types.hpp"
@@ -33,11 +31,13 @@ class BUTEE_EXPORT SymmetricProduct {
   void multiply_band(const double* x, Index begin, Index count, double* y) const;
   void multiply_rows(const double* x, Index begin, Index count, double* y) const;
 
-  Index size_ = 0;
+  Index size_ = 0, band_ = 0;
   double first_ = 0.0;
   const SparseMatrix* rows_ = nullptr;
-  /// A(i, i + k) and A(i, i - k), k = 0 ... band, with zeros around; empty where kept by rows, below_ where large too.
-  std::vector<Vector> above_, below_;
+  /// A(i, i + k) and A(i, i - k), diagonal k = 0 ... band behind diagonal, stride_ entries apart, with zeros around;
+  /// empty where kept by rows, below_ where large too.
+  Vector above_, below_;
+  Index stride_ = 0;
 };
 
 /// The largest distance of an entry from the diagonal.

@@ -15,6 +15,7 @@ double hermite(double s, double h, double y0, double d0, double y1, double d1) {
 
 /// A finite sum has finite terms; the terms are looked at one by one only where it is not.
 bool is_finite(const State& state) {
+  if (state.x.size() == 1) return std::isfinite(state.x[0]) && std::isfinite(state.v[0]) && std::isfinite(state.a[0]);
   if (std::isfinite(state.x.sum() + state.v.sum() + state.a.sum())) return true;
   return state.x.allFinite() && state.v.allFinite() && state.a.allFinite();
 }

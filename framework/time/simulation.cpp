@@ -7,6 +7,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
+#include "butee/core/zeros.hpp"
 
 namespace butee::time {
 namespace {
@@ -34,19 +35,22 @@ MethodLimits narrowed(MethodLimits limits, const Integrator& integrator) {
 Simulation::Simulation(solve::Dynamics& dynamics, Integrator& integrator, SimulationOptions options)
     : dynamics_(dynamics),
       integrator_(integrator),
+      controller_(integrator.controller()),
       options_{options.time_step, options.end_time, narrowed(options.limits, integrator)},
       growth_(dynamics, options_.limits, integrator),
       next_h_(options_.time_step) {
   require(options_.time_step >= 0.0 && options_.end_time > 0.0,
           "end_time is positive, and time_step where it is given");
+  for (State* state : {&state_, &next_})
+    for (Vector* vector : {&state->x, &state->v, &state->a}) make_room(*vector, dynamics.size());
   state_.x = dynamics.system().initial_displacement;
   state_.v = dynamics.system().initial_velocity;
-  if (integrator.controller() != nullptr && !integrator.minds_load_kinks()) kinks_ = dynamics.load_kinks();
+  if (controller_ != nullptr && !integrator.minds_load_kinks()) kinks_ = dynamics.load_kinks();
 }
 
 Step Simulation::propose() const {
   const double end = options_.end_time;
-  if (integrator_.controller() != nullptr) {
+  if (controller_ != nullptr) {
     if (integrator_.lands_on_outputs()) {
       const double landing = std::min(next_landing(), end);
       return {landing - state_.t, landing, watched_};
@@ -120,7 +124,6 @@ void Simulation::loads_changed(bool jump) {
 bool Simulation::advance() {
   start();
   if (over_) return false;
-  const StepController* controller = integrator_.controller();
   for (int rejections = 0; rejections <= kMostRejections; ++rejections) {
     const Step step = propose();
     if (!(step.t_end > state_.t)) {
@@ -133,7 +136,7 @@ bool Simulation::advance() {
     report_.rejected += result.inner_rejected;
     if (result.kept_failure || result.status == StepStatus::newton_failed) ++report_.newton_failures;
 
-    if (controller == nullptr) {
+    if (controller_ == nullptr) {
       if (result.status != StepStatus::ok) {
         fail(step, describe_failure(dynamics_, options_.limits, state_, step, result));
         return false;
@@ -142,7 +145,7 @@ bool Simulation::advance() {
       return !over_;
     }
     StepDecision decision{false, 0.5 * step.h};
-    if (result.status == StepStatus::ok) decision = controller->decide(step.h, result);
+    if (result.status == StepStatus::ok) decision = controller_->decide(step.h, result);
     // A step that a kink of the loads cut short says nothing against the length that was wanted.
     const double wanted = decision.accept && step.h < next_h_ ? next_h_ : 0.0;
     next_h_ = std::min(std::max(decision.next_h, wanted), options_.end_time);
@@ -188,7 +191,7 @@ void Simulation::accept(const Step& step, const StepReport& result) {
 }
 
 bool Simulation::has_stalled() {
-  if (integrator_.controller() == nullptr) return false;
+  if (controller_ == nullptr) return false;
   const double progress = state_.t - stall_t_,
                least = options_.end_time * static_cast<double>(kStallLooks) / kMostSteps;
   if (progress >= 0.0 && progress < least) return true;

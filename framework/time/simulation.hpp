@@ -133,6 +133,7 @@ class BUTEE_EXPORT Simulation {
 
   solve::Dynamics& dynamics_;
   Integrator& integrator_;
+  const StepController* controller_;  ///< the integrator's; null for fixed steps
   SimulationOptions options_;
   std::vector<Observer*> observers_;
   State state_, next_;

@@ -31,8 +31,12 @@ TEST(BandFactor, solves_what_the_dense_matrix_says) {
       Vector right(size);
       for (Index i = 0; i < size; ++i) right[i] = std::cos(1.0 + static_cast<double>(i));
       const Vector expected = Eigen::MatrixXd(matrix).ldlt().solve(right);
+      Vector less = right;
+      const Vector v = right.reverse();
       factor.solve(right.data());
       EXPECT_LE((right - expected).norm(), kSolved * expected.norm()) << "size " << size << ", band " << band;
+      factor.solve_less(less.data(), 3.0, v.data());
+      EXPECT_LE((less - (right - 3.0 * v)).norm(), kSolved * v.norm()) << "size " << size << ", band " << band;
       ++cases;
     }
   EXPECT_EQ(cases, 8 * 12);

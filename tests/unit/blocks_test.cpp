@@ -70,10 +70,10 @@ TEST_P(LargeScene, HasTheProductsOfItsMatrices) {
 
 TEST_P(LargeScene, HasTheResidualOfItsEquations) {
   const Index stops = dynamics().stop_count();
-  const Vector x = wave(size(), 0.0), v = 1e3 * wave(size(), 1.0), a = 1e6 * wave(size(), 2.0),
-               load = wave(size(), 3.0);
+  const Vector x = wave(size(), 0.0), v = 1e3 * wave(size(), 1.0), a = 1e6 * wave(size(), 2.0);
   const Vector stop_force = 1e8 * wave(stops, 4.0);
-  Vector r(size()), contact = Vector::Zero(size());
+  Vector r(size()), load(size()), contact = Vector::Zero(size());
+  dynamics().external_force(0.3, load);
   const solve::ForceBalance balance = dynamics().residual(load, stop_force, x, v, a, r);
   dynamics().contact().scatter(stop_force, contact);
   const Vector inertia = system().mass * a, elastic = system().stiffness * x, damping = damping_force(v);
@@ -81,6 +81,20 @@ TEST_P(LargeScene, HasTheResidualOfItsEquations) {
   EXPECT_NEAR(balance.residual() / r.norm(), 1.0, 1e-12);
   const double scale = load.norm() + contact.norm() + inertia.norm() + damping.norm() + elastic.norm();
   EXPECT_NEAR(balance.scale() / scale, 1.0, 1e-12);
+}
+
+TEST_P(LargeScene, AcceleratesAsItsForcesSay) {
+  const Vector x = 1e-3 * wave(size(), 0.0), v = wave(size(), 1.0);
+  Vector a(size()), given(size()), load(size()), contact = Vector::Zero(size());
+  dynamics().acceleration(0.3, x, v, a);
+  dynamics().external_force(0.3, load);
+  dynamics().add_contact_force(x, contact);
+  const Vector inertia = system().mass * a, damping = damping_force(v), elastic = system().stiffness * x;
+  const double scale = inertia.norm() + damping.norm() + elastic.norm() + contact.norm() + load.norm();
+  EXPECT_LE((load + contact - inertia - damping - elastic).norm(), 1e-12 * scale);
+  given = load + contact;
+  dynamics().respond(x, v, given);
+  expect_near(given, a, 1e-11);
 }
 
 TEST_P(LargeScene, FulfilsItsEquationsAfterASecantSolve) {
