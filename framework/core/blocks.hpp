@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "butee/core/types.hpp"
 
 namespace butee {
@@ -17,6 +19,14 @@ void in_blocks(Index size, const Work& work) {
   Index begin = 0;
   for (; size - begin > kLargestBlock; begin += kBlock) work(begin, kBlock);
   work(begin, size - begin);
+}
+
+/// The blocks that there are, and the one that a row belongs to.
+constexpr std::size_t block_count(Index size) {
+  return size > kLargestBlock ? static_cast<std::size_t>(size / kBlock) : 1;
+}
+constexpr std::size_t block_of(Index row, Index size) {
+  return std::min(static_cast<std::size_t>(row / kBlock), block_count(size) - 1);
 }
 
 /// Calls row(i) for every row. What one writes no other may read, so that several are taken at once; of one DOF it

@@ -27,12 +27,17 @@ void expect_near(const Vector& value, const Vector& expected, double tolerance =
 TEST(Blocks, CoverEveryRowOnce) {
   for (const Index size : {Index{0}, Index{1}, kLargestBlock, kLargestBlock + 1, 3 * kBlock + 5}) {
     Index next = 0;
+    std::size_t blocks = 0;
     in_blocks(size, [&](Index begin, Index count) {
       EXPECT_EQ(begin, next);
       EXPECT_LE(count, kLargestBlock);
+      EXPECT_EQ(block_of(begin, size), blocks);
+      EXPECT_EQ(block_of(std::max(begin, begin + count - 1), size), blocks);
       next = begin + count;
+      ++blocks;
     });
     EXPECT_EQ(next, size);
+    EXPECT_EQ(block_count(size), blocks);
   }
 }
 
