@@ -46,15 +46,15 @@ double middle_tolerance(const ExponentialOptions& options) {
 
 /// What a truncated basis lacks.
 std::string describe_basis(const ModalSystem& modal, Index dofs) {
-  const std::string share = to_short_text(100.0 * modal.truncation()) + " % of what a stop or a load moves itself by";
   std::string text = "exponential with the lowest " + std::to_string(modal.size() - modal.static_count()) + " of " +
                      std::to_string(dofs) + " modes";
   if (modal.static_count() > 0)
-    text += " and " + std::to_string(modal.static_count()) + " static shapes: the modes left out hold up to " + share +
-            "; they follow forces slower than " + to_short_text(modal.highest_mode()) +
-            " rad/s, and what faster ones lose no tolerance makes good";
+    text += " and " + std::to_string(modal.static_count()) + " static shapes: the modes left out hold up to " +
+            to_short_text(100.0 * modal.truncation()) +
+            " % of what a stop or a load moves itself by; they follow forces slower than " +
+            to_short_text(modal.highest_mode()) + " rad/s, and what faster ones lose no tolerance makes good";
   else
-    text += ": what the others hold, up to " + share + ", is left out, whatever the tolerance";
+    text += ": what the others hold is left out, whatever the tolerance";
   return text + "; give more modes, or another type, where that is too much";
 }
 

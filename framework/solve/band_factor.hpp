@@ -39,8 +39,7 @@ class BUTEE_EXPORT BandFactor {
   Index size_, band_;
   Index steps_;  ///< rows eliminated from each end
   /// For each step and distance k = 1 ... band a pair (from the top, from the bottom): forward_ L(s, s - k) for
-  /// steps_ + band rows, backward_ L(s + k, s); and the reciprocal pivots. One array for both costs a small system a
-  /// tenth of its time, since three of its rows are read for a step back.
+  /// steps_ + band rows, backward_ L(s + k, s); and the reciprocal pivots.
   Vector forward_, backward_, reciprocal_;
   std::vector<double> middle_inverse_;  ///< by rows
 };

@@ -68,7 +68,7 @@ void ModalSystem::add_static(const model::System& system, Modes& modes) {
   if (count == 0) return;
   const Vector shares = count <= kMostStaticShapes ? add_static_shapes(system, forces_of(system), modes) : Vector();
   static_count_ = modes.frequencies.size() - modes_alone;
-  truncation_ = shares.size() > 0 ? shares.maxCoeff() : 1.0;
+  if (shares.size() > 0) truncation_ = shares.maxCoeff();
 }
 
 void ModalSystem::find_decay(Dynamics& dynamics) {

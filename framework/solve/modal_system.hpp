@@ -44,7 +44,7 @@ class BUTEE_EXPORT ModalSystem {
   /// The shapes among them that are no modes, but the static response of those left out.
   Index static_count() const { return static_count_; }
   /// The largest share of the static displacement of a stop or a load under its own force that the modes left out
-  /// carry: as static shapes where static_count() is not 0, else not at all. 0 with all modes.
+  /// carry as static shapes. 0 with all modes; without static shapes it is not known.
   double truncation() const { return truncation_; }
 
   void to_modal(ConstVectorRef x, Eigen::Ref<Eigen::VectorXd> q) const;

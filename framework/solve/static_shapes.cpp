@@ -1,6 +1,7 @@
 #include "butee/solve/static_shapes.hpp"
 
-#include <vector>
+#include <cmath>
+#include <optional>
 
 #include "butee/solve/counters.hpp"
 #include "butee/solve/dense_pairs.hpp"
@@ -63,7 +64,9 @@ Vector add_static_shapes(const model::System& system, const Eigen::MatrixXd& for
   modes.frequencies.tail(added) = pairs->values.cwiseMax(0.0).cwiseSqrt();
   modes.shapes.conservativeResize(Eigen::NoChange, kept + added);
   modes.shapes.rightCols(added) = shapes * pairs->vectors;
-  return left_out.cwiseQuotient(all);
+  return all.binaryExpr(left_out, [](double moved_by_all, double moved_by_rest) {
+    return moved_by_all > 0.0 ? moved_by_rest / moved_by_all : 0.0;  // a force on fixed nodes alone moves nothing
+  });
 }
 
 }  // namespace butee::solve

@@ -65,5 +65,15 @@ TEST_F(StaticShapes, OfForcesThatDependOnOthersAreLeftOut) {
   EXPECT_EQ(modes.frequencies.size(), kKept + 1);
 }
 
+TEST_F(StaticShapes, OfAForceThatMovesNothingAreNone) {
+  Eigen::MatrixXd loads = forces({"pipe:7", "pipe:20"});
+  loads.col(1).setZero();
+  solve::Modes modes = lowest();
+  const Vector shares = add_static_shapes(system(), loads, modes);
+  EXPECT_EQ(modes.frequencies.size(), kKept + 1);
+  EXPECT_GT(shares[0], 0.0);
+  EXPECT_EQ(shares[1], 0.0);
+}
+
 }  // namespace
 }  // namespace butee::test
