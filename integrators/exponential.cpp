@@ -157,12 +157,13 @@ bool Exponential<Step>::advance(double rest, double end, StepReport& report) {
   const double t = step_.t(), kink = next_kink(t), limit = std::min(rest, kink - t);
   int rungs = level_ + (is_quiet_ ? quiet_rungs_ : 0);
   while (true) {
-    const bool fits = step_.has_stops() && ModalSystem::ladder_step(rungs) <= limit;
+    const double h = ModalSystem::ladder_step(rungs);
+    const bool fits = step_.has_stops() && h <= limit;
     // What is left of a block is shorter than a step: the next block takes it with whole ones.
     if (!fits && kink - t >= rest && report.inner_steps > 0) return false;
     const Trial trial = fits ? step_.attempt_rung(rungs) : step_.attempt_length(limit);
     if (trial == Trial::accepted) {
-      step_.accept(fits ? t + ModalSystem::ladder_step(rungs) : std::min(kink, end));
+      step_.accept(fits ? t + h : std::min(kink, end));
       ++report.inner_steps;
       is_quiet_ = step_.is_quiet();
       if (!is_quiet_) {

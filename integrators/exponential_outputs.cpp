@@ -26,7 +26,7 @@ Trial ExponentialStep::attempt_length(double h) {
 
 bool ExponentialStep::is_smooth(const StepFlow& flow) {
   const double square = flow.h() * flow.h() * kQuintic;
-  const double scale = std::max(scale_.displacement, w_new_.abs().maxCoeff()), allowed = output_tolerance_ * scale;
+  const double allowed = output_tolerance_ * displacement_;
   const double bound =
       load_swing_ + ((flow.swing_q * q_.abs() + flow.swing_v * v_.abs()) * (square * squares_).min(1.0)).sum();
   unsmooth_ = bound > 0.0 ? bound / allowed : 0.0;
@@ -42,7 +42,7 @@ bool ExponentialStep::is_smooth(const StepFlow& flow) {
           .abs()
           .maxCoeff();
   unsmooth_ = miss > 0.0 ? miss / allowed : 0.0;
-  if (unsmooth_ > 1.0 && !has_far_forces_) {
+  if (unsmooth_ > 1.0) {
     middle_knot_ = t + 0.5 * h;
     unsmooth_ /= kHalved;
   }

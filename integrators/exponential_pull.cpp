@@ -10,30 +10,48 @@ using solve::StepFlow;
 
 bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
   const FarPull& pull = pulls_[static_cast<std::size_t>(stop)];
-  const double mobility = std::abs(derived(flow, stop).coupling[0][0]);
+  const double mobility = std::abs(flow.mobilities()[stop]);
   return pull.unfelt(w_[stop], w_new_[stop], reach_[stop], mobility, steps_of(scale_, flow.h())) <=
-         kUnfeltPull * output_tolerance_ * scale_.displacement;
+         kUnfeltPull * output_tolerance_ * displacement_;
 }
 
-void ExponentialStep::add_far_forces(StepFlow& flow) {
-  if (far_.empty()) return;
-  const double h = flow.h(), steps = steps_of(scale_, h), felt = kUnfeltPull * output_tolerance_ * scale_.displacement;
+double ExponentialStep::error_of_pull(StepFlow& flow, Index stop) const {
+  const double bulge = std::abs(bulge_[stop]), on_the_way = std::abs(path_.end[stop] - w_[stop]);
+  const double part = bulge < on_the_way ? bulge / on_the_way : 1.0;
+  return 2.0 * part * pulls_[static_cast<std::size_t>(stop)].largest() * std::abs(flow.mobilities()[stop]) *
+         steps_of(scale_, flow.h());
+}
+
+void ExponentialStep::place_pull(StepFlow& flow) {
+  const Index m = modal_.stop_count();
+  const double steps = steps_of(scale_, flow.h()), felt = kUnfeltPull * output_tolerance_ * displacement_;
+  excess_ = 0.5 * (w_ + w_new_);
+  contact_.force(excess_.head(m).matrix(), stop_forces_);
+  for (const Index i : reachable_) stop_forces_[i] = 0.0;
+  const auto moves = (stop_forces_ - pull_).array().abs() * flow.mobilities().abs();
+  if (moves.maxCoeff() * steps * steps <= felt) return;
+  pull_.swap(stop_forces_);
+  sums_[0] = pull_sum_;
+  modal_.stop_shapes().force(far_, pull_.data(), pull_sum_.data());
+  q_new_ += (pull_sum_ - sums_[0]) * flow.whole.force_q(0);
+  v_new_ += (pull_sum_ - sums_[0]) * flow.whole.force_v(0);
+  find_stops();
+}
+
+void ExponentialStep::add_jumps(StepFlow& flow) {
+  const double h = flow.h(), steps = steps_of(scale_, h), felt = kUnfeltPull * output_tolerance_ * displacement_;
   jumping_.clear();
-  force_[0].setZero();
   for (const Index i : far_) {
+    const double aside = kBump * h * (std::abs(wv_[i]) + std::abs(wv_new_[i]));
+    if (std::min(w_[i], w_new_[i]) > aside || std::max(w_[i], w_new_[i]) < -aside) continue;
     const auto place = static_cast<std::size_t>(i);
-    const StopPath path(w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0);
-    const ForceMoments pull = stops_[place].far_force(path);
-    force_[0][i] = pull[0];
-    if (pull[1] == 0.0 || pulls_[place].largest() * std::abs(derived(flow, i).coupling[0][0]) * steps <= felt) continue;
-    if (jumping_.empty()) force_[1].setZero(), force_[2].setZero();
-    force_[1][i] = pull[1];
-    force_[2][i] = pull[2];
+    if (pulls_[place].largest() * std::abs(flow.mobilities()[i]) * steps <= felt) continue;
+    const ForceMoments pull = stops_[place].far_force({w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0});
+    for (std::size_t k = 0; k < 3; ++k) force_[k][i] = pull[k] - (k == 0 ? pull_[i] : 0.0);
     jumping_.push_back(i);
   }
-  add_moments(flow, far_, 0);
-  for (int k = 1; k < (jumping_.empty() ? 0 : 3); ++k) add_moments(flow, jumping_, k);
-  if (!reachable_.empty()) q_half_ += sums_[0] * flow.half.force_q(0);
+  if (jumping_.empty()) return;
+  for (int k = 0; k < 3; ++k) add_moments(flow, jumping_, k);
   find_stops();
 }
 
@@ -42,6 +60,19 @@ void ExponentialStep::add_moments(const StepFlow& flow, const std::vector<Index>
   modal_.stop_shapes().force(stops, force_[static_cast<std::size_t>(k)].data(), sum.data());
   q_new_ += sum * flow.whole.force_q(k);
   v_new_ += sum * flow.whole.force_v(k);
+  if (!reachable_.empty() || middle_knot_ > 0.0) add_to_half(flow.half, static_cast<std::size_t>(k));
+}
+
+void ExponentialStep::add_to_half(const solve::ModalFlow& half, std::size_t k) {
+  const ArrayXd& sum = sums_[k];
+  const auto add = [&](ArrayXd& to, const auto& by) {
+    // P_k of the step, written in those of its first half.
+    if (k == 0) to += sum * by(0);
+    if (k == 1) to += 0.5 * sum * (by(1) - by(0));
+    if (k == 2) to += sum * (0.25 * by(2) - 0.75 * by(1));
+  };
+  add(q_half_, [&](int j) { return half.force_q(j); });
+  if (middle_knot_ > 0.0) add(v_half_, [&](int j) { return half.force_v(j); });
 }
 
 }  // namespace butee::integrators

@@ -23,10 +23,11 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
       orders_(static_cast<std::size_t>(order / 2)),
       tolerance_(tolerance),
       output_tolerance_(output_tolerance),
+      contact_(dynamics.contact()),
       squares_(modal.frequencies().square()),
       is_strongly_damped_((4.0 * modal.decay() > modal.frequencies()).any()),
       knots_(dynamics, modal, 2 * most) {
-  solve::Contact& contact = dynamics.contact();
+  const solve::Contact& contact = contact_;
   const Index padded = StepFlow::padded(contact.size());
   for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2]})
     array->setZero(modal_.size());
@@ -38,7 +39,7 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
   upper_ = gaps_;
   lower_ = -gaps_;
   for (Index i = 0; i < contact.size(); ++i) {
-    stops_.emplace_back(contact, i);
+    stops_.emplace_back(contact_, i);
     own_.emplace_back(stops_.back().stiffness(), orders_);
     gaps_[i] = contact.gap_of(i);
     borders_[i] = calm_border(contact, i);
@@ -49,6 +50,9 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
   }
   for (std::vector<Index>* list : {&reachable_, &touched_, &far_, &jumping_}) list->reserve(stops_.size());
   is_touched_.assign(stops_.size(), false);
+  pull_.setZero(contact.size());
+  stop_forces_.setZero(contact.size());
+  pull_sum_.setZero(modal_.size());
 }
 
 void ExponentialStep::complete(double* memory) const {
@@ -65,6 +69,8 @@ void ExponentialStep::begin(double t, const double* memory, StopScale scale) {
   wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + m, m);
   scale_ = scale;
   knots_.begin(t, q_.data(), v_.data(), w_.data());
+  pull_.setZero();
+  pull_sum_.setZero();
 }
 
 void ExponentialStep::save(double* memory) const {
@@ -90,6 +96,10 @@ void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd
   const Eigen::Map<const ArrayXd> q0(knots_.q(knot), modal_.size()), v0(knots_.v(knot), modal_.size());
   q = flow.qq() * q0 + flow.qv() * v0;
   if (v != nullptr) *v = flow.vq() * q0 + flow.vv() * v0;
+  if (has_far_forces_) {
+    q += pull_sum_ * flow.force_q(0);
+    if (v != nullptr) *v += pull_sum_ * flow.force_v(0);
+  }
   for (std::size_t j = 0; j < phases.size(); ++j) {
     const auto [c, s] = phases[j];
     q += c * flow.harmonic_q(j, 0) - s * flow.harmonic_q(j, 1);
@@ -108,19 +118,23 @@ void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd
 Trial ExponentialStep::attempt(StepFlow& flow) {
   propagate(flow.whole, knots_.steps(), q_new_, &v_new_);
   reachable_.clear();
+  is_near_ = false;
   error_ = middle_knot_ = 0.0;
   if (!has_stops()) return q_new_.allFinite() && v_new_.allFinite() ? Trial::accepted : Trial::not_finite;
   find_stops();
   if (!std::isfinite(w_new_.sum() + wv_new_.sum())) return Trial::not_finite;
+  displacement_ = std::max(scale_.displacement, w_new_.abs().maxCoeff());
   find_reachable(flow);
+  if (has_far_forces_) place_pull(flow);
   if (!reachable_.empty()) propagate(flow.half, knots_.steps(), q_half_, nullptr);
-  if (reachable_.empty() && !is_smooth(flow)) return Trial::too_long;
-  if (has_far_forces_) add_far_forces(flow);
+  if (is_quiet() && !is_smooth(flow)) return Trial::too_long;
+  if (has_far_forces_) add_jumps(flow);
   if (!reachable_.empty()) {
     const Trial trial = iterate(flow);
     if (trial != Trial::accepted) return trial;
     apply_forces(flow);
   }
+  if (has_far_forces_ && middle_knot_ > 0.0) modal_.stop_shapes().displacement(q_half_.data(), path_.middle.data());
   scale_.displacement = std::max(scale_.displacement, w_new_.abs().maxCoeff());
   scale_.speed = std::max(scale_.speed, wv_new_.abs().maxCoeff());
   return Trial::accepted;
@@ -141,7 +155,8 @@ void ExponentialStep::find_reachable(StepFlow& flow) {
   reach_ = w_.abs().max(w_new_.abs()) + (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
   for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {
-    if (reach_[i] > borders_[i] || (has_far_forces_ && !is_steady(flow, i)))
+    is_near_ = is_near_ || is_near(i);
+    if (is_near(i) || (has_far_forces_ && !is_steady(flow, i)))
       reachable_.push_back(i);
     else if (has_far_forces_)
       far_.push_back(i);
@@ -239,8 +254,8 @@ void ExponentialStep::find_error(StepFlow& flow, double displacement) {
   const double h = flow.h(), h_speed = std::max(hv_.abs().maxCoeff(), path_.speed.abs().maxCoeff());
   for (const Index i : reachable_) {
     const auto place = static_cast<std::size_t>(i);
-    double error = std::abs(bulge_[i]);
-    if (is_touched_[place]) {
+    double error = is_near(i) ? std::abs(bulge_[i]) : error_of_pull(flow, i);
+    if (is_near(i) && is_touched_[place]) {
       const double stiff = stops_[place].stiffness() * flow.derived(i).coupling[1][0];
       error = error_of_path(error, stiff, h, h_speed, {displacement, scale_.speed}, stays_closed(i));
       const double of_outputs = kKinkedOutput * stiff * std::max(std::abs(hv_[i]), std::abs(path_.speed[i]));
@@ -271,6 +286,7 @@ void ExponentialStep::apply_forces(const StepFlow& flow) {
       v_new_ += sums_[k] * whole.force_v(static_cast<int>(k));
     }
   }
+  for (std::size_t k = 0; k < (middle_knot_ > 0.0 ? orders_ : 0); ++k) add_to_half(flow.half, k);
 }
 
 }  // namespace butee::integrators

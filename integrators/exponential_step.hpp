@@ -89,8 +89,8 @@ class ExponentialStep {
   const double* q() const { return q_.data(); }
   const double* v() const { return v_.data(); }
   StopScale scale() const { return scale_; }
-  /// No stop was within reach in the last attempt.
-  bool is_quiet() const { return reachable_.empty(); }
+  /// No stop came near its gap in the last attempt.
+  bool is_quiet() const { return !is_near_; }
   /// Such a step might be longer, for what outputs within it may be wrong by.
   bool is_very_smooth() const { return unsmooth_ < kVerySmooth; }
   /// It would do with a longer step.
@@ -108,6 +108,8 @@ class ExponentialStep {
   void propagate(const solve::ModalFlow& flow, std::size_t knot, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
   void find_stops();
   void find_reachable(solve::StepFlow& flow);
+  /// Whether a stop may come so near its gap that its force changes.
+  bool is_near(Index stop) const { return reach_[stop] > borders_[stop]; }
   /// Whether the pull of an open stop is a constant, as far as the tolerance can tell.
   bool is_steady(solve::StepFlow& flow, Index stop) const;
   /// What follows for a stop from the length of the step alone.
@@ -117,9 +119,14 @@ class ExponentialStep {
   bool is_smooth(const solve::StepFlow& flow);
   /// Of the stops, without their forces.
   void find_accelerations(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v, Eigen::ArrayXd& a);
-  void add_far_forces(solve::StepFlow& flow);
+  /// Sees that pull_ is what stops far from their gaps exert, as far as the tolerance can tell.
+  void place_pull(solve::StepFlow& flow);
+  /// Of those that pass the middle of their gap, where their pull changes its side.
+  void add_jumps(solve::StepFlow& flow);
   /// What the moments of order k of the forces of some stops do.
   void add_moments(const solve::StepFlow& flow, const std::vector<Index>& stops, int k);
+  /// What the forces in sums_[k] do to the middle of the step, and to a knot there.
+  void add_to_half(const solve::ModalFlow& half, std::size_t k);
   Trial iterate(solve::StepFlow& flow);
   /// Fills bulge_ and excess_ for the paths as they are.
   void find_bounds();
@@ -130,6 +137,8 @@ class ExponentialStep {
   /// Adds to the force at a stop, and what that does to all paths; the largest change of a path.
   double add_force(solve::StepFlow& flow, Index stop, const ForceMoments& more);
   void find_error(solve::StepFlow& flow, double displacement);
+  /// Of the displacement, by a pull that jumps where the path is said to pass the middle of the gap.
+  double error_of_pull(solve::StepFlow& flow, Index stop) const;
   /// Whether a stop is in contact at both ends of the step.
   bool stays_closed(Index stop) const;
   void apply_forces(const solve::StepFlow& flow);
@@ -143,12 +152,17 @@ class ExponentialStep {
   std::vector<OwnForce> own_;
   std::vector<FarPull> pulls_;
   bool has_far_forces_ = false;
+  solve::Contact& contact_;
+  Vector pull_;              ///< of stops far from their gaps, taken for constant from step to step, N; of others 0
+  Eigen::ArrayXd pull_sum_;  ///< the same as modal forces, a part of the flow
+  Vector stop_forces_;
   Eigen::ArrayXd squares_;   ///< omega^2
   bool is_strongly_damped_;  ///< a mode decays so fast that bounds by omega know too little
   ModalKnots knots_;
 
   Eigen::ArrayXd q_, v_;
   StopScale scale_;
+  double displacement_ = 0.0;  ///< that of the scale, with the end of the step without forces
   Eigen::ArrayXd q_new_, v_new_, q_half_, v_half_;
   double middle_knot_ = 0.0;  ///< its time; 0: there is none
   std::array<Eigen::ArrayXd, 3> sums_;
@@ -164,9 +178,11 @@ class ExponentialStep {
   Eigen::ArrayXd bulge_;     ///< by which the middle departs from the cubic through the ends
   Eigen::ArrayXd excess_;    ///< by which a bound of the path is beyond the gap
   std::array<Eigen::ArrayXd, 3> force_;
-  std::vector<Index> reachable_, touched_, far_;
+  std::vector<Index> reachable_;  ///< near their gap, or pulled by what is no constant
+  std::vector<Index> touched_, far_;
   std::vector<Index> jumping_;  ///< of those far away, the ones whose pull changes its sign
   std::vector<bool> is_touched_;
+  bool is_near_ = false;  ///< any stop
   double error_ = 0.0;
 };
 

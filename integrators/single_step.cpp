@@ -36,22 +36,51 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
   phases_.resize((most + 1) * harmonics_.size());
 }
 
+void SingleStep::complete(double* memory) const {
+  memory[2] = kMostTurns;
+}
+
 void SingleStep::save(double* memory) const {
   memory[0] = now_.q;
   memory[1] = now_.v;
+  memory[2] = turns_;
+  const Phase* last = phases_.data() + (knots_.size() - 1) * harmonics_.size();
+  for (std::size_t j = 0; j < harmonics_.size(); ++j) {
+    memory[3 + 2 * j] = last[j].cosine;
+    memory[4 + 2 * j] = last[j].sine;
+  }
 }
 
 void SingleStep::begin(double t, const double* memory, StopScale scale) {
   now_ = {memory[0], memory[1]};
   scale_ = scale;
-  knots_.assign(1, {t, now_, 0.0, false, false, {}});
+  knots_.assign(1, {t, now_, false, {}});
   times_.assign(1, t);
+  turns_ = static_cast<int>(memory[2]);
+  if (turns_ == kMostTurns) return find_phases();
+  for (std::size_t j = 0; j < harmonics_.size(); ++j) phases_[j] = {memory[3 + 2 * j], memory[4 + 2 * j]};
 }
 
 void SingleStep::accept(double t) {
   now_ = next_;
-  knots_.push_back({t, now_, 0.0, false, false, {}});
+  knots_.push_back({t, now_, false, {}});
   times_.push_back(t);
+  if (++turns_ == kMostTurns) return find_phases();
+  Phase* to = phases(knots_.size() - 1);
+  const Phase* from = to - harmonics_.size();
+  for (std::size_t j = 0; j < harmonics_.size(); ++j) {
+    const auto [c, s] = tried_->harmonics[j].turn;
+    to[j] = {c * from[j].cosine - s * from[j].sine, s * from[j].cosine + c * from[j].sine};
+  }
+}
+
+void SingleStep::find_phases() {
+  turns_ = 0;
+  Phase* phase = phases(knots_.size() - 1);
+  for (const solve::ModalHarmonic& harmonic : harmonics_) {
+    const double angle = harmonic.angular_frequency * knots_.back().t;
+    *phase++ = {std::cos(angle), std::sin(angle)};
+  }
 }
 
 std::span<const double> SingleStep::knots() const {
@@ -78,9 +107,12 @@ void SingleStep::fill(solve::StepFlow& from, Flow& flow) const {
   flow.coupling = from.own_coupling(0);
   flow.closed_inverse = own_.closed_inverse(flow.coupling);
   flow.harmonics.clear();
-  for (std::size_t j = 0; j < harmonics_.size(); ++j)
-    flow.harmonics.push_back({whole.harmonic_q(j, 0)[0], -whole.harmonic_q(j, 1)[0], whole.harmonic_v(j, 0)[0],
-                              -whole.harmonic_v(j, 1)[0], half.harmonic_q(j, 0)[0], -half.harmonic_q(j, 1)[0]});
+  for (std::size_t j = 0; j < harmonics_.size(); ++j) {
+    const double angle = harmonics_[j].angular_frequency * flow.h;
+    flow.harmonics.push_back({{whole.harmonic_q(j, 0)[0], -whole.harmonic_q(j, 1)[0], whole.harmonic_v(j, 0)[0],
+                               -whole.harmonic_v(j, 1)[0], half.harmonic_q(j, 0)[0], -half.harmonic_q(j, 1)[0]},
+                              {std::cos(angle), std::sin(angle)}});
+  }
 }
 
 Trial SingleStep::attempt_rung(int level) {
@@ -97,26 +129,14 @@ Trial SingleStep::attempt_length(double h) {
   return attempt(odd_);
 }
 
-void SingleStep::find_load(std::size_t knot) {
-  Knot& at = knots_[knot];
-  if (at.has_load) return;
-  at.has_load = true;
-  at.harmonic_force = 0.0;
-  for (std::size_t j = 0; j < harmonics_.size(); ++j) {
-    const double angle = harmonics_[j].angular_frequency * at.t, c = std::cos(angle), s = std::sin(angle);
-    phases_[knot * harmonics_.size() + j] = {c, s};
-    at.harmonic_force += c * harmonics_[j].cosine[0] + s * harmonics_[j].sine[0];
-  }
-}
-
 Trial SingleStep::attempt(const Flow& flow) {
-  const std::size_t knot = knots_.size() - 1;
-  find_load(knot);
+  tried_ = &flow;
+  const Phase* phase = phases(knots_.size() - 1);
   const auto [q, v] = now_;
   double q1 = flow.qq * q + flow.qv * v, v1 = flow.vq * q + flow.vv * v, middle = flow.half_qq * q + flow.half_qv * v;
   for (std::size_t j = 0; j < harmonics_.size(); ++j) {
-    const auto [c, s] = phases_[knot * harmonics_.size() + j];
-    const std::array<double, 6>& load = flow.harmonics[j];
+    const auto [c, s] = phase[j];
+    const std::array<double, 6>& load = flow.harmonics[j].load;
     q1 += c * load[0] + s * load[1];
     v1 += c * load[2] + s * load[3];
     middle += c * load[4] + s * load[5];
@@ -215,10 +235,14 @@ const Motion& SingleStep::motion_at(std::size_t knot) {
   Knot& at = knots_[knot];
   if (at.has_motion) return at.motion;
   at.has_motion = true;
-  find_load(knot);
+  double harmonic_force = 0.0;
+  for (std::size_t j = 0; j < harmonics_.size(); ++j) {
+    const auto [c, s] = phases(knot)[j];
+    harmonic_force += c * harmonics_[j].cosine[0] + s * harmonics_[j].sine[0];
+  }
   const double shape = modal_.shapes()(0, 0);
   const double force = dynamics_.contact().force_of(0, stop_shape_ * at.at.q);
-  const double a = at.harmonic_force + stop_shape_ * force - square_ * at.at.q - 2.0 * decay_ * at.at.v;
+  const double a = harmonic_force + stop_shape_ * force - square_ * at.at.q - 2.0 * decay_ * at.at.v;
   return at.motion = {shape * at.at.q, shape * at.at.v, shape * a};
 }
 
@@ -240,7 +264,9 @@ void SingleStep::interpolate(std::span<const double> times, std::span<const Inde
     const Quintic course(end - begin, motion_at(knot), motion_at(knot + 1));
     for (; i < times.size() && times[i] < end; ++i) {
       const double s = (times[i] - begin) * r;
-      put(i, {course.value(s), course.slope(s), course.curvature(s)});
+      if (!out.x.empty()) out.x[i] = course.value(s);
+      if (!out.v.empty()) out.v[i] = course.slope(s);
+      if (!out.a.empty()) out.a[i] = course.curvature(s);
     }
     if (knot + 2 == knots_.size() && i < times.size() && times[i] >= end) put(i++, motion_at(knot + 1));
   }

@@ -18,8 +18,9 @@ class SingleStep {
   SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, double output_tolerance,
              std::size_t most);
 
-  Index memory_size() const { return 2; }
-  void complete(double*) const {}
+  /// q, v, how often the phases of the loads were turned, and those.
+  Index memory_size() const { return 3 + 2 * static_cast<Index>(harmonics_.size()); }
+  void complete(double* memory) const;
   void begin(double t, const double* memory, StopScale scale);
   void save(double* memory) const;
   Trial attempt_rung(int level);
@@ -39,6 +40,9 @@ class SingleStep {
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out);
 
  private:
+  /// So often phases are turned before they are computed anew: a turn costs their last digit.
+  static constexpr int kMostTurns = 32;
+
   struct Point {
     double q, v;
   };
@@ -50,21 +54,23 @@ class SingleStep {
     std::array<double, 3> force_q, force_v;
     PathCoupling coupling;
     OwnForce::Matrix closed_inverse;
-    /// q, v and half_q of each harmonic, by its cosine and its sine.
-    std::vector<std::array<double, 6>> harmonics;
+    struct Harmonic {
+      std::array<double, 6> load;  ///< q, v and half_q by its cosine and its sine
+      Phase turn;                  ///< over the step
+    };
+    std::vector<Harmonic> harmonics;
   };
   /// Where a step begins or ends.
   struct Knot {
     double t;
     Point at;
-    double harmonic_force;    ///< modal
-    bool has_load = false;    ///< its phases and harmonic_force are known
-    bool has_motion = false;  ///< motion is known
+    bool has_motion;  ///< motion is known
     Motion motion;
   };
 
   void fill(solve::StepFlow& from, Flow& flow) const;
-  void find_load(std::size_t knot);
+  void find_phases();  ///< of the last knot
+  Phase* phases(std::size_t knot) { return phases_.data() + knot * harmonics_.size(); }
   Trial attempt(const Flow& flow);
   /// Fills force_ along the path that begins at w, hv and would end at path_ without the stop.
   Trial iterate(const Flow& flow, double w, double hv);
@@ -85,8 +91,10 @@ class SingleStep {
   std::array<Flow, 8> flows_;  ///< of rungs, by their last three bits
   Flow odd_;
   std::vector<Knot> knots_;
-  std::vector<double> times_;  ///< of the knots
-  std::vector<Phase> phases_;  ///< by knot and harmonic
+  std::vector<double> times_;    ///< of the knots
+  std::vector<Phase> phases_;    ///< by knot and harmonic: each is the one before, turned
+  int turns_ = 0;                ///< since the last that was computed from its time
+  const Flow* tried_ = nullptr;  ///< of the last attempt
 
   Point now_{}, next_{};
   StopScale scale_;

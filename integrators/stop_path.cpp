@@ -15,8 +15,10 @@ constexpr int kRefinements = 60;
 /// A correction of Newton's method below this, in parts of a step, leaves one of the order of its square.
 constexpr double kNearRoot = 1e-8;
 /// A law bends sharply where it does so over less than this part of the range of the path: what it adds to a linear
-/// stop there is then of the second order in that part.
+/// stop there is then of the second order in that part, and elsewhere nearly a constant.
 constexpr double kSharp = 1e-3;
+/// So many widths of the bend away what an arctan adds departs from its pull by 3e-5 of it.
+constexpr double kOffBend = 100.0;
 /// An end of the path this near to where the law bends, in parts of the path's range, is as the bend itself.
 constexpr double kBesideBend = 0.5;
 /// Panels beside a bend that is not sharp: each is shorter than the last by this factor.
@@ -186,17 +188,26 @@ void StopForce::add_spring(const StopPath& path, double begin, double end, doubl
   add(to.force, from_powers(-stiffness_ * power[0], -stiffness_ * power[1], -stiffness_ * power[2]));
 }
 
+double StopForce::rest_at(double w, double side) {
+  return contact_.force_of(stop_, w) + (side != 0.0 ? stiffness_ * (w - side * gap_) : 0.0);
+}
+
 ForceMoments StopForce::of_rest(const StopPath& path, double begin, double end, double side) {
   double m0 = 0.0, m1 = 0.0, m2 = 0.0;
   for (std::size_t i = 0; i < kGaussPlaces.size(); ++i) {
-    const double s = begin + (end - begin) * kGaussPlaces[i], w = path.value(s);
-    const double spring = side != 0.0 ? -stiffness_ * (w - side * gap_) : 0.0;
-    const double force = (end - begin) * kGaussWeights[i] * (contact_.force_of(stop_, w) - spring);
+    const double s = begin + (end - begin) * kGaussPlaces[i];
+    const double force = (end - begin) * kGaussWeights[i] * rest_at(path.value(s), side);
     m0 += force;
     m1 += force * s;
     m2 += force * s * s;
   }
   return from_powers(m0, m1, m2);
+}
+
+ForceMoments StopForce::of_constant_rest(const StopPath& path, double begin, double end, double side) {
+  const double f = rest_at(path.value(0.5 * (begin + end)), side);
+  return from_powers(f * (end - begin), f / 2.0 * (end * end - begin * begin),
+                     f / 3.0 * (end * end * end - begin * begin * begin));
 }
 
 ForceMoments StopForce::of_graded_rest(const StopPath& path, double graded, double other, double side) {
@@ -210,17 +221,23 @@ ForceMoments StopForce::of_graded_rest(const StopPath& path, double graded, doub
   return sum;
 }
 
+bool StopForce::is_off_bends(const StopPath& path) const {
+  const double off = kOffBend * bend_width_;
+  const auto is_off = [&](double border) { return path.highest() < border - off || path.lowest() > border + off; };
+  return (!on_upper_ || is_off(gap_)) && (!on_lower_ || is_off(-gap_));
+}
+
 Projection StopForce::of_pieces(const StopPath& path) {
   find_places(path);
-  const bool is_sharp = bend_width_ <= kSharp * (path.highest() - path.lowest());
+  const bool is_constant = bend_width_ <= kSharp * (path.highest() - path.lowest()) || is_off_bends(path);
   Projection sum;
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const Place &begin = places_[i], &end = places_[i + 1];
     const double middle = 0.5 * (begin.s + end.s), side = side_at(path.value(middle));
     if (side != 0.0) add_spring(path, begin.s, end.s, side, sum);
     if (is_linear_) continue;
-    if (is_sharp) {
-      add(sum.force, of_rest(path, begin.s, end.s, side));
+    if (is_constant) {
+      add(sum.force, of_constant_rest(path, begin.s, end.s, side));
       continue;
     }
     for (const Place& place : {begin, end})

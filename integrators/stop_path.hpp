@@ -69,7 +69,8 @@ class OwnForce {
 ///
 /// The part of a linear stop is integrated exactly, however often the stop opens or closes on the way. What a smooth
 /// law adds to it is integrated by Gauss's rule of four points between the instants at which g = 0 or w = 0, by panels
-/// graded towards those where the law bends over a part of the step that counts. Checked against Simpson's rule in
+/// graded towards those where the law bends over a part of the step that counts; where that bend is too narrow to
+/// count, it is the law's constant pull. Checked against Simpson's rule in
 /// tests/unit/stop_path_test.cpp.
 class StopForce {
  public:
@@ -92,12 +93,18 @@ class StopForce {
 
  private:
   void add_spring(const StopPath& path, double begin, double end, double side, Projection& to) const;
-  /// What the law adds to a spring on `side` (0: to nothing).
+  /// What the law adds to a spring on `side` (0: to nothing), N.
+  double rest_at(double w, double side);
+  /// Its moments over a piece.
   ForceMoments of_rest(const StopPath& path, double begin, double end, double side);
+  /// The same where it does not change over the piece, but for a bend too narrow to count.
+  ForceMoments of_constant_rest(const StopPath& path, double begin, double end, double side);
   /// The same by panels that shrink towards `graded`.
   ForceMoments of_graded_rest(const StopPath& path, double graded, double other, double side);
   /// +1, -1: the side on which a spring acts; 0: none.
   double side_at(double w) const { return on_upper_ && w > gap_ ? 1.0 : on_lower_ && w < -gap_ ? -1.0 : 0.0; }
+  /// Whether the path is nowhere near a bend, so that what the law adds to a spring does not change but for its sign.
+  bool is_off_bends(const StopPath& path) const;
   Projection of_pieces(const StopPath& path);
   /// Of a linear stop whose border the path crosses once; false where it is not of that kind.
   bool of_one_crossing(const StopPath& path, Projection& to) const;

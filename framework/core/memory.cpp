@@ -11,6 +11,9 @@
 namespace butee {
 namespace {
 
+/// What every process has; asking for its limits takes longer than small systems are computed.
+constexpr double kAlwaysThere = 16e6;
+
 double limit_of(__rlimit_resource resource) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
@@ -38,6 +41,7 @@ double memory_limit() {
 }
 
 std::string memory_complaint(double bytes) {
+  if (bytes <= kAlwaysThere) return "";
   const double limit = memory_limit();
   if (bytes <= limit) return "";
   return "needs about " + in_gigabytes(bytes) + " of memory, more than the " + in_gigabytes(limit) +

@@ -19,6 +19,9 @@ struct Pairs {
 /// iteration did not converge. For this project, not installed: the solvers of Eigen are compiled once, here.
 BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 
+/// The same of sparse matrices, computed densely; the faster, the nearer M is to its diagonal.
+BUTEE_EXPORT std::optional<Pairs> dense_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass);
+
 /// The eigenvalues alone.
 BUTEE_EXPORT std::optional<Vector> dense_values(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 

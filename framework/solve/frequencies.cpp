@@ -91,7 +91,7 @@ Modes modes_of(const Pairs& pairs, double highest) {
 }
 
 std::optional<Modes> dense_modes(const model::System& system, Index count) {
-  const auto pairs = dense_pairs(Eigen::MatrixXd(system.stiffness), Eigen::MatrixXd(system.mass));
+  const auto pairs = dense_pairs(system.stiffness, system.mass);
   if (!pairs) return std::nullopt;
   return modes_of({pairs->values.head(count), pairs->vectors.leftCols(count)}, pairs->values.maxCoeff());
 }

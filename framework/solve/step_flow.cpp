@@ -87,6 +87,12 @@ const Eigen::ArrayXXd& StepFlow::compute_columns(Index i) {
   return columns;
 }
 
+const Eigen::ArrayXd& StepFlow::mobilities() {
+  if (mobilities_.size() == 0)
+    mobilities_ = (stops_.matrix().array().square().matrix().transpose() * whole.force_q(0).matrix()).array();
+  return mobilities_;
+}
+
 StepFlow::Coupling StepFlow::own_coupling(Index i) {
   const Eigen::ArrayXXd& all = columns(i);
   Coupling own{};

@@ -51,6 +51,9 @@ class BUTEE_EXPORT StepFlow {
   /// The stops, rounded up to whole vector registers.
   static Index padded(Index stops);
 
+  /// The displacements of stops over the step by a constant force of 1 N on each alone, m. Computed at their first use.
+  const Eigen::ArrayXd& mobilities();
+
   /// What forces P_0, P_1, P_2 at stop i do to itself: rows end, speed and middle as in StopMotion.
   using Coupling = std::array<std::array<double, 3>, 3>;
   Coupling own_coupling(Index i);
@@ -83,6 +86,7 @@ class BUTEE_EXPORT StepFlow {
   const StopShapes& stops_;
   std::vector<Eigen::ArrayXXd> columns_;
   std::vector<Derived> derived_;
+  Eigen::ArrayXd mobilities_;
 };
 
 }  // namespace butee::solve

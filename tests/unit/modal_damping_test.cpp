@@ -12,6 +12,9 @@ namespace {
 
 /// Machine precision times the condition of these systems; the worst of all comparisons differs by 1.3e-12.
 constexpr double kRounding = 1e-11;
+/// Of the lowest modes of a finer mesh alone, by two ways that reduce to a standard problem differently: they differ by
+/// rounding times the factor of 1e7 between highest and lowest eigenvalue. The worst difference is 1.2e-10.
+constexpr double kTwoReductions = 1e-9;
 /// For the mesh that Lanczos is used on, the dense solution it is compared with loses digits too: lowest and highest
 /// eigenvalue are a factor of 1e9 apart. The worst difference is 1e-9.
 constexpr double kLanczos = 1e-8;
@@ -101,7 +104,7 @@ std::vector<Case> cases() {
   return {{"all_modes_of_a_small_system", 4, "0.03", {0.03}, kRounding},
           {"all_modes_of_a_larger_one", 28, "0.03", {0.03}, kRounding},
           {"a_few_modes_of_a_small_one", 4, "[0.03, 0, 0.5]", {0.03, 0.0, 0.5}, kRounding},
-          {"a_few_modes_of_a_larger_one", 28, "[0.03, 0.02, 0, 0.5]", {0.03, 0.02, 0.0, 0.5}, kRounding},
+          {"a_few_modes_of_a_larger_one", 28, "[0.03, 0.02, 0, 0.5]", {0.03, 0.02, 0.0, 0.5}, kTwoReductions},
           {"a_few_modes_by_lanczos", 60, "[0.03, 0.02, 0, 0.5]", {0.03, 0.02, 0.0, 0.5}, kLanczos}};
 }
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <complex>
 
-#include <butee/solve/modal_flow.hpp>
+#include <butee/solve/step_flow.hpp>
 #include <gtest/gtest.h>
 
 namespace butee::test {
@@ -117,6 +117,22 @@ TEST(ModalFlow, RefiningChangesNothingButRounding) {
   EXPECT_LT((flow.qv() - refined.qv()).abs().maxCoeff(), kTight);
   EXPECT_LT(((flow.vq() - refined.vq()) / (1.0 + kOmega)).abs().maxCoeff(), kTight);
   EXPECT_LT((flow.vv() - refined.vv()).abs().maxCoeff(), kTight);
+}
+
+/// The displacement of a stop by its own force, one way and the other.
+TEST(StepFlow, MobilitiesAreWhatAConstantForceDoes) {
+  Eigen::MatrixXd shapes(8, 3);
+  for (Index i = 0; i < 8; ++i)
+    for (Index j = 0; j < 3; ++j) shapes(i, j) = std::cos(1.0 + static_cast<double>(3 * i + 2 * j));
+  const solve::StopShapes stops(shapes);
+  for (const double h : {1e-3, 0.4}) {
+    solve::StepFlow flow(ModalFlow(kOmega, kDelta, {}, h), ModalFlow(kOmega, kDelta, {}, 0.5 * h), stops, kOmega, {});
+    for (Index i = 0; i < 3; ++i) {
+      const double own = flow.own_coupling(i)[0][0];
+      EXPECT_GT(own, 0.0);
+      EXPECT_NEAR(flow.mobilities()[i] / own, 1.0, kTight);
+    }
+  }
 }
 
 }  // namespace

@@ -104,6 +104,33 @@ TEST(Modes, are_orthonormal_and_solve_the_eigenvalue_problem) {
   for (Index i = 6; i < 12; ++i) EXPECT_NEAR(modes.frequencies[i] / std::sqrt(dense[i]), 1.0, kDenseRounding) << i;
 }
 
+/// Numbered along the beam or any other way, which fills the mass matrix's factor.
+TEST(DensePairs, of_sparse_matrices_solve_the_eigenvalue_problem) {
+  const SceneRun scene(kHeader + kSteelBar + rod("rod", 17) + pinned("rod"));
+  const Index n = scene.system().mass.rows();
+  Eigen::PermutationMatrix<Eigen::Dynamic> mixed(n);
+  for (Index i = 0; i < n; ++i) mixed.indices()[i] = static_cast<int>(7 * i % n);
+  for (const bool mix : {false, true}) {
+    const auto order = [&](const SparseMatrix& matrix) {
+      SparseMatrix ordered = matrix;
+      if (mix) ordered = matrix.twistedBy(mixed);
+      return ordered;
+    };
+    const SparseMatrix k = order(scene.system().stiffness), m = order(scene.system().mass);
+    const auto pairs = solve::dense_pairs(k, m);
+    ASSERT_TRUE(pairs);
+    const Eigen::MatrixXd mass = pairs->vectors.transpose() * (m * pairs->vectors);
+    EXPECT_LT((mass - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), kOrthogonal) << mix;
+    const Eigen::MatrixXd squares = pairs->values.asDiagonal();
+    const Eigen::MatrixXd stiffness = pairs->vectors.transpose() * (k * pairs->vectors);
+    EXPECT_LT((stiffness - squares).cwiseAbs().maxCoeff(), kOrthogonal * pairs->values.maxCoeff()) << mix;
+    for (Index i = 1; i < n; ++i) EXPECT_LE(pairs->values[i - 1], pairs->values[i]);
+  }
+  SparseMatrix indefinite = scene.system().mass;
+  indefinite.coeffRef(3, 3) = -1.0;
+  EXPECT_FALSE(solve::dense_pairs(scene.system().stiffness, indefinite));
+}
+
 TEST(Modes, find_every_copy_of_equal_frequencies) {
   constexpr int kBeams = 7;
   std::string scene = kHeader + kSteelBar;
