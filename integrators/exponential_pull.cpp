@@ -46,6 +46,8 @@ void ExponentialStep::add_jumps(StepFlow& flow) {
     if (std::min(w_[i], w_new_[i]) > aside || std::max(w_[i], w_new_[i]) < -aside) continue;
     const auto place = static_cast<std::size_t>(i);
     if (pulls_[place].largest() * std::abs(flow.mobilities()[i]) * steps <= felt) continue;
+    if (jumping_.empty())
+      for (ArrayXd& force : force_) force.setZero();
     const ForceMoments pull = stops_[place].far_force({w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0});
     for (std::size_t k = 0; k < 3; ++k) force_[k][i] = pull[k] - (k == 0 ? pull_[i] : 0.0);
     jumping_.push_back(i);

@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 
 #include "butee/core/error.hpp"
-#include "butee/core/zeros.hpp"
 
 namespace butee::solve {
 
@@ -42,6 +41,41 @@ class BandFactor::Chain {
   std::vector<double> row_;
 };
 
+struct BandFactor::View {
+  Index size, steps;
+  const ChunkTable &forward, &backward;
+  const double* middle_inverse;
+
+  /// What forward has for the row that step s eliminates.
+  template <Index band>
+  const double* forward_of(Index s) const {
+    return forward[s / kRows] + 2 * band * (s % kRows);
+  }
+
+  /// Calls row(s, entries) for all steps, from the ends to the middle.
+  template <Index band, class Row>
+  void go_forward(const Row& row) const {
+    Index s = 0;
+    for (Index chunk = 0; s + kRows <= steps; ++chunk) {
+      const double* entries = forward[chunk];
+      for (Index i = 0; i < kRows; ++i, ++s, entries += 2 * band) row(s, entries);
+    }
+    for (; s < steps; ++s) row(s, forward_of<band>(s));
+  }
+
+  /// And back.
+  template <Index band, class Row>
+  void go_back(const Row& row) const {
+    constexpr Index kEntries = 2 * (band + 1);
+    Index s = steps - 1;
+    for (; s >= 0 && s % kRows != kRows - 1; --s) row(s, backward[s / kRows] + kEntries * (s % kRows));
+    for (Index chunk = s / kRows; s >= 0; --chunk) {
+      const double* entries = backward[chunk] + kEntries * (kRows - 1);
+      for (Index i = 0; i < kRows; ++i, --s, entries -= kEntries) row(s, entries);
+    }
+  }
+};
+
 namespace {
 
 /// One entry from the top and one from the bottom.
@@ -66,20 +100,15 @@ inline void push(const Pair& value, Recent<band>& recent) {
   recent[0] = value;
 }
 
-struct View {
-  Index size, steps;
-  const double *forward, *backward, *reciprocal, *middle_inverse;
-};
-
 /// Takes the ends' part out of the middle's right side and solves there.
-template <std::size_t band>
+template <std::size_t band, class View>
 void solve_middle(const View& f, const Recent<band>& last, double* x) {
   constexpr auto kBand = static_cast<Index>(band);
   const Index begin = f.steps, end = f.size - f.steps, count = end - begin;
   Recent<band> recent = last;
   for (Index t = 0; t < kBand; ++t) {
     Pair change{};
-    subtract<band>(f.forward + 2 * kBand * (begin + t), recent, change);
+    subtract<band>(f.template forward_of<kBand>(begin + t), recent, change);
     x[begin + t] += change[0];
     x[end - 1 - t] += change[1];
     push(Pair{}, recent);
@@ -97,43 +126,44 @@ struct Subtrahend {
   const double* v;
 };
 
-template <std::size_t band, bool subtracts>
+template <std::size_t band, bool subtracts, class View>
 void solve_twisted(const View& f, double* x, [[maybe_unused]] const Subtrahend& less) {
   constexpr auto kBand = static_cast<Index>(band);
   double* mirrored = x + f.size - 1;
   Recent<band> recent{};
-  for (Index s = 0; s < f.steps; ++s) {
+  f.template go_forward<kBand>([&](Index s, const double* entries) {
     Pair value{x[s], mirrored[-s]};
-    subtract<band>(f.forward + 2 * kBand * s, recent, value);
+    subtract<band>(entries, recent, value);
     x[s] = value[0];
     mirrored[-s] = value[1];
     push(value, recent);
-  }
+  });
   solve_middle<band>(f, recent, x);
   for (Index k = 0; k < kBand; ++k) recent[static_cast<std::size_t>(k)] = Pair{x[f.steps + k], mirrored[-f.steps - k]};
   if constexpr (subtracts)
     for (Index i = f.steps; i < f.size - f.steps; ++i) x[i] -= less.factor * less.v[i];
-  for (Index s = f.steps - 1; s >= 0; --s) {
-    Pair value = Pair{x[s], mirrored[-s]} * pair_at(f.reciprocal, s);
-    subtract<band>(f.backward + 2 * kBand * s, recent, value);
+  f.template go_back<kBand>([&](Index s, const double* entries) {
+    Pair value = Pair{x[s], mirrored[-s]} * pair_at(entries, 0);
+    subtract<band>(entries + 2, recent, value);
     push(value, recent);
     if constexpr (subtracts) value -= less.factor * Pair{less.v[s], less.v[f.size - 1 - s]};
     x[s] = value[0];
     mirrored[-s] = value[1];
-  }
+  });
 }
 
+template <class View>
 using Kernel = void (*)(const View&, double*, const Subtrahend&);
 
-template <bool subtracts, std::size_t... bands>
-constexpr std::array<Kernel, sizeof...(bands)> kernels(std::index_sequence<bands...>) {
-  return {&solve_twisted<bands + 1, subtracts>...};
+template <class View, bool subtracts, std::size_t... bands>
+constexpr std::array<Kernel<View>, sizeof...(bands)> kernels(std::index_sequence<bands...>) {
+  return {&solve_twisted<bands + 1, subtracts, View>...};
 }
 
-template <bool subtracts>
+template <bool subtracts, class View>
 void solve_any(Index band, const View& factor, double* x, const Subtrahend& less) {
   static constexpr auto kKernels =
-      kernels<subtracts>(std::make_index_sequence<static_cast<std::size_t>(BandFactor::kWidestBand)>{});
+      kernels<View, subtracts>(std::make_index_sequence<static_cast<std::size_t>(BandFactor::kWidestBand)>{});
   kKernels[static_cast<std::size_t>(band - 1)](factor, x, less);
 }
 
@@ -141,9 +171,13 @@ void solve_any(Index band, const View& factor, double* x, const Subtrahend& less
 
 BandFactor::BandFactor(Index size, Index band) : size_(size), band_(band), steps_((size - band) / 2) {
   require(fits(size, band), "a band too wide for the matrix");
-  forward_ = zeros(2 * band * (steps_ + band));
-  backward_ = zeros(2 * band * steps_);
-  reciprocal_ = zeros(2 * steps_);
+  const auto chunks = [](Index rows) { return (rows + kRows - 1) / kRows; };
+  forward_ = ChunkTable(2 * band * kRows, chunks(steps_ + band));
+  backward_ = ChunkTable(2 * (band + 1) * kRows, chunks(steps_));
+}
+
+BandFactor::View BandFactor::view() const {
+  return {size_, steps_, forward_, backward_, middle_inverse_.data()};
 }
 
 bool BandFactor::factorize(const SparseMatrix& matrix) {
@@ -173,19 +207,21 @@ bool BandFactor::factorize(const SparseMatrix& matrix) {
 }
 
 bool BandFactor::store(const Chain& top, const Chain& bottom, const Eigen::MatrixXd& middle) {
-  const auto put = [this](Vector& to, Index s, Index k, double from_top, double from_bottom) {
-    const Index place = 2 * (s * band_ + k - 1);
-    to[place] = from_top;
-    to[place + 1] = from_bottom;
+  double *forward = forward_.write(), *backward = backward_.write();
+  const auto put = [](double* to, double from_top, double from_bottom) {
+    to[0] = from_top;
+    to[1] = from_bottom;
   };
   for (Index s = 0; s < steps_; ++s) {
-    reciprocal_[2 * s] = 1.0 / top.at(s, 0);
-    reciprocal_[2 * s + 1] = 1.0 / bottom.at(s, 0);
+    double* back = backward + 2 * (band_ + 1) * s;
+    put(back, 1.0 / top.at(s, 0), 1.0 / bottom.at(s, 0));
     for (Index k = 1; k <= band_; ++k) {
-      put(backward_, s, k, top.at(s, k), bottom.at(s, k));
-      put(forward_, s + k, k, top.at(s, k), bottom.at(s, k));
+      put(back + 2 * k, top.at(s, k), bottom.at(s, k));
+      put(forward + 2 * ((s + k) * band_ + k - 1), top.at(s, k), bottom.at(s, k));
     }
   }
+  forward_.share();
+  backward_.share();
   const Eigen::LLT<Eigen::MatrixXd> cholesky(middle);
   if (cholesky.info() != Eigen::Success) return false;
   const Eigen::MatrixXd inverse = cholesky.solve(Eigen::MatrixXd::Identity(middle.rows(), middle.cols()));
@@ -194,13 +230,11 @@ bool BandFactor::store(const Chain& top, const Chain& bottom, const Eigen::Matri
 }
 
 void BandFactor::solve(double* b) const {
-  solve_any<false>(
-      band_, {size_, steps_, forward_.data(), backward_.data(), reciprocal_.data(), middle_inverse_.data()}, b, {});
+  solve_any<false>(band_, view(), b, {});
 }
 
 void BandFactor::solve_less(double* b, double factor, const double* v) const {
-  solve_any<true>(band_, {size_, steps_, forward_.data(), backward_.data(), reciprocal_.data(), middle_inverse_.data()},
-                  b, {factor, v});
+  solve_any<true>(band_, view(), b, {factor, v});
 }
 
 }  // namespace butee::solve

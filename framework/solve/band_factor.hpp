@@ -4,7 +4,7 @@
 
 #include <butee/export.hpp>
 
-#include "butee/core/types.hpp"
+#include "butee/solve/chunk_table.hpp"
 
 namespace butee::solve {
 
@@ -33,14 +33,18 @@ class BUTEE_EXPORT BandFactor {
   void solve_less(double* b, double factor, const double* v) const;
 
  private:
+  /// Steps of a chunk.
+  static constexpr Index kRows = 8;
   class Chain;
+  struct View;
+  View view() const;
   bool store(const Chain& top, const Chain& bottom, const Eigen::MatrixXd& middle);
 
   Index size_, band_;
   Index steps_;  ///< rows eliminated from each end
-  /// For each step and distance k = 1 ... band a pair (from the top, from the bottom): forward_ L(s, s - k) for
-  /// steps_ + band rows, backward_ L(s + k, s); and the reciprocal pivots.
-  Vector forward_, backward_, reciprocal_;
+  /// Chunks of kRows steps, of each a pair (from the top, from the bottom) for every distance k = 1 ... band: forward_
+  /// L(s, s - k) for steps_ + band rows; backward_ L(s + k, s), behind the pair of reciprocal pivots.
+  ChunkTable forward_, backward_;
   std::vector<double> middle_inverse_;  ///< by rows
 };
 

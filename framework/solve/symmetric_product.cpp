@@ -30,27 +30,46 @@ inline void shift_back(const Lane& before, const Lane& here, Lane& to) {
   to = __builtin_shufflevector(before, here, 8 - k, 9 - k, 10 - k, 11 - k, 12 - k, 13 - k, 14 - k, 15 - k);
 }
 
-/// Where the diagonals begin: above[k][i] = A(i, i + k), below[k][i] = A(i, i - k), zero where there is no such entry.
+/// Diagonals in a row: above(k)[i] = A(i, i + k), below(k)[i] = A(i, i - k), zero where there is no such entry.
 template <std::size_t band>
 struct Diagonals {
-  Diagonals(const double* const* all_above, const double* const* all_below) {
-    for (std::size_t k = 0; k <= band; ++k) {
-      above[k] = all_above[k];
-      below[k] = all_below[k];
-    }
-  }
   std::array<const double*, band + 1> above, below;
+
+  struct Lanes {
+    const Diagonals& all;
+    Index i;
+    const double* above(std::size_t k) const { return all.above[k] + i; }
+    const double* below(std::size_t k) const { return all.below[k] + i; }
+  };
+  Lanes at(Index i) const { return {*this, i}; }
+  /// The last lane of rows but `before`, which may begin within another.
+  Lanes last(Index i, Index) const { return at(i); }
 };
 
-/// Rows i to i + 7; before, here and next are lanes of x in a row, the middle one that of the rows.
-template <std::size_t band, std::size_t... k>
-inline void multiply_lane(const Diagonals<band>& d, Index i, const Lane& before, const Lane& here, const Lane& next,
-                          Lane& sum, std::index_sequence<k...>) {
+/// Of lanes that are stored once for all that are equal.
+template <std::size_t band>
+struct SharedDiagonals {
+  const ChunkTable& lanes;
+  Index size;
+
+  struct Lanes {
+    const double* chunk;
+    const double* above(std::size_t k) const { return chunk + k * static_cast<std::size_t>(kLaneSize); }
+    const double* below(std::size_t k) const { return above(band + k); }
+  };
+  Lanes at(Index i) const { return {lanes[i / kLaneSize]}; }
+  Lanes last(Index, Index before) const { return {lanes[lanes_for(size) + before]}; }
+};
+
+/// Eight rows; before, here and next are lanes of x in a row, the middle one that of the rows.
+template <class Lanes, std::size_t... k>
+inline void multiply_lane(const Lanes& d, const Lane& before, const Lane& here, const Lane& next, Lane& sum,
+                          std::index_sequence<k...>) {
   Lane entry, value, other{};
-  load(d.above[0] + i, entry);
+  load(d.above(0), entry);
   sum = entry * here;
-  ((load(d.above[k + 1] + i, entry), shift_on<static_cast<int>(k) + 1>(here, next, value), sum += entry * value,
-    load(d.below[k + 1] + i, entry), shift_back<static_cast<int>(k) + 1>(before, here, value), other += entry * value),
+  ((load(d.above(k + 1), entry), shift_on<static_cast<int>(k) + 1>(here, next, value), sum += entry * value,
+    load(d.below(k + 1), entry), shift_back<static_cast<int>(k) + 1>(before, here, value), other += entry * value),
    ...);
   sum += other;
 }
@@ -61,13 +80,13 @@ struct Rows {
 };
 
 /// All of x, and the rows, are three lanes or more; rows that do not begin or end the matrix do so with whole lanes.
-template <std::size_t band>
-void multiply_lanes(const Diagonals<band>& d, Rows rows, const double* x, double* y) {
+template <std::size_t band, class Stored>
+void multiply_lanes(const Stored& d, Rows rows, const double* x, double* y) {
   constexpr auto kDistances = std::make_index_sequence<band>{};
   const Index begin = rows.begin, size = rows.size;
   Lane before{}, here, next, sum;
-  const auto row = [&](Index i) {
-    multiply_lane(d, i, before, here, next, sum, kDistances);
+  const auto row = [&](const auto& lanes, Index i) {
+    multiply_lane(lanes, before, here, next, sum, kDistances);
     store(sum, y + (i - begin));
   };
   if (begin > 0) load(x + begin - kLaneSize, before);
@@ -75,7 +94,7 @@ void multiply_lanes(const Diagonals<band>& d, Rows rows, const double* x, double
   const Index end_of_lanes = rows.end < size ? rows.end : size - kLaneSize;
   for (Index i = begin; i + kLaneSize <= end_of_lanes; i += kLaneSize) {
     load(x + i + kLaneSize, next);
-    row(i);
+    row(d.at(i), i);
     before = here;
     here = next;
   }
@@ -85,11 +104,11 @@ void multiply_lanes(const Diagonals<band>& d, Rows rows, const double* x, double
   load(x + last - 2 * kLaneSize, before);
   load(x + last - kLaneSize, here);
   load(x + last, next);
-  row(last - kLaneSize);
+  row(d.last(last - kLaneSize, 1), last - kLaneSize);
   before = here;
   here = next;
   next = Lane{};
-  row(last);
+  row(d.last(last, 0), last);
 }
 
 /// Systems with fewer rows than three lanes are taken row by row.
@@ -108,13 +127,24 @@ void multiply_few(const Diagonals<band>& d, Index size, const double* x, double*
   }
 }
 
+/// Where the diagonals begin, or the lanes.
+struct Stored {
+  const double *const *above, *const *below;
+  const ChunkTable& lanes;
+};
+
 template <std::size_t band>
-void multiply_diagonals(const double* const* above, const double* const* below, Rows rows, const double* x, double* y) {
-  const Diagonals<band> diagonals(above, below);
-  rows.size < kFew ? multiply_few(diagonals, rows.size, x, y) : multiply_lanes(diagonals, rows, x, y);
+void multiply_diagonals(const Stored& stored, Rows rows, const double* x, double* y) {
+  if (!stored.lanes.empty()) return multiply_lanes<band>(SharedDiagonals<band>{stored.lanes, rows.size}, rows, x, y);
+  Diagonals<band> diagonals;
+  for (std::size_t k = 0; k <= band; ++k) {
+    diagonals.above[k] = stored.above[k];
+    diagonals.below[k] = stored.below[k];
+  }
+  rows.size < kFew ? multiply_few(diagonals, rows.size, x, y) : multiply_lanes<band>(diagonals, rows, x, y);
 }
 
-using BandKernel = void (*)(const double* const*, const double* const*, Rows, const double*, double*);
+using BandKernel = void (*)(const Stored&, Rows, const double*, double*);
 
 template <std::size_t... bands>
 constexpr std::array<BandKernel, sizeof...(bands)> band_kernels(std::index_sequence<bands...>) {
@@ -145,10 +175,38 @@ SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix)
   for (Index j = 0; j < matrix.cols(); ++j)
     for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
       if (entry.row() <= j) above_[(j - entry.row()) * stride_ + kPadding + entry.row()] = entry.value();
-  if (size_ > kInCache) return;
+  if (size_ > kInCache) {
+    share_rows();
+    return;
+  }
   below_ = zeros(above_.size());
   for (Index k = 0; k <= band_; ++k)
     below_.segment(k * stride_, padded - kPadding) = above_.segment(k * stride_ + kPadding - k, padded - kPadding);
+}
+
+void SymmetricProduct::share_rows() {
+  const Index lanes = lanes_for(size_), width = (2 * band_ + 1) * kLaneSize;
+  lanes_ = ChunkTable(width, lanes + 2);
+  double* to = lanes_.write();
+  const double* diagonals = above_.data() + kPadding;
+  const auto put = [&](Index begin) {
+    for (Index k = -band_; k <= band_; ++k)
+      for (Index i = begin; i < begin + kLaneSize; ++i) {
+        const Index row = k < 0 ? i + k : i, distance = std::abs(k);
+        // Rows behind the last are in the lane of its own alone, which nothing reads.
+        const bool is_there = row >= 0 && row + distance < size_;
+        to[(k < 0 ? band_ - k : k) * kLaneSize + i - begin] = is_there ? diagonals[distance * stride_ + row] : 0.0;
+      }
+    to += width;
+  };
+  for (Index lane = 0; lane < lanes; ++lane) put(lane * kLaneSize);
+  put(size_ - kLaneSize);
+  put(size_ - 2 * kLaneSize);
+  lanes_.share();
+  if (lanes_.is_shared())
+    above_.resize(0);
+  else
+    lanes_ = ChunkTable();
 }
 
 void SymmetricProduct::multiply(const double* x, Index begin, Index count, double* y) const {
@@ -161,12 +219,12 @@ void SymmetricProduct::multiply(const double* x, Index begin, Index count, doubl
 void SymmetricProduct::multiply_band(const double* x, Index begin, Index count, double* y) const {
   static constexpr auto kKernels = band_kernels(std::make_index_sequence<kWidestBand + 1>{});
   std::array<const double*, kWidestBand + 1> above{}, below{};
-  for (Index k = 0; k <= band_; ++k) {
+  for (Index k = 0; k <= band_ && above_.size() > 0; ++k) {
     const double* diagonal = above_.data() + k * stride_ + kPadding;
     above[static_cast<std::size_t>(k)] = diagonal;
     below[static_cast<std::size_t>(k)] = below_.size() == 0 ? diagonal - k : below_.data() + k * stride_;
   }
-  kKernels[static_cast<std::size_t>(band_)](above.data(), below.data(), {begin, begin + count, size_}, x, y);
+  kKernels[static_cast<std::size_t>(band_)]({above.data(), below.data(), lanes_}, {begin, begin + count, size_}, x, y);
 }
 
 void SymmetricProduct::multiply_rows(const double* __restrict x, Index begin, Index count, double* __restrict y) const {

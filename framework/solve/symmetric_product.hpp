@@ -2,12 +2,13 @@
 
 #include <butee/export.hpp>
 
-#include "butee/core/types.hpp"
+#include "butee/solve/chunk_table.hpp"
 
 namespace butee::solve {
 
 /// y = A x for a symmetric sparse A. Narrow bands, those of chains of beams, are kept by diagonals, which needs no
-/// indices and vectorises; everything else by rows. Allocates nothing after construction.
+/// indices and vectorises; everything else by rows. Of large ones equal rows are stored once. Allocates nothing after
+/// construction.
 class BUTEE_EXPORT SymmetricProduct {
  public:
   SymmetricProduct() = default;
@@ -29,6 +30,7 @@ class BUTEE_EXPORT SymmetricProduct {
 
  private:
   void multiply_band(const double* x, Index begin, Index count, double* y) const;
+  void share_rows();
   void multiply_rows(const double* x, Index begin, Index count, double* y) const;
 
   Index size_ = 0, band_ = 0;
@@ -38,6 +40,9 @@ class BUTEE_EXPORT SymmetricProduct {
   /// empty where kept by rows, below_ where large too.
   Vector above_, below_;
   Index stride_ = 0;
+  /// Instead of those, where that saves much: for each lane of rows, and for the last two lanes again as they end the
+  /// matrix, diagonals k = 0 ... band above and 1 ... band below.
+  ChunkTable lanes_;
 };
 
 /// The largest distance of an entry from the diagonal.

@@ -148,6 +148,33 @@ TEST(Exponential, KeepsItsToleranceWithTheArctanLaw) {
   }
 }
 
+/// Three stops, of which two pass the middle of their gaps together, again and again, while the third has just left its
+/// own: what they pull then is theirs alone. Reference: `exact`; a disturbance grows a hundredfold until the end.
+TEST(Exponential, KeepsApartWhatEveryStopPulls) {
+  const std::string scene =
+      "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = 0.1\n"
+      "[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 8.0\nelements = 4\n"
+      "[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n"
+      "[[contact]]\ntype = \"stop\"\nnodes = \"b:all\"\ngap = 0.017\nstiffness = 9e7\nlaw = \"arctan\"\nregularization "
+      "= 7e5\n[[load]]\ntype = \"harmonic\"\nnode = \"b:middle\"\namplitude = 9000.0\nangular_frequency = 40.0\n"
+      "[damping]\nmass_proportional = 5.0\n[initial]\nvelocity = [{nodes = \"b:middle\", value = -2.7}]\n"
+      "[integrator]\nend_time = 0.3\n";
+  std::vector<double> times;
+  for (int i = 1; i < 300; ++i) times.push_back(1e-3 * i);
+  const auto course = [&](const std::string& keys) {
+    SceneRun run(scene + keys);
+    Sampler sampler(run.dof("b:middle"), times);
+    run.simulation().add(sampler);
+    EXPECT_TRUE(run.run().completed);
+    return sampler.x;
+  };
+  const std::vector<double> exact = course("type = \"exact\"\ntime_step = 1e-4\n");
+  for (const double tolerance : {1e-4, 1e-5, 1e-6})
+    EXPECT_LE(relative_rms(course("type = \"exponential\"\ntolerance = " + to_text(tolerance) + "\n"), exact),
+              100.0 * tolerance)
+        << tolerance;
+}
+
 std::string frame(const std::string& damping, const std::string& rest) {
   return "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = "
          "0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 4.0\nelements "
