@@ -52,6 +52,7 @@ bool ExponentialStep::is_smooth(const StepFlow& flow) {
 void ExponentialStep::find_accelerations(double t, const ArrayXd& q, const ArrayXd& v, ArrayXd& a) {
   sums_[0] = -squares_ * q - 2.0 * modal_.decay() * v;
   modal_.add_load(t, sums_[0]);
+  if (has_far_forces_) sums_[0] += pull_sum_;
   modal_.stop_shapes().displacement(sums_[0].data(), a.data());
 }
 

@@ -17,6 +17,7 @@ bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
 
 double ExponentialStep::error_of_pull(StepFlow& flow, Index stop) const {
   const double bulge = std::abs(bulge_[stop]), on_the_way = std::abs(path_.end[stop] - w_[stop]);
+  if (bulge == 0.0) return 0.0;
   const double part = bulge < on_the_way ? bulge / on_the_way : 1.0;
   return 2.0 * part * pulls_[static_cast<std::size_t>(stop)].largest() * std::abs(flow.mobilities()[stop]) *
          steps_of(scale_, flow.h());

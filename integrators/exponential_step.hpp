@@ -117,7 +117,7 @@ class ExponentialStep {
   /// Whether quintics are enough for outputs within a step without contact: by a bound that takes all modes for in
   /// phase, or else by the exact displacements in the middle, where a knot is laid if one through the ends is not.
   bool is_smooth(const solve::StepFlow& flow);
-  /// Of the stops, without their forces.
+  /// Of the stops, without their forces but for standing pulls.
   void find_accelerations(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v, Eigen::ArrayXd& a);
   /// Sees that pull_ is what stops far from their gaps exert, as far as the tolerance can tell.
   void place_pull(solve::StepFlow& flow);

@@ -49,8 +49,7 @@ void ChunkTable::share() {
     const double* chunk = data_.data() + place_[i];
     const auto [found, is_new] = known.try_emplace(hash_of(chunk, width_), static_cast<Index>(first.size()));
     const auto bytes = static_cast<std::size_t>(width_) * sizeof(double);
-    if (!is_new &&
-        std::memcmp(data_.data() + first[static_cast<std::size_t>(found->second)], chunk, bytes) == 0) {
+    if (!is_new && std::memcmp(data_.data() + first[static_cast<std::size_t>(found->second)], chunk, bytes) == 0) {
       place[i] = width_ * found->second;
       continue;
     }

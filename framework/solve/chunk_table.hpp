@@ -8,9 +8,9 @@
 
 namespace butee::solve {
 
-/// Chunks of doubles, equal ones stored once where that saves most of them: the rows of a uniform beam repeat, and those
-/// of its factor from a hundred rows behind its end, to the last digit. Systems of a million DOFs, which are bound by
-/// what a step reads from memory, then read little but their state.
+/// Chunks of doubles, equal ones stored once where that saves most of them: the rows of a uniform beam repeat, and
+/// those of its factor from a hundred rows behind its end, to the last digit. Systems of a million DOFs, which are
+/// bound by what a step reads from memory, then read little but their state.
 class BUTEE_EXPORT ChunkTable {
  public:
   ChunkTable() = default;

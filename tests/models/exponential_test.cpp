@@ -175,6 +175,28 @@ TEST(Exponential, KeepsApartWhatEveryStopPulls) {
         << tolerance;
 }
 
+/// Where nothing moves yet there is no displacement that an error could be relative to, and in the very middle of the
+/// gap both stops pull alike.
+TEST(Exponential, LeavesTheMiddleOfTheGapWhenALoadComes) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 14.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 7e7\ndamping = 4000.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = "
+      "2e-7\nstiffness = 1e10\nlaw = \"arctan\"\nregularization = 3e8\n[[load]]\ntype = \"table\"\nnode = "
+      "\"m\"\ntimes = [1e-3, 1.0001e-3]\nvalues = [0.0, 60.0]\n[integrator]\nend_time = 4e-3\n";
+  std::vector<double> times;
+  for (int i = 1; i < 200; ++i) times.push_back(2e-5 * i);
+  const auto course = [&](const std::string& keys) {
+    SceneRun run(scene + keys);
+    Sampler sampler(run.dof("m"), times);
+    run.simulation().add(sampler);
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    return sampler.x;
+  };
+  const std::vector<double> exact = course("type = \"exact\"\ntime_step = 1e-5\n");
+  EXPECT_GT(*std::max_element(exact.begin(), exact.end()), 2e-7);
+  EXPECT_LE(relative_rms(course("type = \"exponential\"\ntolerance = 1e-4\n"), exact), 1e-3);
+}
+
 std::string frame(const std::string& damping, const std::string& rest) {
   return "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = "
          "0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 4.0\nelements "
