@@ -30,7 +30,7 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
   effective.set_factors(on_v, on_x);
   const bool has_stops = dynamics_.stop_count() > 0;
   StepReport report;
-  double increment = 0.0;
+  Change last{};
   while (true) {
     // The first look always leads to a solve, except at rest; later ones seldom do, and ask for the tangent then.
     const bool first = report.newton_iterations == 0;
@@ -41,7 +41,7 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
       return report;
     }
     const bool is_balanced = balance.residual() <= options_.residual_tolerance * scale;
-    if (is_balanced && (first || increment <= options_.increment_tolerance * x_norm_)) return report;
+    if (is_balanced && (first || on_x * last.correction <= options_.increment_tolerance * last.x)) return report;
     if (report.newton_iterations == options_.max_iterations) break;
     if (!first && has_stops) contact(stop_displacement_, true, stop_force_, stop_tangent_);
     if (!effective.solve(stop_tangent_, residual_)) {
@@ -49,7 +49,7 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
       return report;
     }
     ++report.newton_iterations;
-    increment = on_x * add_correction(on_v, on_x, x, v, a);
+    last = add_correction(on_v, on_x, x, v, a);
     if (!has_stops && !options_.checks_linear_too) return report;
   }
   residual_.cwiseAbs().maxCoeff(&report.worst_dof);
@@ -58,7 +58,7 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
   return report;
 }
 
-double StageSolver::add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) {
+StageSolver::Change StageSolver::add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) {
   double square = 0.0, x_square = 0.0;
   in_blocks(a.size(), [&](Index begin, Index count) {
     const double* correction = residual_.data() + begin;
@@ -71,8 +71,7 @@ double StageSolver::add_correction(double on_v, double on_x, VectorRef x, Vector
     square += square_of(residual_, begin, count);
     x_square += square_of(x, begin, count);
   });
-  x_norm_ = std::sqrt(x_square);
-  return std::sqrt(square);
+  return {std::sqrt(square), std::sqrt(x_square)};
 }
 
 solve::ForceBalance StageSolver::evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,

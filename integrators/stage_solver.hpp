@@ -34,15 +34,17 @@ class StageSolver {
  private:
   /// The stops' forces f and, where asked for, tangent stiffnesses k at displacements w.
   virtual void contact(ConstVectorRef w, bool with_tangent, VectorRef f, VectorRef k);
-  /// a += correction, and v and x with their factors, by the solution in residual_; returns its 2-norm, and
-  /// notes that of x.
-  double add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a);
+  /// 2-norms
+  struct Change {
+    double correction, x;
+  };
+  /// a += correction, and v and x with their factors, by the solution in residual_.
+  Change add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a);
   solve::ForceBalance evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
 
   solve::Dynamics& dynamics_;
   NewtonOptions options_;
   Vector load_, residual_;
-  double x_norm_ = 0.0;
   Vector stop_displacement_, stop_force_, stop_tangent_;
 };
 

@@ -72,7 +72,7 @@ TEST(SharedRows, SolveAndMultiplyWhatTheMatrixSays) {
   constexpr double kSolved = 1e-13;
   for (const Index band : {1, 3, 8})
     for (const Index period : {Index{1}, Index{2}, Index{40}, Index{1} << 20U})
-      for (Index size = 6000; size < 6009; ++size) {
+      for (const Index size : {6000, 6003, 6007}) {
         const SparseMatrix matrix = repeating(size, band, period);
         const Vector x = some_vector(size);
         const Vector right = matrix * x;
