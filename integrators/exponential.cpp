@@ -19,8 +19,9 @@ using time::StepStatus;
 /// Steps in a block; its knots stay in the cache.
 constexpr int kBlock = 32;
 /// What the state carries behind the memory of a step: the rung of the ladder, the largest displacement and speed of
-/// a stop, whether the last step was a quiet one, without stops within reach, and by how many rungs those are longer.
-constexpr Index kExtras = 5;
+/// a stop, whether the last step was a quiet one, without stops within reach, by how many rungs those are longer, and
+/// until when the last block was to go, without which it cannot be taken again.
+constexpr Index kExtras = 6;
 /// That is at most
 constexpr int kQuietRungs = 2;
 /// What outputs between two quiet steps may be wrong by, in tolerances; the steps themselves go on from the exact
@@ -104,7 +105,7 @@ void Exponential<Step>::do_start(State& state) {
     scale = {w.lpNorm<Eigen::Infinity>(), speed.lpNorm<Eigen::Infinity>()};
   }
   state.memory.tail(kExtras) << static_cast<double>(first_level_), scale.displacement, scale.speed, 0.0,
-      static_cast<double>(kQuietRungs);
+      static_cast<double>(kQuietRungs), state.t;
   if (modal_.is_complete()) return;
   Vector kept(state.x.size());
   for (const Vector* given : {&state.x, &state.v}) {
@@ -117,12 +118,12 @@ void Exponential<Step>::do_start(State& state) {
 
 template <class Step>
 StepReport Exponential<Step>::do_step(const State& from, const time::Step& step, State& to) {
-  StepReport report = follow(from, step);
+  StepReport report = follow(from, step.t_end, step.single ? 1 : kBlock, std::numeric_limits<double>::infinity());
   if (report.status != StepStatus::ok) return report;
   to.t = step_.t();
   step_.save(to.memory.data());
   to.memory.tail(kExtras) << static_cast<double>(level_), step_.scale().displacement, step_.scale().speed,
-      is_quiet_ ? 1.0 : 0.0, static_cast<double>(quiet_rungs_);
+      is_quiet_ ? 1.0 : 0.0, static_cast<double>(quiet_rungs_), step.t_end;
   modal_.to_physical(step_.q(), to.x);
   modal_.to_physical(step_.v(), to.v);
   dynamics().acceleration(to.t, to.x, to.v, to.a);
@@ -132,7 +133,7 @@ StepReport Exponential<Step>::do_step(const State& from, const time::Step& step,
 }
 
 template <class Step>
-StepReport Exponential<Step>::follow(const State& from, const time::Step& step) {
+StepReport Exponential<Step>::follow(const State& from, double end, int most, double until) {
   const auto extras = from.memory.tail(kExtras);
   begin_t_ = from.t;
   end_t_ = std::numeric_limits<double>::quiet_NaN();
@@ -143,27 +144,25 @@ StepReport Exponential<Step>::follow(const State& from, const time::Step& step) 
   quiet_rungs_ = static_cast<int>(extras[4]);
   StepReport report;
   report.inner_steps = 0;
-  const int most = step.single ? 1 : kBlock;
-  while (report.inner_steps < most && step_.t() < step.t_end) {
-    const double rest = report.inner_steps == 0 ? step.h : step.t_end - step_.t();
-    if (!advance(rest, step.t_end, report)) break;
+  while (report.inner_steps < most && step_.t() < std::min(end, until)) {
+    if (!advance(end, report)) break;
   }
   end_t_ = step_.t();
   return report;
 }
 
 template <class Step>
-bool Exponential<Step>::advance(double rest, double end, StepReport& report) {
-  const double t = step_.t(), kink = next_kink(t), limit = std::min(rest, kink - t);
+bool Exponential<Step>::advance(double end, StepReport& report) {
+  const double t = step_.t(), kink = next_kink(t), last = std::min(end, kink), limit = last - t;
   int rungs = level_ + (is_quiet_ ? quiet_rungs_ : 0);
   while (true) {
     const double h = ModalSystem::ladder_step(rungs);
-    const bool fits = step_.has_stops() && h <= limit;
+    const bool fits = step_.has_stops() && t + h <= last;
     // What is left of a block is shorter than a step: the next block takes it with whole ones.
-    if (!fits && kink - t >= rest && report.inner_steps > 0) return false;
+    if (!fits && kink >= end && report.inner_steps > 0) return false;
     const Trial trial = fits ? step_.attempt_rung(rungs) : step_.attempt_length(limit);
     if (trial == Trial::accepted) {
-      step_.accept(fits ? t + h : std::min(kink, end));
+      step_.accept(fits ? t + h : last);
       ++report.inner_steps;
       is_quiet_ = step_.is_quiet();
       if (!is_quiet_) {
@@ -224,7 +223,7 @@ void Exponential<Step>::do_interpolate_all(const State& from, const State& to, s
   if (first == last) return;
   // Recomputing a block that is no longer the last changes nothing that anyone could see.
   auto& self = const_cast<Exponential&>(*this);
-  if (!holds(from, to.t)) self.follow(from, {to.t - from.t, to.t});
+  if (!holds(from, to.t)) self.follow(from, to.memory.tail(1)[0], kBlock, to.t);
   const auto rest = [&](std::span<double> all) { return all.empty() ? all : all.subspan(first * dofs.size()); };
   self.step_.interpolate(times.subspan(first, last - first), dofs, {rest(out.x), rest(out.v), rest(out.a)});
 }

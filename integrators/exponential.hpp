@@ -56,10 +56,10 @@ class Exponential final : public time::Integrator {
   void do_interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
                           std::span<const Index> dofs, time::Interpolated out) const override;
 
-  /// Takes steps from `from` until `step` is done or the block is full, filling the knots.
-  time::StepReport follow(const time::State& from, const time::Step& step);
-  /// Takes a single one, of at most `rest` s and to `end` at the latest; false where none fits or none can be taken.
-  bool advance(double rest, double end, time::StepReport& report);
+  /// Takes up to `most` steps from `from` on towards `end`, filling the knots, and none from `until` on.
+  time::StepReport follow(const time::State& from, double end, int most, double until);
+  /// Takes a single one, to `end` at the latest; false where none fits or none can be taken.
+  bool advance(double end, time::StepReport& report);
   double next_kink(double t) const;
   int find_first_level() const;
   bool holds(const time::State& from, double t_end) const;

@@ -38,6 +38,7 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
 
 void SingleStep::complete(double* memory) const {
   memory[2] = kMostTurns;
+  std::fill(memory + 3, memory + memory_size(), 0.0);
 }
 
 void SingleStep::save(double* memory) const {

@@ -175,6 +175,39 @@ TEST(Exponential, KeepsApartWhatEveryStopPulls) {
         << tolerance;
 }
 
+/// Somebody who keeps the ends of a block may ask again what was between them, when the method has gone on.
+TEST(Exponential, InterpolatesAnEarlierBlockAsItDidThen) {
+  class Keeper final : public time::Observer {
+   public:
+    void start(const time::State&) override {}
+    void step(const time::AcceptedStep& step) override { blocks.push_back({step.from, step.to, inside(step)}); }
+    static double inside(const time::AcceptedStep& step) { return course(step.integrator, step.from, step.to); }
+    static double course(const time::Integrator& integrator, const time::State& from, const time::State& to) {
+      const std::vector<double> times = {from.t + 0.37 * (to.t - from.t), from.t + 0.99 * (to.t - from.t)};
+      const std::vector<Index> dofs = {0};
+      std::vector<double> x(2);
+      integrator.interpolate(from, to, times, dofs, {x, {}, {}});
+      return x[0] + 3.0 * x[1];
+    }
+    struct Block {
+      time::State from, to;
+      double inside;
+    };
+    std::vector<Block> blocks;
+  };
+  for (const char* model : {"oscillator", "beam2"})
+    for (const char* tolerance : {"1e-2", "1e-5"}) {
+      SceneRun scene(with_linear_law(model), {"integrator.type=exponential", "integrator.end_time=0.1",
+                                              std::string("integrator.tolerance=") + tolerance});
+      Keeper keeper;
+      scene.simulation().add(keeper);
+      ASSERT_TRUE(scene.run().completed);
+      EXPECT_GE(keeper.blocks.size(), 2U);
+      for (const Keeper::Block& block : keeper.blocks)
+        EXPECT_EQ(Keeper::course(scene.integrator(), block.from, block.to), block.inside) << model << block.from.t;
+    }
+}
+
 /// Where nothing moves yet there is no displacement that an error could be relative to, and in the very middle of the
 /// gap both stops pull alike.
 TEST(Exponential, LeavesTheMiddleOfTheGapWhenALoadComes) {
