@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "butee/core/error.hpp"
+#include "butee/core/subnormals.hpp"
 #include "butee/core/text.hpp"
 #include "butee/core/zeros.hpp"
 
@@ -22,6 +24,9 @@ constexpr int kMostRejections = 5000;
 /// A method that chooses its steps is looked at after so many; it has stalled where it would need more than kMostSteps.
 constexpr std::int64_t kStallLooks = 200000;
 constexpr double kMostSteps = 1e12;
+
+/// From this size on a structure may have parts that hardly move at all.
+constexpr Index kLarge = 64;
 
 using Clock = std::chrono::steady_clock;
 
@@ -124,6 +129,8 @@ void Simulation::loads_changed(bool jump) {
 bool Simulation::advance() {
   start();
   if (over_) return false;
+  std::optional<FlushedSubnormals> flushed;
+  if (state_.x.size() > kLarge) flushed.emplace();
   for (int rejections = 0; rejections <= kMostRejections; ++rejections) {
     const Step step = propose();
     if (!(step.t_end > state_.t)) {
