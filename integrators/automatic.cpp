@@ -6,6 +6,7 @@
 #include "butee/core/error.hpp"
 #include "butee/core/log.hpp"
 #include "butee/core/text.hpp"
+#include "integrators/active_part.hpp"
 #include "integrators/exponential.hpp"
 #include "integrators/methods.hpp"
 #include "integrators/rodas4.hpp"
@@ -39,6 +40,10 @@ Cost estimate(solve::Dynamics& dynamics, double tolerance, double end_time) {
           (0.8 * n + 4.0 * turns) * finer * (6e-8 * n + 1.1e-11 * m * m * m)};
 }
 
+std::unique_ptr<time::Integrator> make_rodas4(solve::Dynamics& dynamics, double tolerance) {
+  return std::make_unique<Rodas4>(dynamics, tolerance);
+}
+
 }  // namespace
 
 Choice choose(solve::Dynamics& dynamics, double tolerance, double end_time) {
@@ -58,16 +63,20 @@ Choice choose(solve::Dynamics& dynamics, double tolerance, double end_time) {
 
 std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, double tolerance, double end_time) {
   const Choice choice = choose(dynamics, tolerance, end_time);
+  const std::string with = " with tolerance " + to_short_text(tolerance);
   std::unique_ptr<time::Integrator> integrator;
-  std::string name;
+  std::string what;
   if (choice.method == Choice::Method::exponential) {
-    name = "exponential";
+    what = "exponential" + with;
     integrator = make_exponential(dynamics, {tolerance, 6, 0});
+  } else if (ActivePart::can_take(dynamics)) {
+    what = "rodas4" + with + " on the part that moves";
+    integrator = std::make_unique<ActivePart>(dynamics, tolerance, make_rodas4);
   } else {
-    name = "rodas4";
-    integrator = std::make_unique<Rodas4>(dynamics, tolerance);
+    what = "rodas4" + with;
+    integrator = make_rodas4(dynamics, tolerance);
   }
-  integrator->set_choice(name + " with tolerance " + to_short_text(tolerance) + ": " + choice.why);
+  integrator->set_choice(what + ": " + choice.why);
   return integrator;
 }
 

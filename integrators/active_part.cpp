@@ -1,0 +1,149 @@
+#include "integrators/active_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace butee::integrators {
+namespace {
+
+/// In places of the pattern; in a chain of beams, elements.
+constexpr double kFirstRadius = 32.0;
+/// Of the radius: a part to the next one, and the inner part of one.
+constexpr double kGrowth = 1.5, kInner = 0.75;
+/// So much of the tolerance may be in the outer part.
+constexpr double kNegligible = 0.1;
+
+/// The DOFs that loads, the initial motion, and stops that push at rest begin with.
+std::vector<Index> moving_first(solve::Dynamics& dynamics) {
+  const model::System& system = dynamics.system();
+  Vector moves = system.initial_displacement.cwiseAbs() + system.initial_velocity.cwiseAbs();
+  Vector force = Vector::Zero(system.size());
+  dynamics.add_contact_force(Vector::Zero(system.size()), force);
+  moves += force.cwiseAbs();
+  for (const model::FreeLoad& load : system.loads)
+    for (const Index dof : load.dofs) moves[dof] = 1.0;
+  std::vector<Index> dofs;
+  for (Index i = 0; i < moves.size(); ++i)
+    if (moves[i] > 0.0) dofs.push_back(i);
+  return dofs;
+}
+
+std::vector<Index> within(const std::vector<Index>& distances, double radius) {
+  std::vector<Index> dofs;
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    if (distances[i] >= 0 && static_cast<double>(distances[i]) <= radius) dofs.push_back(static_cast<Index>(i));
+  return dofs;
+}
+
+bool is_small(const std::vector<Index>& dofs, Index all) {
+  return !dofs.empty() && 2 * static_cast<Index>(dofs.size()) <= all;
+}
+
+}  // namespace
+
+bool ActivePart::can_take(solve::Dynamics& dynamics) {
+  const model::System& system = dynamics.system();
+  if (system.damping.is_modal()) return false;
+  return is_small(within(model::distances(system, moving_first(dynamics)), kFirstRadius), system.size());
+}
+
+ActivePart::ActivePart(solve::Dynamics& dynamics, double tolerance, Make make)
+    : Integrator(dynamics),
+      tolerance_(tolerance),
+      make_(make),
+      distances_(model::distances(dynamics.system(), moving_first(dynamics))) {
+  parts_.push_back(make_part(0));
+}
+
+ActivePart::Part& ActivePart::at(std::size_t place) {
+  while (parts_.size() <= place) parts_.push_back(make_part(parts_.size()));
+  return parts_[place];
+}
+
+ActivePart::Part ActivePart::make_part(std::size_t place) const {
+  Part part;
+  const double radius = kFirstRadius * std::pow(kGrowth, static_cast<double>(place));
+  std::vector<Index> dofs = within(distances_, radius);
+  if (!is_small(dofs, dynamics().size())) {
+    part.method = make_(dynamics(), tolerance_);
+    return part;
+  }
+  part.dofs = std::move(dofs);
+  part.system = std::make_unique<model::System>(model::part_of(dynamics().system(), part.dofs));
+  part.dynamics = std::make_unique<solve::Dynamics>(*part.system);
+  part.method = make_(*part.dynamics, tolerance_);
+  const auto size = static_cast<Index>(part.dofs.size());
+  part.is_outer = Vector::Zero(size);
+  for (Index i = 0; i < size; ++i) {
+    const Index distance = distances_[static_cast<std::size_t>(part.dofs[static_cast<std::size_t>(i)])];
+    if (static_cast<double>(distance) > kInner * radius) part.is_outer[i] = 1.0;
+  }
+  part.work = part.outer = Vector::Zero(size);
+  return part;
+}
+
+bool ActivePart::holds(const Part& part, const time::State& state) {
+  const auto has_all = [&](const Vector& y) {
+    return (y.array() != 0.0).count() == (y(part.dofs).array() != 0.0).count();
+  };
+  return part.is_whole() || (has_all(state.x) && has_all(state.v));
+}
+
+void ActivePart::do_start(time::State& state) {
+  std::size_t place = 0;
+  while (!holds(at(place), state)) ++place;
+  Part& part = at(place);
+  if (part.is_whole()) {
+    part.method->start(state);
+  } else {
+    part.from.t = state.t;
+    part.from.x = state.x(part.dofs);
+    part.from.v = state.v(part.dofs);
+    part.method->start(part.from);
+    state.memory = part.from.memory;
+  }
+  state.memory.conservativeResize(kPart + 1);
+  state.memory[kPart] = static_cast<double>(place);
+}
+
+time::StepReport ActivePart::do_step(const time::State& from, const time::Step& step, time::State& to) {
+  for (auto place = static_cast<std::size_t>(from.memory[kPart]);; ++place) {
+    Part& part = at(place);
+    const time::StepReport report = part.is_whole() ? part.method->step(from, step, to) : step_on(part, from, step, to);
+    to.memory[kPart] = static_cast<double>(place);
+    const bool stands = report.status == time::StepStatus::ok && controller()->decide(step.h, report).accept;
+    if (part.is_whole() || !stands || !has_come_near(part)) return report;
+  }
+}
+
+time::StepReport ActivePart::step_on(Part& part, const time::State& from, const time::Step& step, time::State& to) {
+  part.from.t = from.t;
+  part.from.x = from.x(part.dofs);
+  part.from.v = from.v(part.dofs);
+  part.from.a = from.a(part.dofs);
+  part.from.memory = from.memory;
+  part.dynamics->loads_changed();  // Nobody tells it when they do.
+  part.dynamics->counters() = {};
+  const time::StepReport report = part.method->step(part.from, step, part.to);
+  dynamics().counters() = dynamics().counters() + part.dynamics->counters();
+  if (report.status != time::StepStatus::ok) return report;
+  for (Vector* vector : {&to.x, &to.v, &to.a}) vector->setZero();
+  to.t = part.to.t;
+  to.x(part.dofs) = part.to.x;
+  to.v(part.dofs) = part.to.v;
+  to.a(part.dofs) = part.to.a;
+  to.memory = part.to.memory;
+  return report;
+}
+
+bool ActivePart::has_come_near(Part& part) const {
+  const auto norm = [&](const Vector& y) {
+    part.outer = y.cwiseProduct(part.is_outer);
+    part.dynamics->inertia_force(part.outer, part.work);
+    return std::sqrt(std::max(0.0, part.outer.dot(part.work)));
+  };
+  const double enough = kNegligible * tolerance_;
+  return norm(part.to.x) > enough * part.to.memory[0] || norm(part.to.v) > enough * part.to.memory[1];
+}
+
+}  // namespace butee::integrators
