@@ -15,6 +15,16 @@ bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
          kUnfeltPull * output_tolerance_ * displacement_;
 }
 
+void ExponentialStep::find_steady(StepFlow& flow) {
+  const Index m = modal_.stop_count();
+  const double steps = steps_of(scale_, flow.h()), felt = kUnfeltPull * output_tolerance_ * displacement_;
+  const auto w0 = w_.head(m), w1 = w_new_.head(m);
+  const auto shift = pull_sizes_.head(m) * flow.mobilities().abs();
+  const auto part = bends_.head(m) / (gaps_.head(m) - reach_.head(m));
+  is_steady_.head(m) =
+      w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > shift && shift * part.square() * (steps * steps / 3.0) <= felt;
+}
+
 double ExponentialStep::error_of_pull(StepFlow& flow, Index stop) const {
   const double bulge = std::abs(bulge_[stop]), on_the_way = std::abs(path_.end[stop] - w_[stop]);
   if (bulge == 0.0) return 0.0;

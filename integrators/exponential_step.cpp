@@ -31,8 +31,9 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
   const Index padded = StepFlow::padded(contact.size());
   for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2]})
     array->setZero(modal_.size());
-  for (ArrayXd* array : {&w_, &wv_, &w_new_, &wv_new_, &reach_, &hv_, &path_.end, &path_.speed, &path_.middle, &bulge_,
-                         &excess_, &force_[0], &force_[1], &force_[2]})
+  for (ArrayXd* array :
+       {&w_, &wv_, &w_new_, &wv_new_, &reach_, &hv_, &path_.end, &path_.speed, &path_.middle, &seen_.end, &seen_.speed,
+        &seen_.middle, &bulge_, &excess_, &force_[0], &force_[1], &force_[2]})
     array->setZero(padded);
   gaps_.setConstant(padded, kInfinite);
   borders_ = gaps_;
@@ -48,6 +49,13 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
     if (contact.sides_of(i) != model::Sides::positive) lower_[i] = -gaps_[i];
     has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
   }
+  pull_sizes_.setZero(padded);
+  bends_.setZero(padded);
+  for (Index i = 0; i < contact.size() && has_far_forces_; ++i) {
+    pull_sizes_[i] = contact.law_of(i).far_force();
+    bends_[i] = contact.law_of(i).bend_width();
+  }
+  is_steady_.setConstant(padded, false);
   for (std::vector<Index>* list : {&reachable_, &touched_, &far_, &jumping_}) list->reserve(stops_.size());
   is_touched_.assign(stops_.size(), false);
   pull_.setZero(contact.size());
@@ -154,9 +162,10 @@ void ExponentialStep::find_reachable(StepFlow& flow) {
   const double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + load_swing_;
   reach_ = w_.abs().max(w_new_.abs()) + (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
+  if (has_far_forces_) find_steady(flow);
   for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {
     is_near_ = is_near_ || is_near(i);
-    if (is_near(i) || (has_far_forces_ && !is_steady(flow, i)))
+    if (is_near(i) || (has_far_forces_ && !is_steady_[i] && !is_steady(flow, i)))
       reachable_.push_back(i);
     else if (has_far_forces_)
       far_.push_back(i);
@@ -171,20 +180,33 @@ Trial ExponentialStep::iterate(StepFlow& flow) {
   for (ArrayXd& force : force_) force.setZero();
   for (const Index i : touched_) is_touched_[static_cast<std::size_t>(i)] = false;
   touched_.clear();
+  choose_registers();
   guess(flow);
-  double last = 0.0;
+  double last = 0.0, settled = -1.0;
   for (int i = 0; i < kMostSweeps; ++i) {
-    const double change = sweep(flow);
+    const double change = sweep(flow, settled);
     if (!std::isfinite(change)) return Trial::too_long;
     const double scale = std::max(scale_.displacement, path_.end.abs().maxCoeff());
     const double next = change * (change / last), enough = std::max(kConverged * tolerance_, kRounding) * scale;
     const bool is_expected = i > 0 && change < last && next <= kExpected * enough;
     last = change;
+    settled = kSettled * tolerance_ * scale;
     if (change > enough && !is_expected) continue;
     find_error(flow, scale);
     return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
   }
   return Trial::too_long;
+}
+
+void ExponentialStep::choose_registers() {
+  near_registers_.clear();
+  far_registers_.clear();
+  auto next = reachable_.begin();
+  for (Index begin = 0; begin < path_.end.size(); begin = StepFlow::next_register(begin)) {
+    const auto in_next = std::lower_bound(next, reachable_.end(), StepFlow::next_register(begin));
+    (in_next != next ? near_registers_ : far_registers_).push_back(begin);
+    next = in_next;
+  }
 }
 
 void ExponentialStep::find_bounds() {
@@ -207,26 +229,55 @@ const StepFlow::Derived& ExponentialStep::derived(StepFlow& flow, Index stop) co
   return known;
 }
 
-double ExponentialStep::sweep(StepFlow& flow) {
+StopPath ExponentialStep::path_of(Index stop) const {
+  const double bulge =
+      path_.middle[stop] - (0.5 * (w_[stop] + path_.end[stop]) + 0.125 * (hv_[stop] - path_.speed[stop]));
+  return {w_[stop], hv_[stop], path_.end[stop], path_.speed[stop], orders_ == 3 ? bulge : 0.0};
+}
+
+bool ExponentialStep::is_spring(Index stop) const {
+  const StopForce& force = stops_[static_cast<std::size_t>(stop)];
+  const StopPath path = path_of(stop);
+  return force.is_spring(path, force.course(path));
+}
+
+void ExponentialStep::see(Index stop) {
+  seen_.end[stop] = path_.end[stop];
+  seen_.speed[stop] = path_.speed[stop];
+  seen_.middle[stop] = path_.middle[stop];
+}
+
+double ExponentialStep::moved_since(StepFlow& flow, Index stop) const {
+  const double path = std::abs(path_.end[stop] - seen_.end[stop]) +
+                      kBump * std::abs(path_.speed[stop] - seen_.speed[stop]) +
+                      std::abs(path_.middle[stop] - seen_.middle[stop]);
+  const double stiff = stops_[static_cast<std::size_t>(stop)].stiffness() * derived(flow, stop).coupling[1][0];
+  return path * (1.0 + stiff);
+}
+
+double ExponentialStep::sweep(StepFlow& flow, double settled) {
   find_bounds();
   double change = 0.0;
   for (const Index i : reachable_) {
     const auto place = static_cast<std::size_t>(i);
     StopForce& stop = stops_[place];
     if (stop.is_linear() && !is_touched_[place] && excess_[i] <= 0.0) continue;
-    const double bulge = path_.middle[i] - (0.5 * (w_[i] + path_.end[i]) + 0.125 * (hv_[i] - path_.speed[i]));
-    const StopPath path(w_[i], hv_[i], path_.end[i], path_.speed[i], orders_ == 3 ? bulge : 0.0);
+    if (settled > 0.0 && is_touched_[place] && moved_since(flow, i) <= settled) continue;
+    const StopPath path = path_of(i);
     const StopForce::Course course = stop.course(path);
     const Projection projection = stop.project(path, course);
     const ForceMoments old = {force_[0][i], force_[1][i], force_[2][i]};
     const StepFlow::Derived& known = derived(flow, i);
+    see(i);
     const ForceMoments more = own_[place].correction(
         course == StopForce::Course::closed ? known.inverse : own_[place].inverse(projection.closed, known.coupling),
         projection.force, old);
     if (orders_ == 1) force_[1][i] = projection.force[1];  // for the estimate alone
-    if (more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0) continue;
-    const double moved = add_force(flow, i, more);
+    const bool stays = more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0;
+    const double moved = stays ? 0.0 : add_force(flow, i, more);
     if (!std::isfinite(moved)) return moved;
+    // The force of a spring was found for where it has led; of all others for where they were.
+    if (stop.is_spring(path, course) && is_spring(i)) see(i);
     change = std::max(change, moved);
   }
   return change;
@@ -237,7 +288,7 @@ double ExponentialStep::add_force(StepFlow& flow, Index stop, const ForceMoments
   if (!is_touched_[place]) touched_.push_back(stop);
   is_touched_[place] = true;
   for (std::size_t k = 0; k < 3; ++k) force_[k][stop] += more[k];
-  return flow.add_force(stop, more, kBump, path_);
+  return flow.add_force(stop, more, kBump, near_registers_, path_);
 }
 
 void ExponentialStep::guess(StepFlow& flow) {
@@ -246,8 +297,12 @@ void ExponentialStep::guess(StepFlow& flow) {
     if (side == 0.0) continue;
     const double stiffness = stops_[static_cast<std::size_t>(i)].stiffness();
     const double at_start = stiffness * (side * gaps_[i] - w_[i]), half_rise = -0.5 * stiffness * hv_[i];
-    add_force(flow, i, {at_start + half_rise, orders_ > 1 ? half_rise : 0.0, 0.0});
+    force_[0][i] = at_start + half_rise;
+    if (orders_ > 1) force_[1][i] = half_rise;
+    touched_.push_back(i);
+    is_touched_[static_cast<std::size_t>(i)] = true;
   }
+  flow.add_forces(touched_, force_, near_registers_, path_);
 }
 
 void ExponentialStep::find_error(StepFlow& flow, double displacement) {
@@ -271,7 +326,8 @@ bool ExponentialStep::stays_closed(Index stop) const {
   return (from > upper_[stop] && to > upper_[stop]) || (from < lower_[stop] && to < lower_[stop]);
 }
 
-void ExponentialStep::apply_forces(const StepFlow& flow) {
+void ExponentialStep::apply_forces(StepFlow& flow) {
+  flow.add_forces(touched_, force_, far_registers_, path_);
   w_new_ = path_.end;
   wv_new_ = path_.speed * (1.0 / flow.h());
   if (touched_.empty()) return;

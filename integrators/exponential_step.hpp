@@ -21,6 +21,8 @@ inline constexpr double kConverged = 0.02;
 inline constexpr double kRounding = 1e-15;
 /// Or where the next sweep would change them, if it contracts as the last did, by less than this part of that.
 inline constexpr double kExpected = 0.1;
+/// After the first sweep a stop whose path others have changed by less than this part of the tolerance keeps its force.
+inline constexpr double kSettled = 0.2;
 /// Sweeps; where they do not suffice the step is too long for the stiffness of the stops.
 inline constexpr int kMostSweeps = 25;
 /// The bump functions of cubic Hermite interpolation are at most 4/27.
@@ -112,6 +114,8 @@ class ExponentialStep {
   bool is_near(Index stop) const { return reach_[stop] > borders_[stop]; }
   /// Whether the pull of an open stop is a constant, as far as the tolerance can tell.
   bool is_steady(solve::StepFlow& flow, Index stop) const;
+  /// Fills is_steady_, by FarPull::unfelt() for stops that stay on a side.
+  void find_steady(solve::StepFlow& flow);
   /// What follows for a stop from the length of the step alone.
   const solve::StepFlow::Derived& derived(solve::StepFlow& flow, Index stop) const;
   /// Whether quintics are enough for outputs within a step without contact: by a bound that takes all modes for in
@@ -128,10 +132,21 @@ class ExponentialStep {
   /// What the forces in sums_[k] do to the middle of the step, and to a knot there.
   void add_to_half(const solve::ModalFlow& half, std::size_t k);
   Trial iterate(solve::StepFlow& flow);
+  /// Fills near_registers_ and far_registers_.
+  void choose_registers();
   /// Fills bulge_ and excess_ for the paths as they are.
   void find_bounds();
-  /// Takes the stops in turn, each with the forces of all others as they are; the largest change of a path.
-  double sweep(solve::StepFlow& flow);
+  /// Takes the stops in turn, each with the forces of all others as they are; the largest change of a path. A stop
+  /// whose path is within `settled` of the one that its force was found for is passed over.
+  double sweep(solve::StepFlow& flow, double settled);
+  StopPath path_of(Index stop) const;
+  /// Whether the stop is a spring along its path.
+  bool is_spring(Index stop) const;
+  /// Takes the path of a stop for the one that its force was found for.
+  void see(Index stop);
+  /// By how much the path of a stop is another than when its force was found, and what a stiff stop makes of that in
+  /// its speed times h.
+  double moved_since(solve::StepFlow& flow, Index stop) const;
   /// Takes the forces of the stops that are closed at the start as they would be at constant speed.
   void guess(solve::StepFlow& flow);
   /// Adds to the force at a stop, and what that does to all paths; the largest change of a path.
@@ -141,7 +156,7 @@ class ExponentialStep {
   double error_of_pull(solve::StepFlow& flow, Index stop) const;
   /// Whether a stop is in contact at both ends of the step.
   bool stays_closed(Index stop) const;
-  void apply_forces(const solve::StepFlow& flow);
+  void apply_forces(solve::StepFlow& flow);
   /// Without stops: the flow from a knot to t.
   void evaluate_exactly(double t, std::span<const Index> dofs, std::size_t place, time::Interpolated out);
 
@@ -171,12 +186,16 @@ class ExponentialStep {
   Eigen::ArrayXd gaps_, upper_, lower_;  ///< where it acts; infinite where it does not
   Eigen::ArrayXd borders_;               ///< up to where the force of an open stop hardly changes
   Eigen::ArrayXd w_, wv_, w_new_, wv_new_, reach_;
-  double unsmooth_ = 0.0;    ///< the error of outputs, in parts of what it may be
-  double load_swing_ = 0.0;  ///< how far loads can carry a stop away from the cubic
-  Eigen::ArrayXd hv_;        ///< speed times h at the start
-  solve::StopMotion path_;   ///< with all forces found so far
-  Eigen::ArrayXd bulge_;     ///< by which the middle departs from the cubic through the ends
-  Eigen::ArrayXd excess_;    ///< by which a bound of the path is beyond the gap
+  Eigen::ArrayXd pull_sizes_, bends_;                ///< FarPull::largest(), and the width of the law's bend
+  Eigen::Array<bool, Eigen::Dynamic, 1> is_steady_;  ///< surely; of the others is_steady() knows
+  double unsmooth_ = 0.0;                            ///< the error of outputs, in parts of what it may be
+  double load_swing_ = 0.0;                          ///< how far loads can carry a stop away from the cubic
+  Eigen::ArrayXd hv_;                                ///< speed times h at the start
+  solve::StopMotion path_;  ///< with all forces found so far; outside near_registers_ once they are complete
+  solve::StopMotion seen_;  ///< what the path of a stop was when its force was found
+  std::vector<Index> near_registers_, far_registers_;  ///< those that hold reachable stops, and all others
+  Eigen::ArrayXd bulge_;                               ///< by which the middle departs from the cubic through the ends
+  Eigen::ArrayXd excess_;                              ///< by which a bound of the path is beyond the gap
   std::array<Eigen::ArrayXd, 3> force_;
   std::vector<Index> reachable_;  ///< near their gap, or pulled by what is no constant
   std::vector<Index> touched_, far_;

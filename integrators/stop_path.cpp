@@ -19,6 +19,8 @@ constexpr double kNearRoot = 1e-8;
 constexpr double kSharp = 1e-3;
 /// So many widths of the bend away what an arctan adds departs from its pull by 3e-5 of it.
 constexpr double kOffBend = 100.0;
+/// So many, and it departs by 3e-9.
+constexpr double kFarOff = 1e4;
 /// An end of the path this near to where the law bends, in parts of the path's range, is as the bend itself.
 constexpr double kBesideBend = 0.5;
 /// Panels beside a bend that is not sharp: each is shorter than the last by this factor.
@@ -70,16 +72,6 @@ double root(const std::array<double, 5>& c, double low, double high) {
 
 }  // namespace
 
-StopPath::StopPath(double w0, double hv0, double w1, double hv1, double bulge) {
-  const double rise = w1 - w0, b = 16.0 * bulge;
-  c_ = {w0, hv0, 3.0 * rise - 2.0 * hv0 - hv1 + b, hv0 + hv1 - 2.0 * rise - 2.0 * b, b};
-  // The cubic's Bernstein coefficients, raised by a degree; the bulge has only the one in the middle.
-  const double p1 = w0 + hv0 / 3.0, p2 = w1 - hv1 / 3.0;
-  const double b1 = 0.25 * w0 + 0.75 * p1, b2 = 0.5 * (p1 + p2) + b / 6.0, b3 = 0.75 * p2 + 0.25 * w1;
-  lowest_ = std::min({w0, b1, b2, b3, w1});
-  highest_ = std::max({w0, b1, b2, b3, w1});
-}
-
 OwnForce::Matrix OwnForce::inverse(const std::array<double, 7>& closed, const PathCoupling& coupling) const {
   // How c_2, c_3, c_4 of the path follow end, speed and middle.
   static constexpr double kQuartic[3][3] = {{-5.0, 1.0, 16.0}, {14.0, -3.0, -32.0}, {-8.0, 2.0, 16.0}};
@@ -127,6 +119,11 @@ StopForce::StopForce(solve::Contact& contact, Index stop)
       on_upper_(contact.sides_of(stop) != model::Sides::negative),
       on_lower_(contact.sides_of(stop) != model::Sides::positive) {
   places_.reserve(2 + 3 * kDegree);
+  const double far = kFarOff * bend_width_;
+  knows_far_rest_ = !is_linear_ && std::isfinite(far) && (gap_ > far || !on_upper_ || !on_lower_);
+  if (!knows_far_rest_) return;
+  upper_rest_ = {rest_at(gap_ - far, 0.0), rest_at(gap_ + far, 1.0)};
+  lower_rest_ = {rest_at(far - gap_, 0.0), rest_at(-gap_ - far, -1.0)};
 }
 
 StopForce::Course StopForce::course(const StopPath& path) const {
@@ -145,15 +142,19 @@ bool StopPath::is_monotonic() const {
 Projection StopForce::project(const StopPath& path, Course course) {
   Projection sum;
   if (course == Course::open && is_linear_) return sum;
-  if (course == Course::closed && is_linear_) {
-    add_spring(path, 0.0, 1.0, side_at(path.value(0.5)), sum);
-    return sum;
-  }
-  if (is_linear_ && of_one_crossing(path, sum)) return sum;
-  return of_pieces(path);
+  if (!is_linear_ && !(is_constant_beside_bends(path) && stays_on_a_side(path))) return of_pieces(path);
+  if (course == Course::changing) return of_one_crossing(path, sum) ? sum : of_pieces(path);
+  const double side = side_at(path.value(0.5));
+  if (course == Course::closed) add_spring(path, 0.0, 1.0, side, sum);
+  if (!is_linear_) add(sum.force, of_constant_rest(path, 0.0, 1.0, side));
+  return sum;
 }
 
-bool StopForce::of_one_crossing(const StopPath& path, Projection& to) const {
+bool StopForce::is_spring(const StopPath& path, Course course) const {
+  return course == Course::closed && (is_linear_ || is_constant_beside_bends(path));
+}
+
+bool StopForce::of_one_crossing(const StopPath& path, Projection& to) {
   const double side = on_upper_ && path.highest() > gap_ ? 1.0 : -1.0, border = side * gap_;
   // Both borders are within reach, or the path turns somewhere.
   if (side > 0.0 && on_lower_ && path.lowest() < -gap_) return false;
@@ -163,7 +164,11 @@ bool StopForce::of_one_crossing(const StopPath& path, Projection& to) const {
   const double begin = side * value(c, 0.0), end = side * value(c, 1.0);
   if ((begin > 0.0) == (end > 0.0)) return false;
   const double s = root(c, 0.0, 1.0);
-  add_spring(path, begin > 0.0 ? 0.0 : s, begin > 0.0 ? s : 1.0, side, to);
+  const bool leaves = begin > 0.0;
+  add_spring(path, leaves ? 0.0 : s, leaves ? s : 1.0, side, to);
+  if (is_linear_) return true;
+  add(to.force, of_constant_rest(path, 0.0, s, leaves ? side : 0.0));
+  add(to.force, of_constant_rest(path, s, 1.0, leaves ? 0.0 : side));
   return true;
 }
 
@@ -192,6 +197,13 @@ double StopForce::rest_at(double w, double side) {
   return contact_.force_of(stop_, w) + (side != 0.0 ? stiffness_ * (w - side * gap_) : 0.0);
 }
 
+double StopForce::constant_rest(double w, double side) {
+  if (!knows_far_rest_) return rest_at(w, side);
+  const bool on_upper = side > 0.0 || (side == 0.0 && on_upper_ && (w > 0.0 || !on_lower_));
+  const FarRest& rest = on_upper ? upper_rest_ : lower_rest_;
+  return side != 0.0 ? rest.closed : rest.open;
+}
+
 ForceMoments StopForce::of_rest(const StopPath& path, double begin, double end, double side) {
   double m0 = 0.0, m1 = 0.0, m2 = 0.0;
   for (std::size_t i = 0; i < kGaussPlaces.size(); ++i) {
@@ -205,7 +217,8 @@ ForceMoments StopForce::of_rest(const StopPath& path, double begin, double end, 
 }
 
 ForceMoments StopForce::of_constant_rest(const StopPath& path, double begin, double end, double side) {
-  const double f = rest_at(path.value(0.5 * (begin + end)), side);
+  const double f = constant_rest(path.value(0.5 * (begin + end)), side);
+  if (begin == 0.0 && end == 1.0) return {f, 0.0, 0.0};
   return from_powers(f * (end - begin), f / 2.0 * (end * end - begin * begin),
                      f / 3.0 * (end * end * end - begin * begin * begin));
 }
@@ -221,6 +234,14 @@ ForceMoments StopForce::of_graded_rest(const StopPath& path, double graded, doub
   return sum;
 }
 
+bool StopForce::stays_on_a_side(const StopPath& path) const {
+  return !(on_upper_ && on_lower_ && gap_ > 0.0) || path.lowest() > 0.0 || path.highest() < 0.0;
+}
+
+bool StopForce::is_constant_beside_bends(const StopPath& path) const {
+  return bend_width_ <= kSharp * (path.highest() - path.lowest()) || is_off_bends(path);
+}
+
 bool StopForce::is_off_bends(const StopPath& path) const {
   const double off = kOffBend * bend_width_;
   const auto is_off = [&](double border) { return path.highest() < border - off || path.lowest() > border + off; };
@@ -229,7 +250,7 @@ bool StopForce::is_off_bends(const StopPath& path) const {
 
 Projection StopForce::of_pieces(const StopPath& path) {
   find_places(path);
-  const bool is_constant = bend_width_ <= kSharp * (path.highest() - path.lowest()) || is_off_bends(path);
+  const bool is_constant = is_constant_beside_bends(path);
   Projection sum;
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
     const Place &begin = places_[i], &end = places_[i + 1];

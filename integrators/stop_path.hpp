@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -12,7 +13,15 @@ namespace butee::integrators {
 class StopPath {
  public:
   /// Through the displacements and speeds (times h) at both ends; `bulge` is added in the middle: 16 s^2 (1-s)^2 bulge.
-  StopPath(double w0, double hv0, double w1, double hv1, double bulge);
+  StopPath(double w0, double hv0, double w1, double hv1, double bulge) {
+    const double rise = w1 - w0, b = 16.0 * bulge;
+    c_ = {w0, hv0, 3.0 * rise - 2.0 * hv0 - hv1 + b, hv0 + hv1 - 2.0 * rise - 2.0 * b, b};
+    // The cubic's Bernstein coefficients, raised by a degree; the bulge has only the one in the middle.
+    const double p1 = w0 + hv0 / 3.0, p2 = w1 - hv1 / 3.0;
+    const double b1 = 0.25 * w0 + 0.75 * p1, b2 = 0.5 * (p1 + p2) + b / 6.0, b3 = 0.75 * p2 + 0.25 * w1;
+    lowest_ = std::min({w0, b1, b2, b3, w1});
+    highest_ = std::max({w0, b1, b2, b3, w1});
+  }
 
   double value(double s) const { return (((c_[4] * s + c_[3]) * s + c_[2]) * s + c_[1]) * s + c_[0]; }
   const std::array<double, 5>& coefficients() const { return c_; }
@@ -85,6 +94,8 @@ class StopForce {
   };
   Course course(const StopPath& path) const;
   Projection project(const StopPath& path, Course course);
+  /// Whether the force is that of a spring and a constant throughout.
+  bool is_spring(const StopPath& path, Course course) const;
   /// Along a path without contact, the pull of a regularised law: a constant but for where it jumps.
   ForceMoments far_force(const StopPath& path);
   double stiffness() const { return stiffness_; }
@@ -95,6 +106,8 @@ class StopForce {
   void add_spring(const StopPath& path, double begin, double end, double side, Projection& to) const;
   /// What the law adds to a spring on `side` (0: to nothing), N.
   double rest_at(double w, double side);
+  /// The same far from its bends, where it is a constant on either side of each.
+  double constant_rest(double w, double side);
   /// Its moments over a piece.
   ForceMoments of_rest(const StopPath& path, double begin, double end, double side);
   /// The same where it does not change over the piece, but for a bend too narrow to count.
@@ -105,9 +118,13 @@ class StopForce {
   double side_at(double w) const { return on_upper_ && w > gap_ ? 1.0 : on_lower_ && w < -gap_ ? -1.0 : 0.0; }
   /// Whether the path is nowhere near a bend, so that what the law adds to a spring does not change but for its sign.
   bool is_off_bends(const StopPath& path) const;
+  /// Whether what the law adds to a spring is constant between bends, as far as it counts.
+  bool is_constant_beside_bends(const StopPath& path) const;
+  /// Whether that keeps its sign between bends.
+  bool stays_on_a_side(const StopPath& path) const;
   Projection of_pieces(const StopPath& path);
-  /// Of a linear stop whose border the path crosses once; false where it is not of that kind.
-  bool of_one_crossing(const StopPath& path, Projection& to) const;
+  /// Where both are so and the path crosses one border once; false where it does not.
+  bool of_one_crossing(const StopPath& path, Projection& to);
   /// Fills places_ with 0, the places where the path crosses a border of the law, and 1.
   void find_places(const StopPath& path);
   void add_crossings(const StopPath& path, double border);
@@ -116,6 +133,11 @@ class StopForce {
   Index stop_;
   double gap_, stiffness_, bend_width_;
   bool is_linear_, on_upper_, on_lower_;
+  struct FarRest {
+    double open, closed;
+  };
+  bool knows_far_rest_ = false;
+  FarRest upper_rest_{}, lower_rest_{};
   struct Place {
     double s;
     bool is_bend;  ///< g = 0

@@ -12,6 +12,29 @@ namespace {
 /// that.
 constexpr double kHermite = 1.0 / 384.0;
 
+/// What a force with these moments at a stop does to the stops of one register: end, speed, middle.
+void add_response(const Eigen::ArrayXXd& columns, Index begin, const std::array<double, 3>& force,
+                  std::array<Lane, 3>& sums) {
+  const double* column = columns.data() + begin;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t row = 0; row < 3; ++row, column += columns.rows()) {
+      Lane part;
+      load(column, part);
+      sums[row] += part * force[k];
+    }
+}
+
+void add_to(StopMotion& motion, Index begin, const std::array<Lane, 3>& sums) {
+  const auto add = [&](Eigen::ArrayXd& to, const Lane& sum) {
+    Lane old;
+    load(to.data() + begin, old);
+    store(old + sum, to.data() + begin);
+  };
+  add(motion.end, sums[0]);
+  add(motion.speed, sums[1]);
+  add(motion.middle, sums[2]);
+}
+
 void add_magnitude(double weight, const Lane& x, Lane& to) {
   to += weight * (x < 0.0 ? -x : x);
 }
@@ -69,6 +92,10 @@ Index StepFlow::padded(Index stops) {
   return lanes_for(stops) * kLaneSize;
 }
 
+Index StepFlow::next_register(Index begin) {
+  return begin + kLaneSize;
+}
+
 const Eigen::ArrayXXd& StepFlow::compute_columns(Index i) {
   Eigen::ArrayXXd& columns = columns_[static_cast<std::size_t>(i)];
   columns.setZero(padded(stops_.count()), 9);
@@ -101,27 +128,14 @@ StepFlow::Coupling StepFlow::own_coupling(Index i) {
   return own;
 }
 
-double StepFlow::add_force(Index i, const std::array<double, 3>& force, double speed_weight, StopMotion& motion) {
+double StepFlow::add_force(Index i, const std::array<double, 3>& force, double speed_weight,
+                           std::span<const Index> registers, StopMotion& motion) {
   const Eigen::ArrayXXd& all = columns(i);
-  const Index size = all.rows();
-  const double* column = all.data();
   Lane largest{};
-  for (Index begin = 0; begin < size; begin += kLaneSize) {
+  for (const Index begin : registers) {
     std::array<Lane, 3> sums{};
-    for (Index k = 0; k < 3; ++k)
-      for (Index row = 0; row < 3; ++row) {
-        Lane part;
-        load(column + (3 * k + row) * size + begin, part);
-        sums[static_cast<std::size_t>(row)] += part * force[static_cast<std::size_t>(k)];
-      }
-    const auto add = [&](Eigen::ArrayXd& to, const Lane& sum) {
-      Lane old;
-      load(to.data() + begin, old);
-      store(old + sum, to.data() + begin);
-    };
-    add(motion.end, sums[0]);
-    add(motion.speed, sums[1]);
-    add(motion.middle, sums[2]);
+    add_response(all, begin, force, sums);
+    add_to(motion, begin, sums);
     Lane change{};
     add_magnitude(1.0, sums[0], change);
     add_magnitude(speed_weight, sums[1], change);
@@ -133,6 +147,15 @@ double StepFlow::add_force(Index i, const std::array<double, 3>& force, double s
   // A NaN loses every comparison; the sum shows it.
   const double all_of_them = sum(largest);
   return std::isfinite(all_of_them) && std::isfinite(motion.end[i]) ? most : all_of_them + motion.end[i];
+}
+
+void StepFlow::add_forces(std::span<const Index> stops, const std::array<Eigen::ArrayXd, 3>& force,
+                          std::span<const Index> registers, StopMotion& motion) {
+  for (const Index begin : registers) {
+    std::array<Lane, 3> sums{};
+    for (const Index i : stops) add_response(columns(i), begin, {force[0][i], force[1][i], force[2][i]}, sums);
+    add_to(motion, begin, sums);
+  }
 }
 
 }  // namespace butee::solve

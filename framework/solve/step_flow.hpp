@@ -50,6 +50,8 @@ class BUTEE_EXPORT StepFlow {
 
   /// The stops, rounded up to whole vector registers.
   static Index padded(Index stops);
+  /// Where the register behind the one that begins at a stop begins.
+  static Index next_register(Index begin);
 
   /// The displacements of stops over the step by a constant force of 1 N on each alone, m. Computed at their first use.
   const Eigen::ArrayXd& mobilities();
@@ -65,8 +67,14 @@ class BUTEE_EXPORT StepFlow {
   };
   Derived& derived(Index i) { return derived_[static_cast<std::size_t>(i)]; }
 
-  /// Adds what a force at stop i does to all stops: the largest |end| + speed_weight |speed| + |middle| of it.
-  double add_force(Index i, const std::array<double, 3>& force, double speed_weight, StopMotion& motion);
+  /// Adds what a force at stop i does to the stops in these registers, named by the stop that each begins at:
+  /// the largest |end| + speed_weight |speed| + |middle| of it.
+  double add_force(Index i, const std::array<double, 3>& force, double speed_weight, std::span<const Index> registers,
+                   StopMotion& motion);
+
+  /// Adds what forces at these stops do, an entry of `force` for each stop.
+  void add_forces(std::span<const Index> stops, const std::array<Eigen::ArrayXd, 3>& force,
+                  std::span<const Index> registers, StopMotion& motion);
 
   ModalFlow whole, half;
   /// How far a mode with q and v at the start can carry any stop away from the cubic through both ends of its path.
