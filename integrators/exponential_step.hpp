@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "butee/solve/modal_system.hpp"
+#include "integrators/far_pull.hpp"
 #include "integrators/modal_knots.hpp"
 #include "integrators/stop_path.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "butee/solve/modal_system.hpp"
 #include "integrators/exponential_step.hpp"
+#include "integrators/far_pull.hpp"
 
 namespace butee::integrators {
 

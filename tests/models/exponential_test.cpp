@@ -110,71 +110,6 @@ TEST(Exponential, TakesFewSteps) {
   EXPECT_LT(scene.simulation().report().steps, 200);
 }
 
-/// The law of the paper pulls at open stops too, in the middle of the gap to the other side at once. At the start,
-/// where that is much beside what moves, steps that grew too short for it never grew again: 1347 of them.
-TEST(Exponential, TakesHardlyMoreStepsWithTheArctanLaw) {
-  const auto steps_of = [](const std::string& toml) {
-    SceneRun scene(toml, {"integrator.type=exponential", "integrator.tolerance=1e-3", "integrator.time_step="});
-    EXPECT_TRUE(scene.run().completed);
-    return scene.simulation().report().steps;
-  };
-  const std::int64_t linear = steps_of(with_linear_law("beam1")), arctan = steps_of(read_file(model_path("beam1")));
-  EXPECT_GE(linear, 50);
-  EXPECT_LT(arctan, linear + linear / 4);
-}
-
-TEST(Exponential, KeepsItsToleranceWithTheArctanLaw) {
-  struct Scene {
-    std::string name, node;
-    double end_time, amplification;
-  };
-  for (const Scene& one : {Scene{"oscillator", "rotor", 0.05, 10.0}, Scene{"beam1", "string:middle", 0.3, 1.0},
-                           Scene{"beam2", "string:middle", 0.1, 1.0}}) {
-    std::vector<double> times;
-    for (int i = 1; i <= 200; ++i) times.push_back(one.end_time * i / 200.0);
-    const auto course = [&](const std::string& type, double tolerance) {
-      SceneRun scene(read_file(model_path(one.name)),
-                     {"integrator.type=" + type, "integrator.end_time=" + to_text(one.end_time),
-                      type == "exact" ? "integrator.time_step=1e-3" : "integrator.tolerance=" + to_text(tolerance)});
-      Sampler sampler(scene.dof(one.node), times);
-      scene.simulation().add(sampler);
-      EXPECT_TRUE(scene.run().completed) << one.name;
-      return sampler.x;
-    };
-    const std::vector<double> exact = course("exact", 0.0);
-    for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5})
-      EXPECT_LE(relative_rms(course("exponential", tolerance), exact), 10.0 * tolerance * one.amplification)
-          << one.name << " at " << tolerance;
-  }
-}
-
-/// Three stops, of which two pass the middle of their gaps together, again and again, while the third has just left its
-/// own: what they pull then is theirs alone. Reference: `exact`; a disturbance grows a hundredfold until the end.
-TEST(Exponential, KeepsApartWhatEveryStopPulls) {
-  const std::string scene =
-      "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = 0.1\n"
-      "[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 8.0\nelements = 4\n"
-      "[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n"
-      "[[contact]]\ntype = \"stop\"\nnodes = \"b:all\"\ngap = 0.017\nstiffness = 9e7\nlaw = \"arctan\"\nregularization "
-      "= 7e5\n[[load]]\ntype = \"harmonic\"\nnode = \"b:middle\"\namplitude = 9000.0\nangular_frequency = 40.0\n"
-      "[damping]\nmass_proportional = 5.0\n[initial]\nvelocity = [{nodes = \"b:middle\", value = -2.7}]\n"
-      "[integrator]\nend_time = 0.3\n";
-  std::vector<double> times;
-  for (int i = 1; i < 300; ++i) times.push_back(1e-3 * i);
-  const auto course = [&](const std::string& keys) {
-    SceneRun run(scene + keys);
-    Sampler sampler(run.dof("b:middle"), times);
-    run.simulation().add(sampler);
-    EXPECT_TRUE(run.run().completed);
-    return sampler.x;
-  };
-  const std::vector<double> exact = course("type = \"exact\"\ntime_step = 1e-4\n");
-  for (const double tolerance : {1e-4, 1e-5, 1e-6})
-    EXPECT_LE(relative_rms(course("type = \"exponential\"\ntolerance = " + to_text(tolerance) + "\n"), exact),
-              100.0 * tolerance)
-        << tolerance;
-}
-
 /// Somebody who keeps the ends of a block may ask again what was between them, when the method has gone on.
 TEST(Exponential, InterpolatesAnEarlierBlockAsItDidThen) {
   class Keeper final : public time::Observer {
@@ -206,28 +141,6 @@ TEST(Exponential, InterpolatesAnEarlierBlockAsItDidThen) {
       for (const Keeper::Block& block : keeper.blocks)
         EXPECT_EQ(Keeper::course(scene.integrator(), block.from, block.to), block.inside) << model << block.from.t;
     }
-}
-
-/// Where nothing moves yet there is no displacement that an error could be relative to, and in the very middle of the
-/// gap both stops pull alike.
-TEST(Exponential, LeavesTheMiddleOfTheGapWhenALoadComes) {
-  const std::string scene =
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 14.0\n[[element]]\ntype = \"spring\"\nnode = "
-      "\"m\"\nstiffness = 7e7\ndamping = 4000.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = "
-      "2e-7\nstiffness = 1e10\nlaw = \"arctan\"\nregularization = 3e8\n[[load]]\ntype = \"table\"\nnode = "
-      "\"m\"\ntimes = [1e-3, 1.0001e-3]\nvalues = [0.0, 60.0]\n[integrator]\nend_time = 4e-3\n";
-  std::vector<double> times;
-  for (int i = 1; i < 200; ++i) times.push_back(2e-5 * i);
-  const auto course = [&](const std::string& keys) {
-    SceneRun run(scene + keys);
-    Sampler sampler(run.dof("m"), times);
-    run.simulation().add(sampler);
-    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
-    return sampler.x;
-  };
-  const std::vector<double> exact = course("type = \"exact\"\ntime_step = 1e-5\n");
-  EXPECT_GT(*std::max_element(exact.begin(), exact.end()), 2e-7);
-  EXPECT_LE(relative_rms(course("type = \"exponential\"\ntolerance = 1e-4\n"), exact), 1e-3);
 }
 
 std::string frame(const std::string& damping, const std::string& rest) {

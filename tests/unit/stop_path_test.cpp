@@ -9,6 +9,7 @@
 
 #include "contact/arctan.hpp"
 #include "contact/linear.hpp"
+#include "integrators/far_pull.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test {

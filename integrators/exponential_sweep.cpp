@@ -1,0 +1,166 @@
+// Of ExponentialStep: the forces and paths of the stops within reach, found together.
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/exponential_step.hpp"
+
+namespace butee::integrators {
+
+using Eigen::ArrayXd;
+using solve::StepFlow;
+
+Trial ExponentialStep::iterate(StepFlow& flow) {
+  hv_ = flow.h() * wv_;
+  path_.end = w_new_;
+  path_.speed = flow.h() * wv_new_;
+  modal_.stop_shapes().displacement(q_half_.data(), path_.middle.data());
+  for (ArrayXd& force : force_) force.setZero();
+  for (const Index i : touched_) is_touched_[static_cast<std::size_t>(i)] = false;
+  touched_.clear();
+  choose_registers();
+  guess(flow);
+  double last = 0.0, settled = -1.0;
+  for (int i = 0; i < kMostSweeps; ++i) {
+    const double change = sweep(flow, settled);
+    if (!std::isfinite(change)) return Trial::too_long;
+    const double scale = std::max(scale_.displacement, path_.end.abs().maxCoeff());
+    const double next = change * (change / last), enough = std::max(kConverged * tolerance_, kRounding) * scale;
+    const bool is_expected = i > 0 && change < last && next <= kExpected * enough;
+    last = change;
+    settled = kSettled * tolerance_ * scale;
+    if (change > enough && !is_expected) continue;
+    find_error(flow, scale);
+    return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
+  }
+  return Trial::too_long;
+}
+
+void ExponentialStep::choose_registers() {
+  near_registers_.clear();
+  far_registers_.clear();
+  auto next = reachable_.begin();
+  for (Index begin = 0; begin < path_.end.size(); begin = StepFlow::next_register(begin)) {
+    const auto in_next = std::lower_bound(next, reachable_.end(), StepFlow::next_register(begin));
+    (in_next != next ? near_registers_ : far_registers_).push_back(begin);
+    next = in_next;
+  }
+}
+
+void ExponentialStep::find_bounds() {
+  bulge_ = path_.middle - (0.5 * (w_ + path_.end) + 0.125 * (hv_ - path_.speed));
+  // The Bernstein coefficients of the path, as in StopPath.
+  const double bulges = orders_ == 3 ? 16.0 / 6.0 : 0.0;
+  const auto b1 = w_ + 0.25 * hv_;
+  const auto b2 = 0.5 * (w_ + path_.end) + (hv_ - path_.speed) * (1.0 / 6.0) + bulges * bulge_;
+  const auto b3 = path_.end - 0.25 * path_.speed;
+  excess_ =
+      (w_.max(path_.end).max(b1).max(b2).max(b3) - upper_).max(lower_ - w_.min(path_.end).min(b1).min(b2).min(b3));
+}
+
+const StepFlow::Derived& ExponentialStep::derived(StepFlow& flow, Index stop) const {
+  StepFlow::Derived& known = flow.derived(stop);
+  if (known.is_known) return known;
+  known.coupling = flow.own_coupling(stop);
+  known.inverse = own_[static_cast<std::size_t>(stop)].closed_inverse(known.coupling);
+  known.is_known = true;
+  return known;
+}
+
+StopPath ExponentialStep::path_of(Index stop) const {
+  const double bulge =
+      path_.middle[stop] - (0.5 * (w_[stop] + path_.end[stop]) + 0.125 * (hv_[stop] - path_.speed[stop]));
+  return {w_[stop], hv_[stop], path_.end[stop], path_.speed[stop], orders_ == 3 ? bulge : 0.0};
+}
+
+bool ExponentialStep::is_spring(Index stop) const {
+  const StopForce& force = stops_[static_cast<std::size_t>(stop)];
+  const StopPath path = path_of(stop);
+  return force.is_spring(path, force.course(path));
+}
+
+void ExponentialStep::see(Index stop) {
+  seen_.end[stop] = path_.end[stop];
+  seen_.speed[stop] = path_.speed[stop];
+  seen_.middle[stop] = path_.middle[stop];
+}
+
+double ExponentialStep::moved_since(StepFlow& flow, Index stop) const {
+  const double path = std::abs(path_.end[stop] - seen_.end[stop]) +
+                      kBump * std::abs(path_.speed[stop] - seen_.speed[stop]) +
+                      std::abs(path_.middle[stop] - seen_.middle[stop]);
+  const double stiff = stops_[static_cast<std::size_t>(stop)].stiffness() * derived(flow, stop).coupling[1][0];
+  return path * (1.0 + stiff);
+}
+
+double ExponentialStep::sweep(StepFlow& flow, double settled) {
+  find_bounds();
+  double change = 0.0;
+  for (const Index i : reachable_) {
+    const auto place = static_cast<std::size_t>(i);
+    StopForce& stop = stops_[place];
+    if (stop.is_linear() && !is_touched_[place] && excess_[i] <= 0.0) continue;
+    if (settled > 0.0 && is_touched_[place] && moved_since(flow, i) <= settled) continue;
+    const StopPath path = path_of(i);
+    const StopForce::Course course = stop.course(path);
+    const Projection projection = stop.project(path, course);
+    const ForceMoments old = {force_[0][i], force_[1][i], force_[2][i]};
+    const StepFlow::Derived& known = derived(flow, i);
+    see(i);
+    const ForceMoments more = own_[place].correction(
+        course == StopForce::Course::closed ? known.inverse : own_[place].inverse(projection.closed, known.coupling),
+        projection.force, old);
+    if (orders_ == 1) force_[1][i] = projection.force[1];  // for the estimate alone
+    const bool stays = more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0;
+    const double moved = stays ? 0.0 : add_force(flow, i, more);
+    if (!std::isfinite(moved)) return moved;
+    // The force of a spring was found for where it has led; of all others for where they were.
+    if (stop.is_spring(path, course) && is_spring(i)) see(i);
+    change = std::max(change, moved);
+  }
+  return change;
+}
+
+double ExponentialStep::add_force(StepFlow& flow, Index stop, const ForceMoments& more) {
+  const auto place = static_cast<std::size_t>(stop);
+  if (!is_touched_[place]) touched_.push_back(stop);
+  is_touched_[place] = true;
+  for (std::size_t k = 0; k < 3; ++k) force_[k][stop] += more[k];
+  return flow.add_force(stop, more, kBump, near_registers_, path_);
+}
+
+void ExponentialStep::guess(StepFlow& flow) {
+  for (const Index i : reachable_) {
+    const double side = w_[i] > upper_[i] ? 1.0 : w_[i] < lower_[i] ? -1.0 : 0.0;
+    if (side == 0.0) continue;
+    const double stiffness = stops_[static_cast<std::size_t>(i)].stiffness();
+    const double at_start = stiffness * (side * gaps_[i] - w_[i]), half_rise = -0.5 * stiffness * hv_[i];
+    force_[0][i] = at_start + half_rise;
+    if (orders_ > 1) force_[1][i] = half_rise;
+    touched_.push_back(i);
+    is_touched_[static_cast<std::size_t>(i)] = true;
+  }
+  flow.add_forces(touched_, force_, near_registers_, path_);
+}
+
+void ExponentialStep::find_error(StepFlow& flow, double displacement) {
+  const double h = flow.h(), h_speed = std::max(hv_.abs().maxCoeff(), path_.speed.abs().maxCoeff());
+  for (const Index i : reachable_) {
+    const auto place = static_cast<std::size_t>(i);
+    double error = is_near(i) ? std::abs(bulge_[i]) : error_of_pull(flow, i);
+    if (is_near(i) && is_touched_[place]) {
+      const double stiff = stops_[place].stiffness() * flow.derived(i).coupling[1][0];
+      error = error_of_path(error, stiff, h, h_speed, {displacement, scale_.speed}, stays_closed(i));
+      const double of_outputs = kKinkedOutput * stiff * std::max(std::abs(hv_[i]), std::abs(path_.speed[i]));
+      if (!stays_closed(i)) error = std::max(error, of_outputs * tolerance_ / (kAtKinks * output_tolerance_));
+    }
+    if (orders_ == 1) error += std::abs(flow.own_coupling(i)[0][1] * force_[1][i]);
+    error_ = std::max(error_, error);
+  }
+}
+
+bool ExponentialStep::stays_closed(Index stop) const {
+  const double from = w_[stop], to = path_.end[stop];
+  return (from > upper_[stop] && to > upper_[stop]) || (from < lower_[stop] && to < lower_[stop]);
+}
+
+}  // namespace butee::integrators
