@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "butee/core/error.hpp"
+
 namespace butee::integrators {
 namespace {
 
@@ -12,9 +14,12 @@ constexpr double kFirstRadius = 32.0;
 constexpr double kGrowth = 1.5, kInner = 0.75;
 /// So much of the tolerance may be in the outer part.
 constexpr double kNegligible = 0.1;
+/// Of what closes a stop's gap, over the tolerance: a law that pulls by more as soon as anything moves counts as
+/// moving.
+constexpr double kUnfelt = 0.005;
 
-/// The DOFs that loads, the initial motion, and stops that push at rest begin with.
-std::vector<Index> moving_first(solve::Dynamics& dynamics) {
+/// The DOFs that loads, the initial motion, stops that push at rest, and laws that pull at open stops begin with.
+std::vector<Index> moving_first(solve::Dynamics& dynamics, double tolerance) {
   const model::System& system = dynamics.system();
   Vector moves = system.initial_displacement.cwiseAbs() + system.initial_velocity.cwiseAbs();
   Vector force = Vector::Zero(system.size());
@@ -22,16 +27,31 @@ std::vector<Index> moving_first(solve::Dynamics& dynamics) {
   moves += force.cwiseAbs();
   for (const model::FreeLoad& load : system.loads)
     for (const Index dof : load.dofs) moves[dof] = 1.0;
+  const solve::Contact& contact = dynamics.contact();
+  for (Index i = 0; i < contact.size(); ++i) {
+    const model::ContactLaw& law = contact.law_of(i);
+    if (law.far_force() <= kUnfelt * tolerance * law.closed_stiffness() * contact.gap_of(i)) continue;
+    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
+      if (dof >= 0) moves[dof] = 1.0;
+  }
   std::vector<Index> dofs;
   for (Index i = 0; i < moves.size(); ++i)
     if (moves[i] > 0.0) dofs.push_back(i);
   return dofs;
 }
 
+/// From those, in places of the pattern; what nothing leads to is behind all else.
+std::vector<Index> distances_of(solve::Dynamics& dynamics, double tolerance) {
+  std::vector<Index> distances = model::distances(dynamics.system(), moving_first(dynamics, tolerance));
+  const Index last = *std::max_element(distances.begin(), distances.end()) + 1;
+  std::replace(distances.begin(), distances.end(), Index{-1}, last);
+  return distances;
+}
+
 std::vector<Index> within(const std::vector<Index>& distances, double radius) {
   std::vector<Index> dofs;
   for (std::size_t i = 0; i < distances.size(); ++i)
-    if (distances[i] >= 0 && static_cast<double>(distances[i]) <= radius) dofs.push_back(static_cast<Index>(i));
+    if (static_cast<double>(distances[i]) <= radius) dofs.push_back(static_cast<Index>(i));
   return dofs;
 }
 
@@ -41,17 +61,13 @@ bool is_small(const std::vector<Index>& dofs, Index all) {
 
 }  // namespace
 
-bool ActivePart::can_take(solve::Dynamics& dynamics) {
-  const model::System& system = dynamics.system();
-  if (system.damping.is_modal()) return false;
-  return is_small(within(model::distances(system, moving_first(dynamics)), kFirstRadius), system.size());
+bool ActivePart::can_take(solve::Dynamics& dynamics, double tolerance) {
+  if (dynamics.system().damping.is_modal()) return false;
+  return is_small(within(distances_of(dynamics, tolerance), kFirstRadius), dynamics.size());
 }
 
 ActivePart::ActivePart(solve::Dynamics& dynamics, double tolerance, Make make)
-    : Integrator(dynamics),
-      tolerance_(tolerance),
-      make_(make),
-      distances_(model::distances(dynamics.system(), moving_first(dynamics))) {
+    : Integrator(dynamics), tolerance_(tolerance), make_(make), distances_(distances_of(dynamics, tolerance)) {
   parts_.push_back(make_part(0));
 }
 
@@ -99,7 +115,10 @@ void ActivePart::do_start(time::State& state) {
     part.from.t = state.t;
     part.from.x = state.x(part.dofs);
     part.from.v = state.v(part.dofs);
+    part.dynamics->loads_changed();
+    part.dynamics->counters() = {};
     part.method->start(part.from);
+    dynamics().counters() = dynamics().counters() + part.dynamics->counters();
     state.memory = part.from.memory;
   }
   state.memory.conservativeResize(kPart + 1);
@@ -107,11 +126,14 @@ void ActivePart::do_start(time::State& state) {
 }
 
 time::StepReport ActivePart::do_step(const time::State& from, const time::Step& step, time::State& to) {
-  for (auto place = static_cast<std::size_t>(from.memory[kPart]);; ++place) {
+  require(from.memory.size() == kPart + 1, "a state of this method");
+  for (int redone = 0;; ++redone) {
+    const std::size_t place = static_cast<std::size_t>(from.memory[kPart]) + static_cast<std::size_t>(redone);
     Part& part = at(place);
-    const time::StepReport report = part.is_whole() ? part.method->step(from, step, to) : step_on(part, from, step, to);
+    time::StepReport report = part.is_whole() ? part.method->step(from, step, to) : step_on(part, from, step, to);
     to.memory[kPart] = static_cast<double>(place);
     const bool stands = report.status == time::StepStatus::ok && controller()->decide(step.h, report).accept;
+    report.inner_rejected += redone;
     if (part.is_whole() || !stands || !has_come_near(part)) return report;
   }
 }

@@ -12,10 +12,11 @@ namespace butee::integrators {
 /// A method on the part of a large structure that moves, all else held at rest, for as long as nothing but a small part
 /// of the tolerance has come near the border of that part; then on a larger one, at last on the whole.
 ///
-/// The part is what lies within some places of the matrices' pattern from the loads, the initial motion, and the stops
-/// that push at rest. A step of which more than kNegligible times the tolerance (of |x|_M and |v|_M, relative to the
-/// largest so far) comes into the outer quarter of the part is taken again on one whose radius is half as large again.
-/// What is left out is smaller still, and is held back there by the border.
+/// The part is what lies within some places of the matrices' pattern from the loads, the initial motion, the stops that
+/// push at rest, and those that pull while open by more than the tolerance allows for. A step of which more than
+/// kNegligible times the tolerance (of |x|_M and |v|_M, relative to the largest so far) comes into the outer quarter of
+/// the part is taken again on one whose radius is half as large again. What the border holds back is what would have
+/// passed it since, weak waves that are thrown back: as a rule a small part of the tolerance.
 ///
 /// Steps, interpolation and what the state carries are those of the method, which has LocalErrorControl's memory and
 /// interpolates between states alone. Checked in tests/models/active_part_test.cpp against the same method on the
@@ -25,7 +26,7 @@ class ActivePart final : public time::Integrator {
   using Make = std::unique_ptr<time::Integrator> (*)(solve::Dynamics& dynamics, double tolerance);
 
   /// Whether there is a part to begin with that leaves half of the structure out.
-  static bool can_take(solve::Dynamics& dynamics);
+  static bool can_take(solve::Dynamics& dynamics, double tolerance);
 
   /// Of a structure that it can take.
   ActivePart(solve::Dynamics& dynamics, double tolerance, Make make);

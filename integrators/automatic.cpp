@@ -69,7 +69,7 @@ std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, doub
   if (choice.method == Choice::Method::exponential) {
     what = "exponential" + with;
     integrator = make_exponential(dynamics, {tolerance, 6, 0});
-  } else if (ActivePart::can_take(dynamics)) {
+  } else if (ActivePart::can_take(dynamics, tolerance)) {
     what = "rodas4" + with + " on the part that moves";
     integrator = std::make_unique<ActivePart>(dynamics, tolerance, make_rodas4);
   } else {

@@ -34,10 +34,10 @@ bool ExponentialStep::is_smooth(const StepFlow& flow) {
   propagate(flow.half, knots_.steps(), q_half_, &v_half_);
   modal_.stop_shapes().displacement(q_half_.data(), path_.middle.data());
   const double h = flow.h(), t = knots_.last();
-  find_accelerations(t, q_, v_, reach_);
+  find_accelerations(t, q_, v_, a_);
   find_accelerations(t + h, q_new_, v_new_, excess_);
   const double miss =
-      (path_.middle - 0.5 * (w_ + w_new_) - (5.0 / 32.0 * h) * (wv_ - wv_new_) - (h * h / 64.0) * (reach_ + excess_))
+      (path_.middle - 0.5 * (w_ + w_new_) - (5.0 / 32.0 * h) * (wv_ - wv_new_) - (h * h / 64.0) * (a_ + excess_))
           .head(modal_.stop_count())
           .abs()
           .maxCoeff();

@@ -32,8 +32,8 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
   for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2]})
     array->setZero(modal_.size());
   for (ArrayXd* array :
-       {&w_, &wv_, &w_new_, &wv_new_, &reach_, &hv_, &path_.end, &path_.speed, &path_.middle, &seen_.end, &seen_.speed,
-        &seen_.middle, &bulge_, &excess_, &force_[0], &force_[1], &force_[2]})
+       {&w_, &wv_, &w_new_, &wv_new_, &reach_, &a_, &hv_, &path_.end, &path_.speed, &path_.middle, &seen_.end,
+        &seen_.speed, &seen_.middle, &bulge_, &excess_, &force_[0], &force_[1], &force_[2]})
     array->setZero(padded);
   gaps_.setConstant(padded, kInfinite);
   borders_ = gaps_;
@@ -173,6 +173,7 @@ void ExponentialStep::find_reachable(StepFlow& flow) {
 }
 
 void ExponentialStep::apply_forces(StepFlow& flow) {
+  for (std::size_t k = orders_; k < force_.size(); ++k) force_[k].setZero();  // Those were for the estimate alone.
   flow.add_forces(touched_, force_, far_registers_, path_);
   w_new_ = path_.end;
   wv_new_ = path_.speed * (1.0 / flow.h());

@@ -187,6 +187,7 @@ class ExponentialStep {
   Eigen::ArrayXd gaps_, upper_, lower_;  ///< where it acts; infinite where it does not
   Eigen::ArrayXd borders_;               ///< up to where the force of an open stop hardly changes
   Eigen::ArrayXd w_, wv_, w_new_, wv_new_, reach_;
+  Eigen::ArrayXd a_;                                 ///< accelerations at the start, where they were asked for
   Eigen::ArrayXd pull_sizes_, bends_;                ///< FarPull::largest(), and the width of the law's bend
   Eigen::Array<bool, Eigen::Dynamic, 1> is_steady_;  ///< surely; of the others is_steady() knows
   double unsmooth_ = 0.0;                            ///< the error of outputs, in parts of what it may be

@@ -89,7 +89,7 @@ double ExponentialStep::moved_since(StepFlow& flow, Index stop) const {
                       kBump * std::abs(path_.speed[stop] - seen_.speed[stop]) +
                       std::abs(path_.middle[stop] - seen_.middle[stop]);
   const double stiff = stops_[static_cast<std::size_t>(stop)].stiffness() * derived(flow, stop).coupling[1][0];
-  return path * (1.0 + stiff);
+  return path * (1.0 + std::abs(stiff));
 }
 
 double ExponentialStep::sweep(StepFlow& flow, double settled) {

@@ -198,7 +198,8 @@ double StopForce::rest_at(double w, double side) {
 }
 
 double StopForce::constant_rest(double w, double side) {
-  if (!knows_far_rest_) return rest_at(w, side);
+  // In the very middle of the gap both sides pull alike.
+  if (!knows_far_rest_ || (side == 0.0 && w == 0.0)) return rest_at(w, side);
   const bool on_upper = side > 0.0 || (side == 0.0 && on_upper_ && (w > 0.0 || !on_lower_));
   const FarRest& rest = on_upper ? upper_rest_ : lower_rest_;
   return side != 0.0 ? rest.closed : rest.open;

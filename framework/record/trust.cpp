@@ -70,17 +70,16 @@ double fit_growth(const Courses& run, const Courses& other, double peak) {
 
 }  // namespace
 
-Trust judge(const Courses& run, const Courses& tightened, const std::vector<Courses>& perturbed, double perturbation,
+Trust judge(const Courses& run, const Courses& tightened, const std::array<Courses, 2>& perturbed, double perturbation,
             double accuracy) {
   Trust trust;
   trust.accuracy = accuracy;
   const double peak = peak_of(run);
   find_horizon(run, tightened, peak, trust);
-  for (const Courses& other : perturbed) {
-    trust.growth_rate += fit_growth(run, other, peak) / static_cast<double>(perturbed.size());
-    for (std::size_t i = 0; i < common_size(run, other); ++i)
-      trust.amplification = std::max(trust.amplification, difference_at(run, other, i) / perturbation);
-  }
+  const auto& [one, other] = perturbed;
+  trust.growth_rate = fit_growth(one, other, peak);
+  for (std::size_t i = 0; i < common_size(one, other); ++i)
+    trust.amplification = std::max(trust.amplification, difference_at(one, other, i) / (2.0 * perturbation));
   trust.chaotic = trust.growth_rate * run.times.back() > std::log(kChaoticGrowth);
   return trust;
 }

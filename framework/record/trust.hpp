@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,10 @@ struct Courses {
   std::vector<std::vector<double>> values;  ///< by probe
 };
 
-/// Fills horizon, difference, growth and chaos from the courses of the run, of the tightened one, and of two runs whose
-/// starts differ by `perturbation` (m or rad).
-BUTEE_EXPORT Trust judge(const Courses& run, const Courses& tightened, const std::vector<Courses>& perturbed,
+/// Fills horizon and difference from the courses of the run and of the tightened one, growth and chaos from two runs
+/// whose starts differ from the scene's by `perturbation` (m or rad) to either side. Those are compared with each
+/// other: a method may take a start at which everything is displaced for another scene than one at which little moves.
+BUTEE_EXPORT Trust judge(const Courses& run, const Courses& tightened, const std::array<Courses, 2>& perturbed,
                          double perturbation, double accuracy);
 
 /// A few sentences for a person.

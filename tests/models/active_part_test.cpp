@@ -96,6 +96,37 @@ TEST(ActivePart, IsTheWholeWhereEverythingMoves) {
   EXPECT_FALSE(is_on_a_part(damped)) << damped.integrator().choice();
 }
 
+/// A law so blunt that it pulls at every stop as soon as that moves, and one whose pull is far below the tolerance.
+TEST(ActivePart, IsTheWholeWhereLawsPullFromAfar) {
+  const auto law = [](const std::string& lambda) {
+    std::string scene = long_string();
+    const std::string linear = "law = \"linear\"";
+    return scene.replace(scene.find(linear), linear.size(), "law = \"arctan\"\nregularization = " + lambda);
+  };
+  SceneRun blunt(law("1e3"));
+  EXPECT_FALSE(is_on_a_part(blunt)) << blunt.integrator().choice();
+  SceneRun sharp(law("1e8"), {"integrator.tolerance=1e-2"});
+  EXPECT_TRUE(is_on_a_part(sharp)) << sharp.integrator().choice();
+  const std::vector<double> whole = motion(law("1e8"), "rodas4", "1e-2", "s:500"),
+                            part = motion(law("1e8"), "auto", "1e-2", "s:500");
+  EXPECT_LT(relative_rms(part, whole), 1e-3);
+}
+
+/// What nothing connects with the loads moves when a program moves it.
+TEST(ActivePart, ReachesWhatNothingLeadsTo) {
+  const std::string other =
+      "[[element]]\ntype = \"beam\"\nname = \"t\"\nmaterial = \"m\"\nsection = \"c\"\nlength = 1000.0\nelements = "
+      "1000\n";
+  SceneRun run(string_of(kElements, "s:500", other), {"integrator.tolerance=1e-2"});
+  EXPECT_TRUE(is_on_a_part(run));
+  Vector x = run.simulation().state().x, v = run.simulation().state().v;
+  v[run.dof("t:500")] = 1.0;
+  run.simulation().set_motion(x, v);
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_NE(run.simulation().state().x[run.dof("t:503")], 0.0);
+  EXPECT_NE(run.simulation().state().x[run.dof("s:500")], 0.0);
+}
+
 TEST(ActivePart, GoesOnFromASnapshotToTheLastBit) {
   SceneRun first(long_string(), {"integrator.tolerance=1e-2"}), second(long_string(), {"integrator.tolerance=1e-2"});
   while (first.simulation().state().t < 0.02) ASSERT_TRUE(first.simulation().advance());

@@ -76,6 +76,17 @@ TEST(Exponential, KeepsApartWhatEveryStopPulls) {
         << tolerance;
 }
 
+/// In the very middle of the gap both stops pull alike, on whichever way the force is computed.
+TEST(Exponential, StaysAtRestInTheMiddleOfTheGap) {
+  for (const char* model : {"oscillator", "beam1"}) {
+    SceneRun scene(
+        read_file(model_path(model)),
+        {"integrator.type=exponential", "integrator.time_step=", "integrator.end_time=0.02", "load[0].amplitude=0"});
+    ASSERT_TRUE(scene.run().completed) << model;
+    EXPECT_EQ(scene.simulation().state().x.cwiseAbs().maxCoeff(), 0.0) << model;
+  }
+}
+
 /// Where nothing moves yet there is no displacement that an error could be relative to, and in the very middle of the
 /// gap both stops pull alike.
 TEST(Exponential, LeavesTheMiddleOfTheGapWhenALoadComes) {
