@@ -126,13 +126,6 @@ StopForce::StopForce(solve::Contact& contact, Index stop)
   lower_rest_ = {rest_at(far - gap_, 0.0), rest_at(-gap_ - far, -1.0)};
 }
 
-StopForce::Course StopForce::course(const StopPath& path) const {
-  const double low = path.lowest(), high = path.highest();
-  if ((!on_upper_ || high <= gap_) && (!on_lower_ || low >= -gap_)) return Course::open;
-  if ((on_upper_ && low >= gap_) || (on_lower_ && high <= -gap_)) return Course::closed;
-  return Course::changing;
-}
-
 bool StopPath::is_monotonic() const {
   const double d1 = c_[1] + (2.0 / 3.0) * c_[2], d2 = d1 + (2.0 / 3.0) * c_[2] + c_[3],
                d3 = c_[1] + 2.0 * c_[2] + 3.0 * c_[3] + 4.0 * c_[4];

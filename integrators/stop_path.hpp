@@ -92,7 +92,12 @@ class StopForce {
     closed,  ///< a spring throughout
     changing
   };
-  Course course(const StopPath& path) const;
+  Course course(const StopPath& path) const {
+    const double low = path.lowest(), high = path.highest();
+    if ((!on_upper_ || high <= gap_) && (!on_lower_ || low >= -gap_)) return Course::open;
+    if ((on_upper_ && low >= gap_) || (on_lower_ && high <= -gap_)) return Course::closed;
+    return Course::changing;
+  }
   Projection project(const StopPath& path, Course course);
   /// Whether the force is that of a spring and a constant throughout.
   bool is_spring(const StopPath& path, Course course) const;
