@@ -7,7 +7,7 @@
 
 #include "conformance/fixed_steps.hpp"
 
-namespace butee::test {
+namespace butee::test::amplification_test {
 namespace {
 
 using Eigen::Matrix2d;
@@ -174,4 +174,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, FreeMotion, testing::ValuesIn(cases_with_clo
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::amplification_test

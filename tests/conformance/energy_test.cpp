@@ -7,7 +7,7 @@
 #include "conformance/methods.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::energy_test {
 namespace {
 
 /// Driven, damped, in and out of a stop whose law the steps resolve.
@@ -68,4 +68,4 @@ TEST(Energy, OfFreeUndampedMotionIsKeptByTrapezoidalNewmark) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::energy_test

@@ -5,7 +5,7 @@
 
 #include "conformance/fixed_steps.hpp"
 
-namespace butee::test {
+namespace butee::test::equal_steps_test {
 namespace {
 
 /// House rule: the measured order is within this of the method's, on both sides.
@@ -108,4 +108,4 @@ TEST(EqualStepsScene, StrikesBothStops) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::equal_steps_test

@@ -2,7 +2,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::newton_failure_test {
 namespace {
 
 SceneRun strangled(const std::string& method, const std::string& reaction) {
@@ -37,4 +37,4 @@ TEST(NewtonFailure, HalvesAnAdaptiveStepDownToItsFloor) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::newton_failure_test

@@ -6,7 +6,7 @@
 #include "conformance/methods.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::order_test {
 namespace {
 
 /// House rule: the measured order is within this of the method's, on both sides.
@@ -135,4 +135,4 @@ TEST(OrderAcrossContact, OfModifiedNewmarkIsOneWhereTheLawIsResolvedAndAboveItAt
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::order_test

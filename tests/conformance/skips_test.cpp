@@ -7,7 +7,7 @@
 #include "conformance/methods.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::skips_test {
 namespace {
 
 constexpr int kSteps = 50;
@@ -109,4 +109,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, Skips, testing::ValuesIn(method_cases()),
                          [](const auto& one) { return one.param.name; });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::skips_test

@@ -6,7 +6,7 @@
 #include "conformance/methods.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::snapshot_test {
 namespace {
 
 /// A short pinned beam that strikes its stops at once, driven off its own periods.
@@ -121,4 +121,4 @@ TEST(Snapshots, OfAnotherSystemOrOtherObserversAreRefused) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::snapshot_test

@@ -8,7 +8,7 @@
 #include "conformance/methods.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::stability_test {
 namespace {
 
 using app::stability::find_limit;
@@ -120,4 +120,4 @@ TEST(StabilityMap, DoesNotExistForAMethodThatTakesStepsOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::stability_test

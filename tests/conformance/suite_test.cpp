@@ -8,7 +8,7 @@
 #include "apps/conformance/check.hpp"
 #include "conformance/methods.hpp"
 
-namespace butee::test {
+namespace butee::test::suite_test {
 namespace {
 
 using conformance::Check;
@@ -91,4 +91,4 @@ TEST(ConformanceSuite, CoversTheWholeCatalogue) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::suite_test

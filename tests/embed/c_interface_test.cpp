@@ -6,7 +6,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::c_interface_test {
 namespace {
 
 /// A free mass of 2 kg that is thrown at a stop 10 mm away.
@@ -88,4 +88,4 @@ TEST_F(CInterface, TurnsEveryMistakeIntoAStatusAndAMessage) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::c_interface_test

@@ -10,7 +10,7 @@
 #include "conformance/methods.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::structure_test {
 namespace {
 
 using embed::Structure;
@@ -226,4 +226,4 @@ TEST(ModelBuilder, SaysInWhichCallAMistakeIs) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::structure_test

@@ -7,7 +7,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::active_part_test {
 namespace {
 
 constexpr int kElements = 1000;
@@ -181,4 +181,4 @@ TEST(ActivePart, FollowsForcesThatAProgramSets) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::active_part_test

@@ -4,7 +4,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::automatic_test {
 namespace {
 
 std::string beam(int elements, const std::string& more, const std::string& integrator = "end_time = 0.05\n") {
@@ -61,4 +61,4 @@ TEST(Automatic, SaysWhatItTook) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::automatic_test

@@ -6,7 +6,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::bad_usage_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -70,4 +70,4 @@ TEST(BadUsage, leaves_earlier_results_alone) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::bad_usage_test

@@ -6,7 +6,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::check_advice_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -125,4 +125,4 @@ TEST(CheckPicture, is_drawn_as_svg) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::check_advice_test

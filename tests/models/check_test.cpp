@@ -6,7 +6,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::check_test {
 namespace {
 
 void expect_holds(const std::string& text, const std::vector<std::string>& parts) {
@@ -104,4 +104,4 @@ TEST(Check, LargeSystemsGoThroughLanczosWithTheSameAnswer) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::check_test

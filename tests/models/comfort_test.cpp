@@ -11,7 +11,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::comfort_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -237,4 +237,4 @@ TEST(Colours, are_for_terminals_and_can_be_refused) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::comfort_test

@@ -8,7 +8,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::compare_test {
 namespace {
 
 /// A swing without stops: u = cos(w t), w = 10.
@@ -199,4 +199,4 @@ TEST(Compare, TakesExponentialWhereExactRefusesTheLaw) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::compare_test

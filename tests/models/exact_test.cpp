@@ -10,7 +10,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::exact_test {
 namespace {
 
 /// The motion of one node at given times.
@@ -121,4 +121,4 @@ TEST(ExactMethod, DecidesStopsThatBeginOnTheirBorder) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::exact_test

@@ -8,7 +8,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::exponential_arctan_test {
 namespace {
 
 /// The law of the paper pulls at open stops too, in the middle of the gap to the other side at once. At the start,
@@ -110,4 +110,4 @@ TEST(Exponential, LeavesTheMiddleOfTheGapWhenALoadComes) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::exponential_arctan_test

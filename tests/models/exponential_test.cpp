@@ -12,7 +12,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::exponential_test {
 namespace {
 
 struct Case {
@@ -291,4 +291,4 @@ TEST(Exponential, RefusesDampingThatCouplesTheModes) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::exponential_test

@@ -8,7 +8,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::faults_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -143,4 +143,4 @@ TEST_F(Faults, modes_that_never_fit_are_refused) {
 #endif
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::faults_test

@@ -8,7 +8,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::hostile_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -179,4 +179,4 @@ TEST(HostileScenes, a_hundred_levels_are_not_too_many) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::hostile_test

@@ -9,7 +9,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::methods_test {
 namespace {
 
 // Fixed steps make both programs do the same arithmetic, apart from the order of sums.
@@ -163,4 +163,4 @@ TEST(MethodsTable, HoldsEveryLawSceneAndMethod) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::methods_test

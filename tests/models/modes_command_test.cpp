@@ -8,7 +8,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::modes_command_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -156,4 +156,4 @@ TEST_F(ModesCommand, takes_the_long_string) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::modes_command_test

@@ -9,7 +9,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::reference_test {
 namespace {
 
 struct Comparison {
@@ -73,4 +73,4 @@ INSTANTIATE_TEST_SUITE_P(OfThePaper, Reference,
                          name_of);
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::reference_test

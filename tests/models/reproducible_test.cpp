@@ -8,7 +8,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::reproducible_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -76,4 +76,4 @@ TEST(Reproducible, ALargeSceneGivesTheSameFilesTwice) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::reproducible_test

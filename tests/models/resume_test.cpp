@@ -12,7 +12,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::resume_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -214,4 +214,4 @@ TEST_F(Checkpointed, a_completed_run_leaves_none) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::resume_test

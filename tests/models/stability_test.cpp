@@ -5,7 +5,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::stability_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -75,4 +75,4 @@ TEST(StabilityCommand, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::stability_test

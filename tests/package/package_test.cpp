@@ -6,7 +6,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::package_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -124,4 +124,4 @@ TEST_F(Package, IsFoundByPkgConfig) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::package_test

@@ -8,7 +8,7 @@
 #include "plots/field_parts.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::field_layout_test {
 namespace {
 
 model::FieldLayout layout_of(const std::string& toml) {
@@ -54,4 +54,4 @@ TEST(FieldLayout, PutsLoneNodesIntoARow) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::field_layout_test

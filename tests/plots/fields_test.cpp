@@ -12,7 +12,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::fields_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,4 +253,4 @@ TEST(Fields, NeedAFormatThatKeepsThem) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::fields_test

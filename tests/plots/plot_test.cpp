@@ -8,7 +8,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::plot_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -216,4 +216,4 @@ TEST_F(Plot, HasARowOfEnergiesForEachOutputTime) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::plot_test

@@ -10,7 +10,7 @@
 #include "apps/butee/plot/scale.hpp"
 #include "apps/butee/plot/thin.hpp"
 
-namespace butee::test {
+namespace butee::test::spectrum_test {
 namespace {
 
 using namespace app::plot;
@@ -123,4 +123,4 @@ TEST(Scale, GivesUnitsThatCanBeRead) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::spectrum_test

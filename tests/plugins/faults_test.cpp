@@ -6,7 +6,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::faults_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,4 +81,4 @@ TEST(FaultyModules, one_that_was_built_for_another_version_is_refused_with_the_d
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::faults_test

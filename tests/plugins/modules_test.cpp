@@ -10,7 +10,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::modules_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ TEST(Modules, AFolderOfModulesIsFoundByEnvironmentAndOption) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::modules_test

@@ -8,7 +8,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::smooth_law_test {
 namespace {
 
 TEST(SmoothLaw, IsTheDerivativeOfItsEnergyAndSmoothAtBothBorders) {
@@ -66,4 +66,4 @@ TEST(SmoothLaw, IsLoadedOnlyWhereASceneNamesIt) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::smooth_law_test

@@ -4,7 +4,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::sundials_test {
 namespace {
 
 class Sundials : public testing::TestWithParam<std::string> {
@@ -47,4 +47,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, Sundials, testing::Values("cvode_bdf", "cvode_
                          [](const auto& one) { return one.param; });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::sundials_test

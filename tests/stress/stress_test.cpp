@@ -5,7 +5,7 @@
 #include "stress/suite/long_runs.hpp"
 #include "stress/suite/tally.hpp"
 
-namespace butee::stress {
+namespace butee::stress::stress_test {
 namespace {
 
 /// Evaluations and solves of a run, which is cut there: some ten thousand steps of a small scene.
@@ -69,4 +69,4 @@ TEST(StressScenes, AreTheSameForTheSameSeed) {
 }
 
 }  // namespace
-}  // namespace butee::stress
+}  // namespace butee::stress::stress_test

@@ -6,7 +6,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::assembly_test {
 namespace {
 
 /// A few operations on numbers of one size.
@@ -176,4 +176,4 @@ TEST(Assembly, rotor_in_a_flexible_casing) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::assembly_test

@@ -4,7 +4,7 @@
 #include <butee/solve/band_factor.hpp>
 #include <gtest/gtest.h>
 
-namespace butee::test {
+namespace butee::test::band_factor_test {
 namespace {
 
 /// A symmetric matrix of the band with entries of no pattern; positive definite by its diagonal where that is large.
@@ -62,4 +62,4 @@ TEST(BandFactor, refuses_what_is_not_positive_definite_wherever_it_shows) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::band_factor_test

@@ -7,7 +7,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::beam_frequency_test {
 namespace {
 
 /// The order of the frequencies in the element length; h^4 holds with an error of a higher power at these meshes.
@@ -108,4 +108,4 @@ TEST(FreeBeam, has_two_rigid_modes_and_then_those_of_the_clamped_one) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::beam_frequency_test

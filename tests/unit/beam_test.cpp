@@ -9,7 +9,7 @@
 #include "elements/elements.hpp"
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::beam_test {
 namespace {
 
 /// Some operations on numbers of one size, relative to the largest of them.
@@ -204,4 +204,4 @@ TEST(Section, tube_without_a_wall_is_refused) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::beam_test

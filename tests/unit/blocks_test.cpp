@@ -9,7 +9,7 @@
 #include "support/large_scenes.hpp"
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::blocks_test {
 namespace {
 
 /// Relative to the largest entry; sums of a few products.
@@ -135,4 +135,4 @@ INSTANTIATE_TEST_SUITE_P(all, LargeScene,
                                          with_both_dampings(tied_beams(300))));
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::blocks_test

@@ -2,7 +2,7 @@
 #include <butee/core/error.hpp>
 #include <gtest/gtest.h>
 
-namespace butee::test {
+namespace butee::test::bytes_test {
 namespace {
 
 TEST(Bytes, come_back_as_they_went) {
@@ -49,4 +49,4 @@ TEST(Bytes, checksum_is_the_one_it_says) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::bytes_test

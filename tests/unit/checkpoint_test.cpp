@@ -7,7 +7,7 @@
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::checkpoint_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,4 +106,4 @@ TEST_F(Checkpoints, no_damage_passes) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::checkpoint_test

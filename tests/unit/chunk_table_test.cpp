@@ -5,7 +5,7 @@
 #include <butee/solve/symmetric_product.hpp>
 #include <gtest/gtest.h>
 
-namespace butee::test {
+namespace butee::test::chunk_table_test {
 namespace {
 
 constexpr Index kWidth = 10, kCount = 4000;
@@ -98,4 +98,4 @@ TEST(SharedRows, SolveAndMultiplyWhatTheMatrixSays) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::chunk_table_test

@@ -11,7 +11,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::config_test {
 namespace {
 
 using config::Array;
@@ -248,4 +248,4 @@ TEST(Text, closest_name_is_near_or_nothing) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::config_test

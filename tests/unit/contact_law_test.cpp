@@ -7,7 +7,7 @@
 #include "contact/arctan.hpp"
 #include "contact/linear.hpp"
 
-namespace butee::test {
+namespace butee::test::contact_law_test {
 namespace {
 
 /// A few dozen roundings: the tangent near |x| = 20 loses a factor of 1.5 x^2 to the difference that it is.
@@ -187,4 +187,4 @@ TEST(ContactLaw, batches_are_the_scalar_functions) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::contact_law_test

@@ -7,7 +7,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::contact_on_the_way_test {
 namespace {
 
 std::string mass_at_a_stop(const std::string& sides, const std::string& integrator, const std::string& more = "") {
@@ -129,4 +129,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, ShortEvents,
                          [](const auto& one) { return one.param; });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::contact_on_the_way_test

@@ -5,7 +5,7 @@
 #include "contact/arctan.hpp"
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::contact_test {
 namespace {
 
 /// A few operations on numbers of one size.
@@ -167,4 +167,4 @@ TEST(Contact, stop_against_a_support_is_a_stop_to_ground) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::contact_test

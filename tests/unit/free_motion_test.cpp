@@ -3,7 +3,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::free_motion_test {
 namespace {
 
 /// Three masses in a row: a tied to the ground, b to a; nothing holds c, but where `last` says so.
@@ -54,4 +54,4 @@ TEST(FreeMotion, CountsWhatItDoesNotName) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::free_motion_test

@@ -7,7 +7,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::growth_watch_test {
 namespace {
 
 /// Two masses in a row, 1 kg and 0.01 kg, on springs; omega_max is about sqrt(1e6/0.01) = 1e4 rad/s.
@@ -231,4 +231,4 @@ TEST(Diagnosis, NamesTheMotionThatNoMassResists) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::growth_watch_test

@@ -9,7 +9,7 @@
 #include "support/program.hpp"
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::history_test {
 namespace {
 
 /// Every method and every interpolant here is exact for a parabola: rounding of some hundred steps is left.
@@ -201,4 +201,4 @@ quantities = ["contact_force"]
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::history_test

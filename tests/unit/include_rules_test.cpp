@@ -9,7 +9,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::include_rules_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -131,4 +131,4 @@ TEST(IncludeRules, EigenIsTheOnlyLibraryInInstalledHeaders) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::include_rules_test

@@ -4,7 +4,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::loads_test {
 namespace {
 
 /// A few operations on numbers of one size.
@@ -142,4 +142,4 @@ TEST(Load, mistakes_are_named) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::loads_test

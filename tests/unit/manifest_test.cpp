@@ -7,7 +7,7 @@
 #include "integrators/methods.hpp"
 #include "support/program.hpp"
 
-namespace butee::test {
+namespace butee::test::manifest_test {
 namespace {
 
 using config::Parameter;
@@ -102,4 +102,4 @@ TEST(Manifest, what_is_none_is_refused) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::manifest_test

@@ -7,7 +7,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::modal_damping_test {
 namespace {
 
 /// Machine precision times the condition of these systems; the worst of all comparisons differs by 1.3e-12.
@@ -246,4 +246,4 @@ TEST(NoModalDamping, is_no_damping) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::modal_damping_test

@@ -4,7 +4,7 @@
 #include <butee/solve/step_flow.hpp>
 #include <gtest/gtest.h>
 
-namespace butee::test {
+namespace butee::test::modal_flow_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -136,4 +136,4 @@ TEST(StepFlow, MobilitiesAreWhatAConstantForceDoes) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::modal_flow_test

@@ -8,7 +8,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::modes_test {
 namespace {
 
 using std::numbers::pi;
@@ -197,4 +197,4 @@ TEST(Modes, take_a_closed_stop_as_a_spring) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::modes_test

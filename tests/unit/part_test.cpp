@@ -6,7 +6,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::part_test {
 namespace {
 
 std::string stop(const std::string& keys) {
@@ -87,4 +87,4 @@ TEST(Part, KnowsWhatNothingLeadsTo) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::part_test

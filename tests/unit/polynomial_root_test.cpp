@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace butee::integrators {
+namespace butee::integrators::polynomial_root_test {
 namespace {
 
 /// Coefficients of scale times the product of (s - root).
@@ -47,4 +47,4 @@ TEST(PolynomialRoot, LeavesOutTheRootAtTheStart) {
 }
 
 }  // namespace
-}  // namespace butee::integrators
+}  // namespace butee::integrators::polynomial_root_test

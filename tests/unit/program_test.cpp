@@ -9,7 +9,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::program_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -178,4 +178,4 @@ TEST_F(Program, energy_is_followed_where_asked_for) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::program_test

@@ -8,7 +8,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::progress_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -74,4 +74,4 @@ TEST(Progress, a_failed_run_leaves_no_bar) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::progress_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace butee::test {
+namespace butee::test::quintic_test {
 namespace {
 
 using time::State;
@@ -36,4 +36,4 @@ TEST(Quintic, IsNotBentByAnEndWithinAStiffStop) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::quintic_test

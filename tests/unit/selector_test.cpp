@@ -2,7 +2,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::selector_test {
 namespace {
 
 using model::NodeId;
@@ -95,4 +95,4 @@ TEST(Selector, mistakes_in_a_scene_carry_their_key) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::selector_test

@@ -8,7 +8,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::solver_test {
 namespace {
 
 /// Rounding of a direct solution: machine precision times the condition number of these small systems.
@@ -206,4 +206,4 @@ TEST_P(SymmetricFactor, rejects_a_singular_matrix) {
 INSTANTIATE_TEST_SUITE_P(half_bandwidths, SymmetricFactor, testing::Values(1, 3, 8, 9, 20));
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::solver_test

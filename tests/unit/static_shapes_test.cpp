@@ -7,7 +7,7 @@
 
 #include "unit/scenes.hpp"
 
-namespace butee::test {
+namespace butee::test::static_shapes_test {
 namespace {
 
 constexpr Index kKept = 6;
@@ -76,4 +76,4 @@ TEST_F(StaticShapes, OfAForceThatMovesNothingAreNone) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::static_shapes_test

@@ -12,7 +12,7 @@
 #include "integrators/far_pull.hpp"
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::stop_path_test {
 namespace {
 
 using integrators::ForceMoments;
@@ -125,4 +125,4 @@ TEST(FarPull, IsAConstantAsFarAsItsSeriesAndItsJumpGo) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::stop_path_test

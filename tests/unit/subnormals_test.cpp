@@ -3,7 +3,7 @@
 #include <butee/core/subnormals.hpp>
 #include <gtest/gtest.h>
 
-namespace butee::test {
+namespace butee::test::subnormals_test {
 namespace {
 
 /// Half of the smallest normal number, computed where the compiler cannot.
@@ -26,4 +26,4 @@ TEST(FlushedSubnormals, AreZeroWhileItLives) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::subnormals_test

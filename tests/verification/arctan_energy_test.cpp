@@ -5,7 +5,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::arctan_energy_test {
 namespace {
 
 /// Rounding of the closed form, whose terms cancel to a part in a hundred.
@@ -74,4 +74,4 @@ TEST(ArctanEnergy, is_kept_with_the_rest_over_many_impacts) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::arctan_energy_test

@@ -5,7 +5,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::chopra_test {
 namespace {
 
 /// A unit in the last printed digit: tables by hand carry rounded intermediate results.
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::chopra_test

@@ -6,7 +6,7 @@
 #include "support/scene_run.hpp"
 #include "verification/turning_points.hpp"
 
-namespace butee::test {
+namespace butee::test::collision_test {
 namespace {
 
 /// Steps of h = 1e-6 s: a kink of the force within a step costs O((omega h)^2) = 1e-7, twice for each contact. Newmark
@@ -140,4 +140,4 @@ INSTANTIATE_TEST_SUITE_P(methods, Bouncing, testing::Values("rk4", "newmark"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::collision_test

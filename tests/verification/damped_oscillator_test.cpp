@@ -5,7 +5,7 @@
 #include "support/scene_run.hpp"
 #include "verification/methods.hpp"
 
-namespace butee::test {
+namespace butee::test::damped_oscillator_test {
 namespace {
 
 /// Runge-Kutta at (omega h)^4/120 a radian with omega h = 0.02 or a tolerance below that: 40 rad at most 1e-7.
@@ -80,4 +80,4 @@ INSTANTIATE_TEST_SUITE_P(methods, DampedOscillator, testing::ValuesIn(all_method
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::damped_oscillator_test

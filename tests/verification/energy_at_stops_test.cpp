@@ -7,7 +7,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::energy_at_stops_test {
 namespace {
 
 /// The largest relative change of the energy over some hundred impacts, each a few steps long.
@@ -47,4 +47,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, DiscreteGradientKeepsEnergy,
                          [](const auto& one) { return one.index == 0 ? "linear" : "arctan"; });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::energy_at_stops_test

@@ -10,7 +10,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::large_scenes_test {
 namespace {
 
 // The same equations solved by a band factor for one beam and by a sparse one for sixteen: rounding alone.
@@ -100,4 +100,4 @@ INSTANTIATE_TEST_SUITE_P(OneAndSixteen, LargeScenes,
                          });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::large_scenes_test

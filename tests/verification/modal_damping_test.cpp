@@ -6,7 +6,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::modal_damping_test {
 namespace {
 
 /// Half a unit in the last printed digit of each number.
@@ -253,4 +253,4 @@ INSTANTIATE_TEST_SUITE_P(methods, Nafems, testing::Values("rk4", "newmark"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::modal_damping_test

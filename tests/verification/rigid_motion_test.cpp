@@ -5,7 +5,7 @@
 #include "support/scene_run.hpp"
 #include "verification/methods.hpp"
 
-namespace butee::test {
+namespace butee::test::rigid_motion_test {
 namespace {
 
 /// Momentum is a linear invariant and grows linearly under a constant force, which every method here keeps but for
@@ -102,4 +102,4 @@ INSTANTIATE_TEST_SUITE_P(methods, RigidMotion, testing::ValuesIn(all_methods()),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::rigid_motion_test

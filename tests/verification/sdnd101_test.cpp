@@ -7,7 +7,7 @@
 #include "support/scene_run.hpp"
 #include "verification/turning_points.hpp"
 
-namespace butee::test {
+namespace butee::test::sdnd101_test {
 namespace {
 
 /// The published numbers carry 7 digits.
@@ -104,4 +104,4 @@ INSTANTIATE_TEST_SUITE_P(methods, Sdnd101, testing::Values(std::pair("rk4", kPri
                          [](const auto& instance) { return std::string(instance.param.first); });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::sdnd101_test

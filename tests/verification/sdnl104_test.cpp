@@ -2,7 +2,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::sdnl104_test {
 namespace {
 
 /// The published numbers carry 6 digits.
@@ -70,4 +70,4 @@ TEST(Sdnl104, tip_and_kinetic_energy_are_those_of_the_same_scheme) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::sdnl104_test

@@ -5,7 +5,7 @@
 #include "support/scene_run.hpp"
 #include "verification/methods.hpp"
 
-namespace butee::test {
+namespace butee::test::steady_state_test {
 namespace {
 
 /// The free motion has decayed to e^(-0.2 20 6) = 4e-11 when the sampling starts.
@@ -83,4 +83,4 @@ INSTANTIATE_TEST_SUITE_P(methods, SteadyVibration, testing::ValuesIn(all_methods
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::steady_state_test

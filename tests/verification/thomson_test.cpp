@@ -5,7 +5,7 @@
 #include "support/scene_run.hpp"
 #include "verification/turning_points.hpp"
 
-namespace butee::test {
+namespace butee::test::thomson_test {
 namespace {
 
 /// The published numbers carry 5 to 7 digits; the closed forms are met to this.
@@ -68,4 +68,4 @@ TEST(Thomson, ball_on_a_spring) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::thomson_test

@@ -7,7 +7,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::tolerance_test {
 namespace {
 
 std::string scene(const std::string& integrator) {
@@ -80,4 +80,4 @@ TEST(ToleranceScene, StrikesItsStopAndMagnifiesLittle) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::tolerance_test

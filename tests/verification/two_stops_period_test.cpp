@@ -4,7 +4,7 @@
 
 #include "support/scene_run.hpp"
 
-namespace butee::test {
+namespace butee::test::two_stops_period_test {
 namespace {
 
 /// Runge-Kutta with steps of h = 2e-6 s, and Newmark with 1e-5 s: crossing a kink of the force within a step costs
@@ -96,4 +96,4 @@ TEST(TwoStops, newmark_keeps_the_period) {
 }
 
 }  // namespace
-}  // namespace butee::test
+}  // namespace butee::test::two_stops_period_test
