@@ -26,7 +26,7 @@ Trial ExponentialStep::attempt_length(double h) {
 
 bool ExponentialStep::is_smooth(const StepFlow& flow) {
   const double square = flow.h() * flow.h() * kQuintic;
-  const double allowed = output_tolerance_ * displacement_;
+  const double allowed = output_tolerance_ * reached_.displacement;
   const double bound =
       load_swing_ + ((flow.swing_q * q_.abs() + flow.swing_v * v_.abs()) * (square * squares_).min(1.0)).sum();
   unsmooth_ = bound > 0.0 ? bound / allowed : 0.0;

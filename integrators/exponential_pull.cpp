@@ -11,13 +11,13 @@ using solve::StepFlow;
 bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
   const FarPull& pull = pulls_[static_cast<std::size_t>(stop)];
   const double mobility = std::abs(flow.mobilities()[stop]);
-  return pull.unfelt(w_[stop], w_new_[stop], reach_[stop], mobility, steps_of(scale_, flow.h())) <=
-         kUnfeltPull * output_tolerance_ * displacement_;
+  return pull.unfelt(w_[stop], w_new_[stop], reach_[stop], mobility, steps_of(reached_, flow.h())) <=
+         kUnfeltPull * output_tolerance_ * reached_.displacement;
 }
 
 void ExponentialStep::find_steady(StepFlow& flow) {
   const Index m = modal_.stop_count();
-  const double steps = steps_of(scale_, flow.h()), felt = kUnfeltPull * output_tolerance_ * displacement_;
+  const double steps = steps_of(reached_, flow.h()), felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
   const auto w0 = w_.head(m), w1 = w_new_.head(m);
   const auto shift = pull_sizes_.head(m) * flow.mobilities().abs();
   const auto part = bends_.head(m) / (gaps_.head(m) - reach_.head(m));
@@ -30,12 +30,12 @@ double ExponentialStep::error_of_pull(StepFlow& flow, Index stop) const {
   if (bulge == 0.0) return 0.0;
   const double part = bulge < on_the_way ? bulge / on_the_way : 1.0;
   return 2.0 * part * pulls_[static_cast<std::size_t>(stop)].largest() * std::abs(flow.mobilities()[stop]) *
-         steps_of(scale_, flow.h());
+         steps_of(reached_, flow.h());
 }
 
 void ExponentialStep::place_pull(StepFlow& flow) {
   const Index m = modal_.stop_count();
-  const double steps = steps_of(scale_, flow.h()), felt = kUnfeltPull * output_tolerance_ * displacement_;
+  const double steps = steps_of(reached_, flow.h()), felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
   excess_ = 0.5 * (w_ + w_new_);
   contact_.force(excess_.head(m).matrix(), stop_forces_);
   for (const Index i : reachable_) stop_forces_[i] = 0.0;
@@ -50,7 +50,8 @@ void ExponentialStep::place_pull(StepFlow& flow) {
 }
 
 void ExponentialStep::add_jumps(StepFlow& flow) {
-  const double h = flow.h(), steps = steps_of(scale_, h), felt = kUnfeltPull * output_tolerance_ * displacement_;
+  const double h = flow.h(), steps = steps_of(reached_, h),
+               felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
   jumping_.clear();
   for (const Index i : far_) {
     const double aside = kBump * h * (std::abs(wv_[i]) + std::abs(wv_new_[i]));

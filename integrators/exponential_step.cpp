@@ -131,7 +131,7 @@ Trial ExponentialStep::attempt(StepFlow& flow) {
   if (!has_stops()) return q_new_.allFinite() && v_new_.allFinite() ? Trial::accepted : Trial::not_finite;
   find_stops();
   if (!std::isfinite(w_new_.sum() + wv_new_.sum())) return Trial::not_finite;
-  displacement_ = std::max(scale_.displacement, w_new_.abs().maxCoeff());
+  reached_ = {std::max(scale_.displacement, w_new_.abs().maxCoeff()), std::max(scale_.speed, wv_new_.abs().maxCoeff())};
   find_reachable(flow);
   if (has_far_forces_) place_pull(flow);
   if (!reachable_.empty()) propagate(flow.half, knots_.steps(), q_half_, nullptr);

@@ -36,6 +36,7 @@ struct StopScale {
 
 /// The motion's own time, in steps of h.
 inline double steps_of(StopScale scale, double h) {
+  if (scale.speed == 0.0) return 1.0;  // Nothing moves.
   return h * scale.speed < scale.displacement ? scale.displacement / (h * scale.speed) : 1.0;
 }
 
@@ -178,7 +179,7 @@ class ExponentialStep {
 
   Eigen::ArrayXd q_, v_;
   StopScale scale_;
-  double displacement_ = 0.0;  ///< that of the scale, with the end of the step without forces
+  StopScale reached_;  ///< the scale, with the end of the step without forces
   Eigen::ArrayXd q_new_, v_new_, q_half_, v_half_;
   double middle_knot_ = 0.0;  ///< its time; 0: there is none
   std::array<Eigen::ArrayXd, 3> sums_;

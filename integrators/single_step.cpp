@@ -180,10 +180,10 @@ Trial SingleStep::attempt(const Flow& flow) {
 
 bool SingleStep::is_steady(const Flow& flow, double w, double reach) const {
   if (stop_.is_linear()) return true;
-  const double scale = std::max(scale_.displacement, std::abs(path_[0]));
-  const double steps = steps_of(scale_, flow.h);
-  return pull_.unfelt(w, path_[0], reach, std::abs(flow.coupling[0][0]), steps) <=
-         kUnfeltPull * output_tolerance_ * scale;
+  const StopScale reached = {std::max(scale_.displacement, std::abs(path_[0])),
+                             std::max(scale_.speed, std::abs(path_[1]) / flow.h)};
+  return pull_.unfelt(w, path_[0], reach, std::abs(flow.coupling[0][0]), steps_of(reached, flow.h)) <=
+         kUnfeltPull * output_tolerance_ * reached.displacement;
 }
 
 Trial SingleStep::iterate(const Flow& flow, double w, double hv) {

@@ -10,6 +10,13 @@ namespace {
 
 /// Evaluations and solves of a run, which is cut there: some ten thousand steps of a small scene.
 constexpr std::int64_t kWork = 20000;
+/// The sanitizers, under which a run takes ten times as long, see every fourth scene of a list: they look at the
+/// code, and the numbers are the optimised build's to check.
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::uint64_t kEvery = 4;
+#else
+constexpr std::uint64_t kEvery = 1;
+#endif
 
 void expect_no_failure(const Tally& tally, std::size_t scenes) {
   for (const Failure& f : tally.failures()) {
@@ -20,6 +27,7 @@ void expect_no_failure(const Tally& tally, std::size_t scenes) {
   EXPECT_EQ(tally.rows().size(), methods().size());
   for (const auto& [name, row] : tally.rows()) {
     EXPECT_EQ(row.runs, tally.scenes) << name;
+    if (kEvery > 1) continue;
     EXPECT_GT(row.counts[static_cast<std::size_t>(Verdict::correct)], 0) << name << " never was correct";
   }
   EXPECT_GT(tally.count(Verdict::diagnosed), 0);
@@ -34,7 +42,7 @@ TEST(Stress, CornersOfTheSpaceOfScenes) {
 
 TEST(Stress, RandomScenes) {
   std::vector<Scene> scenes;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) scenes.push_back(random_scene(seed));
+  for (std::uint64_t seed = 1; seed <= 40; seed += kEvery) scenes.push_back(random_scene(seed));
   Tally tally;
   run_all(scenes, methods(), kWork, tally);
   expect_no_failure(tally, scenes.size());
@@ -44,10 +52,10 @@ TEST(Stress, RandomScenes) {
 TEST(Stress, ScenesThatWereWrongOnce) {
   Tally tally;
   std::vector<Scene> scenes;
-  for (const std::uint64_t seed :
-       {99U,   252U,  268U,  453U,  490U,  504U,  522U,  558U,  695U,  943U,  1584U, 1653U, 2225U, 2282U, 2773U, 3075U,
-        3419U, 3617U, 3921U, 4297U, 4726U, 4833U, 5235U, 6043U, 6260U, 6600U, 8033U, 8039U, 9260U, 9493U, 9625U, 9773U})
-    scenes.push_back(random_scene(seed));
+  const std::vector<std::uint64_t> seeds = {99U,   252U,  268U,  453U,  490U,  504U,  522U,  558U,  695U,  943U,  1584U,
+                                            1653U, 2225U, 2282U, 2773U, 3075U, 3419U, 3617U, 3921U, 4297U, 4726U, 4833U,
+                                            5235U, 6043U, 6260U, 6600U, 8033U, 8039U, 9260U, 9493U, 9625U, 9773U};
+  for (std::size_t i = 0; i < seeds.size(); i += kEvery) scenes.push_back(random_scene(seeds[i]));
   run_all(scenes, methods(), kWork, tally);
   expect_no_failure(tally, scenes.size());
 }
