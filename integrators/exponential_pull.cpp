@@ -20,6 +20,7 @@ void ExponentialStep::find_steady(StepFlow& flow) {
   const double steps = steps_of(reached_, flow.h()), felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
   const auto w0 = w_.head(m), w1 = w_new_.head(m);
   const auto shift = pull_sizes_.head(m) * flow.mobilities().abs();
+  largest_shift_ = shift.maxCoeff();
   const auto part = bends_.head(m) / (gaps_.head(m) - reach_.head(m));
   is_steady_.head(m) =
       w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > shift && shift * part.square() * (steps * steps / 3.0) <= felt;
@@ -36,6 +37,8 @@ double ExponentialStep::error_of_pull(StepFlow& flow, Index stop) const {
 void ExponentialStep::place_pull(StepFlow& flow) {
   const Index m = modal_.stop_count();
   const double steps = steps_of(reached_, flow.h()), felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
+  // Not even if every stop pulled to the other side.
+  if (2.0 * largest_shift_ * steps * steps <= felt) return;
   excess_ = 0.5 * (w_ + w_new_);
   contact_.force(excess_.head(m).matrix(), stop_forces_);
   for (const Index i : reachable_) stop_forces_[i] = 0.0;
@@ -53,6 +56,7 @@ void ExponentialStep::add_jumps(StepFlow& flow) {
   const double h = flow.h(), steps = steps_of(reached_, h),
                felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
   jumping_.clear();
+  if (largest_shift_ * steps <= felt) return;
   for (const Index i : far_) {
     const double aside = kBump * h * (std::abs(wv_[i]) + std::abs(wv_new_[i]));
     if (std::min(w_[i], w_new_[i]) > aside || std::max(w_[i], w_new_[i]) < -aside) continue;

@@ -116,7 +116,7 @@ class ExponentialStep {
   bool is_near(Index stop) const { return reach_[stop] > borders_[stop]; }
   /// Whether the pull of an open stop is a constant, as far as the tolerance can tell.
   bool is_steady(solve::StepFlow& flow, Index stop) const;
-  /// Fills is_steady_, by FarPull::unfelt() for stops that stay on a side.
+  /// Fills is_steady_, by FarPull::unfelt() for stops that stay on a side, and largest_shift_.
   void find_steady(solve::StepFlow& flow);
   /// What follows for a stop from the length of the step alone.
   const solve::StepFlow::Derived& derived(solve::StepFlow& flow, Index stop) const;
@@ -141,7 +141,11 @@ class ExponentialStep {
   /// Takes the stops in turn, each with the forces of all others as they are; the largest change of a path. A stop
   /// whose path is within `settled` of the one that its force was found for is passed over.
   double sweep(solve::StepFlow& flow, double settled);
-  StopPath path_of(Index stop) const;
+  StopPath path_of(Index stop) const {
+    const double bulge =
+        path_.middle[stop] - (0.5 * (w_[stop] + path_.end[stop]) + 0.125 * (hv_[stop] - path_.speed[stop]));
+    return {w_[stop], hv_[stop], path_.end[stop], path_.speed[stop], orders_ == 3 ? bulge : 0.0};
+  }
   /// Whether the stop is a spring along its path.
   bool is_spring(Index stop) const;
   /// Takes the path of a stop for the one that its force was found for.
@@ -191,6 +195,7 @@ class ExponentialStep {
   Eigen::ArrayXd a_;                                 ///< accelerations at the start, where they were asked for
   Eigen::ArrayXd pull_sizes_, bends_;                ///< FarPull::largest(), and the width of the law's bend
   Eigen::Array<bool, Eigen::Dynamic, 1> is_steady_;  ///< surely; of the others is_steady() knows
+  double largest_shift_ = 0.0;                       ///< of a stop in the step, by a pull
   double unsmooth_ = 0.0;                            ///< the error of outputs, in parts of what it may be
   double load_swing_ = 0.0;                          ///< how far loads can carry a stop away from the cubic
   Eigen::ArrayXd hv_;                                ///< speed times h at the start

@@ -38,11 +38,12 @@ Trial ExponentialStep::iterate(StepFlow& flow) {
 void ExponentialStep::choose_registers() {
   near_registers_.clear();
   far_registers_.clear();
-  auto next = reachable_.begin();
-  for (Index begin = 0; begin < path_.end.size(); begin = StepFlow::next_register(begin)) {
-    const auto in_next = std::lower_bound(next, reachable_.end(), StepFlow::next_register(begin));
-    (in_next != next ? near_registers_ : far_registers_).push_back(begin);
-    next = in_next;
+  std::size_t next = 0;
+  for (Index begin = 0, end = 0; begin < path_.end.size(); begin = end) {
+    end = StepFlow::next_register(begin);
+    const std::size_t first = next;
+    while (next < reachable_.size() && reachable_[next] < end) ++next;
+    (next > first ? near_registers_ : far_registers_).push_back(begin);
   }
 }
 
@@ -64,12 +65,6 @@ const StepFlow::Derived& ExponentialStep::derived(StepFlow& flow, Index stop) co
   known.inverse = own_[static_cast<std::size_t>(stop)].closed_inverse(known.coupling);
   known.is_known = true;
   return known;
-}
-
-StopPath ExponentialStep::path_of(Index stop) const {
-  const double bulge =
-      path_.middle[stop] - (0.5 * (w_[stop] + path_.end[stop]) + 0.125 * (hv_[stop] - path_.speed[stop]));
-  return {w_[stop], hv_[stop], path_.end[stop], path_.speed[stop], orders_ == 3 ? bulge : 0.0};
 }
 
 bool ExponentialStep::is_spring(Index stop) const {
@@ -102,19 +97,27 @@ double ExponentialStep::sweep(StepFlow& flow, double settled) {
     if (settled > 0.0 && is_touched_[place] && moved_since(flow, i) <= settled) continue;
     const StopPath path = path_of(i);
     const StopForce::Course course = stop.course(path);
-    const Projection projection = stop.project(path, course);
     const ForceMoments old = {force_[0][i], force_[1][i], force_[2][i]};
     const StepFlow::Derived& known = derived(flow, i);
+    const bool was_spring = stop.is_spring(path, course);
     see(i);
-    const ForceMoments more = own_[place].correction(
-        course == StopForce::Course::closed ? known.inverse : own_[place].inverse(projection.closed, known.coupling),
-        projection.force, old);
-    if (orders_ == 1) force_[1][i] = projection.force[1];  // for the estimate alone
+    ForceMoments projected, more;
+    if (was_spring) {
+      projected = stop.of_spring(path);
+      more = own_[place].correction(known.inverse, projected, old);
+    } else {
+      const Projection projection = stop.project(path, course);
+      projected = projection.force;
+      more = own_[place].correction(
+          course == StopForce::Course::closed ? known.inverse : own_[place].inverse(projection.closed, known.coupling),
+          projected, old);
+    }
+    if (orders_ == 1) force_[1][i] = projected[1];  // for the estimate alone
     const bool stays = more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0;
     const double moved = stays ? 0.0 : add_force(flow, i, more);
     if (!std::isfinite(moved)) return moved;
     // The force of a spring was found for where it has led; of all others for where they were.
-    if (stop.is_spring(path, course) && is_spring(i)) see(i);
+    if (was_spring && is_spring(i)) see(i);
     change = std::max(change, moved);
   }
   return change;

@@ -101,14 +101,6 @@ OwnForce::Matrix OwnForce::closed_inverse(const PathCoupling& coupling) const {
   return inverse(kReciprocals, coupling);
 }
 
-ForceMoments OwnForce::correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const {
-  std::array<double, 3> r{};
-  for (std::size_t k = 0; k < orders_; ++k) r[k] = projected[k] - old[k];
-  return {inverse[0] * r[0] + inverse[1] * r[1] + inverse[2] * r[2],
-          inverse[3] * r[0] + inverse[4] * r[1] + inverse[5] * r[2],
-          inverse[6] * r[0] + inverse[7] * r[1] + inverse[8] * r[2]};
-}
-
 StopForce::StopForce(solve::Contact& contact, Index stop)
     : contact_(contact),
       stop_(stop),
@@ -141,10 +133,6 @@ Projection StopForce::project(const StopPath& path, Course course) {
   if (course == Course::closed) add_spring(path, 0.0, 1.0, side, sum);
   if (!is_linear_) add(sum.force, of_constant_rest(path, 0.0, 1.0, side));
   return sum;
-}
-
-bool StopForce::is_spring(const StopPath& path, Course course) const {
-  return course == Course::closed && (is_linear_ || is_constant_beside_bends(path));
 }
 
 bool StopForce::of_one_crossing(const StopPath& path, Projection& to) {

@@ -19,8 +19,8 @@ class StopPath {
     // The cubic's Bernstein coefficients, raised by a degree; the bulge has only the one in the middle.
     const double p1 = w0 + hv0 / 3.0, p2 = w1 - hv1 / 3.0;
     const double b1 = 0.25 * w0 + 0.75 * p1, b2 = 0.5 * (p1 + p2) + b / 6.0, b3 = 0.75 * p2 + 0.25 * w1;
-    lowest_ = std::min({w0, b1, b2, b3, w1});
-    highest_ = std::max({w0, b1, b2, b3, w1});
+    lowest_ = std::min(std::min(std::min(w0, w1), std::min(b1, b3)), b2);
+    highest_ = std::max(std::max(std::max(w0, w1), std::max(b1, b3)), b2);
   }
 
   double value(double s) const { return (((c_[4] * s + c_[3]) * s + c_[2]) * s + c_[1]) * s + c_[0]; }
@@ -65,7 +65,13 @@ class OwnForce {
   /// Of a stop that is closed throughout.
   Matrix closed_inverse(const PathCoupling& coupling) const;
   /// The change of f from `old`.
-  ForceMoments correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const;
+  ForceMoments correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const {
+    ForceMoments r{};
+    for (std::size_t k = 0; k < orders_; ++k) r[k] = projected[k] - old[k];
+    return {inverse[0] * r[0] + inverse[1] * r[1] + inverse[2] * r[2],
+            inverse[3] * r[0] + inverse[4] * r[1] + inverse[5] * r[2],
+            inverse[6] * r[0] + inverse[7] * r[1] + inverse[8] * r[2]};
+  }
 
  private:
   double stiffness_;
@@ -100,7 +106,20 @@ class StopForce {
   }
   Projection project(const StopPath& path, Course course);
   /// Whether the force is that of a spring and a constant throughout.
-  bool is_spring(const StopPath& path, Course course) const;
+  bool is_spring(const StopPath& path, Course course) const {
+    return course == Course::closed && (is_linear_ || is_constant_beside_bends(path));
+  }
+  /// What project() gives where that is so, but for the places, which are all.
+  ForceMoments of_spring(const StopPath& path) {
+    const double side = on_upper_ && path.value(0.5) > gap_ ? 1.0 : -1.0;
+    const std::array<double, 5>& c = path.coefficients();
+    // (2 k + 1) int_0^1 P_k(s) s^j ds: j! j! (2 k + 1) / ((j - k)! (j + k + 1)!)
+    const double f0 = c[0] - side * gap_ + c[1] / 2.0 + c[2] / 3.0 + c[3] / 4.0 + c[4] / 5.0,
+                 f1 = (c[1] + c[2]) / 2.0 + 0.45 * c[3] + 0.4 * c[4],
+                 f2 = c[2] / 6.0 + 0.25 * c[3] + (2.0 / 7.0) * c[4];
+    const double rest = is_linear_ ? 0.0 : constant_rest(path.value(0.5), side);
+    return {rest - stiffness_ * f0, -stiffness_ * f1, -stiffness_ * f2};
+  }
   /// Along a path without contact, the pull of a regularised law: a constant but for where it jumps.
   ForceMoments far_force(const StopPath& path);
   double stiffness() const { return stiffness_; }
