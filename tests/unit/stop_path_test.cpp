@@ -40,7 +40,8 @@ ForceMoments by_simpson(solve::Contact& contact, const StopPath& path) {
   return sum;
 }
 
-/// Paths of all kinds: random ends and bulges around a gap of 0.5. The number of those along which the stop is a spring.
+/// Paths of all kinds: random ends and bulges around a gap of 0.5. The number of those along which the stop is a
+/// spring.
 int compare(const std::string& law, double tolerance) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.5, 1.5);
