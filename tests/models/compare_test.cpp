@@ -161,7 +161,8 @@ TEST(Compare, RefusesWhatItCannotCompare) {
 
 TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
   const TemporaryFolder folder;
-  const Outcome orderly = run_program({"run", model_path("beam1"), "--trust", "-o", "out"}, folder.path());
+  const Outcome orderly = run_program(
+      {"run", model_path("beam1"), "--set", "integrator.time_step=1e-4", "--trust", "-o", "out"}, folder.path());
   ASSERT_EQ(orderly.status, 0) << orderly.errors;
   EXPECT_NE(orderly.output.find("to the end: the run stands"), std::string::npos) << orderly.output;
   EXPECT_EQ(orderly.output.find("grow like e^"), std::string::npos) << orderly.output;

@@ -10,12 +10,14 @@ namespace {
 
 /// Evaluations and solves of a run, which is cut there: some ten thousand steps of a small scene.
 constexpr std::int64_t kWork = 20000;
-/// The sanitizers, under which a run takes ten times as long, see every fourth scene of a list: they look at the
-/// code, and the numbers are the optimised build's to check.
+/// The sanitizers, under which a run takes ten times as long, see every fourth scene of a list and the ends of each
+/// axis: they look at the code, and the numbers are the optimised build's to check.
 #ifdef __SANITIZE_ADDRESS__
 constexpr std::uint64_t kEvery = 4;
+constexpr int kPoints = 2;
 #else
 constexpr std::uint64_t kEvery = 1;
+constexpr int kPoints = 3;  ///< along an axis of the corners
 #endif
 
 void expect_no_failure(const Tally& tally, std::size_t scenes) {
@@ -34,7 +36,7 @@ void expect_no_failure(const Tally& tally, std::size_t scenes) {
 }
 
 TEST(Stress, CornersOfTheSpaceOfScenes) {
-  const auto scenes = corner_scenes(3);
+  const auto scenes = corner_scenes(kPoints);
   Tally tally;
   run_all(scenes, methods(), kWork, tally);
   expect_no_failure(tally, scenes.size());
