@@ -1,4 +1,5 @@
 // Of ExponentialStep: what open stops of a regularised law pull.
+#include <algorithm>
 #include <cmath>
 
 #include "integrators/exponential_step.hpp"
@@ -17,10 +18,12 @@ bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
 
 void ExponentialStep::find_steady(StepFlow& flow) {
   const Index m = modal_.stop_count();
-  const double steps = steps_of(reached_, flow.h()), felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
-  const auto w0 = w_.head(m), w1 = w_new_.head(m);
   const auto shift = pull_sizes_.head(m) * flow.mobilities().abs();
   largest_shift_ = shift.maxCoeff();
+  // What is at rest and free is soon as fast as the pull makes it.
+  reached_.speed = std::max(reached_.speed, 2.0 * largest_shift_ / flow.h());
+  const double steps = steps_of(reached_, flow.h()), felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
+  const auto w0 = w_.head(m), w1 = w_new_.head(m);
   const auto part = bends_.head(m) / (gaps_.head(m) - reach_.head(m));
   is_steady_.head(m) =
       w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > shift && shift * part.square() * (steps * steps / 3.0) <= felt;

@@ -183,7 +183,7 @@ class ExponentialStep {
 
   Eigen::ArrayXd q_, v_;
   StopScale scale_;
-  StopScale reached_;  ///< the scale, with the end of the step without forces
+  StopScale reached_;  ///< the scale, with the end of the step without forces and the speed by a pull
   Eigen::ArrayXd q_new_, v_new_, q_half_, v_half_;
   double middle_knot_ = 0.0;  ///< its time; 0: there is none
   std::array<Eigen::ArrayXd, 3> sums_;

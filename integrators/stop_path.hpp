@@ -111,7 +111,7 @@ class StopForce {
   }
   /// What project() gives where that is so, but for the places, which are all.
   ForceMoments of_spring(const StopPath& path) {
-    const double side = on_upper_ && path.value(0.5) > gap_ ? 1.0 : -1.0;
+    const double side = on_upper_ && path.lowest() >= gap_ ? 1.0 : -1.0;
     const std::array<double, 5>& c = path.coefficients();
     // (2 k + 1) int_0^1 P_k(s) s^j ds: j! j! (2 k + 1) / ((j - k)! (j + k + 1)!)
     const double f0 = c[0] - side * gap_ + c[1] / 2.0 + c[2] / 3.0 + c[3] / 4.0 + c[4] / 5.0,

@@ -109,6 +109,32 @@ TEST(Exponential, StartsFromRestAnywhereInTheGap) {
   }
 }
 
+/// Two masses without springs: nothing but the pull of the stops moves them, at first by less than an
+/// output could show.
+TEST(Exponential, IsMovedByThePullOfItsStopsAlone) {
+  const std::string stops =
+      "[[contact]]\ntype = \"stop\"\nnodes = [\"a\", \"b\"]\ngap = 0.01\nstiffness = 1e6\nlaw = \"arctan\"\n"
+      "regularization = 7e7\n[initial]\ndisplacement = [{nodes = [\"a\", \"b\"], value = 5e-3}]\n[integrator]\n"
+      "end_time = 1.0\n";
+  const std::string masses =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\n"
+      "name = \"b\"\nmass = 2.0\n" +
+      stops;
+  const auto end_of = [&](const std::string& keys, const char* node) {
+    SceneRun run(masses + keys);
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    return run.simulation().state().x[run.dof(node)];
+  };
+  for (const char* node : {"a", "b"}) {
+    const double exact = end_of("type = \"exact\"\ntime_step = 1e-2\n", node);
+    EXPECT_GT(exact, 5.1e-3) << node;
+    for (const double tolerance : {1e-3, 1e-4})
+      EXPECT_NEAR(end_of("type = \"exponential\"\ntolerance = " + to_text(tolerance) + "\n", node), exact,
+                  10.0 * tolerance * 5e-3)
+          << node << " at " << tolerance;
+  }
+}
+
 /// In the very middle of the gap both stops pull alike, on whichever way the force is computed.
 TEST(Exponential, StaysAtRestInTheMiddleOfTheGap) {
   for (const char* model : {"oscillator", "beam1"}) {
