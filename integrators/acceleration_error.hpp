@@ -12,8 +12,8 @@ namespace butee::integrators {
 /// memory of a state holds LocalErrorControl's part, then h, lag, d (0 where s is not known), s and a_n.
 class AccelerationError {
  public:
-  AccelerationError(solve::Dynamics& dynamics, double tolerance)
-      : control_(dynamics, tolerance, {3.0, 2.0, 1.0, kKink}, LocalErrorControl::Steps::ladder) {}
+  AccelerationError(solve::Dynamics& dynamics, const Goal& goal)
+      : control_(dynamics, goal, {3.0, 2.0, kConstant, kKink}, LocalErrorControl::Steps::ladder) {}
 
   const time::StepController& controller() const { return control_.controller(); }
   double first_step() const { return control_.first_step(); }
@@ -25,22 +25,24 @@ class AccelerationError {
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef a, double lag,
              time::StepReport& report);
   /// Of a state from which another motion begins: the next step is judged as the first one is.
-  static void forget_slope(time::State& state) { state.memory[kDistance] = 0.0; }
+  static void forget_slope(time::State& state) { state.memory[place(state) + kDistance] = 0.0; }
 
   /// The length of the step to a state, s; 0 where no slope is known.
   static double last_step(const time::State& state) {
-    return state.memory[kDistance] > 0.0 ? state.memory[kStep] : 0.0;
+    return state.memory[place(state) + kDistance] > 0.0 ? state.memory[place(state) + kStep] : 0.0;
   }
   /// The acceleration at t + offset along the last slope.
   static auto extrapolated(const time::State& state, double offset) {
-    const Index n = state.x.size();
-    return state.memory.segment(kSlope + n, n) + (state.memory[kLag] + offset) * state.memory.segment(kSlope, n);
+    const Index n = state.x.size(), at = place(state);
+    return state.memory.segment(at + kSlope + n, n) +
+           (state.memory[at + kLag] + offset) * state.memory.segment(at + kSlope, n);
   }
 
  private:
-  static constexpr double kKink = 4.0;
-  static constexpr Index kStep = LocalErrorControl::kMemory, kLag = kStep + 1, kDistance = kLag + 1,
-                         kSlope = kDistance + 1;
+  static constexpr double kConstant = 1.0, kKink = 10.0;
+  /// Places behind the control's memory.
+  static constexpr Index kStep = 0, kLag = 1, kDistance = 2, kSlope = 3;
+  static Index place(const time::State& state) { return LocalErrorControl::memory_size(state.x.size()); }
 
   LocalErrorControl control_;
   Vector slope_, error_x_, error_v_;

@@ -12,11 +12,11 @@ namespace {
 constexpr double kFirstRadius = 32.0;
 /// Of the radius: a part to the next one, and the inner part of one.
 constexpr double kGrowth = 1.5, kInner = 0.75;
-/// So much of the tolerance may be in the outer part.
-constexpr double kNegligible = 0.1;
 /// Of what closes a stop's gap, over the tolerance: a law that pulls by more as soon as anything moves counts as
 /// moving.
 constexpr double kUnfelt = 0.005;
+/// Entries of the memory before the scales.
+const Index kBefore = LocalErrorControl::memory_size(0);
 
 /// The DOFs that loads, the initial motion, stops that push at rest, and laws that pull at open stops begin with.
 std::vector<Index> moving_first(solve::Dynamics& dynamics, double tolerance) {
@@ -66,8 +66,8 @@ bool ActivePart::can_take(solve::Dynamics& dynamics, double tolerance) {
   return is_small(within(distances_of(dynamics, tolerance), kFirstRadius), dynamics.size());
 }
 
-ActivePart::ActivePart(solve::Dynamics& dynamics, double tolerance, Make make)
-    : Integrator(dynamics), tolerance_(tolerance), make_(make), distances_(distances_of(dynamics, tolerance)) {
+ActivePart::ActivePart(solve::Dynamics& dynamics, const Goal& goal, Make make)
+    : Integrator(dynamics), goal_(goal), make_(make), distances_(distances_of(dynamics, goal.tolerance)) {
   parts_.push_back(make_part(0));
 }
 
@@ -81,20 +81,19 @@ ActivePart::Part ActivePart::make_part(std::size_t place) const {
   const double radius = kFirstRadius * std::pow(kGrowth, static_cast<double>(place));
   std::vector<Index> dofs = within(distances_, radius);
   if (!is_small(dofs, dynamics().size())) {
-    part.method = make_(dynamics(), tolerance_);
+    part.method = make_(dynamics(), goal_);
     return part;
   }
   part.dofs = std::move(dofs);
   part.system = std::make_unique<model::System>(model::part_of(dynamics().system(), part.dofs));
   part.dynamics = std::make_unique<solve::Dynamics>(*part.system);
-  part.method = make_(*part.dynamics, tolerance_);
+  part.method = make_(*part.dynamics, goal_);
   const auto size = static_cast<Index>(part.dofs.size());
   part.is_outer = Vector::Zero(size);
   for (Index i = 0; i < size; ++i) {
     const Index distance = distances_[static_cast<std::size_t>(part.dofs[static_cast<std::size_t>(i)])];
     if (static_cast<double>(distance) > kInner * radius) part.is_outer[i] = 1.0;
   }
-  part.work = part.outer = Vector::Zero(size);
   return part;
 }
 
@@ -119,19 +118,20 @@ void ActivePart::do_start(time::State& state) {
     part.dynamics->counters() = {};
     part.method->start(part.from);
     dynamics().counters() = dynamics().counters() + part.dynamics->counters();
-    state.memory = part.from.memory;
+    state.memory = Vector::Zero(place_of_part());
+    extend_memory(part, part.from.memory, state.memory);
   }
-  state.memory.conservativeResize(kPart + 1);
-  state.memory[kPart] = static_cast<double>(place);
+  state.memory.conservativeResize(place_of_part() + 1);
+  state.memory[place_of_part()] = static_cast<double>(place);
 }
 
 time::StepReport ActivePart::do_step(const time::State& from, const time::Step& step, time::State& to) {
-  require(from.memory.size() == kPart + 1, "a state of this method");
+  require(from.memory.size() == place_of_part() + 1, "a state of this method");
   for (int redone = 0;; ++redone) {
-    const std::size_t place = static_cast<std::size_t>(from.memory[kPart]) + static_cast<std::size_t>(redone);
+    const std::size_t place = static_cast<std::size_t>(from.memory[place_of_part()]) + static_cast<std::size_t>(redone);
     Part& part = at(place);
     time::StepReport report = part.is_whole() ? part.method->step(from, step, to) : step_on(part, from, step, to);
-    to.memory[kPart] = static_cast<double>(place);
+    to.memory[place_of_part()] = static_cast<double>(place);
     const bool stands = report.status == time::StepStatus::ok && controller()->decide(step.h, report).accept;
     report.inner_rejected += redone;
     if (part.is_whole() || !stands || !has_come_near(part)) return report;
@@ -143,7 +143,8 @@ time::StepReport ActivePart::step_on(Part& part, const time::State& from, const 
   part.from.x = from.x(part.dofs);
   part.from.v = from.v(part.dofs);
   part.from.a = from.a(part.dofs);
-  part.from.memory = from.memory;
+  restrict_memory(part, from.memory, part.from.memory);
+  part.to.memory.resize(part.from.memory.size());
   part.dynamics->loads_changed();  // Nobody tells it when they do.
   part.dynamics->counters() = {};
   const time::StepReport report = part.method->step(part.from, step, part.to);
@@ -154,18 +155,33 @@ time::StepReport ActivePart::step_on(Part& part, const time::State& from, const 
   to.x(part.dofs) = part.to.x;
   to.v(part.dofs) = part.to.v;
   to.a(part.dofs) = part.to.a;
-  to.memory = part.to.memory;
+  to.memory = from.memory;
+  extend_memory(part, part.to.memory, to.memory);
   return report;
 }
 
-bool ActivePart::has_come_near(Part& part) const {
-  const auto norm = [&](const Vector& y) {
-    part.outer = y.cwiseProduct(part.is_outer);
-    part.dynamics->inertia_force(part.outer, part.work);
-    return std::sqrt(std::max(0.0, part.outer.dot(part.work)));
+void ActivePart::restrict_memory(const Part& part, const Vector& whole, Vector& to) {
+  const auto size = static_cast<Index>(part.dofs.size()), all = (whole.size() - kBefore) / 2;
+  to.resize(LocalErrorControl::memory_size(size));
+  to.head(kBefore) = whole.head(kBefore);
+  to.segment(kBefore, size) = whole.segment(kBefore, all)(part.dofs);
+  to.tail(size) = whole.segment(kBefore + all, all)(part.dofs);
+}
+
+void ActivePart::extend_memory(const Part& part, const Vector& from, Vector& whole) {
+  const auto size = static_cast<Index>(part.dofs.size()), all = (whole.size() - kBefore) / 2;
+  whole.head(kBefore) = from.head(kBefore);
+  whole.segment(kBefore, all)(part.dofs) = from.segment(kBefore, size);
+  whole.segment(kBefore + all, all)(part.dofs) = from.tail(size);
+}
+
+bool ActivePart::has_come_near(const Part& part) const {
+  const double tolerance = goal_.tolerance;
+  const auto exceeds = [&](const Vector& y, const auto& scale) {
+    return (y.array().abs() * part.is_outer.array() > tolerance * scale.array()).any();
   };
-  const double enough = kNegligible * tolerance_;
-  return norm(part.to.x) > enough * part.to.memory[0] || norm(part.to.v) > enough * part.to.memory[1];
+  return exceeds(part.to.x, LocalErrorControl::scales_x(part.to)) ||
+         exceeds(part.to.v, LocalErrorControl::scales_v(part.to));
 }
 
 }  // namespace butee::integrators

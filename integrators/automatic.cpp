@@ -40,8 +40,8 @@ Cost estimate(solve::Dynamics& dynamics, double tolerance, double end_time) {
           (0.8 * n + 4.0 * turns) * finer * (6e-8 * n + 1.1e-11 * m * m * m)};
 }
 
-std::unique_ptr<time::Integrator> make_rodas4(solve::Dynamics& dynamics, double tolerance) {
-  return std::make_unique<Rodas4>(dynamics, tolerance);
+std::unique_ptr<time::Integrator> make_rodas4(solve::Dynamics& dynamics, const Goal& goal) {
+  return std::make_unique<Rodas4>(dynamics, goal);
 }
 
 }  // namespace
@@ -71,10 +71,10 @@ std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, doub
     integrator = make_exponential(dynamics, {tolerance, 6, 0});
   } else if (ActivePart::can_take(dynamics, tolerance)) {
     what = "rodas4" + with + " on the part that moves";
-    integrator = std::make_unique<ActivePart>(dynamics, tolerance, make_rodas4);
+    integrator = std::make_unique<ActivePart>(dynamics, Goal{tolerance, end_time}, make_rodas4);
   } else {
     what = "rodas4" + with;
-    integrator = make_rodas4(dynamics, tolerance);
+    integrator = make_rodas4(dynamics, {tolerance, end_time});
   }
   integrator->set_choice(what + ": " + choice.why);
   return integrator;
@@ -84,7 +84,7 @@ time::IntegratorType auto_type() {
   return {.name = "auto",
           .aliases = {"AUTO"},
           .summary = "looks at the scene and takes the method that suits it; the default",
-          .parameters = {LocalErrorControl::parameter(1e-4)},
+          .parameters = {LocalErrorControl::parameter(1e-4, 1e-10)},
           .finds_first_step = true,
           .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return make_automatic(dynamics, p.number("tolerance"), p.number("end_time"));

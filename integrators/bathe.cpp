@@ -12,20 +12,23 @@ constexpr double kGamma = 2.0 - std::numbers::sqrt2;
 constexpr double kMiddle = 1.0 / (kGamma * (2.0 - kGamma));
 constexpr double kOld = 1.0 - kMiddle;
 constexpr double kStage = 0.5 * kGamma;
+constexpr double kConstant = 1.0, kKink = 10.0;
 /// h times these of y' at the three points is the difference to the embedded formula of order 3.
 constexpr double kWeight = std::numbers::sqrt2 / 4.0;
 constexpr double kError0 = (4.0 * kWeight - 1.0) / 3.0, kError1 = -1.0 / 3.0, kError2 = 2.0 * kStage / 3.0;
 
 }  // namespace
 
-Bathe::Bathe(solve::Dynamics& dynamics, double tolerance) : Integrator(dynamics), stage_(dynamics, kNewton) {
-  if (tolerance > 0.0)
-    control_.emplace(dynamics, tolerance, LocalErrorControl::Orders{3.0, 2.0}, LocalErrorControl::Steps::ladder);
+Bathe::Bathe(solve::Dynamics& dynamics, const std::optional<Goal>& goal)
+    : Integrator(dynamics), stage_(dynamics, kNewton) {
+  if (goal)
+    control_.emplace(dynamics, *goal, LocalErrorControl::Orders{3.0, 2.0, kConstant, kKink},
+                     LocalErrorControl::Steps::ladder);
 }
 
 void Bathe::do_start(time::State& state) {
   if (!control_) return;
-  state.memory.resize(LocalErrorControl::kMemory);
+  state.memory.resize(LocalErrorControl::memory_size(state.x.size()));
   control_->start(state);
 }
 
@@ -53,7 +56,7 @@ namespace {
 
 time::IntegratorType type_of(bool is_adaptive) {
   std::vector<config::Parameter> parameters;
-  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
+  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4, LocalErrorControl::kSecondOrder));
   return {.name = is_adaptive ? "bathe_adaptive" : "bathe",
           .aliases = {is_adaptive ? "BATHE2" : "BATHE1"},
           .summary = is_adaptive ? "composite trapezoid and backward differences, L-stable, steps by the local error"
@@ -64,7 +67,7 @@ time::IntegratorType type_of(bool is_adaptive) {
           .finds_first_step = is_adaptive,
           .make = [is_adaptive](const config::Parameters& p,
                                 solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<Bathe>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
+            return std::make_unique<Bathe>(dynamics, Goal::read_if(is_adaptive, p));
           }};
 }
 

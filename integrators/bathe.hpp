@@ -17,8 +17,8 @@ namespace butee::integrators {
 /// 10.1016/0168-9274(95)00115-8.
 class Bathe final : public time::Integrator {
  public:
-  /// `tolerance` 0: fixed steps.
-  Bathe(solve::Dynamics& dynamics, double tolerance);
+  /// Without a goal: fixed steps.
+  Bathe(solve::Dynamics& dynamics, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
   double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }

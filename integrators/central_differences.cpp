@@ -4,8 +4,9 @@
 
 namespace butee::integrators {
 
-CentralDifferences::CentralDifferences(solve::Dynamics& dynamics, double tolerance) : Integrator(dynamics) {
-  if (tolerance > 0.0) control_.emplace(dynamics, tolerance);
+CentralDifferences::CentralDifferences(solve::Dynamics& dynamics, const std::optional<Goal>& goal)
+    : Integrator(dynamics) {
+  if (goal) control_.emplace(dynamics, *goal);
 }
 
 void CentralDifferences::do_start(time::State& state) {
@@ -28,7 +29,7 @@ namespace {
 
 time::IntegratorType type_of(bool is_adaptive) {
   std::vector<config::Parameter> parameters;
-  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-3));
+  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-3, LocalErrorControl::kSecondOrder));
   return {.name = is_adaptive ? "central_differences_adaptive" : "central_differences",
           .aliases = {is_adaptive ? "CD2" : "CD1"},
           .summary = is_adaptive ? "central differences, explicit, steps by the local error"
@@ -41,7 +42,7 @@ time::IntegratorType type_of(bool is_adaptive) {
           .finds_first_step = is_adaptive,
           .make = [is_adaptive](const config::Parameters& p,
                                 solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<CentralDifferences>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
+            return std::make_unique<CentralDifferences>(dynamics, Goal::read_if(is_adaptive, p));
           }};
 }
 

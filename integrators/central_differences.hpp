@@ -16,8 +16,8 @@ namespace butee::integrators {
 /// Nonlinear Finite Elements for Continua and Structures, section 6.2.
 class CentralDifferences final : public time::Integrator {
  public:
-  /// `tolerance` 0: fixed steps.
-  CentralDifferences(solve::Dynamics& dynamics, double tolerance);
+  /// Without a goal: fixed steps.
+  CentralDifferences(solve::Dynamics& dynamics, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
   double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }

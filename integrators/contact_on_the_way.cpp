@@ -6,8 +6,12 @@
 namespace butee::integrators {
 namespace {
 
-/// A jump of the force by so much of what closes the gap, over the tolerance, moves nothing by the tolerance.
+/// Force jumps below kUnfelt * tolerance * k * gap are ignored.
 constexpr double kUnfelt = 0.05;
+/// Impulses below this part of the tolerance times m S_v are ignored.
+constexpr double kUnfeltImpulse = 0.1;
+/// Penetrations below this part of the displacement are rounding.
+constexpr double kRounding = 1e-13;
 
 /// The largest value that the motion through (w0, v0) and (w1, v1), a step of h apart, may have, which rises at first
 /// and falls at last: that of the cubic, and its error as its acceleration at the start tells it, where the true one is
@@ -28,13 +32,20 @@ ContactOnTheWay::ContactOnTheWay(solve::Dynamics& dynamics, double tolerance)
     : contact_(&dynamics.contact()), tolerance_(tolerance) {
   w0_ = w1_ = v0_ = v1_ = a0_ = Vector::Zero(contact_->size());
   jumps_ = w0_;
-  const Vector closed = contact_->closed_stiffness(), mass = dynamics.system().mass.diagonal();
+  closed_ = contact_->closed_stiffness();
+  mass_ = dynamics.system().mass.diagonal();
   for (Index i = 0; i < contact_->size(); ++i) {
     const double gap = contact_->gap_of(i), force = std::abs(contact_->law_of(i).secant(-gap)) * gap;
-    if (contact_->sides_of(i) != model::Sides::both || !(force > kUnfelt * tolerance * closed[i] * gap)) continue;
-    for (const Index dof : {contact_->dof_a(i), contact_->dof_b(i)})
-      if (dof >= 0) jumps_[i] = std::max(jumps_[i], 2.0 * force / std::sqrt(mass[dof]));
+    if (contact_->sides_of(i) == model::Sides::both && force > kUnfelt * tolerance * closed_[i] * gap)
+      jumps_[i] = 2.0 * force;
   }
+}
+
+double ContactOnTheWay::impulse_rate(Index stop, const Vector& scale_v) const {
+  double rate = 0.0;
+  for (const Index dof : {contact_->dof_a(stop), contact_->dof_b(stop)})
+    if (dof >= 0 && scale_v[dof] > 0.0) rate = std::max(rate, 1.0 / (mass_[dof] * scale_v[dof]));
+  return rate;
 }
 
 bool ContactOnTheWay::changed(const time::State& from, const time::State& to) {
@@ -53,17 +64,17 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to) {
   return false;
 }
 
-double ContactOnTheWay::jump(const time::State& from, const time::State& to) {
+double ContactOnTheWay::jump(const time::State& from, const time::State& to, const Vector& scale_v) {
   double largest = 0.0;
   if (!(jumps_.array() > 0.0).any()) return largest;
   contact_->displacement(from.x, w0_);
   contact_->displacement(to.x, w1_);
   for (Index i = 0; i < w0_.size(); ++i)
-    if (has_passed_middle(i)) largest = std::max(largest, jumps_[i]);
+    if (has_passed_middle(i)) largest = std::max(largest, jumps_[i] * impulse_rate(i, scale_v));
   return largest;
 }
 
-bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h) {
+bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h, const Vector& scale_v) {
   if (contact_->size() == 0) return false;
   contact_->displacement(from.v, v0_);
   contact_->displacement(to.v, v1_);
@@ -78,12 +89,16 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
     const model::Sides sides = contact_->sides_of(i);
     if (sides != model::Sides::both && (sides == model::Sides::positive) != (side > 0.0)) continue;
     const double gap = contact_->gap_of(i), w0 = side * w0_[i], w1 = side * w1_[i];
-    const auto is_passed = [&](double border) {
-      if (w0 >= border || w1 >= border) return false;
-      const double depth = peak(h, w0, side * v0_[i], side * a0_[i], w1, side * v1_[i]) - border;
-      return depth > tolerance_ * std::max({gap, std::abs(w0), std::abs(w1)});
+    const double size = std::max({gap, std::abs(w0), std::abs(w1)});
+    const auto depth_beyond = [&](double border) {
+      if (w0 >= border || w1 >= border) return 0.0;
+      return peak(h, w0, side * v0_[i], side * a0_[i], w1, side * v1_[i]) - border;
     };
-    if (is_passed(gap) || (jumps_[i] > 0.0 && is_passed(0.0))) return true;
+    const double depth = depth_beyond(gap);
+    if (depth > tolerance_ * size) return true;
+    if (depth > kRounding * size && closed_[i] * depth * h * impulse_rate(i, scale_v) > kUnfeltImpulse * tolerance_)
+      return true;
+    if (jumps_[i] > 0.0 && depth_beyond(0.0) > tolerance_ * size) return true;
   }
   return false;
 }

@@ -17,21 +17,28 @@ class ContactOnTheWay {
   /// jumped from one side to the other between them: a law that is blunt against the gap, such as arctan with a lambda
   /// of a few gaps, pulls at the middle already.
   bool changed(const time::State& from, const time::State& to);
-  /// The largest such jump between them, as the acceleration sqrt(a.M a) that it makes; 0 where there is none. How
-  /// wrong a step becomes by it no estimate tells that has the jump in its middle, where errors of all stages cancel.
-  double jump(const time::State& from, const time::State& to);
+  /// The largest such jump between them, as the acceleration of its DOF over that DOF's velocity scale, 1/s; 0 where
+  /// there is none. An estimate does not see a jump in the middle of a step, where the errors of all stages cancel.
+  double jump(const time::State& from, const time::State& to, const Vector& scale_v);
   /// True where a stop is open at both ends and was closed on the way, or beyond such a jump, as far as the cubic
-  /// through displacements and speeds at both ends can tell, by more than the tolerance times its displacement or gap.
-  /// Whatever is less is what the tolerance allows for anyway.
-  bool was_missed(const time::State& from, const time::State& to, double h);
+  /// through displacements and speeds at both ends can tell. Smaller penetrations than the tolerance times displacement
+  /// or gap are ignored if their impulse, at most k depth h, is less than kUnfeltImpulse times the tolerance of m S_v.
+  bool was_missed(const time::State& from, const time::State& to, double h, const Vector& scale_v);
 
  private:
-  /// A start in the middle itself is on neither side.
-  bool has_passed_middle(Index stop) const { return jumps_[stop] > 0.0 && w0_[stop] * w1_[stop] < 0.0; }
+  /// In the middle itself there is no force.
+  bool has_passed_middle(Index stop) const {
+    return jumps_[stop] > 0.0 && w0_[stop] * w1_[stop] <= 0.0 && w0_[stop] != w1_[stop];
+  }
 
   solve::Contact* contact_;
   double tolerance_;
-  Vector jumps_;  ///< of each stop at the middle of its gap, where it is more than the tolerance allows for, or 0
+  /// The largest k depth/(m S_v) of stop i for a depth of 1, 1/s.
+  double impulse_rate(Index stop, const Vector& scale_v) const;
+
+  Vector mass_;    ///< diagonal
+  Vector closed_;  ///< stiffness of closed stops, N/m
+  Vector jumps_;   ///< N, of each stop at the middle of its gap, where it is more than the tolerance allows for, or 0
   Vector w0_, w1_, v0_, v1_, a0_;
 };
 

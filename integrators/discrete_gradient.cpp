@@ -42,9 +42,9 @@ void DiscreteGradientStage::contact(ConstVectorRef w, bool, VectorRef f, VectorR
   }
 }
 
-DiscreteGradient::DiscreteGradient(solve::Dynamics& dynamics, double tolerance)
+DiscreteGradient::DiscreteGradient(solve::Dynamics& dynamics, const std::optional<Goal>& goal)
     : Integrator(dynamics), stage_(dynamics, kNewtonOfEnergies) {
-  if (tolerance > 0.0) control_.emplace(dynamics, tolerance);
+  if (goal) control_.emplace(dynamics, *goal);
 }
 
 void DiscreteGradient::do_start(time::State& state) {
@@ -70,7 +70,7 @@ namespace {
 
 time::IntegratorType type_of(bool is_adaptive) {
   std::vector<config::Parameter> parameters;
-  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
+  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4, LocalErrorControl::kSecondOrder));
   return {.name = is_adaptive ? "discrete_gradient_adaptive" : "discrete_gradient",
           .aliases = {is_adaptive ? "DG2" : "DG1"},
           .summary = is_adaptive ? "midpoint rule that cannot gain energy at a stop, steps by the local error"
@@ -81,7 +81,7 @@ time::IntegratorType type_of(bool is_adaptive) {
           .finds_first_step = is_adaptive,
           .make = [is_adaptive](const config::Parameters& p,
                                 solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<DiscreteGradient>(dynamics, is_adaptive ? p.number("tolerance") : 0.0);
+            return std::make_unique<DiscreteGradient>(dynamics, Goal::read_if(is_adaptive, p));
           }};
 }
 

@@ -32,8 +32,8 @@ class DiscreteGradientStage final : public StageSolver {
 /// and in tests/conformance. Source: O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449-467, doi 10.1007/BF02440162.
 class DiscreteGradient final : public time::Integrator {
  public:
-  /// `tolerance` 0: fixed steps.
-  DiscreteGradient(solve::Dynamics& dynamics, double tolerance);
+  /// Without a goal: fixed steps.
+  DiscreteGradient(solve::Dynamics& dynamics, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
   double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }

@@ -16,8 +16,8 @@ constexpr double kA[7][6] = {{},
                              {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
 constexpr std::array<double, 7> kError = {71.0 / 57600,      0.0,        -71.0 / 16695, 71.0 / 1920,
                                           -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
-/// Calibrated in tests/verification/tolerance_test.cpp.
-constexpr double kShare = 0.05, kKink = 10.0;
+/// Measured in tests/conformance/error_constant_test.cpp.
+constexpr double kConstant = 1.5, kKink = 40.0;
 /// Of h omega on the imaginary axis beyond which undamped motion grows at once.
 constexpr double kLimit = 1.0;
 /// Where |R| = 1 for R(z) = 1 + z + ... + z^5/120 + z^6/600, and h c/m on the negative real axis.
@@ -25,15 +25,15 @@ constexpr double kStabilityLimit = 0.99718900, kDampingLimit = 3.30656789;
 
 }  // namespace
 
-DormandPrince::DormandPrince(solve::Dynamics& dynamics, double tolerance)
+DormandPrince::DormandPrince(solve::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, tolerance, {5.0, 5.0, kShare, kKink}, LocalErrorControl::Steps::any),
+      control_(dynamics, goal, {5.0, 5.0, kConstant, kKink}, LocalErrorControl::Steps::any),
       stiffness_("dopri5", kLimit) {
   for (std::size_t i = 0; i < kStages; ++i) v_[i] = a_[i] = Vector::Zero(dynamics.size());
 }
 
 void DormandPrince::do_start(time::State& state) {
-  state.memory.resize(LocalErrorControl::kMemory);
+  state.memory.resize(LocalErrorControl::memory_size(state.x.size()));
   control_.start(state);
 }
 
@@ -76,13 +76,13 @@ time::IntegratorType dopri5_type() {
   return {.name = "dopri5",
           .aliases = {"DOPRI5"},
           .summary = "explicit Runge-Kutta of order 5(4), steps by the local error",
-          .parameters = {LocalErrorControl::parameter(1e-4)},
+          .parameters = {LocalErrorControl::parameter(1e-4, 1e-11)},
           .order = 5.0,
           .stability_limit = kStabilityLimit,
           .damping_limit = kDampingLimit,
           .finds_first_step = true,
           .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<DormandPrince>(dynamics, p.number("tolerance"));
+            return std::make_unique<DormandPrince>(dynamics, Goal::read(p));
           }};
 }
 

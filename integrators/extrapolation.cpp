@@ -7,22 +7,22 @@ namespace butee::integrators {
 namespace {
 
 constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
-/// Calibrated in tests/verification/tolerance_test.cpp.
-constexpr double kShare = 0.002, kKink = 5.0;
+/// Measured in tests/conformance/error_constant_test.cpp.
+constexpr double kConstant = 7.6, kKink = 40.0;
 /// Of h omega and h c/m of the whole step, where the stability polynomial leaves the unit circle.
 constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
 }  // namespace
 
-Extrapolation::Extrapolation(solve::Dynamics& dynamics, double tolerance)
+Extrapolation::Extrapolation(solve::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, tolerance, {7.0, 8.0, kShare, kKink, kLimit}, LocalErrorControl::Steps::any) {
+      control_(dynamics, goal, {7.0, 8.0, kConstant, kKink, kLimit}, LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
   a_ = Vector::Zero(dynamics.size());
 }
 
 void Extrapolation::do_start(time::State& state) {
-  state.memory.resize(LocalErrorControl::kMemory);
+  state.memory.resize(LocalErrorControl::memory_size(state.x.size()));
   control_.start(state);
 }
 
@@ -82,13 +82,13 @@ time::IntegratorType extrapolation8_type() {
   return {.name = "extrapolation8",
           .aliases = {"GBS8"},
           .summary = "extrapolated midpoint rule of order 8, explicit, steps by the local error",
-          .parameters = {LocalErrorControl::parameter(1e-6)},
+          .parameters = {LocalErrorControl::parameter(1e-6, 1e-12)},
           .order = 8.0,
           .stability_limit = kLimit,
           .damping_limit = kDampingLimit,
           .finds_first_step = true,
           .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<Extrapolation>(dynamics, p.number("tolerance"));
+            return std::make_unique<Extrapolation>(dynamics, Goal::read(p));
           }};
 }
 

@@ -18,10 +18,12 @@ namespace butee::integrators {
 /// II.9.
 class Extrapolation final : public time::Integrator {
  public:
-  Extrapolation(solve::Dynamics& dynamics, double tolerance);
+  Extrapolation(solve::Dynamics& dynamics, const Goal& goal);
 
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State&) const override { return control_.first_step(); }
+  /// Interpolation within its long steps is of a lower order than the steps.
+  bool lands_on_outputs() const override { return true; }
 
  private:
   static constexpr std::size_t kColumns = 4;

@@ -1,5 +1,7 @@
 #include "integrators/generalized_alpha.hpp"
 
+#include <algorithm>
+
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -20,11 +22,13 @@ AlphaParameters AlphaParameters::hht(double alpha) {
   return {0.0, alpha, 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha};
 }
 
-GeneralizedAlpha::GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters, double tolerance)
+GeneralizedAlpha::GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters,
+                                   const std::optional<Goal>& goal)
     : Integrator(dynamics), parameters_(parameters), stage_(dynamics, kNewton) {
-  if (!(tolerance > 0.0)) return;
-  control_.emplace(dynamics, tolerance);
-  contact_.emplace(dynamics, tolerance);
+  if (!goal) return;
+  control_.emplace(dynamics, *goal);
+  kinks_ = dynamics.load_kinks();
+  contact_.emplace(dynamics, goal->tolerance);
 }
 
 void GeneralizedAlpha::do_start(State& state) {
@@ -56,8 +60,8 @@ StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, 
   to.x += beta * h * h * (to.a - old_a_);
   to.v += gamma * h * (to.a - old_a_);
   if (!control_) return report;
-  const bool changed = contact_->changed(from, to);
-  if (!changed) {
+  const bool jumps = std::binary_search(kinks_.begin(), kinks_.end(), step.t_end) || contact_->changed(from, to);
+  if (!jumps) {
     control_->judge(from, to, h, a_, alpha_f * h, report);
     return report;
   }
@@ -72,7 +76,7 @@ namespace {
 time::IntegratorType type_of(std::string name, std::string alias, std::string summary, Parameter dissipation,
                              std::function<AlphaParameters(const Parameters&)> read, bool is_adaptive) {
   std::vector<Parameter> parameters = {std::move(dissipation)};
-  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4));
+  if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4, LocalErrorControl::kSecondOrder));
   return {
       .name = std::move(name),
       .aliases = {std::move(alias)},
@@ -82,7 +86,7 @@ time::IntegratorType type_of(std::string name, std::string alias, std::string su
       .fixed_step = !is_adaptive,
       .finds_first_step = is_adaptive,
       .make = [read, is_adaptive](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-        return std::make_unique<GeneralizedAlpha>(dynamics, read(p), is_adaptive ? p.number("tolerance") : 0.0);
+        return std::make_unique<GeneralizedAlpha>(dynamics, read(p), Goal::read_if(is_adaptive, p));
       }};
 }
 

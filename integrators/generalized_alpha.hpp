@@ -26,15 +26,16 @@ struct AlphaParameters {
 /// One stage solve a step, contact by Newton in stop space.
 ///
 /// Steps by AccelerationError, which sees velocity too, from the accelerations that meet the balance. Those are of an
-/// instant within the step, where a stop that closes later is still open: so where a stop closed or opened the
-/// controlled variants judge and go on with the acceleration of the end itself (one evaluation and one solve with M).
+/// instant within the step, where a stop that closes later is still open: where a stop closed or opened, or a load or
+/// its slope jumps, the controlled variants judge and go on with the acceleration of the end itself (one evaluation
+/// and one solve with M).
 /// The algorithmic a_n is that of t_n + (alpha_m - alpha_f) h, as the expansion of the balance in h shows; where h
 /// changes it is taken anew from the balanced ones, or every change of step would cost an order. Orders are checked in
 /// tests/conformance.
 class GeneralizedAlpha final : public time::Integrator {
  public:
-  /// `tolerance` 0: fixed steps.
-  GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters, double tolerance);
+  /// Without a goal: fixed steps.
+  GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
   double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }
@@ -49,6 +50,7 @@ class GeneralizedAlpha final : public time::Integrator {
   StageSolver stage_;
   std::optional<AccelerationError> control_;
   std::optional<ContactOnTheWay> contact_;
+  std::vector<double> kinks_;  ///< instants at which a load or its slope jumps, s
   Vector x_, v_, a_, old_a_;
 };
 

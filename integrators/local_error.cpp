@@ -7,18 +7,23 @@ namespace butee::integrators {
 namespace {
 
 constexpr double kSafety = 0.9, kLeast = 0.2, kMost = 5.0;
-/// The exponents of r and r_old, times 1/q.
+/// The exponents of r and r_old, times 1/order.
 constexpr double kProportional = 0.7, kIntegral = 0.4;
 /// r_old is taken for no better than this.
 constexpr double kSmallest = 1e-4;
 /// Steps of the ladder within a factor of two; one is gone up where the estimate would allow for kReserve.
 constexpr double kRungs = 4.0;
 constexpr double kReserve = 3.0;
-/// The part of what a jump of the force makes in a step that its speed may be wrong by.
-constexpr double kOfJump = 0.1;
+constexpr double kMostDown = 9.0, kMostUp = 9.0;
 /// The error of a step that went through a stop unseen: enough to be redone, by a ladder with about half its length.
 constexpr double kMissed = 8.0;
-constexpr double kMostDown = 9.0, kMostUp = 9.0;
+/// The part of the account's balance that a step without a change of contact may spend beyond what it earns, as at
+/// starts from rest, whose scales are still small.
+constexpr double kSpendOnSmooth = 1e-3;
+/// The part of the impulse of a jump of the force within a step that the velocity may be wrong by.
+constexpr double kOfJump = 0.1;
+/// Where a stop closes or opens, the error falls with this power of h.
+constexpr double kKinkOrder = 2.0;
 
 /// The highest k/m of a single DOF, 1/s^2.
 double highest(const Vector& stiffness, const Vector& mass) {
@@ -30,14 +35,16 @@ double highest(const Vector& stiffness, const Vector& mass) {
 
 }  // namespace
 
-LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps)
+LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps)
     : dynamics_(dynamics),
-      contact_(dynamics, tolerance),
-      threshold_(orders.share * std::pow(tolerance, orders.estimate / orders.method)),
-      estimate_order_(orders.estimate),
-      kink_(orders.kink),
-      stability_(orders.stability),
+      contact_(dynamics, goal.tolerance),
+      account_(goal),
+      orders_(orders),
+      power_(orders.estimate / (orders.method + 1.0)),
       steps_(steps),
+      scales_(dynamics.system()),
+      scale_x_(dynamics.size()),
+      scale_v_(dynamics.size()),
       work_(dynamics.size()) {
   const model::System& system = dynamics.system();
   Vector stiffness = system.stiffness.diagonal();
@@ -52,66 +59,99 @@ LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, double tolerance
   omega_ = std::sqrt(highest(stiffness, mass));
 }
 
-double LocalErrorControl::norm(ConstVectorRef y) {
-  dynamics_.inertia_force(y, work_);
-  return std::sqrt(std::max(0.0, y.dot(work_)));
-}
-
 void LocalErrorControl::start(time::State& state) {
-  state.memory.head(kMemory) << norm(state.x), norm(state.v), 1.0;
+  const Index n = state.x.size();
+  state.memory.head(memory_size(n)).setZero();
+  state.memory[kOld] = 1.0;
+  state.memory[kAccount] = account_.advance();
+  scales_.raise(state.x, state.memory.segment(kScales, n));
+  scales_.raise(state.v, state.memory.segment(kScales + n, n));
 }
 
-double LocalErrorControl::relative_error(const time::State& from, const time::State& to, double error_x, double error_v,
-                                         double scale_x, double scale_v) {
-  const auto relative = [](double error, double scale) { return error > 0.0 ? error / scale : 0.0; };
-  const double r = std::max(relative(error_x, scale_x), relative(error_v, scale_v));
-  if (!(r > threshold_) || omega_ == 0.0) return r;
-  const double v = std::max(norm(from.a), norm(to.a)) / omega_;
-  return std::max(relative(error_x, std::max(scale_x, v / omega_)), relative(error_v, std::max(scale_v, v)));
+double LocalErrorControl::relative_error(ConstVectorRef error_x, ConstVectorRef error_v) const {
+  double largest = 0.0;
+  const auto look = [&largest](ConstVectorRef error, const Vector& scale) {
+    for (Index i = 0; i < error.size(); ++i)
+      if (error[i] != 0.0) {
+        const double part = std::abs(error[i]) / scale[i];
+        if (!(part <= largest)) largest = part;
+        if (std::isnan(largest)) return;
+      }
+  };
+  look(error_x, scale_x_);
+  if (!std::isnan(largest)) look(error_v, scale_v_);
+  return largest;
 }
 
 void LocalErrorControl::judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
                               ConstVectorRef error_v, time::StepReport& report) {
-  const double scale_x = std::max(from.memory[0], norm(to.x)), scale_v = std::max(from.memory[1], norm(to.v));
-  double r = relative_error(from, to, norm(error_x), norm(error_v), scale_x, scale_v) / threshold_;
-  if (kink_ > 1.0 && r <= 1.0 && contact_.changed(from, to)) r *= kink_;
-  if (const double jump = r <= 1.0 ? contact_.jump(from, to) : 0.0; jump > 0.0)
-    r = std::max(r, kOfJump * h * jump / (threshold_ * std::max(scale_v, std::max(norm(from.a), norm(to.a)) / omega_)));
-  to.memory.head(kMemory) << scale_x, scale_v, std::max(r, kSmallest);
+  const Index n = to.x.size();
+  scale_x_ = scales_x(from);
+  scale_v_ = scales_v(from);
+  scales_.raise(to.x, scale_x_);
+  scales_.raise(to.v, scale_v_);
+  to.memory.segment(kScales, n) = scale_x_;
+  to.memory.segment(kScales + n, n) = scale_v_;
+  const double smooth = std::pow(account_.rate() * h / orders_.constant, power_), earned = account_.rate() * h,
+               balance = from.memory[kAccount] + earned;
+  double epsilon = relative_error(error_x, error_v);
+  if (epsilon > smooth && omega_ > 0.0) {
+    // At a start from rest: relative to the motion that the accelerations make within 1/omega.
+    work_ = (1.0 / omega_) * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs()).cwiseMax((to.v - from.v).cwiseAbs() / h);
+    scales_.raise(work_, scale_v_);
+    work_ = (1.0 / omega_) * scale_v_;
+    scales_.raise(work_, scale_x_);
+    epsilon = relative_error(error_x, error_v);
+  }
+  const bool has_changed = contact_.changed(from, to);
+  double r = epsilon / smooth, charge = 0.0;
+  if (has_changed) {
+    charge = std::max(orders_.kink * epsilon, kOfJump * h * contact_.jump(from, to, scale_v_));
+    r = charge / (ErrorAccount::kSpend * balance);
+  } else if (r > 1.0) {
+    charge = orders_.constant * std::pow(epsilon, 1.0 / power_);
+    r = std::min(r, charge / (kSpendOnSmooth * balance));
+  }
+  to.memory[kOld] = std::max(epsilon / smooth, kSmallest);
+  to.memory[kAccount] = balance - charge;
   if (!std::isfinite(r)) {
     report.status = time::StepStatus::not_finite;
     return;
   }
-  const bool is_unstable = r <= 1.0 && h * omega_ > stability_ && contact_.changed(from, to);
-  if (r <= 1.0 && (is_unstable || contact_.was_missed(from, to, h))) {
+  const bool is_unstable = r <= 1.0 && has_changed && h * omega_ > orders_.stability;
+  if (r <= 1.0 && (is_unstable || contact_.was_missed(from, to, h, scale_v_))) {
     report.error = kMissed;
-    report.proposal = steps_ == Steps::any ? 0.5 * h : ladder_step(h, kMissed);
+    report.proposal = steps_ == Steps::any ? 0.5 * h : ladder_step(h, kMissed, orders_.estimate);
     return;
   }
   report.error = r;
-  report.proposal = steps_ == Steps::any ? any_step(h, r, from.memory[2]) : ladder_step(h, r);
+  const double order = has_changed && r > 1.0 ? kKinkOrder : power_ * orders_.method;
+  const double next = has_changed && r <= 1.0 ? to.memory[kOld] : r;
+  report.proposal = steps_ == Steps::any ? any_step(h, next, from.memory[kOld], order) : ladder_step(h, next, order);
 }
 
-double LocalErrorControl::any_step(double h, double r, double old) const {
-  const double q = estimate_order_, careful = std::max(r, kSmallest);
-  if (r > 1.0) return h * std::clamp(kSafety * std::pow(careful, -1.0 / q), kLeast, kSafety);
-  return h * std::clamp(kSafety * std::pow(careful, -kProportional / q) * std::pow(old, kIntegral / q), kLeast, kMost);
+double LocalErrorControl::any_step(double h, double r, double old, double order) const {
+  const double careful = std::max(r, kSmallest);
+  if (r > 1.0) return h * std::clamp(kSafety * std::pow(careful, -1.0 / order), kLeast, kSafety);
+  return h * std::clamp(kSafety * std::pow(careful, -kProportional / order) * std::pow(old, kIntegral / order), kLeast,
+                        kMost);
 }
 
-double LocalErrorControl::ladder_step(double h, double r) const {
-  const double rungs = std::log2(kSafety / std::max(r, kSmallest)) * kRungs / estimate_order_;
+double LocalErrorControl::ladder_step(double h, double r, double order) const {
+  const double rungs = std::log2(kSafety / std::max(r, kSmallest)) * kRungs / order;
   if (r <= 1.0 && rungs < kReserve) return h;
   const double rung =
       kRungs * std::log2(h) + std::clamp(rungs - (r <= 1.0 ? kReserve - 1.0 : 0.0), -kMostDown, kMostUp);
   return std::exp2(std::floor(rung + 1e-6) / kRungs);
 }
 
-config::Parameter LocalErrorControl::parameter(double fallback) {
-  return config::number("tolerance", "1", "relative error aimed at, in displacements and velocities")
-      .above(0)
+config::Parameter LocalErrorControl::parameter(double fallback, double smallest) {
+  return config::number("tolerance", "1",
+                        "largest relative error of a displacement, rotation or velocity, see `butee help methods`")
+      .at_least(smallest)
       .at_most(0.1)
       .or_else(fallback)
-      .sweep(1e-1, 1e-9);
+      .sweep(1e-1, std::max(smallest, 1e-9));
 }
 
 }  // namespace butee::integrators

@@ -4,56 +4,65 @@
 
 #include "butee/time/integrator.hpp"
 #include "integrators/contact_on_the_way.hpp"
+#include "integrators/error_account.hpp"
 
 namespace butee::integrators {
 
-/// Step control by an estimate of the local error in displacement and velocity, relative to what moves.
+/// Step control by the local error of every component, such that the errors of a whole run add up to the tolerance.
 ///
-///     r = max(|e_x|_M/(largest |x|_M so far), |e_v|_M/(largest |v|_M so far))/tolerance^(q/p),   |y|_M^2 = y^T M y
-///     h := h max(0.2, min(5, 0.9 r^(-0.7/q) r_old^(0.4/q))),    accepted where r <= 1
+///     epsilon = max_i |e_i|/S_i        i over displacements, rotations and their velocities
+///     smooth steps:    kappa epsilon^((p+1)/q) <= c tolerance h/T
+///     changes of contact:    epsilon_c = k epsilon <= half of the balance of the error account
 ///
-/// or, where steps cost a factorization, on a ladder that is gone up only with some reserve,
-/// for a method of order p whose estimate falls with h^q, so that the error at the end falls with the tolerance. The
-/// A step that goes through a stop unseen is redone with half its length (ContactOnTheWay). The
-/// norm of the mass matrix weighs displacements and rotations as they move mass. What it remembers (both largest norms,
-/// r_old) is the first part of State::memory. Sources: K. Gustafsson, ACM TOMS 17 (1991) 533-554,
+/// S_i is the largest |x_i| (|v_i|) so far, at least a thousandth of the largest of its kind. T is the length of the
+/// run. The local error of a method of order p is kappa epsilon^((p+1)/q) where its estimate e falls with h^q, so that
+/// smooth steps together are wrong by c times the tolerance at most, times the growth of disturbances. A step in which
+/// a stop closes or opens does not follow that power; its error is charged to an account that earns c tolerance h/T a
+/// step. Steps lie on a ladder where they cost a factorization. The derivation and the measured constants are in
+/// integrators/error-control.md; tests/conformance/error_constant_test.cpp measures kappa again.
+///
+/// A step that goes through a stop unseen is redone with half its length (ContactOnTheWay). The memory (previous r,
+/// account, scales) is the first part of State::memory. Sources: K. Gustafsson, ACM TOMS 17 (1991) 533-554,
 /// doi 10.1145/210232.210242; E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4.
 class LocalErrorControl {
  public:
-  /// Entries of State::memory.
-  static constexpr Index kMemory = 3;
-
   struct Orders {
     double estimate;  ///< q
     double method;    ///< p
-    /// The part of the tolerance that a step may use up, less for long steps, whose estimates a kink within them can
-    /// pass unseen.
-    double share = 1.0;
-    /// By how much the estimate of a step in which a stop closes or opens is taken for too small.
-    double kink = 1.0;
+    double constant;  ///< kappa, of undamped oscillation
+    double kink;      ///< k: the local error across a change of contact over the estimate
     /// Of an explicit method, the h omega at which it is stable within a closed stop: a longer step in which one closes
     /// or opens is redone, whatever its estimate says.
     double stability = std::numeric_limits<double>::infinity();
   };
   /// Whether steps are taken from a ladder of ratio 2^(1/4), so that factorizations are found again.
   enum class Steps { any, ladder };
-
   /// `dynamics` must outlive it.
-  LocalErrorControl(solve::Dynamics& dynamics, double tolerance, Orders orders, Steps steps);
+  LocalErrorControl(solve::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps);
 
   const time::StepController& controller() const { return controller_; }
   /// A step that is short for the stiffest entry of the system, s.
   double first_step() const { return first_step_; }
 
-  /// Fills the memory of a state at the start; it has at least kMemory entries.
+  /// Entries of State::memory for n DOFs.
+  static Index memory_size(Index n) { return kScales + 2 * n; }
+  /// Fills the memory of a state at the start; it has at least memory_size() entries.
   void start(time::State& state);
   /// Judges a step with the errors e_x and e_v; `to` has its acceleration, or that of `from`. Fills error and proposal
   /// of the report, and the memory of `to`.
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
              time::StepReport& report);
 
-  /// The parameter that all methods with this control share.
-  static config::Parameter parameter(double fallback);
+  /// The scales of displacements and of velocities that a state carries.
+  static auto scales_x(const time::State& state) { return state.memory.segment(kScales, state.x.size()); }
+  static auto scales_v(const time::State& state) {
+    return state.memory.segment(kScales + state.x.size(), state.x.size());
+  }
+
+  /// The smallest tolerance of methods of order 2, whose steps below it are too many to be of use.
+  static constexpr double kSecondOrder = 1e-6;
+  /// The parameter that all methods with this control share. Tolerances below `smallest` are refused.
+  static config::Parameter parameter(double fallback, double smallest);
 
  private:
   class Proposed final : public time::StepController {
@@ -62,20 +71,24 @@ class LocalErrorControl {
       return {report.error <= 1.0, report.proposal};
     }
   };
+  /// Places in the memory.
+  static constexpr Index kOld = 0, kAccount = 1, kScales = 2;
 
-  double norm(ConstVectorRef y);
-  double relative_error(const time::State& from, const time::State& to, double error_x, double error_v, double scale_x,
-                        double scale_v);
-  double any_step(double h, double r, double old) const;
-  double ladder_step(double h, double r) const;
+  double relative_error(ConstVectorRef error_x, ConstVectorRef error_v) const;
+  double any_step(double h, double r, double old, double order) const;
+  double ladder_step(double h, double r, double order) const;
 
   const solve::Dynamics& dynamics_;
   Proposed controller_;
   ContactOnTheWay contact_;
-  double threshold_, estimate_order_, kink_, stability_, first_step_;
-  double omega_ = 0.0;  ///< 0 where nothing has a stiffness
+  ErrorAccount account_;
+  Orders orders_;
+  double power_;        ///< q/(p + 1)
+  double first_step_;   ///< s
+  double omega_ = 0.0;  ///< 1/s, with all stops closed; 0 where nothing has a stiffness
   Steps steps_;
-  Vector work_;
+  ComponentScales scales_;
+  Vector scale_x_, scale_v_, work_;
 };
 
 }  // namespace butee::integrators

@@ -3,41 +3,27 @@
 #include <cmath>
 
 #include "integrators/methods.hpp"
+#include "integrators/rodas4_coefficients.hpp"
 
 namespace butee::integrators {
+
+using namespace rodas4_coefficients;
+
 namespace {
 
-/// Calibrated in tests/stress.
-constexpr double kKink = 10.0;
-constexpr double kGamma = 0.25;
-/// c, where the stages take the load, and gamma_i.
-constexpr std::array<double, 6> kTimes = {0.0, 0.386, 0.21, 0.63, 1.0, 1.0};
-constexpr std::array<double, 6> kRates = {0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0};
-constexpr double kA[6][5] = {{},
-                             {1.544},
-                             {0.9466785280815826, 0.2557011698983284},
-                             {3.314825187068521, 2.896124015972201, 0.9986419139977817},
-                             {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
-                             {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1.0}};
-constexpr double kC[6][5] = {
-    {},
-    {-5.6688},
-    {-2.430093356833875, -0.2063599157091915},
-    {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
-    {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
-    {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054}};
-
+/// Measured in tests/conformance/error_constant_test.cpp.
+constexpr double kConstant = 0.57, kKink = 10.0;
 }  // namespace
 
-Rodas4::Rodas4(solve::Dynamics& dynamics, double tolerance)
-    : Integrator(dynamics), control_(dynamics, tolerance, {4.0, 4.0, 1.0, kKink}, LocalErrorControl::Steps::ladder) {
+Rodas4::Rodas4(solve::Dynamics& dynamics, const Goal& goal)
+    : Integrator(dynamics), control_(dynamics, goal, {4.0, 4.0, kConstant, kKink}, LocalErrorControl::Steps::ladder) {
   for (std::size_t i = 0; i < kStages; ++i) p_[i] = q_[i] = Vector::Zero(dynamics.size());
   work_ = other_ = residual_v_ = rate_ = Vector::Zero(dynamics.size());
   stop_displacement_ = stop_force_ = tangent_ = stop_work_ = Vector::Zero(dynamics.stop_count());
 }
 
 void Rodas4::do_start(time::State& state) {
-  state.memory.resize(LocalErrorControl::kMemory);
+  state.memory.resize(LocalErrorControl::memory_size(state.x.size()));
   control_.start(state);
 }
 
@@ -99,11 +85,11 @@ time::IntegratorType rodas4_type() {
   return {.name = "rodas4",
           .aliases = {"RODAS"},
           .summary = "Rosenbrock method of order 4(3), one matrix and six solves a step, steps by the local error",
-          .parameters = {LocalErrorControl::parameter(1e-4)},
+          .parameters = {LocalErrorControl::parameter(1e-4, 1e-10)},
           .order = 4.0,
           .finds_first_step = true,
           .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<Rodas4>(dynamics, p.number("tolerance"));
+            return std::make_unique<Rodas4>(dynamics, Goal::read(p));
           }};
 }
 

@@ -56,11 +56,8 @@ Simulation::Simulation(solve::Dynamics& dynamics, Integrator& integrator, Simula
 Step Simulation::propose() const {
   const double end = options_.end_time;
   if (controller_ != nullptr) {
-    if (integrator_.lands_on_outputs()) {
-      const double landing = std::min(next_landing(), end);
-      return {landing - state_.t, landing, watched_};
-    }
-    const double landing = std::min(next_kink(), end);
+    double landing = std::min(next_kink(), end);
+    if (integrator_.lands_on_outputs()) landing = std::min(landing, next_landing());
     if (state_.t + next_h_ >= landing) return {landing - state_.t, landing, watched_};
     return {next_h_, state_.t + next_h_, watched_};
   }

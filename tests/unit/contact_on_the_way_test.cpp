@@ -23,11 +23,15 @@ time::State at(double t) {
   return {t, Vector::Constant(1, std::sin(t)), Vector::Constant(1, std::cos(t)), Vector::Constant(1, -std::sin(t)), {}};
 }
 
+/// The largest speed of that motion, m/s.
+const Vector kSpeed = Vector::Constant(1, 1.0);
+
 TEST(ContactOnTheWay, IsOneThatBothEndsOfAStepAreFreeOf) {
-  SceneRun run(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"));
+  // A stop so soft that no impulse is felt.
+  SceneRun run(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"), {"contact[0].stiffness=1e-9"});
   const auto happened = [&](double from, double to, double tolerance) {
     integrators::ContactOnTheWay contact(run.dynamics(), tolerance);
-    return contact.was_missed(at(from), at(to), to - from);
+    return contact.was_missed(at(from), at(to), to - from, kSpeed);
   };
   EXPECT_TRUE(happened(1.0, 2.1, 1e-3));
   EXPECT_TRUE(happened(1.0, 2.1, 0.1));    // sin reaches 1, a depth of 0.1.
@@ -37,6 +41,18 @@ TEST(ContactOnTheWay, IsOneThatBothEndsOfAStepAreFreeOf) {
   EXPECT_FALSE(happened(0.2, 0.9, 1e-6));  // It does not turn.
   EXPECT_FALSE(happened(0.2, 1.3, 1e-6));  // It ends in the stop, which every method sees.
   EXPECT_TRUE(happened(1.0 + 3.141592653589793, 2.1 + 3.141592653589793, 1e-3));
+}
+
+TEST(ContactOnTheWay, WeighsTheImpulseOfASmallPenetration) {
+  // From 1.5 to 1.65 sin passes 0.9999 by 1e-4, whose impulse is at most k 1e-4 m 0.15 s.
+  const auto is_missed = [&](const char* stiffness) {
+    SceneRun run(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"),
+                 {std::string("contact[0].stiffness=") + stiffness, "contact[0].gap=0.9999"});
+    integrators::ContactOnTheWay contact(run.dynamics(), 1e-3);
+    return contact.was_missed(at(1.5), at(1.65), 0.15, kSpeed);
+  };
+  EXPECT_FALSE(is_missed("5.0"));
+  EXPECT_TRUE(is_missed("20.0"));
 }
 
 TEST(ContactOnTheWay, HasChangedWhereOneEndAloneIsInTheStop) {
@@ -71,8 +87,8 @@ TEST(ContactOnTheWay, KnowsOneSidedStops) {
   for (const auto& [sides, above, below] : {std::tuple{"positive", true, false}, std::tuple{"negative", false, true}}) {
     SceneRun run(mass_at_a_stop(sides, "type = \"exact\"\ntime_step = 1.0\n"));
     integrators::ContactOnTheWay contact(run.dynamics(), 1e-3);
-    EXPECT_EQ(contact.was_missed(at(1.0), at(2.1), 1.1), above) << sides;
-    EXPECT_EQ(contact.was_missed(at(4.1), at(5.2), 1.1), below) << sides;
+    EXPECT_EQ(contact.was_missed(at(1.0), at(2.1), 1.1, kSpeed), above) << sides;
+    EXPECT_EQ(contact.was_missed(at(4.1), at(5.2), 1.1, kSpeed), below) << sides;
   }
 }
 
