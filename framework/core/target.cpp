@@ -51,15 +51,18 @@ std::size_t index_of(std::int64_t set) {
 }
 
 /// The best first; the lowest bit is the best set.
-std::vector<Target> all_targets() {
-  std::vector<Target> all;
-  // The lowest set of this library needs no asking: nothing of the library would run without it.
-  const std::int64_t there = (hwy::SupportedTargets() | HWY_STATIC_TARGET) & HWY_TARGETS;
-  for (std::int64_t rest = there; rest != 0; rest &= rest - 1) {
-    const std::int64_t set = rest & ~(rest - 1);
-    all.push_back({name_of(set), index_of(set)});
-  }
-  return all;
+const std::vector<Target>& all_targets() {
+  static const std::vector<Target> kAll = [] {
+    std::vector<Target> all;
+    // The lowest set of this library needs no asking: nothing of the library would run without it.
+    const std::int64_t there = (hwy::SupportedTargets() | HWY_STATIC_TARGET) & HWY_TARGETS;
+    for (std::int64_t rest = there; rest != 0; rest &= rest - 1) {
+      const std::int64_t set = rest & ~(rest - 1);
+      all.push_back({name_of(set), index_of(set)});
+    }
+    return all;
+  }();
+  return kAll;
 }
 
 std::string listed(const std::vector<Target>& all) {
@@ -88,7 +91,7 @@ const Target& chosen_target() {
   if (is_chosen.load(std::memory_order_acquire)) return chosen;
   const std::lock_guard lock(choosing);
   if (!is_chosen) {
-    const auto all = all_targets();
+    const auto& all = all_targets();
     const char* name = std::getenv("BUTEE_TARGET");
     take(name == nullptr || *name == '\0' ? all.front() : find(all, name));
   }
