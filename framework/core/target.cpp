@@ -54,8 +54,8 @@ std::size_t index_of(std::int64_t set) {
 const std::vector<Target>& all_targets() {
   static const std::vector<Target> kAll = [] {
     std::vector<Target> all;
-    // The lowest set of this library needs no asking: nothing of the library would run without it.
-    const std::int64_t there = (hwy::SupportedTargets() | HWY_STATIC_TARGET) & HWY_TARGETS;
+    // These need no asking: nothing of the library would run without the one, and every processor has the other.
+    const std::int64_t there = (hwy::SupportedTargets() | HWY_STATIC_TARGET | HWY_BASELINE_SCALAR) & HWY_TARGETS;
     for (std::int64_t rest = there; rest != 0; rest &= rest - 1) {
       const std::int64_t set = rest & ~(rest - 1);
       all.push_back({name_of(set), index_of(set)});
