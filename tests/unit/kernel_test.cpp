@@ -1,14 +1,19 @@
-// The kernels of framework/solve on every instruction set that this processor has, against plain loops.
+// The kernels of framework/solve on every instruction set that this processor has, against plain loops; modules for one
+// set.
 #include <cmath>
+#include <filesystem>
 
 #include <butee/core/error.hpp>
 #include <butee/core/target.hpp>
+#include <butee/plugin/module.hpp>
 #include <butee/solve/band_factor.hpp>
 #include <butee/solve/dense_product.hpp>
 #include <butee/solve/force_balance.hpp>
 #include <butee/solve/step_flow.hpp>
 #include <butee/solve/symmetric_product.hpp>
 #include <gtest/gtest.h>
+
+#include "support/program.hpp"
 
 namespace butee::test::kernel_test {
 namespace {
@@ -245,6 +250,34 @@ TEST_F(Kernels, what_forces_do_to_stops) {
     EXPECT_GT(part.end.segment(second, second).abs().maxCoeff(), 0.0);
     EXPECT_FALSE(std::isfinite(flow.add_force(4, {std::nan(""), 0.0, 0.0}, 0.3, registers, part)));
   });
+}
+
+/// What is no module at all tells which file was taken.
+std::string taken(const std::string& path) {
+  try {
+    (void)plugin::load_module(path);
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "loaded";
+}
+
+TEST_F(Kernels, a_module_for_the_chosen_set_or_a_lower_one_comes_first) {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  fs::copy_file(std::string(BUTEE_TEST_PLUGINS) + "/smooth.so", folder.file("law.so"));
+  EXPECT_EQ(taken(folder.file("law.so")), "loaded");
+  const std::vector<std::string> all = targets();
+  for (const std::string& own : {all.back(), all.front()}) {
+    fs::create_directories(folder.file(own));
+    folder.write(own + "/law.so", "no module");
+    choose_target(all.front());
+    EXPECT_EQ(taken(folder.file("law.so")).rfind(folder.file(own + "/law.so") + ": cannot be loaded", 0), 0U);
+  }
+  if (all.size() < 2) return;
+  fs::remove(folder.file(all.back() + "/law.so"));
+  choose_target(all.back());
+  EXPECT_EQ(taken(folder.file("law.so")), "loaded") << "a higher set than the chosen one";
 }
 
 }  // namespace
