@@ -12,54 +12,32 @@ namespace {
 
 struct Target {
   std::string name;
-  std::size_t index;
+  std::size_t index;  ///< in the tables of solve/kernel/dispatch.hpp
 };
 
-const char* name_of(std::int64_t set) {
-  switch (set) {
-#if HWY_ARCH_X86
-    case HWY_AVX3:
-      return "avx512";
-    case HWY_AVX2:
-      return "avx2";
-    case HWY_SSSE3:
-      return "ssse3";
-    case HWY_EMU128:
-      return "sse2";
-#else
-    case HWY_EMU128:
-      return "generic";
-#endif
-#if HWY_ARCH_ARM
-    case HWY_NEON:
-      return "neon";
-#endif
-    default:
-      return hwy::TargetName(set);
-  }
-}
-
-std::size_t index_of(std::int64_t set) {
-#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
-  static_cast<void>(set);
-  return 0;
-#else
-  hwy::ChosenTarget chosen;
-  chosen.Update(set);
-  return chosen.GetIndex();
-#endif
-}
-
-/// The best first; the lowest bit is the best set.
+/// The best first.
 const std::vector<Target>& all_targets() {
   static const std::vector<Target> kAll = [] {
     std::vector<Target> all;
-    // These need no asking: nothing of the library would run without the one, and every processor has the other.
-    const std::int64_t there = (hwy::SupportedTargets() | HWY_STATIC_TARGET | HWY_BASELINE_SCALAR) & HWY_TARGETS;
-    for (std::int64_t rest = there; rest != 0; rest &= rest - 1) {
-      const std::int64_t set = rest & ~(rest - 1);
-      all.push_back({name_of(set), index_of(set)});
-    }
+#if HWY_TARGETS & HWY_AVX3
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd"))
+      all.push_back({"avx512", 0});
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
+        __builtin_cpu_supports("bmi2"))
+      all.push_back({"avx2", 1});
+#endif
+#if HWY_TARGETS & HWY_SSSE3
+    if (__builtin_cpu_supports("ssse3")) all.push_back({"ssse3", 2});
+#endif
+#if HWY_TARGETS & HWY_NEON
+    all.push_back({"neon", 3});
+#endif
+#if HWY_TARGETS & HWY_EMU128
+    all.push_back({HWY_ARCH_X86 ? "sse2" : "generic", 4});
+#endif
     return all;
   }();
   return kAll;

@@ -23,7 +23,7 @@ BUTEE_EXPORT std::vector<std::string> targets();
 /// For tests: takes another of targets() for what is constructed from now on.
 BUTEE_EXPORT void choose_target(const std::string& name);
 
-/// Where a kernel of the chosen set is in Highway's tables. For solve/kernel, not exported.
+/// Where a kernel of the chosen set is in the tables. For solve/kernel, not exported.
 std::size_t target_index();
 
 }  // namespace butee

@@ -188,7 +188,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace butee::solve::kernel {
 
-HWY_EXPORT(band_product_kernels);
+BUTEE_KERNELS(band_product_kernels);
 
 const std::array<BandProduct, kWidestProduct + 1>& band_products() {
   return *BUTEE_KERNEL(band_product_kernels)();

@@ -176,7 +176,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace butee::solve::kernel {
 
-HWY_EXPORT(band_solve_kernel);
+BUTEE_KERNELS(band_solve_kernel);
 
 BandSolve band_solve(Index band, bool subtracts) {
   return BUTEE_KERNEL(band_solve_kernel)(band, subtracts);

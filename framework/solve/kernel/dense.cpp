@@ -148,7 +148,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace butee::solve::kernel {
 
-HWY_EXPORT(dense_kernels);
+BUTEE_KERNELS(dense_kernels);
 
 const Dense& dense() {
   return *BUTEE_KERNEL(dense_kernels)();

@@ -110,7 +110,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace butee::solve::kernel {
 
-HWY_EXPORT(add_forces_kernel);
+BUTEE_KERNELS(add_forces_kernel);
 
 AddForces add_forces() {
   return BUTEE_KERNEL(add_forces_kernel)();

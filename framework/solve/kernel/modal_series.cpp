@@ -147,7 +147,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace butee::solve::kernel {
 
-HWY_EXPORT(sum_series_kernel);
+BUTEE_KERNELS(sum_series_kernel);
 
 SumSeries sum_series() {
   return BUTEE_KERNEL(sum_series_kernel)();

@@ -87,7 +87,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace butee::solve::kernel {
 
-HWY_EXPORT(stop_response_kernels);
+BUTEE_KERNELS(stop_response_kernels);
 
 const StopResponse& stop_response() {
   return *BUTEE_KERNEL(stop_response_kernels)();
