@@ -9,6 +9,7 @@
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+#include <butee/core/target.hpp>
 #include <butee/core/text.hpp>
 #include <butee/record/result_folder.hpp>
 #include <butee/solve/frequencies.hpp>
@@ -135,8 +136,9 @@ class Comparison {
     row.method = sweep.method;
     row.knob = sweep.knob;
     row.value = value;
-    row.fingerprint = fingerprint_of(BUTEE_VERSION + config::write_toml(*document.root.table()) + result.column +
-                                     to_text(result.reference.horizon));
+    row.fingerprint =
+        fingerprint_of(BUTEE_VERSION + target() + compiled_for() + config::write_toml(*document.root.table()) +
+                       result.column + to_text(result.reference.horizon));
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Row& other) {
       return other.fingerprint == row.fingerprint && other.scene == row.scene;
     });

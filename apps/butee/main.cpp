@@ -8,6 +8,7 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+#include <butee/core/target.hpp>
 #include <butee/core/text.hpp>
 #include <butee/version.hpp>
 
@@ -26,7 +27,10 @@ constexpr const char* kExamples =
 
 int parse_and_run(int argc, char** argv) {
   CLI::App program("butee: transient dynamics of beams and oscillators that strike stops");
-  program.set_version_flag("--version", "butee " BUTEE_VERSION);
+  // Before anything is done: a BUTEE_TARGET that is not there is bad input of every command.
+  program.set_version_flag("--version", "butee " BUTEE_VERSION "\ninstruction set: " + butee::target() + " of " +
+                                            butee::join(butee::targets()) + "; the rest compiled for " +
+                                            butee::compiled_for());
   program.require_subcommand(1);
   program.footer(kExamples);
   const std::vector<Command> commands = {

@@ -1,9 +1,11 @@
 #include "butee/plugin/module.hpp"
 
+#include <algorithm>
 #include <dlfcn.h>
 #include <filesystem>
 
 #include "butee/core/error.hpp"
+#include "butee/core/target.hpp"
 #include "butee/core/text.hpp"
 #include "butee/plugin/abi.hpp"
 #include "butee/plugin/crash_watch.hpp"
@@ -43,9 +45,24 @@ std::string differences(const butee_abi_tag& theirs) {
   return join(found);
 }
 
+/// The same module for the chosen instruction set, or for the next lower one, where there is one in a folder of that
+/// name beside it.
+std::string for_target(const std::string& path) {
+  namespace fs = std::filesystem;
+  const fs::path file(path);
+  const std::vector<std::string> all = targets();
+  for (auto name = std::find(all.begin(), all.end(), target()); name != all.end(); ++name) {
+    const fs::path own = file.parent_path() / *name / file.filename();
+    std::error_code error;
+    if (fs::is_regular_file(own, error)) return own.string();
+  }
+  return path;
+}
+
 }  // namespace
 
-Registrar load_module(const std::string& path) {
+Registrar load_module(const std::string& any_path) {
+  const std::string path = for_target(any_path);
   const CrashWatch watch(path);
   void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
   if (handle == nullptr) throw RunError(path + ": cannot be loaded: " + last_error());

@@ -6,7 +6,8 @@
 
 namespace butee::plugin {
 
-/// Opens a shared object, compares its ABI tag field by field and lets it register its types.
+/// Opens a shared object, or the one of its name in a folder beside it that is called like the chosen instruction set
+/// (core/target.hpp) or a lower one; compares its ABI tag field by field and lets it register its types.
 ///
 /// A module is never unloaded: objects of its types may outlive everything that knows of it. Throws RunError with the
 /// file's name, what was expected and what was found.

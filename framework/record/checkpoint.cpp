@@ -1,5 +1,6 @@
 #include "butee/record/checkpoint.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -7,6 +8,8 @@
 
 #include "butee/core/error.hpp"
 #include "butee/core/log.hpp"
+#include "butee/core/target.hpp"
+#include "butee/core/text.hpp"
 #include "butee/record/file.hpp"
 
 namespace butee::record {
@@ -16,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMark = 0x0A747063'65747562U;  // "butecpt\n"
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 constexpr const char* kNewest = "checkpoint.bin";
 constexpr const char* kBefore = "checkpoint-before.bin";
 
@@ -27,12 +30,33 @@ auto all(Counters& c) {
                     &c.factorizations,    &c.factor_updates,      &c.solves};
 }
 
+/// Throws InputError where the rest of the run would not be what it would have been.
+void check_target(const std::string& path, const Checkpoint& checkpoint) {
+  const std::string& mine = butee::target();
+  const std::string anew = "run the model anew";
+  if (checkpoint.target != mine) {
+    const std::vector<std::string> here = targets();
+    const bool is_here = std::find(here.begin(), here.end(), checkpoint.target) != here.end();
+    throw InputError(path + ": was written with the instruction set " + checkpoint.target + ", and this run takes " +
+                     mine + ", whose results differ in their last digits; " +
+                     (is_here
+                          ? "set BUTEE_TARGET=" + checkpoint.target + " to go on with it, or " + anew
+                          : "this processor has no " + checkpoint.target + " (it has " + join(here) + "): " + anew));
+  }
+  if (checkpoint.compiled_for != compiled_for())
+    throw InputError(path + ": was written by a butee compiled for " + checkpoint.compiled_for +
+                     ", and this one is compiled for " + compiled_for() +
+                     ", whose results differ in their last digits; go on with it by that butee, or " + anew);
+}
+
 }  // namespace
 
 std::vector<std::byte> to_bytes(const Checkpoint& checkpoint) {
   std::vector<std::byte> content, bytes;
   ByteWriter inner(content);
   inner.put(checkpoint.method);
+  inner.put(checkpoint.target);
+  inner.put(checkpoint.compiled_for);
   inner.put(checkpoint.model);
   inner.put(checkpoint.history);
   inner.put(checkpoint.setup_seconds);
@@ -64,6 +88,8 @@ Checkpoint to_checkpoint(std::span<const std::byte> bytes) {
   ByteReader inner(content);
   Checkpoint checkpoint;
   inner.take(checkpoint.method);
+  inner.take(checkpoint.target);
+  inner.take(checkpoint.compiled_for);
   inner.take(checkpoint.model);
   inner.take(checkpoint.history);
   inner.take(checkpoint.setup_seconds);
@@ -97,6 +123,7 @@ std::optional<Checkpoint> CheckpointFolder::read(const std::string& name) const 
     if (checkpoint.model != folder_.checksum_of("model.toml"))
       throw InputError(folder_.file("model.toml") + ": is not the model that " + path +
                        " was written for; put it back as it was, or run the model anew");
+    check_target(path, checkpoint);
     const auto size = fs::file_size(folder_.file("history.csv"), error);
     if (error || size < checkpoint.history)
       return drop("history.csv has lost rows that belong to it (" + std::to_string(checkpoint.history) +

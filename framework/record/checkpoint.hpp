@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "butee/core/target.hpp"
 #include "butee/record/result_folder.hpp"
 #include "butee/solve/counters.hpp"
 #include "butee/time/snapshot.hpp"
@@ -11,7 +12,9 @@ namespace butee::record {
 
 /// A run on its way, as a file keeps it.
 struct Checkpoint {
-  std::string method;         ///< canonical name
+  std::string method;                    ///< canonical name
+  std::string target = butee::target();  ///< the instruction set of the kernels
+  std::string compiled_for = butee::compiled_for();
   std::uint64_t model = 0;    ///< checksum of model.toml
   std::uint64_t history = 0;  ///< bytes of history.csv that belong to it
   double setup_seconds = 0.0;
@@ -34,7 +37,8 @@ class BUTEE_EXPORT CheckpointFolder {
   void write(const Checkpoint& checkpoint) const;
 
   /// The newest that is whole and that belongs to the model and the history in the folder; one that is not is taken
-  /// away with a warning. Throws InputError where model.toml is not what the checkpoint was written for.
+  /// away with a warning. Throws InputError where model.toml is not what the checkpoint was written for, and where it
+  /// was written with another instruction set, whose bits differ.
   std::optional<Checkpoint> newest() const;
 
   /// Takes both away.

@@ -8,6 +8,11 @@
 
 namespace butee::solve {
 
+namespace kernel {
+struct FactorView;
+struct Subtrahend;
+}  // namespace kernel
+
 /// L D L^T of a symmetric positive definite matrix of narrow band, that of chains of beams.
 ///
 /// Rows are eliminated from both ends at once towards a dense block of band or band + 1 rows in the middle (a twisted
@@ -33,16 +38,14 @@ class BUTEE_EXPORT BandFactor {
   void solve_less(double* b, double factor, const double* v) const;
 
  private:
-  /// Steps of a chunk.
-  static constexpr Index kRows = 8;
   class Chain;
-  struct View;
-  View view() const;
   bool store(const Chain& top, const Chain& bottom, const Eigen::MatrixXd& middle);
 
+  using Kernel = void (*)(const kernel::FactorView&, double*, const kernel::Subtrahend&);
+  Kernel solve_, solve_less_;
   Index size_, band_;
   Index steps_;  ///< rows eliminated from each end
-  /// Chunks of kRows steps, of each a pair (from the top, from the bottom) for every distance k = 1 ... band: forward_
+  /// Chunks of 8 steps, of each a pair (from the top, from the bottom) for every distance k = 1 ... band: forward_
   /// L(s, s - k) for steps_ + band rows; backward_ L(s + k, s), behind the pair of reciprocal pivots.
   ChunkTable forward_, backward_;
   std::vector<double> middle_inverse_;  ///< by rows

@@ -8,6 +8,10 @@
 
 namespace butee::solve {
 
+namespace kernel {
+struct Dense;
+}
+
 /// y = A x for a small dense A of up to 96 rows, its columns padded to whole vector registers, so that all sums stay in
 /// registers while A is read once. Several times as fast as a general product at this size. Allocates nothing after
 /// construction.
@@ -27,7 +31,8 @@ class BUTEE_EXPORT DenseProduct {
   void multiply(std::span<const Index> columns, const double* x, double* y) const;
 
  private:
-  Index rows_ = 0, columns_ = 0, lanes_ = 0;
+  const kernel::Dense* kernels_ = nullptr;
+  Index rows_ = 0, columns_ = 0;
   Eigen::MatrixXd padded_;
 };
 

@@ -29,11 +29,6 @@ class BUTEE_EXPORT ForceBalance {
   double scale() const;
 
  private:
-  template <bool has_load, bool has_contact>
-  void add_with(const ForceTerms& terms, Index count, double* residual);
-  template <bool has_load, bool has_contact, bool has_damping>
-  void add_terms(const ForceTerms& terms, Index count, double* residual);
-
   std::array<double, 5> squares_{};
   double residual_square_ = 0.0;
 };

@@ -1,58 +1,25 @@
 #include "butee/solve/modal_flow.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 
 #include "butee/core/error.hpp"
-#include "butee/solve/lanes.hpp"
+#include "butee/solve/kernel/modal_series.hpp"
 
 namespace butee::solve {
 namespace {
 
 using Eigen::ArrayXd;
 
-/// Of the series: with (omega + delta + Omega) h up to kShort the first term left out is below rounding.
-constexpr int kTerms = 16;
+/// (omega + delta + Omega) h, within what the series' number of terms is made for.
 constexpr double kShort = 0.5;
 
-/// (k + 1)(k + 2) in reciprocal.
-constexpr auto kDivisors = [] {
-  std::array<double, kTerms> all{};
-  for (int k = 0; k < kTerms; ++k) all[static_cast<std::size_t>(k)] = 1.0 / static_cast<double>((k + 1) * (k + 2));
-  return all;
-}();
-
-using Series = std::array<Lane, kTerms>;
-
-/// Of eight modes at once.
-struct Response {
-  Lane q{}, v{};
-};
-
-/// y(h) and y'(h) of y'' + 2 delta y' + omega^2 y = sum over k of c_k (t/h)^k, at rest at t = 0; damping = 2 delta h,
-/// stiffness = omega^2 h^2; `last` is the last k with c_k != 0.
-void series_at_end(const Lane& damping, const Lane& stiffness, double h, const Series& forcing, int last,
-                   Response& sum) {
-  Lane before{}, latest{};  // y_k, y_{k+1}
-  sum = {};
-  for (int k = 0; k + 2 <= kTerms; ++k) {
-    const auto order = static_cast<std::size_t>(k);
-    Lane next = -damping * latest * static_cast<double>(k + 1) - stiffness * before;
-    if (k <= last) next += h * h * forcing[order];
-    next *= kDivisors[order];
-    sum.q += next;
-    sum.v += static_cast<double>(k + 2) * next;
-    before = latest;
-    latest = next;
-  }
-  sum.v *= 1.0 / h;
-}
-
-void take(const ArrayXd& from, Index begin, Lane& to) {
-  to = Lane{};
-  for (Index i = begin; i < std::min(begin + kLaneSize, from.size()); ++i) to[i - begin] = from[i];
+kernel::Values chunk_of(const ArrayXd& all, Index begin) {
+  kernel::Values chunk{};
+  const auto values = all.segment(begin, std::min(kernel::kChunk, all.size() - begin));
+  std::copy(values.begin(), values.end(), chunk.begin());
+  return chunk;
 }
 
 }  // namespace
@@ -79,66 +46,24 @@ ModalFlow::ModalFlow(const ArrayXd& omega, const ArrayXd& delta, const std::vect
 
 void ModalFlow::start_by_series(const ArrayXd& omega, const ArrayXd& delta, const std::vector<ModalHarmonic>& all) {
   columns_.resize(omega.size(), harmonic_column(all.size()));
-  std::vector<std::array<std::complex<double>, kTerms>> turns;  // of e^(i Omega t)
+  std::vector<kernel::HarmonicSeries> loads;
   for (const ModalHarmonic& harmonic : all) {
-    auto& turn = turns.emplace_back();
+    auto& turn = loads.emplace_back().turn;
     turn[0] = 1.0;
-    for (std::size_t k = 1; k < kTerms; ++k)
+    for (std::size_t k = 1; k < turn.size(); ++k)
       turn[k] = turn[k - 1] * std::complex<double>(0.0, harmonic.angular_frequency * h_ / static_cast<double>(k));
   }
-  constexpr Lane kOne = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-  for (Index begin = 0; begin < omega.size(); begin += kLaneSize) {
-    const Index count = std::min(kLaneSize, omega.size() - begin);
-    Lane frequency, decay;
-    take(omega, begin, frequency);
-    take(delta, begin, decay);
-    const Lane square = frequency * frequency, damping = 2.0 * h_ * decay, stiffness = h_ * h_ * square;
-    Series forcing{};
-    const auto solve = [&](int last, Response& to) { series_at_end(damping, stiffness, h_, forcing, last, to); };
-    const auto put = [&](Index column, const Lane& values) {
-      for (Index i = 0; i < count; ++i) columns_(begin + i, column) = values[i];
-    };
-    // Free motion by its departure from q = 1 at rest, and from a straight line with v = 1.
-    Response from_q, from_v;
-    forcing[0] = -square;
-    solve(0, from_q);
-    forcing[0] = -2.0 * decay;
-    forcing[1] = -square * h_;
-    solve(1, from_v);
-    put(0, kOne + from_q.q);
-    put(1, h_ * kOne + from_v.q);
-    put(2, from_q.v);
-    put(3, kOne + from_v.v);
-
-    std::array<Response, 3> power;
-    for (std::size_t k = 0; k < 3; ++k) {
-      forcing = {};
-      forcing[k] = kOne;
-      solve(static_cast<int>(k), power[k]);
-    }
-    const auto put_force = [&](Index column, const Lane& p0, const Lane& p1, const Lane& p2) {
-      put(column, p0);
-      put(column + 2, 2.0 * p1 - p0);
-      put(column + 4, 6.0 * p2 - 6.0 * p1 + p0);
-    };
-    put_force(kForce, power[0].q, power[1].q, power[2].q);
-    put_force(kForce + 1, power[0].v, power[1].v, power[2].v);
-
+  std::vector<kernel::Values> chunk(static_cast<std::size_t>(columns_.cols()));
+  for (Index begin = 0; begin < omega.size(); begin += kernel::kChunk) {
     for (std::size_t j = 0; j < all.size(); ++j) {
-      // cosine - i sine, turned.
-      Lane cosine, sine;
-      take(all[j].cosine, begin, cosine);
-      take(all[j].sine, begin, sine);
-      Response real, imaginary;
-      for (std::size_t k = 0; k < kTerms; ++k) forcing[k] = turns[j][k].real() * cosine + turns[j][k].imag() * sine;
-      solve(kTerms, real);
-      for (std::size_t k = 0; k < kTerms; ++k) forcing[k] = turns[j][k].imag() * cosine - turns[j][k].real() * sine;
-      solve(kTerms, imaginary);
-      put(harmonic_column(j), real.q);
-      put(harmonic_column(j) + 1, real.v);
-      put(harmonic_column(j) + 2, imaginary.q);
-      put(harmonic_column(j) + 3, imaginary.v);
+      loads[j].cosine = chunk_of(all[j].cosine, begin);
+      loads[j].sine = chunk_of(all[j].sine, begin);
     }
+    kernel::sum_series()({h_, chunk_of(omega, begin), chunk_of(delta, begin)}, loads, chunk.data());
+    const Index count = std::min(kernel::kChunk, omega.size() - begin);
+    for (Index column = 0; column < columns_.cols(); ++column)
+      for (Index i = 0; i < count; ++i)
+        columns_(begin + i, column) = chunk[static_cast<std::size_t>(column)][static_cast<std::size_t>(i)];
   }
 }
 

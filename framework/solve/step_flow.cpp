@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "butee/solve/lanes.hpp"
+#include "butee/solve/kernel/dense.hpp"
+#include "butee/solve/kernel/stop_response.hpp"
 
 namespace butee::solve {
 namespace {
@@ -12,31 +13,11 @@ namespace {
 /// that.
 constexpr double kHermite = 1.0 / 384.0;
 
-/// What a force with these moments at a stop does to the stops of one register: end, speed, middle.
-void add_response(const Eigen::ArrayXXd& columns, Index begin, const std::array<double, 3>& force,
-                  std::array<Lane, 3>& sums) {
-  const double* column = columns.data() + begin;
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t row = 0; row < 3; ++row, column += columns.rows()) {
-      Lane part;
-      load(column, part);
-      sums[row] += part * force[k];
-    }
-}
+/// Forces that are added up before they are added to what is there.
+constexpr std::size_t kTogether = 32;
 
-void add_to(StopMotion& motion, Index begin, const std::array<Lane, 3>& sums) {
-  const auto add = [&](Eigen::ArrayXd& to, const Lane& sum) {
-    Lane old;
-    load(to.data() + begin, old);
-    store(old + sum, to.data() + begin);
-  };
-  add(motion.end, sums[0]);
-  add(motion.speed, sums[1]);
-  add(motion.middle, sums[2]);
-}
-
-void add_magnitude(double weight, const Lane& x, Lane& to) {
-  to += weight * (x < 0.0 ? -x : x);
+kernel::Motion to_add_to(StopMotion& motion) {
+  return {motion.end.data(), motion.speed.data(), motion.middle.data()};
 }
 
 }  // namespace
@@ -69,6 +50,7 @@ StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& 
                    const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics)
     : whole(std::move(whole_flow)),
       half(std::move(half_flow)),
+      kernels_(&kernel::stop_response()),
       stops_(stops),
       columns_(static_cast<std::size_t>(stops.count())),
       derived_(columns_.size()) {
@@ -89,11 +71,11 @@ StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& 
 }
 
 Index StepFlow::padded(Index stops) {
-  return lanes_for(stops) * kLaneSize;
+  return kernel::chunks_for(stops) * kernel::kChunk;
 }
 
 Index StepFlow::next_register(Index begin) {
-  return begin + kLaneSize;
+  return begin + kernel::kChunk;
 }
 
 const Eigen::ArrayXXd& StepFlow::compute_columns(Index i) {
@@ -131,30 +113,21 @@ StepFlow::Coupling StepFlow::own_coupling(Index i) {
 double StepFlow::add_force(Index i, const std::array<double, 3>& force, double speed_weight,
                            std::span<const Index> registers, StopMotion& motion) {
   const Eigen::ArrayXXd& all = columns(i);
-  Lane largest{};
-  for (const Index begin : registers) {
-    std::array<Lane, 3> sums{};
-    add_response(all, begin, force, sums);
-    add_to(motion, begin, sums);
-    Lane change{};
-    add_magnitude(1.0, sums[0], change);
-    add_magnitude(speed_weight, sums[1], change);
-    add_magnitude(1.0, sums[2], change);
-    largest = change > largest ? change : largest;
-  }
-  double most = largest[0];
-  for (Index k = 1; k < kLaneSize; ++k) most = std::max(most, largest[k]);
-  // A NaN loses every comparison; the sum shows it.
-  const double all_of_them = sum(largest);
-  return std::isfinite(all_of_them) && std::isfinite(motion.end[i]) ? most : all_of_them + motion.end[i];
+  const double most =
+      kernels_->add_force({{all.data(), all.rows()}, force}, speed_weight, registers, to_add_to(motion));
+  return std::isfinite(motion.end[i]) ? most : most + motion.end[i];
 }
 
 void StepFlow::add_forces(std::span<const Index> stops, const std::array<Eigen::ArrayXd, 3>& force,
                           std::span<const Index> registers, StopMotion& motion) {
-  for (const Index begin : registers) {
-    std::array<Lane, 3> sums{};
-    for (const Index i : stops) add_response(columns(i), begin, {force[0][i], force[1][i], force[2][i]}, sums);
-    add_to(motion, begin, sums);
+  std::array<kernel::StopForce, kTogether> some;
+  for (std::size_t first = 0; first < stops.size(); first += kTogether) {
+    const auto these = stops.subspan(first, std::min(kTogether, stops.size() - first));
+    std::transform(these.begin(), these.end(), some.begin(), [&](Index i) {
+      const Eigen::ArrayXXd& all = columns(i);
+      return kernel::StopForce{{all.data(), all.rows()}, {force[0][i], force[1][i], force[2][i]}};
+    });
+    kernels_->add_forces({some.data(), these.size()}, registers, to_add_to(motion));
   }
 }
 

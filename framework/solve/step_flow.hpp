@@ -9,6 +9,10 @@
 
 namespace butee::solve {
 
+namespace kernel {
+struct StopResponse;
+}
+
 /// The modal shapes of the stops, Phi^T S^T, with their products.
 class BUTEE_EXPORT StopShapes {
  public:
@@ -91,6 +95,7 @@ class BUTEE_EXPORT StepFlow {
   }
   const Eigen::ArrayXXd& compute_columns(Index i);
 
+  const kernel::StopResponse* kernels_;
   const StopShapes& stops_;
   std::vector<Eigen::ArrayXXd> columns_;
   std::vector<Derived> derived_;

@@ -6,6 +6,11 @@
 
 namespace butee::solve {
 
+namespace kernel {
+struct BandMatrix;
+struct Rows;
+}  // namespace kernel
+
 /// y = A x for a symmetric sparse A. Narrow bands, those of chains of beams, are kept by diagonals, which needs no
 /// indices and vectorises; everything else by rows. Of large ones equal rows are stored once. Allocates nothing after
 /// construction.
@@ -33,6 +38,7 @@ class BUTEE_EXPORT SymmetricProduct {
   void share_rows();
   void multiply_rows(const double* x, Index begin, Index count, double* y) const;
 
+  void (*kernel_)(const kernel::BandMatrix&, kernel::Rows, const double*, double*) = nullptr;
   Index size_ = 0, band_ = 0;
   double first_ = 0.0;
   const SparseMatrix* rows_ = nullptr;
@@ -40,9 +46,9 @@ class BUTEE_EXPORT SymmetricProduct {
   /// empty where kept by rows, below_ where large too.
   Vector above_, below_;
   Index stride_ = 0;
-  /// Instead of those, where that saves much: for each lane of rows, and for the last two lanes again as they end the
+  /// Instead of those, where that saves much: for each chunk of rows, and for the last two chunks again as they end the
   /// matrix, diagonals k = 0 ... band above and 1 ... band below.
-  ChunkTable lanes_;
+  ChunkTable chunks_;
 };
 
 /// The largest distance of an entry from the diagonal.

@@ -1,5 +1,7 @@
-// Prints the ratios of times, butee to plain, from what the benchmarks wrote with --benchmark_out_format=json.
+// Prints the ratios of times, butee to plain, from what the benchmarks wrote with --benchmark_out_format=json; of
+// several builds, named NAME=FILE, beside the times of the quickest of them.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -74,22 +76,27 @@ void print_kernels(const Table& table) {
   std::puts("");
 }
 
-void print_methods(const Table& table) {
-  std::vector<std::string> rows, columns;
-  const auto add_new = [](std::vector<std::string>& list, const std::string& entry) {
-    if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
-  };
-  for (const std::string& key : table.order) {
-    add_new(rows, split(key).at(0));
-    add_new(columns, split(key).at(1));
-  }
-  if (rows.empty()) return;
+void add_new(std::vector<std::string>& list, const std::string& entry) {
+  if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
+}
+
+void print_head(const std::vector<std::string>& columns) {
   std::string head = "| |", rule = "|---|";
   for (const std::string& column : columns) {
     head += " " + column + " |";
     rule += "---|";
   }
   std::printf("%s\n%s\n", head.c_str(), rule.c_str());
+}
+
+void print_methods(const Table& table) {
+  std::vector<std::string> rows, columns;
+  for (const std::string& key : table.order) {
+    add_new(rows, split(key).at(0));
+    add_new(columns, split(key).at(1));
+  }
+  if (rows.empty()) return;
+  print_head(columns);
   for (const std::string& row : rows) {
     std::printf("| %s |", row.c_str());
     for (const std::string& column : columns) {
@@ -100,14 +107,68 @@ void print_methods(const Table& table) {
   }
 }
 
+struct Build {
+  std::string name;
+  Table methods;
+};
+
+/// Over the cases of one method: how many times the quickest build's time, and the time of the plain program compiled
+/// with the same flags (geometric means).
+void print_builds(const std::vector<Build>& builds) {
+  std::vector<std::string> columns;
+  std::map<std::string, double> least;
+  for (const Build& build : builds)
+    for (const std::string& key : build.methods.order) {
+      add_new(columns, split(key).at(1));
+      const double time = build.methods.pairs.at(key).butee;
+      double& known = least.try_emplace(key, time).first->second;
+      known = std::min(known, time);
+    }
+  print_head(columns);
+  for (const Build& build : builds) {
+    std::printf("| %s |", build.name.c_str());
+    for (const std::string& column : columns) {
+      double beside_best = 0.0, beside_plain = 0.0, cases = 0.0;
+      for (const auto& [key, pair] : build.methods.pairs) {
+        if (split(key).at(1) != column) continue;
+        beside_best += std::log(pair.butee / least.at(key));
+        beside_plain += std::log(pair.ratio());
+        ++cases;
+      }
+      std::printf(" %.2f (%.2f) |", std::exp(beside_best / cases), std::exp(beside_plain / cases));
+    }
+    std::puts("");
+  }
+}
+
+/// Several files of one build are rounds of the same.
+void read_build(const std::string& argument, std::vector<Build>& builds) {
+  const auto end = argument.find('=');
+  const std::string name = argument.substr(0, end);
+  auto build = std::find_if(builds.begin(), builds.end(), [&](const Build& known) { return known.name == name; });
+  if (build == builds.end()) build = builds.insert(build, {name, {}});
+  std::ifstream file(argument.substr(end + 1));
+  Table kernels;
+  read(nlohmann::json::parse(file), kernels, build->methods);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fputs("usage: ratio-table FILE.json, written by benchmarks --benchmark_out_format=json\n", stderr);
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const bool are_builds = !arguments.empty() && arguments.front().find('=') != std::string::npos;
+  if (arguments.empty() || (arguments.size() > 1 && !are_builds)) {
+    std::fputs("usage: ratio-table FILE.json | NAME=FILE.json..., written by benchmarks --benchmark_out_format=json\n",
+               stderr);
     return 2;
   }
   try {
+    if (are_builds) {
+      std::vector<Build> builds;
+      for (const std::string& argument : arguments) read_build(argument, builds);
+      print_builds(builds);
+      return 0;
+    }
     std::ifstream file(argv[1]);
     Table kernels, methods;
     read(nlohmann::json::parse(file), kernels, methods);

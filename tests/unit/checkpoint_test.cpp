@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include <butee/core/error.hpp>
+#include <butee/core/target.hpp>
 #include <butee/record/checkpoint.hpp>
 #include <gtest/gtest.h>
 
@@ -91,6 +92,29 @@ TEST_F(Checkpoints, another_model_is_bad_input) {
   checkpoints_.write(at(1.0));
   temporary_.write("model.toml", "another model");
   EXPECT_THROW(checkpoints_.newest(), InputError);
+}
+
+TEST_F(Checkpoints, another_instruction_set_is_bad_input) {
+  Checkpoint other = at(1.0);
+  EXPECT_EQ(other.target, target());
+  const auto refused = [&] {
+    checkpoints_.write(other);
+    try {
+      (void)checkpoints_.newest();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  other.target = "mmx";
+  EXPECT_NE(refused().find("this processor has no mmx"), std::string::npos) << refused();
+  if (targets().size() > 1) {
+    other.target = targets().back() == target() ? targets().front() : targets().back();
+    EXPECT_NE(refused().find("set BUTEE_TARGET=" + other.target), std::string::npos) << refused();
+  }
+  other = at(1.0);
+  other.compiled_for = "i386";
+  EXPECT_NE(refused().find("compiled for i386"), std::string::npos) << refused();
 }
 
 /// Any single byte that changed, and any end that is missing, is noticed.

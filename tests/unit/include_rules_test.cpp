@@ -45,6 +45,7 @@ const std::map<std::string, Names> kDoors = {
     {"nlohmann/", {"framework/record/summary.cpp", "apps/"}},
     {"Spectra/", {"framework/solve/frequencies.cpp", "framework/solve/lanczos.cpp"}},
     {"CLI/", {"apps/"}},
+    {"hwy/", {"framework/core/target.cpp", "framework/solve/kernel/"}},
 };
 
 struct Include {

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include <butee/config/toml.hpp>
+#include <butee/core/target.hpp>
+#include <butee/core/text.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -83,6 +85,44 @@ TEST_F(Program, run_writes_its_results) {
   EXPECT_GT(json["peak"]["ball.u"], 0.0);
   EXPECT_TRUE(json["energy"]["balance_error"].is_null());
   EXPECT_GT(json["wall_seconds"], 0.0);
+}
+
+/// On every instruction set that there is, with stops that are hit.
+TEST_F(Program, instruction_sets_differ_in_last_digits_alone) {
+  // 400 steps, each of which keeps rounding of 1e-16 or so, through a few impacts
+  constexpr double kSame = 1e-10;
+  std::vector<double> first;
+  for (const std::string& name : targets()) {
+    const Outcome outcome = run_program(
+        {"run", std::string(BUTEE_TEST_MODELS) + "/beam1.toml", "-o", name, "-q", "--set", "integrator.type=NMM1",
+         "--set", "integrator.end_time=0.02", "--set", "integrator.time_step=5e-5", "--set", "contact[0].gap=1e-4"},
+        folder_.path(), {"BUTEE_TARGET=" + name});
+    ASSERT_EQ(outcome.status, 0) << name << outcome.errors;
+    const CsvTable history(folder_.file(name + "/history.csv"));
+    const std::vector<double> u = history.column(history.header().at(1));
+    if (first.empty()) first = u;
+    ASSERT_EQ(u.size(), first.size());
+    double largest = 0.0, difference = 0.0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      largest = std::max(largest, std::abs(first[i]));
+      difference = std::max(difference, std::abs(u[i] - first[i]));
+    }
+    EXPECT_GT(largest, 1e-4) << "no stop is hit";
+    EXPECT_LE(difference, kSame * largest) << name;
+  }
+}
+
+TEST_F(Program, an_instruction_set_that_is_not_there_is_bad_input) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"run", "swing.toml"}, {"plugins"}}) {
+    const Outcome outcome = run_program(arguments, folder_.path(), {"BUTEE_TARGET=mmx"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.errors, "BUTEE_TARGET=mmx: this processor and this butee have the instruction sets " +
+                                  join(targets()) + "; name one of them, or leave the variable unset\n");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("swing-results")));
+  const Outcome version = run_program({"--version"}, folder_.path(), {"BUTEE_TARGET=" + targets().back()});
+  EXPECT_TRUE(holds(version.output, "instruction set: " + targets().back() + " of ")) << version.output;
 }
 
 TEST_F(Program, the_model_as_run_is_a_model_with_the_same_results) {

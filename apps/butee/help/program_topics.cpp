@@ -106,6 +106,9 @@ Errors and warnings go to standard error, results to standard output, which stay
 
 std::string environment_text(const plugin::Catalogue&) {
   return R"(  BUTEE_PLUGIN_PATH   folders with further modules, parted by ':'
+  BUTEE_TARGET        the instruction set of the kernels: one that `butee --version` lists, such as avx2; without it,
+                      the best that the processor has. Results of different sets differ in their last digits, and a
+                      run goes on from a checkpoint only with the set that wrote it
   NO_COLOR            where set, no colours; elsewhere there are none but on a terminal
   LC_ALL, LC_CTYPE, LANG
                       with UTF-8, `butee check` draws with line-drawing characters, otherwise with plain ones
