@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <unistd.h>
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
@@ -50,11 +51,21 @@ int parse_and_run(int argc, char** argv) {
   return kBadInput;
 }
 
-/// What could not be printed is a failure, unless nobody wanted to read it.
-int flushed(int status) {
+/// Why standard output took no more; 0 where it took everything.
+int output_error() {
   errno = 0;
-  if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EPIPE) return status;
-  butee::log::error(std::string("standard output: cannot be written: ") + std::strerror(errno));
+  if (std::fflush(stdout) != 0) return errno;
+  if (std::ferror(stdout) == 0) return 0;
+  // The write that failed was an earlier one, and its reason is forgotten: another one fails for the same.
+  errno = 0;
+  return write(STDOUT_FILENO, "\n", 1) < 0 ? errno : EIO;
+}
+
+/// Output that could not be printed is a failure, unless nobody wanted to read it.
+int flushed(int status) {
+  const int error = output_error();
+  if (error == 0 || error == EPIPE) return status;
+  butee::log::error(std::string("standard output: cannot be written: ") + std::strerror(error));
   return status == kDone ? kFailed : status;
 }
 
