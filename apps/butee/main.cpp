@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fcntl.h>
 #include <new>
 #include <unistd.h>
 
@@ -51,6 +52,13 @@ int parse_and_run(int argc, char** argv) {
   return kBadInput;
 }
 
+/// A standard stream that is closed gives its number to the next file that is opened, into which messages would go:
+/// here it becomes a file that takes none.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) return;
+}
+
 /// Why standard output took no more; 0 where it took everything.
 int output_error() {
   errno = 0;
@@ -72,6 +80,7 @@ int flushed(int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupy_standard_streams();
   // A reader of our output that closes early, such as head, ends the output and not the run.
   std::signal(SIGPIPE, SIG_IGN);
   // A file that grows beyond its limit is a file that cannot be written, with a message.

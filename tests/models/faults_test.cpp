@@ -112,6 +112,17 @@ TEST_F(Faults, output_that_finds_no_room_is_a_failure_of_every_command) {
       << closed.errors;
 }
 
+/// Files that a run opens would have their numbers, and hold its messages.
+TEST_F(Faults, closed_standard_streams_spoil_no_result) {
+  ASSERT_EQ(shell(folder_, "$BUTEE run scene.toml -q -o whole").status, 0);
+  for (const char* closed : {">&-", "<&- >&-", ">&- 2>&-", "<&- >&- 2>&-", "2>&-"}) {
+    const Outcome outcome = shell(folder_, std::string("$BUTEE run scene.toml -v --progress always ") + closed);
+    EXPECT_EQ(outcome.status, std::string(closed) == "2>&-" ? 0 : 1) << closed;
+    EXPECT_EQ(result("history.csv"), read_file(folder_.file("whole/history.csv"))) << closed;
+    EXPECT_EQ(Json::parse(result("summary.json"))["status"], "completed") << closed;
+  }
+}
+
 std::string beams(int count, const std::string& elements) {
   std::string scene =
       "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = "
