@@ -58,7 +58,7 @@ class Comparison {
     std::vector<Prepared> scenes;
     for (std::size_t i = 0; i < study_.scenes.size(); ++i) scenes.push_back(prepare(i));
     const record::ResultFolder folder(folder_);
-    folder.check();
+    const record::FolderLock lock = folder.lock();
     const std::string runs = folder.file("runs.csv");
     if (!arguments_.fresh) kept_ = read_csv(runs);
     folder.prepare("# the scenes of a comparison are named in report.md\n");

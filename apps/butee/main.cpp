@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fcntl.h>
 #include <new>
+#include <unistd.h>
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
@@ -54,17 +56,35 @@ int parse_and_run(int argc, char** argv) {
   return kBadInput;
 }
 
-/// What could not be printed is a failure, unless nobody wanted to read it.
-int flushed(int status) {
+/// A standard stream that is closed gives its number to the next file that is opened, into which messages would go:
+/// here it becomes a file that takes none.
+void occupy_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) return;
+}
+
+/// Why standard output took no more; 0 where it took everything.
+int output_error() {
   errno = 0;
-  if ((std::fflush(stdout) == 0 && std::ferror(stdout) == 0) || errno == EPIPE) return status;
-  butee::log::error(std::string("standard output: cannot be written: ") + std::strerror(errno));
+  if (std::fflush(stdout) != 0) return errno;
+  if (std::ferror(stdout) == 0) return 0;
+  // The write that failed was an earlier one, and its reason is forgotten: another one fails for the same.
+  errno = 0;
+  return write(STDOUT_FILENO, "\n", 1) < 0 ? errno : EIO;
+}
+
+/// Output that could not be printed is a failure, unless nobody wanted to read it.
+int flushed(int status) {
+  const int error = output_error();
+  if (error == 0 || error == EPIPE) return status;
+  butee::log::error(std::string("standard output: cannot be written: ") + std::strerror(error));
   return status == kDone ? kFailed : status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupy_standard_streams();
   // A reader of our output that closes early, such as head, ends the output and not the run.
   std::signal(SIGPIPE, SIG_IGN);
   // A file that grows beyond its limit is a file that cannot be written, with a message.

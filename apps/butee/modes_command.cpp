@@ -22,6 +22,7 @@ struct ModesArguments {
 
 void write(const modes::Analysis& analysis, const Session& session, const model::System& system,
            const ModesArguments& arguments, const record::ResultFolder& folder) {
+  const record::FolderLock lock = folder.lock();
   folder.prepare(config::write_toml(*session.document.root.table()));
   folder.write("frequencies.csv", modes::frequencies_csv(analysis));
   folder.write("shapes.csv", modes::shapes_csv(analysis, session.model, system));

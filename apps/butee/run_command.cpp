@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
@@ -63,6 +64,8 @@ int run(Session& session, const RunArguments& arguments, const record::ResultFol
   session.output.trust = session.output.trust || arguments.trust;
   check_checkpoints(session);
   const bool goes_on = !arguments.resume.empty();
+  std::optional<record::FolderLock> lock;
+  if (goes_on) lock.emplace(folder.lock());
   const auto checkpoint = goes_on ? record::CheckpointFolder(folder).newest() : std::nullopt;
   if (goes_on)
     log::info(checkpoint ? "going on from t = " + to_short_text(checkpoint->snapshot.state.t) + " s"
@@ -71,6 +74,7 @@ int run(Session& session, const RunArguments& arguments, const record::ResultFol
       arguments.progress == "always" || (arguments.progress == "auto" && is_terminal(stderr) && !log::is_quiet());
   Run first(session, with_progress);
   watch_for_interruption();
+  if (!lock) lock.emplace(folder.lock());
   if (!checkpoint) folder.prepare(config::write_toml(*session.document.root.table()));
   record::Summary best = first.perform(&folder, checkpoint ? &*checkpoint : nullptr);
   repeat(session, arguments.repeat, with_progress, best);

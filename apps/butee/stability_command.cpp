@@ -47,6 +47,7 @@ int stability_command(const StabilityArguments& arguments) {
   folder.check();
   std::vector<Analysis> all;
   for (const std::string& method : methods) all.push_back(analyse(catalogue, method, arguments.request));
+  const record::FolderLock lock = folder.lock();
   folder.prepare("# the stability of " + join(methods) + ", by butee stability\n");
   folder.write("stability.csv", curves_csv(all));
   folder.write("stops.csv", stops_csv(all));

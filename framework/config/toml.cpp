@@ -1,6 +1,7 @@
 #include "butee/config/toml.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -9,6 +10,7 @@
 #include <toml.hpp>
 
 #include "butee/config/toml_limits.hpp"
+#include "butee/config/toml_order.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 
@@ -21,6 +23,8 @@ using Parsed = toml::basic_value<toml::discard_comments, std::map, std::vector>;
 /// anew; here the beginnings of all lines are found once.
 class Places {
  public:
+  explicit Places(const OrderedText& text) : text_(text) {}
+
   /// Characters before the value; 0 for one that was not read from a text.
   std::ptrdiff_t offset(const Parsed& value) {
     const toml::detail::region* region = region_of(value);
@@ -32,7 +36,7 @@ class Places {
     if (region == nullptr) return {0, 1};
     if (line_begins_.empty()) find_lines(*region);
     const auto after = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset(value));
-    return {0, static_cast<std::int32_t>(after - line_begins_.begin())};
+    return {0, text_.original(static_cast<std::int32_t>(after - line_begins_.begin()))};
   }
 
  private:
@@ -46,24 +50,25 @@ class Places {
       if (*at == '\n') line_begins_.push_back(at + 1 - region.begin());
   }
 
+  const OrderedText& text_;
   std::vector<std::ptrdiff_t> line_begins_;
 };
 
 Value convert(const Parsed& from, const std::string& key, Places& places);
 
 /// Refuses what is TOML but cannot be kept as a Value.
-[[noreturn]] void refuse(const Parsed& value, const std::string& key, const std::string& complaint) {
+[[noreturn]] void refuse(const Parsed& value, const std::string& key, Places& places, const std::string& complaint) {
   const auto where = value.location();
-  throw InputError(":" + std::to_string(where.line()) + ": " + key + " = " +
+  throw InputError(":" + std::to_string(places.location(value).line) + ": " + key + " = " +
                    where.line_str().substr(where.column() - 1, where.region()) + ": " + complaint);
 }
 
 /// toml11 replaces a number that does not fit by the largest one.
 template <class Number>
-Number fitting(Number number, const Parsed& from, const std::string& key) {
+Number fitting(Number number, const Parsed& from, const std::string& key, Places& places) {
   using Limits = std::numeric_limits<Number>;
   if (number == Limits::max() || number == Limits::lowest())
-    refuse(from, key,
+    refuse(from, key, places,
            std::string("is too large for ") + (Limits::is_integer ? "an integer of 64 bits" : "a number") +
                "; the magnitude must be below " + to_short_text(static_cast<double>(Limits::max())));
   return number;
@@ -89,9 +94,9 @@ Value convert(const Parsed& from, const std::string& key, Places& places) {
     case toml::value_t::boolean:
       return {from.as_boolean(), at};
     case toml::value_t::integer:
-      return {fitting(std::int64_t{from.as_integer()}, from, key), at};
+      return {fitting(std::int64_t{from.as_integer()}, from, key, places), at};
     case toml::value_t::floating:
-      return {fitting(double{from.as_floating()}, from, key), at};
+      return {fitting(double{from.as_floating()}, from, key, places), at};
     case toml::value_t::string:
       return {std::string(from.as_string().str), at};
     case toml::value_t::array: {
@@ -102,13 +107,13 @@ Value convert(const Parsed& from, const std::string& key, Places& places) {
     case toml::value_t::table:
       return {convert_table(from, places), at};
     default:
-      refuse(from, key, "dates and times have no place in a model file");
+      refuse(from, key, places, "dates and times have no place in a model file");
   }
 }
 
 /// toml11's messages are drawings of several lines with " --> file" and "line | text"; this keeps sentence and
 /// line, of two definitions the second's.
-std::string shorten(const std::string& what, const std::string& name) {
+std::string shorten(const std::string& what, const std::string& name, const OrderedText& text) {
   std::string sentence = what.substr(0, what.find('\n'));
   const bool defined_twice = sentence.find("insert_value") != std::string::npos;
   if (const auto bracket = sentence.find("] "); sentence.rfind("[error]", 0) == 0 && bracket != std::string::npos)
@@ -125,26 +130,29 @@ std::string shorten(const std::string& what, const std::string& name) {
     if (number.find_first_not_of("0123456789") == std::string::npos) line = number;
     if (!line.empty() && !defined_twice) break;
   }
-  return name + ":" + (line.empty() ? "1" : line) + ": not valid TOML: " + sentence;
+  const std::int32_t number = line.empty() ? 1 : static_cast<std::int32_t>(std::stol(line));
+  return name + ":" + std::to_string(text.original(number)) + ": not valid TOML: " + sentence;
 }
 
-Parsed parse(const std::string& text, const std::string& name) {
-  check_limits(text);
-  std::istringstream stream(text);
+Parsed parse(const OrderedText& text, const std::string& name) {
+  std::istringstream stream(text.text);
   return toml::parse<toml::discard_comments, std::map, std::vector>(stream, name);
 }
 
 }  // namespace
 
-Document parse_toml(const std::string& text, const std::string& name) {
+Document parse_toml(const std::string& given, const std::string& name) {
+  OrderedText text;
   try {
-    const Parsed parsed = text.empty() ? Parsed(toml::table{}) : parse(text, name);
-    Places places;
+    check_limits(given);
+    text = tables_before_their_parts(given);
+    const Parsed parsed = given.empty() ? Parsed(toml::table{}) : parse(text, name);
+    Places places(text);
     return {{name}, {convert_table(parsed, places), {0, 1}}};
   } catch (const InputError& error) {
     throw InputError(name + error.what());
   } catch (const std::exception& error) {
-    throw InputError(shorten(error.what(), name));
+    throw InputError(shorten(error.what(), name, text));
   }
 }
 
@@ -152,16 +160,22 @@ Document load_toml(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   file.peek();  // An empty file is good after this; what opens but cannot be read, such as a folder, is not.
   if (!file) throw InputError(path + ": cannot be read; check the name and its permissions");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse_toml(text.str(), path);
+  std::string text;
+  for (std::array<char, 65536> part{}; file.read(part.data(), part.size()), file.gcount() > 0;) {
+    text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+    // Devices and pipes may never end.
+    if (text.size() > kLargestText) throw InputError(path + too_large());
+  }
+  return parse_toml(text, path);
 }
 
 std::optional<Value> parse_toml_value(const std::string& text) {
   if (text.find('\n') != std::string::npos) return std::nullopt;
   try {
-    const Parsed parsed = parse("value = " + text + "\n", "value");
-    Places places;
+    const OrderedText line{"value = " + text + "\n", {}};
+    check_limits(line.text);
+    const Parsed parsed = parse(line, "value");
+    Places places(line);
     return convert(parsed.at("value"), "value", places);
   } catch (const std::exception&) {
     return std::nullopt;

@@ -26,7 +26,9 @@ enum {
   BUTEE_OK = 0,
   BUTEE_RUN_FAILED = 1, /* a step failed numerically, or something could not be read or loaded */
   BUTEE_BAD_INPUT = 2,  /* the scene or a name in a call has a mistake; all of them are in the message */
-  BUTEE_BAD_CALL = 3    /* a null pointer, a wrong length, a time that lies behind: a mistake in the calling program */
+  /* A mistake in the calling program, which changes nothing: a null pointer, a wrong length, a time that lies behind or
+     is not finite, a force or motion that is not finite or larger than 1e100, a snapshot of another structure. */
+  BUTEE_BAD_CALL = 3
 };
 
 /* Kinds of degrees of freedom. */
@@ -52,7 +54,10 @@ BUTEE_C_EXPORT void butee_close(butee_structure* structure);
 BUTEE_C_EXPORT int butee_size(const butee_structure* structure, int64_t* size);
 BUTEE_C_EXPORT int butee_dof(const butee_structure* structure, const char* selector, int kind, int64_t* dof);
 
-/* Seconds. butee_advance_step() takes one step of the method's own length, not beyond `limit`. */
+/*
+ * Seconds. butee_advance_step() takes one step of the method's own length, not beyond `limit`. After BUTEE_RUN_FAILED the
+ * state is that of the last good step; other forces, another motion or butee_restore() give a way to go on.
+ */
 BUTEE_C_EXPORT int butee_time(const butee_structure* structure, double* t);
 BUTEE_C_EXPORT int butee_advance_to(butee_structure* structure, double t);
 BUTEE_C_EXPORT int butee_advance_step(butee_structure* structure, double limit, double* t);
@@ -76,7 +81,10 @@ BUTEE_C_EXPORT int butee_contact_force(const butee_structure* structure, int64_t
 /* Kinetic, strain and contact energy, J; null where one is not wanted. */
 BUTEE_C_EXPORT int butee_energy(const butee_structure* structure, double* kinetic, double* strain, double* contact);
 
-/* The state to go back to in an iteration. A snapshot is of use for its own structure, and outlives it. */
+/*
+ * The state to go back to in an iteration. A snapshot is of use for its own structure and others of the same scene and
+ * the same `forced`, and outlives it.
+ */
 BUTEE_C_EXPORT int butee_save(const butee_structure* structure, butee_snapshot** made);
 BUTEE_C_EXPORT int butee_restore(butee_structure* structure, const butee_snapshot* snapshot);
 /* Null is allowed. */

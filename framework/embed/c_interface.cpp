@@ -33,7 +33,7 @@ int guarded(const Work& work) noexcept {
       last_message = error.what();
       return BUTEE_BAD_INPUT;
     } catch (const butee::LogicError& error) {
-      last_message = std::string("butee needs ") + error.what();
+      last_message = error.what();
       return BUTEE_BAD_CALL;
     } catch (const std::bad_alloc&) {
       last_message = "out of memory";
@@ -48,7 +48,7 @@ int guarded(const Work& work) noexcept {
 
 template <class... Pointers>
 void need(const Pointers*... pointers) {
-  butee::require((... && (pointers != nullptr)), "pointers that are not null");
+  butee::require((... && (pointers != nullptr)), "a pointer is null");
 }
 
 StructureOptions options_of(const char* forced) {
@@ -64,8 +64,15 @@ void put(double* where, double value) {
 
 butee::Index checked(const butee_structure* structure, std::int64_t dof) {
   need(structure);
-  butee::require(dof >= 0 && dof < structure->structure.size(), "a degree of freedom from 0 to size - 1");
-  return dof;
+  if (dof >= 0 && dof < structure->structure.size()) return dof;
+  throw butee::LogicError("the degree of freedom " + std::to_string(dof) + " does not exist; there are 0 to " +
+                          std::to_string(structure->structure.size() - 1));
+}
+
+void check_size(std::int64_t size, const butee_structure* structure) {
+  if (size == structure->structure.size()) return;
+  throw butee::LogicError("the arrays have " + std::to_string(size) + " numbers; the structure has " +
+                          std::to_string(structure->structure.size()) + " degrees of freedom");
 }
 
 }  // namespace
@@ -110,7 +117,7 @@ int butee_size(const butee_structure* structure, int64_t* size) {
 int butee_dof(const butee_structure* structure, const char* selector, int kind, int64_t* dof) {
   return guarded([&] {
     need(structure, selector, dof);
-    butee::require(kind == BUTEE_U || kind == BUTEE_THETA, "BUTEE_U or BUTEE_THETA as the kind");
+    butee::require(kind == BUTEE_U || kind == BUTEE_THETA, "the kind is neither BUTEE_U nor BUTEE_THETA");
     *dof = structure->structure.dof(selector, kind == BUTEE_U ? butee::DofKind::u : butee::DofKind::theta);
   });
 }
@@ -149,7 +156,7 @@ int butee_all_motion(const butee_structure* structure, int64_t size, double* u, 
   return guarded([&] {
     need(structure);
     const butee::time::State& state = structure->structure.state();
-    butee::require(size == state.x.size(), "arrays of the structure's size");
+    check_size(size, structure);
     for (const auto& [to, from] : {std::pair(u, &state.x), std::pair(v, &state.v), std::pair(a, &state.a)})
       if (to != nullptr) Eigen::Map<butee::Vector>(to, size) = *from;
   });
@@ -158,23 +165,30 @@ int butee_all_motion(const butee_structure* structure, int64_t size, double* u, 
 int butee_set_motion(butee_structure* structure, int64_t size, const double* u, const double* v) {
   return guarded([&] {
     need(structure, u, v);
-    butee::require(size == structure->structure.size(), "arrays of the structure's size");
+    check_size(size, structure);
     structure->structure.set_motion(Eigen::Map<const butee::Vector>(u, size), Eigen::Map<const butee::Vector>(v, size));
   });
 }
 
 int butee_set_force(butee_structure* structure, int64_t dof, double value) {
-  return guarded([&] { structure->structure.set_force(checked(structure, dof), value); });
+  return guarded([&] {
+    const butee::Index index = checked(structure, dof);
+    structure->structure.set_force(index, value);
+  });
 }
 
 int butee_set_force_line(butee_structure* structure, int64_t dof, double from, double to, double until) {
-  return guarded([&] { structure->structure.set_force(checked(structure, dof), from, to, until); });
+  return guarded([&] {
+    const butee::Index index = checked(structure, dof);
+    structure->structure.set_force(index, from, to, until);
+  });
 }
 
 int butee_contact_force(const butee_structure* structure, int64_t dof, double* force) {
   return guarded([&] {
     need(force);
-    *force = structure->structure.contact_force(checked(structure, dof));
+    const butee::Index index = checked(structure, dof);
+    *force = structure->structure.contact_force(index);
   });
 }
 

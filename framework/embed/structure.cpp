@@ -1,15 +1,48 @@
 #include "butee/embed/structure.hpp"
 
+#include <cmath>
 #include <map>
 #include <optional>
 
 #include "butee/config/override.hpp"
 #include "butee/config/toml.hpp"
+#include "butee/core/bytes.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/plugin/scene.hpp"
 
 namespace butee::embed {
+namespace {
+
+/// Throws LogicError unless `value` may be set.
+void check_number(double value, const char* name) {
+  if (std::abs(value) <= Structure::kLargestNumber) return;
+  throw LogicError(std::string(name) + " is " + to_short_text(value) + "; it must be a finite number of at most " +
+                   to_short_text(Structure::kLargestNumber));
+}
+
+void check_numbers(ConstVectorRef values, const char* name, Index size) {
+  if (values.size() != size)
+    throw LogicError(std::string(name) + ": " + std::to_string(values.size()) + " numbers are given for " +
+                     std::to_string(size) + " degrees of freedom");
+  for (const double value : values) check_number(value, name);
+}
+
+/// Throws LogicError unless `t` is an instant after the present one, `now` included where `may_stay`.
+void check_time(double t, double now, bool may_stay, const char* name) {
+  if (std::isfinite(t) && (t > now || (may_stay && t == now))) return;
+  throw LogicError(std::string(name) + " = " + to_short_text(t) + " s: the time must be finite and " +
+                   (may_stay ? "not before" : "after") + " the present one, " + to_short_text(now) +
+                   " s; only restore() goes back");
+}
+
+void check_dof(Index dof, Index size) {
+  if (dof < 0 || dof >= size)
+    throw LogicError("the degree of freedom " + std::to_string(dof) + " does not exist; there are 0 to " +
+                     std::to_string(size - 1));
+}
+
+}  // namespace
 
 /// Everything a structure owns, in the order in which the parts refer to each other.
 struct Structure::Parts {
@@ -20,6 +53,7 @@ struct Structure::Parts {
   std::optional<solve::Dynamics> dynamics;
   std::unique_ptr<time::Integrator> integrator;
   std::optional<time::Simulation> simulation;
+  std::uint64_t origin = 0;  ///< of snapshots
 
   std::vector<model::NodalDof> select(const std::string& selector, DofKind kind) const;
   void add_forces(const std::string& selector, std::vector<std::pair<model::NodalDof, NodalForce*>>& made);
@@ -78,6 +112,8 @@ Structure Structure::from_document(config::Document document, const StructureOpt
     (*table)["end_time"] = config::Value(1.0);
 
   auto parts = std::make_unique<Parts>();
+  const std::string identity = config::write_toml(*document.root.table()) + join(options.forced, "\n");
+  parts->origin = checksum(std::as_bytes(std::span(identity)));
   parts->catalogue = plugin::Catalogue::with_plugins(options.plugins);
   config::Diagnostics diagnostics(document);
   parts->scene = plugin::read_scene(document, parts->catalogue, diagnostics);
@@ -102,7 +138,7 @@ Index Structure::size() const {
 }
 
 std::string Structure::dof_name(Index dof) const {
-  require(dof >= 0 && dof < size(), "a DOF of this structure");
+  check_dof(dof, size());
   return parts_->dynamics->dof_name(dof);
 }
 
@@ -126,7 +162,7 @@ std::vector<Index> Structure::dofs(const std::string& selector, DofKind kind) co
 void Structure::advance_to(double t) {
   time::Simulation& simulation = *parts_->simulation;
   simulation.start();
-  require(t >= time(), "a structure goes forwards; restore() goes back");
+  check_time(t, time(), true, "advance_to");
   if (t == time() && !simulation.report().message.empty()) throw RunError(simulation.report().message);
   if (t == time()) return;
   if (simulation.report().message.empty()) simulation.set_end_time(t);
@@ -138,7 +174,7 @@ void Structure::advance_to(double t) {
 double Structure::advance_step(double limit) {
   time::Simulation& simulation = *parts_->simulation;
   simulation.start();
-  require(limit > time(), "a structure goes forwards");
+  check_time(limit, time(), false, "advance_step");
   if (simulation.report().message.empty()) simulation.set_end_time(limit);
   simulation.advance();
   if (!simulation.report().message.empty()) throw RunError(simulation.report().message);
@@ -150,33 +186,58 @@ const time::State& Structure::state() const {
   return parts_->simulation->state();
 }
 
+double Structure::displacement(Index dof) const {
+  check_dof(dof, size());
+  return state().x[dof];
+}
+
+double Structure::velocity(Index dof) const {
+  check_dof(dof, size());
+  return state().v[dof];
+}
+
+double Structure::acceleration(Index dof) const {
+  check_dof(dof, size());
+  return state().a[dof];
+}
+
 void Structure::set_motion(ConstVectorRef displacements, ConstVectorRef velocities) {
+  check_numbers(displacements, "a displacement", size());
+  check_numbers(velocities, "a velocity", size());
   parts_->simulation->set_motion(displacements, velocities);
 }
 
 void Structure::set_displacement(Index dof, double value) {
-  require(dof >= 0 && dof < size(), "a DOF of this structure");
+  check_dof(dof, size());
   Vector x = state().x;
   x[dof] = value;
   set_motion(x, Vector(state().v));
 }
 
 void Structure::set_velocity(Index dof, double value) {
-  require(dof >= 0 && dof < size(), "a DOF of this structure");
+  check_dof(dof, size());
   Vector v = state().v;
   v[dof] = value;
   set_motion(Vector(state().x), v);
 }
 
 void Structure::set_force(Index dof, double value) {
-  set_force(dof, value, value, time() + 1.0);
+  check_number(value, "a force");
+  set_line(dof, {value, 0.0, time()});
 }
 
 void Structure::set_force(Index dof, double from, double to, double until) {
-  require(until > time(), "the end of a force's line lies ahead");
+  for (const double value : {from, to}) check_number(value, "a force");
+  check_time(until, time(), false, "set_force until");
+  const double slope = (to - from) / (until - time());
+  check_number(slope, "the slope of a force");
+  set_line(dof, {from, slope, time()});
+}
+
+void Structure::set_line(Index dof, const NodalForce::Line& line) {
   NodalForce& force = parts_->force_on(dof);
-  const bool jump = force.value(time()) != from;
-  force.line = {from, (to - from) / (until - time()), time()};
+  const bool jump = force.value(time()) != line.value;
+  force.line = line;
   parts_->simulation->loads_changed(jump);
 }
 
@@ -185,20 +246,21 @@ double Structure::force(Index dof) const {
 }
 
 double Structure::contact_force(Index dof) const {
-  require(dof >= 0 && dof < size(), "a DOF of this structure");
+  check_dof(dof, size());
   Vector force = Vector::Zero(size());
   parts_->dynamics->add_contact_force(state().x, force);
   return force[dof];
 }
 
 Structure::Snapshot Structure::snapshot() const {
-  Snapshot snapshot{parts_->simulation->snapshot(), {}};
+  Snapshot snapshot{parts_->simulation->snapshot(), {}, parts_->origin};
   for (const auto& [dof, force] : parts_->forces) snapshot.forces.push_back(force->line);
   return snapshot;
 }
 
 void Structure::restore(const Snapshot& snapshot) {
-  require(snapshot.forces.size() == parts_->forces.size(), "a snapshot of this structure");
+  if (snapshot.origin != parts_->origin)
+    throw LogicError("the snapshot is of another structure: its scene, options or observers differ");
   parts_->simulation->restore(snapshot.run);
   auto line = snapshot.forces.begin();
   for (const auto& [dof, force] : parts_->forces) force->line = *line++;
@@ -207,6 +269,7 @@ void Structure::restore(const Snapshot& snapshot) {
 
 void Structure::observe(time::Observer& observer) {
   parts_->simulation->add(observer);
+  ++parts_->origin;
 }
 
 record::Energy Structure::energy() const {

@@ -29,6 +29,9 @@ struct StructureOptions {
 /// the diagnosis. Checked in tests/embed against the same system solved as one.
 class BUTEE_EXPORT Structure {
  public:
+  /// The largest magnitude of a force or a motion that is set: its square, an energy, has to be a number as well.
+  static constexpr double kLargestNumber = 1e100;
+
   /// Reads a scene from a file, from TOML text, or as built in code with config::ModelBuilder. Throws InputError with
   /// every mistake.
   static Structure from_file(const std::string& path, const StructureOptions& options = {});
@@ -48,17 +51,19 @@ class BUTEE_EXPORT Structure {
   std::vector<Index> dofs(const std::string& selector, DofKind kind = DofKind::u) const;
 
   double time() const { return state().t; }
-  /// Goes on to `t` exactly, s. Throws RunError where a step fails; the state is then that of the last good step.
+  /// Goes on to `t` exactly, s. Throws RunError where a step fails; the state is then that of the last good step, and
+  /// the same error comes again until another force, another motion or restore() gives a way to go on.
   void advance_to(double t);
   /// Takes one step of the method's own length, not beyond `limit`, and returns the new time.
   double advance_step(double limit);
 
   /// Displacements, velocities and accelerations, m or rad and s.
   const time::State& state() const;
-  double displacement(Index dof) const { return state().x[dof]; }
-  double velocity(Index dof) const { return state().v[dof]; }
-  double acceleration(Index dof) const { return state().a[dof]; }
-  /// Takes another motion at the present time; the method starts anew from it.
+  double displacement(Index dof) const;
+  double velocity(Index dof) const;
+  double acceleration(Index dof) const;
+  /// Takes another motion at the present time; the method starts anew from it. Here and in forces a number is finite,
+  /// and of a magnitude of at most kLargestNumber; LogicError otherwise, and nothing is changed.
   void set_motion(ConstVectorRef displacements, ConstVectorRef velocities);
   void set_displacement(Index dof, double value);
   void set_velocity(Index dof, double value);
@@ -75,8 +80,11 @@ class BUTEE_EXPORT Structure {
   struct Snapshot {
     time::Snapshot run;
     std::vector<NodalForce::Line> forces;
+    std::uint64_t origin = 0;  ///< which scene, options and observers it belongs to
   };
   Snapshot snapshot() const;
+  /// Goes to a snapshot of this structure, or of another one of the same scene, options and number of observers;
+  /// LogicError otherwise, and nothing is changed.
   void restore(const Snapshot& snapshot);
 
   /// Watches every step from now on; before the first one. `observer` must outlive the structure.
@@ -89,6 +97,7 @@ class BUTEE_EXPORT Structure {
 
  private:
   struct Parts;
+  void set_line(Index dof, const NodalForce::Line& line);
   explicit Structure(std::unique_ptr<Parts> parts);
 
   std::unique_ptr<Parts> parts_;

@@ -87,16 +87,25 @@ void Catalogue::add_folder(const std::string& path) {
   for (const std::string& module : modules) add_module(module, true);
 }
 
-void Catalogue::add_module(const std::string& given_path, bool must_have_manifest) {
+void Catalogue::leave_out(const std::string& path, const std::string& reason) {
+  left_out_.push_back(path + ": is left out: " + reason);
+  log::warning(left_out_.back());
+}
+
+void Catalogue::add_module(const std::string& given_path, bool is_in_folder) {
   const std::string path = fs::weakly_canonical(given_path).string();
   if (known_.contains(path)) return;
   const std::string manifest = manifest_path(path);
   ModuleTypes found;
   if (fs::exists(manifest)) {
-    found = read_manifest(manifest);
-  } else if (must_have_manifest) {
-    return log::warning(path + ": has no manifest (" + manifest +
-                        ") and is left out; name it with --plugin to load it");
+    try {
+      found = read_manifest(manifest);
+    } catch (const InputError& error) {
+      if (!is_in_folder) throw;
+      return leave_out(path, std::string(error.what()) + "; build the module again");
+    }
+  } else if (is_in_folder) {
+    return leave_out(path, "it has no manifest (" + manifest + "); name it with --plugin to load it");
   } else {
     found = std::move(load_module(path).types());
   }

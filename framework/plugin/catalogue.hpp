@@ -28,11 +28,15 @@ class BUTEE_EXPORT Catalogue {
   static Catalogue with_plugins(const std::vector<std::string>& extra = {});
 
   /// Adds a module, or every module of a folder (files *.so with a manifest). A single file without a manifest is
-  /// loaded to learn its names. Throws RunError for a broken module and where a name is taken, naming both files.
+  /// loaded to learn its names. Throws RunError for a broken module and where a name is taken, naming both files, and
+  /// InputError for a broken manifest of a single file; one in a folder is warned of and its module left out.
   void add(const std::string& file_or_folder);
 
   /// Adds types that are in this process already, all or none of them; `origin` is what messages call their source.
   void add(ModuleTypes found, const std::string& origin);
+
+  /// The modules that were left out, each with the reason: "FILE: is left out: ...".
+  const std::vector<std::string>& left_out() const { return left_out_; }
 
   const model::ModelTypes& types() const { return types_; }
   const std::vector<IntegratorEntry>& integrators() const { return integrators_; }
@@ -49,7 +53,8 @@ class BUTEE_EXPORT Catalogue {
   const time::IntegratorType& load(std::string_view name);
 
  private:
-  void add_module(const std::string& path, bool must_have_manifest);
+  void add_module(const std::string& path, bool is_in_folder);
+  void leave_out(const std::string& path, const std::string& reason);
   void add_folder(const std::string& path);
   /// Adds types of one kind whose makers load the module when one of them is made.
   template <class Type>
@@ -60,6 +65,7 @@ class BUTEE_EXPORT Catalogue {
   std::vector<IntegratorEntry> integrators_;
   std::map<std::pair<std::string, std::string>, std::string> modules_;  ///< by kind and name
   std::set<std::string> known_;                                         ///< the paths of all modules
+  std::vector<std::string> left_out_;
 };
 
 }  // namespace butee::plugin

@@ -1,8 +1,10 @@
 #include "butee/record/result_folder.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 #include "butee/core/bytes.hpp"
 #include "butee/core/error.hpp"
@@ -29,14 +31,23 @@ bool is_ours(const fs::path& folder) {
   return std::getline(model, first) && first == kMark;
 }
 
-/// A run that was killed before model.toml was in its place leaves the draft of it, and nothing else.
-bool holds_nothing(const fs::path& folder, std::error_code& error) {
+/// Why a folder is not one of ours; empty where it is, or where it holds nothing. A run that was killed before
+/// model.toml was in its place leaves the draft of it and its lock.
+std::string foreign_part(const fs::path& folder, std::error_code& error) {
+  if (is_ours(folder)) return "";
+  std::vector<std::string> found;
   fs::directory_iterator entry(folder, error);
   while (!error && entry != fs::directory_iterator()) {
-    if (entry->path().filename() != kDraft) return false;
+    if (const std::string name = entry->path().filename().string(); name != kDraft && name != FolderLock::kName)
+      found.push_back(name);
     entry.increment(error);
   }
-  return true;
+  if (found.empty()) return "";
+  std::sort(found.begin(), found.end());
+  if (std::find(found.begin(), found.end(), "model.toml") != found.end())
+    return "its model.toml does not begin with the line \"" + std::string(kMark) + "\"";
+  return "it has no model.toml of a run, but " + found.front() +
+         (found.size() > 1 ? " and " + std::to_string(found.size() - 1) + " more" : "");
 }
 
 }  // namespace
@@ -55,21 +66,39 @@ std::uint64_t ResultFolder::checksum_of(const std::string& name) const {
   return checksum(std::as_bytes(std::span(text)));
 }
 
-void ResultFolder::check() const {
+void ResultFolder::refuse_foreign() const {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status))
     throw InputError(path_ + ": is a file, not a folder for results; choose another with -o");
-  const bool empty = holds_nothing(path_, error);
+  const std::string foreign = foreign_part(path_, error);
   if (error) throw InputError(path_ + ": cannot be read: " + error.message());
-  if (!empty && !is_ours(path_))
-    throw InputError(
-        path_ + ": is not empty and holds no results of butee, so it is left alone; choose another folder with -o");
+  if (!foreign.empty())
+    throw InputError(path_ + ": is not empty and holds no results of butee (" + foreign +
+                     "), so it is left alone; choose another folder with -o");
+}
+
+void ResultFolder::check() const {
+  refuse_foreign();
+  FolderLock::check(path_);
+}
+
+FolderLock ResultFolder::lock() const {
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error) throw RunError(path_ + ": cannot be made: " + error.message());
+  FolderLock lock(path_);
+  refuse_foreign();
+  return lock;
 }
 
 void ResultFolder::check_is_ours() const {
-  if (!is_ours(path_)) throw InputError(path_ + ": holds no results of butee that a run could go on from");
+  if (is_ours(path_)) return;
+  std::error_code error;
+  const std::string foreign = foreign_part(path_, error);
+  throw InputError(path_ + ": holds no results of butee that a run could go on from" +
+                   (foreign.empty() ? "" : " (" + foreign + ")"));
 }
 
 bool ResultFolder::is_complete() const {
@@ -78,8 +107,6 @@ bool ResultFolder::is_complete() const {
 
 void ResultFolder::prepare(const std::string& model_text) const {
   std::error_code error;
-  fs::create_directories(path_, error);
-  if (error) throw RunError(path_ + ": cannot be made: " + error.message());
   for (const char* name : kOurFiles) fs::remove(file(name), error);
   write("model.toml", std::string(kMark) + "\n" + model_text);
 }

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include <butee/export.hpp>
+#include "butee/record/folder_lock.hpp"
 
 namespace butee::record {
 
@@ -13,15 +13,19 @@ class BUTEE_EXPORT ResultFolder {
  public:
   explicit ResultFolder(std::string path) : path_(std::move(path)) {}
 
-  /// Throws InputError where the folder is not ours to write. Writes nothing.
+  /// Throws InputError where the folder is not ours to write, or where another process is writing there. Writes
+  /// nothing.
   void check() const;
+
+  /// Makes the folder and takes the right to write there, until the lock's end. Throws as check() does, and RunError.
+  [[nodiscard]] FolderLock lock() const;
 
   /// Throws InputError where the folder is not one of ours, with results of an earlier run.
   void check_is_ours() const;
   /// True where the run whose results are here was completed.
   bool is_complete() const;
 
-  /// Makes the folder, takes away our files of an earlier run and writes model.toml. Throws RunError.
+  /// Takes away our files of an earlier run and writes model.toml. After lock(). Throws RunError.
   void prepare(const std::string& model_text) const;
 
   /// Writes a whole file, first beside its place, then in one move. Throws RunError.
@@ -34,6 +38,8 @@ class BUTEE_EXPORT ResultFolder {
   const std::string& path() const { return path_; }
 
  private:
+  void refuse_foreign() const;
+
   std::string path_;
 };
 

@@ -112,15 +112,32 @@ void Simulation::set_motion(ConstVectorRef x, ConstVectorRef v) {
   start();
   state_.x = x;
   state_.v = v;
-  integrator_.start(state_);
-  growth_.start(state_);
+  start_anew();
 }
 
 void Simulation::loads_changed(bool jump) {
   start();
   dynamics_.loads_changed();
-  if (jump) integrator_.start(state_);
+  if (jump || !report_.message.empty())
+    start_anew();
+  else
+    growth_.start(state_);
+}
+
+void Simulation::start_anew() {
+  integrator_.start(state_);
   growth_.start(state_);
+  const bool is_finite = state_.a.allFinite();
+  if (!report_.message.empty()) {
+    report_.message.clear();
+    over_ = report_.completed = state_.t >= options_.end_time;
+    origin_ = stall_t_ = state_.t;
+    accepted_ = 0;
+    // The steps before the failure say nothing about those after it.
+    const double first = options_.time_step > 0.0 || !is_finite ? options_.time_step : integrator_.first_step(state_);
+    if (first > 0.0) next_h_ = first;
+  }
+  if (!is_finite) fail({next_h_, state_.t}, describe_start(dynamics_, state_));
 }
 
 bool Simulation::advance() {

@@ -97,14 +97,16 @@ class BUTEE_EXPORT Simulation {
   const RunReport& run(const std::function<bool()>& goes_on);
 
   /// Moves the end of the run, forwards or back, but not before the present instant; a run that was completed goes on.
-  /// Fixed steps count from there: the last one before a new end may be shorter. Not for a run that has failed.
+  /// Fixed steps count from there: the last one before a new end may be shorter. Not for a run that has failed, before
+  /// set_motion(), loads_changed() or restore().
   void set_end_time(double end_time);
 
-  /// Takes other displacements and velocities at the present instant, as another solver wants them.
+  /// Takes other displacements and velocities at the present instant, as another solver wants them. A run that has
+  /// failed may go on from them.
   void set_motion(ConstVectorRef x, ConstVectorRef v);
 
   /// Says that functions of time of the system's loads are others from now on. `jump`: their values at the present
-  /// instant as well, so that the method starts anew from the same motion.
+  /// instant as well, so that the method starts anew from the same motion. A run that has failed may go on with them.
   void loads_changed(bool jump);
 
   /// Takes one accepted step; false where the run is over, completed or failed (see report()).
@@ -123,6 +125,8 @@ class BUTEE_EXPORT Simulation {
   const RunReport& report() const { return report_; }
 
  private:
+  /// Starts the method at the present state, after a failure too.
+  void start_anew();
   Step propose() const;
   double next_landing() const;
   double next_kink() const;

@@ -14,17 +14,27 @@ constexpr const char* kReal = "NumberType=\"Float\" Precision=\"8\"";
 constexpr int kShareOfTime = 50;
 constexpr const char* kWhole = "NumberType=\"Int\" Precision=\"4\"";
 
+/// Text as an attribute of XML 1.0, which has no control characters but tab and line ends, not even as references; they
+/// and the two noncharacters U+FFFE and U+FFFF become U+FFFD.
 std::string escaped(const std::string& text) {
+  constexpr const char* kReplacement = "\xEF\xBF\xBD";
   std::string out;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
     if (c == '&')
       out += "&amp;";
     else if (c == '<')
       out += "&lt;";
     else if (c == '"')
       out += "&quot;";
+    else if (c == '\t' || c == '\n' || c == '\r')
+      out += "&#" + std::to_string(c) + ";";
+    else if (c < 0x20)
+      out += kReplacement;
+    else if (const std::string next = text.substr(i, 3); next == "\xEF\xBF\xBE" || next == "\xEF\xBF\xBF")
+      out += kReplacement, i += 2;
     else
-      out += c;
+      out += text[i];
   }
   return out;
 }

@@ -80,9 +80,6 @@ TEST_F(CInterface, TurnsEveryMistakeIntoAStatusAndAMessage) {
   EXPECT_EQ(butee_all_motion(mass_, 2, &number, &number, &number), BUTEE_BAD_CALL);
   EXPECT_EQ(butee_advance_to(mass_, -1.0), BUTEE_BAD_CALL);
   EXPECT_EQ(butee_set_force(mass_, -3, 1.0), BUTEE_BAD_CALL);
-  EXPECT_EQ(butee_set_force(mass_, dof_, 1e308), BUTEE_OK);
-  EXPECT_EQ(butee_advance_to(mass_, 1e3), BUTEE_RUN_FAILED);
-  EXPECT_NE(std::strstr(butee_message(), "t = "), nullptr) << butee_message();
   butee_close(nullptr);
   butee_free_snapshot(nullptr);
 }

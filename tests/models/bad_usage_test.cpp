@@ -54,7 +54,14 @@ TEST(BadUsage, of_result_folders) {
   std::filesystem::create_directory(folder.file("precious"));
   folder.write("precious/model.toml", "mine\n");
   expect_refusal({"run", kFile, "-o", "file"}, folder, {"file: is a file, not a folder for results"});
-  expect_refusal({"run", kFile, "-o", "precious"}, folder, {"precious: is not empty and holds no results of butee"});
+  expect_refusal({"run", kFile, "-o", "precious"}, folder,
+                 {"precious: is not empty and holds no results of butee",
+                  "its model.toml does not begin with the line \"# butee: the model as run\""});
+  std::filesystem::create_directory(folder.file("notes"));
+  folder.write("notes/b.txt", "");
+  folder.write("notes/a.txt", "");
+  folder.write("notes/model.toml.part", "");
+  expect_refusal({"run", kFile, "-o", "notes"}, folder, {"(it has no model.toml of a run, but a.txt and 1 more)"});
   std::filesystem::rename(folder.file("precious"), folder.file("scene-results"));
   expect_refusal({"run", kFile}, folder, {"scene-results: is not empty and holds no results of butee"});
   EXPECT_EQ(read_file(folder.file("scene-results/model.toml")), "mine\n");

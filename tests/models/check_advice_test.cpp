@@ -1,4 +1,5 @@
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -66,6 +67,33 @@ TEST(CheckAdvice, finds_likely_mistakes_that_the_sound_scene_has_not) {
     const std::string text = advice(check(beam1(), mistake.overrides), mistake.about);
     EXPECT_NE(text.find(mistake.words), std::string::npos) << mistake.about << ": " << text;
   }
+}
+
+/// beam1 under a table of random values about a mean, N, the last one of them as large as 900 N, which presses stops
+/// shut.
+std::vector<std::string> random_load(double mean) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> value(mean, 900.0);
+  std::string times, values;
+  for (int i = 0; i <= 2000; ++i) {
+    times += (i > 0 ? ", " : "") + std::to_string(i * 5e-4);
+    values += (i > 0 ? ", " : "") + std::to_string(i < 2000 ? value(random) : 900.0);
+  }
+  return {"load=[{type=\"table\",node=\"string:middle\",times=[" + times + "],values=[" + values + "]}]"};
+}
+
+TEST(CheckAdvice, takes_what_lasts_of_a_load_for_its_static_part) {
+  EXPECT_EQ(advice(check(beam1(), random_load(0.0)), "gap"), "");
+  EXPECT_EQ(advice(check(beam1(), random_load(500.0)), "gap"), "") << "it opens them again";
+  EXPECT_NE(advice(check(beam1(), random_load(3000.0)), "gap"), "");
+  // A ramp and a table that settle press for good, a pulse does not.
+  const auto gap = [](const std::string& load) {
+    return advice(check(beam1(), {"load=[{node=\"string:middle\"," + load + "}]"}), "gap");
+  };
+  EXPECT_NE(gap("type=\"ramp\",to=900.0,end=0.3"), "");
+  EXPECT_NE(gap("type=\"table\",times=[0,0.1,0.2,0.3,0.4],values=[0,-900,900,-900,900]"), "");
+  EXPECT_EQ(gap("type=\"table\",times=[0,0.6,0.7,0.8],values=[0,0,900,0]"), "");
+  EXPECT_NE(gap("type=\"harmonic\",amplitude=900.0,angular_frequency=0.0"), "");
 }
 
 TEST(CheckAdvice, knows_stiffness_ratio_and_duration_of_an_impact) {

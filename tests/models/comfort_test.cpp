@@ -101,6 +101,29 @@ TEST(Help, lists_every_key_that_the_reader_takes) {
   }
 }
 
+TEST(Help, names_every_file_that_a_run_writes) {
+  const std::string text = printed({"help", "results"});
+  for (const char* name : {"history.csv", "summary.json", "model.toml", "impacts.csv", "energy.csv", "fields.h5",
+                           "fields.xdmf", "plots/", "checkpoint.bin", ".butee-lock"})
+    EXPECT_TRUE(holds(text, name)) << name;
+  EXPECT_TRUE(holds(printed({"help", "model"}), "theta = du/dx"));
+  EXPECT_TRUE(holds(read_file(BUTEE_TEST_SOURCE "/README.md"), "`theta` = du/dx"));
+}
+
+/// The scene that the README shows first, as someone would save it.
+TEST(Readme, its_scene_runs_without_a_warning) {
+  const std::string readme = read_file(BUTEE_TEST_SOURCE "/README.md");
+  const std::string fence = "```toml\n";
+  const auto begin = readme.find(fence) + fence.size();
+  const TemporaryFolder folder;
+  folder.write("scene.toml", readme.substr(begin, readme.find("```", begin) - begin));
+  for (const char* command : {"check", "run"}) {
+    const Outcome outcome = run_program({command, "scene.toml"}, folder.path());
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.errors, "") << command;
+  }
+}
+
 TEST(Help, manual_page_has_every_command_and_option) {
   const std::string page = printed({"help", "--man"});
   for (const std::string& command : commands()) EXPECT_TRUE(holds(page, ".SS \"butee " + command)) << command;

@@ -106,9 +106,6 @@ TEST(Compare, KeepsWhatAnEarlierCallHasDone) {
 }
 
 TEST(Compare, TakesErrorsOnlyAsFarAsItsReferenceIsOne) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "a million evaluations for one number";
-#endif
   // beam4 with the arctan law: differences of rounding, magnified by e^(20 t) and by the law's jump at rest, are a
   // thousandth of the peak before half a second; 0.45 s was seen.
   const TemporaryFolder folder;

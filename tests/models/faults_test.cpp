@@ -94,11 +94,33 @@ TEST_F(Faults, a_reader_that_goes_away_ends_the_output_and_not_the_run) {
   EXPECT_EQ(read_file(folder_.file("status")), "0\n");
 }
 
-TEST_F(Faults, output_that_finds_no_room_is_a_failure) {
-  const Outcome outcome = shell(folder_, "$BUTEE plugins >/dev/full");
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.errors.find("standard output: cannot be written: No space left"), std::string::npos)
-      << outcome.errors;
+TEST_F(Faults, output_that_finds_no_room_is_a_failure_of_every_command) {
+  // The first is longer than any buffer of the standard library.
+  for (const std::string command :
+       {"plugins --json", "plugins", "plugins rk4", "help", "help loads", "help --man", "--help", "--version",
+        "check scene.toml", "check scene.toml --json", "modes scene.toml", "modes scene.toml --json",
+        "stability rk4 --json", "init", "init beam", "completion bash", "run scene.toml", "new-plugin mine"}) {
+    const Outcome outcome = shell(folder_, "exec $BUTEE " + command + " >/dev/full");
+    EXPECT_EQ(outcome.status, 1) << command;
+    EXPECT_NE(outcome.errors.find("butee: error: standard output: cannot be written: No space left on device\n"),
+              std::string::npos)
+        << command << ": " << outcome.errors;
+  }
+  const Outcome closed = shell(folder_, "exec $BUTEE plugins --json >&-");
+  EXPECT_EQ(closed.status, 1);
+  EXPECT_NE(closed.errors.find("standard output: cannot be written: Bad file descriptor"), std::string::npos)
+      << closed.errors;
+}
+
+/// Files that a run opens would have their numbers, and hold its messages.
+TEST_F(Faults, closed_standard_streams_spoil_no_result) {
+  ASSERT_EQ(shell(folder_, "$BUTEE run scene.toml -q -o whole").status, 0);
+  for (const char* closed : {">&-", "<&- >&-", ">&- 2>&-", "<&- >&- 2>&-", "2>&-"}) {
+    const Outcome outcome = shell(folder_, std::string("$BUTEE run scene.toml -v --progress always ") + closed);
+    EXPECT_EQ(outcome.status, std::string(closed) == "2>&-" ? 0 : 1) << closed;
+    EXPECT_EQ(result("history.csv"), read_file(folder_.file("whole/history.csv"))) << closed;
+    EXPECT_EQ(Json::parse(result("summary.json"))["status"], "completed") << closed;
+  }
 }
 
 std::string beams(int count, const std::string& elements) {

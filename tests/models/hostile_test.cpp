@@ -1,6 +1,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <sys/wait.h>
 
 #include <butee/core/text.hpp>
 #include <gtest/gtest.h>
@@ -176,6 +177,27 @@ TEST(HostileScenes, a_hundred_levels_are_not_too_many) {
       run_confined(folder, scene_with("rk4", "[output]\n# " + std::string(1000, '[') +
                                                  "\n# a.b.c.d\ninterval = 1.0e-3 # " + std::string(200, '.') + "\n"));
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
+}
+
+/// Devices and pipes may never end; a pipe that ends is a file like any other.
+TEST(HostileFiles, that_never_end_are_refused_and_pipes_are_read) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene_with("rk4"));
+  for (const std::string file : {"/dev/zero", "endless"}) {
+    std::string line = "cd '" + folder.path() + "' && ";
+    if (file == "endless") line += "mkfifo endless && { yes '# a comment' > endless & } && ";
+#ifndef __SANITIZE_ADDRESS__  // which reserves more address space than any limit leaves
+    line += "ulimit -v 1000000 && ";
+#endif
+    line += std::string("'") + BUTEE_TEST_PROGRAM + "' check " + file + " > out 2> err < /dev/null";
+    const int status = std::system(line.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << file;
+    EXPECT_EQ(read_file(folder.file("err")), file + ":1: the file is larger than 64 MB\n");
+  }
+  const std::string piped =
+      "cd '" + folder.path() + "' && cat scene.toml | '" + BUTEE_TEST_PROGRAM + "' check /dev/stdin > out 2> err";
+  EXPECT_EQ(std::system(piped.c_str()), 0) << read_file(folder.file("err"));
+  EXPECT_EQ(run_program({"check", "."}, folder.path()).status, 2);
 }
 
 }  // namespace

@@ -252,5 +252,26 @@ TEST(Fields, NeedAFormatThatKeepsThem) {
   refused(with + "{node = \"rotor\"}\n", "did you mean \"nodes\"");
 }
 
+/// XML 1.0 has no control characters, not even as references.
+TEST(Fields, TitlesWithControlCharactersLeaveXmlWellFormed) {
+  NEEDS_HDF5();
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
+  const std::string title = "title=\"a \\u0007 b \\u001B[1m c \\uFFFE \\n\\t <&\\\" \\u00E9\"";
+  const Outcome outcome =
+      run_program({"run", "scene.toml", "-q", "--set", "integrator.end_time=0.01", "--set", title}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string xml = read_file(folder.file("scene-results/fields.xdmf"));
+  for (const char c : xml) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n') << static_cast<int>(c);
+  const std::string mark = "\xEF\xBF\xBD";
+  EXPECT_NE(xml.find("Name=\"a " + mark + " b " + mark + "[1m c " + mark + " &#10;&#9; &lt;&amp;&quot; \xC3\xA9\""),
+            std::string::npos)
+      << xml.substr(0, 400);
+  if (std::system("python3 -c '' > /dev/null 2>&1") != 0) return;
+  const std::string parse = "python3 -c 'import sys, xml.etree.ElementTree as t; t.parse(sys.argv[1])' '" +
+                            folder.file("scene-results/fields.xdmf") + "'";
+  EXPECT_EQ(std::system(parse.c_str()), 0);
+}
+
 }  // namespace
 }  // namespace butee::test::fields_test

@@ -122,5 +122,35 @@ TEST(Modules, AFolderOfModulesIsFoundByEnvironmentAndOption) {
   expect_mentions(by_file.errors, {"registered twice", "rk4.so"});
 }
 
+/// One manifest that cannot be read is no reason to stop what does not need its module.
+TEST(Modules, ABrokenManifestOnThePathIsWarnedOfAndItsModuleLeftOut) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("more"));
+  fs::copy_file(broken("duplicate"), folder.file("more/mine.so"));
+  folder.write("more/mine.toml", "manifest = [");
+  const std::vector<std::string> path = {"BUTEE_PLUGIN_PATH=" + folder.file("more")};
+  const std::vector<std::string> warning = {"warning", "more/mine.so: is left out", "more/mine.toml:1: not valid TOML"};
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"plugins"}, {"help", "loads"}, {"check", model_path("beam1")}}) {
+    const auto outcome = run_program(command, folder.path(), path);
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    expect_mentions(outcome.errors, warning);
+  }
+  const auto run = run_program({"run", model_path("oscillator"), "--set", "integrator.type=rk4", "--set",
+                                "integrator.end_time=1e-3", "-o", "out"},
+                               folder.path(), path);
+  EXPECT_EQ(run.status, 0) << run.errors;
+  for (const std::string set : {"integrator.type=mine", "contact[0].law=mine", "load[0].type=mine",
+                                "element[0].type=mine", "output.formats=[\"mine\"]"}) {
+    const auto needs = run_program({"check", model_path("oscillator"), "--set", set}, folder.path(), path);
+    EXPECT_EQ(needs.status, 2) << set;
+    expect_mentions(needs.errors, {"may be of a module that could not be read", "more/mine.so: is left out"});
+  }
+  // Asked for by name, it has to be right.
+  const auto named = run_program({"plugins", "--plugin", folder.file("more/mine.so")}, folder.path());
+  EXPECT_EQ(named.status, 2);
+  expect_mentions(named.errors, {"more/mine.toml:1: not valid TOML"});
+}
+
 }  // namespace
 }  // namespace butee::test::modules_test

@@ -119,8 +119,8 @@ class Adviser {
                        " stops are closed at the start: the initial displacement is beyond their gap");
     if (mechanics.closed_by_constants > 0)
       add("gap", std::to_string(mechanics.closed_by_constants) +
-                     " stops have a gap below the static deflection: loads that do not oscillate press them shut, and "
-                     "they stay shut unless the rest of the motion opens them");
+                     " stops have a gap below the static deflection under the lasting part of the loads: they are "
+                     "pressed shut, and stay shut unless the rest of the motion opens them");
   }
 
   void judge_output() {

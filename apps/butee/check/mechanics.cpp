@@ -17,6 +17,8 @@ constexpr Index kMostSamples = 200;
 /// A pivot below this part of its diagonal entry is rounding of a zero.
 constexpr double kSingular = 1e-13;
 constexpr int kInstants = 1000;
+/// A load that turns so often in half of the run oscillates.
+constexpr int kTurnsOfOscillation = 2;
 
 bool is_regular(const SparseMatrix& matrix, Factor& factor) {
   factor.compute(matrix);
@@ -66,6 +68,32 @@ Vector pattern(const model::FreeLoad& load, Index size) {
   return force;
 }
 
+/// The part of a load that lasts: its end value where it settles (constants, ramps); where it goes up and down in the
+/// second half of the run (random tables, records of waves) its mean there less its standard deviation, both towards 0,
+/// since larger fluctuations open a stop again; 0 of a harmonic.
+double lasting_part(const model::TimeFunction& function, double end_time) {
+  if (const auto harmonic = function.harmonic(); harmonic && harmonic->angular_frequency > 0.0) return 0.0;
+  const double middle = 0.5 * end_time;
+  std::vector<double> instants = function.kinks();
+  std::erase_if(instants, [&](double t) { return !(t > middle && t < end_time); });
+  for (int i = 0; i <= kInstants; ++i) instants.push_back(middle + (end_time - middle) * i / kInstants);
+  std::sort(instants.begin(), instants.end());
+  double area = 0.0, squares = 0.0, slope = 0.0, before = function.value(middle);
+  int turns = 0;
+  for (std::size_t i = 1; i < instants.size(); ++i) {
+    const double value = function.value(instants[i]), change = value - before;
+    const double length = instants[i] - instants[i - 1];
+    area += 0.5 * (before + value) * length;
+    squares += (before * before + before * value + value * value) / 3.0 * length;
+    if (change * slope < 0.0) ++turns;
+    if (change != 0.0) slope = change;
+    before = value;
+  }
+  if (turns < kTurnsOfOscillation) return before;
+  const double mean = area / (end_time - middle), variance = squares / (end_time - middle) - mean * mean;
+  return std::copysign(std::max(0.0, std::abs(mean) - std::sqrt(std::max(0.0, variance))), mean);
+}
+
 void add_statics(const model::System& system, const Factor& stiffness, const std::vector<Stop>& stops, double end_time,
                  Mechanics& result) {
   if (system.loads.empty() || stops.empty()) return;
@@ -76,7 +104,7 @@ void add_statics(const model::System& system, const Factor& stiffness, const std
     const double size = amplitude(*load.in_time, end_time);
     for (std::size_t i = 0; i < stops.size(); ++i)
       largest[static_cast<Index>(i)] += size * std::abs(stops[i].at(moved));
-    if (!load.in_time->harmonic()) constant += load.in_time->value(end_time) * moved;
+    constant += lasting_part(*load.in_time, end_time) * moved;
   }
   result.static_deflection = largest.maxCoeff();
   result.closed_by_constants =

@@ -16,7 +16,7 @@ struct Mechanics {
   /// The largest displacement of a stop under all loads' amplitudes at rest, m; nothing without loads or stops, or
   /// where the structure is free to move.
   std::optional<double> static_deflection;
-  Index closed_by_constants = 0;  ///< stops that loads without oscillation alone press shut, at rest
+  Index closed_by_constants = 0;  ///< stops that the lasting part of the loads presses shut, at rest
   Index closed_at_start = 0;      ///< stops that the initial displacement has closed
   Index sampled = 0;              ///< stops looked at, of all
 };

@@ -13,6 +13,7 @@ const std::vector<Topic>& topics() {
       {"integrators", "the methods, and how one is chosen", integrators_text},
       {"output", "rows, probes, energy, impacts", output_text},
       {"results", "the files that a run writes", results_text},
+      {"limits", "kinds of problems that butee does not solve", limits_text},
       {"compare", "run time against error of several methods", compare_text},
       {"trust", "how far an answer can be trusted", trust_text},
       {"plugins", "modules: where they are found, how to write one", plugins_text},
@@ -29,12 +30,40 @@ std::string results_text(const plugin::Catalogue&) {
   summary.json   status, counters of what was really done, times, peaks, energies
   model.toml     the scene as run, with what --set changed
   impacts.csv    where [output] impacts = true: node, side, t_in, t_out, peak_force, impulse, impact_speed
+  energy.csv     where [output] energy = true: t, kinetic, strain, contact, work, dissipated (J)
+  fields.h5, fields.xdmf
+                 where formats holds "hdf5": the fields of all nodes, for ParaView and h5py
+  plots/         with --plot, or by `butee plot DIR`: pictures, each with its gnuplot script
+  checkpoint.bin, checkpoint-before.bin
+                 where [output] checkpoint = N, until the run is completed: butee run --resume DIR goes on from them
+  .butee-lock    while a run writes there; a second run into the same folder is refused
+
+Columns of history.csv are LABEL.QUANTITY: m, m/s, m/s2, N; rad, rad/s and rad/s2 of theta, which is du/dx. The
+counters of summary.json count what was done; factor_updates is always 0, since no factorization is changed in place.
 
 Files of an earlier run there are replaced, anything else in the folder stays; a folder that is not empty and was not made by
 butee is refused. A run that fails keeps what was computed, in whole lines, and says so in summary.json.
 
 `butee modes -o DIR` writes frequencies.csv and shapes.csv: node, coordinate, and u and theta of each mode, scaled so that
 the modal mass is 1 kg.
+)";
+}
+
+std::string limits_text(const plugin::Catalogue&) {
+  return R"(butee solves small motions of linear structures whose only nonlinearity is elastic stops. It does not have:
+
+  Structures   motion in space: beams bend in one plane, without stretching or twisting; shear deformation and rotary
+               inertia of beams (Euler-Bernoulli); plates, shells, solids; rotating shafts with gyroscopic moments;
+               gravity (a distributed load of -9.81 times the mass per length stands for it) and preload
+  Large motion large rotations, stress stiffening, buckling
+  Materials    plasticity, creep, fatigue; damping beyond Rayleigh's, modal damping and dashpots
+  Contact      friction; dissipation or restitution in a stop (a dashpot beside it stands for it); contact at places
+               that move along a beam, or between surfaces that are meshed
+  Loads        forces that depend on the motion, moving loads, given motion of a support
+  Results      stresses and section forces; optimal parameters; static solutions without a run
+
+A motion that strikes stops may be chaotic: then no method can give its course for long (butee help trust). Scenes are
+limited by memory: butee check says how much one takes. New elements, laws and loads come as modules (butee help plugins).
 )";
 }
 

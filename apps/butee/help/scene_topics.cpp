@@ -38,8 +38,9 @@ std::string model_text(const plugin::Catalogue&) {
   displacement = [{ nodes = "rotor", dof = "u", value = 1.0e-3 }]     # m, rad
   velocity     = [{ nodes = "rotor", dof = "u", value = 0.2 }]        # m/s, rad/s
 
-The equations are M a + C v + K x = F(t) + F_c(x) with the free u (transverse displacement) and theta (rotation) of
-all nodes. Every key is checked: a mistake gets one message with file, line, key, value and what is allowed, all mistakes
+The equations are M a + C v + K x = F(t) + F_c(x) with the free u (transverse displacement, m) and theta (rotation, rad)
+of all nodes. theta = du/dx: with x along the beam and y along u it turns about z, right-handed (rz), so that it is
+positive where u grows along the beam; a positive moment on theta turns the same way. Every key is checked: a mistake gets one message with file, line, key, value and what is allowed, all mistakes
 of a file in one go. `butee init KIND` writes a scene to start from, `butee check` shows what one holds.
 )";
 }
@@ -82,7 +83,8 @@ With the penetration g (negative while open) and one side s: g = s u - gap, F = 
 }
 
 std::string loads_text(const plugin::Catalogue& catalogue) {
-  return R"([[load]]: `node` (a selector of one node), `dof` ("u", where not given, or "theta"), and `type`, the course in time.
+  return R"([[load]]: `node` (a selector of one node), `dof` ("u", where not given: a force, N; or "theta": a moment, N m,
+positive as theta = du/dx is), and `type`, the course in time.
 )" + listed(catalogue.types().loads) +
          R"(
 distributed: a line load on a whole beam, as consistent nodal loads
@@ -141,7 +143,7 @@ std::string output_text(const plugin::Catalogue&) {
   [[output.probe]]
   label        the name of its columns: label.u, label.v, ...
   node         a selector of one node
-  quantities   any of "u", "v", "a", "theta", "theta_v", "theta_a", "contact_force"
+  quantities   any of "u", "v", "a", "theta", "theta_v", "theta_a", "contact_force"; theta = du/dx
 )";
 }
 

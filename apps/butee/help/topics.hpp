@@ -27,6 +27,7 @@ std::string output_text(const plugin::Catalogue& catalogue);
 
 // Of the program, in program_topics.cpp.
 std::string results_text(const plugin::Catalogue& catalogue);
+std::string limits_text(const plugin::Catalogue& catalogue);
 std::string compare_text(const plugin::Catalogue& catalogue);
 std::string trust_text(const plugin::Catalogue& catalogue);
 std::string plugins_text(const plugin::Catalogue& catalogue);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <butee/core/text.hpp>
+
 #include "../gnuplot.hpp"
 #include "thin.hpp"
 
@@ -50,7 +52,7 @@ std::string data_of(const std::vector<Curve>& curves, const Scale& x, const Scal
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Curve& curve = curves[i];
     const auto kept = curve.points ? every(curve.x.size()) : curve.path ? thin_path(curve.x, curve.y) : thin(curve.y);
-    data += "# " + curve.title + "\n$curve" + std::to_string(i) + " << EOD\n";
+    data += "# " + printable(curve.title) + "\n$curve" + std::to_string(i) + " << EOD\n";
     for (const std::size_t k : kept) data += number(curve.x[k] * x.factor) + " " + number(curve.y[k] * y.factor) + "\n";
     data += "EOD\n";
   }
@@ -64,7 +66,8 @@ std::string folded_title(std::string title) {
   std::replace(title.begin(), title.end(), '\\', '/');
   std::replace(title.begin(), title.end(), '`',
                '\'');  // Within double quotes a command, whose output would stand there.
-  std::replace(title.begin(), title.end(), '\n', ' ');
+  std::replace_if(
+      title.begin(), title.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
   if (title.size() <= kTitleWidth) return title;
   std::size_t best = std::string::npos;
   for (std::size_t i = title.find(' '); i != std::string::npos && i <= kTitleWidth; i = title.find(' ', i + 1))

@@ -1,0 +1,126 @@
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <unistd.h>
+
+#include <butee/core/error.hpp>
+#include <butee/record/folder_lock.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/process.hpp"
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::two_runs_test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using std::chrono::microseconds;
+
+constexpr const char* kScene = R"(schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 1.0
+[[element]]
+type      = "spring"
+node      = "a"
+stiffness = 1.0e4
+[initial]
+displacement = [{nodes = "a", value = 1.0e-2}]
+[integrator]
+type      = "rk4"
+time_step = 1.0e-4
+end_time  = 1.0
+[output]
+interval = 1.0e-3
+energy   = true
+)";
+
+std::vector<std::string> run_to(const std::string& end_time) {
+  return {"run", "scene.toml", "-q", "-o", "both", "--set", "integrator.end_time=" + end_time};
+}
+
+class TwoRuns : public testing::Test {
+ protected:
+  TwoRuns() { folder_.write("scene.toml", kScene); }
+
+  /// All files of the folder are of the run to `end_time`, from the first to the last row.
+  void expect_whole(double end_time) const {
+    const Json summary = Json::parse(read_file(folder_.file("both/summary.json")));
+    EXPECT_EQ(summary["status"], "completed");
+    EXPECT_EQ(summary["t_end"], end_time);
+    for (const char* name : {"history.csv", "energy.csv"}) {
+      const CsvTable table(folder_.file(std::string("both/") + name));
+      ASSERT_EQ(table.rows(), static_cast<std::size_t>(std::lround(end_time * 1e3)) + 1) << name;
+      EXPECT_EQ(table.column("t").front(), 0.0);
+      EXPECT_EQ(table.column("t").back(), end_time);
+    }
+    const std::string model = read_file(folder_.file("both/model.toml"));
+    EXPECT_NE(model.find(end_time == 1.0 ? "end_time = 1.0" : "end_time = 2.0"), std::string::npos) << model;
+    EXPECT_FALSE(fs::exists(folder_.file("both/.butee-lock")));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(TwoRuns, IntoOneFolderLeaveOneWholeResult) {
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run_program(run_to("2.0"), folder_.path()).status, 0);
+  const auto alone = std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now() - begin);
+  std::mt19937 random(20171);
+  std::uniform_int_distribution<std::int64_t> delay(0, alone.count());
+  int refused = 0;
+  for (int round = 0; round < 50 && !HasFailure(); ++round) {
+    if (round % 2 == 0) fs::remove_all(folder_.file("both"));
+    Process first(run_to("2.0"), folder_.path());
+    usleep(static_cast<useconds_t>(delay(random)));
+    Process second(run_to("1.0"), folder_.path());
+    const int one = first.wait(), other = second.wait();
+    EXPECT_TRUE(one == 0 || one == 2) << one;
+    EXPECT_TRUE(other == 0 || other == 2) << other;
+    ASSERT_TRUE(one == 0 || other == 0);
+    if (one == 2 || other == 2) ++refused;
+    // Both were done: one after the other, in either order.
+    const double t_end = Json::parse(read_file(folder_.file("both/summary.json")))["t_end"];
+    expect_whole(one == 2 ? 1.0 : other == 2 ? 2.0 : t_end);
+  }
+  EXPECT_GE(refused, 5);
+}
+
+TEST_F(TwoRuns, TheSecondIsToldWhichProcessIsAtIt) {
+  fs::create_directory(folder_.file("both"));
+  const record::FolderLock lock(folder_.file("both"));
+  EXPECT_THROW(record::FolderLock(folder_.file("both")), InputError);
+  const Outcome outcome = run_program(run_to("1.0"), folder_.path());
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.errors, "both: process " + std::to_string(getpid()) +
+                                " is writing its results there; wait until it has ended, or choose another folder "
+                                "with -o\n");
+  EXPECT_FALSE(fs::exists(folder_.file("both/model.toml")));
+}
+
+TEST_F(TwoRuns, AKilledOneBlocksNobody) {
+  Process first(run_to("1e6"), folder_.path());
+  while (!fs::exists(folder_.file("both/history.csv"))) usleep(1000);
+  const Outcome refused = run_program(run_to("1.0"), folder_.path());
+  EXPECT_EQ(refused.status, 2);
+  first.send(SIGKILL);
+  first.wait();
+  ASSERT_TRUE(fs::exists(folder_.file("both/.butee-lock")));
+  EXPECT_EQ(run_program(run_to("1.0"), folder_.path()).status, 0);
+  expect_whole(1.0);
+}
+
+/// A run that is killed before it has written anything leaves a folder that the next one takes.
+TEST_F(TwoRuns, ALockAloneMakesNoFolderForeign) {
+  fs::create_directory(folder_.file("both"));
+  folder_.write("both/.butee-lock", "1\n");
+  EXPECT_EQ(run_program(run_to("1.0"), folder_.path()).status, 0);
+  expect_whole(1.0);
+}
+
+}  // namespace
+}  // namespace butee::test::two_runs_test
