@@ -24,7 +24,7 @@ constexpr Index kExtendedRitz = 150;
 /// to tell the lowest modes apart.
 constexpr double kShiftPart = 1e-2;
 /// The place between two eigenvalues at which they are counted, relative.
-constexpr double kCountedBelow = 1e-6;
+constexpr double kCountedMargin = 1e-6;
 /// Eigenvalues below this part of the shift are rounding of the iteration.
 constexpr double kZeroBesideShift = 1e-18;
 /// An eigenvalue is zero where it is within so many times the rounding of its elements.
@@ -151,7 +151,7 @@ RitzPairs iterate(const Structure& structure, ShiftedFactor& factor, double boun
     const RitzPairs pairs = refine(structure, all);
     if (pairs.shapes.size() == 0) return {};
     found = pairs.shapes;
-    const double last = pairs.values[count - 1], limit = (1.0 - kCountedBelow) * last;
+    const double last = pairs.values[count - 1], limit = (1.0 - kCountedMargin) * last;
     if (last <= kZeroInRounding * pairs.rounding[count - 1] - kZeroBesideShift * shift) return first_of(pairs, count);
     const Index below = count_below(factor, limit);
     const Index known = (pairs.values.array() < limit).count();
