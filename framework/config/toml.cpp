@@ -8,6 +8,7 @@
 
 #include <toml.hpp>
 
+#include "butee/config/number_arrays.hpp"
 #include "butee/config/toml_limits.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
@@ -49,7 +50,13 @@ class Places {
   std::vector<std::ptrdiff_t> line_begins_;
 };
 
-Value convert(const Parsed& from, const std::string& key, Places& places);
+/// What a parsed text is read with.
+struct Source {
+  Places places;
+  NumberArrays arrays;
+};
+
+Value convert(const Parsed& from, const std::string& key, Source& source);
 
 /// Refuses what is TOML but cannot be kept as a Value.
 [[noreturn]] void refuse(const Parsed& value, const std::string& key, const std::string& complaint) {
@@ -69,22 +76,22 @@ Number fitting(Number number, const Parsed& from, const std::string& key) {
   return number;
 }
 
-Table convert_table(const Parsed& from, Places& places) {
+Table convert_table(const Parsed& from, Source& source) {
   struct Placed {
     std::ptrdiff_t offset;
     Table::Entry entry;
   };
   std::vector<Placed> placed;
   for (const auto& [key, value] : from.as_table())
-    placed.push_back({places.offset(value), {key, convert(value, key, places)}});
+    placed.push_back({source.places.offset(value), {key, convert(value, key, source)}});
   std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.offset < b.offset; });
   Table table;
   for (Placed& item : placed) table.entries.push_back(std::move(item.entry));
   return table;
 }
 
-Value convert(const Parsed& from, const std::string& key, Places& places) {
-  const Location at = places.location(from);
+Value convert(const Parsed& from, const std::string& key, Source& source) {
+  const Location at = source.places.location(from);
   switch (from.type()) {
     case toml::value_t::boolean:
       return {from.as_boolean(), at};
@@ -96,11 +103,14 @@ Value convert(const Parsed& from, const std::string& key, Places& places) {
       return {std::string(from.as_string().str), at};
     case toml::value_t::array: {
       Array array;
-      for (const Parsed& item : from.as_array()) array.push_back(convert(item, key, places));
+      const auto& items = from.as_array();
+      if (items.size() == 1 && items.front().is_string())
+        if (Array* taken = source.arrays.find(items.front().as_string().str)) return {std::move(*taken), at};
+      for (const Parsed& item : items) array.push_back(convert(item, key, source));
       return {std::move(array), at};
     }
     case toml::value_t::table:
-      return {convert_table(from, places), at};
+      return {convert_table(from, source), at};
     default:
       refuse(from, key, "dates and times have no place in a model file");
   }
@@ -128,8 +138,10 @@ std::string shorten(const std::string& what, const std::string& name) {
   return name + ":" + (line.empty() ? "1" : line) + ": not valid TOML: " + sentence;
 }
 
-Parsed parse(const std::string& text, const std::string& name) {
-  check_limits(text);
+Parsed parse(const std::string& whole, const std::string& name, Source& source) {
+  check_limits(whole);
+  const std::string text = source.arrays.take_out(whole);
+  check_lines(text);
   std::istringstream stream(text);
   return toml::parse<toml::discard_comments, std::map, std::vector>(stream, name);
 }
@@ -138,9 +150,9 @@ Parsed parse(const std::string& text, const std::string& name) {
 
 Document parse_toml(const std::string& text, const std::string& name) {
   try {
-    const Parsed parsed = text.empty() ? Parsed(toml::table{}) : parse(text, name);
-    Places places;
-    return {{name}, {convert_table(parsed, places), {0, 1}}};
+    Source source;
+    const Parsed parsed = text.empty() ? Parsed(toml::table{}) : parse(text, name, source);
+    return {{name}, {convert_table(parsed, source), {0, 1}}};
   } catch (const InputError& error) {
     throw InputError(name + error.what());
   } catch (const std::exception& error) {
@@ -160,9 +172,9 @@ Document load_toml(const std::string& path) {
 std::optional<Value> parse_toml_value(const std::string& text) {
   if (text.find('\n') != std::string::npos) return std::nullopt;
   try {
-    const Parsed parsed = parse("value = " + text + "\n", "value");
-    Places places;
-    return convert(parsed.at("value"), "value", places);
+    Source source;
+    const Parsed parsed = parse("value = " + text + "\n", "value", source);
+    return convert(parsed.at("value"), "value", source);
   } catch (const std::exception&) {
     return std::nullopt;
   }

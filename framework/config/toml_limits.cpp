@@ -11,17 +11,6 @@ constexpr int kDeepest = 100;
 constexpr std::size_t kLongestLine = 65536;
 constexpr std::size_t kLargest = std::size_t{1} << 26;
 
-void check_lines(const std::string& text) {
-  std::size_t line = 1;
-  for (std::size_t begin = 0; begin < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > kLongestLine)
-      throw InputError(":" + std::to_string(line) + ": the line is longer than " + std::to_string(kLongestLine) +
-                       " characters; an array may go over many lines");
-    begin = end + 1;
-  }
-}
-
 /// The length of the UTF-8 sequence that begins at a byte, 0 where there is none: RFC 3629, section 4.
 std::size_t sequence_at(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) -> unsigned { return at + i < text.size() ? text[at + i] & 0xffU : 0U; };
@@ -61,10 +50,11 @@ class LimitScanner {
 
  private:
   void step() {
-    switch (const char c = text_[at_]) {
+    switch (text_[at_]) {
       case '"':
       case '\'':
-        return skip_string(c);
+        at_ = end_of_string(text_, at_);
+        return;
       case '#':
         at_ = std::min(text_.find('\n', at_), text_.size());
         return;
@@ -92,27 +82,6 @@ class LimitScanner {
     ++at_;
   }
 
-  bool three(char quote) const { return text_.compare(at_, 3, std::string(3, quote)) == 0; }
-
-  void skip_string(char quote) {
-    const bool is_long = three(quote);
-    at_ += is_long ? 3 : 1;
-    for (; at_ < text_.size(); ++at_) {
-      if (text_[at_] == '\\' && quote == '"') {
-        ++at_;
-      } else if (!is_long && text_[at_] == '\n') {
-        return;
-      } else if (!is_long && text_[at_] == quote) {
-        ++at_;
-        return;
-      } else if (is_long && three(quote)) {
-        // Up to two more quotes belong to the string.
-        for (int i = 0; i < 5 && at_ < text_.size() && text_[at_] == quote; ++i) ++at_;
-        return;
-      }
-    }
-  }
-
   [[noreturn]] void refuse(const char* what) const {
     const auto end = text_.begin() + static_cast<std::ptrdiff_t>(at_);
     throw InputError(":" + std::to_string(1 + std::count(text_.begin(), end, '\n')) + ": more than " +
@@ -126,10 +95,41 @@ class LimitScanner {
 
 }  // namespace
 
+void check_lines(const std::string& text) {
+  std::size_t line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongestLine)
+      throw InputError(":" + std::to_string(line) + ": the line is longer than " + std::to_string(kLongestLine) +
+                       " characters; an array may go over many lines");
+    begin = end + 1;
+  }
+}
+
+std::size_t end_of_string(const std::string& text, std::size_t at) {
+  const char quote = text[at];
+  const auto three = [&] { return text.compare(at, 3, std::string(3, quote)) == 0; };
+  const bool is_long = three();
+  at += is_long ? 3 : 1;
+  for (; at < text.size(); ++at) {
+    if (text[at] == '\\' && quote == '"') {
+      ++at;
+    } else if (!is_long && text[at] == '\n') {
+      return at;
+    } else if (!is_long && text[at] == quote) {
+      return at + 1;
+    } else if (is_long && three()) {
+      // Up to two more quotes belong to the string.
+      for (int i = 0; i < 5 && at < text.size() && text[at] == quote; ++i) ++at;
+      return at;
+    }
+  }
+  return std::min(at, text.size());
+}
+
 void check_limits(const std::string& text) {
   if (text.size() > kLargest)
     throw InputError(":1: the file is larger than " + std::to_string(kLargest >> 20U) + " MB");
-  check_lines(text);
   check_encoding(text);
   LimitScanner(text).scan();
 }
