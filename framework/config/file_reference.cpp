@@ -1,11 +1,14 @@
 #include "butee/config/file_reference.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
+#include <string_view>
 
 #include "butee/core/bytes.hpp"
 #include "butee/core/error.hpp"
@@ -37,17 +40,45 @@ void pin(const Document& document, Table& table, const char* key, const char* in
   table["checksum"] = Value(checksum_text(bytes));
 }
 
+bool is_table_of_file(const Table& table) {
+  const Value *type = table.find("type"), *file = table.find("file");
+  return type != nullptr && type->text() != nullptr && *type->text() == "table" && file != nullptr;
+}
+
 void pin_all(const Document& document, Value& value, const std::string& folder) {
   if (Array* array = value.array())
     for (Value& item : *array) pin_all(document, item, folder);
   Table* table = value.table();
   if (table == nullptr) return;
   for (auto& entry : table->entries) pin_all(document, entry.second, folder);
-  const Value* type = table->find("type");
-  if (type != nullptr && type->text() != nullptr && *type->text() == "table") pin(document, *table, "file", "", folder);
+  if (is_table_of_file(*table)) pin(document, *table, "file", "", folder);
+}
+
+void erase(Table& table, std::initializer_list<std::string_view> keys) {
+  std::erase_if(table.entries, [&](const Table::Entry& entry) {
+    return std::find(keys.begin(), keys.end(), entry.first) != keys.end();
+  });
+}
+
+void take_files_out(Value& value) {
+  if (Array* array = value.array())
+    for (Value& item : *array) take_files_out(item);
+  Table* table = value.table();
+  if (table == nullptr) return;
+  for (auto& entry : table->entries) take_files_out(entry.second);
+  if (!is_table_of_file(*table)) return;
+  erase(*table, {"file", "columns", "skip", "scale", "size", "checksum"});
+  for (const char* key : {"times", "values"}) (*table)[key] = Value(Array{Value(0.0)});
 }
 
 }  // namespace
+
+Document without_files(Document document) {
+  take_files_out(document.root);
+  if (Value* initial = document.root.table()->find("initial"); initial != nullptr && initial->table() != nullptr)
+    erase(*initial->table(), {"from", "at", "keep_time", "size", "checksum"});
+  return document;
+}
 
 std::string path_beside(const Document& document, const std::string& file) {
   return (fs::path(document.sources.front()).parent_path() / file).string();

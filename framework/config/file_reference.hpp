@@ -20,6 +20,9 @@ BUTEE_EXPORT std::string checksum_text(const std::string& bytes);
 /// from there, and stand with their size and checksum, which reading compares.
 BUTEE_EXPORT Table with_files_found_from(const Document& document, const std::string& folder);
 
+/// The document with zero in place of the files that it names, for those who need its structure alone.
+BUTEE_EXPORT Document without_files(Document document);
+
 /// What is wrong with the bytes of a file whose size and checksum are given (0 and "": are not), or "".
 BUTEE_EXPORT std::string change_of(const std::string& bytes, std::int64_t size, const std::string& checksum);
 

@@ -109,7 +109,7 @@ TEST_F(StartFrom, TwoHalvesAreOneRun) {
         largest = std::max(largest, std::abs(one[i + 20]));
         worst = std::max(worst, std::abs(two[i] - one[i + 20]));
       }
-      EXPECT_GT(largest, 1e-4);
+      EXPECT_GT(largest, 1e-5);
       EXPECT_LT(worst, kRounding * largest) << type << " " << column;
     }
   }

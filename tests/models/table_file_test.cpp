@@ -124,6 +124,8 @@ TEST_F(TableFile, IsNamedInModelTomlAndFoundFromThere) {
       << changed.errors;
   std::filesystem::remove(folder_.file("data/a.csv"));
   EXPECT_TRUE(holds(again().errors, "does not exist"));
+  const Outcome pictures = run_program({"plot", "s-results", "--format", "script"}, folder_.path());
+  EXPECT_EQ(pictures.status, 0) << pictures.errors;
 }
 
 TEST_F(TableFile, LongArraysOfASceneAreReadAsShortOnes) {
