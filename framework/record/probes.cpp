@@ -4,6 +4,12 @@
 #include <numeric>
 
 namespace butee::record {
+namespace {
+
+/// Numbers of a motion that are interpolated at a time, where all DOFs are.
+constexpr std::size_t kLargestSample = 1U << 14U;
+
+}  // namespace
 
 Probes::Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics) : dynamics_(dynamics) {
   const model::DofTable& table = dynamics.system().dofs;
@@ -95,14 +101,23 @@ void Probes::sample(const time::AcceptedStep& step, std::span<const double> time
 }
 
 void Probes::sample_forces(const time::AcceptedStep& step, std::span<const double> times) {
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] == step.to.t) {
-      evaluate_forces(times[i], step.to.x, step.to.v, i);
-      continue;
+  const std::size_t n = all_.size(), most = std::max<std::size_t>(1, kLargestSample / n);
+  std::size_t within = times.size();
+  for (; within > 0 && times[within - 1] == step.to.t; --within)
+    evaluate_forces(step.to.t, step.to.x, step.to.v, within - 1);
+  for (std::size_t first = 0, count = 0; first < within; first += count) {
+    count = std::min(most, within - first);
+    for (Vector* samples : {&all_x_, &all_v_})
+      if (samples->size() < std::ssize(all_) * static_cast<Index>(count))
+        samples->resize(static_cast<Index>(n * count));
+    step.integrator.interpolate(step.from, step.to, times.subspan(first, count), all_,
+                                {{all_x_.data(), n * count}, {all_v_.data(), n * count}, {}});
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto row = [&](const Vector& samples) {
+        return samples.segment(static_cast<Index>(i * n), std::ssize(all_));
+      };
+      evaluate_forces(times[first + i], row(all_x_), row(all_v_), first + i);
     }
-    step.integrator.interpolate(step.from, step.to, times[i], all_,
-                                {{all_x_.data(), all_.size()}, {all_v_.data(), all_.size()}, {}});
-    evaluate_forces(times[i], all_x_, all_v_, i);
   }
 }
 
