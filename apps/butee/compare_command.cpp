@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include <butee/config/override.hpp>
 #include <butee/config/file_reference.hpp>
+#include <butee/config/override.hpp>
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
@@ -136,8 +136,8 @@ class Comparison {
     row.method = sweep.method;
     row.knob = sweep.knob;
     row.value = value;
-    row.fingerprint = fingerprint_of(BUTEE_VERSION + config::write_toml(config::with_files_found_from(document, ".")) + result.column +
-                                     to_text(result.reference.horizon));
+    row.fingerprint = fingerprint_of(BUTEE_VERSION + config::write_toml(config::with_files_found_from(document, ".")) +
+                                     result.column + to_text(result.reference.horizon));
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Row& other) {
       return other.fingerprint == row.fingerprint && other.scene == row.scene;
     });
