@@ -15,6 +15,12 @@ using model::NodeId;
 namespace {
 
 constexpr double kMostElements = 5e6;
+constexpr Index kVy = 1, kMz = 5;  ///< rows of SectionCut::resultants
+
+/// Consistent nodal forces of 1 N/m on an element of length l.
+std::array<double, 4> line_load_of(double l) {
+  return {l / 2, l * l / 12, l / 2, -l * l / 12};
+}
 
 std::array<NodalDof, 4> dofs_between(NodeId left, NodeId right) {
   return {NodalDof{left, DofKind::u}, NodalDof{left, DofKind::theta}, NodalDof{right, DofKind::u},
@@ -86,10 +92,28 @@ void Beam::assemble(model::MatrixSink& sink) const {
   }
 }
 
+double Beam::length_of(Index part) const {
+  const auto e = static_cast<std::size_t>(part);
+  return coordinates_.at(e + 1) - coordinates_.at(e);
+}
+
+std::optional<model::SectionCut> Beam::cut(Index part, bool at_end) const {
+  const auto e = static_cast<std::size_t>(part);
+  const double l = length_of(part), sign = at_end ? 1.0 : -1.0;
+  const auto dofs = dofs_between(nodes_[e], nodes_[e + 1]);
+  const auto consistent = line_load_of(l);
+  model::SectionCut cut({dofs.begin(), dofs.end()});
+  cut.matrices = beam_matrices(material_, section_, l);
+  cut.line_load = Eigen::Map<const Eigen::Vector4d>(consistent.data());
+  cut.resultants(kVy, at_end ? 2 : 0) = sign;
+  cut.resultants(kMz, at_end ? 3 : 1) = sign;
+  if (section_.outer_fibre > 0.0) cut.modulus = section_.second_moment / section_.outer_fibre;
+  return cut;
+}
+
 bool Beam::add_line_load(std::vector<model::NodalValue>& loads) const {
   for (std::size_t e = 0; e + 1 < nodes_.size(); ++e) {
-    const double l = coordinates_[e + 1] - coordinates_[e];
-    const std::array<double, 4> consistent = {l / 2, l * l / 12, l / 2, -l * l / 12};
+    const auto consistent = line_load_of(length_of(static_cast<Index>(e)));
     const auto dofs = dofs_between(nodes_[e], nodes_[e + 1]);
     for (std::size_t i = 0; i < dofs.size(); ++i) loads.push_back({dofs[i], consistent[i]});
   }

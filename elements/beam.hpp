@@ -24,8 +24,13 @@ class Beam final : public model::Element {
   void claim(model::DofTable& dofs) const override;
   void assemble(model::MatrixSink& sink) const override;
   bool add_line_load(std::vector<model::NodalValue>& loads) const override;
+  std::vector<model::NodeId> axis() const override { return nodes_; }
+  /// V = p_u and M = p_theta at the end of a part, their opposites at its beginning.
+  std::optional<model::SectionCut> cut(Index part, bool at_end) const override;
 
  private:
+  double length_of(Index part) const;
+
   model::Material material_;
   model::Section section_;
   std::vector<model::NodeId> nodes_;

@@ -15,7 +15,7 @@ using std::numbers::pi;
 
 /// A = pi (ro^2 - ri^2), I = pi/4 (ro^4 - ri^4)
 Section annulus(double ro, double ri) {
-  return {pi * (ro * ro - ri * ri), pi / 4.0 * (std::pow(ro, 4) - std::pow(ri, 4))};
+  return {pi * (ro * ro - ri * ri), pi / 4.0 * (std::pow(ro, 4) - std::pow(ri, 4)), ro};
 }
 
 SectionType tube() {
@@ -45,7 +45,7 @@ SectionType rectangle() {
            number("height", "m", "the height, in the plane of bending").above(0)},
           [](const Parameters& p, Diagnostics&) -> std::optional<Section> {
             const double b = p.number("width"), h = p.number("height");
-            return Section{b * h, b * h * h * h / 12.0};
+            return Section{b * h, b * h * h * h / 12.0, 0.5 * h};
           }};
 }
 
@@ -53,9 +53,13 @@ SectionType general() {
   return {
       "general",
       "area and second moment given directly",
-      {number("area", "m2", "the area").above(0), number("second_moment", "m4", "the second moment of area").above(0)},
+      {number("area", "m2", "the area").above(0), number("second_moment", "m4", "the second moment of area").above(0),
+       number("outer_fibre", "m", "the distance of the outer fibre from the neutral axis, for stresses")
+           .above(0)
+           .optional()},
       [](const Parameters& p, Diagnostics&) -> std::optional<Section> {
-        return Section{p.number("area"), p.number("second_moment")};
+        return Section{p.number("area"), p.number("second_moment"),
+                       p.has("outer_fibre") ? p.number("outer_fibre") : 0.0};
       }};
 }
 

@@ -14,6 +14,7 @@ class Spring final : public model::Element {
 
   void claim(model::DofTable& dofs) const override;
   void assemble(model::MatrixSink& sink) const override;
+  bool is_spring() const override { return true; }
 
  private:
   std::vector<model::NodeId> a_, b_;

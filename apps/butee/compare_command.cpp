@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <butee/config/file_reference.hpp>
 #include <butee/config/override.hpp>
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
@@ -136,9 +137,9 @@ class Comparison {
     row.method = sweep.method;
     row.knob = sweep.knob;
     row.value = value;
-    row.fingerprint =
-        fingerprint_of(BUTEE_VERSION + target() + compiled_for() + config::write_toml(*document.root.table()) +
-                       result.column + to_text(result.reference.horizon));
+    row.fingerprint = fingerprint_of(BUTEE_VERSION + target() + compiled_for() +
+                                     config::write_toml(config::with_files_found_from(document, ".")) + result.column +
+                                     to_text(result.reference.horizon));
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Row& other) {
       return other.fingerprint == row.fingerprint && other.scene == row.scene;
     });

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include <butee/config/file_reference.hpp>
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
@@ -23,7 +24,7 @@ struct ModesArguments {
 void write(const modes::Analysis& analysis, const Session& session, const model::System& system,
            const ModesArguments& arguments, const record::ResultFolder& folder) {
   const record::FolderLock lock = folder.lock();
-  folder.prepare(config::write_toml(*session.document.root.table()));
+  folder.prepare(config::write_toml(config::with_files_found_from(session.document, folder.path())));
   folder.write("frequencies.csv", modes::frequencies_csv(analysis));
   folder.write("shapes.csv", modes::shapes_csv(analysis, session.model, system));
   if (arguments.plot && !modes::draw(analysis, session.model, system, folder))

@@ -8,6 +8,7 @@
 #include <butee/core/text.hpp>
 #include <butee/plugin/catalogue.hpp>
 #include <butee/plugin/module.hpp>
+#include <butee/record/quantity.hpp>
 
 #include "commands.hpp"
 #include "json.hpp"
@@ -55,13 +56,23 @@ std::vector<Row> rows_of(const plugin::Catalogue& catalogue) {
   add("law", types.laws);
   add("load", types.loads);
   add("format", types.formats);
+  static const std::vector<Parameter> none;
+  for (const std::string& name : record::probe_quantities()) {
+    const record::Quantity quantity = record::quantity_of(name);
+    const std::string unit = record::unit_of(quantity);
+    rows.push_back(
+        {"quantity", name, "", std::string(record::summary_of(quantity)) + " (" + unit + ")", &none, "", {}});
+  }
   return rows;
 }
 
 void print_list(const std::vector<Row>& rows) {
   const char* kind = "";
   for (const Row& row : rows) {
-    if (std::string_view(kind) != row.kind) std::printf("%s%ss\n", *kind != '\0' ? "\n" : "", row.kind);
+    if (std::string_view(kind) != row.kind)
+      std::printf(
+          "%s%s\n", *kind != '\0' ? "\n" : "",
+          row.kind == std::string_view("quantity") ? "quantities of probes" : (row.kind + std::string("s")).c_str());
     kind = row.kind;
     std::printf("  %-26s %-6s %s\n", row.name.c_str(), row.aliases.c_str(), row.summary.c_str());
   }

@@ -84,6 +84,8 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
   if (output.impacts) simulation.add(impacts_.emplace(assembly_.dynamics));
   if (with_progress_) simulation.add(progress_.emplace(assembly_.dynamics, end_time));
   if (folder != nullptr && !output.fields.formats.empty()) add_fields(*folder);
+  states_.emplace(output.states, assembly_.dynamics.size());
+  if (!output.states.empty()) simulation.add(*states_);
   if (folder != nullptr && output.checkpoint > 0)
     simulation.add(checkpointer_.emplace(session_, assembly_, *folder, *writer_));
   if (checkpointer_ && energy_writer_) checkpointer_->also_sync(*energy_writer_);
@@ -157,6 +159,8 @@ void Run::write_files(const record::ResultFolder& folder) {
   if (fields_) fields_->finish();
   if (writer_) writer_->close();
   if (energy_writer_) energy_writer_->close();
+  if (summary_.report.completed)
+    states_->write(folder.file(model::SavedMotions::kFile), assembly_.system, assembly_.simulation.state());
   if (!impacts_) return;
   record::CsvWriter writer(folder.file("impacts.csv"), record::ImpactRecorder::columns());
   for (const record::Impact& impact : impacts_->impacts()) writer.line(record::ImpactRecorder::csv_line(impact));

@@ -8,6 +8,7 @@
 #include <butee/record/history.hpp>
 #include <butee/record/impacts.hpp>
 #include <butee/record/progress.hpp>
+#include <butee/record/state_keeper.hpp>
 #include <butee/record/summary.hpp>
 
 #include "assembly.hpp"
@@ -50,6 +51,7 @@ class Run {
   std::optional<record::ImpactRecorder> impacts_;
   std::optional<record::Progress> progress_;
   std::optional<record::FieldRecorder> fields_;
+  std::optional<record::StateKeeper> states_;
   std::optional<Checkpointer> checkpointer_;
 };
 

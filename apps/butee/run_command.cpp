@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include <butee/config/file_reference.hpp>
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
@@ -57,12 +58,26 @@ void repeat(Session& session, int times, bool with_progress, record::Summary& be
   }
 }
 
+/// Refuses a run that would replace what it starts from, and what knows only runs from t = 0.
+void check_start(const Session& session, const record::ResultFolder& folder) {
+  const config::Value* initial = session.document.root.table()->find("initial");
+  const config::Value* from = initial != nullptr ? initial->table()->find("from") : nullptr;
+  if (from == nullptr) return;
+  const std::string key = describe(session.document, from->at) + ": initial.from: ";
+  std::error_code error;
+  if (std::filesystem::equivalent(config::path_beside(session.document, *from->text()), folder.path(), error))
+    throw InputError(key + "is the folder that the results of this run would replace; choose another with -o");
+  if (session.output.trust && session.model.initial_motion->time != 0.0)
+    throw InputError(key + "runs that begin at t = 0 alone can be asked how far they are trusted; leave keep_time out");
+}
+
 int run(Session& session, const RunArguments& arguments, const record::ResultFolder& folder) {
   plot::Request pictures;
   if (arguments.plot) plot::require_gnuplot(pictures.formats);
   for (const std::string& warning : session.warnings) log::warning(warning);
   session.output.trust = session.output.trust || arguments.trust;
   check_checkpoints(session);
+  check_start(session, folder);
   const bool goes_on = !arguments.resume.empty();
   std::optional<record::FolderLock> lock;
   if (goes_on) lock.emplace(folder.lock());
@@ -75,7 +90,7 @@ int run(Session& session, const RunArguments& arguments, const record::ResultFol
   Run first(session, with_progress);
   watch_for_interruption();
   if (!lock) lock.emplace(folder.lock());
-  if (!checkpoint) folder.prepare(config::write_toml(*session.document.root.table()));
+  if (!checkpoint) folder.prepare(config::write_toml(config::with_files_found_from(session.document, folder.path())));
   record::Summary best = first.perform(&folder, checkpoint ? &*checkpoint : nullptr);
   repeat(session, arguments.repeat, with_progress, best);
   folder.write("summary.json", record::to_json(best));

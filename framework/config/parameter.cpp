@@ -61,6 +61,16 @@ std::string array_complaint(const Parameter& parameter, const Value& value, cons
   return "";
 }
 
+/// A column of a file: counted from 1, or by its name.
+constexpr const char* kColumn = "column";
+
+std::string column_complaint(const Value& value) {
+  if (value.text() != nullptr) return value.text()->empty() ? "must not be empty" : "";
+  const auto* place = std::get_if<std::int64_t>(&value.data);
+  if (place == nullptr) return std::string("must be an integer or a string, not ") + value.kind();
+  return *place >= 1 && *place <= 1000000 ? "" : "must be >= 1; columns are counted from 1";
+}
+
 bool is_tables(const Value& value) {
   const Array* array = value.array();
   return value.table() != nullptr ||
@@ -134,6 +144,7 @@ std::string Parameter::describe() const {
     case Kind::numbers:
       return (length ? std::to_string(*length) + " numbers" : std::string("numbers")) + bounds_text(*this);
     case Kind::texts:
+      if (unit == kColumn) return "list of numbers from 1, or of names";
       return choices.empty() ? "text or list of texts" : "list of " + quoted_choices(*this);
     case Kind::table:
       return "table";
@@ -157,6 +168,7 @@ std::string Parameter::complaint(const Value& value) const {
       return array_complaint(*this, value, "numbers",
                              [this](const Value& item) { return number_complaint(*this, item); });
     case Kind::texts:
+      if (unit == kColumn) return array_complaint(*this, value, "columns", column_complaint);
       if (value.text() != nullptr) return text_complaint(*this, value);
       if (value.array() == nullptr) return std::string("must be a string or an array of strings, not ") + value.kind();
       return array_complaint(*this, value, "strings",

@@ -9,6 +9,7 @@
 
 #include <toml.hpp>
 
+#include "butee/config/number_arrays.hpp"
 #include "butee/config/toml_limits.hpp"
 #include "butee/config/toml_order.hpp"
 #include "butee/core/error.hpp"
@@ -54,7 +55,13 @@ class Places {
   std::vector<std::ptrdiff_t> line_begins_;
 };
 
-Value convert(const Parsed& from, const std::string& key, Places& places);
+/// What a parsed text is read with.
+struct Source {
+  Places places;
+  NumberArrays arrays;
+};
+
+Value convert(const Parsed& from, const std::string& key, Source& source);
 
 /// Refuses what is TOML but cannot be kept as a Value.
 [[noreturn]] void refuse(const Parsed& value, const std::string& key, Places& places, const std::string& complaint) {
@@ -74,22 +81,22 @@ Number fitting(Number number, const Parsed& from, const std::string& key, Places
   return number;
 }
 
-Table convert_table(const Parsed& from, Places& places) {
+Table convert_table(const Parsed& from, Source& source) {
   struct Placed {
     std::ptrdiff_t offset;
     Table::Entry entry;
   };
   std::vector<Placed> placed;
   for (const auto& [key, value] : from.as_table())
-    placed.push_back({places.offset(value), {key, convert(value, key, places)}});
+    placed.push_back({source.places.offset(value), {key, convert(value, key, source)}});
   std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) { return a.offset < b.offset; });
   Table table;
   for (Placed& item : placed) table.entries.push_back(std::move(item.entry));
   return table;
 }
 
-Value convert(const Parsed& from, const std::string& key, Places& places) {
-  const Location at = places.location(from);
+Value convert(const Parsed& from, const std::string& key, Source& source) {
+  const Location at = source.places.location(from);
   switch (from.type()) {
     case toml::value_t::boolean:
       return {from.as_boolean(), at};
@@ -101,11 +108,14 @@ Value convert(const Parsed& from, const std::string& key, Places& places) {
       return {std::string(from.as_string().str), at};
     case toml::value_t::array: {
       Array array;
-      for (const Parsed& item : from.as_array()) array.push_back(convert(item, key, places));
+      const auto& items = from.as_array();
+      if (items.size() == 1 && items.front().is_string())
+        if (Array* taken = source.arrays.find(items.front().as_string().str)) return {std::move(*taken), at};
+      for (const Parsed& item : items) array.push_back(convert(item, key, source));
       return {std::move(array), at};
     }
     case toml::value_t::table:
-      return {convert_table(from, places), at};
+      return {convert_table(from, source), at};
     default:
       refuse(from, key, places, "dates and times have no place in a model file");
   }
@@ -145,10 +155,13 @@ Document parse_toml(const std::string& given, const std::string& name) {
   OrderedText text;
   try {
     check_limits(given);
-    text = tables_before_their_parts(given);
+    NumberArrays arrays;
+    const std::string short_text = arrays.take_out(given);
+    check_lines(short_text);
+    text = tables_before_their_parts(short_text);
     const Parsed parsed = given.empty() ? Parsed(toml::table{}) : parse(text, name);
-    Places places(text);
-    return {{name}, {convert_table(parsed, places), {0, 1}}};
+    Source source{Places(text), std::move(arrays)};
+    return {{name}, {convert_table(parsed, source), {0, 1}}};
   } catch (const InputError& error) {
     throw InputError(name + error.what());
   } catch (const std::exception& error) {
@@ -172,11 +185,14 @@ Document load_toml(const std::string& path) {
 std::optional<Value> parse_toml_value(const std::string& text) {
   if (text.find('\n') != std::string::npos) return std::nullopt;
   try {
-    const OrderedText line{"value = " + text + "\n", {}};
-    check_limits(line.text);
+    const std::string whole = "value = " + text + "\n";
+    check_limits(whole);
+    NumberArrays arrays;
+    const OrderedText line{arrays.take_out(whole), {}};
+    check_lines(line.text);
     const Parsed parsed = parse(line, "value");
-    Places places(line);
-    return convert(parsed.at("value"), "value", places);
+    Source source{Places(line), std::move(arrays)};
+    return convert(parsed.at("value"), "value", source);
   } catch (const std::exception&) {
     return std::nullopt;
   }

@@ -10,17 +10,6 @@ namespace {
 constexpr int kDeepest = 100;
 constexpr std::size_t kLongestLine = 65536;
 
-void check_lines(const std::string& text) {
-  std::size_t line = 1;
-  for (std::size_t begin = 0; begin < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > kLongestLine)
-      throw InputError(":" + std::to_string(line) + ": the line is longer than " + std::to_string(kLongestLine) +
-                       " characters; an array may go over many lines");
-    begin = end + 1;
-  }
-}
-
 /// The length of the UTF-8 sequence that begins at a byte, 0 where there is none: RFC 3629, section 4.
 std::size_t sequence_at(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) -> unsigned { return at + i < text.size() ? text[at + i] & 0xffU : 0U; };
@@ -109,29 +98,40 @@ std::string too_large() {
   return ":1: the file is larger than " + std::to_string(kLargestText >> 20U) + " MB";
 }
 
+void check_lines(const std::string& text) {
+  std::size_t line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > kLongestLine)
+      throw InputError(":" + std::to_string(line) + ": the line is longer than " + std::to_string(kLongestLine) +
+                       " characters; an array may go over many lines");
+    begin = end + 1;
+  }
+}
+
 std::size_t end_of_string(const std::string& text, std::size_t at) {
   const char quote = text[at];
-  const std::string three(3, quote);
-  const bool is_long = text.compare(at, 3, three) == 0;
-  for (at += is_long ? 3 : 1; at < text.size(); ++at) {
+  const auto three = [&] { return text.compare(at, 3, std::string(3, quote)) == 0; };
+  const bool is_long = three();
+  at += is_long ? 3 : 1;
+  for (; at < text.size(); ++at) {
     if (text[at] == '\\' && quote == '"') {
       ++at;
     } else if (!is_long && text[at] == '\n') {
       return at;
     } else if (!is_long && text[at] == quote) {
       return at + 1;
-    } else if (is_long && text.compare(at, 3, three) == 0) {
+    } else if (is_long && three()) {
       // Up to two more quotes belong to the string.
       for (int i = 0; i < 5 && at < text.size() && text[at] == quote; ++i) ++at;
       return at;
     }
   }
-  return text.size();
+  return std::min(at, text.size());
 }
 
 void check_limits(const std::string& text) {
   if (text.size() > kLargestText) throw InputError(too_large());
-  check_lines(text);
   check_encoding(text);
   LimitScanner(text).scan();
 }

@@ -1,5 +1,6 @@
 #include "butee/embed/structure.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -10,6 +11,8 @@
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/plugin/scene.hpp"
+#include "butee/record/element_choice.hpp"
+#include "butee/record/probes.hpp"
 
 namespace butee::embed {
 namespace {
@@ -79,7 +82,7 @@ void Structure::Parts::add_forces(const std::string& selector,
     if (table.index(dof) < 0) continue;
     auto force = std::make_unique<NodalForce>();
     made.emplace_back(dof, force.get());
-    scene.model.loads.push_back({{{dof, 1.0}}, std::move(force)});
+    scene.model.loads.push_back({{{dof, 1.0}}, std::move(force), nullptr, 0.0});
   }
   if (made.empty()) throw InputError(selector + ": names no free degree of freedom that a force could act on");
 }
@@ -250,6 +253,22 @@ double Structure::contact_force(Index dof) const {
   Vector force = Vector::Zero(size());
   parts_->dynamics->add_contact_force(state().x, force);
   return force[dof];
+}
+
+double Structure::quantity(const std::string& name, const std::string& node, const std::string& element) const {
+  const auto known = record::probe_quantities();
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw InputError("there is no quantity \"" + name + "\"" + suggestion(name, known) + "; known: " + join(known));
+  const auto nodes = parts_->select(node, DofKind::u);
+  if (nodes.size() != 1) throw InputError(node + ": names " + std::to_string(nodes.size()) + " nodes; one is wanted");
+  const record::Quantity quantity = record::quantity_of(name);
+  const std::string problem =
+      record::why_not(quantity, parts_->scene.model, parts_->system->dofs, nodes.front().node, element);
+  if (!problem.empty()) throw InputError(node + ": " + problem);
+  record::Probes probe({{"", nodes.front().node, {quantity}, element}}, *parts_->dynamics);
+  double value = 0.0;
+  probe.evaluate(state(), {&value, 1});
+  return value;
 }
 
 Structure::Snapshot Structure::snapshot() const {

@@ -75,6 +75,9 @@ class BUTEE_EXPORT Structure {
   double force(Index dof) const;
   /// The force of the stops on a DOF, N.
   double contact_force(Index dof) const;
+  /// A quantity of [[output.probe]] ("M", "reaction", ...) at the present instant; `node` names one node, `element` the
+  /// beam or spring meant where there are several. Throws InputError where there is no such quantity there.
+  double quantity(const std::string& name, const std::string& node, const std::string& element = "") const;
 
   /// The motion, the method's memory and the forces set, to go back to. A value.
   struct Snapshot {

@@ -30,6 +30,14 @@ struct StopGroup {
 struct Load {
   std::vector<NodalValue> pattern;
   std::unique_ptr<TimeFunction> in_time;
+  const Element* line = nullptr;  ///< the element that it is a line load of, whose section forces it enters
+  double per_length = 0.0;        ///< N/m, of a line load
+};
+
+/// A motion to start from: of every free DOF, in the order of DofTable::free().
+struct InitialMotion {
+  Vector displacement, velocity;  ///< m or rad, m/s or rad/s
+  double time = 0.0;              ///< s, at which the run begins
 };
 
 /// Rayleigh damping, C = mass_proportional M + stiffness_proportional K, or modal damping,
@@ -54,10 +62,12 @@ struct Model {
   std::string title;
   NodeTable nodes;
   std::vector<std::unique_ptr<Element>> elements;
+  std::vector<std::string> element_names;  ///< of `elements`, "" for one without a name; may be shorter
   std::vector<NodalDof> fixed;
   std::vector<StopGroup> stops;
   std::vector<Load> loads;
   Damping damping;
+  std::optional<InitialMotion> initial_motion;  ///< of an earlier run; the values below replace parts of it
   std::vector<NodalValue> initial_displacement;
   std::vector<NodalValue> initial_velocity;
 };

@@ -81,6 +81,7 @@ System part_of(const System& whole, std::span<const Index> dofs) {
   }
   part.initial_displacement = whole.initial_displacement(dofs);
   part.initial_velocity = whole.initial_velocity(dofs);
+  part.initial_time = whole.initial_time;
   return part;
 }
 

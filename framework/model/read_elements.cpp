@@ -84,6 +84,7 @@ void SceneReader::read_elements() {
     }
     element_places_.emplace_back(waiting.parameters.path(), waiting.parameters.at());
     if (waiting.parameters.has("name")) named_elements_.emplace_back(waiting.parameters.text("name"), element.get());
+    model_.element_names.push_back(waiting.parameters.has("name") ? waiting.parameters.text("name") : "");
     model_.elements.push_back(std::move(element));
   }
 }

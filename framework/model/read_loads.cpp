@@ -32,7 +32,7 @@ void SceneReader::read_load(const Value& entry, const std::string& path) {
   if (!node) return;
   const NodalDof dof{*node, p->text("dof") == "u" ? DofKind::u : DofKind::theta};
   check_free(*p, "node", dof, "a load");
-  if (in_time != nullptr) model_.loads.push_back({{{dof, 1.0}}, std::move(in_time)});
+  if (in_time != nullptr) model_.loads.push_back({{{dof, 1.0}}, std::move(in_time), nullptr, 0.0});
 }
 
 void SceneReader::read_distributed(const Value& entry, const std::string& path) {
@@ -67,7 +67,8 @@ void SceneReader::read_distributed(const Value& entry, const std::string& path) 
                            (beams.empty() ? "" : "; known: " + butee::join(beams)));
   }
   for (NodalValue& nodal : pattern) nodal.value *= p->number("value");
-  if (in_time != nullptr) model_.loads.push_back({std::move(pattern), std::move(in_time)});
+  if (in_time != nullptr)
+    model_.loads.push_back({std::move(pattern), std::move(in_time), named->second, p->number("value")});
 }
 
 std::unique_ptr<TimeFunction> SceneReader::read_in_time(const Value& entry, const std::string& path,

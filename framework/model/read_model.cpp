@@ -159,43 +159,6 @@ void SceneReader::check_dofs() {
     diagnostics_.error("element", root_.at, "nothing can move: the scene has no free degree of freedom");
 }
 
-void SceneReader::read_initial() {
-  const Value* table = root_.table()->find("initial");
-  if (table == nullptr) return;
-  const auto lists = read_parameters(*table, "initial",
-                                     {config::table("displacement", "initial displacements").optional(),
-                                      config::table("velocity", "initial velocities").optional()},
-                                     diagnostics_);
-  if (!lists && table->table() == nullptr) return;
-  for (const std::string key : {"displacement", "velocity"}) {
-    const Value* given = table->table()->find(key);
-    if (given == nullptr || !config::table(key, "").complaint(*given).empty()) continue;
-    std::vector<NodalValue>& target = key == "displacement" ? model_.initial_displacement : model_.initial_velocity;
-    const Value& value = *given;
-    const config::Array single{value};
-    const config::Array& list = value.array() != nullptr ? *value.array() : single;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const auto p = read_table(list[i], "initial." + key + "[" + std::to_string(i) + "]",
-                                {config::texts("nodes", "the nodes"),
-                                 config::text("dof", "the degree of freedom").one_of({"u", "theta"}).or_else("u"),
-                                 number("value", key == "displacement" ? "m" : "m/s", "the value")});
-      if (!p) continue;
-      const auto nodes = select(*p, "nodes");
-      if (!nodes) continue;
-      for (const NodeId node : *nodes) {
-        const NodalDof dof{node, p->text("dof") == "u" ? DofKind::u : DofKind::theta};
-        check_free(*p, "nodes", dof, "an initial value");
-        const auto same = [&](const NodalValue& other) {
-          return other.dof.kind == dof.kind && model_.nodes.canonical(other.dof.node) == model_.nodes.canonical(node);
-        };
-        if (std::any_of(target.begin(), target.end(), same))
-          p->complain(diagnostics_, "nodes", "gives " + dofs_->name(dof) + " a second initial " + key);
-        target.push_back({dof, p->number("value")});
-      }
-    }
-  }
-}
-
 void SceneReader::check_free(const Parameters& parameters, const std::string& key, NodalDof dof, const char* what) {
   if (!dofs_->exists(dof)) {
     if (!lacks_elements_)

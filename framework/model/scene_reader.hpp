@@ -42,6 +42,11 @@ class SceneReader {
   void read_damping();
   void read_modal_damping(const config::Value& given);
   void read_initial();
+  void read_initial_list(const config::Value& given, const std::string& key);
+  void read_initial_entry(const config::Value& entry, const std::string& path, const std::string& key);
+  /// The values of an entry, node by node; nothing after a complaint.
+  std::vector<NodalValue> rigid_rotation(const config::Parameters& parameters, const std::vector<NodeId>& nodes);
+  void read_initial_motion(const config::Parameters& parameters);
   void check_dofs();
   void check_free(const config::Parameters& parameters, const std::string& key, NodalDof dof, const char* what);
 

@@ -10,8 +10,9 @@ struct Material {
 
 /// The cross-section of a beam in its plane of bending.
 struct Section {
-  double area;           ///< m2
-  double second_moment;  ///< m4
+  double area;               ///< m2
+  double second_moment;      ///< m4
+  double outer_fibre = 0.0;  ///< m, from the neutral axis; 0: not known
 };
 
 }  // namespace butee::model

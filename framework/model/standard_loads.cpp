@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "butee/config/number_file.hpp"
 #include "butee/model/types.hpp"
 
 namespace butee::model {
@@ -118,27 +119,41 @@ LoadType ramp() {
           }};
 }
 
+std::optional<config::NumberTable> inline_table(const Parameters& p, Diagnostics& diagnostics) {
+  for (const auto& [key, what] :
+       {std::pair("times", "the instants, ascending"), std::pair("values", "the values there")})
+    if (!p.has(key)) p.complain(diagnostics, key, std::string("missing; give ") + what + ", or a file that holds both");
+  for (const char* key : {"columns", "skip", "scale", "size", "checksum"})
+    if (p.given(key)) p.complain(diagnostics, key, "belongs to file, which is not given");
+  if (!p.has("times") || !p.has("values")) return std::nullopt;
+  config::NumberTable table{p.numbers("times"), p.numbers("values")};
+  if (table.arguments.empty())
+    p.complain(diagnostics, "times", "must hold at least one instant");
+  else if (table.values.size() != table.arguments.size())
+    p.complain(diagnostics, "values",
+               "must hold as many values as there are times (" + std::to_string(table.arguments.size()) + ")");
+  else if (std::adjacent_find(table.arguments.begin(), table.arguments.end(), std::greater_equal<>()) !=
+           table.arguments.end())
+    p.complain(diagnostics, "times", "must ascend: every instant later than the one before");
+  else
+    return table;
+  return std::nullopt;
+}
+
 LoadType table() {
-  return {"table",
-          "piecewise linear through (times, values), constant outside",
-          {numbers("times", "s", "the instants, ascending"), numbers("values", "N", "the values there (N m on theta)")},
+  std::vector<config::Parameter> parameters = {numbers("times", "s", "the instants, ascending").optional(),
+                                               numbers("values", "N", "the values there (N m on theta)").optional()};
+  for (const config::Parameter& parameter : config::number_file_parameters()) parameters.push_back(parameter);
+  return {"table", "piecewise linear through (times, values) or the rows of a file, constant outside", parameters,
           [](const Parameters& p, Diagnostics& diagnostics) -> std::unique_ptr<TimeFunction> {
-            auto times = p.numbers("times");
-            auto values = p.numbers("values");
-            if (times.empty()) {
-              p.complain(diagnostics, "times", "must hold at least one instant");
-              return nullptr;
-            }
-            if (values.size() != times.size()) {
-              p.complain(diagnostics, "values",
-                         "must hold as many values as there are times (" + std::to_string(times.size()) + ")");
-              return nullptr;
-            }
-            if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end()) {
-              p.complain(diagnostics, "times", "must ascend: every instant later than the one before");
-              return nullptr;
-            }
-            return std::make_unique<PiecewiseLinear>(std::move(times), std::move(values));
+            for (const char* key : {"times", "values"})
+              if (p.has("file") && p.has(key)) {
+                p.complain(diagnostics, key, "stands beside file; give one of the two");
+                return nullptr;
+              }
+            auto read = p.has("file") ? read_number_file(p, diagnostics) : inline_table(p, diagnostics);
+            if (!read) return nullptr;
+            return std::make_unique<PiecewiseLinear>(std::move(read->arguments), std::move(read->values));
           }};
 }
 

@@ -91,8 +91,7 @@ FreeLoad reduce(const Load& load, const DofTable& dofs) {
   return free;
 }
 
-Vector initial_vector(const std::vector<NodalValue>& values, const DofTable& dofs) {
-  Vector x = Vector::Zero(dofs.free_count());
+Vector initial_vector(Vector x, const std::vector<NodalValue>& values, const DofTable& dofs) {
   for (const NodalValue& entry : values) {
     const Index dof = dofs.index(entry.dof);
     if (dof < 0) throw InputError("an initial value is given for " + dofs.name(entry.dof) + ", which is not free");
@@ -113,6 +112,7 @@ DofTable number_dofs(const Model& model) {
 
 System assemble(const Model& model) {
   System system(number_dofs(model));
+  system.model = &model;
   const DofTable& dofs = system.dofs;
   if (dofs.free_count() == 0) throw InputError("nothing can move: the model has no free degree of freedom");
   for (const NodalDof& dof : dofs.free())
@@ -141,8 +141,13 @@ System assemble(const Model& model) {
     else
       system.loads.push_back(std::move(free));
   }
-  system.initial_displacement = initial_vector(model.initial_displacement, dofs);
-  system.initial_velocity = initial_vector(model.initial_velocity, dofs);
+  const Vector zero = Vector::Zero(dofs.free_count());
+  const InitialMotion start = model.initial_motion.value_or(InitialMotion{zero, zero, 0.0});
+  require(start.displacement.size() == zero.size() && start.velocity.size() == zero.size(),
+          "an initial motion of every free DOF");
+  system.initial_displacement = initial_vector(start.displacement, model.initial_displacement, dofs);
+  system.initial_velocity = initial_vector(start.velocity, model.initial_velocity, dofs);
+  system.initial_time = start.time;
   return system;
 }
 

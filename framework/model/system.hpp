@@ -31,7 +31,7 @@ struct FreeLoad {
 /// C = mass_proportional M + stiffness_proportional K + D, or modal damping + D.
 ///
 /// M, K (and D where there are dashpots, else 0 x 0) are symmetric, stored in full, with one common pattern that holds
-/// the diagonal and the places of stops between nodes. The Model must outlive its System.
+/// the diagonal and the places of stops between nodes. The Model must outlive its System and stay where it is.
 struct System {
   explicit System(DofTable table) : dofs(std::move(table)) {}
 
@@ -43,8 +43,10 @@ struct System {
   std::vector<FreeLoad> loads;
   std::vector<FreeStops> stops;
   Vector initial_displacement, initial_velocity;
-  Index skipped_stops = 0;  ///< stops whose ends are all fixed
-  Index skipped_loads = 0;  ///< loads that vanish at all times
+  double initial_time = 0.0;     ///< s
+  const Model* model = nullptr;  ///< that it was assembled from; null for a part of a system
+  Index skipped_stops = 0;       ///< stops whose ends are all fixed
+  Index skipped_loads = 0;       ///< loads that vanish at all times
 };
 
 /// Assembles the model. Throws InputError that names the node where a free DOF has no mass, a loaded DOF is fixed or

@@ -138,6 +138,8 @@ void FieldRecorder::fill(const time::Interpolated& samples) {
       case Quantity::stop_state:
         take(state_, u_);
         break;
+      default:
+        throw LogicError("not a quantity of fields");
     }
   }
 }

@@ -36,7 +36,7 @@ std::vector<config::Parameter> field_keys() {
   for (const char* name : {"u", "theta", "v", "contact_force", "stop_state"}) usual.emplace_back(std::string(name));
   return {
       config::texts("nodes", "the nodes that are kept: selectors; all where absent").optional(),
-      config::texts("quantities", "what is kept of them").one_of(all_quantities()).or_else(usual),
+      config::texts("quantities", "what is kept of them").one_of(field_quantities()).or_else(usual),
       config::number("interval", "s", "the time between two records; as the rows where absent").above(0).optional()};
 }
 

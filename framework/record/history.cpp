@@ -44,6 +44,7 @@ std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) 
 }
 
 void HistoryRecorder::start(const time::State& state) {
+  start_time_ = state.t;
   probes_.evaluate(state, values_);
   first_row_ = values_;
   peak_probes_.evaluate(state, current_);
@@ -94,7 +95,7 @@ void HistoryRecorder::write_row(double t, double h) {
 void HistoryRecorder::finish() {
   if (!times_.begun()) {
     values_ = first_row_;
-    write_row(0.0, 0.0);
+    write_row(start_time_, 0.0);
   }
   if (writer_ != nullptr) writer_->flush();
 }

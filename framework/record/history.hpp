@@ -39,6 +39,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   OutputTimes times_;
   Probes probes_, peak_probes_;
   CsvWriter* writer_;
+  double start_time_ = 0.0;
   std::vector<double> row_, first_row_;
   std::vector<double> due_;                    ///< instants of rows within a step
   std::vector<double> values_;                 ///< of probes_

@@ -7,6 +7,7 @@
 #include "butee/config/parameters.hpp"
 #include "butee/core/text.hpp"
 #include "butee/model/read_model.hpp"
+#include "butee/record/element_choice.hpp"
 
 namespace butee::record {
 namespace {
@@ -26,6 +27,10 @@ std::string label_of(const std::string& node_name) {
   return label;
 }
 
+bool takes_element(Quantity quantity) {
+  return source_of(quantity) == Source::section || source_of(quantity) == Source::springs;
+}
+
 /// A probe on every node with a single load, else on every node that starts in motion.
 std::vector<ProbeRequest> default_probes(const Model& model) {
   std::set<model::NodeId> nodes;
@@ -37,7 +42,7 @@ std::vector<ProbeRequest> default_probes(const Model& model) {
   const model::DofTable dofs = number_dofs(model);
   std::vector<ProbeRequest> probes;
   for (const model::NodeId node : nodes)
-    if (dofs.exists({node, DofKind::u})) probes.push_back({label_of(model.nodes.name(node)), node, {Quantity::u}});
+    if (dofs.exists({node, DofKind::u})) probes.push_back({label_of(model.nodes.name(node)), node, {Quantity::u}, {}});
   return probes;
 }
 
@@ -45,30 +50,39 @@ class OutputReader {
  public:
   OutputReader(const Model& model, double end_time, Diagnostics& diagnostics,
                const std::vector<model::FieldFormat>& formats)
-      : model_(model), end_time_(end_time), diagnostics_(diagnostics), complete_(diagnostics.error_count() == 0) {
+      : model_(model),
+        begin_(model.initial_motion ? model.initial_motion->time : 0.0),
+        end_time_(end_time),
+        diagnostics_(diagnostics),
+        complete_(diagnostics.error_count() == 0) {
+    if (model.initial_motion && begin_ >= end_time_)
+      diagnostics.error("initial.keep_time", diagnostics.document().root.table()->find("initial")->at,
+                        "begins the run at t = " + to_text(begin_) + " s, and its end_time is " + to_text(end_time_) +
+                            " s; end_time counts from the same zero");
     for (const model::FieldFormat& format : formats) formats_.push_back(format.name);
   }
 
   OutputRequest read(const Value& table) {
     OutputRequest request;
-    const auto p =
-        read_parameters(table, "output",
-                        {config::number("interval", "s", "the time between two rows").above(0).optional(),
-                         config::integer("every", "a row at every so manyth accepted step").at_least(1).optional(),
-                         config::integer("checkpoint", "keep the run on disk after every so manyth accepted step")
-                             .at_least(1)
-                             .optional(),
-                         config::boolean("energy", "follow work, dissipation and the balance").or_else(false),
-                         config::boolean("impacts", "write impacts.csv").or_else(false),
-                         config::boolean("trust", "find out how far the answer can be trusted").or_else(false),
-                         config::number("trust_accuracy", "1", "the accuracy it is to be trusted to, of the peak")
-                             .above(0)
-                             .at_most(1)
-                             .or_else(1e-2),
-                         config::texts("formats", "the file formats").optional(),
-                         config::table("fields", "what the formats of fields keep").optional(),
-                         config::table("probe", "the recorded nodes: [[output.probe]]").optional()},
-                        diagnostics_);
+    const auto p = read_parameters(
+        table, "output",
+        {config::number("interval", "s", "the time between two rows").above(0).optional(),
+         config::integer("every", "a row at every so manyth accepted step").at_least(1).optional(),
+         config::integer("checkpoint", "keep the run on disk after every so manyth accepted step")
+             .at_least(1)
+             .optional(),
+         config::numbers("states", "s", "instants of which the whole motion is kept in states.bin").optional(),
+         config::boolean("energy", "follow work, dissipation and the balance").or_else(false),
+         config::boolean("impacts", "write impacts.csv").or_else(false),
+         config::boolean("trust", "find out how far the answer can be trusted").or_else(false),
+         config::number("trust_accuracy", "1", "the accuracy it is to be trusted to, of the peak")
+             .above(0)
+             .at_most(1)
+             .or_else(1e-2),
+         config::texts("formats", "the file formats").optional(),
+         config::table("fields", "what the formats of fields keep").optional(),
+         config::table("probe", "the recorded nodes: [[output.probe]]").optional()},
+        diagnostics_);
     if (const Value* probes = table.table() != nullptr ? table.table()->find("probe") : nullptr)
       read_probes(*probes, request);
     else if (complete_)
@@ -79,7 +93,8 @@ class OutputReader {
     if (p->has("every"))
       request.every = p->integer("every");
     else
-      request.interval = p->has("interval") ? p->number("interval") : end_time_ / kDefaultIntervals;
+      request.interval = p->has("interval") ? p->number("interval") : (end_time_ - begin_) / kDefaultIntervals;
+    read_states(*p, request);
     if (request.interval && end_time_ / *request.interval > kMostRows)
       p->complain(diagnostics_, "interval",
                   "gives more than 1e9 rows until end_time = " + to_text(end_time_) + " s; make it larger");
@@ -98,16 +113,28 @@ class OutputReader {
   }
 
  private:
+  void read_states(const Parameters& p, OutputRequest& request) {
+    if (!p.has("states")) return;
+    request.states = p.numbers("states");
+    std::sort(request.states.begin(), request.states.end());
+    for (const double t : request.states)
+      if (t < begin_ || t > end_time_)
+        return p.complain(diagnostics_, "states",
+                          "holds " + to_text(t) + " s, which is not between the beginning of the run and end_time = " +
+                              to_text(end_time_) + " s");
+  }
+
   void read_probes(const Value& list, OutputRequest& request) {
     if (list.table() != nullptr)
       return diagnostics_.error("output.probe", list, "must be an array of tables: write [[output.probe]]");
     if (!config::table("probe", "").complaint(list).empty()) return;
     for (std::size_t i = 0; i < list.array()->size(); ++i) {
-      const auto p =
-          read_parameters((*list.array())[i], "output.probe[" + std::to_string(i) + "]",
-                          {config::text("label", "the name of its columns"), config::text("node", "the node"),
-                           config::texts("quantities", "what is recorded").one_of(probe_quantities())},
-                          diagnostics_);
+      const auto p = read_parameters(
+          (*list.array())[i], "output.probe[" + std::to_string(i) + "]",
+          {config::text("label", "the name of its columns"), config::text("node", "the node"),
+           config::texts("quantities", "what is recorded").one_of(probe_quantities()),
+           config::text("element", "the beam or spring whose forces are recorded, where there are several").optional()},
+          diagnostics_);
       if (!p) continue;
       const std::string& label = p->text("label");
       if (!is_plain_name(label)) p->complain(diagnostics_, "label", "is made of letters, digits, _ and -");
@@ -121,22 +148,24 @@ class OutputReader {
   void read_probe_node(const Parameters& p, OutputRequest& request) {
     const auto node = read_node(model_.nodes, p, "node", diagnostics_);
     if (!node) return;
-    ProbeRequest probe{p.text("label"), *node, {}};
+    ProbeRequest probe{p.text("label"), *node, {}, p.has("element") ? p.text("element") : ""};
     if (complete_ && !dofs_) dofs_ = number_dofs(model_);
     for (const std::string& name : p.texts("quantities")) {
       const Quantity quantity = quantity_of(name);
       if (std::find(probe.quantities.begin(), probe.quantities.end(), quantity) != probe.quantities.end())
         p.complain(diagnostics_, "quantities", "names " + name + " twice");
-      if (dofs_ && !dofs_->exists({*node, kind_of(quantity)}))
-        p.complain(diagnostics_, "quantities",
-                   "there is no " + name + ": " + dofs_->name({*node, kind_of(quantity)}) + " does not exist");
+      const std::string problem = dofs_ ? why_not(quantity, model_, *dofs_, *node, probe.element) : "";
+      if (!problem.empty())
+        p.complain(diagnostics_, p.has("element") && takes_element(quantity) ? "element" : "quantities", problem);
       probe.quantities.push_back(quantity);
     }
+    if (p.has("element") && std::none_of(probe.quantities.begin(), probe.quantities.end(), takes_element))
+      p.complain(diagnostics_, "element", "no quantity of this probe is the force of an element; leave it out");
     request.probes.push_back(std::move(probe));
   }
 
   const Model& model_;
-  double end_time_;
+  double begin_, end_time_;
   Diagnostics& diagnostics_;
   bool complete_;
   std::vector<std::string> formats_;

@@ -12,6 +12,7 @@ struct ProbeRequest {
   std::string label;
   model::NodeId node = 0;
   std::vector<Quantity> quantities;
+  std::string element{};  ///< "", or the beam or spring whose forces are recorded: see element_choice.hpp
 };
 
 /// What [output] asks for.
@@ -19,6 +20,7 @@ struct OutputRequest {
   std::optional<double> interval;  ///< s; rows at 0, interval, 2 interval, ..., end_time
   std::int64_t every = 0;          ///< rows at every so manyth accepted step, where interval is absent
   std::int64_t checkpoint = 0;     ///< a checkpoint after every so manyth accepted step; 0: none
+  std::vector<double> states;      ///< s, ascending: of these instants the whole motion is kept, beside the last
   bool energy = false;
   bool impacts = false;
   bool trust = false;            ///< find out how far the answer can be trusted

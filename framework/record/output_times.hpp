@@ -7,8 +7,8 @@
 
 namespace butee::record {
 
-/// The instants of which something is written: t = 0, interval, 2 interval, ..., end_time, or the ends of every so
-/// manyth accepted step.
+/// The instants of which something is written: t = 0, interval, 2 interval, ..., end_time, counted from where the run
+/// begins, or the ends of every so manyth accepted step.
 class BUTEE_EXPORT OutputTimes {
  public:
   /// `every` counts where there is no `interval` (s).
@@ -18,6 +18,7 @@ class BUTEE_EXPORT OutputTimes {
   template <class Write>
   void visit(const time::AcceptedStep& step, Write&& write) {
     if (rows_ == 0) {
+      begin_ = step.from.t;
       count_row();
       write(step.from.t);
     }
@@ -51,6 +52,7 @@ class BUTEE_EXPORT OutputTimes {
   double end_time_, interval_;
   std::int64_t every_;
   std::int64_t rows_ = 0, steps_ = 0;
+  double begin_ = 0.0;  ///< s, of the first step
   double next_row_ = 0.0;
 };
 

@@ -1,22 +1,43 @@
 #include "butee/record/probes.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace butee::record {
+namespace {
+
+/// Numbers of a motion that are interpolated at a time, where all DOFs are.
+constexpr std::size_t kLargestSample = 1U << 14U;
+
+}  // namespace
 
 Probes::Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics) : dynamics_(dynamics) {
   const model::DofTable& table = dynamics.system().dofs;
   for (const ProbeRequest& request : requests)
     for (const Quantity quantity : request.quantities) {
+      columns_.push_back(request.label + "." + name_of(quantity));
+      if (is_element_force(quantity)) {
+        sources_.push_back(element_force(quantity, request));
+        continue;
+      }
       const Index dof = table.index({request.node, kind_of(quantity)});
       Column column{samples_of(quantity), slot(dof), stops_.size(), stops_.size()};
       if (quantity == Quantity::contact_force && dof >= 0) add_stops(dof);
       column.last_stop = stops_.size();
       needs_v_ = needs_v_ || quantity == Quantity::v || quantity == Quantity::theta_v;
       needs_a_ = needs_a_ || quantity == Quantity::a || quantity == Quantity::theta_a;
-      columns_.push_back(request.label + "." + name_of(quantity));
       sources_.push_back(column);
     }
+  if (element_forces_ == nullptr) return;
+  all_.resize(static_cast<std::size_t>(dynamics.size()));
+  std::iota(all_.begin(), all_.end(), Index{0});
+  all_x_ = all_v_ = Vector::Zero(dynamics.size());
+}
+
+Probes::Column Probes::element_force(Quantity quantity, const ProbeRequest& request) {
+  if (element_forces_ == nullptr) element_forces_ = std::make_unique<ElementForces>(dynamics_);
+  element_forces_->add(quantity, request.node, request.element);
+  return {&forces_, element_forces_->size() - 1, 0, 0, true};
 }
 
 const std::vector<double>* Probes::samples_of(Quantity quantity) const {
@@ -30,11 +51,9 @@ const std::vector<double>* Probes::samples_of(Quantity quantity) const {
     case Quantity::a:
     case Quantity::theta_a:
       return &a_;
-    case Quantity::contact_force:
-    case Quantity::stop_state:  // not of probes
-      break;
+    default:
+      return nullptr;
   }
-  return nullptr;
 }
 
 std::size_t Probes::slot(Index dof) {
@@ -61,6 +80,7 @@ void Probes::make_room(std::size_t instants) {
   if (x_.size() < size) x_.resize(size);
   if (needs_v_ && v_.size() < size) v_.resize(size);
   if (needs_a_ && a_.size() < size) a_.resize(size);
+  if (element_forces_ != nullptr) forces_.resize(std::max(forces_.size(), instants * element_forces_->size()));
 }
 
 void Probes::copy(const time::State& state, std::size_t instant) {
@@ -77,11 +97,39 @@ void Probes::sample(const time::AcceptedStep& step, std::span<const double> time
   std::size_t within = times.size();
   for (; within > 0 && times[within - 1] == step.to.t; --within) copy(step.to, within - 1);
   step.integrator.interpolate(step.from, step.to, times.first(within), dofs_, {x_, v_, a_});
+  if (element_forces_ != nullptr) sample_forces(step, times);
+}
+
+void Probes::sample_forces(const time::AcceptedStep& step, std::span<const double> times) {
+  const std::size_t n = all_.size(), most = std::max<std::size_t>(1, kLargestSample / n);
+  std::size_t within = times.size();
+  for (; within > 0 && times[within - 1] == step.to.t; --within)
+    evaluate_forces(step.to.t, step.to.x, step.to.v, within - 1);
+  for (std::size_t first = 0, count = 0; first < within; first += count) {
+    count = std::min(most, within - first);
+    for (Vector* samples : {&all_x_, &all_v_})
+      if (samples->size() < std::ssize(all_) * static_cast<Index>(count))
+        samples->resize(static_cast<Index>(n * count));
+    step.integrator.interpolate(step.from, step.to, times.subspan(first, count), all_,
+                                {{all_x_.data(), n * count}, {all_v_.data(), n * count}, {}});
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto row = [&](const Vector& samples) {
+        return samples.segment(static_cast<Index>(i * n), std::ssize(all_));
+      };
+      evaluate_forces(times[first + i], row(all_x_), row(all_v_), first + i);
+    }
+  }
+}
+
+void Probes::evaluate_forces(double t, ConstVectorRef x, ConstVectorRef v, std::size_t instant) {
+  const std::size_t count = element_forces_->size();
+  element_forces_->evaluate(t, x, v, std::span(forces_).subspan(instant * count, count));
 }
 
 void Probes::evaluate(const time::State& state, std::span<double> values) {
   make_room(1);
   copy(state, 0);
+  if (element_forces_ != nullptr) evaluate_forces(state.t, state.x, state.v, 0);
   take(0, values);
 }
 
@@ -99,7 +147,9 @@ void Probes::take(std::size_t instant, std::span<double> values) {
   const std::size_t begin = instant * dofs_.size();
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const Column& column = sources_[i];
-    if (column.samples == nullptr)
+    if (column.is_element_force)
+      values[i] = forces_[instant * element_forces_->size() + column.slot];
+    else if (column.samples == nullptr)
       values[i] = contact_force(column, x_.data() + begin);
     else
       values[i] = column.slot == kFixed ? 0.0 : (*column.samples)[begin + column.slot];

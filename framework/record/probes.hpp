@@ -1,15 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "butee/record/output_request.hpp"
+#include "butee/record/element_forces.hpp"
 #include "butee/time/simulation.hpp"
 
 namespace butee::record {
 
-/// Evaluates the probes of a run: of the DOFs and stops that they need and no others.
+/// Evaluates the probes of a run: of the DOFs and stops that they need and no others. Forces of elements take all DOFs.
 class BUTEE_EXPORT Probes {
  public:
   /// `dynamics` must outlive it.
@@ -33,12 +34,13 @@ class BUTEE_EXPORT Probes {
   void evaluate(const time::State& state, std::span<double> values);
 
  private:
-  /// Where a column's value comes from: place `slot` of an instant's part of x_, v_ or a_, or without samples the stops
-  /// [first, last).
+  /// Where a column's value comes from: place `slot` of an instant's part of the samples (x_, v_, a_ or forces_), or
+  /// without samples the stops [first, last).
   struct Column {
     const std::vector<double>* samples;
     std::size_t slot;
     std::size_t first_stop, last_stop;
+    bool is_element_force = false;
   };
   /// One stop on a probed node; slots of its two ends, and the sign with which it acts there.
   struct ProbedStop {
@@ -49,12 +51,15 @@ class BUTEE_EXPORT Probes {
 
   static constexpr std::size_t kFixed = static_cast<std::size_t>(-1);
 
+  Column element_force(Quantity quantity, const ProbeRequest& request);
   std::size_t slot(Index dof);
   void add_stops(Index dof);
   const std::vector<double>* samples_of(Quantity quantity) const;
   double contact_force(const Column& column, const double* x);
   void make_room(std::size_t instants);
   void copy(const time::State& state, std::size_t instant);
+  void sample_forces(const time::AcceptedStep& step, std::span<const double> times);
+  void evaluate_forces(double t, ConstVectorRef x, ConstVectorRef v, std::size_t instant);
 
   solve::Dynamics& dynamics_;
   std::vector<std::string> columns_;
@@ -63,6 +68,10 @@ class BUTEE_EXPORT Probes {
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;
   bool needs_v_ = false, needs_a_ = false;
+  std::unique_ptr<ElementForces> element_forces_;  ///< null where no probe asks for one
+  std::vector<Index> all_;                         ///< DOFs, for them
+  Vector all_x_, all_v_;
+  std::vector<double> forces_;
 };
 
 }  // namespace butee::record

@@ -9,24 +9,66 @@
 
 namespace butee::record {
 
-/// What can be recorded of a node. stop_state, of fields alone: +1 where a stop on it is closed on the side of u > 0,
-/// -1 on the other side, 0 where all are open.
-enum class Quantity { u, v, a, theta, theta_v, theta_a, contact_force, stop_state };
+/// Everything that can be recorded. stop_state, of fields alone: +1 where a stop on it is closed on the side of u > 0,
+/// -1 on the other side, 0 where all are open. From shear_force on: of probes alone, see ElementForces.
+enum class Quantity {
+  u,
+  v,
+  a,
+  theta,
+  theta_v,
+  theta_a,
+  contact_force,
+  stop_state,
+  shear_force,
+  bending_moment,
+  bending_stress,
+  von_mises,
+  spring_force,
+  spring_moment,
+  reaction,
+  reaction_moment
+};
 
+/// "u", "M" ...
 BUTEE_EXPORT const char* name_of(Quantity quantity);
 /// "m", "N", "1" ...
 BUTEE_EXPORT const char* unit_of(Quantity quantity);
+/// One line for people.
+BUTEE_EXPORT const char* summary_of(Quantity quantity);
 
-/// The quantity of a name that all_quantities() holds.
+/// The quantity of a name that field_quantities() or probe_quantities() holds.
 BUTEE_EXPORT Quantity quantity_of(const std::string& name);
-BUTEE_EXPORT std::vector<std::string> all_quantities();
+/// Those that fields can hold.
+BUTEE_EXPORT std::vector<std::string> field_quantities();
 /// Those that a probe can record.
 BUTEE_EXPORT std::vector<std::string> probe_quantities();
 
-/// u, v, a and contact_force belong to the displacement of a node, the rest to its rotation.
+/// Where the value of a quantity comes from.
+enum class Source { motion, stops, section, springs, support };
+
+BUTEE_EXPORT Source source_of(Quantity quantity);
+
+/// True for what takes the forces of single elements.
+inline bool is_element_force(Quantity quantity) {
+  return source_of(quantity) != Source::motion && source_of(quantity) != Source::stops;
+}
+
+/// The DOF of the node that a quantity belongs to.
 constexpr DofKind kind_of(Quantity quantity) {
-  const bool turns = quantity == Quantity::theta || quantity == Quantity::theta_v || quantity == Quantity::theta_a;
-  return turns ? DofKind::theta : DofKind::u;
+  switch (quantity) {
+    case Quantity::theta:
+    case Quantity::theta_v:
+    case Quantity::theta_a:
+    case Quantity::bending_moment:
+    case Quantity::bending_stress:
+    case Quantity::von_mises:
+    case Quantity::spring_moment:
+    case Quantity::reaction_moment:
+      return DofKind::theta;
+    default:
+      return DofKind::u;
+  }
 }
 
 }  // namespace butee::record

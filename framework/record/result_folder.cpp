@@ -23,7 +23,7 @@ constexpr const char* kOurFiles[] = {"history.csv",         "impacts.csv",
                                      "fields.xdmf",         "summary.json",
                                      "checkpoint.bin",      "checkpoint-before.bin",
                                      "checkpoint-next.bin", "checkpoint-next.bin.part",
-                                     "summary.json.part"};
+                                     "summary.json.part",   "states.bin"};
 
 bool is_ours(const fs::path& folder) {
   std::ifstream model(folder / "model.toml");

@@ -48,6 +48,7 @@ Simulation::Simulation(solve::Dynamics& dynamics, Integrator& integrator, Simula
           "end_time is positive, and time_step where it is given");
   for (State* state : {&state_, &next_})
     for (Vector* vector : {&state->x, &state->v, &state->a}) make_room(*vector, dynamics.size());
+  state_.t = report_.t_end = origin_ = stall_t_ = dynamics.system().initial_time;
   state_.x = dynamics.system().initial_displacement;
   state_.v = dynamics.system().initial_velocity;
   if (controller_ != nullptr && !integrator.minds_load_kinks()) kinks_ = dynamics.load_kinks();

@@ -225,5 +225,21 @@ TEST(ModelBuilder, SaysInWhichCallAMistakeIs) {
   EXPECT_THROW(model.add("integrator", {{"y", 1}}), LogicError);
 }
 
+/// m x'' = -k x - c x': the spring pulls back, and its support holds the other way.
+TEST(Structure, GivesTheQuantitiesOfProbes) {
+  const std::string wall =
+      "[[element]]\ntype = \"mass\"\nname = \"wall\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nname = \"link\"\n"
+      "nodes = [\"m\", \"wall\"]\nstiffness = 300.0\n[[support]]\nnodes = \"wall\"\nfix = \"u\"\n";
+  Structure mass = Structure::from_toml(oscillator(wall + kExact), with_plugins());
+  mass.set_motion(Vector{{0.01}}, Vector{{2.0}});
+  EXPECT_DOUBLE_EQ(mass.quantity("spring_force", "m"), -1100.0 * 0.01 - 1.5 * 2.0);
+  EXPECT_DOUBLE_EQ(mass.quantity("spring_force", "m", "link"), -3.0);
+  EXPECT_DOUBLE_EQ(mass.quantity("reaction", "wall"), -3.0);
+  EXPECT_DOUBLE_EQ(mass.quantity("v", "m"), 2.0);
+  EXPECT_THROW((void)mass.quantity("M", "m"), InputError);
+  EXPECT_THROW((void)mass.quantity("spring_forces", "m"), InputError);
+  EXPECT_THROW((void)mass.quantity("reaction", "m"), InputError);
+}
+
 }  // namespace
 }  // namespace butee::test::structure_test

@@ -141,7 +141,7 @@ TEST(HostileScenes, of_great_depth_are_refused_before_they_are_parsed) {
       {"x = {a" + repeated(".\"b\"", 10000) + " = 1}\n", "parts make one dotted key"},
       {"x = " + repeated("[", 50000) + "\n", "brackets stand in one another"},
       {"x = " + repeated("{a=", 20000) + "\n", "brackets stand in one another"},
-      {"x = [" + repeated("1,", 50000) + "]\n", "the line is longer than"},
+      {"x = [" + repeated("'a',", 50000) + "]\n", "the line is longer than"},
       {"x = {a = 1" + repeated(", a = 1", 20000) + "}\n", "the line is longer than"},
       {repeated("# a comment\n", 6000000), "larger than 64 MB"},
       // Four quotes: a long string that begins with one, after which nothing is a string.

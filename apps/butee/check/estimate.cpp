@@ -38,13 +38,13 @@ void try_out(Session& session, const model::System& system, Estimate& result) {
   if (!report.message.empty())
     result.failure = "a trial run failed at t = " + to_short_text(report.t_end) + " s: " + report.message;
   result.whole = report.completed;
-  const double part = report.t_end / end_time;
+  const double part = (report.t_end - system.initial_time) / (end_time - system.initial_time);
   if (!(part > 0.0)) return;
   result.run_seconds = result.trial_seconds / part;
   result.steps = static_cast<double>(report.steps) / part;
   result.steps_known = type.fixed_step;
   if (type.fixed_step && choice.options.time_step > 0.0)
-    result.steps = std::ceil(end_time / choice.options.time_step * (1.0 - 1e-12));
+    result.steps = std::ceil((end_time - system.initial_time) / choice.options.time_step * (1.0 - 1e-12));
 }
 
 }  // namespace
@@ -57,7 +57,8 @@ Estimate estimate(Session& session, const model::System& system) {
     result.failure = std::string("a run of this scene is refused: ") + error.what();
   }
   const record::OutputRequest& output = session.output;
-  result.rows = output.interval ? std::ceil(session.integrator.options.end_time / *output.interval - 1e-9) + 1.0
+  const double span = session.integrator.options.end_time - system.initial_time;
+  result.rows = output.interval ? std::ceil(span / *output.interval - 1e-9) + 1.0
                                 : result.steps / static_cast<double>(output.every) + 1.0;
   double columns = 2.0;
   for (const record::ProbeRequest& probe : output.probes) columns += static_cast<double>(probe.quantities.size());

@@ -79,7 +79,7 @@ Question question_of(const Session& session, const std::vector<std::string>& col
   for (const record::ProbeRequest& probe : session.output.probes)
     for (const record::Quantity quantity : probe.quantities) {
       known.push_back(probe.label + "." + name_of(quantity));
-      single.push_back({probe.label, probe.node, {quantity}});
+      single.push_back({probe.label, probe.node, {quantity}, probe.element});
     }
   if (known.empty())
     throw InputError(session.document.sources.front() + ": there is nothing to compare; add an [[output.probe]]");
@@ -92,9 +92,11 @@ Question question_of(const Session& session, const std::vector<std::string>& col
     question.columns.push_back(column);
     question.probes.push_back(single[static_cast<std::size_t>(found - known.begin())]);
   }
-  const double end = session.integrator.options.end_time, interval = session.output.interval.value_or(end / 1000.0);
-  for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1.0 - kSameInstant); ++i)
-    question.times.push_back(static_cast<double>(i) * interval);
+  const double begin = session.model.initial_motion ? session.model.initial_motion->time : 0.0;
+  const double end = session.integrator.options.end_time;
+  const double interval = session.output.interval.value_or((end - begin) / 1000.0);
+  for (std::size_t i = 0; begin + static_cast<double>(i) * interval < end * (1.0 - kSameInstant); ++i)
+    question.times.push_back(begin + static_cast<double>(i) * interval);
   question.times.push_back(end);
   return question;
 }

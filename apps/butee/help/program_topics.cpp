@@ -29,6 +29,8 @@ std::string results_text(const plugin::Catalogue&) {
   history.csv    t, the probes' columns, h (the step in force); 17 digits
   summary.json   status, counters of what was really done, times, peaks, energies
   model.toml     the scene as run, with what --set changed
+  states.bin     the motion of all nodes at the end and at the instants of [output] states, of a completed run: where
+                 [initial] from of another scene starts; binary, for butee alone
   impacts.csv    where [output] impacts = true: node, side, t_in, t_out, peak_force, impulse, impact_speed
   energy.csv     where [output] energy = true: t, kinetic, strain, contact, work, dissipated (J)
   fields.h5, fields.xdmf
@@ -40,6 +42,9 @@ std::string results_text(const plugin::Catalogue&) {
 
 Columns of history.csv are LABEL.QUANTITY: m, m/s, m/s2, N; rad, rad/s and rad/s2 of theta, which is du/dx. The
 counters of summary.json count what was done; factor_updates is always 0, since no factorization is changed in place.
+
+model.toml names the files that the scene reads (file, from) as they are found from its folder, with size and checksum: where
+one has changed since, running model.toml again is refused.
 
 Files of an earlier run there are replaced, anything else in the folder stays; a folder that is not empty and was not made by
 butee is refused. A run that fails keeps what was computed, in whole lines, and says so in summary.json.

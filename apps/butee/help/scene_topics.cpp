@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <butee/core/text.hpp>
+#include <butee/record/quantity.hpp>
 
 #include "../parameter_table.hpp"
 #include "topics.hpp"
@@ -37,6 +38,11 @@ std::string model_text(const plugin::Catalogue&) {
   [initial]
   displacement = [{ nodes = "rotor", dof = "u", value = 1.0e-3 }]     # m, rad
   velocity     = [{ nodes = "rotor", dof = "u", value = 0.2 }]        # m/s, rad/s
+  # { nodes = "b:all", rotation = -3.8, about = 0.0 } is a rigid rotation of a beam: u = rotation (x - about), theta = rotation
+  from      = "other-results"    # the motion at the end of another run of this structure; lists beside it replace parts of it
+  at        = 0.5                # s: not at its end but at this instant, one of its [output] states
+  keep_time = true               # begin at that instant instead of t = 0: loads go on, end_time counts from the same zero
+  # size and checksum of that run's states.bin are what model.toml adds, so that another run there is noticed
 
 The equations are M a + C v + K x = F(t) + F_c(x) with the free u (transverse displacement, m) and theta (rotation, rad)
 of all nodes. theta = du/dx: with x along the beam and y along u it turns about z, right-handed (rz), so that it is
@@ -87,6 +93,10 @@ std::string loads_text(const plugin::Catalogue& catalogue) {
 positive as theta = du/dx is), and `type`, the course in time.
 )" + listed(catalogue.types().loads) +
          R"(
+The file of a table holds columns of numbers, parted by commas, tabs or spaces, or by semicolons; lines that begin with # or %
+are left out, and a first line without numbers may name the columns. A million rows are read in a fraction of a second, while
+long arrays in the scene are copied to model.toml.
+
 distributed: a line load on a whole beam, as consistent nodal loads
   beam      its name
   value     N/m
@@ -128,7 +138,7 @@ std::string integrators_text(const plugin::Catalogue& catalogue) {
 }
 
 std::string output_text(const plugin::Catalogue&) {
-  return R"([output]: what history.csv holds. Without it: 1000 equal intervals, and u of every loaded node.
+  std::string text = R"([output]: what history.csv holds. Without it: 1000 equal intervals, and u of every loaded node.
 
   interval         s: rows at t = 0, interval, 2 interval, ..., end_time, by the method's own interpolant
   every            instead of interval: a row at every so manyth accepted step
@@ -136,6 +146,7 @@ std::string output_text(const plugin::Catalogue&) {
   impacts          true: impacts.csv, a row for each closing of a stop             (false)
   trust            true: find out how far the answer can be trusted                (false; butee help trust)
   trust_accuracy   the accuracy it is to be trusted to, of the peak                (0.01)
+  states           s: instants of which the whole motion is kept, for [initial] from of other scenes
   checkpoint       every so manyth accepted step the run is kept; butee run --resume DIR goes on
   formats          ["csv"] and what modules bring: "hdf5", the fields of all nodes
   fields           {nodes, quantities, interval} of such fields, where not all of them are wanted
@@ -143,7 +154,26 @@ std::string output_text(const plugin::Catalogue&) {
   [[output.probe]]
   label        the name of its columns: label.u, label.v, ...
   node         a selector of one node
-  quantities   any of "u", "v", "a", "theta", "theta_v", "theta_a", "contact_force"; theta = du/dx
+  element      of section and spring forces: the beam or spring meant, where there are several; "string:17" is the element
+               of `string` between its nodes 17 and 18
+  quantities   any of these:
+
+)";
+  for (const std::string& name : record::probe_quantities()) {
+    const record::Quantity quantity = record::quantity_of(name);
+    const std::string unit = record::unit_of(quantity);
+    text += "  " + name + std::string(17 - name.size(), ' ') + unit + std::string(8 - unit.size(), ' ') +
+            record::summary_of(quantity) + "\n";
+  }
+  return text + R"(
+Section forces are what the part of the beam at larger x exerts on the part at smaller x, along u and about theta:
+V = -dM/dx and M = E I d2u/dx2 where nothing acts in between. Taken are those of the element that ends at the node (at the
+first node, that begins there): K u + C v + M a - f with its own matrices, its Rayleigh damping and its share of line
+loads. They jump by the forces on the node. Modal damping belongs to no element and counts as a force on the nodes.
+A spring force is that on the node (negative where a spring to ground is stretched towards +u), its dashpot and Rayleigh
+damping included; a reaction is what the support exerts. Accelerations in them are those of the equation of motion, so
+that every node is in balance; each row takes one solution with the mass matrix. bending_stress and von_mises need a section
+that knows its outer fibre (`outer_fibre` of the shape "general").
 )";
 }
 

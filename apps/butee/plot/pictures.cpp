@@ -13,7 +13,8 @@
 namespace butee::app::plot {
 namespace {
 
-constexpr std::array<const char*, 7> kNames = {"displacement", "force", "step", "energy", "phase", "spectrum", "shape"};
+constexpr std::array<const char*, 12> kNames = {"displacement", "force",  "step",  "energy", "phase",  "spectrum",
+                                                "shape",        "moment", "shear", "stress", "spring", "reaction"};
 
 std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
                              const std::string& y_name, const std::string& y_unit, bool with_gaps) {
@@ -178,6 +179,16 @@ std::vector<Chart> charts(Kind kind, const Drawing& drawing) {
       return of_phase(drawing);
     case Kind::spectrum:
       return of_spectrum(drawing);
+    case Kind::moment:
+      return over_time(drawing, "moment", "M", "bending moment", "N m", false);
+    case Kind::shear:
+      return over_time(drawing, "shear", "V", "shear force", "N", false);
+    case Kind::stress:
+      return over_time(drawing, "stress", "bending_stress", "bending stress", "Pa", false);
+    case Kind::spring:
+      return over_time(drawing, "spring", "spring_force", "spring force", "N", false);
+    case Kind::reaction:
+      return over_time(drawing, "reaction", "reaction", "reaction", "N", false);
     case Kind::shape:
       break;
   }
@@ -221,6 +232,16 @@ std::string requirement_of(Kind kind) {
       return "energies: run again with --set output.energy=true";
     case Kind::shape:
       return "the displacements of all nodes: run again with --set 'output.formats=[\"csv\", \"hdf5\"]'";
+    case Kind::moment:
+      return "a probe of M: [[output.probe]] with quantities = [\"M\"]";
+    case Kind::shear:
+      return "a probe of V: [[output.probe]] with quantities = [\"V\"]";
+    case Kind::stress:
+      return "a probe of bending_stress: [[output.probe]] with quantities = [\"bending_stress\"]";
+    case Kind::spring:
+      return "a probe of spring_force: [[output.probe]] with quantities = [\"spring_force\"]";
+    case Kind::reaction:
+      return "a probe of reaction: [[output.probe]] with quantities = [\"reaction\"]";
     case Kind::step:
       break;
   }

@@ -6,7 +6,7 @@
 namespace butee::app::plot {
 
 /// What can be drawn of a run.
-enum class Kind { displacement, force, step, energy, phase, spectrum, shape };
+enum class Kind { displacement, force, step, energy, phase, spectrum, shape, moment, shear, stress, spring, reaction };
 
 /// "displacement", ... in this order.
 std::vector<std::string> kind_names();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include <butee/config/file_reference.hpp>
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/plugin/scene.hpp>
@@ -85,7 +86,8 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
   const std::string history_path = (fs::path(folder) / "history.csv").string();
   if (!fs::is_directory(folder)) throw InputError(folder + ": is no folder; name the result folder of `butee run`");
   if (!fs::exists(model_path)) throw InputError(folder + ": holds no results of `butee run`: model.toml is missing");
-  const config::Document document = config::load_toml(model_path);
+  // Pictures need no course of a load, and results may have been taken elsewhere without its file.
+  const config::Document document = config::without_files(config::load_toml(model_path));
   config::Diagnostics diagnostics(document);
   const plugin::Scene scene = plugin::read_scene(document, catalogue, diagnostics);
   diagnostics.throw_if_any();

@@ -22,7 +22,7 @@ constexpr double kAlmost = 1.0 - 1e-6;
 
 Scale scale_for(double largest, const std::string& unit) {
   if (!(largest > 0.0) || unit.empty() || unit == "1") return {1.0, unit == "1" ? "" : unit};
-  const bool takes_large = unit == "N" || unit == "J" || unit == "Hz" || unit == "N m";
+  const bool takes_large = unit == "N" || unit == "J" || unit == "Hz" || unit == "N m" || unit == "Pa";
   for (const Prefix& prefix : kPrefixes)
     if (largest >= prefix.value * kAlmost && (prefix.value <= 1.0 || takes_large))
       return {1.0 / prefix.value, prefix.text + unit};

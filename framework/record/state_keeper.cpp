@@ -1,0 +1,69 @@
+#include "butee/record/state_keeper.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <limits>
+#include <numeric>
+
+#include "butee/core/error.hpp"
+#include "butee/record/file.hpp"
+
+namespace butee::record {
+
+StateKeeper::StateKeeper(std::vector<double> times, Index size)
+    : times_(std::move(times)), all_(times_.empty() ? 0 : static_cast<std::size_t>(size)) {
+  std::iota(all_.begin(), all_.end(), Index{0});
+}
+
+void StateKeeper::start(const time::State& state) {
+  kept_.clear();
+  if (!times_.empty() && times_.front() == state.t) kept_.push_back({state.t, state.x, state.v});
+}
+
+void StateKeeper::step(const time::AcceptedStep& step) {
+  for (; kept_.size() < times_.size() && times_[kept_.size()] <= step.to.t;) {
+    model::SavedMotion motion{times_[kept_.size()], step.to.x, step.to.v};
+    if (motion.t < step.to.t)
+      step.integrator.interpolate(step.from, step.to, motion.t, all_,
+                                  {{motion.x.data(), all_.size()}, {motion.v.data(), all_.size()}, {}});
+    kept_.push_back(std::move(motion));
+  }
+}
+
+double StateKeeper::next_instant(double t) const {
+  const auto next = std::upper_bound(times_.begin(), times_.end(), t);
+  return next == times_.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+void StateKeeper::save(ByteWriter& to) const {
+  to.put(static_cast<std::uint64_t>(kept_.size()));
+  for (const model::SavedMotion& motion : kept_) {
+    to.put(motion.t);
+    to.put(motion.x);
+    to.put(motion.v);
+  }
+}
+
+void StateKeeper::restore(ByteReader& from) {
+  kept_.resize(from.count(sizeof(double)));
+  for (model::SavedMotion& motion : kept_) {
+    from.take(motion.t);
+    from.take(motion.x);
+    from.take(motion.v);
+  }
+}
+
+void StateKeeper::write(const std::string& path, const model::System& system, const time::State& last) const {
+  require(system.model != nullptr, "states of an assembled model");
+  model::SavedMotions saved(system.model->nodes, system.dofs);
+  saved.motions = kept_;
+  if (saved.motions.empty() || saved.motions.back().t < last.t) saved.motions.push_back({last.t, last.x, last.v});
+  const std::vector<std::byte> bytes = to_bytes(saved);
+  File file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  if (file.write(bytes) < bytes.size() || !file.close())
+    throw RunError(path + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace butee::record

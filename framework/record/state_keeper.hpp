@@ -1,0 +1,30 @@
+#pragma once
+
+#include "butee/model/saved_motion.hpp"
+#include "butee/time/simulation.hpp"
+
+namespace butee::record {
+
+/// Keeps the motion of all DOFs at given instants, by the method's own interpolant, for runs that start from there.
+class BUTEE_EXPORT StateKeeper final : public time::Observer {
+ public:
+  /// `times` (s) ascend.
+  StateKeeper(std::vector<double> times, Index size);
+
+  void start(const time::State& state) override;
+  void step(const time::AcceptedStep& step) override;
+  double next_instant(double t) const override;
+  void save(ByteWriter& to) const override;
+  void restore(ByteReader& from) override;
+
+  /// Writes the motions kept so far and `last`, of the structure of its `system`. Throws RunError. Not synchronised
+  /// with the device, which would take longer than a short run: a file that is not whole is told by its checksum.
+  void write(const std::string& path, const model::System& system, const time::State& last) const;
+
+ private:
+  std::vector<double> times_;
+  std::vector<Index> all_;
+  std::vector<model::SavedMotion> kept_;
+};
+
+}  // namespace butee::record
