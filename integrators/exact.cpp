@@ -59,6 +59,7 @@ StepStatus Exact::follow(const State& from, const time::Step& step) {
   v_ = begin_v_ = from.v;
   begin_t_ = from.t;
   used_ = 0;
+  knots_.clear();
   place_branches();
   double t = from.t, done = 0.0, length = h;
   while (done < h) {
@@ -83,6 +84,7 @@ StepStatus Exact::follow(const State& from, const time::Step& step) {
       end_t_ = t;
       break;
     }
+    if (t > (knots_.empty() ? from.t : knots_.back()) && t < step.t_end) knots_.push_back(t);
     if (change) {
       branches_.apply(*change);
     } else {
@@ -110,18 +112,54 @@ bool Exact::holds(const State& from, double t_end) const {
   return from.t == begin_t_ && t_end == end_t_ && from.x == begin_x_ && from.v == begin_v_;
 }
 
-void Exact::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
-                           time::Interpolated out) const {
+void Exact::recall(const State& from, const State& to) const {
   // Recomputing the pieces of a step that is no longer the last changes nothing that anyone could see.
   if (!holds(from, to.t)) const_cast<Exact*>(this)->follow(from, {to.t - from.t, to.t});
+}
+
+const TaylorExpansion& Exact::piece_at(double t) const {
   std::size_t i = 0;
   while (i + 1 < used_ && pieces_[i + 1].begin <= t) ++i;
-  const TaylorExpansion& piece = pieces_[i];
+  return pieces_[i];
+}
+
+std::span<const double> Exact::knots(const State& from, const State& to) const {
+  recall(from, to);
+  return knots_;
+}
+
+void Exact::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
+                           time::Interpolated out) const {
+  recall(from, to);
+  const TaylorExpansion& piece = piece_at(t);
   const double s = std::min((t - piece.begin) / piece.length, piece.end);
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     if (!out.x.empty()) out.x[k] = piece.value(dofs[k], s);
     if (!out.v.empty()) out.v[k] = piece.velocity(dofs[k], s);
     if (!out.a.empty()) out.a[k] = piece.acceleration(dofs[k], s);
+  }
+}
+
+void Exact::departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
+                      time::Interpolated out) const {
+  recall(from, to);
+  const TaylorExpansion& piece = piece_at(begin);
+  const double s = std::min((end - piece.begin) / piece.length, piece.end), h = (end - begin) / piece.length;
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    // Bounds of the fourth and the fifth derivative with respect to s.
+    double fourth = 0.0, fifth = 0.0, power = 1.0, before = 0.0;
+    for (Index j = 4; j < piece.x.cols(); ++j) {
+      const auto n = static_cast<double>(j);
+      const double term = n * (n - 1.0) * (n - 2.0) * (n - 3.0) * std::abs(piece.x(dofs[k], j));
+      fourth += term * power;
+      fifth += (n - 4.0) * term * before;
+      before = power;
+      power *= s;
+    }
+    const double of_cubic = h * h * h * h / 384.0;
+    if (!out.x.empty()) out.x[k] = of_cubic * fourth;
+    if (!out.v.empty()) out.v[k] = of_cubic * fifth / piece.length;
+    if (!out.a.empty()) out.a[k] = h * h / 8.0 * fourth / (piece.length * piece.length);
   }
 }
 
