@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "integrators/methods.hpp"
+#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 
@@ -146,20 +147,16 @@ void Exact::departure(const State& from, const State& to, double begin, double e
   const TaylorExpansion& piece = piece_at(begin);
   const double s = std::min((end - piece.begin) / piece.length, piece.end), h = (end - begin) / piece.length;
   for (std::size_t k = 0; k < dofs.size(); ++k) {
-    // Bounds of the fourth and the fifth derivative with respect to s.
-    double fourth = 0.0, fifth = 0.0, power = 1.0, before = 0.0;
-    for (Index j = 4; j < piece.x.cols(); ++j) {
+    // A bound of the sixth derivative with respect to s.
+    double sixth = 0.0, power = 1.0;
+    for (Index j = 6; j < piece.x.cols(); ++j, power *= s) {
       const auto n = static_cast<double>(j);
-      const double term = n * (n - 1.0) * (n - 2.0) * (n - 3.0) * std::abs(piece.x(dofs[k], j));
-      fourth += term * power;
-      fifth += (n - 4.0) * term * before;
-      before = power;
-      power *= s;
+      sixth += n * (n - 1.0) * (n - 2.0) * (n - 3.0) * (n - 4.0) * (n - 5.0) * std::abs(piece.x(dofs[k], j)) * power;
     }
-    const double of_cubic = h * h * h * h / 384.0;
-    if (!out.x.empty()) out.x[k] = of_cubic * fourth;
-    if (!out.v.empty()) out.v[k] = of_cubic * fifth / piece.length;
-    if (!out.a.empty()) out.a[k] = h * h / 8.0 * fourth / (piece.length * piece.length);
+    const QuinticError error = quintic_error(h, sixth);
+    if (!out.x.empty()) out.x[k] = error.x;
+    if (!out.v.empty()) out.v[k] = error.v / piece.length;
+    if (!out.a.empty()) out.a[k] = error.a / (piece.length * piece.length);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "integrators/exponential_step.hpp"
+#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -96,7 +97,7 @@ void ExponentialStep::find_bounds_from(std::size_t knot) {
   if (modal_bounds_.knot == knot) return;
   modal_bounds_.knot = knot;
   const double t = knots_.time(knot), h = knots_.time(knot + 1) - t;
-  std::array<ArrayXd, 4> load;  // of f and its derivatives
+  std::array<ArrayXd, 5> load;  // of f and its derivatives
   for (ArrayXd& bound : load) bound.setZero(modal_.size());
   for (const solve::ModalHarmonic& harmonic : modal_.harmonics()) {
     double factor = 1.0;
@@ -125,15 +126,17 @@ void ExponentialStep::find_bounds_from(std::size_t knot) {
 
 void ExponentialStep::departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
   find_bounds_from(knots_.before(begin));
-  const double h = end - begin, of_cubic = h * h * h * h / 384.0;
+  const double h = end - begin;
+  const QuinticError error = quintic_error(h, 1.0);
   const auto& of = modal_bounds_.of;
-  // A cubic is within 2 y + (8/27) h y', and so is what it departs from y by, of whatever length.
-  constexpr double kOfSlope = 8.0 / 27.0;
+  // A quintic is within what the sums of its Hermite functions and their derivatives make of the motion at both ends,
+  // and so is what it departs from the motion by, of whatever length.
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const auto shape = modal_.shape_rows().col(dofs[i]).array().abs();
-    if (!out.x.empty()) out.x[i] = (shape * (of_cubic * of[4]).min(2.0 * of[0] + kOfSlope * h * of[1])).sum();
-    if (!out.v.empty()) out.v[i] = (shape * (of_cubic * of[5]).min(2.0 * of[1] + kOfSlope * h * of[2])).sum();
-    if (!out.a.empty()) out.a[i] = (shape * (h * h / 8.0 * of[4]).min(2.0 * of[2])).sum();
+    if (!out.x.empty())
+      out.x[i] = (shape * (error.x * of[6]).min(2.0 * of[0] + 0.4 * h * of[1] + 0.035 * h * h * of[2])).sum();
+    if (!out.v.empty()) out.v[i] = (shape * (error.v * of[6]).min(5.0 * of[1] + 0.3 * h * of[2])).sum();
+    if (!out.a.empty()) out.a[i] = (shape * (error.a * of[6]).min(18.0 / h * of[1] + 3.0 * of[2])).sum();
   }
 }
 

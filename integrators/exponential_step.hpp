@@ -112,10 +112,10 @@ class ExponentialStep {
   void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out);
 
  private:
-  /// Bounds of q and its first five derivatives, mode by mode, from one knot to the next.
+  /// Bounds of q and its first six derivatives, mode by mode, from one knot to the next.
   struct ModalBounds {
     std::size_t knot = static_cast<std::size_t>(-1);
-    std::array<Eigen::ArrayXd, 6> of;
+    std::array<Eigen::ArrayXd, 7> of;
   };
   void find_bounds_from(std::size_t knot);
 

@@ -47,8 +47,8 @@ void ModalEnergy::go_on(const Knot& knot, const double* w, bool is_last) {
   const Column q(knot.q, modal_.size()), v(knot.v, modal_.size());
   const Index stops = dynamics_.stop_count();
   const double contact = stops > 0 ? dynamics_.contact().energy(Eigen::Map<const Vector>(w, stops)) : 0.0;
-  told_.push_back({knot.t, 0.5 * v.square().sum(), 0.5 * (modal_.frequencies() * q).square().sum(), contact, work_,
-                   dissipated_});
+  told_.push_back(
+      {knot.t, 0.5 * v.square().sum(), 0.5 * (modal_.frequencies() * q).square().sum(), contact, work_, dissipated_});
 }
 
 void ModalEnergy::add_work(const Knot& to) {
@@ -77,8 +77,8 @@ void ModalEnergy::add_dissipation(const Knot& to) {
   // The integral of the square of the slope of a cubic: the geometric stiffness of a beam.
   const auto rise = r * (q1 - q0);
   dissipated_ += h / 30.0 *
-                 (double_decay_ * (36.0 * rise.square() - 6.0 * rise * (v0 + v1) + 4.0 * (v0.square() + v1.square()) -
-                                   2.0 * v0 * v1))
+                 (double_decay_ *
+                  (36.0 * rise.square() - 6.0 * rise * (v0 + v1) + 4.0 * (v0.square() + v1.square()) - 2.0 * v0 * v1))
                      .sum();
 }
 

@@ -10,11 +10,12 @@ namespace butee::integrators {
 
 /// The energies of a motion in modal coordinates, the work of its loads and its dissipation, from knot to knot.
 ///
-///     kinetic = sum v^2/2,   strain = sum (omega q)^2/2,   work = sum int f v dt,   dissipated = sum 2 delta int v^2 dt
+///     kinetic = sum v^2/2,   strain = sum (omega q)^2/2,   work = sum int f v dt,   dissipated = sum 2 delta int v^2
+///     dt
 ///
 /// Between two knots each mode, and each load in time, is the cubic through its values and slopes at both; the
-/// integrals are those of these cubics, exactly for v^2 and by Simpson's rule for f v. Their errors, (omega h)^4/720 and
-/// (omega h)^4/2880 of what is done in the step, are those of the dense output. Checked in
+/// integrals are those of these cubics, exactly for v^2 and by Simpson's rule for f v. Their errors, (omega h)^4/720
+/// and (omega h)^4/2880 of what is done in the step, are those of the dense output. Checked in
 /// tests/models/modal_energy_test.cpp.
 class ModalEnergy {
  public:

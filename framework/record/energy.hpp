@@ -23,8 +23,8 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, solve::Dynamics& dynamic
 ///
 /// where the method does not tell them itself (Integrator::energies), by Simpson's rule from knot to knot of every
 /// accepted step, its middle from the method's own interpolant: fourth order, so that the balance shows the method's
-/// error and not the quadrature's. Pieces as long as the motion allows (DenseOutput::other) are halved until Gauss' rule
-/// with five points gives the same for both. The balance error is (change + dissipated - work) / largest energy.
+/// error and not the quadrature's. Pieces as long as the motion allows (DenseOutput::other) are halved until Gauss'
+/// rule with five points gives the same for both. The balance error is (change + dissipated - work) / largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
   /// `dynamics` must outlive it. Where there is a `writer`, it gets a row at the start, at the first end or knot of a

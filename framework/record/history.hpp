@@ -41,7 +41,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   Peaks peaks_;
   CsvWriter* writer_;
   std::vector<double> row_, first_row_;
-  std::vector<double> due_;              ///< instants of rows within a step
+  std::vector<double> due_;               ///< instants of rows within a step
   std::vector<double> values_, largest_;  ///< of probes_, in a row and in all of them
 };
 

@@ -83,6 +83,7 @@ void ImpactRecorder::follow(Watch& watch, const Course& course, const Point& fro
     if (!((watch.side > 0.0 ? greatest : -least) > watch.gap)) return;
   }
   Range range;
+  range.take(from.t, from.of[0]);
   course.extend(0, from, to, range);
   const auto [first, second] = std::minmax(range.t_least, range.t_greatest);
   Point last = from;
@@ -128,8 +129,10 @@ Point ImpactRecorder::crossing(const Watch& watch, const Course& course, double 
 void ImpactRecorder::accumulate(Watch& watch, const Course& course, const Point& from, const Point& to) {
   if (!(to.t > from.t)) return;
   for (const Point* end : {&from, &to})
-    if (watch.penetration(*end) > 0.0) watch.current.peak_force = std::max(watch.current.peak_force, force(watch, *end));
-  for (const auto& [t, weight] : gauss_points(from.t, to.t)) watch.current.impulse += weight * force(watch, course.at(t));
+    if (watch.penetration(*end) > 0.0)
+      watch.current.peak_force = std::max(watch.current.peak_force, force(watch, *end));
+  for (const auto& [t, weight] : gauss_points(from.t, to.t))
+    watch.current.impulse += weight * force(watch, course.at(t));
 }
 
 void ImpactRecorder::save(ByteWriter& to) const {

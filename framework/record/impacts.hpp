@@ -19,8 +19,8 @@ struct Impact {
   double impact_speed = 0.0;    ///< m/s, at t_in
 };
 
-/// Finds every closing of a stop on the method's dense output: instants by root finding, the largest force at the largest
-/// penetration (Course), the impulse by Gauss' rule with five points between such instants.
+/// Finds every closing of a stop on the method's dense output: instants by root finding, the largest force at the
+/// largest penetration (Course), the impulse by Gauss' rule with five points between such instants.
 ///
 /// A contact shorter than a step is seen as well: it reaches its largest penetration within the step.
 class BUTEE_EXPORT ImpactRecorder final : public time::Observer {

@@ -84,8 +84,7 @@ void Peaks::step(const time::AcceptedStep& step) {
       Followed& followed = followed_[i];
       const Course course = tracks_.course(step, i);
       for (std::size_t order = 0; order < 3; ++order)
-        if (followed.is_followed[order])
-          course.extend(order, tracks_.from(i), tracks_.to(i), followed.ranges[order]);
+        if (followed.is_followed[order]) course.extend(order, tracks_.from(i), tracks_.to(i), followed.ranges[order]);
     }
     for (Column& column : columns_)
       if (column.stops.size() > 1) {

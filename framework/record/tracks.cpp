@@ -39,8 +39,7 @@ void Tracks::load(std::size_t knot, double t) {
     point = {t, {0.0, 0.0, 0.0}};
     const auto [a, b] = places_[i];
     if (a != kFixed) point.of = {x_[begin + a], v_[begin + a], a_[begin + a]};
-    if (b != kFixed)
-      point.of = {point.of[0] - x_[begin + b], point.of[1] - v_[begin + b], point.of[2] - a_[begin + b]};
+    if (b != kFixed) point.of = {point.of[0] - x_[begin + b], point.of[1] - v_[begin + b], point.of[2] - a_[begin + b]};
   }
 }
 

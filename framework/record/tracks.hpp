@@ -18,12 +18,13 @@ class BUTEE_EXPORT Tracks {
     return Course::point(state, pairs_[track].first, pairs_[track].second);
   }
   Course course(const time::AcceptedStep& step, std::size_t track) const {
-    return {step, pairs_[track].first, pairs_[track].second};
+    return {step, kind_, pairs_[track].first, pairs_[track].second};
   }
 
   /// Calls `look()` for every piece of the step between two neighbouring knots, whose ends are from() and to().
   template <class Look>
   void visit(const time::AcceptedStep& step, Look look) {
+    kind_ = step.integrator.dense_output();
     for (std::size_t i = 0; i < size(); ++i) from_[i] = at(step.from, i);
     const std::span<const double> knots = step.integrator.knots(step.from, step.to);
     if (!knots.empty()) sample(step, knots);
@@ -45,6 +46,7 @@ class BUTEE_EXPORT Tracks {
   std::vector<std::pair<Index, Index>> pairs_;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< of those in dofs_
   std::vector<Point> from_, to_;
+  time::DenseOutput kind_ = time::DenseOutput::cubic;  ///< of the step last visited
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;  ///< of dofs_ at the knots
 };

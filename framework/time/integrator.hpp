@@ -102,8 +102,8 @@ class BUTEE_EXPORT Integrator {
   /// What interpolate() gives, for those who look for extremes of the motion.
   virtual DenseOutput dense_output() const { return DenseOutput::cubic; }
 
-  /// Of DenseOutput::other alone: bounds, for each DOF, of how far x and v between two instants of an accepted step that
-  /// no knot parts depart from the cubics through x and v, and v and a, at both, and a from the straight line.
+  /// Of DenseOutput::other alone: bounds, for each DOF, of how far x, v and a between two instants of an accepted step
+  /// that no knot parts depart from the quintic through x, v and a at both and its derivatives.
   virtual void departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
                          Interpolated out) const {
     (void)from, (void)to, (void)begin, (void)end, (void)dofs, (void)out;
