@@ -8,37 +8,91 @@ constexpr double kShortest = 1e-9;
 /// No polynomial is halved more often.
 constexpr int kMostSplits = 40;
 
-/// Derivative `order` of the cubic by x and v.
-Hull of_cubic(std::size_t order, const Point& from, const Point& to) {
-  const double h = to.t - from.t;
-  const Hull x(std::array{from.of[0], from.of[0] + h / 3.0 * from.of[1], to.of[0] - h / 3.0 * to.of[1], to.of[0]});
-  if (order == 0) return x;
-  const Hull v = x.derivative().times(1.0 / h);
-  return order == 1 ? v : v.derivative().times(1.0 / h);
+/// A polynomial on [0, 1] by its Bernstein coefficients: the first and the last are the values at the ends, and the
+/// least and the greatest bound it.
+template <std::size_t Degree>
+using Bernstein = std::array<double, Degree + 1>;
+
+template <std::size_t Degree>
+std::pair<double, double> bounds_of(const Bernstein<Degree>& c) {
+  double least = c[0], greatest = c[0];
+  for (std::size_t i = 1; i <= Degree; ++i) {
+    least = std::min(least, c[i]);
+    greatest = std::max(greatest, c[i]);
+  }
+  return {least, greatest};
 }
 
-/// Derivative `order` of the quintic by x, v and a.
-Hull of_quintic(std::size_t order, const Point& from, const Point& to) {
+/// De Casteljau's rule at 1/2: `first` becomes the first half; gives the second.
+template <std::size_t Degree>
+Bernstein<Degree> split(Bernstein<Degree>& first) {
+  Bernstein<Degree> second = first;
+  for (std::size_t round = 1; round <= Degree; ++round) {
+    for (std::size_t i = 0; i + round <= Degree; ++i) second[i] = 0.5 * (second[i] + second[i + 1]);
+    first[round] = second[0];
+  }
+  return second;
+}
+
+template <std::size_t Degree>
+Bernstein<Degree - 1> slope(const Bernstein<Degree>& c, double h) {
+  Bernstein<Degree - 1> slope;
+  for (std::size_t i = 0; i < Degree; ++i) slope[i] = static_cast<double>(Degree) / h * (c[i + 1] - c[i]);
+  return slope;
+}
+
+/// The cubic by the values and slopes of derivative `order`, whose next one those are.
+Bernstein<3> cubic(std::size_t order, const Point& from, const Point& to) {
+  const double third = (to.t - from.t) / 3.0;
+  return {from.of[order], from.of[order] + third * from.of[order + 1], to.of[order] - third * to.of[order + 1],
+          to.of[order]};
+}
+
+/// The quintic by x, v and a.
+Bernstein<5> quintic(const Point& from, const Point& to) {
   const double h = to.t - from.t;
   const auto [x0, v0, a0] = from.of;
   const auto [x1, v1, a1] = to.of;
-  const Hull x(std::array{x0, x0 + 0.2 * h * v0, x0 + 0.4 * h * v0 + 0.05 * h * h * a0,
-                          x1 - 0.4 * h * v1 + 0.05 * h * h * a1, x1 - 0.2 * h * v1, x1});
-  if (order == 0) return x;
-  const Hull v = x.derivative().times(1.0 / h);
-  return order == 1 ? v : v.derivative().times(1.0 / h);
+  const double c1 = x0 + 0.2 * h * v0, c4 = x1 - 0.2 * h * v1;
+  return {x0, c1, 2.0 * c1 - x0 + 0.05 * h * h * a0, 2.0 * c4 - x1 + 0.05 * h * h * a1, c4, x1};
 }
 
 /// The extremes of a polynomial beyond a range, by the place.
-void seek(Hull hull, double begin, double end, double good, int splits, Range& beyond) {
-  const auto [least, greatest] = hull.bounds();
+template <std::size_t Degree>
+void seek(Bernstein<Degree> first, double begin, double end, double good, int splits, Range& beyond) {
+  const auto [least, greatest] = bounds_of<Degree>(first);
   if (!(greatest > beyond.greatest + good) && !(least < beyond.least - good)) return;
   if (splits == kMostSplits) return;
-  const Hull second = hull.split();
+  const Bernstein<Degree> second = split<Degree>(first);
   const double middle = 0.5 * (begin + end);
-  beyond.take(middle, second.first());
-  seek(hull, begin, middle, good, splits + 1, beyond);
-  seek(second, middle, end, good, splits + 1, beyond);
+  beyond.take(middle, second[0]);
+  seek<Degree>(first, begin, middle, good, splits + 1, beyond);
+  seek<Degree>(second, middle, end, good, splits + 1, beyond);
+}
+
+/// Derivative `order` of a polynomial of x.
+template <std::size_t Degree>
+void seek_in(std::size_t order, const Bernstein<Degree>& x, double h, double good, Range& beyond) {
+  if (order == 0) return seek<Degree>(x, 0.0, 1.0, good, 0, beyond);
+  const Bernstein<Degree - 1> v = slope<Degree>(x, h);
+  if (order == 1) return seek<Degree - 1>(v, 0.0, 1.0, good, 0, beyond);
+  seek<Degree - 2>(slope<Degree - 1>(v, h), 0.0, 1.0, good, 0, beyond);
+}
+
+/// Whether accelerations depart from the cubic's by x and v far more at one end than at the other, as where a stop
+/// bends the motion at the end of a step: then the dense output may be that cubic.
+bool may_bend(const Point& from, const Point& to) {
+  constexpr double kMore = 5.0;
+  const double h = to.t - from.t, rise = 6.0 * (to.of[0] - from.of[0]) / h;
+  const double off0 = std::abs(from.of[2] - (rise - 4.0 * from.of[1] - 2.0 * to.of[1]) / h),
+               off1 = std::abs(to.of[2] - (2.0 * from.of[1] + 4.0 * to.of[1] - rise) / h);
+  return std::max(off0, off1) > kMore * std::min(off0, off1);
+}
+
+/// The value of a polynomial in the middle.
+template <std::size_t Degree>
+double middle_of(Bernstein<Degree> c) {
+  return split<Degree>(c)[0];
 }
 
 }  // namespace
@@ -62,14 +116,6 @@ Point Course::at(double t) const {
     sign = -1.0;
   }
   return point;
-}
-
-Hull Course::hull(std::size_t order, const Point& from, const Point& to) const {
-  if (kind_ != time::DenseOutput::cubic) return of_quintic(order, from, to);
-  const double third = (to.t - from.t) / 3.0;
-  if (order == 2) return Hull(std::array{from.of[2], to.of[2]});
-  return Hull(std::array{from.of[order], from.of[order] + third * from.of[order + 1],
-                         to.of[order] - third * to.of[order + 1], to.of[order]});
 }
 
 std::pair<double, double> Course::enclose(std::size_t order, const Point& from, const Point& to) const {
@@ -107,14 +153,19 @@ void Course::halve(std::size_t order, const Point& from, const Point& to, int& s
   const auto [least, greatest] = enclose(order, from, to, departs);
   if (!(greatest > range.greatest + good) && !(least < range.least - good)) return;
   if (!(departs > good)) {
-    Hull course = hull(order, from, to);
-    if (kind_ == time::DenseOutput::quintic) {
-      const double quintic = of_quintic(0, from, to).split().first(), cubic = of_cubic(0, from, to).split().first();
-      const double x = at(middle).of[0];
-      if (std::abs(x - cubic) < std::abs(x - quintic)) course = of_cubic(order, from, to);
-    }
     Range beyond = range;
-    seek(course, 0.0, 1.0, good, 0, beyond);
+    if (kind_ == time::DenseOutput::cubic) {
+      if (order < 2) seek<3>(cubic(order, from, to), 0.0, 1.0, good, 0, beyond);
+    } else {
+      const Bernstein<5> bent = quintic(from, to);
+      const Bernstein<3> straight = cubic(0, from, to);
+      const double x =
+          kind_ == time::DenseOutput::quintic && may_bend(from, to) ? at(middle).of[0] : middle_of<5>(bent);
+      if (std::abs(x - middle_of<3>(straight)) < std::abs(x - middle_of<5>(bent)))
+        seek_in<3>(order, straight, h, good, beyond);
+      else
+        seek_in<5>(order, bent, h, good, beyond);
+    }
     for (const auto [value, before, place] : {std::array{beyond.greatest, range.greatest, beyond.t_greatest},
                                               std::array{beyond.least, range.least, beyond.t_least}}) {
       const double t = from.t + place * h;

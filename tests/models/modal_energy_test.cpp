@@ -41,7 +41,7 @@ TEST_P(ModalEnergy, is_that_of_the_motion_in_physical_coordinates) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ModalEnergy, testing::Values("oscillator", "beam1", "beam3"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& scene) { return scene.param; });
 
 }  // namespace
 }  // namespace butee::test::modal_energy_test
