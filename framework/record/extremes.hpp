@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "butee/core/bytes.hpp"
-#include "butee/record/hull.hpp"
 #include "butee/time/simulation.hpp"
 
 namespace butee::record {
@@ -98,8 +97,6 @@ class BUTEE_EXPORT Course {
   void halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const;
   /// Of derivative `order` of the dense output from that of the polynomial.
   double departure(std::size_t order, const Point& from, const Point& to) const;
-  /// The polynomial through both points.
-  Hull hull(std::size_t order, const Point& from, const Point& to) const;
 
   const time::AcceptedStep& step_;
   time::DenseOutput kind_;

@@ -32,8 +32,12 @@ double seconds_since(Clock::time_point begin) {
 /// Looks at the course of a trial.
 class Pace final : public time::Observer {
  public:
+  explicit Pace(solve::Dynamics& dynamics)
+      : contact_(dynamics.contact()), stops_(dynamics.stop_count()), has_struck_(stops_.size() == 0) {}
+
   void step(const time::AcceptedStep& step) override {
     steps_ += 1.0;
+    if (!has_struck_) look_at_stops(step.to);
     if (++since_last_ < stride_) return;
     since_last_ = 0;
     marks_.push_back({step.to.t, steps_});
@@ -42,6 +46,8 @@ class Pace final : public time::Observer {
     marks_.resize(marks_.size() / 2);
     stride_ *= 2;
   }
+  /// Whether a stop was closed at the end of a step, if there are any.
+  bool has_struck() const { return has_struck_; }
   /// Whether so many steps were taken in the last quarter of the time as in the one before.
   bool is_steady() const {
     if (marks_.empty()) return false;
@@ -56,10 +62,20 @@ class Pace final : public time::Observer {
   }
 
  private:
+  void look_at_stops(const time::State& state) {
+    Vector penetration(stops_.size());
+    contact_.displacement(state.x, stops_);
+    contact_.penetration(stops_, penetration);
+    has_struck_ = penetration.maxCoeff() > 0.0;
+  }
+
   static constexpr std::size_t kMostMarks = 4096;
   struct Mark {
     double t, steps;
   };
+  solve::Contact& contact_;
+  Vector stops_;
+  bool has_struck_;
   std::vector<Mark> marks_;
   double steps_ = 0.0;
   std::size_t since_last_ = 0, stride_ = 1;
@@ -81,16 +97,14 @@ void try_out(Session& session, const model::System& system, Estimate& result) {
   record::HistoryRecorder history(output, end_time, dynamics, nullptr);
   record::EnergyRecorder energy(dynamics, nullptr, record::OutputTimes(output.interval, output.every, end_time));
   record::ImpactRecorder impacts(dynamics);
-  Pace pace;
+  Pace pace(dynamics);
   simulation.add(history);
   if (output.energy) simulation.add(energy);
-  const bool looks_for_impacts = output.impacts || (!type.fixed_step && dynamics.stop_count() > 0);
-  if (looks_for_impacts) simulation.add(impacts);
+  if (output.impacts) simulation.add(impacts);
   if (!type.fixed_step) simulation.add(pace);
   const auto can_tell = [&] {
     if (type.fixed_step) return true;
-    const bool has_struck = dynamics.stop_count() == 0 || !impacts.impacts().empty();
-    return simulation.report().t_end >= kEnough * end_time && has_struck && pace.is_steady();
+    return simulation.report().t_end >= kEnough * end_time && pace.has_struck() && pace.is_steady();
   };
   const auto started = Clock::now();
   double limit = kTrialSeconds;
