@@ -54,7 +54,7 @@ class Pace final : public time::Observer {
     const double end = marks_.back().t;
     const auto steps_by = [&](double t) {
       const auto mark = std::lower_bound(marks_.begin(), marks_.end(), t,
-                                         [](const Mark& mark, double instant) { return mark.t < instant; });
+                                         [](const Mark& before, double instant) { return before.t < instant; });
       return mark == marks_.end() ? steps_ : mark->steps;
     };
     const double before = steps_by(0.75 * end) - steps_by(0.5 * end), last = steps_ - steps_by(0.75 * end);
