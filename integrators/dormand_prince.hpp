@@ -19,6 +19,7 @@ class DormandPrince final : public time::Integrator {
   DormandPrince(solve::Dynamics& dynamics, const Goal& goal);
 
   const time::StepController* controller() const override { return &control_.controller(); }
+  time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
   double first_step(const time::State&) const override { return control_.first_step(); }
 
  private:

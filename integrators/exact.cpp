@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "integrators/methods.hpp"
+#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 
@@ -59,6 +60,7 @@ StepStatus Exact::follow(const State& from, const time::Step& step) {
   v_ = begin_v_ = from.v;
   begin_t_ = from.t;
   used_ = 0;
+  knots_.clear();
   place_branches();
   double t = from.t, done = 0.0, length = h;
   while (done < h) {
@@ -83,6 +85,7 @@ StepStatus Exact::follow(const State& from, const time::Step& step) {
       end_t_ = t;
       break;
     }
+    if (t > (knots_.empty() ? from.t : knots_.back()) && t < step.t_end) knots_.push_back(t);
     if (change) {
       branches_.apply(*change);
     } else {
@@ -110,18 +113,50 @@ bool Exact::holds(const State& from, double t_end) const {
   return from.t == begin_t_ && t_end == end_t_ && from.x == begin_x_ && from.v == begin_v_;
 }
 
-void Exact::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
-                           time::Interpolated out) const {
+void Exact::recall(const State& from, const State& to) const {
   // Recomputing the pieces of a step that is no longer the last changes nothing that anyone could see.
   if (!holds(from, to.t)) const_cast<Exact*>(this)->follow(from, {to.t - from.t, to.t});
+}
+
+const TaylorExpansion& Exact::piece_at(double t) const {
   std::size_t i = 0;
   while (i + 1 < used_ && pieces_[i + 1].begin <= t) ++i;
-  const TaylorExpansion& piece = pieces_[i];
+  return pieces_[i];
+}
+
+std::span<const double> Exact::knots(const State& from, const State& to) const {
+  recall(from, to);
+  return knots_;
+}
+
+void Exact::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
+                           time::Interpolated out) const {
+  recall(from, to);
+  const TaylorExpansion& piece = piece_at(t);
   const double s = std::min((t - piece.begin) / piece.length, piece.end);
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     if (!out.x.empty()) out.x[k] = piece.value(dofs[k], s);
     if (!out.v.empty()) out.v[k] = piece.velocity(dofs[k], s);
     if (!out.a.empty()) out.a[k] = piece.acceleration(dofs[k], s);
+  }
+}
+
+void Exact::departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
+                      time::Interpolated out) const {
+  recall(from, to);
+  const TaylorExpansion& piece = piece_at(begin);
+  const double s = std::min((end - piece.begin) / piece.length, piece.end), h = (end - begin) / piece.length;
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    // A bound of the sixth derivative with respect to s.
+    double sixth = 0.0, power = 1.0;
+    for (Index j = 6; j < piece.x.cols(); ++j, power *= s) {
+      const auto n = static_cast<double>(j);
+      sixth += n * (n - 1.0) * (n - 2.0) * (n - 3.0) * (n - 4.0) * (n - 5.0) * std::abs(piece.x(dofs[k], j)) * power;
+    }
+    const QuinticError error = quintic_error(h, sixth);
+    if (!out.x.empty()) out.x[k] = error.x;
+    if (!out.v.empty()) out.v[k] = error.v / piece.length;
+    if (!out.a.empty()) out.a[k] = error.a / (piece.length * piece.length);
   }
 }
 

@@ -23,6 +23,12 @@ class Exact final : public time::Integrator {
 
   bool minds_load_kinks() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
+  /// Where one series ends and the next begins.
+  std::span<const double> knots(const time::State& from, const time::State& to) const override;
+  time::DenseOutput dense_output() const override { return time::DenseOutput::other; }
+  /// By the derivatives of the series, term by term.
+  void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
+                 time::Interpolated out) const override;
 
  private:
   /// Every step stands; the next goes as far as the last series reached.
@@ -41,6 +47,9 @@ class Exact final : public time::Integrator {
   void place_branches();
   double next_kink(double t) const;
   bool holds(const time::State& from, double t_end) const;
+  /// Sees that the pieces are those of this step.
+  void recall(const time::State& from, const time::State& to) const;
+  const TaylorExpansion& piece_at(double t) const;
 
   Controller controller_;
   TaylorExpander expander_;
@@ -49,6 +58,7 @@ class Exact final : public time::Integrator {
   // The pieces of the last step, kept for its interpolation.
   std::vector<TaylorExpansion> pieces_;
   std::size_t used_ = 0;
+  std::vector<double> knots_;
   Vector begin_x_, begin_v_;
   double begin_t_ = 0.0, end_t_ = -1.0;
   Vector x_, v_, stops_;

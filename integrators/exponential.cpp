@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
@@ -203,8 +204,29 @@ bool Exponential<Step>::holds(const State& from, double t_end) const {
 
 template <class Step>
 std::span<const double> Exponential<Step>::knots(const State& from, const State& to) const {
-  if (!holds(from, to.t)) return {};
-  return step_.knots();
+  return recall(from, to).knots();
+}
+
+template <class Step>
+Step& Exponential<Step>::recall(const State& from, const State& to) const {
+  // Recomputing a block that is no longer the last changes nothing that anyone could see.
+  auto& self = const_cast<Exponential&>(*this);
+  if (!holds(from, to.t)) self.follow(from, to.memory.tail(1)[0], kBlock, to.t);
+  return self.step_;
+}
+
+template <class Step>
+std::span<const time::EnergyAt> Exponential<Step>::energies(const State& from, const State& to,
+                                                            std::span<const double> instants) const {
+  return recall(from, to).energies(instants);
+}
+
+template <class Step>
+void Exponential<Step>::departure(const State& from, const State& to, double begin, double end,
+                                  std::span<const Index> dofs, time::Interpolated out) const {
+  if constexpr (std::is_same_v<Step, ExponentialStep>) {
+    if (!step_.has_stops()) recall(from, to).departure(begin, end, dofs, out);
+  }
 }
 
 template <class Step>
@@ -221,11 +243,8 @@ void Exponential<Step>::do_interpolate_all(const State& from, const State& to, s
   for (; first < last && times[first] == from.t; ++first) copy(from, first);
   for (; last > first && times[last - 1] == to.t; --last) copy(to, last - 1);
   if (first == last) return;
-  // Recomputing a block that is no longer the last changes nothing that anyone could see.
-  auto& self = const_cast<Exponential&>(*this);
-  if (!holds(from, to.t)) self.follow(from, to.memory.tail(1)[0], kBlock, to.t);
   const auto rest = [&](std::span<double> all) { return all.empty() ? all : all.subspan(first * dofs.size()); };
-  self.step_.interpolate(times.subspan(first, last - first), dofs, {rest(out.x), rest(out.v), rest(out.a)});
+  recall(from, to).interpolate(times.subspan(first, last - first), dofs, {rest(out.x), rest(out.v), rest(out.a)});
 }
 
 template class Exponential<ExponentialStep>;

@@ -44,6 +44,13 @@ class Exponential final : public time::Integrator {
   double first_step(const time::State& state) const override;
   bool lands_on_outputs() const override { return !step_.has_stops(); }
   std::span<const double> knots(const time::State& from, const time::State& to) const override;
+  std::span<const time::EnergyAt> energies(const time::State& from, const time::State& to,
+                                           std::span<const double> instants) const override;
+  time::DenseOutput dense_output() const override {
+    return step_.has_stops() ? time::DenseOutput::quintic : time::DenseOutput::other;
+  }
+  void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
+                 time::Interpolated out) const override;
 
  private:
   class Controller final : public time::StepController {
@@ -63,6 +70,8 @@ class Exponential final : public time::Integrator {
   double next_kink(double t) const;
   int find_first_level() const;
   bool holds(const time::State& from, double t_end) const;
+  /// The steps of a block, taken again where it is no longer the last.
+  Step& recall(const time::State& from, const time::State& to) const;
 
   ExponentialOptions options_;
   Controller controller_;

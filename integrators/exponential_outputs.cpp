@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "integrators/exponential_step.hpp"
+#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -76,6 +77,66 @@ void ExponentialStep::evaluate_exactly(double t, std::span<const Index> dofs, st
     if (!out.v.empty()) out.v[place] = (shape * v).sum();
     if (!out.a.empty()) out.a[place] = (shape * a).sum();
     ++place;
+  }
+}
+
+std::span<const time::EnergyAt> ExponentialStep::energies(std::span<const double> instants) {
+  if (!has_stops()) return {};
+  const auto at = [&](std::size_t knot) {
+    return ModalEnergy::Knot{knots_.time(knot), knots_.q(knot), knots_.v(knot), knots_.phases(knot)};
+  };
+  energy_.begin(at(0), instants);
+  for (std::size_t knot = 1; knot <= knots_.steps(); ++knot)
+    energy_.go_on(at(knot), knots_.w(knot), knot == knots_.steps());
+  return energy_.told();
+}
+
+// Without contact the energy of a mode grows by the work of its load alone: sqrt(v^2 + omega^2 q^2) by less than the
+// integral of |f|. Higher derivatives follow from q'' = f - omega^2 q - 2 delta q'.
+void ExponentialStep::find_bounds_from(std::size_t knot) {
+  if (modal_bounds_.knot == knot) return;
+  modal_bounds_.knot = knot;
+  const double t = knots_.time(knot), h = knots_.time(knot + 1) - t;
+  std::array<ArrayXd, 5> load;  // of f and its derivatives
+  for (ArrayXd& bound : load) bound.setZero(modal_.size());
+  for (const solve::ModalHarmonic& harmonic : modal_.harmonics()) {
+    double factor = 1.0;
+    for (ArrayXd& bound : load) {
+      bound += factor * (harmonic.cosine.square() + harmonic.sine.square()).sqrt();
+      factor *= harmonic.angular_frequency;
+    }
+  }
+  for (const solve::ModalSystem::OtherLoad& other : modal_.other_loads()) {
+    // Of the parabola through three values.
+    const double f0 = other.in_time->value(t), f1 = other.in_time->value(t + 0.5 * h), f2 = other.in_time->value(t + h);
+    const double bend = 4.0 * std::abs(f0 - 2.0 * f1 + f2);
+    load[0] += (std::max({std::abs(f0), std::abs(f1), std::abs(f2)}) + 0.125 * bend) * other.shape.abs();
+    load[1] += (std::abs(f2 - f0) + bend) / h * other.shape.abs();
+    load[2] += bend / (h * h) * other.shape.abs();
+  }
+  const ArrayXd& omega = modal_.frequencies();
+  const ArrayXd decay = 2.0 * modal_.decay();
+  const Eigen::Map<const ArrayXd> q(knots_.q(knot), modal_.size()), v(knots_.v(knot), modal_.size());
+  auto& of = modal_bounds_.of;
+  of[1] = (v.square() + squares_ * q.square()).sqrt() + h * load[0];
+  of[0] = (omega * h > 1.0).select(of[1] / omega, q.abs() + h * of[1]);
+  of[2] = load[0] + omega * (omega * of[0]).min(of[1]) + decay * of[1];
+  for (std::size_t k = 3; k < of.size(); ++k) of[k] = load[k - 2] + squares_ * of[k - 2] + decay * of[k - 1];
+}
+
+void ExponentialStep::departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
+  find_bounds_from(knots_.before(begin));
+  const double h = end - begin;
+  const QuinticError error = quintic_error(h, 1.0);
+  const auto& of = modal_bounds_.of;
+  // A quintic is within what the sums of its Hermite functions and their derivatives make of the motion at both ends,
+  // and so is what it departs from the motion by, of whatever length.
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto shape = modal_.shape_rows().col(dofs[i]).array().abs();
+    if (!out.x.empty())
+      out.x[i] = (shape * (error.x * of[6]).min(2.0 * of[0] + 0.4 * h * of[1] + 0.035 * h * h * of[2])).sum();
+    if (!out.v.empty()) out.v[i] = (shape * (error.v * of[6]).min(5.0 * of[1] + 0.3 * h * of[2])).sum();
+    if (!out.a.empty()) out.a[i] = (shape * (error.a * of[6]).min(18.0 / h * of[1] + 3.0 * of[2])).sum();
   }
 }
 

@@ -26,7 +26,8 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
       contact_(dynamics.contact()),
       squares_(modal.frequencies().square()),
       is_strongly_damped_((4.0 * modal.decay() > modal.frequencies()).any()),
-      knots_(dynamics, modal, 2 * most) {
+      knots_(dynamics, modal, 2 * most),
+      energy_(dynamics, modal) {
   const solve::Contact& contact = contact_;
   const Index padded = StepFlow::padded(contact.size());
   for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2]})
@@ -77,6 +78,7 @@ void ExponentialStep::begin(double t, const double* memory, StopScale scale) {
   wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + m, m);
   scale_ = scale;
   knots_.begin(t, q_.data(), v_.data(), w_.data());
+  modal_bounds_.knot = static_cast<std::size_t>(-1);
   pull_.setZero();
   pull_sum_.setZero();
 }

@@ -6,6 +6,7 @@
 
 #include "butee/solve/modal_system.hpp"
 #include "integrators/far_pull.hpp"
+#include "integrators/modal_energy.hpp"
 #include "integrators/modal_knots.hpp"
 #include "integrators/stop_path.hpp"
 
@@ -105,8 +106,19 @@ class ExponentialStep {
   std::span<const double> knots() const { return knots_.inner(); }
   /// The motion within the block, of which the state stays what it is.
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out);
+  /// time::Integrator::energies() of the block; not without stops, where its steps are of any length.
+  std::span<const time::EnergyAt> energies(std::span<const double> instants);
+  /// Without stops: time::Integrator::departure().
+  void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out);
 
  private:
+  /// Bounds of q and its first six derivatives, mode by mode, from one knot to the next.
+  struct ModalBounds {
+    std::size_t knot = static_cast<std::size_t>(-1);
+    std::array<Eigen::ArrayXd, 7> of;
+  };
+  void find_bounds_from(std::size_t knot);
+
   Trial attempt(solve::StepFlow& flow);
   /// From a knot; `v` only where it is given.
   void propagate(const solve::ModalFlow& flow, std::size_t knot, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
@@ -180,6 +192,8 @@ class ExponentialStep {
   Eigen::ArrayXd squares_;   ///< omega^2
   bool is_strongly_damped_;  ///< a mode decays so fast that bounds by omega know too little
   ModalKnots knots_;
+  ModalEnergy energy_;
+  ModalBounds modal_bounds_;
 
   Eigen::ArrayXd q_, v_;
   StopScale scale_;

@@ -21,6 +21,7 @@ class Extrapolation final : public time::Integrator {
   Extrapolation(solve::Dynamics& dynamics, const Goal& goal);
 
   const time::StepController* controller() const override { return &control_.controller(); }
+  time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
   double first_step(const time::State&) const override { return control_.first_step(); }
   /// Interpolation within its long steps is of a lower order than the steps.
   bool lands_on_outputs() const override { return true; }

@@ -36,6 +36,7 @@ class ModalKnots {
   std::size_t before(double t) const;
   const double* q(std::size_t knot) const { return q_.col(static_cast<Index>(knot)).data(); }
   const double* v(std::size_t knot) const { return v_.col(static_cast<Index>(knot)).data(); }
+  const double* w(std::size_t knot) const { return w_.col(static_cast<Index>(knot)).data(); }
 
   /// The motion of `dofs` at `times`, ascending.
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out);

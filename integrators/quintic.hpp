@@ -39,6 +39,18 @@ class Quintic {
   std::array<double, 6> c_;
 };
 
+/// What a quintic through x, v and a at both ends of a step may miss a motion and its derivatives by.
+struct QuinticError {
+  double x, v, a;
+};
+
+/// The bounds of G. Birkhoff and A. Priver, J. Math. Phys. 46 (1967) 440-447, doi 10.1002/sapm1967461440, by the
+/// largest |sixth derivative|.
+inline QuinticError quintic_error(double h, double sixth) {
+  const double fourth = h * h * h * h * sixth;
+  return {fourth * h * h / 46080.0, fourth * h * (2.2360679774997897 / 30000.0), fourth / 1920.0};
+}
+
 /// The accelerations that the quintic through two motions takes: their own, or the cubic's through x and v where one of
 /// them departs from that far more than the other. So it does where a step ends within a stiff stop: its acceleration,
 /// of the last instant alone, would bend the whole step.

@@ -28,7 +28,8 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       stop_shape_(modal.stop_shapes().matrix()(0, 0)),
       square_(modal.frequencies()[0] * modal.frequencies()[0]),
       decay_(modal.decay()[0]),
-      harmonics_(modal.harmonics()) {
+      harmonics_(modal.harmonics()),
+      energy_(dynamics, modal) {
   for (const solve::ModalHarmonic& harmonic : harmonics_)
     load_frequency_ = std::max(load_frequency_, harmonic.angular_frequency);
   knots_.reserve(most + 1);
@@ -245,6 +246,19 @@ const Motion& SingleStep::motion_at(std::size_t knot) {
   const double force = dynamics_.contact().force_of(0, stop_shape_ * at.at.q);
   const double a = harmonic_force + stop_shape_ * force - square_ * at.at.q - 2.0 * decay_ * at.at.v;
   return at.motion = {shape * at.at.q, shape * at.at.v, shape * a};
+}
+
+std::span<const time::EnergyAt> SingleStep::energies(std::span<const double> instants) {
+  const auto at = [&](std::size_t knot) {
+    const Knot& known = knots_[knot];
+    return ModalEnergy::Knot{known.t, &known.at.q, &known.at.v, {phases(knot), harmonics_.size()}};
+  };
+  energy_.begin(at(0), instants);
+  for (std::size_t knot = 1; knot < knots_.size(); ++knot) {
+    const double w = stop_shape_ * knots_[knot].at.q;
+    energy_.go_on(at(knot), &w, knot + 1 == knots_.size());
+  }
+  return energy_.told();
 }
 
 void SingleStep::interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {

@@ -6,6 +6,7 @@
 #include "butee/solve/modal_system.hpp"
 #include "integrators/exponential_step.hpp"
 #include "integrators/far_pull.hpp"
+#include "integrators/modal_energy.hpp"
 
 namespace butee::integrators {
 
@@ -39,6 +40,7 @@ class SingleStep {
 
   std::span<const double> knots() const;
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out);
+  std::span<const time::EnergyAt> energies(std::span<const double> instants);
 
  private:
   /// So often phases are turned before they are computed anew: a turn costs their last digit.
@@ -92,6 +94,7 @@ class SingleStep {
   std::array<Flow, 8> flows_;  ///< of rungs, by their last three bits
   Flow odd_;
   std::vector<Knot> knots_;
+  ModalEnergy energy_;
   std::vector<double> times_;    ///< of the knots
   std::vector<Phase> phases_;    ///< by knot and harmonic: each is the one before, turned
   int turns_ = 0;                ///< since the last that was computed from its time

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
 #include <butee/record/impacts.hpp>
+#include <butee/record/peaks.hpp>
 #include <butee/record/probes.hpp>
 
 #include "assembly.hpp"
@@ -35,17 +37,16 @@ std::vector<record::ProbeRequest> displacement_probes(const Session& session) {
   return probes;
 }
 
-/// Follows the displacements of the probes at the output times, and their forces at every step.
+/// Follows the displacements of the probes at the output times.
 class Follower final : public time::Observer {
  public:
   Follower(const Session& session, solve::Dynamics& dynamics)
-      : probes_(displacement_probes(session), dynamics), dynamics_(dynamics), row_(probes_.columns().size()) {
+      : probes_(displacement_probes(session), dynamics), row_(probes_.columns().size()) {
     courses.values.resize(row_.size());
     const double end = session.integrator.options.end_time, interval = session.output.interval.value_or(end / 1000.0);
     for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1.0 - kSameInstant); ++i)
       courses.times.push_back(static_cast<double>(i) * interval);
     courses.times.push_back(end);
-    stops_ = stop_forces_ = Vector::Zero(dynamics.stop_count());
   }
 
   void start(const time::State& state) override {
@@ -57,14 +58,9 @@ class Follower final : public time::Observer {
       probes_.evaluate(step, courses.times[next_], row_);
       take();
     }
-    if (stops_.size() == 0) return;
-    dynamics_.contact().displacement(step.to.x, stops_);
-    dynamics_.contact().force(stops_, stop_forces_);
-    largest_force = std::max(largest_force, stop_forces_.lpNorm<Eigen::Infinity>());
   }
 
   Courses courses;
-  double largest_force = 0.0;
 
  private:
   void take() {
@@ -73,10 +69,8 @@ class Follower final : public time::Observer {
   }
 
   record::Probes probes_;
-  solve::Dynamics& dynamics_;
   std::vector<double> row_;
   std::size_t next_ = 0;
-  Vector stops_, stop_forces_;
 };
 
 Repetition repeat(Session& session, double perturbation) {
@@ -85,6 +79,9 @@ Repetition repeat(Session& session, double perturbation) {
   time::Simulation& simulation = assembly.simulation;
   Follower follower(session, dynamics);
   simulation.add(follower);
+  const auto probes = displacement_probes(session);
+  record::Peaks peaks(probes, dynamics);
+  simulation.add(peaks);
   record::ImpactRecorder impacts(dynamics);
   if (dynamics.stop_count() > 0) simulation.add(impacts);
   const time::RunReport& report = simulation.run([] { return interruption() == nullptr; });
@@ -92,20 +89,20 @@ Repetition repeat(Session& session, double perturbation) {
   if (!report.completed)
     throw RunError("a run that was to tell how far to trust the first one failed: " + report.message);
   Repetition result{std::move(follower.courses), {}};
-  const auto probes = displacement_probes(session);
+  const std::map<std::string, double> largest = peaks.largest();
   for (std::size_t i = 0; i < probes.size(); ++i) {
-    double squares = 0.0, peak = 0.0;
-    for (const double u : result.courses.values[i]) {
-      squares += u * u;
-      peak = std::max(peak, std::abs(u));
-    }
+    double squares = 0.0;
+    for (const double u : result.courses.values[i]) squares += u * u;
     const double rms = std::sqrt(squares / static_cast<double>(result.courses.times.size()));
     result.statistics.push_back({"rms of " + probes[i].label + ".u", rms, 0, 0});
-    result.statistics.push_back({"peak of " + probes[i].label + ".u", peak, 0, 0});
+    result.statistics.push_back({"peak of " + probes[i].label + ".u", largest.at(probes[i].label + ".u"), 0, 0});
   }
   if (dynamics.stop_count() > 0) {
-    result.statistics.push_back({"largest contact force", follower.largest_force, 0, 0});
-    result.statistics.push_back({"impacts", static_cast<double>(impacts.impacts().size()), 0, 0});
+    const std::vector<record::Impact> all = impacts.impacts();
+    double force = 0.0;
+    for (const record::Impact& impact : all) force = std::max(force, impact.peak_force);
+    result.statistics.push_back({"largest contact force", force, 0, 0});
+    result.statistics.push_back({"impacts", static_cast<double>(all.size()), 0, 0});
   }
   return result;
 }

@@ -101,9 +101,9 @@ Value convert(const Parsed& from, const std::string& key, Source& source) {
     case toml::value_t::boolean:
       return {from.as_boolean(), at};
     case toml::value_t::integer:
-      return {fitting(std::int64_t{from.as_integer()}, from, key, places), at};
+      return {fitting(std::int64_t{from.as_integer()}, from, key, source.places), at};
     case toml::value_t::floating:
-      return {fitting(double{from.as_floating()}, from, key, places), at};
+      return {fitting(double{from.as_floating()}, from, key, source.places), at};
     case toml::value_t::string:
       return {std::string(from.as_string().str), at};
     case toml::value_t::array: {
@@ -117,7 +117,7 @@ Value convert(const Parsed& from, const std::string& key, Source& source) {
     case toml::value_t::table:
       return {convert_table(from, source), at};
     default:
-      refuse(from, key, places, "dates and times have no place in a model file");
+      refuse(from, key, source.places, "dates and times have no place in a model file");
   }
 }
 

@@ -78,6 +78,13 @@ BUTEE_C_EXPORT int butee_set_force_line(butee_structure* structure, int64_t dof,
 /* The force of the stops on a degree of freedom, N. */
 BUTEE_C_EXPORT int butee_contact_force(const butee_structure* structure, int64_t dof, double* force);
 
+/*
+ * The largest |value| of a quantity of a node ("u", "v", "a", "theta", "theta_v", "theta_a", "contact_force") over the
+ * whole motion. To be followed before the first step; `node` is a selector that names one.
+ */
+BUTEE_C_EXPORT int butee_follow_peak(butee_structure* structure, const char* node, const char* quantity);
+BUTEE_C_EXPORT int butee_peak(const butee_structure* structure, const char* node, const char* quantity, double* peak);
+
 /* Kinetic, strain and contact energy, J; null where one is not wanted. */
 BUTEE_C_EXPORT int butee_energy(const butee_structure* structure, double* kinetic, double* strain, double* contact);
 

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <new>
 #include <sstream>
 
 #include <butee/version.hpp>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "butee/embed/butee.h"
 #include "butee/embed/structure.hpp"
 
@@ -49,6 +51,13 @@ int guarded(const Work& work) noexcept {
 template <class... Pointers>
 void need(const Pointers*... pointers) {
   butee::require((... && (pointers != nullptr)), "a pointer is null");
+}
+
+butee::record::Quantity checked_quantity(const std::string& name) {
+  const auto known = butee::record::probe_quantities();
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw butee::InputError(name + ": no quantity of a node; " + butee::join(known, ", ") + " are");
+  return butee::record::quantity_of(name);
 }
 
 StructureOptions options_of(const char* forced) {
@@ -189,6 +198,20 @@ int butee_contact_force(const butee_structure* structure, int64_t dof, double* f
     need(force);
     const butee::Index index = checked(structure, dof);
     *force = structure->structure.contact_force(index);
+  });
+}
+
+int butee_follow_peak(butee_structure* structure, const char* node, const char* quantity) {
+  return guarded([&] {
+    need(structure, node, quantity);
+    structure->structure.follow_peaks(node, {checked_quantity(quantity)});
+  });
+}
+
+int butee_peak(const butee_structure* structure, const char* node, const char* quantity, double* peak) {
+  return guarded([&] {
+    need(structure, node, quantity, peak);
+    *peak = structure->structure.peak(node, checked_quantity(quantity));
   });
 }
 

@@ -57,6 +57,7 @@ struct Structure::Parts {
   std::unique_ptr<time::Integrator> integrator;
   std::optional<time::Simulation> simulation;
   std::uint64_t origin = 0;  ///< of snapshots
+  std::vector<std::unique_ptr<record::Peaks>> peaks;
 
   std::vector<model::NodalDof> select(const std::string& selector, DofKind kind) const;
   void add_forces(const std::string& selector, std::vector<std::pair<model::NodalDof, NodalForce*>>& made);
@@ -289,6 +290,31 @@ void Structure::restore(const Snapshot& snapshot) {
 void Structure::observe(time::Observer& observer) {
   parts_->simulation->add(observer);
   ++parts_->origin;
+}
+
+void Structure::follow_peaks(const std::string& selector, const std::vector<record::Quantity>& quantities) {
+  std::vector<record::ProbeRequest> requests;
+  for (const model::NodalDof dof : parts_->select(selector, DofKind::u))
+    requests.push_back({parts_->scene.model.nodes.name(dof.node), dof.node, quantities});
+  parts_->peaks.push_back(std::make_unique<record::Peaks>(requests, *parts_->dynamics));
+  parts_->simulation->add(*parts_->peaks.back());
+  ++parts_->origin;
+}
+
+std::map<std::string, double> Structure::peaks() const {
+  parts_->simulation->start();
+  std::map<std::string, double> all;
+  for (const auto& peaks : parts_->peaks) all.merge(peaks->largest());
+  return all;
+}
+
+double Structure::peak(const std::string& node, record::Quantity quantity) const {
+  const auto dofs = parts_->select(node, DofKind::u);
+  const auto all = peaks();
+  const auto found =
+      all.find(parts_->scene.model.nodes.name(dofs.front().node) + "." + std::string(record::name_of(quantity)));
+  if (dofs.size() == 1 && found != all.end()) return found->second;
+  throw InputError(node + ": no peaks of its " + record::name_of(quantity) + " are followed");
 }
 
 record::Energy Structure::energy() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "butee/config/value.hpp"
 #include "butee/embed/nodal_force.hpp"
 #include "butee/record/energy.hpp"
+#include "butee/record/peaks.hpp"
 #include "butee/time/simulation.hpp"
 
 namespace butee::embed {
@@ -92,6 +94,13 @@ class BUTEE_EXPORT Structure {
 
   /// Watches every step from now on; before the first one. `observer` must outlive the structure.
   void observe(time::Observer& observer);
+  /// Follows the largest |value| of quantities of each node of a selector over the whole motion from now on, on the
+  /// method's dense output; before the first step. Throws InputError where the selector names no node.
+  void follow_peaks(const std::string& selector, const std::vector<record::Quantity>& quantities);
+  /// By node and quantity, "string:17.u".
+  std::map<std::string, double> peaks() const;
+  /// Of one node that is followed; else throws InputError.
+  double peak(const std::string& node, record::Quantity quantity) const;
   record::Energy energy() const;
   /// The method's name, what has been counted, and what it came to so far.
   const std::string& method() const;

@@ -5,7 +5,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "butee/record/quadrature.hpp"
+
 namespace butee::record {
+namespace {
+
+/// What the work of a piece that is as long as the motion allows may be wrong by, relative to the largest energy.
+constexpr double kGoodWork = 1e-12;
+constexpr int kMostHalvingsOfWork = 12;
+
+}  // namespace
 
 Energy energy_of(const time::State& state, solve::Dynamics& dynamics) {
   Vector force(dynamics.size());
@@ -50,27 +59,91 @@ void EnergyRecorder::start(const time::State& state) {
   last_ = power(state.t, state.v);
 }
 
+void EnergyRecorder::find_due(const time::AcceptedStep& step) {
+  due_.clear();
+  if (writer_ == nullptr || !times_) return;
+  times_->visit(step, [&](double t) {
+    if (t == step.from.t)
+      write_row(t);
+    else
+      due_.push_back(t);
+  });
+}
+
 void EnergyRecorder::step(const time::AcceptedStep& step) {
-  bool due = false;
-  if (writer_ != nullptr && times_) {
-    times_->visit(step, [&](double t) {
-      if (t == step.from.t)
-        write_row(t);
-      else
-        due = true;
-    });
+  find_due(step);
+  auto is_due = [due = std::span<const double>(due_)](double t) mutable {
+    const std::size_t before = due.size();
+    while (!due.empty() && due.front() <= t) due = due.subspan(1);
+    return due.size() < before;
+  };
+  const std::span<const time::EnergyAt> told = step.integrator.energies(step.from, step.to, due_);
+  const double work = work_, dissipated = dissipated_;
+  for (const time::EnergyAt& at : told) {
+    now_ = {at.kinetic, at.strain, at.contact};
+    work_ = work + at.work;
+    dissipated_ = dissipated + at.dissipated;
+    largest_ = std::max(largest_, std::abs(now_.total()));
+    if (is_due(at.t)) write_row(at.t);
   }
-  const double half = 0.5 * (step.from.t + step.to.t);
-  step.integrator.interpolate(step.from, step.to, half, all_,
-                              {{}, {middle_.data(), static_cast<std::size_t>(middle_.size())}, {}});
-  const Power middle = power(half, middle_);
-  const Power end = power(step.to.t, step.to.v);
-  work_ += step.h / 6.0 * (last_.of_loads + 4.0 * middle.of_loads + end.of_loads);
-  dissipated_ += step.h / 6.0 * (last_.of_damping + 4.0 * middle.of_damping + end.of_damping);
-  last_ = end;
+  if (!told.empty()) return;
+  double begin = step.from.t;
+  for (const double knot : step.integrator.knots(step.from, step.to)) {
+    add_piece(step, begin, knot);
+    begin = knot;
+    if (!is_due(knot)) continue;
+    look_within(step, knot);
+    write_row(knot);
+  }
+  add_piece(step, begin, step.to.t);
   now_ = energy_of(step.to, dynamics_);
   largest_ = std::max(largest_, std::abs(now_.total()));
-  if (due) write_row(step.to.t);
+  if (is_due(step.to.t)) write_row(step.to.t);
+}
+
+void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
+  Vector x(dynamics_.size()), v(dynamics_.size());
+  const auto span = [](Vector& vector) { return std::span(vector.data(), static_cast<std::size_t>(vector.size())); };
+  step.integrator.interpolate(step.from, step.to, t, all_, {span(x), span(v), {}});
+  now_ = energy_of({t, x, v, {}, {}}, dynamics_);
+}
+
+EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& step, double t) {
+  if (t == step.to.t) return power(t, step.to.v);
+  step.integrator.interpolate(step.from, step.to, t, all_,
+                              {{}, {middle_.data(), static_cast<std::size_t>(middle_.size())}, {}});
+  return power(t, middle_);
+}
+
+EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, double begin, double end) {
+  Power sum{};
+  for (const auto& [t, weight] : gauss_points(begin, end)) sum += weight * power_within(step, t);
+  return sum;
+}
+
+void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings) {
+  const double middle = 0.5 * (begin + end);
+  const Power first = gauss(step, begin, middle), second = gauss(step, middle, end);
+  const double miss = std::max(std::abs(first.of_loads + second.of_loads - whole.of_loads),
+                               std::abs(first.of_damping + second.of_damping - whole.of_damping));
+  if (miss > kGoodWork * largest_ && halvings < kMostHalvingsOfWork) {
+    add_halved(step, begin, middle, first, halvings + 1);
+    add_halved(step, middle, end, second, halvings + 1);
+    return;
+  }
+  work_ += first.of_loads + second.of_loads;
+  dissipated_ += first.of_damping + second.of_damping;
+}
+
+void EnergyRecorder::add_piece(const time::AcceptedStep& step, double begin, double end) {
+  if (step.integrator.dense_output() == time::DenseOutput::other)
+    return add_halved(step, begin, end, gauss(step, begin, end), 0);
+  const double h = end - begin;
+  const Power middle = power_within(step, 0.5 * (begin + end)), last = power_within(step, end);
+  const Power done = (h / 6.0) * last_ + (4.0 / 6.0 * h) * middle + (h / 6.0) * last;
+  work_ += done.of_loads;
+  dissipated_ += done.of_damping;
+  last_ = last;
 }
 
 std::vector<std::string> EnergyRecorder::columns() {

@@ -21,13 +21,14 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, solve::Dynamics& dynamic
 ///
 ///     work = int v.F dt,   dissipated = int v.C v dt
 ///
-/// by Simpson's rule on every accepted step, its middle from the method's own interpolant: fourth order, so that the
-/// balance shows the method's error and not the quadrature's. The balance error is (change + dissipated - work) /
-/// largest energy.
+/// where the method does not tell them itself (Integrator::energies), by Simpson's rule from knot to knot of every
+/// accepted step, its middle from the method's own interpolant: fourth order, so that the balance shows the method's
+/// error and not the quadrature's. Pieces as long as the motion allows (DenseOutput::other) are halved until Gauss'
+/// rule with five points gives the same for both. The balance error is (change + dissipated - work) / largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
-  /// `dynamics` must outlive it. Where there is a `writer`, it gets a row at the start, at the first step that ends at
-  /// or after each of `times`, and at the last step; every row is of the end of a step.
+  /// `dynamics` must outlive it. Where there is a `writer`, it gets a row at the start, at the first end or knot of a
+  /// step at or after each of `times`, and at the last step.
   explicit EnergyRecorder(solve::Dynamics& dynamics, CsvWriter* writer = nullptr,
                           std::optional<OutputTimes> times = std::nullopt);
 
@@ -37,7 +38,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   double file_seconds() const override { return writer_ != nullptr ? writer_->seconds() : 0.0; }
   /// "t" and what a row of the file holds, in J
   static std::vector<std::string> columns();
-  bool watches_every_step() const override { return true; }
+  bool watches_every_step() const override { return times_ && times_->counts_steps(); }
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
 
@@ -49,13 +50,32 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  private:
   struct Power {
     double of_loads, of_damping;
+
+    Power& operator+=(const Power& other) {
+      of_loads += other.of_loads;
+      of_damping += other.of_damping;
+      return *this;
+    }
+    friend Power operator+(Power a, const Power& b) { return a += b; }
+    friend Power operator*(double factor, const Power& power) {
+      return {factor * power.of_loads, factor * power.of_damping};
+    }
   };
   Power power(double t, const Vector& v);
+  Power power_within(const time::AcceptedStep& step, double t);
+  Power gauss(const time::AcceptedStep& step, double begin, double end);
+  /// `whole`: what gauss() gives for it.
+  void add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings);
+  /// Adds what is done between two instants that no knot parts.
+  void add_piece(const time::AcceptedStep& step, double begin, double end);
+  void find_due(const time::AcceptedStep& step);
+  void look_within(const time::AcceptedStep& step, double t);
   void write_row(double t);
 
   solve::Dynamics& dynamics_;
   std::vector<Index> all_;
   Vector middle_, force_;
+  std::vector<double> due_;  ///< instants that a row is still to be written for
   Power last_{};
   CsvWriter* writer_;
   std::optional<OutputTimes> times_;

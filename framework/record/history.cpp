@@ -27,11 +27,10 @@ HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, 
                                  CsvWriter* writer)
     : times_(request.interval, request.every, end_time),
       probes_(request.probes, dynamics),
-      peak_probes_(peak_requests(request.probes, dynamics.system().dofs), dynamics),
+      peaks_(peak_requests(request.probes, dynamics.system().dofs), dynamics),
       writer_(writer),
       values_(probes_.columns().size()),
-      current_(peak_probes_.columns().size()),
-      peak_values_(current_.size(), 0.0) {
+      largest_(values_.size(), 0.0) {
   due_.reserve(kMostAtOnce);
 }
 
@@ -47,21 +46,12 @@ void HistoryRecorder::start(const time::State& state) {
   start_time_ = state.t;
   probes_.evaluate(state, values_);
   first_row_ = values_;
-  peak_probes_.evaluate(state, current_);
-  update_peaks();
+  peaks_.start(state);
+  std::fill(largest_.begin(), largest_.end(), 0.0);
 }
 
 void HistoryRecorder::step(const time::AcceptedStep& step) {
-  if (!peak_values_.empty()) {
-    const std::span<const double> knots = step.integrator.knots(step.from, step.to);
-    peak_probes_.sample(step, knots);
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-      peak_probes_.take(i, current_);
-      update_peaks();
-    }
-    peak_probes_.evaluate(step.to, current_);
-    update_peaks();
-  }
+  peaks_.step(step);
   due_.clear();
   times_.visit(step, [&](double t) {
     if (t == step.from.t) {
@@ -85,6 +75,7 @@ void HistoryRecorder::write_due(const time::AcceptedStep& step) {
 }
 
 void HistoryRecorder::write_row(double t, double h) {
+  for (std::size_t i = 0; i < values_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(values_[i]));
   if (writer_ == nullptr) return;
   row_.assign(1, t);
   row_.insert(row_.end(), values_.begin(), values_.end());
@@ -103,26 +94,27 @@ void HistoryRecorder::finish() {
 void HistoryRecorder::save(ByteWriter& to) const {
   times_.save(to);
   to.put(first_row_);
-  to.put(peak_values_);
+  to.put(largest_);
+  peaks_.save(to);
   to.put(writer_ != nullptr ? writer_->position() : std::uint64_t{0});
 }
 
 void HistoryRecorder::restore(ByteReader& from) {
   times_.restore(from);
   from.take(first_row_);
-  from.take(peak_values_);
-  require(first_row_.size() == values_.size() && peak_values_.size() == current_.size(), "a history of these probes");
+  from.take(largest_);
+  require(first_row_.size() == values_.size() && largest_.size() == values_.size(), "a history of these probes");
+  peaks_.restore(from);
   const auto position = from.take<std::uint64_t>();
   if (writer_ != nullptr) writer_->go_back(position);
 }
 
-void HistoryRecorder::update_peaks() {
-  for (std::size_t i = 0; i < current_.size(); ++i) peak_values_[i] = std::max(peak_values_[i], std::abs(current_[i]));
-}
-
 std::map<std::string, double> HistoryRecorder::peaks() const {
-  std::map<std::string, double> peaks;
-  for (std::size_t i = 0; i < peak_values_.size(); ++i) peaks[peak_probes_.columns()[i]] = peak_values_[i];
+  std::map<std::string, double> peaks = peaks_.largest();
+  for (std::size_t i = 0; i < largest_.size(); ++i) {
+    double& peak = peaks[probes_.columns()[i]];
+    peak = std::max(peak, largest_[i]);
+  }
   return peaks;
 }
 

@@ -4,11 +4,12 @@
 
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/output_times.hpp"
+#include "butee/record/peaks.hpp"
 #include "butee/record/probes.hpp"
 
 namespace butee::record {
 
-/// Samples the probes at the output times, whatever the steps, and follows their peaks over all accepted steps.
+/// Samples the probes at the output times, whatever the steps, and follows their peaks over the whole motion.
 ///
 /// A row at time t is interpolated in the accepted step (t_n, t_n+1] that holds it, the row at t = 0 in the first.
 class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
@@ -28,22 +29,21 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   /// "t", the probes' columns, "h"
   static std::vector<std::string> columns(const OutputRequest& request);
 
-  /// Largest |value| by column over t = 0 and all accepted steps; u of every probe is always among them.
+  /// Largest |value| by column over the whole motion (Peaks) and the rows; u of every probe is always among them.
   std::map<std::string, double> peaks() const;
 
  private:
   void write_due(const time::AcceptedStep& step);
   void write_row(double t, double h);
-  void update_peaks();
 
   OutputTimes times_;
-  Probes probes_, peak_probes_;
+  Probes probes_;
+  Peaks peaks_;
   CsvWriter* writer_;
   double start_time_ = 0.0;
   std::vector<double> row_, first_row_;
-  std::vector<double> due_;                    ///< instants of rows within a step
-  std::vector<double> values_;                 ///< of probes_
-  std::vector<double> current_, peak_values_;  ///< of peak_probes_
+  std::vector<double> due_;               ///< instants of rows within a step
+  std::vector<double> values_, largest_;  ///< of probes_, in a row and in all of them
 };
 
 }  // namespace butee::record

@@ -1,10 +1,10 @@
 #include "butee/record/impacts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "butee/record/csv_writer.hpp"
+#include "butee/record/quadrature.hpp"
 
 namespace butee::record {
 namespace {
@@ -41,10 +41,9 @@ ImpactRecorder::ImpactRecorder(solve::Dynamics& dynamics) : dynamics_(dynamics) 
     for (const double side : {1.0, -1.0}) {
       const model::Sides sides = contact.sides_of(i);
       if (sides == (side > 0.0 ? model::Sides::negative : model::Sides::positive)) continue;
-      Watch watch{i, side, contact.gap_of(i), {}, false, {}};
+      Watch watch{i, side, contact.gap_of(i), tracks_.add(contact.dof_a(i), contact.dof_b(i))};
       std::string name;
       for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) {
-        watch.dofs.push_back(dof);
         if (dof < 0) continue;
         if (!name.empty()) name += '|';
         name += node(dof);
@@ -55,105 +54,85 @@ ImpactRecorder::ImpactRecorder(solve::Dynamics& dynamics) : dynamics_(dynamics) 
     }
 }
 
-ImpactRecorder::Motion ImpactRecorder::motion(const Watch& watch, const time::State& state) const {
-  Motion motion{-watch.gap, 0.0};
-  double sign = watch.side;
-  for (const Index dof : watch.dofs) {
-    if (dof >= 0) {
-      motion.penetration += sign * state.x[dof];
-      motion.speed += sign * state.v[dof];
-    }
-    sign = -sign;
-  }
-  return motion;
-}
-
-ImpactRecorder::Motion ImpactRecorder::motion(const Watch& watch, const time::AcceptedStep& step, double t) const {
-  Motion motion{-watch.gap, 0.0};
-  double sign = watch.side;
-  for (const Index dof : watch.dofs) {
-    if (dof >= 0) {
-      std::array<double, 1> x{}, v{};
-      step.integrator.interpolate(step.from, step.to, t, std::array{dof}, {x, v, {}});
-      motion.penetration += sign * x[0];
-      motion.speed += sign * v[0];
-    }
-    sign = -sign;
-  }
-  return motion;
-}
-
-double ImpactRecorder::force(const Watch& watch, double penetration) {
-  return std::abs(dynamics_.contact().force_of(watch.stop, watch.side * (penetration + watch.gap)));
+double ImpactRecorder::force(const Watch& watch, const Point& point) {
+  return std::abs(dynamics_.contact().force_of(watch.stop, point.of[0]));
 }
 
 void ImpactRecorder::start(const time::State& state) {
   done_.clear();
   for (Watch& watch : watches_) {
-    const Motion at = motion(watch, state);
-    watch.closed = at.penetration > 0.0;
+    const Point at = tracks_.at(state, watch.track);
+    watch.closed = watch.penetration(at) > 0.0;
     watch.current.t_in = state.t;
-    watch.current.impact_speed = at.speed;
-    watch.current.peak_force = watch.closed ? force(watch, at.penetration) : 0.0;
+    watch.current.impact_speed = watch.speed(at);
+    watch.current.peak_force = watch.closed ? force(watch, at) : 0.0;
     watch.current.impulse = 0.0;
   }
 }
 
 void ImpactRecorder::step(const time::AcceptedStep& step) {
-  const double half = 0.5 * (step.from.t + step.to.t);
-  for (Watch& watch : watches_) {
-    follow(watch, step, step.from.t, half);
-    follow(watch, step, half, step.to.t);
-  }
+  tracks_.visit(step, [&] {
+    for (Watch& watch : watches_)
+      follow(watch, tracks_.course(step, watch.track), tracks_.from(watch.track), tracks_.to(watch.track));
+  });
 }
 
-double ImpactRecorder::crossing(const Watch& watch, const time::AcceptedStep& step, double begin, double end) const {
-  const bool closed_at_begin = watch.closed;
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = 0.5 * (begin + end);
-    if (middle <= begin || middle >= end) break;
-    ((motion(watch, step, middle).penetration > 0.0) == closed_at_begin ? begin : end) = middle;
+void ImpactRecorder::follow(Watch& watch, const Course& course, const Point& from, const Point& to) {
+  if (!watch.closed) {
+    const auto [least, greatest] = course.enclose(0, from, to);
+    if (!((watch.side > 0.0 ? greatest : -least) > watch.gap)) return;
   }
-  return end;
+  Range range;
+  range.take(from.t, from.of[0]);
+  course.extend(0, from, to, range);
+  const auto [first, second] = std::minmax(range.t_least, range.t_greatest);
+  Point last = from;
+  for (const double t : {first, second}) {
+    if (!(t > last.t && t < to.t)) continue;
+    const Point next = course.at(t);
+    follow_part(watch, course, last, next);
+    last = next;
+  }
+  follow_part(watch, course, last, to);
 }
 
-void ImpactRecorder::follow(Watch& watch, const time::AcceptedStep& step, double begin, double end) {
-  const bool closed_at_end = (end == step.to.t ? motion(watch, step.to) : motion(watch, step, end)).penetration > 0.0;
+void ImpactRecorder::follow_part(Watch& watch, const Course& course, const Point& from, const Point& to) {
+  const bool closed_at_end = watch.penetration(to) > 0.0;
   if (closed_at_end == watch.closed) {
-    if (watch.closed) accumulate(watch, step, begin, end);
+    if (watch.closed) accumulate(watch, course, from, to);
     return;
   }
-  const double t = crossing(watch, step, begin, end);
+  const Point change = crossing(watch, course, from.t, to.t);
   if (watch.closed) {
-    accumulate(watch, step, begin, t);
-    watch.current.t_out = t;
+    accumulate(watch, course, from, change);
+    watch.current.t_out = change.t;
     done_.push_back(watch.current);
   } else {
-    watch.current.t_in = t;
+    watch.current.t_in = change.t;
     watch.current.t_out.reset();
-    watch.current.impact_speed = motion(watch, step, t).speed;
+    watch.current.impact_speed = watch.speed(change);
     watch.current.peak_force = watch.current.impulse = 0.0;
-    accumulate(watch, step, t, end);
+    accumulate(watch, course, change, to);
   }
   watch.closed = closed_at_end;
 }
 
-void ImpactRecorder::accumulate(Watch& watch, const time::AcceptedStep& step, double begin, double end) {
-  if (end <= begin) return;
-  const Motion first = motion(watch, step, begin), last = motion(watch, step, end);
-  const Motion middle = motion(watch, step, 0.5 * (begin + end));
-  const double f0 = force(watch, first.penetration), f1 = force(watch, middle.penetration),
-               f2 = force(watch, last.penetration);
-  watch.current.impulse += (end - begin) / 6.0 * (f0 + 4.0 * f1 + f2);
-  watch.current.peak_force = std::max({watch.current.peak_force, f0, f1, f2});
-  if (first.speed > 0.0 && last.speed < 0.0) {
-    double low = begin, high = end;
-    for (int i = 0; i < kBisections; ++i) {
-      const double half = 0.5 * (low + high);
-      (motion(watch, step, half).speed > 0.0 ? low : high) = half;
-    }
-    watch.current.peak_force = std::max(watch.current.peak_force, force(watch, motion(watch, step, low).penetration));
+Point ImpactRecorder::crossing(const Watch& watch, const Course& course, double begin, double end) const {
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (begin + end);
+    if (middle <= begin || middle >= end) break;
+    ((watch.penetration(course.at(middle)) > 0.0) == watch.closed ? begin : end) = middle;
   }
+  return course.at(end);
+}
+
+void ImpactRecorder::accumulate(Watch& watch, const Course& course, const Point& from, const Point& to) {
+  if (!(to.t > from.t)) return;
+  for (const Point* end : {&from, &to})
+    if (watch.penetration(*end) > 0.0)
+      watch.current.peak_force = std::max(watch.current.peak_force, force(watch, *end));
+  for (const auto& [t, weight] : gauss_points(from.t, to.t))
+    watch.current.impulse += weight * force(watch, course.at(t));
 }
 
 void ImpactRecorder::save(ByteWriter& to) const {

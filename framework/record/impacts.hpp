@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "butee/time/simulation.hpp"
+#include "butee/record/tracks.hpp"
 
 namespace butee::record {
 
@@ -19,9 +19,10 @@ struct Impact {
   double impact_speed = 0.0;    ///< m/s, at t_in
 };
 
-/// Finds every closing of a stop: instants by root finding on the method's interpolant, impulse by Simpson's rule.
+/// Finds every closing of a stop on the method's dense output: instants by root finding, the largest force at the
+/// largest penetration (Course), the impulse by Gauss' rule with five points between such instants.
 ///
-/// Contacts shorter than a step are seen where they hold at the end or in the middle of it.
+/// A contact shorter than a step is seen as well: it reaches its largest penetration within the step.
 class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
  public:
   /// `dynamics` must outlive it.
@@ -29,7 +30,6 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
-  bool watches_every_step() const override { return true; }
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
 
@@ -43,22 +43,24 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
   struct Watch {
     Index stop;
     double side, gap;
-    std::vector<Index> dofs;
+    std::size_t track;
     bool closed = false;
-    Impact current;
-  };
-  struct Motion {
-    double penetration, speed;
+    Impact current{};
+
+    double penetration(const Point& point) const { return side * point.of[0] - gap; }
+    double speed(const Point& point) const { return side * point.of[1]; }
   };
 
-  Motion motion(const Watch& watch, const time::AcceptedStep& step, double t) const;
-  Motion motion(const Watch& watch, const time::State& state) const;
-  double crossing(const Watch& watch, const time::AcceptedStep& step, double begin, double end) const;
-  void follow(Watch& watch, const time::AcceptedStep& step, double begin, double end);
-  void accumulate(Watch& watch, const time::AcceptedStep& step, double begin, double end);
-  double force(const Watch& watch, double penetration);
+  /// Over a piece between two neighbouring knots.
+  void follow(Watch& watch, const Course& course, const Point& from, const Point& to);
+  /// Over a part of it within which the stop opens or closes at most once.
+  void follow_part(Watch& watch, const Course& course, const Point& from, const Point& to);
+  void accumulate(Watch& watch, const Course& course, const Point& from, const Point& to);
+  Point crossing(const Watch& watch, const Course& course, double begin, double end) const;
+  double force(const Watch& watch, const Point& point);
 
   solve::Dynamics& dynamics_;
+  Tracks tracks_;
   std::vector<Watch> watches_;
   std::vector<Impact> done_;
 };

@@ -19,6 +19,20 @@ struct Interpolated {
   std::span<double> x, v, a;
 };
 
+/// The energies of a motion at an instant, J; work and dissipation since the step began.
+struct EnergyAt {
+  double t = 0.0;  ///< s
+  double kinetic = 0.0, strain = 0.0, contact = 0.0;
+  double work = 0.0, dissipated = 0.0;
+};
+
+/// The dense output of a method between two neighbouring knots of a step.
+enum class DenseOutput {
+  cubic,    ///< x the cubic through x and v at both, v the one through v and a, a the straight line
+  quintic,  ///< x the quintic through x, v and a at both, or the cubic by x and v; v and a its derivatives
+  other     ///< any smooth motion; departure() bounds it
+};
+
 /// A time integration method: takes State over a Step.
 ///
 /// A step is a pure function of (state, step): what a method remembers is in the state, so that a rejected step needs
@@ -63,6 +77,14 @@ class BUTEE_EXPORT Integrator {
   /// The largest stable h omega where its parameters narrow what its IntegratorType declares.
   virtual double stability_limit() const { return std::numeric_limits<double>::infinity(); }
 
+  /// The energies at the first knots of an accepted step at or after each of `instants`, ascending, and at its end, where
+  /// the method knows them for less than the motion of all DOFs would cost; else none. Valid until the next call.
+  virtual std::span<const EnergyAt> energies(const State& from, const State& to,
+                                             std::span<const double> instants) const {
+    (void)from, (void)to, (void)instants;
+    return {};
+  }
+
   /// True where the method itself minds the instants at which a load or its derivative jumps. Steps of all other
   /// adaptive methods end there: a load that lasts shorter than a step could pass unseen.
   virtual bool minds_load_kinks() const { return false; }
@@ -70,10 +92,21 @@ class BUTEE_EXPORT Integrator {
   /// True where steps best end at the instants that observers ask for, since any length is as good.
   virtual bool lands_on_outputs() const { return false; }
 
-  /// The instants, ascending and strictly within an accepted step, between which the method took steps of its own.
+  /// The instants, ascending and strictly within an accepted step, between which the method took steps of its own; its
+  /// dense output is smooth between them.
   virtual std::span<const double> knots(const State& from, const State& to) const {
     (void)from, (void)to;
     return {};
+  }
+
+  /// What interpolate() gives, for those who look for extremes of the motion.
+  virtual DenseOutput dense_output() const { return DenseOutput::cubic; }
+
+  /// Of DenseOutput::other alone: bounds, for each DOF, of how far x, v and a between two instants of an accepted step
+  /// that no knot parts depart from the quintic through x, v and a at both and its derivatives.
+  virtual void departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
+                         Interpolated out) const {
+    (void)from, (void)to, (void)begin, (void)end, (void)dofs, (void)out;
   }
 
  protected:

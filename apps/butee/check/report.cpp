@@ -140,11 +140,16 @@ std::string size_of(double bytes) {
 
 void print_cost(const Estimate& cost) {
   if (!cost.choice.empty()) std::printf("chosen     %s\n", cost.choice.c_str());
-  if (cost.steps > 0.0 && cost.failure.empty())
+  if (cost.failure.empty() && cost.run_seconds)
     std::printf("estimate   %s%.2g s, %s%.3g steps%s\n", cost.whole ? "" : "about ",
-                cost.run_seconds + cost.setup_seconds, cost.steps_known || cost.whole ? "" : "about ", cost.steps,
+                *cost.run_seconds + cost.setup_seconds, cost.steps_known || cost.whole ? "" : "about ", *cost.steps,
                 cost.whole ? " (tried out to the end)" : " (from a short trial)");
-  std::printf("results    %.4g rows, about %s\n", cost.rows, size_of(cost.bytes).c_str());
+  else if (cost.failure.empty())
+    std::printf(
+        "estimate   none: a trial of %.2g s went through %.2g %% of the time, which does not tell what the rest "
+        "costs\n",
+        cost.trial_seconds, 100.0 * cost.part);
+  if (cost.rows) std::printf("results    %.4g rows, about %s\n", *cost.rows, size_of(*cost.bytes).c_str());
 }
 
 Json json_of(const std::optional<solve::FrequencyRange>& range) {
@@ -213,11 +218,12 @@ Json to_json(const Session& session, const model::System& system, const Facts& f
   json["time_step"] = session.integrator.options.time_step;
   json["end_time"] = session.integrator.options.end_time;
   json["contact"] = json_of(facts.mechanics);
-  json["estimate"] = {{"seconds", facts.cost.run_seconds + facts.cost.setup_seconds},
-                      {"steps", facts.cost.steps},
-                      {"whole", facts.cost.whole},
-                      {"rows", facts.cost.rows},
-                      {"bytes", facts.cost.bytes}};
+  const Estimate& cost = facts.cost;
+  json["estimate"] = {{"seconds", cost.run_seconds ? Json(*cost.run_seconds + cost.setup_seconds) : Json()},
+                      {"steps", json_of(cost.steps)},
+                      {"whole", cost.whole},
+                      {"rows", json_of(cost.rows)},
+                      {"bytes", json_of(cost.bytes)}};
   json["warnings"] = Json::array();
   for (const Advice& item : advice) json["warnings"].push_back({{"about", item.about}, {"text", item.text}});
   return json;

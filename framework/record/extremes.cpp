@@ -1,0 +1,184 @@
+#include "butee/record/extremes.hpp"
+
+namespace butee::record {
+namespace {
+
+/// No interval is halved further than this part of the step.
+constexpr double kShortest = 1e-9;
+/// No polynomial is halved more often.
+constexpr int kMostSplits = 40;
+
+/// A polynomial on [0, 1] by its Bernstein coefficients: the first and the last are the values at the ends, and the
+/// least and the greatest bound it.
+template <std::size_t Degree>
+using Bernstein = std::array<double, Degree + 1>;
+
+template <std::size_t Degree>
+std::pair<double, double> bounds_of(const Bernstein<Degree>& c) {
+  double least = c[0], greatest = c[0];
+  for (std::size_t i = 1; i <= Degree; ++i) {
+    least = std::min(least, c[i]);
+    greatest = std::max(greatest, c[i]);
+  }
+  return {least, greatest};
+}
+
+/// De Casteljau's rule at 1/2: `first` becomes the first half; gives the second.
+template <std::size_t Degree>
+Bernstein<Degree> split(Bernstein<Degree>& first) {
+  Bernstein<Degree> second = first;
+  for (std::size_t round = 1; round <= Degree; ++round) {
+    for (std::size_t i = 0; i + round <= Degree; ++i) second[i] = 0.5 * (second[i] + second[i + 1]);
+    first[round] = second[0];
+  }
+  return second;
+}
+
+template <std::size_t Degree>
+Bernstein<Degree - 1> slope(const Bernstein<Degree>& c, double h) {
+  Bernstein<Degree - 1> slope;
+  for (std::size_t i = 0; i < Degree; ++i) slope[i] = static_cast<double>(Degree) / h * (c[i + 1] - c[i]);
+  return slope;
+}
+
+/// The cubic by the values and slopes of derivative `order`, whose next one those are.
+Bernstein<3> cubic(std::size_t order, const Point& from, const Point& to) {
+  const double third = (to.t - from.t) / 3.0;
+  return {from.of[order], from.of[order] + third * from.of[order + 1], to.of[order] - third * to.of[order + 1],
+          to.of[order]};
+}
+
+/// The quintic by x, v and a.
+Bernstein<5> quintic(const Point& from, const Point& to) {
+  const double h = to.t - from.t;
+  const auto [x0, v0, a0] = from.of;
+  const auto [x1, v1, a1] = to.of;
+  const double c1 = x0 + 0.2 * h * v0, c4 = x1 - 0.2 * h * v1;
+  return {x0, c1, 2.0 * c1 - x0 + 0.05 * h * h * a0, 2.0 * c4 - x1 + 0.05 * h * h * a1, c4, x1};
+}
+
+/// The extremes of a polynomial beyond a range, by the place.
+template <std::size_t Degree>
+void seek(Bernstein<Degree> first, double begin, double end, double good, int splits, Range& beyond) {
+  const auto [least, greatest] = bounds_of<Degree>(first);
+  if (!(greatest > beyond.greatest + good) && !(least < beyond.least - good)) return;
+  if (splits == kMostSplits) return;
+  const Bernstein<Degree> second = split<Degree>(first);
+  const double middle = 0.5 * (begin + end);
+  beyond.take(middle, second[0]);
+  seek<Degree>(first, begin, middle, good, splits + 1, beyond);
+  seek<Degree>(second, middle, end, good, splits + 1, beyond);
+}
+
+/// Derivative `order` of a polynomial of x.
+template <std::size_t Degree>
+void seek_in(std::size_t order, const Bernstein<Degree>& x, double h, double good, Range& beyond) {
+  if (order == 0) return seek<Degree>(x, 0.0, 1.0, good, 0, beyond);
+  const Bernstein<Degree - 1> v = slope<Degree>(x, h);
+  if (order == 1) return seek<Degree - 1>(v, 0.0, 1.0, good, 0, beyond);
+  seek<Degree - 2>(slope<Degree - 1>(v, h), 0.0, 1.0, good, 0, beyond);
+}
+
+/// Whether accelerations depart from the cubic's by x and v far more at one end than at the other, as where a stop
+/// bends the motion at the end of a step: then the dense output may be that cubic.
+bool may_bend(const Point& from, const Point& to) {
+  constexpr double kMore = 5.0;
+  const double h = to.t - from.t, rise = 6.0 * (to.of[0] - from.of[0]) / h;
+  const double off0 = std::abs(from.of[2] - (rise - 4.0 * from.of[1] - 2.0 * to.of[1]) / h),
+               off1 = std::abs(to.of[2] - (2.0 * from.of[1] + 4.0 * to.of[1] - rise) / h);
+  return std::max(off0, off1) > kMore * std::min(off0, off1);
+}
+
+/// The value of a polynomial in the middle.
+template <std::size_t Degree>
+double middle_of(Bernstein<Degree> c) {
+  return split<Degree>(c)[0];
+}
+
+}  // namespace
+
+void Range::save(ByteWriter& to) const {
+  for (const double number : {least, greatest, t_least, t_greatest}) to.put(number);
+}
+
+void Range::restore(ByteReader& from) {
+  for (double* number : {&least, &greatest, &t_least, &t_greatest}) from.take(*number);
+}
+
+Point Course::at(double t) const {
+  Point point{t, {0.0, 0.0, 0.0}};
+  double sign = 1.0;
+  for (const Index& dof : dofs_) {
+    std::array<double, 3> of{};
+    if (dof >= 0)
+      step_.integrator.interpolate(step_.from, step_.to, t, {&dof, 1}, {{&of[0], 1}, {&of[1], 1}, {&of[2], 1}});
+    for (std::size_t k = 0; k < of.size(); ++k) point.of[k] += sign * of[k];
+    sign = -1.0;
+  }
+  return point;
+}
+
+std::pair<double, double> Course::enclose(std::size_t order, const Point& from, const Point& to) const {
+  return enclose(order, from, to, departure(order, from, to));
+}
+
+std::pair<double, double> Course::enclose(std::size_t order, const Point& from, const Point& to, double departs) const {
+  const auto [least, greatest] = bounds_within(order, from, to);
+  return {std::min({from.of[order], to.of[order], least}) - departs,
+          std::max({from.of[order], to.of[order], greatest}) + departs};
+}
+
+double Course::departure(std::size_t order, const Point& from, const Point& to) const {
+  if (kind_ != time::DenseOutput::other) return 0.0;
+  double sum = 0.0;
+  for (const Index dof : dofs_) {
+    if (dof < 0) continue;
+    std::array<double, 3> bound{};
+    const auto wanted = [&](std::size_t k) { return std::span(&bound[k], k == order ? 1 : 0); };
+    step_.integrator.departure(step_.from, step_.to, from.t, to.t, {&dof, 1}, {wanted(0), wanted(1), wanted(2)});
+    sum += bound[order];
+  }
+  return sum;
+}
+
+void Course::search(std::size_t order, const Point& from, const Point& to, Range& range) const {
+  int samples = 0;
+  halve(order, from, to, samples, range);
+}
+
+void Course::halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const {
+  const double h = to.t - from.t, middle = from.t + 0.5 * h;
+  if (!(middle > from.t && middle < to.t)) return;
+  const double good = kGood * range.size(), departs = departure(order, from, to);
+  const auto [least, greatest] = enclose(order, from, to, departs);
+  if (!(greatest > range.greatest + good) && !(least < range.least - good)) return;
+  if (!(departs > good)) {
+    Range beyond = range;
+    if (kind_ == time::DenseOutput::cubic) {
+      if (order < 2) seek<3>(cubic(order, from, to), 0.0, 1.0, good, 0, beyond);
+    } else {
+      const Bernstein<5> bent = quintic(from, to);
+      const Bernstein<3> straight = cubic(0, from, to);
+      const double x =
+          kind_ == time::DenseOutput::quintic && may_bend(from, to) ? at(middle).of[0] : middle_of<5>(bent);
+      if (std::abs(x - middle_of<3>(straight)) < std::abs(x - middle_of<5>(bent)))
+        seek_in<3>(order, straight, h, good, beyond);
+      else
+        seek_in<5>(order, bent, h, good, beyond);
+    }
+    for (const auto [value, before, place] : {std::array{beyond.greatest, range.greatest, beyond.t_greatest},
+                                              std::array{beyond.least, range.least, beyond.t_least}}) {
+      const double t = from.t + place * h;
+      if (value != before && t > from.t && t < to.t) range.take(t, at(t).of[order]);
+    }
+    return;
+  }
+  if (samples == kMostSamples || h < kShortest * (step_.to.t - step_.from.t)) return;
+  ++samples;
+  const Point between = at(middle);
+  range.take(middle, between.of[order]);
+  halve(order, from, between, samples, range);
+  halve(order, between, to, samples, range);
+}
+
+}  // namespace butee::record

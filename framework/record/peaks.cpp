@@ -1,0 +1,154 @@
+#include "butee/record/peaks.hpp"
+
+namespace butee::record {
+namespace {
+
+/// Of one piece, for the sum of several stops.
+constexpr int kMostHalvingsOfSum = 4000;
+
+std::size_t order_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::v:
+    case Quantity::theta_v:
+      return 1;
+    case Quantity::a:
+    case Quantity::theta_a:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+/// The largest |force| of a stop whose displacement goes from `least` to `greatest`. With two sides it also jumps where
+/// that passes the middle, if the law pulls at open stops.
+double largest_force(solve::Contact& contact, Index stop, double least, double greatest) {
+  const auto size_at = [&](double w) { return std::abs(contact.force_of(stop, w)); };
+  double largest = std::max(size_at(least), size_at(greatest));
+  if (contact.sides_of(stop) == model::Sides::both && least < 0.0 && greatest > 0.0 &&
+      contact.law_of(stop).far_force() > 0.0)
+    largest = std::max(largest, size_at(std::numeric_limits<double>::min()));
+  return largest;
+}
+
+}  // namespace
+
+Peaks::Peaks(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics) : dynamics_(dynamics) {
+  const model::DofTable& table = dynamics.system().dofs;
+  for (const ProbeRequest& request : requests)
+    for (const Quantity quantity : request.quantities) {
+      const Index dof = table.index({request.node, kind_of(quantity)});
+      Column column{request.label + "." + name_of(quantity), kNone, order_of(quantity), {}, 0.0};
+      if (dof >= 0 && quantity == Quantity::contact_force)
+        column.stops = stops_on(dof);
+      else if (dof >= 0)
+        column.track = follow(dof, model::DofTable::kFixed, column.order);
+      columns_.push_back(std::move(column));
+    }
+}
+
+std::size_t Peaks::follow(Index a, Index b, std::size_t order) {
+  const std::size_t track = tracks_.add(a, b);
+  followed_.resize(tracks_.size());
+  followed_[track].is_followed[order] = true;
+  return track;
+}
+
+std::vector<Peaks::Stop> Peaks::stops_on(Index dof) {
+  const solve::Contact& contact = dynamics_.contact();
+  std::vector<Stop> stops;
+  for (Index i = 0; i < contact.size(); ++i) {
+    const Index a = contact.dof_a(i), b = contact.dof_b(i);
+    if (a == dof || b == dof) stops.push_back({i, follow(a, b, 0), a == dof ? 1.0 : -1.0});
+  }
+  return stops;
+}
+
+void Peaks::start(const time::State& state) {
+  for (std::size_t i = 0; i < followed_.size(); ++i) {
+    const Point point = tracks_.at(state, i);
+    for (std::size_t order = 0; order < 3; ++order) {
+      followed_[i].ranges[order] = {};
+      if (followed_[i].is_followed[order]) followed_[i].ranges[order].take(point.t, point.of[order]);
+    }
+  }
+  for (Column& column : columns_) {
+    begin_.clear();
+    for (const Stop& stop : column.stops) begin_.push_back(tracks_.at(state, stop.track));
+    column.largest = sum_at(column, begin_);
+  }
+}
+
+void Peaks::step(const time::AcceptedStep& step) {
+  tracks_.visit(step, [&] {
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+      Followed& followed = followed_[i];
+      const Course course = tracks_.course(step, i);
+      for (std::size_t order = 0; order < 3; ++order)
+        if (followed.is_followed[order]) course.extend(order, tracks_.from(i), tracks_.to(i), followed.ranges[order]);
+    }
+    for (Column& column : columns_)
+      if (column.stops.size() > 1) {
+        begin_.clear();
+        end_.clear();
+        for (const Stop& stop : column.stops) {
+          begin_.push_back(tracks_.from(stop.track));
+          end_.push_back(tracks_.to(stop.track));
+        }
+        int halvings = 0;
+        column.largest = std::max(column.largest, sum_at(column, end_));
+        follow_sum(step, column, begin_, end_, halvings);
+      }
+  });
+}
+
+void Peaks::follow_sum(const time::AcceptedStep& step, Column& column, const std::vector<Point>& from,
+                       const std::vector<Point>& to, int& halvings) {
+  double bound = 0.0;
+  for (std::size_t i = 0; i < column.stops.size(); ++i) {
+    const auto [least, greatest] = tracks_.course(step, column.stops[i].track).enclose(0, from[i], to[i]);
+    bound += largest_force(dynamics_.contact(), column.stops[i].index, least, greatest);
+  }
+  const double t = 0.5 * (from.front().t + to.front().t);
+  if (!(bound > (1.0 + kGoodSum) * column.largest) || halvings == kMostHalvingsOfSum || !(t > from.front().t)) return;
+  ++halvings;
+  std::vector<Point> middle;
+  for (const Stop& stop : column.stops) middle.push_back(tracks_.course(step, stop.track).at(t));
+  column.largest = std::max(column.largest, sum_at(column, middle));
+  follow_sum(step, column, from, middle, halvings);
+  follow_sum(step, column, middle, to, halvings);
+}
+
+double Peaks::sum_at(const Column& column, const std::vector<Point>& points) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sum += column.stops[i].sign * dynamics_.contact().force_of(column.stops[i].index, points[i].of[0]);
+  return std::abs(sum);
+}
+
+double Peaks::value_of(const Column& column) const {
+  if (column.track != kNone) return followed_[column.track].ranges[column.order].size();
+  if (column.stops.size() != 1) return column.largest;
+  const Stop& stop = column.stops.front();
+  const Range& range = followed_[stop.track].ranges[0];
+  return range.is_empty() ? 0.0 : largest_force(dynamics_.contact(), stop.index, range.least, range.greatest);
+}
+
+std::map<std::string, double> Peaks::largest() const {
+  std::map<std::string, double> largest;
+  for (const Column& column : columns_) largest[column.name] = value_of(column);
+  return largest;
+}
+
+void Peaks::save(ByteWriter& to) const {
+  for (const Followed& followed : followed_)
+    for (const Range& range : followed.ranges) range.save(to);
+  for (const Column& column : columns_) to.put(column.largest);
+}
+
+void Peaks::restore(ByteReader& from) {
+  for (Followed& followed : followed_)
+    for (Range& range : followed.ranges) range.restore(from);
+  for (Column& column : columns_) from.take(column.largest);
+}
+
+}  // namespace butee::record

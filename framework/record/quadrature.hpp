@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+
+namespace butee::record {
+
+/// An instant and its weight in an integral, s.
+struct QuadraturePoint {
+  double t, weight;
+};
+
+/// Gauss' rule with five points from `begin` to `end`, exact for polynomials of degree 9.
+inline std::array<QuadraturePoint, 5> gauss_points(double begin, double end) {
+  const double half = 0.5 * (end - begin), middle = begin + half;
+  const double inner = 0.53846931010568309104 * half, outer = 0.90617984593866399280 * half;
+  const double inner_weight = 0.47862867049936646804 * half, outer_weight = 0.23692688505618908751 * half;
+  return {{{middle - outer, outer_weight},
+           {middle - inner, inner_weight},
+           {middle, 128.0 / 225.0 * half},
+           {middle + inner, inner_weight},
+           {middle + outer, outer_weight}}};
+}
+
+}  // namespace butee::record

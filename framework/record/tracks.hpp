@@ -1,0 +1,54 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "butee/record/extremes.hpp"
+
+namespace butee::record {
+
+/// The displacements that an observer follows from knot to knot: of a DOF, or of one relative to another.
+class BUTEE_EXPORT Tracks {
+ public:
+  /// The number of the displacement u_a - u_b, each of which may be negative, for what is fixed. Before the first step.
+  std::size_t add(Index a, Index b);
+  std::size_t size() const { return pairs_.size(); }
+
+  Point at(const time::State& state, std::size_t track) const {
+    return Course::point(state, pairs_[track].first, pairs_[track].second);
+  }
+  Course course(const time::AcceptedStep& step, std::size_t track) const {
+    return {step, kind_, pairs_[track].first, pairs_[track].second};
+  }
+
+  /// Calls `look()` for every piece of the step between two neighbouring knots, whose ends are from() and to().
+  template <class Look>
+  void visit(const time::AcceptedStep& step, Look look) {
+    kind_ = step.integrator.dense_output();
+    for (std::size_t i = 0; i < size(); ++i) from_[i] = at(step.from, i);
+    const std::span<const double> knots = step.integrator.knots(step.from, step.to);
+    if (!knots.empty()) sample(step, knots);
+    for (std::size_t k = 0; k < knots.size(); ++k) {
+      load(k, knots[k]);
+      look();
+      std::swap(from_, to_);
+    }
+    for (std::size_t i = 0; i < size(); ++i) to_[i] = at(step.to, i);
+    look();
+  }
+  const Point& from(std::size_t track) const { return from_[track]; }
+  const Point& to(std::size_t track) const { return to_[track]; }
+
+ private:
+  void sample(const time::AcceptedStep& step, std::span<const double> knots);
+  void load(std::size_t knot, double t);
+
+  std::vector<std::pair<Index, Index>> pairs_;
+  std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< of those in dofs_
+  std::vector<Point> from_, to_;
+  time::DenseOutput kind_ = time::DenseOutput::cubic;  ///< of the step last visited
+  std::vector<Index> dofs_;
+  std::vector<double> x_, v_, a_;  ///< of dofs_ at the knots
+};
+
+}  // namespace butee::record

@@ -1,0 +1,48 @@
+#include <butee/record/energy.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::modal_energy_test {
+namespace {
+
+/// The motion is good to 1e-6 and the integrals of `exact` to rounding. Modes that turn within a step, which damping
+/// in proportion to the stiffness takes most from, leave more of the dissipation; of the energy that is 1e-5.
+constexpr double kOfWork = 1e-4, kOfDissipation = 1e-3, kOfBalance = 1e-5;
+
+struct Followed {
+  double work, dissipated, balance_error;
+  record::Energy end;
+};
+
+Followed follow(const std::string& scene, const std::string& method) {
+  std::vector<std::string> overrides = {"integrator.type=" + method, "integrator.end_time=0.2",
+                                        "damping.stiffness_proportional=1e-6"};
+  if (method == "exponential") overrides.push_back("integrator.tolerance=1e-6");
+  SceneRun run(scene, overrides);
+  record::EnergyRecorder energy(run.dynamics());
+  run.simulation().add(energy);
+  EXPECT_TRUE(run.run().completed);
+  return {energy.work(), energy.dissipated(), energy.balance_error(),
+          record::energy_of(run.simulation().state(), run.dynamics())};
+}
+
+/// The work of the loads, the dissipation and the energies that `exponential` takes from its modes, against those of
+/// `exact`, which are integrated in physical coordinates.
+class ModalEnergy : public testing::TestWithParam<std::string> {};
+
+TEST_P(ModalEnergy, is_that_of_the_motion_in_physical_coordinates) {
+  const std::string scene = with_linear_law(GetParam());
+  const Followed modal = follow(scene, "exponential"), physical = follow(scene, "exact");
+  EXPECT_NEAR(modal.work, physical.work, kOfWork * std::abs(physical.work));
+  EXPECT_NEAR(modal.dissipated, physical.dissipated, kOfDissipation * physical.dissipated);
+  EXPECT_NEAR(modal.balance_error, 0.0, kOfBalance);
+  EXPECT_NEAR(physical.balance_error, 0.0, 1e-10);
+  EXPECT_NEAR(modal.end.total(), physical.end.total(), kOfWork * physical.end.total());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ModalEnergy, testing::Values("oscillator", "beam1", "beam3"),
+                         [](const auto& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace butee::test::modal_energy_test

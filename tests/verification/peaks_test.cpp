@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <butee/core/text.hpp>
+#include <butee/embed/structure.hpp>
+#include <butee/record/history.hpp>
+#include <butee/record/peaks.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "conformance/methods.hpp"
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::peaks_test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A method's own error on these scenes, relative; 1e-3 s is a 800th of the shortest motion.
+constexpr double kMethod = 2e-3;
+/// That of a peak's place on the dense output, and of printed digits.
+constexpr double kSame = 1e-9, kPrinted = 1e-5;
+
+std::string integrator(const MethodCase& method, const std::string& end_time) {
+  return "schema = 1\n[integrator]\ntype = \"" + method.name + "\"\ntime_step = 1e-3\nend_time = " + end_time + "\n" +
+         method.keys;
+}
+
+const std::string kOscillator = R"(
+[[element]]
+type = "mass"
+name = "ball"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "ball"
+stiffness = 10.0
+)";
+
+const std::string kProbe = R"(
+[[output.probe]]
+label = "ball"
+node = "ball"
+quantities = ["u", "v", "a", "contact_force"]
+)";
+
+/// Free motion with an energy of v^2/2 against a stop of 50 N/m at 0.01 m, whose rows and steps miss the peaks.
+const std::string kStop = kOscillator + R"(
+[[contact]]
+type = "stop"
+nodes = "ball"
+gap = 0.01
+sides = "positive"
+law = "linear"
+stiffness = 50.0
+[initial]
+velocity = [{ nodes = "ball", value = 0.11402704796459576 }]
+[output]
+interval = 0.25
+energy = true
+impacts = true
+)" + kProbe;
+
+std::map<std::string, double> closed_form_at_stop() {
+  const double k = 10.0, stop = 50.0, gap = 0.01, v = 0.11402704796459576, energy = 0.5 * v * v;
+  // k u^2/2 + stop (u - gap)^2/2 = energy
+  const double p = 0.5 * (k + stop), q = -stop * gap, r = 0.5 * stop * gap * gap - energy;
+  const double u = (-q + std::sqrt(q * q - 4.0 * p * r)) / (2.0 * p), force = stop * (u - gap);
+  return {{"ball.u", v / std::sqrt(k)}, {"ball.v", v}, {"ball.a", k * u + force}, {"ball.contact_force", force}};
+}
+
+/// cos(2 t) on the oscillator, with a row every 2.5 turns of it.
+const std::string kDriven = kOscillator + R"(
+[[load]]
+type = "harmonic"
+node = "ball"
+amplitude = 1.0
+angular_frequency = 2.0
+[output]
+interval = 8.0
+)" + kProbe;
+
+std::map<std::string, double> closed_form_driven(double end) {
+  constexpr int kSamples = 200000;
+  const double w = std::sqrt(10.0), drive = 2.0, amplitude = 1.0 / (w * w - drive * drive);
+  std::map<std::string, double> peaks = {{"ball.contact_force", 0.0}};
+  for (int i = 0; i <= kSamples; ++i) {
+    const double t = end * i / kSamples, c = std::cos(drive * t), s = std::sin(drive * t), cw = std::cos(w * t),
+                 sw = std::sin(w * t);
+    const double values[] = {c - cw, w * sw - drive * s, w * w * cw - drive * drive * c};
+    const char* names[] = {"ball.u", "ball.v", "ball.a"};
+    for (int k = 0; k < 3; ++k) peaks[names[k]] = std::max(peaks[names[k]], amplitude * std::abs(values[k]));
+  }
+  return peaks;
+}
+
+double largest(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+/// Follows the peaks in a structure that is embedded, as a program that uses it would.
+std::map<std::string, double> embedded_peaks(const std::string& scene, double end) {
+  auto structure = embed::Structure::from_toml(scene, {{}, {BUTEE_TEST_PLUGINS}, {}});
+  using record::Quantity;
+  structure.follow_peaks("ball", {Quantity::u, Quantity::v, Quantity::a, Quantity::contact_force});
+  structure.advance_to(end);
+  return structure.peaks();
+}
+
+class PeaksOf : public testing::TestWithParam<MethodCase> {
+ protected:
+  /// Runs the scene with the program, and compares all the places that a peak appears in.
+  Json run(const std::string& scene, const std::map<std::string, double>& truth, double tolerance) {
+    folder.write("scene.toml", scene);
+    const Outcome outcome = run_program({"run", "scene.toml", "-o", "results"}, folder.path());
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    Json summary = Json::parse(read_file(folder.file("results/summary.json")));
+    const CsvTable history(folder.file("results/history.csv"));
+    for (const auto& [column, value] : truth) {
+      const double peak = summary["peak"].at(column);
+      EXPECT_NEAR(peak, value, tolerance * value) << column;
+      EXPECT_LE(largest(history.column(column)), peak) << column;
+      const std::string line = "largest |" + column + "| = ";
+      const std::size_t place = outcome.output.find(line);
+      if (place == std::string::npos) {
+        ADD_FAILURE() << column << " is not printed";
+        continue;
+      }
+      EXPECT_NEAR(std::stod(outcome.output.substr(place + line.size())), peak, kPrinted * peak) << column;
+    }
+    return summary;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_P(PeaksOf, oscillator_at_a_stop_are_those_of_its_energy_in_all_places) {
+  const std::string scene = integrator(GetParam(), "4.0") + kStop;
+  const bool is_exact = GetParam().name == "exact";
+  const Json summary = run(scene, closed_form_at_stop(), is_exact ? kSame : kMethod);
+  const double force = summary["peak"].at("ball.contact_force");
+  const CsvTable impacts(folder.file("results/impacts.csv"));
+  EXPECT_EQ(impacts.rows(), 3U);
+  EXPECT_NEAR(largest(impacts.column("peak_force")), force, kSame * force);
+  for (const auto& [column, peak] : embedded_peaks(scene, 4.0)) {
+    const double printed = summary["peak"].at(column);
+    EXPECT_NEAR(peak, printed, kSame * printed) << column;
+  }
+}
+
+TEST_P(PeaksOf, driven_oscillator_lie_between_rows_and_steps) {
+  const bool is_exact = GetParam().name == "exact" || GetParam().name == "exponential";
+  run(integrator(GetParam(), "8.0") + kDriven, closed_form_driven(8.0), is_exact ? 1e-8 : kMethod);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllMethods, PeaksOf, testing::ValuesIn(method_cases()),
+                         [](const auto& method) { return method.param.name; });
+
+TEST(PeaksOfTrust, hold_the_true_force_of_a_stop) {
+  TemporaryFolder folder;
+  folder.write("scene.toml", "schema = 1\n[integrator]\ntype = \"exact\"\ntime_step = 1e-3\nend_time = 4.0\n" + kStop);
+  ASSERT_EQ(run_program({"run", "scene.toml", "-o", "results", "--trust"}, folder.path()).status, 0);
+  const Json summary = Json::parse(read_file(folder.file("results/summary.json")));
+  const double truth = closed_form_at_stop().at("ball.contact_force");
+  const Json& force = summary["trust"]["statistics"]["largest contact force"];
+  EXPECT_LE(force["least"].get<double>(), truth * (1.0 + kSame));
+  EXPECT_GE(force["greatest"].get<double>(), truth * (1.0 - kSame));
+  EXPECT_NEAR(force["value"].get<double>(), truth, kSame * truth);
+}
+
+/// Two stops on one node: their forces add up, and their sum is the largest where neither may be.
+TEST(PeaksOfSums, are_those_of_the_rows_of_a_fine_history) {
+  const std::string scene = R"(
+schema = 1
+[integrator]
+type = "exact"
+end_time = 3.0
+time_step = 1e-3
+[[element]]
+type = "mass"
+name = "other"
+mass = 0.3
+[[element]]
+type = "spring"
+node = "other"
+stiffness = 30.0
+[[contact]]
+type = "stop"
+between = ["ball", "other"]
+gap = 0.002
+law = "linear"
+stiffness = 80.0
+)" + kStop;
+  TemporaryFolder folder;
+  folder.write("scene.toml", scene);
+  const auto run = [&](const std::string& interval) {
+    EXPECT_EQ(run_program({"run", "scene.toml", "-o", "results", "--set", "output.interval=" + interval}, folder.path())
+                  .status,
+              0);
+  };
+  run("1e-4");
+  const double fine = largest(CsvTable(folder.file("results/history.csv")).column("ball.contact_force"));
+  run("0.3");
+  const Json summary = Json::parse(read_file(folder.file("results/summary.json")));
+  EXPECT_NEAR(summary["peak"]["ball.contact_force"].get<double>(), fine, 3e-6 * fine);
+}
+
+}  // namespace
+}  // namespace butee::test::peaks_test
