@@ -6,6 +6,7 @@
 #include "butee/config/override.hpp"
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
+#include "butee/core/log.hpp"
 #include "butee/core/text.hpp"
 #include "butee/plugin/scene.hpp"
 
@@ -79,6 +80,7 @@ Structure Structure::from_document(config::Document document, const StructureOpt
 
   auto parts = std::make_unique<Parts>();
   parts->catalogue = plugin::Catalogue::with_plugins(options.plugins);
+  if (const std::string line = plugin::set_aside_keys(document, parts->catalogue); !line.empty()) log::warning(line);
   config::Diagnostics diagnostics(document);
   parts->scene = plugin::read_scene(document, parts->catalogue, diagnostics);
   diagnostics.throw_if_any();
