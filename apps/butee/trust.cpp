@@ -31,7 +31,7 @@ constexpr double kElsewhere = 1e-6;
 /// deviations to each side, 2.2 of its expected range.
 constexpr double kAgreeing = 1.5, kScattering = 2.2;
 constexpr double kFinestTolerance = 1e-12;
-constexpr Wanted kNumbers = {.states = false, .numbers = true};
+constexpr Wanted kNumbers = {.states = false, .numbers = true, .impacts = true};
 
 /// The scene with half the step, a tenth of the tolerance, or what the method has instead; nothing where it has
 /// nothing.
@@ -91,11 +91,11 @@ FollowedRun follow_or_throw(Session& session, double disturbance, Wanted wanted)
 class Judgement {
  public:
   explicit Judgement(Session& session)
-      : session_(session), run_(follow_or_throw(session, 0.0, {.states = true, .numbers = true})) {}
+      : session_(session), run_(follow_or_throw(session, 0.0, {true, true, session.output.impacts})) {}
 
   record::Trust pronounce() {
     run_again();
-    add(run_);
+    add_the_run();
     record::TrustRuns runs;
     runs.run = run_.courses;
     std::string tightened;
@@ -121,6 +121,15 @@ class Judgement {
   }
 
  private:
+  /// The run itself is followed as it was: some methods take other steps where impacts are looked for.
+  void add_the_run() {
+    std::optional<FollowedRun> counted;
+    if (!session_.output.impacts) counted = follow_or_throw(session_, 0.0, kNumbers);
+    if (counted && counted->numbers.size() > run_.numbers.size()) run_.numbers.push_back(counted->numbers.back());
+    add(run_);
+    if (counted) add(*counted);
+  }
+
   void run_again() {
     other_ = run_other_family(session_, method_of(session_, run_), tolerance_of(session_),
                               std::max(kWork, kTimesTheRun * run_.work));
@@ -133,9 +142,10 @@ class Judgement {
   }
 
   record::Growth growth() {
-    Session& by = other_ ? other_->session : session_;
-    const FollowedRun& run = other_ ? other_->run : run_;
-    const double noise = other_ ? other_->noise : std::max(1e-12, tolerance_of(session_));
+    const bool by_other = other_ && session_.integrator.name != "exact";
+    Session& by = by_other ? other_->session : session_;
+    const FollowedRun& run = by_other ? other_->run : run_;
+    const double noise = by_other ? other_->noise : tolerance_of(session_);
     return follow_disturbance(by, run, std::clamp(kAboveNoise * noise, kSmallest, kLargest));
   }
 

@@ -8,6 +8,7 @@ namespace butee::record {
 namespace {
 
 constexpr std::size_t kParts = 8;
+constexpr double kFewest = 4.0;                   ///< instants in a part
 constexpr double kLeastRise = 2.995732273553991;  // ln 20
 constexpr double kStandardErrors = 2.5;
 
@@ -51,11 +52,19 @@ double Growth::amplification() const {
   return std::exp(std::clamp(largest, 0.0, 700.0));
 }
 
-double Growth::exponential_rate() const {
-  if (times.size() < 4 * kParts) return 0.0;
+Growth::Rate Growth::exponential() const {
+  if (times.empty()) return {};
+  if (const double rate = rate_until(times.back()); rate > 0.0) return {rate, times.back()};
+  const double high = *std::max_element(logs.begin(), logs.end()) - 1.0;
+  const auto first = std::find_if(logs.begin(), logs.end(), [&](double log) { return log >= high; });
+  const double until = times[static_cast<std::size_t>(first - logs.begin())], rate = rate_until(until);
+  return {rate, rate > 0.0 ? until : 0.0};
+}
+
+double Growth::rate_until(double end) const {
+  if (!(end > 0.0)) return 0.0;
   std::array<double, kParts> sum{}, t_sum{}, count{};
-  const double end = times.back();
-  for (std::size_t i = 0; i < times.size(); ++i) {
+  for (std::size_t i = 0; i < times.size() && times[i] <= end; ++i) {
     const auto part = std::min(kParts - 1, static_cast<std::size_t>(times[i] / end * double(kParts)));
     sum[part] += logs[i];
     t_sum[part] += times[i];
@@ -63,7 +72,7 @@ double Growth::exponential_rate() const {
   }
   std::vector<double> t, log_t, y;
   for (std::size_t part = 1; part < kParts; ++part) {
-    if (count[part] == 0.0) return 0.0;
+    if (count[part] < kFewest) return 0.0;
     t.push_back(t_sum[part] / count[part]);
     log_t.push_back(std::log(t.back()));
     y.push_back(sum[part] / count[part]);

@@ -22,12 +22,21 @@ struct Growth {
   /// stiff stop two motions that are the same but for a delay differ in velocity by twice its value.
   BUTEE_EXPORT double amplification() const;
 
-  /// 1/s; 0 where the growth is not exponential beyond doubt.
+  /// Growth like e^(rate t).
+  struct Rate {
+    double rate = 0.0;   ///< 1/s; 0 where the growth is not exponential beyond doubt
+    double until = 0.0;  ///< s, to where it goes on
+  };
+  /// Looked for over the whole run and, where it is not found there, up to where the size comes within e of its
+  /// largest: motion may settle later on.
   ///
-  /// Taken from the means of eight equal parts of the run, without the first. A straight line in t counts where it
+  /// Taken from the means of eight equal parts of that time, without the first. A straight line in t counts where it
   /// rises by more than ln 20 (a disturbance of integrable motion grows like t, between these means by less than ln 5),
   /// by more than 2.5 standard errors of the six increments, and fits better than a straight line in ln t.
-  BUTEE_EXPORT double exponential_rate() const;
+  BUTEE_EXPORT Rate exponential() const;
+
+ private:
+  double rate_until(double end) const;
 };
 
 }  // namespace butee::record

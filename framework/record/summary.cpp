@@ -22,6 +22,7 @@ Json to_json(const Trust& trust) {
   json["bound"] = number(trust.bound);
   json["end_bound"] = number(trust.end_bound);
   json["growth_rate"] = number(trust.growth_rate);
+  json["growth_until"] = number(trust.growth_until);
   json["amplification"] = number(trust.amplification);
   json["chaotic"] = trust.chaotic;
   json["tightened"] = trust.tightened;

@@ -45,6 +45,7 @@ Trust judge(const TrustRuns& runs, double accuracy) {
   Trust trust;
   trust.accuracy = accuracy;
   const std::vector<double>& times = runs.run.times;
+  trust.end = times.empty() ? 0.0 : times.back();
   const double peak = peak_of(runs.run), factor = factor_of(runs);
   const Growth& growth = runs.growth;
   double difference = 0.0, noise = 0.0, log_growth = 0.0;
@@ -67,7 +68,9 @@ Trust judge(const TrustRuns& runs, double accuracy) {
     trust.bound = trust.end_bound;
     trust.horizon = times[i];
   }
-  trust.growth_rate = growth.exponential_rate();
+  const auto [rate, until] = growth.exponential();
+  trust.growth_rate = rate;
+  trust.growth_until = until;
   trust.chaotic = trust.growth_rate > 0.0;
   trust.amplification = growth.amplification();
   return trust;
@@ -93,10 +96,13 @@ std::string describe(const Trust& trust) {
   else
     text += "at most " + accuracy + " up to t = " + to_short_text(trust.horizon) + " s: up to there the run stands" +
             (trust.end_bound < kMeaningless ? "; to the end it is at most " + to_short_text(trust.end_bound) : "");
-  text += trust.chaotic ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) +
-                              " t): beyond its horizon no run tells the course of this scene; what does hold:"
-                        : "\n  trust: small differences grow no more than " + to_short_text(trust.amplification) +
-                              " times; what holds:";
+  text += trust.chaotic
+              ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) + " t)" +
+                    (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
+                    ", by " + to_short_text(trust.amplification) +
+                    " in all: beyond its horizon no run tells the course of this scene; what does hold:"
+              : "\n  trust: small differences grow no more than " + to_short_text(trust.amplification) +
+                    " times; what holds:";
   text += "\n";
   for (const Trust::Statistic& s : trust.statistics)
     text += "  trust: " + s.name + " = " + to_short_text(s.value) + ", between " + to_short_text(s.least) + " and " +

@@ -26,7 +26,9 @@ struct Trust {
   double difference = 0.0;     ///< largest difference to the other runs up to the horizon, relative to the peak
   double bound = 0.0;          ///< of the error up to the horizon, relative to the peak
   double end_bound = 0.0;      ///< and to the end; infinite where it is not known
+  double end = 0.0;            ///< s, of the run
   double growth_rate = 0.0;    ///< 1/s, of small differences, where they grow exponentially beyond doubt; else 0
+  double growth_until = 0.0;   ///< s, to where they do
   double amplification = 1.0;  ///< the largest size of a small disturbance of the start, relative to its first
   bool chaotic = false;        ///< they do grow exponentially
   std::string tightened;       ///< what was tightened: "time_step 1e-05 -> 5e-06"

@@ -20,25 +20,30 @@ constexpr double kLost = 1e-6;
 class Size {
  public:
   Size(const solve::Dynamics& dynamics, const FollowedRun& run) : dynamics_(dynamics), work_(dynamics.size()) {
-    double x = 0.0, v = 0.0;
+    double x = 0.0, v = 0.0, elastic = 0.0;
     for (Index i = 0; i < run.x.cols(); ++i) {
+      elastic = std::max(elastic, elastic_square(run.x.col(i)));
       x = std::max(x, mass_square(run.x.col(i)));
       v = std::max(v, mass_square(run.v.col(i)));
     }
     omega_square_ = x > 0.0 ? v / x : 0.0;
+    elastic_square_ = elastic > 0.0 ? elastic / x : omega_square_;
     for (Index i = 0; i < run.x.cols(); ++i) largest_ = std::max(largest_, of(run.x.col(i), run.v.col(i)));
   }
 
   double of(ConstVectorRef x, ConstVectorRef v) {
-    dynamics_.elastic_force(x, work_);
-    const double elastic = std::max(0.0, x.dot(work_));
-    return std::sqrt(mass_square(v) + std::max(elastic, omega_square_ * mass_square(x)));
+    return std::sqrt(mass_square(v) + std::max(elastic_square(x), omega_square_ * mass_square(x)));
   }
-  double of_displacement(ConstVectorRef x) { return std::sqrt(omega_square_ * mass_square(x)); }
+  /// Relative to the displacement that a velocity makes without stops.
+  double of_displacement(ConstVectorRef x) { return std::sqrt(elastic_square_ * mass_square(x)); }
   double largest() const { return largest_; }
   double omega() const { return std::sqrt(omega_square_); }
 
  private:
+  double elastic_square(ConstVectorRef x) {
+    dynamics_.elastic_force(x, work_);
+    return std::max(0.0, x.dot(work_));
+  }
   double mass_square(ConstVectorRef y) {
     dynamics_.inertia_force(y, work_);
     return std::max(0.0, y.dot(work_));
@@ -46,7 +51,7 @@ class Size {
 
   const solve::Dynamics& dynamics_;
   Vector work_;
-  double omega_square_ = 0.0, largest_ = 0.0;
+  double omega_square_ = 0.0, elastic_square_ = 0.0, largest_ = 0.0;
 };
 
 }  // namespace

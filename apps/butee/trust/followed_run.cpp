@@ -109,7 +109,7 @@ double highest_frequency(solve::Dynamics& dynamics) {
 }
 
 void sum_up(const Session& session, solve::Dynamics& dynamics, const std::vector<TurningPoints::Path>& paths,
-            std::size_t impacts, FollowedRun& run) {
+            FollowedRun& run) {
   for (std::size_t i = 0; i < session.output.probes.size(); ++i) {
     double squares = 0.0;
     for (const double u : run.courses.values[i]) squares += u * u;
@@ -126,7 +126,6 @@ void sum_up(const Session& session, solve::Dynamics& dynamics, const std::vector
       largest = std::max(largest, std::abs(dynamics.contact().force_of(i, w)));
   }
   run.numbers.push_back({"largest contact force", largest, false});
-  run.numbers.push_back({"impacts", static_cast<double>(impacts), true});
 }
 
 }  // namespace
@@ -162,7 +161,7 @@ FollowedRun follow(Session& session, double disturbance, double most, Wanted wan
   record::ImpactRecorder impacts(dynamics);
   assembly.simulation.add(follower);
   if (wanted.numbers) assembly.simulation.add(turning);
-  if (wanted.numbers && dynamics.stop_count() > 0) assembly.simulation.add(impacts);
+  if (wanted.impacts && dynamics.stop_count() > 0) assembly.simulation.add(impacts);
   const auto work = [&] {
     const solve::Counters& counters = dynamics.counters();
     return static_cast<double>(counters.force_evaluations + counters.solves + counters.contact_evaluations) *
@@ -173,8 +172,10 @@ FollowedRun follow(Session& session, double disturbance, double most, Wanted wan
   run.completed = report.completed;
   run.message = report.message.empty() ? "it takes too long" : report.message;
   run.work = work();
-  if (run.completed && wanted.numbers)
-    sum_up(session, dynamics, turning.paths(), dynamics.stop_count() > 0 ? impacts.impacts().size() : 0, run);
+  if (!run.completed) return run;
+  if (wanted.numbers) sum_up(session, dynamics, turning.paths(), run);
+  if (wanted.impacts && dynamics.stop_count() > 0)
+    run.numbers.push_back({"impacts", static_cast<double>(impacts.impacts().size()), true});
   return run;
 }
 

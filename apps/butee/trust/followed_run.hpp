@@ -41,6 +41,7 @@ struct FollowedRun {
 struct Wanted {
   bool states = false;   ///< whole states at state_times()
   bool numbers = false;  ///< those of the whole run
+  bool impacts = false;  ///< their number too, for which methods take steps one by one
 };
 
 /// Runs the scene from a start that is displaced by `disturbance` (m or rad). Gives up where its work exceeds `most`.

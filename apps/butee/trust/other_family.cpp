@@ -51,7 +51,7 @@ std::optional<OtherRun> run_other_family(const Session& session, const std::stri
                      session_with(session, candidate, tight, false),
                      session_with(session, candidate, tight, true),
                      {}};
-      other.run = follow(other.session, 0.0, most, {.states = true, .numbers = true});
+      other.run = follow(other.session, 0.0, most, {.states = true, .numbers = true, .impacts = true});
       if (other.run.completed) return other;
       log::debug(other.method + ": " + other.run.message);
     } catch (const InputError& error) {
