@@ -160,12 +160,15 @@ time::IntegratorType exact_type() {
       .name = "exact",
       .aliases = {"taylor"},
       .summary = "Taylor series with every change of contact located; no truncation error above rounding",
-      .parameters = {config::integer("order", "the order of the series").at_least(4).at_most(60).or_else(30),
+      .parameters = {config::integer("order", "the order of the series")
+                         .at_least(4)
+                         .at_most(60)
+                         .or_else(std::int64_t{Exact::kOrder}),
                      config::number(kSeriesTolerance, "1", "size of the last terms of a series relative to the largest")
                          .above(0)
                          .at_most(0.1)
-                         .or_else(1e-20)
-                         .sweep(1e-4, 1e-20),
+                         .or_else(Exact::kSeriesTolerance)
+                         .sweep(1e-4, Exact::kSeriesTolerance),
                      config::number(kTolerance, "1", "ignored: truncation stays below rounding").above(0).optional()},
       .finds_first_step = true,
       .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {

@@ -13,12 +13,15 @@ namespace butee::integrators {
 /// Between changes the stops are analytic functions of the motion: with a piecewise linear law they are open or closed
 /// springs, with a smooth one the step follows from the decay of the series, which a boundary layer near the path
 /// shortens. Truncation is kept below `series_tolerance`, by default far below rounding, so that no error of the method
-/// is left; of order `order` otherwise. A scene's `tolerance`, which is meant for an answer, has no say in it. A step takes `order` evaluations of M^-1 (F - C v - K x) and goes 2 to 3 over the
-/// highest frequency, so that stiff scenes cost in proportion to it. Checked in tests/models/exact_test.cpp against a
-/// solution in 80-bit arithmetic.
-/// Source of the recurrence: R. Barrio, Appl. Math. Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
+/// is left; of order `order` otherwise. A scene's `tolerance`, which is meant for an answer, has no say in it. A step
+/// takes `order` evaluations of M^-1 (F - C v - K x) and goes 2 to 3 over the highest frequency, so that stiff scenes
+/// cost in proportion to it. Checked in tests/models/exact_test.cpp against a solution in 80-bit arithmetic. Source of
+/// the recurrence: R. Barrio, Appl. Math. Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
 class Exact final : public time::Integrator {
  public:
+  static constexpr int kOrder = 30;
+  static constexpr double kSeriesTolerance = 1e-20;
+
   /// `series_tolerance` is the size of the last terms of a series relative to the largest.
   Exact(solve::Dynamics& dynamics, int order, double series_tolerance);
 

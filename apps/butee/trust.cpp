@@ -63,13 +63,12 @@ std::optional<Session> tighten(const Session& session, std::string& what) {
 
 /// The method that integrates: what `auto` chose, or the scene's.
 std::string method_of(const Session& session, const FollowedRun& run) {
-  return run.choice.empty() ? session.integrator.name : run.choice.substr(0, run.choice.find(' '));
+  return run.choice.empty() ? session.integrator.name : run.choice.substr(0, run.choice.find_first_of(" :"));
 }
 
-double tolerance_of(const Session& session) {
+double tolerance_of(const Session& session, const std::string& method) {
   const config::Parameters& parameters = session.integrator.parameters;
-  return session.integrator.options.limits.keeps_tolerance && session.integrator.name != "exact" &&
-                 parameters.has("tolerance")
+  return session.integrator.options.limits.keeps_tolerance && method != "exact" && parameters.has("tolerance")
              ? parameters.number("tolerance")
              : 0.0;
 }
@@ -91,7 +90,9 @@ FollowedRun follow_or_throw(Session& session, double disturbance, Wanted wanted)
 class Judgement {
  public:
   explicit Judgement(Session& session)
-      : session_(session), run_(follow_or_throw(session, 0.0, {true, true, session.output.impacts})) {}
+      : session_(session),
+        run_(follow_or_throw(session, 0.0, {true, true, session.output.impacts})),
+        method_(method_of(session, run_)) {}
 
   record::Trust pronounce() {
     run_again();
@@ -131,8 +132,8 @@ class Judgement {
   }
 
   void run_again() {
-    other_ = run_other_family(session_, method_of(session_, run_), tolerance_of(session_),
-                              std::max(kWork, kTimesTheRun * run_.work));
+    other_ =
+        run_other_family(session_, method_, tolerance_of(session_, method_), std::max(kWork, kTimesTheRun * run_.work));
     if (other_)
       again_ = follow_or_throw(other_->again, kRounding * peak_of(run_), {});
     else
@@ -142,10 +143,10 @@ class Judgement {
   }
 
   record::Growth growth() {
-    const bool by_other = other_ && session_.integrator.name != "exact";
+    const bool by_other = other_ && method_ != "exact";
     Session& by = by_other ? other_->session : session_;
     const FollowedRun& run = by_other ? other_->run : run_;
-    const double noise = by_other ? other_->noise : tolerance_of(session_);
+    const double noise = by_other ? other_->noise : tolerance_of(session_, method_);
     return follow_disturbance(by, run, std::clamp(kAboveNoise * noise, kSmallest, kLargest));
   }
 
@@ -166,6 +167,7 @@ class Judgement {
 
   Session& session_;
   FollowedRun run_;
+  std::string method_;
   std::optional<OtherRun> other_;
   FollowedRun again_;
   std::vector<std::vector<double>> values_;  ///< of every number, by run
