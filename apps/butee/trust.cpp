@@ -9,6 +9,7 @@
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
 
+#include "perturb.hpp"
 #include "trust/disturbance.hpp"
 #include "trust/other_family.hpp"
 
@@ -80,6 +81,13 @@ double peak_of(const FollowedRun& run) {
   return peak;
 }
 
+/// Of the pattern that disturbs starts, relative to its size.
+double largest_perturbation(Index size) {
+  Vector x = Vector::Zero(size);
+  perturb(x, 1.0);
+  return x.lpNorm<Eigen::Infinity>();
+}
+
 FollowedRun follow_or_throw(Session& session, double disturbance, Wanted wanted) {
   FollowedRun run = follow(session, disturbance, kInfinite, wanted);
   if (!run.completed) throw RunError("a run that was to tell how far to trust the first one failed: " + run.message);
@@ -147,7 +155,12 @@ class Judgement {
     Session& by = by_other ? other_->session : session_;
     const FollowedRun& run = by_other ? other_->run : run_;
     const double noise = by_other ? other_->noise : tolerance_of(session_, method_);
-    return follow_disturbance(by, run, std::clamp(kAboveNoise * noise, kSmallest, kLargest));
+    const double size = std::clamp(kAboveNoise * noise, kSmallest, kLargest);
+    record::Growth growth = follow_disturbance(by, run, size);
+    if (const double start = size * peak_of(run); start > 0.0)
+      growth.displaced = record::largest_difference(run.courses, follow_or_throw(by, start, {}).courses) /
+                         (start * largest_perturbation(run.size));
+    return growth;
   }
 
   void add(const FollowedRun& run) {

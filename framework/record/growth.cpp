@@ -49,7 +49,7 @@ double Growth::log_between(double t) const {
 double Growth::amplification() const {
   const double largest =
       displacement_logs.empty() ? 0.0 : *std::max_element(displacement_logs.begin(), displacement_logs.end());
-  return std::exp(std::clamp(largest, 0.0, 700.0));
+  return std::max(displaced, std::exp(std::clamp(largest, 0.0, 700.0)));
 }
 
 Growth::Rate Growth::exponential() const {

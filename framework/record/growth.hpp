@@ -12,14 +12,16 @@ struct Growth {
   std::vector<double> times;  ///< s, ascending, from 0 on
   std::vector<double> logs;   ///< ln(size/first size), of displacements and velocities together; 0 at first
   std::vector<double>
-      displacement_logs;  ///< the same of omega times the displacements alone, from the second instant on
-  double omega = 0.0;     ///< rad/s, ratio of largest velocity and largest displacement
+      displacement_logs;   ///< the same of omega times the displacements alone, from the second instant on
+  double displaced = 1.0;  ///< largest difference of the probes from a start that is displaced, over that displacement
+  double omega = 0.0;      ///< rad/s, ratio of largest velocity and largest displacement
 
   /// The largest ratio of its size at an instant up to `t` to its size at one before, as a logarithm: what an error
   /// made on the way can have grown by.
   BUTEE_EXPORT double log_between(double t) const;
-  /// The largest size of the displacements relative to the first size, at least 1. Velocities are left out: across a
-  /// stiff stop two motions that are the same but for a delay differ in velocity by twice its value.
+  /// The largest size of the displacements relative to the first size, or `displaced` where that is larger; at least 1.
+  /// Velocities are left out: across a stiff stop two motions that are the same but for a delay differ in velocity by
+  /// twice its value.
   BUTEE_EXPORT double amplification() const;
 
   /// Growth like e^(rate t).

@@ -76,6 +76,14 @@ Trust judge(const TrustRuns& runs, double accuracy) {
   return trust;
 }
 
+double largest_difference(const Courses& a, const Courses& b) {
+  double largest = 0.0;
+  for (std::size_t probe = 0; probe < a.values.size(); ++probe)
+    for (std::size_t i = 0; i < std::min(a.values[probe].size(), b.values[probe].size()); ++i)
+      largest = std::max(largest, std::abs(a.values[probe][i] - b.values[probe][i]));
+  return largest;
+}
+
 Trust::Statistic bracket(const std::string& name, const std::vector<double>& values, bool is_count, double factor,
                          double floor) {
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());

@@ -63,6 +63,9 @@ struct TrustRuns {
 /// a method of order 1 to 2 understates an error. Without another method s = 10.
 BUTEE_EXPORT Trust judge(const TrustRuns& runs, double accuracy);
 
+/// The largest difference of two runs in any probe at any instant that both came to.
+BUTEE_EXPORT double largest_difference(const Courses& a, const Courses& b);
+
 /// Sets least and greatest of a statistic from its values in all runs, the judged one first. Counts take the range of
 /// the runs; other quantities get `factor` times that range to both sides, and not less than `floor`.
 BUTEE_EXPORT Trust::Statistic bracket(const std::string& name, const std::vector<double>& values, bool is_count,

@@ -278,7 +278,7 @@ ExtendedMotion integrate_extended(const ExtendedSystem& system, const std::vecto
   return Integration(system, times).run();
 }
 
-ExtendedGrowth grow_extended(const ExtendedSystem& system, double end_time) {
+ExtendedGrowth grow_extended(const ExtendedSystem& system, double end_time, Disturbed disturbed) {
   constexpr int kRows = 2000;
   constexpr Real kApart = 1e-14L;
   constexpr double kFar = 1e-4;
@@ -287,7 +287,10 @@ ExtendedGrowth grow_extended(const ExtendedSystem& system, double end_time) {
   const ExtendedMotion one = integrate_extended(system, times);
   const Real speed = one.peak[0] * std::sqrt((system.stiffness[0][0] + 1e-300L) / system.mass[0]);
   ExtendedSystem moved = system;
-  moved.velocity[0] += kApart * speed;
+  if (disturbed == Disturbed::velocity)
+    moved.velocity[0] += kApart * speed;
+  else
+    moved.displacement[0] += kApart * one.peak[0];
   const ExtendedMotion other = integrate_extended(moved, times);
   // The largest differences in tenths of the run, until they are no longer small.
   double largest = 0.0, first = 0.0, t_first = 0.0, t_last = 0.0, last = 0.0;

@@ -28,18 +28,20 @@ struct ExtendedSystem {
 /// bisection to the last bit. It shares nothing with the framework.
 struct ExtendedMotion {
   std::vector<std::vector<long double>> rows;  ///< displacements of each DOF at the times
-  std::vector<double> peak;               ///< largest |x| of each DOF, between rows too
-  double contact_force = 0.0;             ///< largest of any stop
+  std::vector<double> peak;                    ///< largest |x| of each DOF, between rows too
+  double contact_force = 0.0;                  ///< largest of any stop
   std::vector<long double> end_x, end_v;
 };
 
 ExtendedMotion integrate_extended(const ExtendedSystem& system, const std::vector<double>& times);
 
-/// Rate (1/s) of ln of the distance of two motions that begin 1e-14 apart in the velocity of DOF 0 (relative to the
-/// largest velocity of the first), until they are 1e-4 of the peak apart; and the factor by which they part up to then.
+/// Rate (1/s) of ln of the distance of two motions until they are 1e-4 of the peak apart; and the factor by which they
+/// part up to then.
 struct ExtendedGrowth {
   double rate, factor;
 };
-ExtendedGrowth grow_extended(const ExtendedSystem& system, double end_time);
+/// They begin 1e-14 of the peak apart in DOF 0, in its displacement or in what velocity makes of it without stops.
+enum class Disturbed { velocity, displacement };
+ExtendedGrowth grow_extended(const ExtendedSystem& system, double end_time, Disturbed disturbed = Disturbed::velocity);
 
 }  // namespace butee::test

@@ -79,7 +79,7 @@ record::Growth follow_disturbance(Session& session, const FollowedRun& run, doub
     simulation.set_end_time(run.state_times[next]);
     const time::RunReport& report = simulation.run([] { return interruption() == nullptr; });
     if (interruption() != nullptr) throw RunError("interrupted while finding out how far to trust the run");
-    if (!report.completed) return {{}, {}, {}, measure.omega()};
+    if (!report.completed) return {{}, {}, {}, 1.0, measure.omega()};
     x = simulation.state().x - run.x.col(i + 1);
     v = simulation.state().v - run.v.col(i + 1);
     now = std::max(measure.of(x, v), kLost * wanted);
