@@ -157,9 +157,13 @@ class Judgement {
     const double noise = by_other ? other_->noise : tolerance_of(session_, method_);
     const double size = std::clamp(kAboveNoise * noise, kSmallest, kLargest);
     record::Growth growth = follow_disturbance(by, run, size);
-    if (const double start = size * peak_of(run); start > 0.0)
-      growth.displaced = record::largest_difference(run.courses, follow_or_throw(by, start, {}).courses) /
-                         (start * largest_perturbation(run.size));
+    // To both sides: a start on the border between two sides of a stop moves on differently.
+    const double start = size * peak_of(run);
+    for (const double sign : {1.0, -1.0})
+      if (start > 0.0)
+        growth.displaced = std::max(
+            growth.displaced, record::largest_difference(run.courses, follow_or_throw(by, sign * start, {}).courses) /
+                                  (start * largest_perturbation(run.size)));
     return growth;
   }
 
