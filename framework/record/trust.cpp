@@ -109,7 +109,7 @@ std::string describe(const Trust& trust) {
                     (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
                     ", by " + to_short_text(trust.amplification) +
                     " in all: beyond its horizon no run tells the course of this scene; what does hold:"
-              : "\n  trust: small differences grow no more than " + to_short_text(trust.amplification) +
+              : "\n  trust: small differences grew at most " + to_short_text(trust.amplification) +
                     " times; what holds:";
   text += "\n";
   for (const Trust::Statistic& s : trust.statistics)
