@@ -140,8 +140,8 @@ class Judgement {
   }
 
   void run_again() {
-    other_ =
-        run_other_family(session_, method_, tolerance_of(session_, method_), std::max(kWork, kTimesTheRun * run_.work));
+    other_ = run_other_family(session_, method_, tolerance_of(session_, method_), run_.size,
+                              std::max(kWork, kTimesTheRun * run_.work));
     if (other_)
       again_ = follow_or_throw(other_->again, kRounding * peak_of(run_), {});
     else

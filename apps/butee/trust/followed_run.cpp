@@ -19,6 +19,8 @@ namespace butee::app::trust {
 namespace {
 
 constexpr double kSameInstant = 1e-9;
+/// What it takes to watch a stop over a step, in operations of a DOF.
+constexpr double kWatching = 100.0;
 /// Fewer rows than this would pass by what happens between them.
 constexpr double kFewestRows = 1000.0;
 /// States kept, and numbers in all of them.
@@ -165,7 +167,9 @@ FollowedRun follow(Session& session, double disturbance, double most, Wanted wan
   const auto work = [&] {
     const solve::Counters& counters = dynamics.counters();
     return static_cast<double>(counters.force_evaluations + counters.solves + counters.contact_evaluations) *
-           static_cast<double>(dynamics.size() + dynamics.stop_count());
+               static_cast<double>(dynamics.size() + dynamics.stop_count()) +
+           kWatching * static_cast<double>(assembly.simulation.report().steps) *
+               static_cast<double>(dynamics.stop_count());
   };
   const time::RunReport& report = assembly.simulation.run([&] { return interruption() == nullptr && work() < most; });
   if (interruption() != nullptr) throw RunError("interrupted while finding out how far to trust the run");

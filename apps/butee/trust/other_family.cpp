@@ -14,14 +14,18 @@ namespace {
 struct Candidate {
   const char* name;
   double tolerance;  ///< 0: exact
+  bool is_implicit = false;
 };
-constexpr Candidate kCandidates[] = {{"exact", 0.0},   {"exponential", 1e-9}, {"extrapolation8", 1e-10},
-                                     {"rodas4", 1e-8}, {"dopri5", 1e-9},      {"bathe_adaptive", 1e-6}};
+constexpr Candidate kCandidates[] = {{"exact", 0.0},         {"exponential", 1e-9}, {"extrapolation8", 1e-10},
+                                     {"rodas4", 1e-8, true}, {"dopri5", 1e-9},      {"bathe_adaptive", 1e-6, true}};
 /// The repetition: an order for exact, a tolerance looser by so much for others.
 constexpr std::int64_t kOtherOrder = 22;
 constexpr double kLooser = 3.0;
 /// A tolerance is this part of the judged run's at most.
 constexpr double kTighter = 0.03;
+/// Larger systems are left to implicit methods, with this part of the judged run's tolerance.
+constexpr Index kLarge = 1000;
+constexpr double kTighterOfLarge = 0.1, kUsual = 1e-4;
 /// What rounding leaves of a piece between two states, relative to the motion.
 constexpr double kRounding = 1e-13;
 
@@ -40,10 +44,14 @@ Session session_with(const Session& session, const Candidate& candidate, double 
 }  // namespace
 
 std::optional<OtherRun> run_other_family(const Session& session, const std::string& method, double tolerance,
-                                         double most) {
+                                         Index size, double most) {
   for (const Candidate& candidate : kCandidates) {
     if (method == candidate.name || session.catalogue.find(candidate.name) == nullptr) continue;
-    const double tight = tolerance > 0.0 ? std::min(candidate.tolerance, kTighter * tolerance) : candidate.tolerance;
+    const bool is_large = size > kLarge;
+    if (is_large && !candidate.is_implicit) continue;
+    const double tight = is_large          ? kTighterOfLarge * (tolerance > 0.0 ? tolerance : kUsual)
+                         : tolerance > 0.0 ? std::min(candidate.tolerance, kTighter * tolerance)
+                                           : candidate.tolerance;
     try {
       OtherRun other{candidate.name,
                      candidate.tolerance == 0.0,
