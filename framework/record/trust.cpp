@@ -104,13 +104,13 @@ std::string describe(const Trust& trust) {
   else
     text += "at most " + accuracy + " up to t = " + to_short_text(trust.horizon) + " s: up to there the run stands" +
             (trust.end_bound < kMeaningless ? "; to the end it is at most " + to_short_text(trust.end_bound) : "");
-  text += trust.chaotic
-              ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) + " t)" +
-                    (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
-                    ", by " + to_short_text(trust.amplification) +
-                    " in all: beyond its horizon no run tells the course of this scene; what does hold:"
-              : "\n  trust: small differences grew at most " + to_short_text(trust.amplification) +
-                    " times; what holds:";
+  text +=
+      trust.chaotic
+          ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) + " t)" +
+                (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
+                ", by " + to_short_text(trust.amplification) +
+                " in all: beyond its horizon no run tells the course of this scene; what does hold:"
+          : "\n  trust: small differences grew at most " + to_short_text(trust.amplification) + " times; what holds:";
   text += "\n";
   for (const Trust::Statistic& s : trust.statistics)
     text += "  trust: " + s.name + " = " + to_short_text(s.value) + ", between " + to_short_text(s.least) + " and " +
