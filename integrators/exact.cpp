@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "butee/config/diagnostics.hpp"
 #include "integrators/methods.hpp"
 #include "integrators/quintic.hpp"
 
@@ -15,10 +16,26 @@ using time::StepStatus;
 
 namespace {
 
+constexpr const char* kSeriesTolerance = "series_tolerance";
+/// Of a scene that other methods run as well.
+constexpr const char* kTolerance = "tolerance";
+
 /// So many changes of contact within one step are no motion of a structure.
 constexpr std::size_t kMostPieces = 20000;
 /// Lengths are shortened a thousandfold this often before a step is given up.
 constexpr int kMostTrials = 12;
+
+/// 1/omega of the stiffest DOF with its stops closed, s; 1 s where nothing has a stiffness.
+double natural_time(solve::Dynamics& dynamics) {
+  Vector stiffness = dynamics.system().stiffness.diagonal();
+  const solve::Contact& contact = dynamics.contact();
+  const Vector closed = contact.closed_stiffness();
+  for (Index i = 0; i < contact.size(); ++i)
+    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
+      if (dof >= 0) stiffness[dof] += closed[i];
+  const double square = stiffness.cwiseQuotient(dynamics.system().mass.diagonal()).maxCoeff();
+  return square > 0.0 && std::isfinite(square) ? 1.0 / std::sqrt(square) : 1.0;
+}
 
 }  // namespace
 
@@ -26,12 +43,25 @@ time::StepDecision Exact::Controller::decide(double, const StepReport& report) c
   return {true, report.error};
 }
 
-Exact::Exact(solve::Dynamics& dynamics, int order, double tolerance)
+Exact::Exact(solve::Dynamics& dynamics, int order, double series_tolerance)
     : Integrator(dynamics),
-      expander_(dynamics, order, tolerance),
+      expander_(dynamics, order, series_tolerance),
       branches_(dynamics.contact(), order),
       kinks_(dynamics.load_kinks()),
+      first_length_(natural_time(dynamics)),
       stops_(dynamics.stop_count()) {}
+
+void Exact::do_start(State& state) {
+  x_ = state.x;
+  v_ = state.v;
+  used_ = 0;
+  end_t_ = std::numeric_limits<double>::quiet_NaN();
+  place_branches();
+  first_step_ = first_length_;
+  if (!expand_piece(state.t, first_length_)) return;
+  const double reach = pieces_.front().reach * pieces_.front().length;
+  if (reach < std::numeric_limits<double>::max()) first_step_ = reach;
+}
 
 void Exact::place_branches() {
   dynamics().contact().displacement(x_, stops_);
@@ -165,15 +195,27 @@ time::IntegratorType exact_type() {
       .name = "exact",
       .aliases = {"taylor"},
       .summary = "Taylor series with every change of contact located; no truncation error above rounding",
-      .parameters = {config::integer("order", "the order of the series").at_least(4).at_most(60).or_else(30),
-                     config::number("tolerance", "1", "the size of the last terms of a series relative to the largest")
+      .parameters = {config::integer("order", "the order of the series")
+                         .at_least(4)
+                         .at_most(60)
+                         .or_else(std::int64_t{Exact::kOrder}),
+                     config::number(kSeriesTolerance, "1", "size of the last terms of a series relative to the largest")
                          .above(0)
                          .at_most(0.1)
-                         .or_else(1e-20)
-                         .sweep(1e-4, 1e-20)},
+                         .or_else(Exact::kSeriesTolerance)
+                         .sweep(1e-4, Exact::kSeriesTolerance),
+                     config::number(kTolerance, "1", "ignored: truncation stays below rounding").above(0).optional()},
+      .finds_first_step = true,
       .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-        return std::make_unique<Exact>(dynamics, static_cast<int>(p.integer("order")), p.number("tolerance"));
-      }};
+        return std::make_unique<Exact>(dynamics, static_cast<int>(p.integer("order")), p.number(kSeriesTolerance));
+      },
+      .check =
+          [](const config::Parameters& p, config::Diagnostics& diagnostics) {
+            if (p.has(kTolerance))
+              diagnostics.warning(
+                  p.key(kTolerance), p.value(kTolerance).at,
+                  "is ignored by exact, whose truncation stays below rounding; its own key is series_tolerance");
+          }};
 }
 
 }  // namespace butee::integrators

@@ -12,14 +12,18 @@ namespace butee::integrators {
 ///
 /// Between changes the stops are analytic functions of the motion: with a piecewise linear law they are open or closed
 /// springs, with a smooth one the step follows from the decay of the series, which a boundary layer near the path
-/// shortens. Truncation is kept below `tolerance`, by default far below rounding, so that no error of the method is
-/// left; of order `order` otherwise. A step takes `order` evaluations of M^-1 (F - C v - K x) and goes 2 to 3 over the
-/// highest frequency, so that stiff scenes cost in proportion to it. Checked in tests/models/exact_test.cpp against a
-/// solution in 80-bit arithmetic.
-/// Source of the recurrence: R. Barrio, Appl. Math. Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
+/// shortens. Truncation is kept below `series_tolerance`, by default far below rounding, so that no error of the method
+/// is left; of order `order` otherwise. A scene's `tolerance`, which is meant for an answer, has no say in it. A step
+/// takes `order` evaluations of M^-1 (F - C v - K x) and goes 2 to 3 over the highest frequency, so that stiff scenes
+/// cost in proportion to it. Checked in tests/models/exact_test.cpp against a solution in 80-bit arithmetic. Source of
+/// the recurrence: R. Barrio, Appl. Math. Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
 class Exact final : public time::Integrator {
  public:
-  Exact(solve::Dynamics& dynamics, int order, double tolerance);
+  static constexpr int kOrder = 30;
+  static constexpr double kSeriesTolerance = 1e-20;
+
+  /// `series_tolerance` is the size of the last terms of a series relative to the largest.
+  Exact(solve::Dynamics& dynamics, int order, double series_tolerance);
 
   bool minds_load_kinks() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
@@ -29,6 +33,8 @@ class Exact final : public time::Integrator {
   /// By the derivatives of the series, term by term.
   void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
                  time::Interpolated out) const override;
+  /// How far the series at the start reaches, s.
+  double first_step(const time::State&) const override { return first_step_; }
 
  private:
   /// Every step stands; the next goes as far as the last series reached.
@@ -37,6 +43,7 @@ class Exact final : public time::Integrator {
     time::StepDecision decide(double h, const time::StepReport& report) const override;
   };
 
+  void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                       time::Interpolated out) const override;
@@ -61,6 +68,7 @@ class Exact final : public time::Integrator {
   std::vector<double> knots_;
   Vector begin_x_, begin_v_;
   double begin_t_ = 0.0, end_t_ = -1.0;
+  double first_length_, first_step_ = 0.0;  ///< s
   Vector x_, v_, stops_;
 };
 

@@ -54,14 +54,14 @@ namespace {
 std::vector<Parameter> newton_parameters() {
   std::vector<Parameter> all = NewmarkParameters::declare();
   all.push_back(
-      number("residual_tolerance", "1", "eps_r, relative to the sum of the force norms").above(0).try_first(1e-9));
+      number("residual_tolerance", "1", "eps_r, relative to the sum of the force norms").above(0).or_else(1e-9));
   all.push_back(number("increment_tolerance", "1", "eps_delta, relative to the norm of the displacements")
                     .above(0)
-                    .try_first(1e-9));
+                    .or_else(1e-9));
   all.push_back(config::integer("max_iterations", "i_max, the most linear solves of a step")
                     .at_least(1)
                     .at_most(1000)
-                    .try_first(std::int64_t{20}));
+                    .or_else(std::int64_t{20}));
   all.push_back(config::text("on_newton_failure", "what happens where they do not suffice")
                     .one_of({"stop", "keep"})
                     .or_else("stop"));

@@ -90,6 +90,8 @@ class Comparison {
     if (!study_.end_times.empty())
       config::apply_override(document, "integrator.end_time=" + to_text(study_.end_times[scene]));
     Session session = read_session(document, plugin::Catalogue::with_plugins(arguments_.model.plugins));
+    for (const std::string& warning : session.warnings) log::warning(warning);
+    document = session.document;
     Question question = question_of(session, study_.quantities);
     const model::System system = assemble(session.model);
     const auto range = frequency_range(system, solve::StopState::closed);

@@ -160,7 +160,7 @@ Command add_run_command(CLI::App& program) {
       ->excludes(output)
       ->excludes(repeat);
   app->add_flag("--trust", arguments->trust,
-                "find out how far the answer can be trusted: runs the scene four more times");
+                "find out how far the answer can be trusted: runs the scene again, by another method too");
   app->add_flag("--plot", arguments->plot, "draw the results, as `butee plot` does, into plots in the result folder");
   app->add_option("--progress", arguments->progress, "a progress bar on a terminal; always: lines in a log too")
       ->check(CLI::IsMember({"auto", "always", "never"}));

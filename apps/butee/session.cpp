@@ -6,6 +6,7 @@
 namespace butee::app {
 
 Session read_session(config::Document document, plugin::Catalogue catalogue) {
+  const std::string set_aside = plugin::set_aside_keys(document, catalogue);
   config::Diagnostics diagnostics(document);
   plugin::Scene scene = plugin::read_scene(document, catalogue, diagnostics);
   const double end_time = scene.integrator ? scene.integrator->options.end_time : 1.0;
@@ -16,6 +17,7 @@ Session read_session(config::Document document, plugin::Catalogue catalogue) {
       check(scene.integrator->parameters, diagnostics);
   diagnostics.throw_if_any();
   std::vector<std::string> warnings = diagnostics.warnings();
+  if (!set_aside.empty()) warnings.insert(warnings.begin(), set_aside);
   return {std::move(document),          std::move(catalogue), std::move(scene.model),
           std::move(*scene.integrator), std::move(output),    std::move(warnings)};
 }

@@ -2,163 +2,199 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
+#include <optional>
 
-#include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
-#include <butee/record/impacts.hpp>
-#include <butee/record/peaks.hpp>
-#include <butee/record/probes.hpp>
 
-#include "assembly.hpp"
-#include "interruption.hpp"
+#include "perturb.hpp"
+#include "trust/disturbance.hpp"
+#include "trust/other_family.hpp"
 
 namespace butee::app {
 namespace {
 
-using record::Courses;
+using namespace trust;
 
-/// Relative to the peak: small enough to grow freely, far above rounding.
-constexpr double kPerturbation = 1e-9;
-constexpr double kSameInstant = 1e-9;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+/// Work that another family's run may take: this much, or this many times that of the run itself.
+constexpr double kWork = 2e9, kTimesTheRun = 30.0;
+/// Relative to the peak: a start that differs by rounding.
+constexpr double kRounding = 1e-16;
+/// Relative to the motion: disturbances are so many times the noise of a step, and so large at least and at most.
+constexpr double kAboveNoise = 1e4, kSmallest = 1e-8, kLargest = 1e-3;
+/// Relative to the peak: starts of further runs of a chaotic scene.
+constexpr double kElsewhere = 1e-6;
+/// By how much of the range of the runs a number may lie beside the judged run's: 1.5 as rows (record::judge), where
+/// they agree; where they do not, five runs are a sample of which a 99 % prediction interval has 4.6 sqrt(6/5) standard
+/// deviations to each side, 2.2 of its expected range.
+constexpr double kAgreeing = 1.5, kScattering = 2.2;
+constexpr double kFinestTolerance = 1e-12;
+constexpr Wanted kNumbers = {.states = false, .numbers = true, .impacts = true};
 
-/// What one of the runs gives.
-struct Repetition {
-  Courses courses;
-  std::vector<record::Trust::Statistic> statistics;  ///< value alone
-};
-
-std::vector<record::ProbeRequest> displacement_probes(const Session& session) {
-  std::vector<record::ProbeRequest> probes;
-  for (const record::ProbeRequest& probe : session.output.probes) probes.push_back({probe.label, probe.node, {}});
-  for (auto& probe : probes) probe.quantities = {record::Quantity::u};
-  return probes;
-}
-
-/// Follows the displacements of the probes at the output times.
-class Follower final : public time::Observer {
- public:
-  Follower(const Session& session, solve::Dynamics& dynamics)
-      : probes_(displacement_probes(session), dynamics), row_(probes_.columns().size()) {
-    courses.values.resize(row_.size());
-    const double end = session.integrator.options.end_time, interval = session.output.interval.value_or(end / 1000.0);
-    for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1.0 - kSameInstant); ++i)
-      courses.times.push_back(static_cast<double>(i) * interval);
-    courses.times.push_back(end);
-  }
-
-  void start(const time::State& state) override {
-    probes_.evaluate(state, row_);
-    take();
-  }
-  void step(const time::AcceptedStep& step) override {
-    while (next_ < courses.times.size() && courses.times[next_] <= step.to.t) {
-      probes_.evaluate(step, courses.times[next_], row_);
-      take();
-    }
-  }
-
-  Courses courses;
-
- private:
-  void take() {
-    for (std::size_t i = 0; i < row_.size(); ++i) courses.values[i].push_back(row_[i]);
-    ++next_;
-  }
-
-  record::Probes probes_;
-  std::vector<double> row_;
-  std::size_t next_ = 0;
-};
-
-Repetition repeat(Session& session, double perturbation) {
-  Assembly assembly(session, perturbation);
-  solve::Dynamics& dynamics = assembly.dynamics;
-  time::Simulation& simulation = assembly.simulation;
-  Follower follower(session, dynamics);
-  simulation.add(follower);
-  const auto probes = displacement_probes(session);
-  record::Peaks peaks(probes, dynamics);
-  simulation.add(peaks);
-  record::ImpactRecorder impacts(dynamics);
-  if (dynamics.stop_count() > 0) simulation.add(impacts);
-  const time::RunReport& report = simulation.run([] { return interruption() == nullptr; });
-  if (interruption() != nullptr) throw RunError("interrupted while finding out how far to trust the run");
-  if (!report.completed)
-    throw RunError("a run that was to tell how far to trust the first one failed: " + report.message);
-  Repetition result{std::move(follower.courses), {}};
-  const std::map<std::string, double> largest = peaks.largest();
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    double squares = 0.0;
-    for (const double u : result.courses.values[i]) squares += u * u;
-    const double rms = std::sqrt(squares / static_cast<double>(result.courses.times.size()));
-    result.statistics.push_back({"rms of " + probes[i].label + ".u", rms, 0, 0});
-    result.statistics.push_back({"peak of " + probes[i].label + ".u", largest.at(probes[i].label + ".u"), 0, 0});
-  }
-  if (dynamics.stop_count() > 0) {
-    const std::vector<record::Impact> all = impacts.impacts();
-    double force = 0.0;
-    for (const record::Impact& impact : all) force = std::max(force, impact.peak_force);
-    result.statistics.push_back({"largest contact force", force, 0, 0});
-    result.statistics.push_back({"impacts", static_cast<double>(all.size()), 0, 0});
-  }
-  return result;
-}
-
-/// The scene with half the step, a tenth of the tolerance, or what the method has instead.
-Session tighten(const Session& session, std::string& what) {
-  config::Document document = session.document;
+/// The scene with half the step, a tenth of the tolerance, or what the method has instead; nothing where it has
+/// nothing.
+std::optional<Session> tighten(const Session& session, std::string& what) {
   plugin::Catalogue catalogue = session.catalogue;
   const time::IntegratorType& type = catalogue.load(session.integrator.name);
-  config::Table& integrator = *(*document.root.table())["integrator"].table();
-  const auto set = [&](const std::string& key, double before, double after) {
-    what = key + " " + to_short_text(before) + " -> " + to_short_text(after);
-    integrator[key] = config::Value(after);
-  };
   const double step = session.integrator.options.time_step;
-  if (type.fixed_step) {
-    set("time_step", step, 0.5 * step);
-  } else {
-    const auto swept = std::find_if(type.parameters.begin(), type.parameters.end(),
-                                    [](const config::Parameter& parameter) { return parameter.swept.has_value(); });
-    if (swept != type.parameters.end()) {
-      const double before = session.integrator.parameters.number(swept->name);
-      set(swept->name, before, 0.1 * before);
-    } else if (step > 0.0) {
-      set("time_step", step, 0.5 * step);
-    } else {
-      throw InputError("integrator.type: " + type.name + " has nothing that could be tightened; give it a time_step");
-    }
+  const auto swept = std::find_if(type.parameters.begin(), type.parameters.end(),
+                                  [](const config::Parameter& parameter) { return parameter.swept.has_value(); });
+  std::string key = "time_step";
+  double before = step, after = 0.5 * step;
+  if (!type.fixed_step && swept != type.parameters.end()) {
+    key = swept->name;
+    before = session.integrator.parameters.number(key);
+    after = 0.1 * before;
+    if (after < std::min(kFinestTolerance, swept->swept->second)) return std::nullopt;
+  } else if (!(step > 0.0)) {
+    return std::nullopt;
   }
-  return read_session(std::move(document), std::move(catalogue));
+  what = key + " " + to_short_text(before) + " -> " + to_short_text(after);
+  config::Document document = session.document;
+  (*(*document.root.table())["integrator"].table())[key] = config::Value(after);
+  try {
+    return read_session(std::move(document), std::move(catalogue));
+  } catch (const InputError&) {
+    return std::nullopt;  // it is as tight as it can be
+  }
 }
+
+/// The method that integrates: what `auto` chose, or the scene's.
+std::string method_of(const Session& session, const FollowedRun& run) {
+  return run.choice.empty() ? session.integrator.name : run.choice.substr(0, run.choice.find_first_of(" :"));
+}
+
+double tolerance_of(const Session& session, const std::string& method) {
+  const config::Parameters& parameters = session.integrator.parameters;
+  return session.integrator.options.limits.keeps_tolerance && method != "exact" && parameters.has("tolerance")
+             ? parameters.number("tolerance")
+             : 0.0;
+}
+
+double peak_of(const FollowedRun& run) {
+  double peak = 0.0;
+  for (const auto& course : run.courses.values)
+    for (const double value : course) peak = std::max(peak, std::abs(value));
+  return peak;
+}
+
+/// Of the pattern that disturbs starts, relative to its size.
+double largest_perturbation(Index size) {
+  Vector x = Vector::Zero(size);
+  perturb(x, 1.0);
+  return x.lpNorm<Eigen::Infinity>();
+}
+
+FollowedRun follow_or_throw(Session& session, double disturbance, Wanted wanted) {
+  FollowedRun run = follow(session, disturbance, kInfinite, wanted);
+  if (!run.completed) throw RunError("a run that was to tell how far to trust the first one failed: " + run.message);
+  return run;
+}
+
+/// The runs of a scene, one after the other, and what they come to.
+class Judgement {
+ public:
+  explicit Judgement(Session& session)
+      : session_(session),
+        run_(follow_or_throw(session, 0.0, {true, true, session.output.impacts})),
+        method_(method_of(session, run_)) {}
+
+  record::Trust pronounce() {
+    run_again();
+    add_the_run();
+    record::TrustRuns runs;
+    runs.run = run_.courses;
+    std::string tightened;
+    if (auto tight = tighten(session_, tightened)) {
+      const FollowedRun run = follow_or_throw(*tight, 0.0, kNumbers);
+      runs.tightened = run.courses;
+      add(run);
+    } else {
+      tightened.clear();
+    }
+    if (other_) {
+      runs.other = other_->run.courses;
+      runs.is_exact = other_->is_exact;
+      add(other_->run);
+      runs.again = again_.courses;
+    }
+    runs.growth = growth();
+    record::Trust trust = record::judge(runs, session_.output.trust_accuracy);
+    trust.tightened = tightened;
+    trust.other = other_ ? other_->method : "";
+    add_statistics(trust);
+    return trust;
+  }
+
+ private:
+  /// The run itself is followed as it was: some methods take other steps where impacts are looked for.
+  void add_the_run() {
+    std::optional<FollowedRun> counted;
+    if (!session_.output.impacts) counted = follow_or_throw(session_, 0.0, kNumbers);
+    if (counted && counted->numbers.size() > run_.numbers.size()) run_.numbers.push_back(counted->numbers.back());
+    add(run_);
+    if (counted) add(*counted);
+  }
+
+  void run_again() {
+    other_ = run_other_family(session_, method_, tolerance_of(session_, method_), run_.size,
+                              std::max(kWork, kTimesTheRun * run_.work));
+    if (other_)
+      again_ = follow_or_throw(other_->again, kRounding * peak_of(run_), {});
+    else
+      log::warning(
+          "no method of another family takes this scene within reason; errors that are the method's own stay "
+          "unseen by --trust");
+  }
+
+  record::Growth growth() {
+    const bool by_other = other_ && method_ != "exact";
+    Session& by = by_other ? other_->session : session_;
+    const FollowedRun& run = by_other ? other_->run : run_;
+    const double noise = by_other ? other_->noise : tolerance_of(session_, method_);
+    const double size = std::clamp(kAboveNoise * noise, kSmallest, kLargest);
+    record::Growth growth = follow_disturbance(by, run, size);
+    // To both sides: a start on the border between two sides of a stop moves on differently.
+    const double start = size * peak_of(run);
+    for (const double sign : {1.0, -1.0})
+      if (start > 0.0)
+        growth.displaced = std::max(
+            growth.displaced, record::largest_difference(run.courses, follow_or_throw(by, sign * start, {}).courses) /
+                                  (start * largest_perturbation(run.size)));
+    return growth;
+  }
+
+  void add(const FollowedRun& run) {
+    values_.resize(run.numbers.size());
+    for (std::size_t i = 0; i < run.numbers.size(); ++i) values_[i].push_back(run.numbers[i].value);
+  }
+
+  void add_statistics(record::Trust& trust) {
+    if (!trust.to_the_end)
+      for (const double sign : {1.0, -1.0}) add(follow_or_throw(session_, sign * kElsewhere * peak_of(run_), kNumbers));
+    const double factor = trust.to_the_end ? kAgreeing : kScattering;
+    const double rounding = 1e-14 * std::min(1e6, trust.amplification);
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      trust.statistics.push_back(record::bracket(run_.numbers[i].name, values_[i], run_.numbers[i].is_count, factor,
+                                                 rounding * std::abs(values_[i].front())));
+  }
+
+  Session& session_;
+  FollowedRun run_;
+  std::string method_;
+  std::optional<OtherRun> other_;
+  FollowedRun again_;
+  std::vector<std::vector<double>> values_;  ///< of every number, by run
+};
 
 }  // namespace
 
 record::Trust find_trust(Session& session) {
-  log::info("running the scene again, four times, to see how far to trust it");
-  std::string what;
-  Session tightened = tighten(session, what);
-  const Repetition first = repeat(session, 0.0), second = repeat(tightened, 0.0);
-  double peak = 0.0;
-  for (const auto& course : first.courses.values)
-    for (const double value : course) peak = std::max(peak, std::abs(value));
-  const double size = kPerturbation * (peak > 0.0 ? peak : 1.0);
-  const Repetition third = repeat(session, size), fourth = repeat(session, -size);
-  record::Trust trust =
-      judge(first.courses, second.courses, {third.courses, fourth.courses}, size, session.output.trust_accuracy);
-  trust.tightened = what;
-  for (std::size_t i = 0; i < first.statistics.size(); ++i) {
-    record::Trust::Statistic statistic = first.statistics[i];
-    const auto [least, greatest] = std::minmax(
-        {statistic.value, second.statistics[i].value, third.statistics[i].value, fourth.statistics[i].value});
-    statistic.least = least;
-    statistic.greatest = greatest;
-    trust.statistics.push_back(std::move(statistic));
-  }
-  return trust;
+  log::info("running the scene again, some times, to see how far to trust it");
+  return Judgement(session).pronounce();
 }
 
 }  // namespace butee::app

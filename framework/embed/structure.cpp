@@ -9,6 +9,7 @@
 #include "butee/config/toml.hpp"
 #include "butee/core/bytes.hpp"
 #include "butee/core/error.hpp"
+#include "butee/core/log.hpp"
 #include "butee/core/text.hpp"
 #include "butee/plugin/scene.hpp"
 #include "butee/record/element_choice.hpp"
@@ -119,6 +120,7 @@ Structure Structure::from_document(config::Document document, const StructureOpt
   const std::string identity = config::write_toml(*document.root.table()) + join(options.forced, "\n");
   parts->origin = checksum(std::as_bytes(std::span(identity)));
   parts->catalogue = plugin::Catalogue::with_plugins(options.plugins);
+  if (const std::string line = plugin::set_aside_keys(document, parts->catalogue); !line.empty()) log::warning(line);
   config::Diagnostics diagnostics(document);
   parts->scene = plugin::read_scene(document, parts->catalogue, diagnostics);
   diagnostics.throw_if_any();

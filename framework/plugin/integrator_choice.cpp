@@ -171,7 +171,36 @@ class ChoiceReader {
   std::map<const IntegratorEntry*, const Value*> method_tables_;
 };
 
+/// Overrides are the sources behind the file.
+bool is_override(const Value& value) {
+  return value.at.source > 0;
+}
+
 }  // namespace
+
+std::string set_aside_keys(config::Document& document, const Catalogue& catalogue) {
+  Table* root = document.root.table();
+  Value* integrator = root != nullptr ? root->find("integrator") : nullptr;
+  Table* table = integrator != nullptr ? integrator->table() : nullptr;
+  const Value* type = table != nullptr ? table->find("type") : nullptr;
+  if (type == nullptr || !is_override(*type) || type->text() == nullptr) return "";
+  const IntegratorEntry* chosen = catalogue.find(*type->text());
+  if (chosen == nullptr) return "";
+  const auto own = names_of(parameters_of(*chosen));
+  std::vector<std::string> aside;
+  for (const auto& [key, value] : table->entries)
+    if (!is_override(value) && std::find(own.begin(), own.end(), key) == own.end() &&
+        !owners_of(key, catalogue).empty())
+      aside.push_back(key);
+  if (aside.empty()) return "";
+  const std::string line = describe(document, type->at) + ": the file's " + join(aside) +
+                           (aside.size() == 1 ? " is" : " are") + " set aside, which " + chosen->declaration.name +
+                           " does not have";
+  std::erase_if(table->entries, [&](const Table::Entry& entry) {
+    return std::find(aside.begin(), aside.end(), entry.first) != aside.end();
+  });
+  return line;
+}
 
 std::optional<IntegratorChoice> read_integrator(const Value& root, const Catalogue& catalogue,
                                                 Diagnostics& diagnostics) {

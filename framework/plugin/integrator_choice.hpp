@@ -20,4 +20,9 @@ struct IntegratorChoice {
 BUTEE_EXPORT std::optional<IntegratorChoice> read_integrator(const config::Value& root, const Catalogue& catalogue,
                                                              config::Diagnostics& diagnostics);
 
+/// Where an override (`--set integrator.type=NAME`) chose the method: takes out of [integrator] the file's direct keys
+/// that belong to other methods alone, and says so in one line. Other keys, and overrides, stay for read_integrator()
+/// to judge. Empty where there was nothing to do.
+BUTEE_EXPORT std::string set_aside_keys(config::Document& document, const Catalogue& catalogue);
+
 }  // namespace butee::plugin

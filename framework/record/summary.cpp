@@ -19,10 +19,14 @@ Json to_json(const Trust& trust) {
   json["horizon"] = number(trust.horizon);
   json["to_the_end"] = trust.to_the_end;
   json["difference"] = number(trust.difference);
+  json["bound"] = number(trust.bound);
+  json["end_bound"] = number(trust.end_bound);
   json["growth_rate"] = number(trust.growth_rate);
+  json["growth_until"] = number(trust.growth_until);
   json["amplification"] = number(trust.amplification);
   json["chaotic"] = trust.chaotic;
   json["tightened"] = trust.tightened;
+  json["other_method"] = trust.other;
   json["statistics"] = Json::object();
   for (const Trust::Statistic& s : trust.statistics)
     json["statistics"][s.name] = {

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "butee/core/text.hpp"
 
 namespace butee::record {
 namespace {
 
-/// Differences beyond this fraction of the peak no longer grow freely.
-constexpr double kSaturated = 3e-2;
-/// Growth by less than this before the end is not called chaos.
-constexpr double kChaoticGrowth = 1e4;
+constexpr double kOfExact = 1.5, kOfAnother = 3.0, kOfNone = 10.0, kOfNoise = 3.0;
+/// A bound from here on says nothing.
+constexpr double kMeaningless = 1.0;
+constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
 
 double peak_of(const Courses& courses) {
   double peak = 0.0;
@@ -20,85 +21,100 @@ double peak_of(const Courses& courses) {
   return peak;
 }
 
-/// The largest difference over the probes at instant i.
+/// The largest difference over the probes at instant i; infinite where one of the runs did not come so far.
 double difference_at(const Courses& a, const Courses& b, std::size_t i) {
+  if (a.times.empty() || b.times.empty()) return 0.0;
   double largest = 0.0;
-  for (std::size_t probe = 0; probe < a.values.size(); ++probe)
-    largest = std::max(largest, std::abs(a.values[probe][i] - b.values[probe][i]));
+  for (std::size_t probe = 0; probe < a.values.size(); ++probe) {
+    if (i >= a.values[probe].size() || i >= b.values[probe].size()) return std::numeric_limits<double>::infinity();
+    const double difference = std::abs(a.values[probe][i] - b.values[probe][i]);
+    if (std::isnan(difference)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, difference);
+  }
   return largest;
 }
 
-std::size_t common_size(const Courses& a, const Courses& b) {
-  std::size_t size = a.times.size();
-  for (const Courses* courses : {&a, &b})
-    for (const auto& course : courses->values) size = std::min(size, course.size());
-  return size;
-}
-
-void find_horizon(const Courses& run, const Courses& tightened, double peak, Trust& trust) {
-  const std::size_t size = common_size(run, tightened);
-  std::size_t i = 0;
-  for (; i < size; ++i) {
-    const double difference = difference_at(run, tightened, i);
-    if (!(difference <= trust.accuracy * peak)) break;
-    trust.difference = std::max(trust.difference, peak > 0.0 ? difference / peak : 0.0);
-  }
-  trust.to_the_end = i == run.times.size();
-  trust.horizon = i > 0 ? run.times[i - 1] : 0.0;
-}
-
-/// The slope of the straight line through ln(difference) until it saturates, 1/s. The envelope is taken, the largest
-/// difference so far, since a difference passes through zero wherever two motions cross.
-double fit_growth(const Courses& run, const Courses& other, double peak) {
-  double sum = 0.0, t_sum = 0.0, y_sum = 0.0, tt = 0.0, ty = 0.0, envelope = 0.0;
-  const std::size_t size = common_size(run, other);
-  for (std::size_t i = 1; i < size; ++i) {
-    envelope = std::max(envelope, difference_at(run, other, i));
-    if (envelope > kSaturated * peak) break;
-    if (!(envelope > 0.0)) continue;
-    const double t = run.times[i], y = std::log(envelope);
-    sum += 1.0;
-    t_sum += t;
-    y_sum += y;
-    tt += t * t;
-    ty += t * y;
-  }
-  const double spread = sum * tt - t_sum * t_sum;
-  if (sum < 3.0 || !(spread > 0.0)) return 0.0;
-  return (sum * ty - t_sum * y_sum) / spread;
+double factor_of(const TrustRuns& runs) {
+  if (runs.other.times.empty()) return kOfNone;
+  return runs.is_exact ? kOfExact : kOfAnother;
 }
 
 }  // namespace
 
-Trust judge(const Courses& run, const Courses& tightened, const std::array<Courses, 2>& perturbed, double perturbation,
-            double accuracy) {
+Trust judge(const TrustRuns& runs, double accuracy) {
   Trust trust;
   trust.accuracy = accuracy;
-  const double peak = peak_of(run);
-  find_horizon(run, tightened, peak, trust);
-  const auto& [one, other] = perturbed;
-  trust.growth_rate = fit_growth(one, other, peak);
-  for (std::size_t i = 0; i < common_size(one, other); ++i)
-    trust.amplification = std::max(trust.amplification, difference_at(one, other, i) / (2.0 * perturbation));
-  trust.chaotic = trust.growth_rate * run.times.back() > std::log(kChaoticGrowth);
+  const std::vector<double>& times = runs.run.times;
+  trust.end = times.empty() ? 0.0 : times.back();
+  const double peak = peak_of(runs.run), factor = factor_of(runs);
+  const Growth& growth = runs.growth;
+  double difference = 0.0, noise = 0.0, log_growth = 0.0;
+  std::size_t looked = 0;
+  trust.to_the_end = true;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    difference =
+        std::max({difference, difference_at(runs.run, runs.tightened, i), difference_at(runs.run, runs.other, i)});
+    noise = std::max(noise, difference_at(runs.other, runs.again, i));
+    if (looked < growth.times.size() && growth.times[looked] <= times[i]) {
+      log_growth = growth.log_between(times[i]);
+      while (looked < growth.times.size() && growth.times[looked] <= times[i]) ++looked;
+    }
+    const double rounding = kRoundings * (1.0 + growth.omega * times[i]) * std::exp(std::min(log_growth, 700.0)) * peak;
+    const double bound = factor * difference + kOfNoise * std::max(noise, rounding);
+    trust.end_bound = peak > 0.0 ? bound / peak : 0.0;
+    trust.to_the_end = trust.to_the_end && bound <= accuracy * peak;
+    if (!trust.to_the_end) continue;
+    trust.difference = peak > 0.0 ? difference / peak : 0.0;
+    trust.bound = trust.end_bound;
+    trust.horizon = times[i];
+  }
+  const auto [rate, until] = growth.exponential();
+  trust.growth_rate = rate;
+  trust.growth_until = until;
+  trust.chaotic = trust.growth_rate > 0.0;
+  trust.amplification = growth.amplification();
   return trust;
 }
 
+double largest_difference(const Courses& a, const Courses& b) {
+  double largest = 0.0;
+  for (std::size_t probe = 0; probe < a.values.size(); ++probe)
+    for (std::size_t i = 0; i < std::min(a.values[probe].size(), b.values[probe].size()); ++i)
+      largest = std::max(largest, std::abs(a.values[probe][i] - b.values[probe][i]));
+  return largest;
+}
+
+Trust::Statistic bracket(const std::string& name, const std::vector<double>& values, bool is_count, double factor,
+                         double floor) {
+  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  const double value = values.front();
+  if (is_count) return {name, value, *least, *greatest, true};
+  const double margin = std::max(factor * (*greatest - *least), floor);
+  return {name, value, std::max(0.0, value - margin), value + margin, false};
+}
+
 std::string describe(const Trust& trust) {
-  std::string text = "  trust: with " + trust.tightened + " the probes ";
+  std::vector<std::string> beside;
+  if (!trust.other.empty()) beside.push_back("a run by " + trust.other);
+  if (!trust.tightened.empty()) beside.push_back("one with " + trust.tightened);
+  std::string text = "  trust: beside " + join(beside, " and ") + ", the error of the probes is ";
   const std::string accuracy = to_short_text(trust.accuracy) + " of the peak";
   if (trust.to_the_end)
-    text += "stay within " + to_short_text(trust.difference) + " of the peak to the end: the run stands to " + accuracy;
+    text += "at most " + to_short_text(trust.bound) + " of the peak to the end: the run stands to " + accuracy;
   else
-    text += "leave " + accuracy + " after t = " + to_short_text(trust.horizon) + " s: up to there the run stands";
-  text += trust.chaotic ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) +
-                              " t): beyond its horizon no run tells the course of this scene; what does hold:"
-                        : "\n  trust: small differences grow no more than " + to_short_text(trust.amplification) +
-                              " times; what differs between the runs:";
+    text += "at most " + accuracy + " up to t = " + to_short_text(trust.horizon) + " s: up to there the run stands" +
+            (trust.end_bound < kMeaningless ? "; to the end it is at most " + to_short_text(trust.end_bound) : "");
+  text +=
+      trust.chaotic
+          ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) + " t)" +
+                (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
+                ", by " + to_short_text(trust.amplification) +
+                " in all: beyond its horizon no run tells the course of this scene; what does hold:"
+          : "\n  trust: small differences grew at most " + to_short_text(trust.amplification) + " times; what holds:";
   text += "\n";
   for (const Trust::Statistic& s : trust.statistics)
     text += "  trust: " + s.name + " = " + to_short_text(s.value) + ", between " + to_short_text(s.least) + " and " +
-            to_short_text(s.greatest) + " in all runs\n";
+            to_short_text(s.greatest) + (s.is_count ? " in all runs\n" : "\n");
   return text;
 }
 

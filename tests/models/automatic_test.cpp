@@ -1,4 +1,5 @@
 // What a scene gets that names no method.
+#include <butee/core/text.hpp>
 #include <gtest/gtest.h>
 
 #include "support/program.hpp"
@@ -36,6 +37,38 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
   EXPECT_EQ(choice(beam(400, kStops + weight)).rfind("rodas4 with tolerance 0.0001: 800 DOFs", 0), 0U);
   EXPECT_EQ(choice(beam(6, "", "end_time = 0.05\ntolerance = 1e-3\n")).rfind("exponential with tolerance 0.001", 0),
             0U);
+}
+
+/// One mass between stops, as problem SDND121 of Code_Aster's suite.
+std::string oscillator(const std::string& tolerance, double stop = 1e10, const std::string& damping = "0.0",
+                       const std::string& more = "") {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 156.0\n[[element]]\ntype = "
+         "\"spring\"\nnode = \"m\"\nstiffness = 2e6\ndamping = " +
+         damping +
+         "\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 1e-3\nlaw = \"linear\"\nstiffness = " + to_text(stop) +
+         "\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 3000.0\nangular_frequency = "
+         "31.4159265358979\nphase = -1.5707963267948966\n" +
+         more + "[integrator]\nend_time = 0.4\ntolerance = " + tolerance + "\n";
+}
+
+TEST(Automatic, TakesExactForStiffStopsOfOneDof) {
+  const auto choice = [](const std::string& scene) { return SceneRun(scene).integrator().choice(); };
+  EXPECT_EQ(choice(oscillator("1e-6")).rfind("exact: one DOF", 0), 0U);
+  EXPECT_EQ(choice(oscillator("1e-4", 1e12)).rfind("exact: one DOF", 0), 0U);
+  EXPECT_EQ(choice(oscillator("1e-4")).rfind("exponential", 0), 0U);       // 1.9 ms beside 2.1 ms to 4 s
+  EXPECT_EQ(choice(oscillator("1e-6", 1e7)).rfind("exponential", 0), 0U);  // blunt stops
+  // It comes to rest on its stop, where every turn of the closed stop costs exact a series.
+  EXPECT_EQ(choice(oscillator("1e-6", 1e10, "1e4")).rfind("exponential", 0), 0U);
+  // A load that turns faster than the spring by far.
+  EXPECT_EQ(choice(oscillator("1e-6", 1e10, "0.0",
+                              "[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 3000.0\n"
+                              "angular_frequency = 1e4\n"))
+                .rfind("exponential", 0),
+            0U);
+  SceneRun chosen(oscillator("1e-6")), named(oscillator("1e-6") + "type = \"exact\"\n");
+  ASSERT_TRUE(chosen.run().completed);
+  ASSERT_TRUE(named.run().completed);
+  EXPECT_TRUE(chosen.simulation().state().x == named.simulation().state().x);
 }
 
 TEST(Automatic, IsTheMethodThatItTook) {

@@ -100,10 +100,10 @@ A study says more precisely what is compared:
 }
 
 std::string trust_text(const plugin::Catalogue&) {
-  return R"(`butee run --trust`, or [output] trust = true, runs the scene four more times: as it is, with half the step or a tenth of the
-tolerance, and twice from starts that differ by 1e-9 of the peak. It says up to which time the probes stay within
-trust_accuracy (1 % of the peak), how fast small differences grow, whether that is chaos, and on what rms values, peaks,
-forces and impacts the runs agree. summary.json holds the same under `trust`.
+  return R"(`butee run --trust`, or [output] trust = true, runs the scene again: as it is, with half the step or a tenth of the tolerance,
+by a method of another family (`exact` where it can), and from disturbed states. It says by how much the probes can be wrong,
+up to which time that is within trust_accuracy (1 % of the peak), how far small differences grow, whether that is chaos, and
+between which bounds rms values, peaks and forces lie. summary.json holds the same under `trust`.
 
 Motion against stops is often chaotic: differences grow like e^(20 t) in one of the paper's scenes, so that no method holds its
 course for long, while peaks and rms values may still be right.

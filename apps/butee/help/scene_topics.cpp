@@ -124,6 +124,8 @@ std::string integrators_text(const plugin::Catalogue& catalogue) {
   time_step   s; the first step of a method that chooses its steps itself, which then may be absent
   end_time    s
   and the parameters of the method (butee plugins NAME). [integrator.NAME] holds those used only with that method.
+  A key directly in [integrator] that the method lacks is an error; where --set integrator.type chose the method, it is set aside
+  with one line.
 
 )";
   std::size_t width = 0;

@@ -1,0 +1,186 @@
+#include "followed_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
+#include <butee/core/text.hpp>
+#include <butee/record/impacts.hpp>
+#include <butee/record/probes.hpp>
+
+#include "../assembly.hpp"
+#include "../interruption.hpp"
+#include "turning_points.hpp"
+
+namespace butee::app::trust {
+namespace {
+
+constexpr double kSameInstant = 1e-9;
+/// What it takes to watch a stop over a step, in operations of a DOF.
+constexpr double kWatching = 100.0;
+/// Fewer rows than this would pass by what happens between them.
+constexpr double kFewestRows = 1000.0;
+/// States kept, and numbers in all of them.
+constexpr double kMostStates = 1000.0, kFewestStates = 100.0, kMostNumbers = 1e7;
+
+std::vector<record::ProbeRequest> displacement_probes(const Session& session) {
+  std::vector<record::ProbeRequest> probes;
+  for (const record::ProbeRequest& probe : session.output.probes)
+    probes.push_back({probe.label, probe.node, {record::Quantity::u}});
+  return probes;
+}
+
+/// Takes the probes at the compared times, and whole states.
+class Follower final : public time::Observer {
+ public:
+  Follower(const Session& session, solve::Dynamics& dynamics, FollowedRun& to, bool with_states)
+      : probes_(displacement_probes(session), dynamics), to_(to), row_(probes_.columns().size()) {
+    to_.courses.values.resize(row_.size());
+    to_.courses.times = compared_times(session);
+    if (!with_states) return;
+    to_.state_times = state_times(session, dynamics.size());
+    to_.x.resize(dynamics.size(), static_cast<Index>(to_.state_times.size()));
+    to_.v.resizeLike(to_.x);
+    dofs_.resize(static_cast<std::size_t>(dynamics.size()));
+    std::iota(dofs_.begin(), dofs_.end(), Index{0});
+  }
+
+  void start(const time::State& state) override {
+    probes_.evaluate(state, row_);
+    take_row();
+    if (to_.state_times.empty()) return;
+    to_.x.col(0) = state.x;
+    to_.v.col(0) = state.v;
+    next_state_ = 1;
+  }
+
+  void step(const time::AcceptedStep& step) override {
+    const std::vector<double>& times = to_.courses.times;
+    while (next_row_ < times.size() && times[next_row_] <= step.to.t) {
+      probes_.evaluate(step, times[next_row_], row_);
+      take_row();
+    }
+    while (next_state_ < to_.state_times.size() && to_.state_times[next_state_] <= step.to.t) {
+      const auto column = static_cast<Index>(next_state_);
+      const auto span = [&](Eigen::MatrixXd& matrix) {
+        return std::span<double>(matrix.col(column).data(), dofs_.size());
+      };
+      step.integrator.interpolate(step.from, step.to, to_.state_times[next_state_], dofs_,
+                                  {span(to_.x), span(to_.v), {}});
+      ++next_state_;
+    }
+  }
+
+ private:
+  void take_row() {
+    for (std::size_t i = 0; i < row_.size(); ++i) to_.courses.values[i].push_back(row_[i]);
+    ++next_row_;
+  }
+
+  record::Probes probes_;
+  FollowedRun& to_;
+  std::vector<double> row_;
+  std::vector<Index> dofs_;
+  std::size_t next_row_ = 0, next_state_ = 0;
+};
+
+/// The displacements of the probes, then those of the stops.
+std::vector<TurningPoints::Path> paths_of(const Session& session, solve::Dynamics& dynamics) {
+  std::vector<TurningPoints::Path> paths;
+  const auto& table = dynamics.system().dofs;
+  for (const record::ProbeRequest& probe : session.output.probes)
+    paths.push_back({table.index({probe.node, record::kind_of(record::Quantity::u)}), -1});
+  const solve::Contact& contact = dynamics.contact();
+  for (Index i = 0; i < contact.size(); ++i) paths.push_back({contact.dof_a(i), contact.dof_b(i)});
+  return paths;
+}
+
+/// An upper estimate of the highest frequency with all stops closed, from the largest k/m of a DOF, rad/s.
+double highest_frequency(solve::Dynamics& dynamics) {
+  Vector stiffness = dynamics.system().stiffness.diagonal();
+  const solve::Contact& contact = dynamics.contact();
+  const Vector closed = contact.closed_stiffness();
+  for (Index i = 0; i < contact.size(); ++i)
+    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
+      if (dof >= 0) stiffness[dof] += closed[i];
+  const double square = stiffness.cwiseQuotient(dynamics.system().mass.diagonal()).maxCoeff();
+  return std::isfinite(square) ? std::sqrt(std::max(0.0, square)) : 0.0;
+}
+
+void sum_up(const Session& session, solve::Dynamics& dynamics, const std::vector<TurningPoints::Path>& paths,
+            FollowedRun& run) {
+  for (std::size_t i = 0; i < session.output.probes.size(); ++i) {
+    double squares = 0.0;
+    for (const double u : run.courses.values[i]) squares += u * u;
+    const std::string name = session.output.probes[i].label + ".u";
+    run.numbers.push_back(
+        {"rms of " + name, std::sqrt(squares / static_cast<double>(run.courses.times.size())), false});
+    run.numbers.push_back({"peak of " + name, std::max(paths[i].greatest, -paths[i].least), false});
+  }
+  if (dynamics.stop_count() == 0) return;
+  double largest = 0.0;
+  for (Index i = 0; i < dynamics.stop_count(); ++i) {
+    const auto& path = paths[session.output.probes.size() + static_cast<std::size_t>(i)];
+    for (const double w : {path.least, path.greatest})
+      largest = std::max(largest, std::abs(dynamics.contact().force_of(i, w)));
+  }
+  run.numbers.push_back({"largest contact force", largest, false});
+}
+
+}  // namespace
+
+std::vector<double> compared_times(const Session& session) {
+  const double end = session.integrator.options.end_time, rows = session.output.interval.value_or(end / kFewestRows);
+  const double interval = rows / std::max(1.0, std::ceil(kFewestRows * rows / end - kSameInstant));
+  std::vector<double> times;
+  for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1.0 - kSameInstant); ++i)
+    times.push_back(static_cast<double>(i) * interval);
+  times.push_back(end);
+  return times;
+}
+
+std::vector<double> state_times(const Session& session, Index size) {
+  const double count =
+      std::floor(std::clamp(kMostNumbers / static_cast<double>(std::max<Index>(size, 1)), kFewestStates, kMostStates));
+  std::vector<double> times;
+  for (double i = 0.0; i < count; i += 1.0) times.push_back(session.integrator.options.end_time * i / count);
+  times.push_back(session.integrator.options.end_time);
+  return times;
+}
+
+FollowedRun follow(Session& session, double disturbance, double most, Wanted wanted) {
+  const log::WithoutWarnings quiet;
+  FollowedRun run;
+  Assembly assembly(session, disturbance);
+  solve::Dynamics& dynamics = assembly.dynamics;
+  run.size = dynamics.size();
+  run.choice = assembly.integrator->choice();
+  Follower follower(session, dynamics, run, wanted.states);
+  TurningPoints turning(paths_of(session, dynamics), highest_frequency(dynamics));
+  record::ImpactRecorder impacts(dynamics);
+  assembly.simulation.add(follower);
+  if (wanted.numbers) assembly.simulation.add(turning);
+  if (wanted.impacts && dynamics.stop_count() > 0) assembly.simulation.add(impacts);
+  const auto work = [&] {
+    const solve::Counters& counters = dynamics.counters();
+    return static_cast<double>(counters.force_evaluations + counters.solves + counters.contact_evaluations) *
+               static_cast<double>(dynamics.size() + dynamics.stop_count()) +
+           kWatching * static_cast<double>(assembly.simulation.report().steps) *
+               static_cast<double>(dynamics.stop_count());
+  };
+  const time::RunReport& report = assembly.simulation.run([&] { return interruption() == nullptr && work() < most; });
+  if (interruption() != nullptr) throw RunError("interrupted while finding out how far to trust the run");
+  run.completed = report.completed;
+  run.message = report.message.empty() ? "it takes too long" : report.message;
+  run.work = work();
+  if (!run.completed) return run;
+  if (wanted.numbers) sum_up(session, dynamics, turning.paths(), run);
+  if (wanted.impacts && dynamics.stop_count() > 0)
+    run.numbers.push_back({"impacts", static_cast<double>(impacts.impacts().size()), true});
+  return run;
+}
+
+}  // namespace butee::app::trust

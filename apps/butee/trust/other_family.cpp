@@ -1,0 +1,72 @@
+#include "other_family.hpp"
+
+#include <algorithm>
+
+#include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
+
+#include "../compare/study.hpp"
+
+namespace butee::app::trust {
+namespace {
+
+/// Methods by how near they come to the solution, with the tolerance that they are given.
+struct Candidate {
+  const char* name;
+  double tolerance;  ///< 0: exact
+  bool is_implicit = false;
+};
+constexpr Candidate kCandidates[] = {{"exact", 0.0},         {"exponential", 1e-9}, {"extrapolation8", 1e-10},
+                                     {"rodas4", 1e-8, true}, {"dopri5", 1e-9},      {"bathe_adaptive", 1e-6, true}};
+/// The repetition: an order for exact, a tolerance looser by so much for others.
+constexpr std::int64_t kOtherOrder = 22;
+constexpr double kLooser = 3.0;
+/// A tolerance is this part of the judged run's at most.
+constexpr double kTighter = 0.03;
+/// Larger systems are left to implicit methods, with this part of the judged run's tolerance.
+constexpr Index kLarge = 1000;
+constexpr double kTighterOfLarge = 0.1, kUsual = 1e-4;
+/// What rounding leaves of a piece between two states, relative to the motion.
+constexpr double kRounding = 1e-13;
+
+Session session_with(const Session& session, const Candidate& candidate, double tolerance, bool again) {
+  plugin::Catalogue catalogue = session.catalogue;
+  const time::IntegratorType& type = catalogue.load(candidate.name);
+  config::Table settings;
+  if (candidate.tolerance > 0.0)
+    settings["tolerance"] = config::Value(again ? kLooser * tolerance : tolerance);
+  else if (again)
+    settings["order"] = config::Value(kOtherOrder);
+  const compare::Sweep sweep{candidate.name, "", true, {}, std::move(settings)};
+  return read_session(compare::with_method(session.document, type, sweep, 0.0), std::move(catalogue));
+}
+
+}  // namespace
+
+std::optional<OtherRun> run_other_family(const Session& session, const std::string& method, double tolerance,
+                                         Index size, double most) {
+  for (const Candidate& candidate : kCandidates) {
+    if (method == candidate.name || session.catalogue.find(candidate.name) == nullptr) continue;
+    const bool is_large = size > kLarge;
+    if (is_large && !candidate.is_implicit) continue;
+    const double tight = is_large          ? kTighterOfLarge * (tolerance > 0.0 ? tolerance : kUsual)
+                         : tolerance > 0.0 ? std::min(candidate.tolerance, kTighter * tolerance)
+                                           : candidate.tolerance;
+    try {
+      OtherRun other{candidate.name,
+                     candidate.tolerance == 0.0,
+                     candidate.tolerance == 0.0 ? kRounding : tight,
+                     session_with(session, candidate, tight, false),
+                     session_with(session, candidate, tight, true),
+                     {}};
+      other.run = follow(other.session, 0.0, most, {.states = true, .numbers = true, .impacts = true});
+      if (other.run.completed) return other;
+      log::debug(other.method + ": " + other.run.message);
+    } catch (const InputError& error) {
+      log::debug(std::string(candidate.name) + ": " + error.what());
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace butee::app::trust
