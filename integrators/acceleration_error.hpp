@@ -12,8 +12,9 @@ namespace butee::integrators {
 /// memory of a state holds LocalErrorControl's part, then h, lag, d (0 where s is not known), s and a_n.
 class AccelerationError {
  public:
-  AccelerationError(solve::Dynamics& dynamics, const Goal& goal)
-      : control_(dynamics, goal, {3.0, 2.0, kConstant, kKink}, LocalErrorControl::Steps::ladder) {}
+  /// `kink`: LocalErrorControl::Orders::kink.
+  AccelerationError(solve::Dynamics& dynamics, const Goal& goal, double kink = 10.0)
+      : control_(dynamics, goal, {3.0, 2.0, kConstant, kink}, LocalErrorControl::Steps::ladder) {}
 
   const time::StepController& controller() const { return control_.controller(); }
   double first_step() const { return control_.first_step(); }
@@ -26,6 +27,13 @@ class AccelerationError {
              time::StepReport& report);
   /// Of a state from which another motion begins: the next step is judged as the first one is.
   static void forget_slope(time::State& state) { state.memory[place(state) + kDistance] = 0.0; }
+  /// Takes `slope` for the rate of the acceleration at a state behind which another motion begins.
+  static void take_slope(time::State& state, ConstVectorRef slope) {
+    const Index at = place(state);
+    // A step and a distance of no length: the slope is that of an instant.
+    state.memory.segment(at + kStep, 3) << kInstant, 0.0, kInstant;
+    state.memory.segment(at + kSlope, state.x.size()) = slope;
+  }
 
   /// The length of the step to a state, s; 0 where no slope is known.
   static double last_step(const time::State& state) {
@@ -39,7 +47,8 @@ class AccelerationError {
   }
 
  private:
-  static constexpr double kConstant = 1.0, kKink = 10.0;
+  static constexpr double kConstant = 1.0;
+  static constexpr double kInstant = 1e-100;
   /// Places behind the control's memory.
   static constexpr Index kStep = 0, kLag = 1, kDistance = 2, kSlope = 3;
   static Index place(const time::State& state) { return LocalErrorControl::memory_size(state.x.size()); }

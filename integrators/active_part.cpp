@@ -15,6 +15,8 @@ constexpr double kGrowth = 1.5, kInner = 0.75;
 /// Of what closes a stop's gap, over the tolerance: a law that pulls by more as soon as anything moves counts as
 /// moving.
 constexpr double kUnfelt = 0.005;
+/// A component of the outer part may be as large as so many tolerances of its scale, half of what it may be wrong by.
+constexpr double kNegligible = 5.0;
 /// Entries of the memory before the scales.
 const Index kBefore = LocalErrorControl::memory_size(0);
 
@@ -176,9 +178,9 @@ void ActivePart::extend_memory(const Part& part, const Vector& from, Vector& who
 }
 
 bool ActivePart::has_come_near(const Part& part) const {
-  const double tolerance = goal_.tolerance;
+  const double enough = kNegligible * goal_.tolerance;
   const auto exceeds = [&](const Vector& y, const auto& scale) {
-    return (y.array().abs() * part.is_outer.array() > tolerance * scale.array()).any();
+    return (y.array().abs() * part.is_outer.array() > enough * scale.array()).any();
   };
   return exceeds(part.to.x, LocalErrorControl::scales_x(part.to)) ||
          exceeds(part.to.v, LocalErrorControl::scales_v(part.to));

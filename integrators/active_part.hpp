@@ -14,7 +14,7 @@ namespace butee::integrators {
 ///
 /// The part is what lies within some places of the matrices' pattern from the loads, the initial motion, the stops that
 /// push at rest, and those that pull while open by more than the tolerance allows for. A step in which a component of
-/// the outer quarter of the part exceeds the tolerance times a thousandth of the largest of its kind is taken again on
+/// the outer quarter of the part exceeds five tolerances of its scale (ComponentScales) is taken again on
 /// a part whose radius is half as large again. What the border holds back is what would have
 /// passed it since, weak waves that are thrown back: as a rule a small part of the tolerance.
 ///

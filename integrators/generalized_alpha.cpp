@@ -12,6 +12,11 @@ using config::Parameters;
 using time::State;
 using time::StepReport;
 
+/// LocalErrorControl::Orders::kink
+constexpr double kKink = 25.0;
+/// The part of a step over which the rate of an acceleration is found.
+constexpr double kPart = 0.05;
+
 AlphaParameters AlphaParameters::of_radius(double rho_inf) {
   const double alpha_m = (2.0 * rho_inf - 1.0) / (rho_inf + 1.0), alpha_f = rho_inf / (rho_inf + 1.0);
   const double excess = 1.0 - alpha_m + alpha_f;
@@ -26,7 +31,7 @@ GeneralizedAlpha::GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters pa
                                    const std::optional<Goal>& goal)
     : Integrator(dynamics), parameters_(parameters), stage_(dynamics, kNewton) {
   if (!goal) return;
-  control_.emplace(dynamics, *goal);
+  control_.emplace(dynamics, *goal, kKink);
   kinks_ = dynamics.load_kinks();
   contact_.emplace(dynamics, goal->tolerance);
 }
@@ -41,6 +46,16 @@ void GeneralizedAlpha::take_acceleration(const State& from, double h) {
   const double last = AccelerationError::last_step(from);
   if (last > 0.0 && last != h)
     old_a_ = AccelerationError::extrapolated(from, (parameters_.alpha_m - parameters_.alpha_f) * h);
+}
+
+void GeneralizedAlpha::take_slope(const time::Step& step, State& to) {
+  const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), step.t_end);
+  const double d = kPart * (kink == kinks_.end() ? step.h : std::min(step.h, *kink - step.t_end));
+  x_ = to.x + d * to.v;
+  v_ = to.v + d * to.a;
+  dynamics().acceleration(step.t_end + d, x_, v_, a_);
+  a_ = (a_ - to.a) / d;
+  AccelerationError::take_slope(to, a_);
 }
 
 StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, State& to) {
@@ -60,14 +75,15 @@ StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, 
   to.x += beta * h * h * (to.a - old_a_);
   to.v += gamma * h * (to.a - old_a_);
   if (!control_) return report;
-  const bool jumps = std::binary_search(kinks_.begin(), kinks_.end(), step.t_end) || contact_->changed(from, to);
-  if (!jumps) {
+  const bool load_jumps = std::binary_search(kinks_.begin(), kinks_.end(), step.t_end);
+  if (!load_jumps && !contact_->changed(from, to)) {
     control_->judge(from, to, h, a_, alpha_f * h, report);
     return report;
   }
   dynamics().acceleration(step.t_end, to.x, to.v, to.a);
   control_->judge(from, to, h, report);
   control_->forget_slope(to);
+  if (load_jumps && report.error <= 1.0) take_slope(step, to);
   return report;
 }
 

@@ -28,7 +28,7 @@ struct AlphaParameters {
 /// Steps by AccelerationError, which sees velocity too, from the accelerations that meet the balance. Those are of an
 /// instant within the step, where a stop that closes later is still open: where a stop closed or opened, or a load or
 /// its slope jumps, the controlled variants judge and go on with the acceleration of the end itself (one evaluation
-/// and one solve with M).
+/// and one solve with M, at jumps of loads two, for its rate).
 /// The algorithmic a_n is that of t_n + (alpha_m - alpha_f) h, as the expansion of the balance in h shows; where h
 /// changes it is taken anew from the balanced ones, or every change of step would cost an order. Orders are checked in
 /// tests/conformance.
@@ -45,6 +45,8 @@ class GeneralizedAlpha final : public time::Integrator {
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   /// Fills old_a_ with a_n as a step of h needs it.
   void take_acceleration(const time::State& from, double h);
+  /// Gives a state behind which another motion begins the rate of its acceleration, by one more evaluation.
+  void take_slope(const time::Step& step, time::State& to);
 
   AlphaParameters parameters_;
   StageSolver stage_;

@@ -19,7 +19,7 @@ constexpr double kMostDown = 9.0, kMostUp = 9.0;
 constexpr double kMissed = 8.0;
 /// The part of the account's balance that a step without a change of contact may spend beyond what it earns, as at
 /// starts from rest, whose scales are still small.
-constexpr double kSpendOnSmooth = 1e-3;
+constexpr double kSpendOnSmooth = 0.01;
 /// The part of the impulse of a jump of the force within a step that the velocity may be wrong by.
 constexpr double kOfJump = 0.1;
 /// Where a stop closes or opens, the error falls with this power of h.
@@ -43,6 +43,7 @@ LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, const Goal& goal
       power_(orders.estimate / (orders.method + 1.0)),
       steps_(steps),
       scales_(dynamics.system()),
+      kinks_(dynamics.load_kinks()),
       scale_x_(dynamics.size()),
       scale_v_(dynamics.size()),
       work_(dynamics.size()) {
@@ -96,8 +97,11 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
                balance = from.memory[kAccount] + earned;
   double epsilon = relative_error(error_x, error_v);
   if (epsilon > smooth && omega_ > 0.0) {
-    // At a start from rest: relative to the motion that the accelerations make within 1/omega.
-    work_ = (1.0 / omega_) * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs()).cwiseMax((to.v - from.v).cwiseAbs() / h);
+    // At a start from rest: relative to the velocities that the accelerations make within 1/omega, or until a load's
+    // slope jumps, and to the displacements that those make within 1/omega.
+    const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), from.t);
+    const double time = kink == kinks_.end() ? 1.0 / omega_ : std::min(1.0 / omega_, *kink - from.t);
+    work_ = time * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs()).cwiseMax((to.v - from.v).cwiseAbs() / h);
     scales_.raise(work_, scale_v_);
     work_ = (1.0 / omega_) * scale_v_;
     scales_.raise(work_, scale_x_);

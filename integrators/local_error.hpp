@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "butee/time/integrator.hpp"
 #include "integrators/contact_on_the_way.hpp"
@@ -88,6 +89,7 @@ class LocalErrorControl {
   double omega_ = 0.0;  ///< 1/s, with all stops closed; 0 where nothing has a stiffness
   Steps steps_;
   ComponentScales scales_;
+  std::vector<double> kinks_;  ///< instants at which a load or its slope jumps, s
   Vector scale_x_, scale_v_, work_;
 };
 

@@ -91,7 +91,8 @@ void Simulation::start() {
   if (started_) return;
   started_ = true;
   integrator_.start(state_);
-  if (next_h_ == 0.0) next_h_ = integrator_.first_step(state_);
+  const double own = next_h_ == 0.0 || integrator_.lands_on_outputs() ? integrator_.first_step(state_) : 0.0;
+  if (next_h_ == 0.0 || std::isinf(own)) next_h_ = own;
   require(next_h_ > 0.0, "a method without a first step of its own has a time_step");
   for (Observer* observer : observers_) observer->start(state_);
   growth_.start(state_);

@@ -20,6 +20,8 @@ using Json = nlohmann::json;
 
 /// A method's own error on these scenes, relative; 1e-3 s is a 800th of the shortest motion.
 constexpr double kMethod = 2e-3;
+/// Between steps accelerations of rodas4 lie on straight lines; at its default tolerance those are longer.
+constexpr double kStraight = 4e-3;
 /// That of a peak's place on the dense output, and of printed digits.
 constexpr double kSame = 1e-9, kPrinted = 1e-5;
 
@@ -146,15 +148,20 @@ TEST_P(PeaksOf, oscillator_at_a_stop_are_those_of_its_energy_in_all_places) {
   const CsvTable impacts(folder.file("results/impacts.csv"));
   EXPECT_EQ(impacts.rows(), 3U);
   EXPECT_NEAR(largest(impacts.column("peak_force")), force, kSame * force);
+  // The program's rows end steps of extrapolation8; an embedded structure has none, and its steps are others.
+  const double same = GetParam().name == "extrapolation8" ? kPrinted : kSame;
   for (const auto& [column, peak] : embedded_peaks(scene, 4.0)) {
     const double printed = summary["peak"].at(column);
-    EXPECT_NEAR(peak, printed, kSame * printed) << column;
+    EXPECT_NEAR(peak, printed, same * printed) << column;
   }
 }
 
 TEST_P(PeaksOf, driven_oscillator_lie_between_rows_and_steps) {
   const bool is_exact = GetParam().name == "exact" || GetParam().name == "exponential";
-  run(integrator(GetParam(), "8.0") + kDriven, closed_form_driven(8.0), is_exact ? 1e-8 : kMethod);
+  run(integrator(GetParam(), "8.0") + kDriven, closed_form_driven(8.0),
+      is_exact                      ? 1e-8
+      : GetParam().name == "rodas4" ? kStraight
+                                    : kMethod);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllMethods, PeaksOf, testing::ValuesIn(method_cases()),

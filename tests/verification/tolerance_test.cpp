@@ -1,5 +1,5 @@
-// What a tolerance is worth: the error at the end of methods that control it, from 1e-2 to 1e-7, on a forced oscillator
-// that strikes a stop again and again, against the method `exact`.
+// What a tolerance is worth: the error at the end of methods that control it, from 1e-2 to 1e-7 (order 2: 1e-6), on a
+// forced oscillator that strikes a stop again and again, against the method `exact`.
 #include <cmath>
 
 #include <butee/core/text.hpp>
@@ -44,13 +44,15 @@ TEST_P(Tolerance, IsWhatComesOut) {
   const std::vector<double> reference = course("type = \"exact\"\ntime_step = 1e-3\n");
   double slope = 0.0, squares = 0.0;
   std::string errors;
-  for (int i = 0; i <= 5; ++i) {
+  const bool is_of_order_two = GetParam().ends_with("_adaptive");
+  const int last = is_of_order_two ? 4 : 5;
+  for (int i = 0; i <= last; ++i) {
     const double tolerance = std::pow(10.0, -2.0 - i);
     const double error =
         relative_rms(course("type = \"" + GetParam() + "\"\ntolerance = " + to_text(tolerance) + "\n"), reference);
     EXPECT_LE(error, kReserve * kAmplification * tolerance) << "at " << tolerance;
     errors += to_short_text(error) + " ";
-    const double decades = -(i - 2.5);
+    const double decades = -(i - 0.5 * last);
     slope += decades * std::log10(error);
     squares += decades * decades;
   }

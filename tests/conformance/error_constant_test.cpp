@@ -1,0 +1,57 @@
+// The constants kappa of integrators/error-control.md: the local error of undamped oscillation over the power of its
+// estimate that the step control takes for it.
+#include <cmath>
+
+#include <butee/core/text.hpp>
+#include <gtest/gtest.h>
+
+#include "integrators/error_account.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::error_constant_test {
+namespace {
+
+constexpr double kFrequency = 10.0, kTolerance = 1e-3, kEnd = 1.0;
+/// Estimate and error may point to different phases of the oscillation, of which the largest component is 0.71 to 1.
+constexpr double kPhases = 1.45;
+
+struct Case {
+  const char* method;
+  double estimate, order;  ///< q, p
+  double turn;             ///< h omega: small, but with an error well above rounding
+};
+
+class ErrorConstant : public testing::TestWithParam<Case> {};
+
+TEST_P(ErrorConstant, TurnsTheEstimateIntoTheLocalError) {
+  const auto [method, q, p, turn] = GetParam();
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 100.0\n[integrator]\ntype = \"" +
+      std::string(method) + "\"\ntolerance = " + to_text(kTolerance) + "\nend_time = " + to_text(kEnd) + "\n");
+  const double x = std::sqrt(0.5), v = -kFrequency * std::sqrt(0.5), h = turn / kFrequency;
+  time::State from;
+  from.x = Vector::Constant(1, x);
+  from.v = Vector::Constant(1, v);
+  run.integrator().start(from);
+  time::State to = from;
+  const time::StepReport report = run.integrator().step(from, {h, h, false}, to);
+  ASSERT_EQ(report.status, time::StepStatus::ok);
+  const double c = std::cos(turn), s = std::sin(turn);
+  const double true_x = c * x + s / kFrequency * v, true_v = c * v - kFrequency * s * x;
+  const double scale_x = std::max(x, std::abs(to.x[0])), scale_v = std::max(-v, std::abs(to.v[0]));
+  const double error = std::max(std::abs(to.x[0] - true_x) / scale_x, std::abs(to.v[0] - true_v) / scale_v);
+  // The measure is epsilon over what one of T/h steps may err by: its power (p + 1)/q is the error over that.
+  const double rate = integrators::ErrorAccount({kTolerance, kEnd}).rate();
+  const double expected = rate * h * std::pow(report.error, (p + 1.0) / q);
+  EXPECT_GT(error, expected / kPhases);
+  EXPECT_LT(error, expected * kPhases);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, ErrorConstant,
+                         testing::Values(Case{"rodas4", 4.0, 4.0, 0.3}, Case{"dopri5", 5.0, 5.0, 0.2},
+                                         Case{"extrapolation8", 7.0, 8.0, 0.8}, Case{"bathe_adaptive", 3.0, 2.0, 0.1}),
+                         [](const auto& one) { return std::string(one.param.method); });
+
+}  // namespace
+}  // namespace butee::test::error_constant_test
