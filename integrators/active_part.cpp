@@ -15,8 +15,8 @@ constexpr double kGrowth = 1.5, kInner = 0.75;
 /// Of what closes a stop's gap, over the tolerance: a law that pulls by more as soon as anything moves counts as
 /// moving.
 constexpr double kUnfelt = 0.005;
-/// A component of the outer part may be as large as so many tolerances of its scale, half of what it may be wrong by.
-constexpr double kNegligible = 5.0;
+/// So much of the tolerance may be in the outer part.
+constexpr double kNegligible = 0.1;
 /// Entries of the memory before the scales.
 const Index kBefore = LocalErrorControl::memory_size(0);
 
@@ -69,7 +69,10 @@ bool ActivePart::can_take(solve::Dynamics& dynamics, double tolerance) {
 }
 
 ActivePart::ActivePart(solve::Dynamics& dynamics, const Goal& goal, Make make)
-    : Integrator(dynamics), goal_(goal), make_(make), distances_(distances_of(dynamics, goal.tolerance)) {
+    : Integrator(dynamics),
+      goal_{goal.tolerance, goal.run_time, true},
+      make_(make),
+      distances_(distances_of(dynamics, goal.tolerance)) {
   parts_.push_back(make_part(0));
 }
 
@@ -91,7 +94,7 @@ ActivePart::Part ActivePart::make_part(std::size_t place) const {
   part.dynamics = std::make_unique<solve::Dynamics>(*part.system);
   part.method = make_(*part.dynamics, goal_);
   const auto size = static_cast<Index>(part.dofs.size());
-  part.is_outer = Vector::Zero(size);
+  part.is_outer = part.work = part.outer = Vector::Zero(size);
   for (Index i = 0; i < size; ++i) {
     const Index distance = distances_[static_cast<std::size_t>(part.dofs[static_cast<std::size_t>(i)])];
     if (static_cast<double>(distance) > kInner * radius) part.is_outer[i] = 1.0;
@@ -177,13 +180,15 @@ void ActivePart::extend_memory(const Part& part, const Vector& from, Vector& who
   whole.segment(kBefore + all, all)(part.dofs) = from.tail(size);
 }
 
-bool ActivePart::has_come_near(const Part& part) const {
-  const double enough = kNegligible * goal_.tolerance;
-  const auto exceeds = [&](const Vector& y, const auto& scale) {
-    return (y.array().abs() * part.is_outer.array() > enough * scale.array()).any();
+bool ActivePart::has_come_near(Part& part) const {
+  const auto norm = [&](const Vector& y) {
+    part.outer = y.cwiseProduct(part.is_outer);
+    part.dynamics->inertia_force(part.outer, part.work);
+    return std::sqrt(std::max(0.0, part.outer.dot(part.work)));
   };
-  return exceeds(part.to.x, LocalErrorControl::scales_x(part.to)) ||
-         exceeds(part.to.v, LocalErrorControl::scales_v(part.to));
+  const double enough = kNegligible * goal_.tolerance;
+  return norm(part.to.x) > enough * LocalErrorControl::norm_x(part.to) ||
+         norm(part.to.v) > enough * LocalErrorControl::norm_v(part.to);
 }
 
 }  // namespace butee::integrators

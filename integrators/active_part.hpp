@@ -13,9 +13,9 @@ namespace butee::integrators {
 /// of the tolerance has come near the border of that part; then on a larger one, at last on the whole.
 ///
 /// The part is what lies within some places of the matrices' pattern from the loads, the initial motion, the stops that
-/// push at rest, and those that pull while open by more than the tolerance allows for. A step in which a component of
-/// the outer quarter of the part exceeds five tolerances of its scale (ComponentScales) is taken again on
-/// a part whose radius is half as large again. What the border holds back is what would have
+/// push at rest, and those that pull while open by more than the tolerance allows for. A step of which more than
+/// kNegligible times the tolerance (of |x|_M and |v|_M, relative to the largest so far) comes into the outer quarter of
+/// the part is taken again on one whose radius is half as large again. What the border holds back is what would have
 /// passed it since, weak waves that are thrown back: as a rule a small part of the tolerance.
 ///
 /// Steps, interpolation and what the state carries are those of the method, which has LocalErrorControl's memory and
@@ -42,6 +42,7 @@ class ActivePart final : public time::Integrator {
     std::unique_ptr<solve::Dynamics> dynamics{};
     std::unique_ptr<time::Integrator> method{};
     Vector is_outer{};  ///< 1 in the outer quarter, else 0
+    Vector work{}, outer{};
     time::State from{}, to{};
 
     bool is_whole() const { return dofs.empty(); }
@@ -57,8 +58,8 @@ class ActivePart final : public time::Integrator {
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   /// A step of one part, of the whole structure's states.
   time::StepReport step_on(Part& part, const time::State& from, const time::Step& step, time::State& to);
-  /// Whether its outer quarter moves by more than the tolerance times the scales, in its state `to`.
-  bool has_come_near(const Part& part) const;
+  /// Whether too much has come near the border of the part in its state `to`.
+  bool has_come_near(Part& part) const;
   /// Whether all of a motion is within the part.
   static bool holds(const Part& part, const time::State& state);
   Part& at(std::size_t place);

@@ -27,7 +27,8 @@ constexpr double kStabilityLimit = 0.99718900, kDampingLimit = 3.30656789;
 
 DormandPrince::DormandPrince(solve::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, goal, {5.0, 5.0, kConstant, kKink}, LocalErrorControl::Steps::any),
+      control_(dynamics, goal, {.estimate = 5.0, .method = 5.0, .constant = kConstant, .kink = kKink, .share = 0.05},
+               LocalErrorControl::Steps::any),
       stiffness_("dopri5", kLimit) {
   for (std::size_t i = 0; i < kStages; ++i) v_[i] = a_[i] = Vector::Zero(dynamics.size());
 }

@@ -13,9 +13,11 @@ namespace butee::integrators {
 struct Goal {
   double tolerance;
   double run_time;
+  /// True: the error of the whole structure in the norm of the mass matrix instead of that of every component.
+  bool as_a_whole = false;
 
   static Goal read(const config::Parameters& parameters) {
-    return {parameters.number("tolerance"), parameters.number("end_time")};
+    return {parameters.number("tolerance"), parameters.number("end_time"), false};
   }
   static std::optional<Goal> read_if(bool is_adaptive, const config::Parameters& parameters) {
     return is_adaptive ? std::optional(read(parameters)) : std::nullopt;

@@ -16,7 +16,10 @@ constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
 Extrapolation::Extrapolation(solve::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, goal, {7.0, 8.0, kConstant, kKink, kLimit}, LocalErrorControl::Steps::any) {
+      control_(
+          dynamics, goal,
+          {.estimate = 7.0, .method = 8.0, .constant = kConstant, .kink = kKink, .stability = kLimit, .share = 0.002},
+          LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
   a_ = Vector::Zero(dynamics.size());
 }

@@ -44,6 +44,8 @@ LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, const Goal& goal
       steps_(steps),
       scales_(dynamics.system()),
       kinks_(dynamics.load_kinks()),
+      whole_(orders.share * std::pow(goal.tolerance, orders.estimate / orders.method)),
+      as_a_whole_(goal.as_a_whole || dynamics.size() > kLargest),
       scale_x_(dynamics.size()),
       scale_v_(dynamics.size()),
       work_(dynamics.size()) {
@@ -65,6 +67,8 @@ void LocalErrorControl::start(time::State& state) {
   state.memory.head(memory_size(n)).setZero();
   state.memory[kOld] = 1.0;
   state.memory[kAccount] = account_.advance();
+  state.memory[kNormX] = norm(state.x);
+  state.memory[kNormV] = norm(state.v);
   scales_.raise(state.x, state.memory.segment(kScales, n));
   scales_.raise(state.v, state.memory.segment(kScales + n, n));
 }
@@ -84,6 +88,26 @@ double LocalErrorControl::relative_error(ConstVectorRef error_x, ConstVectorRef 
   return largest;
 }
 
+double LocalErrorControl::norm(ConstVectorRef y) {
+  dynamics_.inertia_force(y, work_);
+  return std::sqrt(std::max(0.0, y.dot(work_)));
+}
+
+double LocalErrorControl::whole_error(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
+                                      ConstVectorRef error_v, double smooth) {
+  const double x = std::max(from.memory[kNormX], norm(to.x)), v = std::max(from.memory[kNormV], norm(to.v));
+  to.memory[kNormX] = x;
+  to.memory[kNormV] = v;
+  const double of_x = norm(error_x), of_v = norm(error_v);
+  const auto part = [](double error, double scale) { return error > 0.0 ? error / scale : 0.0; };
+  const double epsilon = std::max(part(of_x, x), part(of_v, v));
+  if (!(epsilon > smooth) || omega_ == 0.0) return epsilon;
+  // At a start from rest, as of components.
+  scale_x_ = (to.v - from.v) / h;
+  const double speed = std::max({v, norm(from.a) / omega_, norm(scale_x_) / omega_});
+  return std::max(part(of_x, std::max(x, speed / omega_)), part(of_v, speed));
+}
+
 void LocalErrorControl::judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
                               ConstVectorRef error_v, time::StepReport& report) {
   const Index n = to.x.size();
@@ -93,10 +117,10 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   scales_.raise(to.v, scale_v_);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
-  const double smooth = std::pow(account_.rate() * h / orders_.constant, power_), earned = account_.rate() * h,
-               balance = from.memory[kAccount] + earned;
-  double epsilon = relative_error(error_x, error_v);
-  if (epsilon > smooth && omega_ > 0.0) {
+  const double smooth = as_a_whole_ ? whole_ : std::pow(account_.rate() * h / orders_.constant, power_),
+               earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
+  double epsilon = as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(error_x, error_v);
+  if (!as_a_whole_ && epsilon > smooth && omega_ > 0.0) {
     // At a start from rest: relative to the velocities that the accelerations make within 1/omega, or until a load's
     // slope jumps, and to the displacements that those make within 1/omega.
     const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), from.t);
@@ -109,7 +133,9 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   }
   const bool has_changed = contact_.changed(from, to);
   double r = epsilon / smooth, charge = 0.0;
-  if (has_changed) {
+  if (as_a_whole_) {
+    if (has_changed) r *= orders_.kink;
+  } else if (has_changed) {
     charge = std::max(orders_.kink * epsilon, kOfJump * h * contact_.jump(from, to, scale_v_));
     r = charge / (ErrorAccount::kSpend * balance);
   } else if (r > 1.0) {

@@ -22,8 +22,14 @@ namespace butee::integrators {
 /// step. Steps lie on a ladder where they cost a factorization. The derivation and the measured constants are in
 /// integrators/error-control.md; tests/conformance/error_constant_test.cpp measures kappa again.
 ///
-/// A step that goes through a stop unseen is redone with half its length (ContactOnTheWay). The memory (previous r,
-/// account, scales) is the first part of State::memory. Sources: K. Gustafsson, ACM TOMS 17 (1991) 533-554,
+/// Structures of more than kLargest DOFs are measured as a whole,
+///
+///     epsilon = max(|e_x|_M/largest |x|_M so far, |e_v|_M/largest |v|_M so far),    |y|_M^2 = y^T M y
+///
+/// and every step keeps epsilon <= tolerance^(q/p), whatever the length of the run,
+/// since a fine mesh holds waves that no output shows, in whose rotations a component would be resolved. A step that
+/// goes through a stop unseen is redone with half its length (ContactOnTheWay). The memory (previous r, account,
+/// scales) is the first part of State::memory. Sources: K. Gustafsson, ACM TOMS 17 (1991) 533-554,
 /// doi 10.1145/210232.210242; E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4.
 class LocalErrorControl {
  public:
@@ -35,6 +41,8 @@ class LocalErrorControl {
     /// Of an explicit method, the h omega at which it is stable within a closed stop: a longer step in which one closes
     /// or opens is redone, whatever its estimate says.
     double stability = std::numeric_limits<double>::infinity();
+    /// Of structures measured as a whole: the part of tolerance^(q/p) that the estimate of a step may reach.
+    double share = 1.0;
   };
   /// Whether steps are taken from a ladder of ratio 2^(1/4), so that factorizations are found again.
   enum class Steps { any, ladder };
@@ -45,6 +53,8 @@ class LocalErrorControl {
   /// A step that is short for the stiffest entry of the system, s.
   double first_step() const { return first_step_; }
 
+  /// DOFs up to which every component has a scale of its own.
+  static constexpr Index kLargest = 600;
   /// Entries of State::memory for n DOFs.
   static Index memory_size(Index n) { return kScales + 2 * n; }
   /// Fills the memory of a state at the start; it has at least memory_size() entries.
@@ -54,6 +64,9 @@ class LocalErrorControl {
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
              time::StepReport& report);
 
+  /// The largest |x|_M and |v|_M so far.
+  static double norm_x(const time::State& state) { return state.memory[kNormX]; }
+  static double norm_v(const time::State& state) { return state.memory[kNormV]; }
   /// The scales of displacements and of velocities that a state carries.
   static auto scales_x(const time::State& state) { return state.memory.segment(kScales, state.x.size()); }
   static auto scales_v(const time::State& state) {
@@ -73,9 +86,13 @@ class LocalErrorControl {
     }
   };
   /// Places in the memory.
-  static constexpr Index kOld = 0, kAccount = 1, kScales = 2;
+  static constexpr Index kOld = 0, kAccount = 1, kNormX = 2, kNormV = 3, kScales = 4;
 
   double relative_error(ConstVectorRef error_x, ConstVectorRef error_v) const;
+  double norm(ConstVectorRef y);
+  /// The same of the whole structure; updates the norms that `to` carries.
+  double whole_error(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
+                     double smooth);
   double any_step(double h, double r, double old, double order) const;
   double ladder_step(double h, double r, double order) const;
 
@@ -90,6 +107,8 @@ class LocalErrorControl {
   Steps steps_;
   ComponentScales scales_;
   std::vector<double> kinks_;  ///< instants at which a load or its slope jumps, s
+  double whole_;               ///< bound of epsilon of structures measured as a whole
+  bool as_a_whole_;
   Vector scale_x_, scale_v_, work_;
 };
 
