@@ -77,8 +77,8 @@ class BUTEE_EXPORT Integrator {
   /// The largest stable h omega where its parameters narrow what its IntegratorType declares.
   virtual double stability_limit() const { return std::numeric_limits<double>::infinity(); }
 
-  /// The energies at the first knots of an accepted step at or after each of `instants`, ascending, and at its end, where
-  /// the method knows them for less than the motion of all DOFs would cost; else none. Valid until the next call.
+  /// The energies at the first knots of an accepted step at or after each of `instants`, ascending, and at its end,
+  /// where the method knows them for less than the motion of all DOFs would cost; else none. Valid until the next call.
   virtual std::span<const EnergyAt> energies(const State& from, const State& to,
                                              std::span<const double> instants) const {
     (void)from, (void)to, (void)instants;

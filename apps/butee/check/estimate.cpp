@@ -139,7 +139,8 @@ Estimate estimate(Session& session, const model::System& system) {
   }
   const record::OutputRequest& output = session.output;
   if (output.interval)
-    result.rows = std::ceil((session.integrator.options.end_time - system.initial_time) / *output.interval - 1e-9) + 1.0;
+    result.rows =
+        std::ceil((session.integrator.options.end_time - system.initial_time) / *output.interval - 1e-9) + 1.0;
   else if (result.steps)
     result.rows = *result.steps / static_cast<double>(output.every) + 1.0;
   double columns = 2.0;

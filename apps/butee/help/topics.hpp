@@ -26,6 +26,7 @@ std::string integrators_text(const plugin::Catalogue& catalogue);
 std::string output_text(const plugin::Catalogue& catalogue);
 
 // Of the program, in program_topics.cpp.
+std::string methods_text(const plugin::Catalogue& catalogue);
 std::string results_text(const plugin::Catalogue& catalogue);
 std::string limits_text(const plugin::Catalogue& catalogue);
 std::string compare_text(const plugin::Catalogue& catalogue);
