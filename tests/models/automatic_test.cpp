@@ -26,6 +26,13 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
   EXPECT_EQ(choice(beam(6, "")).rfind("exponential with tolerance 0.0001: there are no stops", 0), 0U);
   EXPECT_EQ(choice(beam(6, kStops)).rfind("exponential with tolerance 0.0001: 12 DOFs", 0), 0U);
   EXPECT_EQ(choice(beam(6, kStops + kDashpot)).rfind("rodas4 with tolerance 0.0001: dashpots", 0), 0U);
+  const auto pulling = [&](const std::string& sides, const std::string& tolerance) {
+    return choice(beam(6, kStops + "law = \"arctan\"\nregularization = 1e5\nsides = \"" + sides + "\"\n",
+                       "end_time = 0.05\ntolerance = " + tolerance + "\n"));
+  };
+  EXPECT_EQ(pulling("positive", "1e-6").rfind("rodas4 with tolerance 1e-06: stops on one side", 0), 0U);
+  EXPECT_EQ(pulling("positive", "1e-4").rfind("exponential", 0), 0U);
+  EXPECT_EQ(pulling("both", "1e-6").rfind("exponential", 0), 0U);
   // The modes of 400 DOFs take longer than a few waves, and less than half a second of rattling.
   EXPECT_EQ(choice(beam(200, kStops, "end_time = 1e-4\ntolerance = 1e-3\n"))
                 .rfind("rodas4 with tolerance 0.001 on the part that moves: the modes of 400", 0),
