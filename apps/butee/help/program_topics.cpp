@@ -95,7 +95,7 @@ std::string limits_text(const plugin::Catalogue&) {
   Contact      friction; dissipation or restitution in a stop (a dashpot beside it stands for it); contact at places
                that move along a beam, or between surfaces that are meshed
   Loads        forces that depend on the motion, moving loads, given motion of a support
-  Results      stresses and section forces; optimal parameters; static solutions without a run
+  Results      shear stresses, fatigue; optimal parameters; static solutions without a run
 
 A motion that strikes stops may be chaotic: then no method can give its course for long (butee help trust). Scenes are
 limited by memory: butee check says how much one takes. New elements, laws and loads come as modules (butee help plugins).
