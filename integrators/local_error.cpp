@@ -115,6 +115,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   scale_v_ = scales_v(from);
   scales_.raise(to.x, scale_x_);
   scales_.raise(to.v, scale_v_);
+  to.memory.segment(kNormX, 2) = from.memory.segment(kNormX, 2);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
   const double smooth = as_a_whole_ ? whole_ : std::pow(account_.rate() * h / orders_.constant, power_),
