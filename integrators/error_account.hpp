@@ -40,8 +40,8 @@ class ComponentScales {
 /// How local errors, relative to the scales of what moves, add up to the tolerance of a run.
 ///
 /// The account begins with kAdvance and earns rate() a second, together (1 + kAdvance) kBudget tolerances over a run of
-/// length T. Every step pays its local error from the balance and spends a part of it at most. The sum of all local
-/// errors is therefore bounded, and the error of the run is that bound times the growth of disturbances
+/// length T. Steps with a change of contact pay their local errors from the balance and spend a part of it at most;
+/// all others err by rate() h. The sum of all local errors is therefore bounded, and the error of the run is that bound times the growth of disturbances
 /// (integrators/error-control.md).
 class ErrorAccount {
  public:

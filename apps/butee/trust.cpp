@@ -81,7 +81,7 @@ double peak_of(const FollowedRun& run) {
   return peak;
 }
 
-/// Of the pattern that disturbs starts, relative to its size.
+/// The largest entry of the disturbance of a start, relative to its size.
 double largest_perturbation(Index size) {
   Vector x = Vector::Zero(size);
   perturb(x, 1.0);

@@ -19,7 +19,7 @@ namespace butee::app::trust {
 namespace {
 
 constexpr double kSameInstant = 1e-9;
-/// What it takes to watch a stop over a step, in operations of a DOF.
+/// The work of watching a stop over a step, in operations of a DOF.
 constexpr double kWatching = 100.0;
 /// Fewer rows than this would pass by what happens between them.
 constexpr double kFewestRows = 1000.0;

@@ -37,7 +37,7 @@ struct FollowedRun {
   std::vector<double> state_times;  ///< s
 };
 
-/// What is taken of a run beside the rows of its probes.
+/// Results of a run that are kept beside the rows of its probes.
 struct Wanted {
   bool states = false;   ///< whole states at state_times()
   bool numbers = false;  ///< those of the whole run

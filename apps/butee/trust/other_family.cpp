@@ -26,7 +26,7 @@ constexpr double kTighter = 0.03;
 /// Larger systems are left to implicit methods, with this part of the judged run's tolerance.
 constexpr Index kLarge = 1000;
 constexpr double kTighterOfLarge = 0.1, kUsual = 1e-4;
-/// What rounding leaves of a piece between two states, relative to the motion.
+/// The rounding error of a piece between two states, relative to the motion.
 constexpr double kRounding = 1e-13;
 
 Session session_with(const Session& session, const Candidate& candidate, double tolerance, bool again) {

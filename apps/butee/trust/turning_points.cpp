@@ -10,7 +10,7 @@ namespace {
 /// Samples lie no further apart than this angle of the fastest mode, within these numbers.
 constexpr double kAngle = 0.5;
 constexpr double kFewest = 3.0, kMost = 64.0;
-/// Of the search for an instant of rest.
+/// Most iterations and tolerance of the search for an instant of rest.
 constexpr int kMostTrials = 12;
 constexpr double kAtRest = 1e-9;
 
