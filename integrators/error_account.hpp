@@ -41,8 +41,8 @@ class ComponentScales {
 ///
 /// The account begins with kAdvance and earns rate() a second, together (1 + kAdvance) kBudget tolerances over a run of
 /// length T. Steps with a change of contact pay their local errors from the balance and spend a part of it at most;
-/// all others err by rate() h. The sum of all local errors is therefore bounded, and the error of the run is that bound times the growth of disturbances
-/// (integrators/error-control.md).
+/// all others err by rate() h. The sum of all local errors is therefore bounded, and the error of the run is that bound
+/// times the growth of disturbances (integrators/error-control.md).
 class ErrorAccount {
  public:
   explicit ErrorAccount(const Goal& goal)
