@@ -72,7 +72,10 @@ void ExponentialStep::add_jumps(StepFlow& flow) {
     jumping_.push_back(i);
   }
   if (jumping_.empty()) return;
-  for (int k = 0; k < 3; ++k) add_moments(flow, jumping_, k);
+  for (int k = 0; k < 3; ++k) {
+    add_moments(flow, jumping_, k);
+    jump_sums_[static_cast<std::size_t>(k)] = sums_[static_cast<std::size_t>(k)];
+  }
   find_stops();
 }
 

@@ -26,11 +26,12 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
       contact_(dynamics.contact()),
       squares_(modal.frequencies().square()),
       is_strongly_damped_((4.0 * modal.decay() > modal.frequencies()).any()),
-      knots_(dynamics, modal, 2 * most),
+      knots_(dynamics, modal, stops_, 2 * most),
       energy_(dynamics, modal) {
   const solve::Contact& contact = contact_;
   const Index padded = StepFlow::padded(contact.size());
-  for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2]})
+  for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2],
+                         &jump_sums_[0], &jump_sums_[1], &jump_sums_[2]})
     array->setZero(modal_.size());
   for (ArrayXd* array :
        {&w_, &wv_, &w_new_, &wv_new_, &reach_, &a_, &hv_, &path_.end, &path_.speed, &path_.middle, &seen_.end,
@@ -92,12 +93,40 @@ void ExponentialStep::save(double* memory) const {
 }
 
 void ExponentialStep::accept(double t) {
+  record_forces(knots_.steps());
   if (middle_knot_ > 0.0) knots_.add(middle_knot_, q_half_.data(), v_half_.data(), path_.middle.data());
   q_.swap(q_new_);
   v_.swap(v_new_);
   w_.swap(w_new_);
   wv_.swap(wv_new_);
   knots_.add(t, q_.data(), v_.data(), w_.data());
+}
+
+void ExponentialStep::record_forces(std::size_t knot) {
+  StepForces& forces = knots_.forces(knot);
+  const bool has_contact = !reachable_.empty() && !touched_.empty();
+  forces.is_free = !has_contact && !has_far_forces_;
+  forces.touched.clear();
+  if (has_contact) {
+    forces.touched = touched_;
+    forces.paths.col(StepForces::kStartSpeed) = hv_;
+    forces.paths.col(StepForces::kEndSpeed) = path_.speed;
+    if (orders_ == 3) forces.paths.col(StepForces::kBulge) = bulge_;
+    for (std::size_t k = 0; k < 3; ++k) forces.paths.col(StepForces::kMoments + static_cast<Index>(k)) = force_[k];
+    forces.felt_speed = output_tolerance_ * scale_.speed;
+  }
+  if (has_far_forces_) forces.standing = pull_;
+  for (std::size_t k = 0; k < (forces.is_free ? 0 : forces.moments.size()); ++k) {
+    auto to = forces.moments[k].head(modal_.size()).array();
+    if (has_contact && k < orders_)
+      to = sums_[k];
+    else
+      to.setZero();
+    if (!jumping_.empty()) to += jump_sums_[k];
+    if (k == 0 && has_far_forces_) to += pull_sum_;
+  }
+  // Only steps without contact have a knot in the middle.
+  if (middle_knot_ > 0.0) forces.divide(0.5, knots_.forces(knot + 1));
 }
 
 void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd& q, ArrayXd* v) {

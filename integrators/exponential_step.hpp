@@ -69,6 +69,15 @@ inline constexpr double kVerySmooth = 0.05;
 /// quintic.
 inline constexpr double kHalved = 10.0;
 
+/// The largest |int_0^1 (F - P F) e^(i x s) ds| of a force F that rises by 1 a step from somewhere within it on, with
+/// its projection P F onto P_0, P_1 and P_2, for a mode that turns by x in the step: what such a mode does not learn of
+/// a stop that closes or opens. Bounds of the integral, taken numerically over all places.
+inline double unresolved_part(double x) {
+  return std::min({7.4e-5 * x * x * x, 0.017, 0.12 / x});
+}
+/// That, of all modes, may be so many times what outputs may be wrong by, in the speed of a stop.
+inline constexpr double kUnresolved = 1.0;
+
 /// The steps of the method `exponential` within a block: the flow of the modes, and the forces and paths of the stops
 /// within reach, found together by sweeps.
 class ExponentialStep {
@@ -175,6 +184,8 @@ class ExponentialStep {
   /// Whether a stop is in contact at both ends of the step.
   bool stays_closed(Index stop) const;
   void apply_forces(solve::StepFlow& flow);
+  /// Keeps the forces of the step from a knot, which may be parted by a knot in its middle.
+  void record_forces(std::size_t knot);
   /// Without stops: the flow from a knot to t.
   void evaluate_exactly(double t, std::span<const Index> dofs, std::size_t place, time::Interpolated out);
 
@@ -199,8 +210,8 @@ class ExponentialStep {
   StopScale scale_;
   StopScale reached_;  ///< the scale, with the end of the step without forces and the speed by a pull
   Eigen::ArrayXd q_new_, v_new_, q_half_, v_half_;
-  double middle_knot_ = 0.0;  ///< its time; 0: there is none
-  std::array<Eigen::ArrayXd, 3> sums_;
+  double middle_knot_ = 0.0;                        ///< its time; 0: there is none
+  std::array<Eigen::ArrayXd, 3> sums_, jump_sums_;  ///< modal: of contact, and of pulls that change their side
 
   // An entry a stop, padded to whole registers.
   Eigen::ArrayXd gaps_, upper_, lower_;  ///< where it acts; infinite where it does not

@@ -63,6 +63,10 @@ const StepFlow::Derived& ExponentialStep::derived(StepFlow& flow, Index stop) co
   if (known.is_known) return known;
   known.coupling = flow.own_coupling(stop);
   known.inverse = own_[static_cast<std::size_t>(stop)].closed_inverse(known.coupling);
+  known.unresolved =
+      (modal_.stop_shapes().of(stop).array().square() * (flow.h() * modal_.frequencies()).unaryExpr([](double x) {
+        return unresolved_part(x);
+      })).sum();
   known.is_known = true;
   return known;
 }
@@ -154,7 +158,13 @@ void ExponentialStep::find_error(StepFlow& flow, double displacement) {
       const double stiff = stops_[place].stiffness() * flow.derived(i).coupling[1][0];
       error = error_of_path(error, stiff, h, h_speed, {displacement, scale_.speed}, stays_closed(i));
       const double of_outputs = kKinkedOutput * stiff * std::max(std::abs(hv_[i]), std::abs(path_.speed[i]));
-      if (!stays_closed(i)) error = std::max(error, of_outputs * tolerance_ / (kAtKinks * output_tolerance_));
+      if (!stays_closed(i)) {
+        error = std::max(error, of_outputs * tolerance_ / (kAtKinks * output_tolerance_));
+        const double unresolved = h * h * stops_[place].stiffness() * flow.derived(i).unresolved *
+                                  std::max(std::abs(hv_[i]), std::abs(path_.speed[i]));
+        error = std::max(error, unresolved * tolerance_ * displacement /
+                                    (kUnresolved * output_tolerance_ * std::max(h * scale_.speed, h_speed)));
+      }
     }
     if (orders_ == 1) error += std::abs(flow.own_coupling(i)[0][1] * force_[1][i]);
     error_ = std::max(error_, error);

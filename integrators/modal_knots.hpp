@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "butee/solve/dynamics.hpp"
+#include "butee/solve/modal_motion.hpp"
 #include "integrators/quintic.hpp"
+#include "integrators/stop_path.hpp"
 
 namespace butee::integrators {
 
@@ -13,16 +15,36 @@ struct Phase {
   double cosine, sine;
 };
 
-/// The instants between which a method took its steps in modal coordinates, and the motion between them: quintics
-/// through displacement, velocity and acceleration, laid only where somebody asks.
+/// The forces of the stops over a step.
+struct StepForces {
+  bool is_free = true;            ///< there are none
+  std::array<Vector, 3> moments;  ///< modal, of P_0, P_1 and P_2, as solve::ModalMotion takes them
+  Vector standing;                ///< the pulls of stops out of contact, N
+  std::vector<Index> touched;     ///< stops in contact, and of each stop:
+  /// speed times h at both ends, bulge and force moments, which tell its path
+  Eigen::ArrayXXd paths;
+  double felt_speed = 0.0;  ///< what the speed of a stop may be wrong by, m/s
+
+  enum Column : Index { kStartSpeed, kEndSpeed, kBulge, kMoments, kColumns = kMoments + 3 };
+
+  /// Divides them at a place of the step, the second part going to another. Not with stops in contact.
+  void divide(double place, StepForces& second);
+};
+
+/// The instants between which a method took its steps in modal coordinates, and the motion between them, which is that
+/// of the modes under the loads and the forces found in the step, as at its end.
 class ModalKnots {
  public:
-  /// For up to `most` steps. Both must outlive it.
-  ModalKnots(solve::Dynamics& dynamics, const solve::ModalSystem& modal, std::size_t most);
+  /// For up to `most` steps. All must outlive it.
+  ModalKnots(solve::Dynamics& dynamics, const solve::ModalSystem& modal, std::vector<StopForce>& stops,
+             std::size_t most);
 
   /// `w`: the displacements of the stops.
   void begin(double t, const double* q, const double* v, const double* w);
   void add(double t, const double* q, const double* v, const double* w);
+
+  /// To be filled once the step from a knot has been added.
+  StepForces& forces(std::size_t knot) { return forces_[knot]; }
 
   double last() const { return times_.back(); }
   std::size_t steps() const { return times_.size() - 1; }
@@ -45,7 +67,8 @@ class ModalKnots {
   /// What the acceleration of a DOF takes from the modes, the loads and the forces of the stops.
   struct View {
     Index dof;
-    Vector of_q, of_v, of_harmonics, of_loads, of_stops;
+    Vector shape, of_q;  ///< padded for solve::ModalMotion
+    Vector of_v, of_harmonics, of_loads, of_stops;
     std::vector<Motion> motions;  ///< at the knots
     std::vector<bool> is_known;
   };
@@ -53,17 +76,40 @@ class ModalKnots {
   std::size_t view_of(Index dof);
   const Motion& motion_at(std::size_t knot, View& view);
   void find_stop_forces(std::size_t knot);
+  /// Of a DOF at an instant, from its x, v and of_q . q, modal speeds, cos and sin of the loads and, where there are
+  /// any, the forces of the stops.
+  Motion motion_of(const View& view, double t, const std::array<double, 3>& products, const double* v,
+                   std::span<const Phase> phases, const Vector* stop_forces) const;
+  /// The motion of all modes within the step from a knot, and its accelerations.
+  void find_within(std::size_t knot, double t);
+  void find_contacts(std::size_t knot);
+  void find_forces_within(std::size_t knot, double t);
 
   solve::Dynamics& dynamics_;
   const solve::ModalSystem& modal_;
+  std::vector<StopForce>& stops_;
+  solve::ModalMotion motion_;
   double single_decay_;  ///< of all modes alike, 1/s; negative where they differ
   std::vector<double> times_;
   Eigen::MatrixXd q_, v_, w_, stop_forces_;
   std::vector<bool> has_forces_, has_phases_;
   std::vector<Phase> phases_;
   std::vector<View> views_;
+  std::vector<StepForces> forces_;
   std::vector<std::size_t> asked_;
-  std::vector<Quintic> courses_;
+  // Within a step.
+  std::size_t begun_ = static_cast<std::size_t>(-1);  ///< the knot that motion_ begins at
+  /// A stop in contact, by its moments along its path.
+  struct Contact {
+    Index stop;
+    StopPath path;
+    ForceMoments moments;
+  };
+  std::vector<Contact> closed_;    ///< whose moments tell their force in full
+  std::vector<Contact> changing_;  ///< that open or close on the way, of whose force the moments are not enough
+  Vector compliances_;             ///< of each stop for short times, |phi|^2, 1/kg
+  Vector stop_forces_within_;
+  std::vector<Phase> phases_within_;
 };
 
 }  // namespace butee::integrators

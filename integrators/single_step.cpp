@@ -29,9 +29,12 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       square_(modal.frequencies()[0] * modal.frequencies()[0]),
       decay_(modal.decay()[0]),
       harmonics_(modal.harmonics()),
+      motion_(modal),
       energy_(dynamics, modal) {
   for (const solve::ModalHarmonic& harmonic : harmonics_)
     load_frequency_ = std::max(load_frequency_, harmonic.angular_frequency);
+  for (Eigen::VectorXd* one : {&padded_q_, &padded_v_, &padded_force_[0], &padded_force_[1], &padded_force_[2]})
+    one->setZero(solve::ModalMotion::padded(1));
   knots_.reserve(most + 1);
   times_.reserve(most + 1);
   phases_.resize((most + 1) * harmonics_.size());
@@ -56,7 +59,7 @@ void SingleStep::save(double* memory) const {
 void SingleStep::begin(double t, const double* memory, StopScale scale) {
   now_ = {memory[0], memory[1]};
   scale_ = scale;
-  knots_.assign(1, {t, now_, false, {}});
+  knots_.assign(1, {t, now_});
   times_.assign(1, t);
   turns_ = static_cast<int>(memory[2]);
   if (turns_ == kMostTurns) return find_phases();
@@ -64,8 +67,15 @@ void SingleStep::begin(double t, const double* memory, StopScale scale) {
 }
 
 void SingleStep::accept(double t) {
+  Knot& last = knots_.back();
+  const double h = tried_->h, w = stop_shape_ * now_.q;
+  last.hv0 = h * stop_shape_ * now_.v;
   now_ = next_;
-  knots_.push_back({t, now_, false, {}});
+  last.hv1 = h * stop_shape_ * now_.v;
+  last.bulge = orders_ == 3 ? path_[2] - (0.5 * (w + stop_shape_ * now_.q) + 0.125 * (last.hv0 - last.hv1)) : 0.0;
+  last.force = force_;
+  if (orders_ == 1) last.force[1] = 0.0;  // That was for the estimate alone.
+  knots_.push_back({t, now_});
   times_.push_back(t);
   if (++turns_ == kMostTurns) return find_phases();
   Phase* to = phases(knots_.size() - 1);
@@ -233,6 +243,13 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
   return Trial::too_long;
 }
 
+Motion SingleStep::motion_of(Point at, double harmonic_force) const {
+  const double shape = modal_.shapes()(0, 0);
+  const double force = dynamics_.contact().force_of(0, stop_shape_ * at.q);
+  const double a = harmonic_force + stop_shape_ * force - square_ * at.q - 2.0 * decay_ * at.v;
+  return {shape * at.q, shape * at.v, shape * a};
+}
+
 const Motion& SingleStep::motion_at(std::size_t knot) {
   Knot& at = knots_[knot];
   if (at.has_motion) return at.motion;
@@ -242,10 +259,54 @@ const Motion& SingleStep::motion_at(std::size_t knot) {
     const auto [c, s] = phases(knot)[j];
     harmonic_force += c * harmonics_[j].cosine[0] + s * harmonics_[j].sine[0];
   }
-  const double shape = modal_.shapes()(0, 0);
-  const double force = dynamics_.contact().force_of(0, stop_shape_ * at.at.q);
-  const double a = harmonic_force + stop_shape_ * force - square_ * at.at.q - 2.0 * decay_ * at.at.v;
-  return at.motion = {shape * at.at.q, shape * at.at.v, shape * a};
+  return at.motion = motion_of(at.at, harmonic_force);
+}
+
+StopPath SingleStep::path_from(std::size_t knot) const {
+  const Knot& from = knots_[knot];
+  return {stop_shape_ * from.at.q, from.hv0, stop_shape_ * knots_[knot + 1].at.q, from.hv1, from.bulge};
+}
+
+bool SingleStep::is_quintic(std::size_t knot) const {
+  // The part of a quintic's slope that is wrong: (omega h)^5 sqrt(5)/30000 where nothing bends the motion, and
+  // kKinkedSlope (omega h)^2 where a stop opens or closes.
+  constexpr double kGoodPart = 0.5, kKinkedSlope = 0.02;
+  const Knot& from = knots_[knot];
+  const double h = knots_[knot + 1].t - from.t;
+  const double stiff = from.force[0] != 0.0 ? h * h * stop_.stiffness() * stop_shape_ * stop_shape_ : 0.0;
+  const double angle = h * h * (square_ + 4.0 * decay_ * decay_ + load_frequency_ * load_frequency_) + stiff;
+  const double good = kGoodPart * output_tolerance_;
+  if (quintic_error(1.0, angle * angle * std::sqrt(angle)).v > good) return false;
+  return kKinkedSlope * stiff <= good || stop_.course(path_from(knot)) != StopForce::Course::changing;
+}
+
+Motion SingleStep::motion_within(std::size_t knot, double t) {
+  const Knot& from = knots_[knot];
+  const double h = knots_[knot + 1].t - from.t, part = (t - from.t) / h;
+  ForceMoments force = from.force;
+  const StopPath path = path_from(knot);
+  padded_q_[0] = from.at.q;
+  padded_v_[0] = from.at.v;
+  std::array<const double*, 3> moments{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    padded_force_[k][0] = stop_shape_ * force[k];
+    moments[k] = padded_force_[k].data();
+  }
+  motion_.begin(from.t, h, padded_q_.data(), padded_v_.data(), moments.data());
+  if (stop_.course(path) == StopForce::Course::changing) {
+    const StopPath so_far = path.until(part);
+    const ForceMoments along = stop_.project(so_far, stop_.course(so_far)).force,
+                       projected = moments_within(force, 0.0, part);
+    motion_.add_force(modal_.stop_shapes().of(0),
+                      {along[0] - projected[0], along[1] - projected[1], along[2] - projected[2]}, part);
+  }
+  motion_.find(part);
+  double harmonic_force = 0.0;
+  for (const solve::ModalHarmonic& harmonic : harmonics_) {
+    const double angle = harmonic.angular_frequency * t;
+    harmonic_force += std::cos(angle) * harmonic.cosine[0] + std::sin(angle) * harmonic.sine[0];
+  }
+  return motion_of({motion_.q()[0], motion_.v()[0]}, harmonic_force);
 }
 
 std::span<const time::EnergyAt> SingleStep::energies(std::span<const double> instants) {
@@ -275,13 +336,15 @@ void SingleStep::interpolate(std::span<const double> times, std::span<const Inde
       put(i++, motion_at(knot));
       continue;
     }
-    const double begin = knots_[knot].t, end = knots_[knot + 1].t, r = 1.0 / (end - begin);
-    const Quintic course(end - begin, motion_at(knot), motion_at(knot + 1));
-    for (; i < times.size() && times[i] < end; ++i) {
-      const double s = (times[i] - begin) * r;
-      if (!out.x.empty()) out.x[i] = course.value(s);
-      if (!out.v.empty()) out.v[i] = course.slope(s);
-      if (!out.a.empty()) out.a[i] = course.curvature(s);
+    const double begin = knots_[knot].t, end = knots_[knot + 1].t, h = end - begin;
+    if (is_quintic(knot)) {
+      const Quintic course(h, motion_at(knot), motion_at(knot + 1));
+      for (; i < times.size() && times[i] < end; ++i) {
+        const double s = (times[i] - begin) / h;
+        put(i, {course.value(s), course.slope(s), course.curvature(s)});
+      }
+    } else {
+      for (; i < times.size() && times[i] < end; ++i) put(i, motion_within(knot, times[i]));
     }
     if (knot + 2 == knots_.size() && i < times.size() && times[i] >= end) put(i++, motion_at(knot + 1));
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "butee/solve/modal_motion.hpp"
 #include "butee/solve/modal_system.hpp"
 #include "integrators/exponential_step.hpp"
 #include "integrators/far_pull.hpp"
@@ -67,8 +68,11 @@ class SingleStep {
   struct Knot {
     double t;
     Point at;
-    bool has_motion;  ///< motion is known
-    Motion motion;
+    bool has_motion = false;  ///< motion is known
+    Motion motion{};
+    // Of the step from here: the speeds times h at its ends, the bulge of its path, and the force.
+    double hv0 = 0.0, hv1 = 0.0, bulge = 0.0;
+    ForceMoments force{};
   };
 
   void fill(solve::StepFlow& from, Flow& flow) const;
@@ -80,6 +84,12 @@ class SingleStep {
   /// Whether the pull of the open stop is a constant, as far as the tolerance can tell.
   bool is_steady(const Flow& flow, double w, double reach) const;
   const Motion& motion_at(std::size_t knot);
+  StopPath path_from(std::size_t knot) const;
+  /// Whether the quintic is as good as the motion in the step from a knot.
+  bool is_quintic(std::size_t knot) const;
+  /// Within that.
+  Motion motion_within(std::size_t knot, double t);
+  Motion motion_of(Point at, double harmonic_force) const;
 
   solve::Dynamics& dynamics_;
   solve::ModalSystem& modal_;
@@ -94,6 +104,9 @@ class SingleStep {
   std::array<Flow, 8> flows_;  ///< of rungs, by their last three bits
   Flow odd_;
   std::vector<Knot> knots_;
+  solve::ModalMotion motion_;
+  Eigen::VectorXd padded_q_, padded_v_;
+  std::array<Eigen::VectorXd, 3> padded_force_;
   ModalEnergy energy_;
   std::vector<double> times_;    ///< of the knots
   std::vector<Phase> phases_;    ///< by knot and harmonic: each is the one before, turned

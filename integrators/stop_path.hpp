@@ -28,6 +28,12 @@ class StopPath {
   /// Bounds of the path, by its Bernstein coefficients.
   double lowest() const { return lowest_; }
   double highest() const { return highest_; }
+  /// The path over [0, s].
+  StopPath until(double s) const {
+    const double speed = ((4.0 * c_[4] * s + 3.0 * c_[3]) * s + 2.0 * c_[2]) * s + c_[1];
+    const double hv0 = s * c_[1], w1 = value(s), hv1 = s * speed;
+    return {c_[0], hv0, w1, hv1, value(0.5 * s) - 0.5 * (c_[0] + w1) - 0.125 * (hv0 - hv1)};
+  }
   /// It does not turn, as far as the Bernstein coefficients of its slope tell.
   bool is_monotonic() const;
 
@@ -38,6 +44,15 @@ class StopPath {
 
 /// The coefficients of a stop's force over a step in the Legendre polynomials P_0, P_1, P_2 of [0, 1].
 using ForceMoments = std::array<double, 3>;
+
+/// The moments over [a, b] of what P_0, P_1, P_2 make up over [0, 1]: with L = b - a and c = a + b - 1, P_1 is
+/// L P_1 + c and P_2 is L^2 P_2 + 3 L c P_1 + (L^2 + 3 c^2 - 1)/2.
+template <class T>
+std::array<T, 3> moments_within(const std::array<T, 3>& f, double a, double b) {
+  const double length = b - a, c = a + b - 1.0;
+  return {T(f[0] + c * f[1] + 0.5 * (length * length + 3.0 * c * c - 1.0) * f[2]),
+          T(length * f[1] + 3.0 * length * c * f[2]), T(length * length * f[2])};
+}
 
 /// What forces P_0, P_1, P_2 do to the displacement and the speed (times h) at the end and to the displacement in the
 /// middle.

@@ -68,6 +68,7 @@ class BUTEE_EXPORT StepFlow {
     bool is_known = false;
     Coupling coupling{};
     std::array<double, 9> inverse{};
+    double unresolved = 0.0;
   };
   Derived& derived(Index i) { return derived_[static_cast<std::size_t>(i)]; }
 

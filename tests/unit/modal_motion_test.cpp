@@ -1,0 +1,114 @@
+#include <cmath>
+#include <random>
+
+#include <butee/core/target.hpp>
+#include <butee/solve/modal_motion.hpp>
+#include <gtest/gtest.h>
+
+namespace butee::test::modal_motion_test {
+namespace {
+
+using Eigen::ArrayXd;
+using solve::ModalFlow;
+using solve::ModalHarmonic;
+using solve::ModalMotion;
+
+/// Relative to the largest of what makes up the motion: rounding of that and of the flow's doublings.
+constexpr double kTight = 1e-12;
+
+/// Rigid, rigid but braked, slow, damped, in resonance, near to critical, overdamped, and ever faster ones.
+struct Modes {
+  ArrayXd omega = ArrayXd(19), delta = ArrayXd::Zero(19);
+  std::vector<ModalHarmonic> loads;
+  std::vector<solve::ModalSystem::OtherLoad> others;
+
+  Modes() {
+    omega << 0, 0, 1e-3, 0.5, 2, 3, 4, 7, 9, 20, 50, 90, 200, 430, 900, 2e3, 5e3, 1e4, 3e5;
+    delta.segment(1, 8) << 0.5, 0, 0.1, 400, 11, 0, 7, 0.01;
+    delta.tail(6) << 1, 30, 0, 40, 3, 0;
+    loads = {{4.0, ArrayXd::Constant(19, 1.5), ArrayXd::Constant(19, -0.7)},
+             {50.0, ArrayXd::LinSpaced(19, -1, 1), ArrayXd::Zero(19)},
+             {0.0, ArrayXd::LinSpaced(19, 2, 3), ArrayXd::Zero(19)}};
+  }
+};
+
+/// The largest difference between q and v from ModalMotion and from a ModalFlow over the same time, each mode relative
+/// to the size of what it is made of.
+double difference(const Modes& modes, double h, double part) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  ArrayXd q(19), v(19);
+  std::array<ArrayXd, 3> f;
+  for (ArrayXd* array : {&q, &v, &f[0], &f[1], &f[2]})
+    *array = ArrayXd::NullaryExpr(19, [&] { return number(random); });
+  v *= modes.omega + 1.0;
+  for (ArrayXd& moment : f) moment *= modes.omega.square() + 1.0;
+  const double t = 0.31, tau = part * h;
+  ModalMotion motion(modes.omega, modes.delta, modes.loads, modes.others);
+  // The forces over the part alone, as the flow has them: one of them in the step, the others added.
+  const auto padded = [](const ArrayXd& array) {
+    Vector all = Vector::Zero(ModalMotion::padded(array.size()));
+    all.head(array.size()) = array;
+    return all;
+  };
+  const Vector q0 = padded(q), v0 = padded(v), constant = padded(f[0]), none = Vector::Zero(q0.size());
+  const std::array<const double*, 3> moments = {constant.data(), none.data(), none.data()};
+  motion.begin(t, h, q0.data(), v0.data(), moments.data());
+  for (Index i = 0; i < q.size(); ++i) motion.add_force(Vector::Unit(q.size(), i), {0.0, f[1][i], f[2][i]}, part);
+  motion.find(part);
+  const Eigen::Map<const ArrayXd> found_q(motion.q(), q.size()), found_v(motion.v(), v.size());
+
+  ModalFlow flow(modes.omega, modes.delta, modes.loads, tau);
+  flow.refine(modes.omega, modes.delta);
+  ArrayXd x = flow.qq() * q + flow.qv() * v, speed = flow.vq() * q + flow.vv() * v;
+  for (std::size_t k = 0; k < 3; ++k) {
+    x += f[k] * flow.force_q(static_cast<int>(k));
+    speed += f[k] * flow.force_v(static_cast<int>(k));
+  }
+  for (std::size_t j = 0; j < modes.loads.size(); ++j) {
+    const double angle = modes.loads[j].angular_frequency * t, c = std::cos(angle), s = std::sin(angle);
+    x += c * flow.harmonic_q(j, 0) - s * flow.harmonic_q(j, 1);
+    speed += c * flow.harmonic_v(j, 0) - s * flow.harmonic_v(j, 1);
+  }
+  const ArrayXd size = q.abs() + v.abs() * std::min(tau, 1.0) + 10.0 + tau * tau,
+                fast = (modes.omega + 1.0) * (q.abs() + 20.0) + v.abs() + tau;
+  return std::max(((found_q - x).abs() / size).maxCoeff(), ((found_v - speed).abs() / fast).maxCoeff());
+}
+
+TEST(ModalMotion, AgreesWithTheFlowOverTheSameTimeForEveryInstructionSet) {
+  const std::string chosen = target();
+  for (const std::string& set : targets()) {
+    choose_target(set);
+    for (const double h : {1e-6, 1e-3, 0.02, 0.4})
+      for (const double part : {0.07, 0.5, 1.0})
+        EXPECT_LT(difference(Modes{}, h, part), kTight) << set << ", h = " << h << ", part " << part;
+  }
+  choose_target(chosen);
+}
+
+TEST(ModalMotion, ForcesOfTheWholeStepHoldWithinIt) {
+  // f = 2 s - 1 and 6 s^2 - 6 s + 1 on a rigid mass from rest: closed forms.
+  const ArrayXd zero = ArrayXd::Zero(1);
+  const std::vector<ModalHarmonic> none;
+  const std::vector<solve::ModalSystem::OtherLoad> no_other;
+  ModalMotion motion(zero, zero, none, no_other);
+  const Vector rest = Vector::Zero(ModalMotion::padded(1)), unit = Vector::Unit(rest.size(), 0);
+  const double h = 0.3, s = 0.4;
+  const auto move = [&](const Vector& f1, const Vector& f2) {
+    const std::array<const double*, 3> moments = {rest.data(), f1.data(), f2.data()};
+    motion.begin(1.0, h, rest.data(), rest.data(), moments.data());
+    motion.find(s);
+  };
+  move(unit, rest);
+  EXPECT_NEAR(motion.v()[0], h * (s * s - s), 1e-16);
+  EXPECT_NEAR(motion.q()[0], h * h * (s * s * s / 3.0 - s * s / 2.0), 1e-17);
+  move(rest, unit);
+  EXPECT_NEAR(motion.v()[0], h * (2.0 * s * s * s - 3.0 * s * s + s), 1e-16);
+  const std::array<double, 3> products = motion.products(unit, 2.0 * unit);
+  EXPECT_DOUBLE_EQ(products[0], motion.q()[0]);
+  EXPECT_DOUBLE_EQ(products[1], motion.v()[0]);
+  EXPECT_DOUBLE_EQ(products[2], 2.0 * motion.q()[0]);
+}
+
+}  // namespace
+}  // namespace butee::test::modal_motion_test
