@@ -129,6 +129,9 @@ TEST(StressScenes, AreTheSameForTheSameSeed) {
   EXPECT_NE(random_scene(7).toml, random_scene(8).toml);
   EXPECT_EQ(wide_scene(7).toml, wide_scene(7).toml);
   EXPECT_NE(wide_scene(7).toml, wide_scene(8).toml);
+  EXPECT_EQ(random_scene_of("wide 7")->toml, wide_scene(7).toml);
+  EXPECT_EQ(random_scene_of("random 7")->toml, random_scene(7).toml);
+  EXPECT_FALSE(random_scene_of("wide 7a") || random_scene_of("gap 1e-3"));
   // The generator's own numbers: another machine makes the same scenes.
   Random random(1);
   EXPECT_EQ(random.next(), 0x910a2dec89025cc1U);

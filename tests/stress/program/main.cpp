@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -84,7 +85,7 @@ int run_suite(Options options) {
         std::find(options.methods.begin(), options.methods.end(), method.name) != options.methods.end())
       chosen.push_back(method);
 
-  Watchdog watchdog(120);
+  Watchdog watchdog(600);
   Tally corners, random;
   const auto note = [&](const Scene& scene, const Method& method, const Outcome& outcome) {
     watchdog.note(scene.name + ", " + method.name);
@@ -97,12 +98,14 @@ int run_suite(Options options) {
   for (Scene& scene : corner_scenes(options.points))
     if (options.only.empty() || scene.name == options.only) scenes.push_back(std::move(scene));
   run_all(scenes, chosen, options.work, corners, note);
-  for (int i = 0; i < options.scenes; ++i) {
-    Scene scene = mixed_scene(options.seed + static_cast<std::uint64_t>(i));
-    if (!options.only.empty() && scene.name != options.only) continue;
+  const auto run_one = [&](Scene scene) {
     if (options.verbose) std::printf("%s, tolerance %g\n%s", scene.name.c_str(), scene.tolerance, scene.toml.c_str());
     run_all({std::move(scene)}, chosen, options.work, random, note);
-  }
+  };
+  if (options.only.empty())
+    for (int i = 0; i < options.scenes; ++i) run_one(mixed_scene(options.seed + static_cast<std::uint64_t>(i)));
+  else if (std::optional<Scene> scene = random_scene_of(options.only))
+    run_one(std::move(*scene));
   std::string text = "# Stress suite\n\nMade by `butee_stress" + std::string(options.full ? " --full" : "") +
                      "`, seed " + std::to_string(options.seed) + ", at most " + std::to_string(options.work) +
                      " evaluations and solves a run. What the columns mean: tests/stress/README.md.\n\n## Corners, " +

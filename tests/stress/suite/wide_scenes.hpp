@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "scenes.hpp"
 
 namespace butee::stress {
@@ -15,5 +17,8 @@ Scene wide_scene(std::uint64_t seed);
 inline Scene mixed_scene(std::uint64_t seed) {
   return seed % 3 == 0 ? random_scene(seed) : wide_scene(seed);
 }
+
+/// The random scene of a name such as "wide 17".
+std::optional<Scene> random_scene_of(const std::string& name);
 
 }  // namespace butee::stress
