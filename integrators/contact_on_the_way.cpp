@@ -6,8 +6,6 @@
 namespace butee::integrators {
 namespace {
 
-/// Force jumps below kUnfelt * tolerance * k * gap are ignored.
-constexpr double kUnfelt = 0.05;
 /// Impulses below this part of the tolerance times m S_v are ignored.
 constexpr double kUnfeltImpulse = 0.1;
 /// Penetrations below this part of the displacement are rounding.
@@ -35,20 +33,23 @@ ContactOnTheWay::ContactOnTheWay(solve::Dynamics& dynamics, double tolerance)
   closed_ = contact_->closed_stiffness();
   mass_ = dynamics.system().mass.diagonal();
   for (Index i = 0; i < contact_->size(); ++i) {
-    const double gap = contact_->gap_of(i), force = std::abs(contact_->law_of(i).secant(-gap)) * gap;
-    if (contact_->sides_of(i) == model::Sides::both && force > kUnfelt * tolerance * closed_[i] * gap)
-      jumps_[i] = 2.0 * force;
+    const double gap = contact_->gap_of(i);
+    if (contact_->sides_of(i) == model::Sides::both) jumps_[i] = 2.0 * std::abs(contact_->law_of(i).secant(-gap)) * gap;
   }
 }
 
-double ContactOnTheWay::impulse_rate(Index stop, const Vector& scale_v) const {
+double ContactOnTheWay::impulse_rate(Index stop, ConstVectorRef scale_v) const {
   double rate = 0.0;
   for (const Index dof : {contact_->dof_a(stop), contact_->dof_b(stop)})
     if (dof >= 0 && scale_v[dof] > 0.0) rate = std::max(rate, 1.0 / (mass_[dof] * scale_v[dof]));
   return rate;
 }
 
-bool ContactOnTheWay::changed(const time::State& from, const time::State& to) {
+bool ContactOnTheWay::is_felt(Index stop, double h, ConstVectorRef scale_v) const {
+  return jumps_[stop] > 0.0 && jumps_[stop] * h * impulse_rate(stop, scale_v) > kUnfeltImpulse * tolerance_;
+}
+
+bool ContactOnTheWay::changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
   if (contact_->size() == 0) return false;
   contact_->displacement(from.x, w0_);
   contact_->displacement(to.x, w1_);
@@ -60,11 +61,11 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to) {
     return 0;
   };
   for (Index i = 0; i < w0_.size(); ++i)
-    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i]) || has_passed_middle(i)) return true;
+    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i]) || (has_passed_middle(i) && is_felt(i, h, scale_v))) return true;
   return false;
 }
 
-double ContactOnTheWay::jump(const time::State& from, const time::State& to, const Vector& scale_v) {
+double ContactOnTheWay::jump(const time::State& from, const time::State& to, ConstVectorRef scale_v) {
   double largest = 0.0;
   if (!(jumps_.array() > 0.0).any()) return largest;
   contact_->displacement(from.x, w0_);
@@ -74,7 +75,7 @@ double ContactOnTheWay::jump(const time::State& from, const time::State& to, con
   return largest;
 }
 
-bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h, const Vector& scale_v) {
+bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
   if (contact_->size() == 0) return false;
   contact_->displacement(from.v, v0_);
   contact_->displacement(to.v, v1_);
@@ -98,7 +99,7 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
     if (depth > tolerance_ * size) return true;
     if (depth > kRounding * size && closed_[i] * depth * h * impulse_rate(i, scale_v) > kUnfeltImpulse * tolerance_)
       return true;
-    if (jumps_[i] > 0.0 && depth_beyond(0.0) > tolerance_ * size) return true;
+    if (is_felt(i, h, scale_v) && depth_beyond(0.0) > tolerance_ * size) return true;
   }
   return false;
 }

@@ -76,7 +76,8 @@ StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, 
   to.v += gamma * h * (to.a - old_a_);
   if (!control_) return report;
   const bool load_jumps = std::binary_search(kinks_.begin(), kinks_.end(), step.t_end);
-  if (!load_jumps && !contact_->changed(from, to)) {
+  v_ = LocalErrorControl::scales_v(from).cwiseMax(to.v.cwiseAbs());
+  if (!load_jumps && !contact_->changed(from, to, h, v_)) {
     control_->judge(from, to, h, a_, alpha_f * h, report);
     return report;
   }

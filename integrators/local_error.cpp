@@ -132,7 +132,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     scales_.raise(work_, scale_x_);
     epsilon = relative_error(error_x, error_v);
   }
-  const bool has_changed = contact_.changed(from, to);
+  const bool has_changed = contact_.changed(from, to, h, scale_v_);
   double r = epsilon / smooth, charge = 0.0;
   if (as_a_whole_) {
     if (has_changed) r *= orders_.kink;

@@ -23,12 +23,15 @@ class Rodas4 final : public time::Integrator {
 
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State&) const override { return control_.first_step(); }
+  time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
 
  private:
   static constexpr std::size_t kStages = 6;
 
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                      time::Interpolated out) const override;
   /// (K + K_t) y into work_
   void tangent_force(ConstVectorRef y);
 

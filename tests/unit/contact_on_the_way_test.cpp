@@ -55,31 +55,36 @@ TEST(ContactOnTheWay, WeighsTheImpulseOfASmallPenetration) {
   EXPECT_TRUE(is_missed("20.0"));
 }
 
+bool changed(integrators::ContactOnTheWay& contact, double from, double to) {
+  return contact.changed(at(from), at(to), to - from, kSpeed);
+}
+
 TEST(ContactOnTheWay, HasChangedWhereOneEndAloneIsInTheStop) {
   constexpr double kTurn = 3.141592653589793;
   for (const auto& [sides, above, below] :
        {std::tuple{"both", true, true}, std::tuple{"positive", true, false}, std::tuple{"negative", false, true}}) {
     SceneRun run(mass_at_a_stop(sides, "type = \"exact\"\ntime_step = 1.0\n"));
     integrators::ContactOnTheWay contact(run.dynamics(), 1e-3);
-    EXPECT_FALSE(contact.changed(at(0.2), at(1.0))) << sides;
-    EXPECT_FALSE(contact.changed(at(1.3), at(1.8))) << sides;
-    EXPECT_EQ(contact.changed(at(1.0), at(1.3)), above) << sides;
-    EXPECT_EQ(contact.changed(at(1.8), at(2.1)), above) << sides;
-    EXPECT_EQ(contact.changed(at(kTurn + 1.0), at(kTurn + 1.3)), below) << sides;
+    EXPECT_FALSE(changed(contact, 0.2, 1.0)) << sides;
+    EXPECT_FALSE(changed(contact, 1.3, 1.8)) << sides;
+    EXPECT_EQ(changed(contact, 1.0, 1.3), above) << sides;
+    EXPECT_EQ(changed(contact, 1.8, 2.1), above) << sides;
+    EXPECT_EQ(changed(contact, kTurn + 1.0, kTurn + 1.3), below) << sides;
     // From one side's stop into the other's.
-    EXPECT_TRUE(contact.changed(at(1.5), at(kTurn + 1.5))) << sides;
+    EXPECT_TRUE(changed(contact, 1.5, kTurn + 1.5)) << sides;
   }
 }
 
+/// A pull of 1e6/(pi^2 1e7) N to either side changes the speed by 2e-3 m/s within 0.1 s.
 TEST(ContactOnTheWay, HasChangedWhereABluntLawJumpsAtTheMiddle) {
   const std::string blunt = "contact[0].law=\"arctan\"", exact = "type = \"rk4\"\ntime_step = 1e-3\n";
   for (const auto& [sides, lambda, tolerance, expected] :
-       {std::tuple{"both", "3.0", 1e-3, true}, std::tuple{"both", "1e7", 1e-3, false},
-        std::tuple{"both", "1e7", 1e-7, true}, std::tuple{"positive", "3.0", 1e-3, false}}) {
+       {std::tuple{"both", "3.0", 1e-3, true}, std::tuple{"both", "1e7", 0.05, false},
+        std::tuple{"both", "1e7", 1e-3, true}, std::tuple{"positive", "3.0", 1e-3, false}}) {
     SceneRun run(mass_at_a_stop(sides, exact), {blunt, std::string("contact[0].regularization=") + lambda});
     integrators::ContactOnTheWay contact(run.dynamics(), tolerance);
-    EXPECT_EQ(contact.changed(at(3.1), at(3.2)), expected) << sides << " " << lambda << " " << tolerance;
-    EXPECT_FALSE(contact.changed(at(3.2), at(3.3))) << sides << " " << lambda << " " << tolerance;
+    EXPECT_EQ(changed(contact, 3.1, 3.2), expected) << sides << " " << lambda << " " << tolerance;
+    EXPECT_FALSE(changed(contact, 3.2, 3.3)) << sides << " " << lambda << " " << tolerance;
   }
 }
 

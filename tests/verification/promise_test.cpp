@@ -145,11 +145,30 @@ stiffness = 1e4
 velocity = [{ nodes = "a", value = 1.0 }]
 )";
 
+// From rest, so that the first step leaps over most of what is a displacement so far.
+constexpr const char* kSwitchedOn = R"(
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 1e4
+[[load]]
+type = "ramp"
+node = "m"
+to = 20.0
+start = 0.02
+end = 0.02000006
+)";
+
 constexpr Scene kScenes[] = {{"light_part", kLightPart, 0.1},
                              {"rotations", kRotations, 0.05},
                              {"hard_stop", kHardStop, 0.5},
                              {"impulse", kImpulse, 0.2},
-                             {"free_bodies", kFreeBodies, 0.6}};
+                             {"free_bodies", kFreeBodies, 0.6},
+                             {"switched_on", kSwitchedOn, 0.1}};
 
 /// All components at all rows: x, then v, a column for each row.
 struct Motion {

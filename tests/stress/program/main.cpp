@@ -1,16 +1,21 @@
 // The whole stress suite: butee_stress --full [--report FILE]. Without --full the reduced one that ctest runs.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <CLI/CLI.hpp>
+#include <butee/core/text.hpp>
 
 #include "stress/suite/long_runs.hpp"
+#include "stress/suite/slope.hpp"
 #include "stress/suite/tally.hpp"
+#include "stress/suite/wide_scenes.hpp"
 
 namespace {
 
@@ -57,47 +62,76 @@ class Watchdog {
   std::thread thread_;
 };
 
+/// Runs for slopes are to come to their end.
+constexpr std::int64_t kSlopeWork = 200000;
+
 struct Options {
   bool full = false, no_long_runs = false, verbose = false;
-  int scenes = 0, points = 0;
+  int scenes = 0, points = 0, slopes = -1;
   std::uint64_t seed = 1;
   std::int64_t work = 0;
-  std::string method, only, report;
+  std::vector<std::string> methods;
+  std::string only, report;
 };
 
 int run_suite(Options options) {
   if (options.scenes == 0) options.scenes = options.full ? 10000 : 40;
   if (options.points == 0) options.points = options.full ? 13 : 3;
-  if (options.work == 0) options.work = options.full ? 40000 : 20000;
+  if (options.slopes < 0) options.slopes = !options.only.empty() ? 0 : options.full ? 200 : 5;
+  if (options.work == 0) options.work = options.full ? 100000 : 20000;
   std::vector<Method> chosen;
   for (const Method& method : methods())
-    if (options.method.empty() || options.method == method.name) chosen.push_back(method);
+    if (options.methods.empty() ||
+        std::find(options.methods.begin(), options.methods.end(), method.name) != options.methods.end())
+      chosen.push_back(method);
 
-  Watchdog watchdog(120);
+  Watchdog watchdog(600);
   Tally corners, random;
   const auto note = [&](const Scene& scene, const Method& method, const Outcome& outcome) {
     watchdog.note(scene.name + ", " + method.name);
     if (options.verbose || is_failure(outcome.verdict))
-      std::printf("%s, %s: %s, error %g, allowed %g, %s\n", scene.name.c_str(), method.name.c_str(),
-                  name_of(outcome.verdict), outcome.error, outcome.allowed, outcome.message.c_str());
+      std::printf("%s, %s: %s, error %g, allowed %g, %g of the run, %s\n", scene.name.c_str(), method.name.c_str(),
+                  name_of(outcome.verdict), outcome.error, outcome.allowed, outcome.part, outcome.message.c_str());
     std::fflush(stdout);
   };
   std::vector<Scene> scenes;
   for (Scene& scene : corner_scenes(options.points))
     if (options.only.empty() || scene.name == options.only) scenes.push_back(std::move(scene));
   run_all(scenes, chosen, options.work, corners, note);
-  for (int i = 0; i < options.scenes; ++i) {
-    Scene scene = random_scene(options.seed + static_cast<std::uint64_t>(i));
-    if (!options.only.empty() && scene.name != options.only) continue;
-    if (options.verbose) std::printf("%s\n%s", scene.name.c_str(), scene.toml.c_str());
+  const auto run_one = [&](Scene scene) {
+    if (options.verbose) std::printf("%s, tolerance %g\n%s", scene.name.c_str(), scene.tolerance, scene.toml.c_str());
     run_all({std::move(scene)}, chosen, options.work, random, note);
-  }
+  };
+  if (options.only.empty())
+    for (int i = 0; i < options.scenes; ++i) run_one(mixed_scene(options.seed + static_cast<std::uint64_t>(i)));
+  else if (std::optional<Scene> scene = random_scene_of(options.only))
+    run_one(std::move(*scene));
   std::string text = "# Stress suite\n\nMade by `butee_stress" + std::string(options.full ? " --full" : "") +
                      "`, seed " + std::to_string(options.seed) + ", at most " + std::to_string(options.work) +
                      " evaluations and solves a run. What the columns mean: tests/stress/README.md.\n\n## Corners, " +
                      std::to_string(corners.scenes) + " scenes\n\n" + corners.markdown() + "\n## Random scenes, " +
                      std::to_string(random.scenes) + "\n\n" + random.markdown();
   bool is_good = corners.failures().empty() && random.failures().empty();
+  std::string rows;
+  std::int64_t fitted = 0, below = 0;
+  for (int i = 0; i < options.slopes; ++i) {
+    const Scene scene = mixed_scene(options.seed + static_cast<std::uint64_t>(i));
+    watchdog.note("slopes of " + scene.name);
+    for (const Slope& slope : slopes(scene, chosen, kSlopeWork)) {
+      fitted += slope.is_fitted() ? 1 : 0;
+      if (slope.is_kept()) continue;
+      ++below;
+      rows += "| " + slope.scene + " | `" + slope.method + "` | " + butee::to_short_text(slope.value) + " |";
+      for (std::size_t k = 0; k < slope.errors.size(); ++k)
+        rows += " " + butee::to_short_text(slope.tolerances[k]) + ": " + butee::to_short_text(slope.errors[k]);
+      rows += " |\n";
+    }
+  }
+  if (options.slopes > 0)
+    text += "\n## Slopes\n\n" + std::to_string(fitted) + " fitted on " + std::to_string(options.slopes) + " scenes, " +
+            std::to_string(below) +
+            " below 0.8, or 0.5 with grazing\n\n| scene | method | slope | tolerance: error |\n|---|---|---|---|\n" +
+            rows;
   if (!options.no_long_runs) {
     text += "\n## Long runs\n\n| method | steps | sound | what came out | CPU s |\n|---|---|---|---|---|\n";
     for (const Method& method : chosen) {
@@ -122,10 +156,11 @@ int main(int argc, char** argv) {
   program.add_flag("--no-long-runs", options.no_long_runs, "leave out the runs of very many steps");
   program.add_flag("-v,--verbose", options.verbose, "every run");
   program.add_option("--scenes", options.scenes, "so many random scenes");
+  program.add_option("--slopes", options.slopes, "so many random scenes over all tolerances");
   program.add_option("--points", options.points, "so many points of each sweep");
   program.add_option("--seed", options.seed, "of the first random scene");
   program.add_option("--work", options.work, "evaluations and solves of a run");
-  program.add_option("--method", options.method, "this method alone");
+  program.add_option("--method", options.methods, "these methods alone");
   program.add_option("--only", options.only, "the scene of this name alone");
   program.add_option("--report", options.report, "a file for the report");
   CLI11_PARSE(program, argc, argv);

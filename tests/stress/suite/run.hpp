@@ -1,11 +1,9 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "scenes.hpp"
-#include "support/scene_run.hpp"
+#include "reference.hpp"
 
 namespace butee::stress {
 
@@ -14,6 +12,7 @@ struct Method {
   std::string name;
   bool is_controlled = false;  ///< its tolerance is a promise: its answers are correct or it stops
   bool is_foreign = false;     ///< of SUNDIALS
+  bool is_judged = false;      ///< by its promise; all others are recorded
 };
 
 /// Every method of the catalogue but `exact`, which judges them.
@@ -39,36 +38,23 @@ bool is_failure(Verdict verdict);
 
 struct Outcome {
   Verdict verdict = Verdict::unjudged;
-  double error = 0.0;    ///< the largest up to the horizon, relative to the peak
-  double allowed = 0.0;  ///< of a wrong one: at the instant where it was the most times too large
-  double excess = 0.0;   ///< the largest error / allowed
+  double error = 0.0;    ///< the largest e up to the horizon
+  double allowed = 0.0;  ///< at the instant where e was the largest part, or the most times, of it
+  double excess = 0.0;   ///< e / allowed there
+  double part = 0.0;     ///< of the run that was compared
+  int level = 0;         ///< of the reference that it was compared with
+  std::int64_t steps = 0;
   bool was_cut = false;  ///< at the bound of its work
   bool has_warned = false;
   double seconds = 0.0;
   std::string message;
 };
 
-/// The solution by `exact`, and how starts that differ a little part from it.
-class Reference {
- public:
-  /// `work` bounds each of its runs.
-  Reference(const Scene& scene, std::int64_t work);
-
-  bool exists() const { return !instants_.empty(); }
-  /// Instants up to the trust horizon.
-  const std::vector<double>& instants() const { return instants_; }
-  double peak() const { return peak_; }
-  double critical_step() const { return critical_step_; }
-  const Vector& at(std::size_t i) const { return motion_[i]; }
-  double allowed(std::size_t i) const { return allowed_[i]; }
-
- private:
-  std::vector<double> instants_, allowed_;
-  std::vector<Vector> motion_;
-  double peak_ = 0.0, critical_step_ = 0.0;
-};
-
 /// Runs one method, bounded by `work` evaluations and solves.
-Outcome run(const Scene& scene, const Method& method, const Reference& reference, std::int64_t work);
+/// A wrong answer is one under the largest Gamma that `reference` finds, which is refined for it.
+Outcome run(const Scene& scene, const Method& method, Reference& reference, std::int64_t work);
+
+/// The keys of [integrator] for a method, `type` and `end_time` included.
+std::string integrator(const Scene& scene, const Method& method, const Reference& reference);
 
 }  // namespace butee::stress

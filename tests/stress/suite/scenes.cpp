@@ -5,6 +5,8 @@
 
 #include <butee/core/text.hpp>
 
+#include "scene_text.hpp"
+
 namespace butee::stress {
 namespace {
 
@@ -26,14 +28,6 @@ struct Recipe {
 
 std::string key(const char* name, double value) {
   return std::string(name) + " = " + to_text(value) + "\n";
-}
-
-std::string mass(const std::string& name, double m) {
-  return "[[element]]\ntype = \"mass\"\nname = \"" + name + "\"\n" + key("mass", m);
-}
-
-std::string spring(const std::string& ends, double stiffness, double damping) {
-  return "[[element]]\ntype = \"spring\"\n" + ends + key("stiffness", stiffness) + key("damping", damping);
 }
 
 std::string stop(const Recipe& r, const std::string& where) {
@@ -66,8 +60,8 @@ Scene one_mass(const std::string& name, const Recipe& r) {
   scene.name = name;
   scene.size = r.size();
   scene.end_time = r.periods * 2.0 * kPi / r.omega();
-  scene.toml = "schema = 1\n" + mass("m", r.mass) +
-               spring("node = \"m\"\n", r.stiffness, 2.0 * r.ratio * std::sqrt(r.stiffness * r.mass)) +
+  scene.toml = "schema = 1\n" + mass_text("m", r.mass) +
+               spring_text("node = \"m\"\n", r.stiffness, 2.0 * r.ratio * std::sqrt(r.stiffness * r.mass)) +
                stop(r, "nodes = \"m\"\n") + load(r, "m", r.force * r.stiffness * r.size(), r.omega()) +
                initial("m", r.start * r.size(), r.speed * r.omega() * r.size());
   return scene;
@@ -81,12 +75,12 @@ Scene chain(const std::string& name, const Recipe& r, int count, bool between, b
   const bool couples_modes = with_dashpots && r.ratio > 0.0;
   const double c = couples_modes ? 2.0 * r.ratio * std::sqrt(r.stiffness * r.mass) : 0.0;
   scene.toml = "schema = 1\n";
-  for (int i = 0; i < count; ++i) scene.toml += mass("m" + std::to_string(i), r.mass * random.decades(-0.5, 0.5));
-  scene.toml += spring("node = \"m0\"\n", r.stiffness, c);
+  for (int i = 0; i < count; ++i) scene.toml += mass_text("m" + std::to_string(i), r.mass * random.decades(-0.5, 0.5));
+  scene.toml += spring_text("node = \"m0\"\n", r.stiffness, c);
   for (int i = 1; i < count; ++i) {
     std::string ends = "nodes = [\"m";
     ends += std::to_string(i - 1) + "\", \"m" + std::to_string(i) + "\"]\n";
-    scene.toml += spring(ends, r.stiffness * random.decades(-0.5, 0.5), c);
+    scene.toml += spring_text(ends, r.stiffness * random.decades(-0.5, 0.5), c);
   }
   const std::string last = "m" + std::to_string(count - 1);
   scene.toml += stop(r, between ? "between = [\"m" + std::to_string(count - 2) + "\", \"" + last + "\"]\n"

@@ -1,11 +1,18 @@
 #include "tally.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <sstream>
 
 #include <butee/core/text.hpp>
 
 namespace butee::stress {
+namespace {
+
+/// Of a run by `exact`, whatever the bound of others: where it is cut a scene ends.
+constexpr std::int64_t kReferenceWork = 200000;
+
+}  // namespace
 
 void Tally::add(const Scene& scene, const Method& method, const Outcome& outcome) {
   Row& row = rows_[method.name];
@@ -41,6 +48,11 @@ std::string Tally::markdown() const {
         << to_short_text(row.worst) << " | " << to_short_text(row.seconds) << " | " << to_short_text(row.slowest)
         << " |\n";
   }
+  out << "\n"
+      << uncertain << " references differ before the trust horizon, " << unjudged
+      << " scenes have nothing to compare with, " << complaints.size() << " are no scenes; references took "
+      << to_short_text(reference_seconds) << " s.\n";
+  for (const std::string& complaint : complaints) out << "\n" << complaint << "\n";
   if (failures_.empty()) return out.str();
   out << "\n| scene | method | what | error | allowed | message |\n|---|---|---|---|---|---|\n";
   for (const Failure& f : failures_)
@@ -53,8 +65,16 @@ std::string Tally::markdown() const {
 void run_all(const std::vector<Scene>& scenes, const std::vector<Method>& methods, std::int64_t work, Tally& tally,
              const std::function<void(const Scene&, const Method&, const Outcome&)>& on_run) {
   for (const Scene& scene : scenes) {
-    const Reference reference(scene, work);
+    const std::clock_t begin = std::clock();
+    Reference reference(scene, kReferenceWork);
+    tally.reference_seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     ++tally.scenes;
+    if (!reference.complaint().empty()) {
+      tally.complaints.push_back(scene.name + ": " + reference.complaint());
+      continue;
+    }
+    tally.uncertain += reference.is_uncertain() ? 1 : 0;
+    tally.unjudged += reference.exists() ? 0 : 1;
     for (const Method& method : methods) {
       const Outcome outcome = run(scene, method, reference, work);
       tally.add(scene, method, outcome);

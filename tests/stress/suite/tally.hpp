@@ -28,6 +28,9 @@ class Tally {
 
   void add(const Scene& scene, const Method& method, const Outcome& outcome);
   std::int64_t scenes = 0;
+  std::vector<std::string> complaints;  ///< scenes that are none
+  double reference_seconds = 0.0;
+  std::int64_t uncertain = 0, unjudged = 0;  ///< scenes, with references that differ before the horizon, or with none
 
   const std::map<std::string, Row>& rows() const { return rows_; }
   const std::vector<Failure>& failures() const { return failures_; }

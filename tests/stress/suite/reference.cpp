@@ -1,0 +1,285 @@
+#include "reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
+#include <butee/solve/frequencies.hpp>
+
+#include "work.hpp"
+
+namespace butee::stress {
+namespace {
+
+/// Of the tolerance: where two references differ by more, neither is one.
+constexpr double kCertain = 0.1;
+/// The other one: its series are shorter, so that its steps and its rounding are others.
+constexpr const char* kOther = "order = 24\nseries_tolerance = 1e-18\n";
+constexpr std::size_t kHardest = 3;
+/// Of the time since the change of contact before it: so long before an impact a disturbance comes.
+constexpr double kBefore = 0.1;
+/// Instants before a wrong answer, and ways to disturb each, that are tried before it is called so.
+constexpr int kDense = 30;
+constexpr int kPatterns = 6;
+/// A scene whose reference is too much work is followed for as long as it came, a little less for the instants on the
+/// way, and so again if that was too long as well.
+constexpr int kTrials = 4;
+constexpr double kShorter = 0.9;
+constexpr double kTurn = 6.283185307179586;
+/// Periods of the slowest mode that moves, up to which the promise needs no allowance.
+constexpr double kPeriods = 1000.0;
+
+std::string exact(const Scene& scene, double end_time, const std::string& keys = "") {
+  return scene.toml + "[integrator]\ntype = \"exact\"\n" + keys + "end_time = " + to_text(end_time) + "\n";
+}
+
+/// 1, or how many thousand periods of the slowest mode that moves the run has.
+double allowance(const model::System& system, const solve::Modes& modes, const Trajectory& motion,
+                 const Trajectory& largest, double end_time) {
+  for (Index k = 0; k < modes.frequencies.size(); ++k) {
+    const double periods = end_time * modes.frequencies[k] / kTurn;
+    const Eigen::RowVectorXd amplitude = (system.mass * modes.shapes.col(k)).transpose() * motion.x;
+    const Vector size = modes.shapes.col(k).cwiseAbs() * amplitude.cwiseAbs().maxCoeff();
+    const auto last = largest.x.col(largest.x.cols() - 1).array();
+    if ((size.array() > Promise::kFloor * last && last > 0.0).any()) return std::max(1.0, periods / kPeriods);
+  }
+  return 1.0;
+}
+
+/// A disturbance that vibrates on with e = 1 in every mode, of random phases, scaled to e = 1 at once. Moving every
+/// component by itself instead makes fast modes vibrate with e = S_x omega/S_v, which no smooth error does.
+void modal_pattern(const solve::Modes& modes, ConstVectorRef scale_x, ConstVectorRef scale_v, Random& random, Vector& x,
+                   Vector& v) {
+  x.setZero(scale_x.size());
+  v.setZero(scale_v.size());
+  for (Index k = 0; k < modes.frequencies.size(); ++k) {
+    const double omega = modes.frequencies[k];
+    const double in_place = (modes.shapes.col(k).array() / scale_x.array()).abs().maxCoeff();
+    const double in_speed = (modes.shapes.col(k).array() / scale_v.array()).abs().maxCoeff();
+    const double place = 1.0 / std::max(in_place, omega * in_speed);
+    const double speed = 1.0 / std::max(in_speed, omega > 0.0 ? in_place / omega : 0.0);
+    x += (random.chance(0.5) ? place : -place) * modes.shapes.col(k);
+    v += (random.chance(0.5) ? speed : -speed) * modes.shapes.col(k);
+  }
+  const double size =
+      std::max((x.array() / scale_x.array()).abs().maxCoeff(), (v.array() / scale_v.array()).abs().maxCoeff());
+  x /= size;
+  v /= size;
+}
+
+/// Every component by its own scale.
+void any_pattern(ConstVectorRef scale_x, ConstVectorRef scale_v, Random& random, Vector& x, Vector& v) {
+  x = scale_x;
+  v = scale_v;
+  for (Index i = 0; i < x.size(); ++i) {
+    if (random.chance(0.5)) x[i] = -x[i];
+    if (random.chance(0.5)) v[i] = -v[i];
+  }
+}
+
+}  // namespace
+
+Reference::Reference(const Scene& scene, std::int64_t work) : scene_(scene), work_(work), end_time_(scene.end_time) {
+  try {
+    solve();
+  } catch (const InputError& error) {
+    complaint_ = error.what();
+  }
+}
+
+void Reference::solve() {
+  double reached = follow();
+  for (int trial = 0; reached < end_time_; ++trial, reached = follow()) {
+    if (!(reached > 0.0) || trial == kTrials) return;
+    end_time_ = kShorter * reached;
+  }
+  peak_ = largest_.x.col(kRows - 1).maxCoeff();
+  if (!(peak_ > 0.0) || !base_.is_finite) return;
+  const model::System& system = run_->system();
+  std::vector<bool> is_rotation;
+  for (const model::NodalDof& dof : system.dofs.free()) is_rotation.push_back(dof.kind == DofKind::theta);
+  modes_ = solve::lowest_modes(system, system.size());
+  if (!modes_) return;
+  promise_.emplace(base_, largest_, is_rotation, scene_.tolerance,
+                   allowance(system, *modes_, base_, largest_, end_time_));
+  compare_with_another();
+  add_disturbances(end_time_);
+  measure();
+}
+
+void Reference::place_instants() {
+  // At irregular distances, so that no output meets the same phase again and again.
+  instants_ = {0.0};
+  for (int i = 1; i < kRows; ++i) {
+    const double jitter = i < kRows - 1 ? 0.8 * (std::fmod(0.6180339887498949 * i, 1.0) - 0.5) : 0.0;
+    instants_.push_back(end_time_ * (i + jitter) / (kRows - 1));
+  }
+}
+
+bool Reference::advance_to(double t) {
+  time::Simulation& simulation = run_->simulation();
+  simulation.set_end_time(t);
+  const std::int64_t begin = work_of(run_->dynamics().counters());
+  while (simulation.state().t < t) {
+    if (work_of(run_->dynamics().counters()) - begin > work_) return false;
+    if (!simulation.advance()) break;
+  }
+  return simulation.report().completed;
+}
+
+double Reference::follow() {
+  place_instants();
+  run_ = std::make_unique<test::SceneRun>(exact(scene_, end_time_));
+  const auto range = solve::frequency_range(run_->system(), solve::StopState::closed);
+  critical_step_ = range && range->highest > 0.0 ? 2.0 / range->highest : end_time_;
+  watch_ = std::make_unique<CourseWatch>(run_->dynamics().contact());
+  band_ = std::make_unique<VelocityBand>();
+  follower_ = std::make_unique<Follower>(run_->dynamics().size(), instants_);
+  time::Simulation& simulation = run_->simulation();
+  simulation.add(*watch_);
+  simulation.add(*band_);
+  simulation.add(*follower_);
+  simulation.start();
+  const Index size = run_->dynamics().size();
+  base_ = largest_ = Trajectory(size, instants_.size());
+  base_.rows = largest_.rows = kRows;
+  snapshots_.clear();
+  const std::int64_t begin = work_of(run_->dynamics().counters());
+  for (Index row = 0; row < kRows; ++row) {
+    const double t = instants_[static_cast<std::size_t>(row)];
+    if (row > 0 && (!advance_to(t) || work_of(run_->dynamics().counters()) - begin > work_))
+      return std::min(simulation.state().t, kShorter * end_time_);
+    base_.x.col(row) = simulation.state().x;
+    base_.v.col(row) = simulation.state().v;
+    base_.is_finite = base_.is_finite && simulation.state().x.allFinite() && simulation.state().v.allFinite();
+    largest_.x.col(row) = watch_->largest_x;
+    largest_.v.col(row) = watch_->largest_v;
+    snapshots_.push_back(simulation.snapshot());
+  }
+  watch_->watches = CourseWatch::Watches::nothing;
+  return end_time_;
+}
+
+void Reference::compare_with_another() {
+  test::SceneRun run(exact(scene_, end_time_, kOther));
+  Follower follower(run.dynamics().size(), instants_);
+  run.simulation().add(follower);
+  while (run.simulation().advance() && work_of(run.dynamics().counters()) < 2 * work_) continue;
+  other_ = std::move(follower.trajectory);
+}
+
+Index Reference::row_at(double t) const {
+  return static_cast<Index>(std::upper_bound(instants_.begin(), instants_.end(), t) - instants_.begin()) - 1;
+}
+
+void Reference::disturb(double t, int pattern) {
+  const Index before = row_at(t);
+  if (before >= promise_->rows() || before + 1 >= kRows) return;
+  time::Simulation& simulation = run_->simulation();
+  simulation.restore(snapshots_[static_cast<std::size_t>(before)]);
+  watch_->largest_x = promise_->scales().x.col(before);
+  watch_->largest_v = promise_->scales().v.col(before);
+  if (t > instants_[static_cast<std::size_t>(before)]) {
+    watch_->watches = CourseWatch::Watches::largest;
+    advance_to(t);
+    watch_->watches = CourseWatch::Watches::nothing;
+  }
+  Vector x = simulation.state().x, v = simulation.state().v, change_x, change_v;
+  // Patterns come in pairs, each the negative of the other; the first pair is a vibration.
+  Random random(disturbed_.size() * 8U + static_cast<std::uint64_t>(pattern / 2));
+  if (pattern < 2)
+    modal_pattern(*modes_, watch_->largest_x, watch_->largest_v, random, change_x, change_v);
+  else
+    any_pattern(watch_->largest_x, watch_->largest_v, random, change_x, change_v);
+  const double size = scene_.tolerance, sign = pattern % 2 == 0 ? size : -size;
+  x += sign * change_x;
+  v += sign * change_v;
+  follower_->trajectory = Trajectory(x.size(), instants_.size());
+  follower_->trajectory.rows = before + 1;
+  // Beyond the horizon nothing is compared.
+  const Index last = std::clamp<Index>(promise_->rows(), before + 1, kRows - 1);
+  const double end = instants_[static_cast<std::size_t>(last)];
+  simulation.set_end_time(end);
+  simulation.set_motion(x, v);
+  const bool is_over = advance_to(end);
+  disturbed_.push_back({before + 1, size, is_over, follower_->trajectory});
+  follower_->trajectory.rows = kRows;  // it rests
+}
+
+std::vector<double> Reference::before_hardest_impacts(double until) const {
+  std::vector<std::pair<double, double>> impacts;
+  const Vector stiffness = run_->dynamics().contact().closed_stiffness();
+  double last = 0.0;
+  for (const ContactChange& change : watch_->changes) {
+    if (change.t > until) break;
+    if (change.closes && change.t > last)
+      impacts.emplace_back(-change.speed * std::sqrt(stiffness[change.stop]), change.t - kBefore * (change.t - last));
+    last = change.t;
+  }
+  std::sort(impacts.begin(), impacts.end());
+  std::vector<double> times;
+  for (std::size_t i = 0; i < std::min(kHardest, impacts.size()); ++i) times.push_back(impacts[i].second);
+  return times;
+}
+
+void Reference::add_disturbances(double until) {
+  std::vector<double> times = before_hardest_impacts(until);
+  if (level_ == 0) {
+    for (const int pattern : {0, 1}) disturb(0.0, pattern);
+    for (const double part : {0.25, 0.5, 0.75}) disturb(part * end_time_, 0);
+    if (!times.empty()) disturb(times.front(), 1);
+    return;
+  }
+  const int places = level_ == 1 ? 10 : kDense;
+  for (int i = 0; i < places; ++i) times.push_back(until * i / places);
+  for (const double t : times)
+    for (int pattern = 0; pattern < kPatterns; ++pattern) disturb(t, pattern);
+}
+
+void Reference::refine(Index until) {
+  ++level_;
+  add_disturbances(level_ == 1 ? end_time_ : instants_[static_cast<std::size_t>(std::max<Index>(until, 1))]);
+  measure();
+}
+
+void Reference::measure() {
+  promise_->clear_growth();
+  promise_->clear_bands();
+  for (const Disturbed& one : disturbed_) promise_->raise_growth(one.trajectory, one.row, one.size, one.is_over, false);
+  place_bands();
+  for (const Disturbed& one : disturbed_) promise_->raise_growth(one.trajectory, one.row, one.size, one.is_over, true);
+  Index certain = 0;
+  while (certain < other_.rows && promise_->error(other_, certain) <=
+                                      kCertain * promise_->tolerance() * std::max(1.0, promise_->growth(certain)))
+    ++certain;
+  promise_->limit_rows(kRows);
+  is_uncertain_ = certain < promise_->rows();
+  promise_->limit_rows(certain);
+}
+
+void Reference::place_bands() {
+  const solve::Contact& contact = run_->dynamics().contact();
+  time::Simulation& simulation = run_->simulation();
+  for (Index row = 0; row < promise_->rows(); ++row) {
+    const double t = instants_[static_cast<std::size_t>(row)];
+    const double margin = time_margin(watch_->changes, contact, promise_->scales(), row, t, promise_->allowed(row));
+    if (margin == 0.0) continue;
+    const auto after = std::upper_bound(instants_.begin(), instants_.end(), t - margin);
+    const Index from = std::max<Index>(0, after - instants_.begin() - 1);
+    simulation.restore(snapshots_[static_cast<std::size_t>(from)]);
+    band_->watch(t - margin, t + margin, base_.x.rows());
+    advance_to(t + margin);
+    band_->is_active = false;
+    promise_->set_band(row, band_->low, band_->high);
+  }
+}
+
+std::string Reference::place(const Judgement& found) const {
+  const auto& dofs = run_->system().dofs;
+  return (found.in_velocity ? "velocity of " : "") + dofs.name(dofs.free()[static_cast<std::size_t>(found.component)]) +
+         " at t = " + to_short_text(instants_[static_cast<std::size_t>(found.row)]);
+}
+
+}  // namespace butee::stress

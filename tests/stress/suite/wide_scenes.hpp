@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "scenes.hpp"
+
+namespace butee::stress {
+
+/// A random scene with what random_scene() lacks, of lengths, masses and stiffnesses around 1, 1 and 1e4 in SI units:
+/// mass ratios to 1e-8, joined and uneven beams of several sections with rotary inertia, springs and dashpots on
+/// rotations and between parts, modal damping, several stops with both laws at all bluntness, overlapping, preloaded,
+/// without a gap or between parts, impulses of 1e-10 s, rotating loads, moments, free bodies, flights between hard
+/// stops. Tolerances from 1e-2 to 1e-10.
+Scene wide_scene(std::uint64_t seed);
+
+/// Every third one by random_scene(), the others by wide_scene().
+inline Scene mixed_scene(std::uint64_t seed) {
+  return seed % 3 == 0 ? random_scene(seed) : wide_scene(seed);
+}
+
+/// The random scene of a name such as "wide 17".
+std::optional<Scene> random_scene_of(const std::string& name);
+
+}  // namespace butee::stress

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+#include <butee/solve/counters.hpp>
+
+namespace butee::stress {
+
+/// What bounds runs: evaluations and solves, of which the same scene takes as many on every machine.
+inline std::int64_t work_of(const solve::Counters& c) {
+  return c.force_evaluations + c.contact_evaluations + c.solves + c.factorizations;
+}
+
+}  // namespace butee::stress
