@@ -1,3 +1,4 @@
+#include <ctime>
 #include <fstream>
 
 #include <butee/core/error.hpp>
@@ -38,13 +39,14 @@ void write_picture(const check::Layout& layout, const std::string& path) {
 
 int check_command(const CheckArguments& arguments) {
   Session session = open_session(arguments.model);
+  const double reading_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   const model::System system = assemble(session.model);
   check::Facts facts;
   facts.survey = check::survey_of(session.model);
   facts.open = frequency_range(system, solve::StopState::open);
   facts.closed = system.stops.empty() ? facts.open : frequency_range(system, solve::StopState::closed);
   facts.mechanics = check::mechanics_of(system, session.integrator.options.end_time);
-  facts.cost = check::estimate(session, system);
+  facts.cost = check::estimate(session, reading_seconds);
   const auto advice = check::advise(session, system, facts);
 
   const check::Layout layout = check::layout_of(session.model, facts.survey, laws_of(session.document));

@@ -6,12 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "program.hpp"
 #include "session.hpp"
 
 namespace butee::app {
-
-/// Exit statuses of the program.
-enum Exit : int { kDone = 0, kFailed = 1, kBadInput = 2 };
 
 /// A command of the program, and what it does once its options are read.
 struct Command {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -10,51 +9,13 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
-#include <butee/core/target.hpp>
 #include <butee/core/text.hpp>
-#include <butee/version.hpp>
 
-#include "commands.hpp"
+#include "program.hpp"
 
 namespace {
 
 using namespace butee::app;
-
-constexpr const char* kExamples =
-    "A first scene:\n"
-    "  butee init beam             a commented scene, beam.toml\n"
-    "  butee check beam.toml       a picture of it, likely mistakes, what a run will cost\n"
-    "  butee run beam.toml         beam-results/history.csv and summary.json\n"
-    "\n`butee help TOPIC` explains scenes, methods, results; `butee help` lists the topics.";
-
-int parse_and_run(int argc, char** argv) {
-  CLI::App program("butee: transient dynamics of beams and oscillators that strike stops");
-  // Before anything is done: a BUTEE_TARGET that is not there is bad input of every command.
-  program.set_version_flag("--version", "butee " BUTEE_VERSION "\ninstruction set: " + butee::target() + " of " +
-                                            butee::join(butee::targets()) + "; the rest compiled for " +
-                                            butee::compiled_for());
-  program.require_subcommand(1);
-  program.footer(kExamples);
-  const std::vector<Command> commands = {
-      add_run_command(program),     add_check_command(program),      add_modes_command(program),
-      add_compare_command(program), add_plot_command(program),       add_stability_command(program),
-      add_plugins_command(program), add_new_plugin_command(program), add_test_plugin_command(program),
-      add_init_command(program),    add_help_command(program),       add_completion_command(program)};
-
-  std::vector<std::string> known;
-  for (const Command& command : commands) known.push_back(command.app->get_name());
-  if (argc > 1 && argv[1][0] != '-' && std::find(known.begin(), known.end(), argv[1]) == known.end())
-    throw butee::InputError("butee " + std::string(argv[1]) + ": there is no such command" +
-                            butee::suggestion(argv[1], known) + "; known: " + butee::join(known));
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? kDone : kBadInput;
-  }
-  for (const Command& command : commands)
-    if (command.app->parsed()) return command.perform();
-  return kBadInput;
-}
 
 /// A standard stream that is closed gives its number to the next file that is opened, into which messages would go:
 /// here it becomes a file that takes none.

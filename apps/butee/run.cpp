@@ -113,7 +113,7 @@ void Run::integrate() {
   summary_.report = assembly_.simulation.run([&] {
     signal = interruption();
     if (checkpointer_ && (signal != nullptr || checkpointer_->is_due())) checkpointer_->write();
-    return signal == nullptr;
+    return signal == nullptr && !(is_enough_ && is_enough_());
   });
   if (signal != nullptr)
     fail("interrupted by " + std::string(signal) + " after t = " + to_short_text(summary_.report.t_end) + " s");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 
 #include <butee/record/checkpoint.hpp>
@@ -23,6 +24,12 @@ class Run {
   /// run.
   Run(Session& session, bool with_progress);
 
+  /// Watches the integration too; must outlive it. Before perform().
+  void add(time::Observer& observer) { assembly_.simulation.add(observer); }
+  /// Asked after every step whether to leave the run as it stands, neither completed nor failed.
+  void stop_when(std::function<bool()> is_enough) { is_enough_ = std::move(is_enough); }
+  Assembly& assembly() { return assembly_; }
+
   /// Integrates; the files go to `folder` where one is given. Goes on from a checkpoint of the folder where one is
   /// given. Whatever ends the integration early is told by the summary's report.
   record::Summary perform(const record::ResultFolder* folder, const record::Checkpoint* from = nullptr);
@@ -44,6 +51,7 @@ class Run {
   Session& session_;
   bool with_progress_;
   Assembly assembly_;
+  std::function<bool()> is_enough_;
   record::Summary summary_;
   std::optional<record::CsvWriter> writer_, energy_writer_;
   std::optional<record::HistoryRecorder> history_;

@@ -19,8 +19,6 @@ namespace {
 using namespace trust;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// Work that another family's run may take: this much, or this many times that of the run itself.
-constexpr double kWork = 2e9, kTimesTheRun = 30.0;
 /// Relative to the peak: a start that differs by rounding.
 constexpr double kRounding = 1e-16;
 /// Relative to the motion: disturbances are so many times the noise of a step, and so large at least and at most.
@@ -99,12 +97,12 @@ class Judgement {
  public:
   explicit Judgement(Session& session)
       : session_(session),
-        run_(follow_or_throw(session, 0.0, {true, true, session.output.impacts})),
+        run_(follow_or_throw(session, 0.0, {.states = true, .numbers = true, .impacts = true})),
         method_(method_of(session, run_)) {}
 
   record::Trust pronounce() {
     run_again();
-    add_the_run();
+    add(run_);
     record::TrustRuns runs;
     runs.run = run_.courses;
     std::string tightened;
@@ -130,18 +128,8 @@ class Judgement {
   }
 
  private:
-  /// The run itself is followed as it was: some methods take other steps where impacts are looked for.
-  void add_the_run() {
-    std::optional<FollowedRun> counted;
-    if (!session_.output.impacts) counted = follow_or_throw(session_, 0.0, kNumbers);
-    if (counted && counted->numbers.size() > run_.numbers.size()) run_.numbers.push_back(counted->numbers.back());
-    add(run_);
-    if (counted) add(*counted);
-  }
-
   void run_again() {
-    other_ = run_other_family(session_, method_, tolerance_of(session_, method_), run_.size,
-                              std::max(kWork, kTimesTheRun * run_.work));
+    other_ = run_other_family(session_, method_, tolerance_of(session_, method_), run_.size, run_.work);
     if (other_)
       again_ = follow_or_throw(other_->again, kRounding * peak_of(run_), {});
     else
@@ -150,13 +138,19 @@ class Judgement {
           "unseen by --trust");
   }
 
+  /// The size of disturbances that are followed by a method whose steps err by `noise`.
+  static double disturbance(double noise) { return std::clamp(kAboveNoise * noise, kSmallest, kLargest); }
+
   record::Growth growth() {
-    const bool by_other = other_ && method_ != "exact";
+    const double own_size = disturbance(tolerance_of(session_, method_));
+    const double other_size = other_ ? disturbance(other_->noise) : own_size;
+    // The finer disturbance tells more; of two that are alike the cheaper run.
+    const bool by_other = other_ && method_ != "exact" && (other_size < own_size || other_->run.work <= run_.work);
     Session& by = by_other ? other_->session : session_;
     const FollowedRun& run = by_other ? other_->run : run_;
-    const double noise = by_other ? other_->noise : tolerance_of(session_, method_);
-    const double size = std::clamp(kAboveNoise * noise, kSmallest, kLargest);
+    const double size = by_other ? other_size : own_size;
     record::Growth growth = follow_disturbance(by, run, size);
+    if (run.size > kLargeSystem) return growth;
     // To both sides: a start on the border between two sides of a stop moves on differently.
     const double start = size * peak_of(run);
     for (const double sign : {1.0, -1.0})

@@ -7,8 +7,8 @@ module butee
   private
   public :: butee_open_file, butee_open_text, butee_close, butee_size, butee_dof, butee_time, butee_advance_to, &
             butee_advance_step, butee_motion, butee_all_motion, butee_set_motion, butee_set_force, &
-            butee_set_force_line, butee_contact_force, butee_energy, butee_save, butee_restore, butee_free_snapshot, &
-            butee_message, butee_version
+            butee_set_force_line, butee_contact_force, butee_quantity, butee_follow_peak, butee_peak, butee_energy, &
+            butee_save, butee_restore, butee_free_snapshot, butee_message, butee_version
 
   integer(c_int), parameter, public :: butee_ok = 0, butee_run_failed = 1, butee_bad_input = 2, butee_bad_call = 3
   integer(c_int), parameter, public :: butee_u = 0, butee_theta = 1
@@ -105,6 +105,26 @@ module butee
       real(c_double), intent(out) :: force
       integer(c_int) :: status
     end function
+    function c_quantity(structure, quantity, node, element, value) bind(c, name="butee_quantity") result(status)
+      import :: c_int, c_double, c_char, c_ptr
+      type(c_ptr), value :: structure
+      character(kind=c_char), intent(in) :: quantity(*), node(*), element(*)
+      real(c_double), intent(out) :: value
+      integer(c_int) :: status
+    end function
+    function c_follow_peak(structure, node, quantity) bind(c, name="butee_follow_peak") result(status)
+      import :: c_int, c_char, c_ptr
+      type(c_ptr), value :: structure
+      character(kind=c_char), intent(in) :: node(*), quantity(*)
+      integer(c_int) :: status
+    end function
+    function c_peak(structure, node, quantity, peak) bind(c, name="butee_peak") result(status)
+      import :: c_int, c_double, c_char, c_ptr
+      type(c_ptr), value :: structure
+      character(kind=c_char), intent(in) :: node(*), quantity(*)
+      real(c_double), intent(out) :: peak
+      integer(c_int) :: status
+    end function
     function butee_energy(structure, kinetic, strain, contact) bind(c) result(status)
       import :: c_int, c_double, c_ptr
       type(c_ptr), value :: structure
@@ -164,6 +184,31 @@ contains
     integer(c_int64_t), intent(out) :: dof
     integer(c_int) :: status
     status = c_dof(structure, trim(selector)//c_null_char, kind, dof)
+  end function
+
+  ! A quantity of a probe ("M", "spring_force", "u", ...) now; element: the beam or spring meant, "" where there is one.
+  function butee_quantity(structure, quantity, node, element, value) result(status)
+    type(c_ptr), intent(in) :: structure
+    character(*), intent(in) :: quantity, node, element
+    real(c_double), intent(out) :: value
+    integer(c_int) :: status
+    status = c_quantity(structure, trim(quantity)//c_null_char, trim(node)//c_null_char, trim(element)//c_null_char, value)
+  end function
+
+  ! The largest |value| of a quantity of a node over the whole motion; to be followed before the first step.
+  function butee_follow_peak(structure, node, quantity) result(status)
+    type(c_ptr), intent(in) :: structure
+    character(*), intent(in) :: node, quantity
+    integer(c_int) :: status
+    status = c_follow_peak(structure, trim(node)//c_null_char, trim(quantity)//c_null_char)
+  end function
+
+  function butee_peak(structure, node, quantity, peak) result(status)
+    type(c_ptr), intent(in) :: structure
+    character(*), intent(in) :: node, quantity
+    real(c_double), intent(out) :: peak
+    integer(c_int) :: status
+    status = c_peak(structure, trim(node)//c_null_char, trim(quantity)//c_null_char, peak)
   end function
 
   function butee_message() result(text)

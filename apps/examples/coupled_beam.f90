@@ -12,7 +12,7 @@ program coupled_beam
   integer, parameter :: windows = nint(end_time/window), most_turns = 30
   type(c_ptr) :: beam, whole, snapshot
   integer(c_int64_t) :: middle, middle_of_whole, absorber
-  real(dp) :: y, w, y_new, w_new, u, v, a, u_new, v_new, force, force_new, guess, t, difference, peak, expected
+  real(dp) :: y, w, y_new, w_new, u, v, a, u_new, v_new, force, force_new, guess, t, difference, peak, expected, largest, link
   integer :: i, turn, turns
 
   call check(butee_open_file("beam.toml", "string:middle", beam))
@@ -20,6 +20,7 @@ program coupled_beam
   call check(butee_dof(beam, "string:middle", butee_u, middle))
   call check(butee_dof(whole, "string:middle", butee_u, middle_of_whole))
   call check(butee_dof(whole, "absorber", butee_u, absorber))
+  call check(butee_follow_peak(whole, "string:middle", "u"))
 
   y = 0.0_dp; w = 0.0_dp; force = 0.0_dp; turns = 0; difference = 0.0_dp; peak = 0.0_dp
   do i = 1, windows
@@ -47,13 +48,20 @@ program coupled_beam
     difference = max(difference, abs(expected - u_new))
     peak = max(peak, abs(expected))
   end do
+  call check(butee_peak(whole, "string:middle", "u", largest))
+  call check(butee_quantity(whole, "spring_force", "absorber", "", link))
   call check(butee_motion(whole, absorber, expected, v, a))
   print '(a, f8.4, a, f8.4, a)', "absorber at the end: ", 1.0e3_dp*y, " mm; as one model ", 1.0e3_dp*expected, " mm"
   print '(a, es8.1, a, f5.2, a)', "largest difference of the beam: ", difference/peak, " of its peak, ", &
     real(turns, dp)/windows, " turns a window"
+  print '(a, f8.4, a, f8.2, a, f8.2, a)', "largest displacement of the beam: ", 1.0e3_dp*largest, &
+    " mm; force on the absorber: ", -force, " N; as one model ", link, " N"
   call butee_close(beam)
   call butee_close(whole)
   if (difference > 1.0e-3_dp*peak) stop 1
+  ! Between two windows the beam goes at most a little further than at their ends.
+  if (largest < peak .or. largest > 1.001_dp*peak) stop 2
+  if (abs(link + force) > 1.0e-2_dp*abs(force)) stop 3
 
 contains
 

@@ -79,6 +79,13 @@ BUTEE_C_EXPORT int butee_set_force_line(butee_structure* structure, int64_t dof,
 BUTEE_C_EXPORT int butee_contact_force(const butee_structure* structure, int64_t dof, double* force);
 
 /*
+ * A quantity of [[output.probe]] ("M", "V", "von_mises", "spring_force", "reaction", "u", ...) of a node at the present
+ * instant. `element` names the beam or spring meant where there are several; null or "" where there is one.
+ */
+BUTEE_C_EXPORT int butee_quantity(const butee_structure* structure, const char* quantity, const char* node,
+                                  const char* element, double* value);
+
+/*
  * The largest |value| of a quantity of a node ("u", "v", "a", "theta", "theta_v", "theta_a", "contact_force") over the
  * whole motion. To be followed before the first step; `node` is a selector that names one.
  */

@@ -201,6 +201,14 @@ int butee_contact_force(const butee_structure* structure, int64_t dof, double* f
   });
 }
 
+int butee_quantity(const butee_structure* structure, const char* quantity, const char* node, const char* element,
+                   double* value) {
+  return guarded([&] {
+    need(structure, quantity, node, value);
+    *value = structure->structure.quantity(quantity, node, element != nullptr ? element : "");
+  });
+}
+
 int butee_follow_peak(butee_structure* structure, const char* node, const char* quantity) {
   return guarded([&] {
     need(structure, node, quantity);

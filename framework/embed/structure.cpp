@@ -295,6 +295,10 @@ void Structure::observe(time::Observer& observer) {
 }
 
 void Structure::follow_peaks(const std::string& selector, const std::vector<record::Quantity>& quantities) {
+  for (const record::Quantity quantity : quantities)
+    if (record::is_element_force(quantity))
+      throw InputError(selector + ": peaks of " + record::name_of(quantity) +
+                       " are not followed; quantity() gives it at an instant");
   std::vector<record::ProbeRequest> requests;
   for (const model::NodalDof dof : parts_->select(selector, DofKind::u))
     requests.push_back({parts_->scene.model.nodes.name(dof.node), dof.node, quantities});

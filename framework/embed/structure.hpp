@@ -95,7 +95,8 @@ class BUTEE_EXPORT Structure {
   /// Watches every step from now on; before the first one. `observer` must outlive the structure.
   void observe(time::Observer& observer);
   /// Follows the largest |value| of quantities of each node of a selector over the whole motion from now on, on the
-  /// method's dense output; before the first step. Throws InputError where the selector names no node.
+  /// method's dense output; before the first step. Throws InputError where the selector names no node,
+  /// and of forces of elements.
   void follow_peaks(const std::string& selector, const std::vector<record::Quantity>& quantities);
   /// By node and quantity, "string:17.u".
   std::map<std::string, double> peaks() const;

@@ -1,5 +1,6 @@
 #include <array>
 #include <butee/embed/butee.h>
+#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -61,6 +62,44 @@ TEST_F(CInterface, AdvancesReadsAndGoesBack) {
   ASSERT_EQ(butee_set_force_line(mass_, dof_, 4.0, 0.0, 1.0), BUTEE_OK);
   ASSERT_EQ(butee_advance_step(mass_, 0.1, &t), BUTEE_OK);
   EXPECT_GT(t, 0.009);
+}
+
+TEST_F(CInterface, GivesQuantitiesByNameAndTheirPeaks) {
+  butee_structure* pair = nullptr;
+  ASSERT_EQ(butee_open_text("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n"
+                            "[[element]]\ntype = \"spring\"\nname = \"soft\"\nnode = \"m\"\nstiffness = 300.0\n"
+                            "[[element]]\ntype = \"spring\"\nname = \"hard\"\nnode = \"m\"\nstiffness = 500.0\n"
+                            "[integrator]\ntype = \"exact\"\n",
+                            nullptr, &pair),
+            BUTEE_OK)
+      << butee_message();
+  ASSERT_EQ(butee_follow_peak(pair, "m", "v"), BUTEE_OK) << butee_message();
+  // No peaks are followed of the forces of elements.
+  EXPECT_EQ(butee_follow_peak(pair, "m", "spring_force"), BUTEE_BAD_INPUT);
+  EXPECT_NE(std::strstr(butee_message(), "spring_force"), nullptr) << butee_message();
+  const double u = 0.01, v = 0.0;
+  ASSERT_EQ(butee_set_motion(pair, 1, &u, &v), BUTEE_OK);
+  double value = 0.0;
+  ASSERT_EQ(butee_quantity(pair, "spring_force", "m", nullptr, &value), BUTEE_OK) << butee_message();
+  EXPECT_DOUBLE_EQ(value, -8.0);
+  ASSERT_EQ(butee_quantity(pair, "spring_force", "m", "hard", &value), BUTEE_OK);
+  EXPECT_DOUBLE_EQ(value, -5.0);
+  ASSERT_EQ(butee_quantity(pair, "a", "m", "", &value), BUTEE_OK);
+  EXPECT_DOUBLE_EQ(value, -4.0);
+  // u = 0.01 cos(20 t)
+  ASSERT_EQ(butee_advance_to(pair, 1.0), BUTEE_OK) << butee_message();
+  ASSERT_EQ(butee_quantity(pair, "spring_force", "m", "soft", &value), BUTEE_OK);
+  EXPECT_NEAR(value, -3.0 * std::cos(20.0), 1e-9);
+  ASSERT_EQ(butee_peak(pair, "m", "v", &value), BUTEE_OK) << butee_message();
+  EXPECT_NEAR(value, 0.2, 1e-9);
+  value = 7.0;
+  EXPECT_EQ(butee_quantity(pair, "M", "m", nullptr, &value), BUTEE_BAD_INPUT);
+  EXPECT_EQ(butee_quantity(pair, "spring_forces", "m", nullptr, &value), BUTEE_BAD_INPUT);
+  EXPECT_EQ(butee_quantity(pair, "spring_force", "nobody", nullptr, &value), BUTEE_BAD_INPUT);
+  EXPECT_EQ(butee_quantity(pair, nullptr, "m", nullptr, &value), BUTEE_BAD_CALL);
+  EXPECT_EQ(butee_quantity(nullptr, "u", "m", nullptr, &value), BUTEE_BAD_CALL);
+  EXPECT_EQ(value, 7.0);
+  butee_close(pair);
 }
 
 TEST_F(CInterface, TurnsEveryMistakeIntoAStatusAndAMessage) {

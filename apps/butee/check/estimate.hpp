@@ -7,20 +7,24 @@
 
 namespace butee::app::check {
 
-/// What a run would cost, from a trial with the observers that it would have. Steps of an adaptive method are foretold
-/// only where the trial covers enough of the run, has seen a stop close if there is one, and took steps at a steady
-/// rate: what it cannot know within a factor of 1.5 stays empty.
+/// The cost of a run, from a trial of a second at most in a temporary folder, with all files of the run.
+/// Times and numbers of steps are foretold where they can be expected to hold within a factor of 1.5, and are empty
+/// elsewhere: the trial has seen a stop close if there is one, its pace was even (Pace), and with an adaptive method it
+/// went through a third of the run.
 struct Estimate {
-  double setup_seconds = 0.0, trial_seconds = 0.0;
-  std::optional<double> run_seconds, steps;  ///< of the whole run
-  bool whole = false;                        ///< the trial reached the end: nothing is estimated
-  bool steps_known = false;                  ///< fixed steps
-  double part = 0.0;                         ///< of the time that the trial went through
-  std::optional<double> rows, bytes;         ///< of history.csv
-  std::string choice;                        ///< what `auto` chose, and why
-  std::string failure;  ///< why a run would be refused, or failed in the trial; empty where it went well
+  std::optional<double> seconds;  ///< of the whole process: reading, set-up, integration, files; without --trust
+  std::optional<double> steps;    ///< of the whole run
+  double trial_seconds = 0.0;     ///< of the integration
+  bool whole = false;             ///< the trial reached the end: nothing is estimated
+  bool steps_known = false;       ///< fixed steps
+  double part = 0.0;              ///< of the time that the trial went through
+  std::optional<double> rows;     ///< of results
+  std::optional<double> bytes;    ///< of the files that grow with the run
+  std::string choice;             ///< what `auto` chose, and why
+  std::string failure;            ///< why a run would be refused, or failed in the trial; empty where it went well
 };
 
-Estimate estimate(Session& session, const model::System& system);
+/// `reading_seconds`: from the start of the process to the session. Throws RunError on an interruption.
+Estimate estimate(Session& session, double reading_seconds);
 
 }  // namespace butee::app::check

@@ -138,17 +138,19 @@ std::string size_of(double bytes) {
   return bytes < 1e9 ? formatted("%.0f MB", bytes / 1e6) : formatted("%.1f GB", bytes / 1e9);
 }
 
-void print_cost(const Estimate& cost) {
+void print_cost(const Estimate& cost, bool trust) {
   if (!cost.choice.empty()) std::printf("chosen     %s\n", cost.choice.c_str());
-  if (cost.failure.empty() && cost.run_seconds)
-    std::printf("estimate   %s%.2g s, %s%.3g steps%s\n", cost.whole ? "" : "about ",
-                *cost.run_seconds + cost.setup_seconds, cost.steps_known || cost.whole ? "" : "about ", *cost.steps,
-                cost.whole ? " (tried out to the end)" : " (from a short trial)");
+  const std::string steps =
+      cost.steps ? formatted(cost.whole || cost.steps_known ? "%.0f steps" : "about %.2g steps", *cost.steps) : "";
+  if (cost.failure.empty() && cost.seconds)
+    std::printf("estimate   %s%.2g s in all%s, %s (%s)\n", cost.whole ? "" : "about ", *cost.seconds,
+                trust ? " without trust" : "", steps.c_str(),
+                cost.whole ? "tried out to the end" : "from a short trial");
   else if (cost.failure.empty())
     std::printf(
         "estimate   none: a trial of %.2g s went through %.2g %% of the time, which does not tell what the rest "
-        "costs\n",
-        cost.trial_seconds, 100.0 * cost.part);
+        "costs%s\n",
+        cost.trial_seconds, 100.0 * cost.part, steps.empty() ? "" : ("; " + steps).c_str());
   if (cost.rows) std::printf("results    %.4g rows, about %s\n", *cost.rows, size_of(*cost.bytes).c_str());
 }
 
@@ -194,7 +196,7 @@ void print(const Session& session, const model::System& system, const Facts& fac
           solve::describe_softest_motion(system.stiffness, system.dofs).c_str());
   }
   print_mechanics(facts.mechanics);
-  print_cost(facts.cost);
+  print_cost(facts.cost, session.output.trust);
   std::fflush(stdout);
 }
 
@@ -219,7 +221,7 @@ Json to_json(const Session& session, const model::System& system, const Facts& f
   json["end_time"] = session.integrator.options.end_time;
   json["contact"] = json_of(facts.mechanics);
   const Estimate& cost = facts.cost;
-  json["estimate"] = {{"seconds", cost.run_seconds ? Json(*cost.run_seconds + cost.setup_seconds) : Json()},
+  json["estimate"] = {{"seconds", json_of(cost.seconds)},
                       {"steps", json_of(cost.steps)},
                       {"whole", cost.whole},
                       {"rows", json_of(cost.rows)},

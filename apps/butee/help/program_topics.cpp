@@ -128,7 +128,8 @@ std::string trust_text(const plugin::Catalogue&) {
   return R"(`butee run --trust`, or [output] trust = true, runs the scene again: as it is, with half the step or a tenth of the tolerance,
 by a method of another family (`exact` where it can), and from disturbed states. It says by how much the probes can be wrong,
 up to which time that is within trust_accuracy (1 % of the peak), how far small differences grow, whether that is chaos, and
-between which bounds rms values, peaks and forces lie. summary.json holds the same under `trust`.
+between which bounds rms values, peaks and forces lie. summary.json holds the same under `trust`. It takes about ten times as long
+as the run; where no method of another family does with a few times the run's work, it says so, and its bound is wider.
 
 Motion against stops is often chaotic: differences grow like e^(20 t) in one of the paper's scenes, so that no method holds its
 course for long, while peaks and rms values may still be right.

@@ -175,7 +175,11 @@ loads. They jump by the forces on the node. Modal damping belongs to no element 
 A spring force is that on the node (negative where a spring to ground is stretched towards +u), its dashpot and Rayleigh
 damping included; a reaction is what the support exerts. Accelerations in them are those of the equation of motion, so
 that every node is in balance; each row takes one solution with the mass matrix. bending_stress and von_mises need a section
-that knows its outer fibre (`outer_fibre` of the shape "general").
+that knows its outer fibre (`outer_fibre` of the shape "general"): bending_stress = M c/I at distance c from the neutral axis,
+on the side of -u, tension positive, and von_mises = |bending_stress|, since the shear stress of V is zero there. On the neutral
+axis it is 1.5 V/A in a rectangle, 4/3 V/A in a circle and up to 2 V/A in a tube, sqrt(3) times that as von Mises stress: more than at
+the outer fibre only within about a height of the section from where M vanishes. A reaction is that on one node: a support of
+several nodes takes a probe for each.
 )";
 }
 

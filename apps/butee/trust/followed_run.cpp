@@ -24,7 +24,7 @@ constexpr double kWatching = 100.0;
 /// Fewer rows than this would pass by what happens between them.
 constexpr double kFewestRows = 1000.0;
 /// States kept, and numbers in all of them.
-constexpr double kMostStates = 1000.0, kFewestStates = 100.0, kMostNumbers = 1e7;
+constexpr double kMostStates = 1000.0, kFewestStates = 100.0, kMostNumbers = 1e6;
 
 std::vector<record::ProbeRequest> displacement_probes(const Session& session) {
   std::vector<record::ProbeRequest> probes;

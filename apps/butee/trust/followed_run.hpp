@@ -10,6 +10,9 @@
 
 namespace butee::app::trust {
 
+/// Systems of more DOFs are large: runs are long, and a disturbance of all DOFs makes them many times longer.
+inline constexpr Index kLargeSystem = 1000;
+
 /// The instants at which runs are compared (s, ascending, 0 and end_time among them): the output times, and between
 /// them where those are few.
 std::vector<double> compared_times(const Session& session);

@@ -10,22 +10,36 @@
 namespace butee::app::trust {
 namespace {
 
+/// A run may take this work, or so many times that of the judged run.
+struct Budget {
+  double work, times;
+};
+/// Abandoned candidates cost at most a few runs of the judged method. The series of `exact` cost ten times as much as
+/// the work that is counted, so that `exponential` comes first where they are long; other methods follow disturbances
+/// too badly through contacts to come before `exact`.
+constexpr Budget kQuick = {4e7, 0.1}, kUsual = {4e8, 2.0}, kLong = {2e9, 30.0};
+
 /// Methods by how near they come to the solution, with the tolerance that they are given.
 struct Candidate {
   const char* name;
   double tolerance;  ///< 0: exact
+  Budget budget = kUsual;
   bool is_implicit = false;
 };
-constexpr Candidate kCandidates[] = {{"exact", 0.0},         {"exponential", 1e-9}, {"extrapolation8", 1e-10},
-                                     {"rodas4", 1e-8, true}, {"dopri5", 1e-9},      {"bathe_adaptive", 1e-6, true}};
+constexpr Candidate kCandidates[] = {{"exact", 0.0, kQuick},
+                                     {"exponential", 1e-9},
+                                     {"exact", 0.0, kLong},
+                                     {"extrapolation8", 1e-10},
+                                     {"rodas4", 1e-8, kUsual, true},
+                                     {"dopri5", 1e-9},
+                                     {"bathe_adaptive", 1e-6, kUsual, true}};
 /// The repetition: an order for exact, a tolerance looser by so much for others.
 constexpr std::int64_t kOtherOrder = 22;
 constexpr double kLooser = 3.0;
 /// A tolerance is this part of the judged run's at most.
 constexpr double kTighter = 0.03;
-/// Larger systems are left to implicit methods, with this part of the judged run's tolerance.
-constexpr Index kLarge = 1000;
-constexpr double kTighterOfLarge = 0.1, kUsual = 1e-4;
+/// Large systems are left to implicit methods, with this part of the judged run's tolerance.
+constexpr double kTighterOfLarge = 0.1, kUsualTolerance = 1e-4;
 /// The rounding error of a piece between two states, relative to the motion.
 constexpr double kRounding = 1e-13;
 
@@ -44,12 +58,12 @@ Session session_with(const Session& session, const Candidate& candidate, double 
 }  // namespace
 
 std::optional<OtherRun> run_other_family(const Session& session, const std::string& method, double tolerance,
-                                         Index size, double most) {
+                                         Index size, double work) {
   for (const Candidate& candidate : kCandidates) {
     if (method == candidate.name || session.catalogue.find(candidate.name) == nullptr) continue;
-    const bool is_large = size > kLarge;
+    const bool is_large = size > kLargeSystem;
     if (is_large && !candidate.is_implicit) continue;
-    const double tight = is_large          ? kTighterOfLarge * (tolerance > 0.0 ? tolerance : kUsual)
+    const double tight = is_large          ? kTighterOfLarge * (tolerance > 0.0 ? tolerance : kUsualTolerance)
                          : tolerance > 0.0 ? std::min(candidate.tolerance, kTighter * tolerance)
                                            : candidate.tolerance;
     try {
@@ -59,7 +73,9 @@ std::optional<OtherRun> run_other_family(const Session& session, const std::stri
                      session_with(session, candidate, tight, false),
                      session_with(session, candidate, tight, true),
                      {}};
-      other.run = follow(other.session, 0.0, most, {.states = true, .numbers = true, .impacts = true});
+      const Budget& budget = candidate.budget;
+      other.run = follow(other.session, 0.0, std::max(budget.work, budget.times * work),
+                         {.states = true, .numbers = true, .impacts = true});
       if (other.run.completed) return other;
       log::debug(other.method + ": " + other.run.message);
     } catch (const InputError& error) {

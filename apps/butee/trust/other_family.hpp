@@ -17,9 +17,9 @@ struct OtherRun {
 };
 
 /// The first method of another family than `method` (a canonical name, that of `auto`'s choice included) that takes the
-/// scene, of `size` DOFs, and needs no more work than `most`: exact where it can. Tight tolerances; below `tolerance`
-/// where that is one.
+/// scene, of `size` DOFs, and stays in proportion to the `work` of the judged run: exact where it can. Tight
+/// tolerances; below `tolerance` where that is one.
 std::optional<OtherRun> run_other_family(const Session& session, const std::string& method, double tolerance,
-                                         Index size, double most);
+                                         Index size, double work);
 
 }  // namespace butee::app::trust
