@@ -88,16 +88,6 @@ bool suits_exact(solve::Dynamics& dynamics, double tolerance, double end_time) {
   }
 }
 
-/// exponential takes the pull of an open stop for constant beyond some widths of its bend, which errs by more than
-/// tolerances below this where a stop acts on one side: measured with lambda gap from 3 to 1000.
-constexpr double kFinestPull = 1e-5;
-
-bool pulls_to_one_side(const solve::Contact& contact) {
-  for (Index i = 0; i < contact.size(); ++i)
-    if (contact.law_of(i).far_force() > 0.0 && contact.sides_of(i) != model::Sides::both) return true;
-  return false;
-}
-
 std::unique_ptr<time::Integrator> make_rodas4(solve::Dynamics& dynamics, const Goal& goal) {
   return std::make_unique<Rodas4>(dynamics, goal);
 }
@@ -106,8 +96,6 @@ std::unique_ptr<time::Integrator> make_rodas4(solve::Dynamics& dynamics, const G
 
 Choice choose(solve::Dynamics& dynamics, double tolerance, double end_time) {
   using Method = Choice::Method;
-  if (tolerance < kFinestPull && pulls_to_one_side(dynamics.contact()))
-    return {Method::rodas4, "stops on one side pull from afar by more than exponential resolves at this tolerance"};
   const Index n = dynamics.size(), most = solve::ModalSystem::kAllModes;
   const std::string size = std::to_string(n) + " DOFs";
   if (n > most) return {Method::rodas4, size + " are too many to take all their modes"};
@@ -130,7 +118,7 @@ std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, doub
   std::string what;
   if (choice.method == Choice::Method::exponential) {
     what = "exponential" + with;
-    integrator = make_exponential(dynamics, {tolerance, 6, 0});
+    integrator = make_exponential(dynamics, {tolerance, end_time, 6, 0});
   } else if (choice.method == Choice::Method::exact) {
     what = "exact";
     integrator = std::make_unique<Exact>(dynamics, Exact::kOrder, Exact::kSeriesTolerance);

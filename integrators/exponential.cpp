@@ -7,6 +7,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
+#include "integrators/local_error.hpp"
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -35,14 +36,16 @@ constexpr int kMostRungsDown = 80;
 /// what the error is made of; at order 2 the error is of a lower power of h. At order 6, which takes the departure into
 /// the path, the error falls a little faster than it where stops open and close, and with its power 3/2 elsewhere.
 /// Calibrated on beams and oscillators: tests/models/exponential_test.cpp.
+/// Below kProportional, where impacts are all that is left of the error, it is proportional to the tolerance.
 double middle_tolerance(const ExponentialOptions& options) {
+  constexpr double kProportional = 1e-4;
   switch (options.order) {
     case 2:
       return 0.1 * std::pow(options.tolerance, 1.5);
     case 4:
       return 0.03 * options.tolerance;
     default:
-      return 0.08 * std::pow(options.tolerance, 0.8);
+      return 0.08 * std::min(std::pow(options.tolerance, 0.8), std::pow(kProportional, -0.2) * options.tolerance);
   }
 }
 
@@ -67,7 +70,8 @@ Exponential<Step>::Exponential(solve::Dynamics& dynamics, const ExponentialOptio
     : Integrator(dynamics),
       options_(options),
       modal_(dynamics.modal(options.modes)),
-      step_(dynamics, modal_, options.order, middle_tolerance(options), kOutputs * options.tolerance, kBlock),
+      step_(dynamics, modal_, options.order,
+            {middle_tolerance(options), kOutputs * options.tolerance, options.tolerance, options.run_time}, kBlock),
       kinks_(dynamics.load_kinks()) {
   first_level_ = find_first_level();
 }
@@ -262,12 +266,7 @@ time::IntegratorType exponential_type() {
   return {.name = "exponential",
           .aliases = {"EXP"},
           .summary = "the linear part exactly, mode by mode; the stops by the projection of their force; adaptive",
-          .parameters = {config::number("tolerance", "1",
-                                        "relative error aimed at, of the largest displacement of a stop so far")
-                             .above(0)
-                             .at_most(0.1)
-                             .or_else(1e-4)
-                             .sweep(1e-1, 1e-9),
+          .parameters = {LocalErrorControl::parameter(1e-4, 1e-10),
                          config::integer("order", "2, 4 or 6").at_least(2).at_most(6).or_else(std::int64_t{6}),
                          config::integer(
                              "modes", "the lowest modes to take; 0: all up to 600 DOFs, 300 above, with static shapes")
@@ -275,8 +274,9 @@ time::IntegratorType exponential_type() {
                              .or_else(std::int64_t{0})},
           .finds_first_step = true,
           .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return make_exponential(dynamics, {p.number("tolerance"), static_cast<int>(p.integer("order")),
-                                               static_cast<Index>(p.integer("modes"))});
+            return make_exponential(dynamics,
+                                    {p.number("tolerance"), p.number("end_time"), static_cast<int>(p.integer("order")),
+                                     static_cast<Index>(p.integer("modes"))});
           },
           .check =
               [](const config::Parameters& p, config::Diagnostics& diagnostics) {

@@ -10,7 +10,8 @@
 namespace butee::integrators {
 
 struct ExponentialOptions {
-  double tolerance = 1e-4;  ///< relative to the largest displacement of a stop so far
+  double tolerance = 1e-4;  ///< relative to the scales of what moves (integrators/error-control.md)
+  double run_time = 1.0;    ///< s
   int order = 6;            ///< 2, 4 or 6
   Index modes = 0;          ///< the lowest; 0: all, but of large systems 300
 };
@@ -47,7 +48,7 @@ class Exponential final : public time::Integrator {
   std::span<const time::EnergyAt> energies(const time::State& from, const time::State& to,
                                            std::span<const double> instants) const override;
   time::DenseOutput dense_output() const override {
-    return step_.has_stops() ? time::DenseOutput::quintic : time::DenseOutput::other;
+    return step_.has_stops() ? time::DenseOutput::near_quintic : time::DenseOutput::other;
   }
   void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
                  time::Interpolated out) const override;

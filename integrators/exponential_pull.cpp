@@ -12,8 +12,7 @@ using solve::StepFlow;
 bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
   const FarPull& pull = pulls_[static_cast<std::size_t>(stop)];
   const double mobility = std::abs(flow.mobilities()[stop]);
-  return pull.unfelt(w_[stop], w_new_[stop], reach_[stop], mobility, steps_of(reached_, flow.h())) <=
-         kUnfeltPull * output_tolerance_ * reached_.displacement;
+  return pull.unfelt(w_[stop], w_new_[stop], reach_[stop], mobility, steps_of(reached_, flow.h())) <= felt(flow.h());
 }
 
 void ExponentialStep::find_steady(StepFlow& flow) {
@@ -22,11 +21,11 @@ void ExponentialStep::find_steady(StepFlow& flow) {
   largest_shift_ = shift.maxCoeff();
   // What is at rest and free is soon as fast as the pull makes it.
   reached_.speed = std::max(reached_.speed, 2.0 * largest_shift_ / flow.h());
-  const double steps = steps_of(reached_, flow.h()), felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
+  const double steps = steps_of(reached_, flow.h()), most = felt(flow.h());
   const auto w0 = w_.head(m), w1 = w_new_.head(m);
   const auto part = bends_.head(m) / (gaps_.head(m) - reach_.head(m));
   is_steady_.head(m) =
-      w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > shift && shift * part.square() * (steps * steps / 3.0) <= felt;
+      w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > shift && shift * part.square() * (steps * steps / 3.0) <= most;
 }
 
 double ExponentialStep::error_of_pull(StepFlow& flow, Index stop) const {
@@ -39,14 +38,14 @@ double ExponentialStep::error_of_pull(StepFlow& flow, Index stop) const {
 
 void ExponentialStep::place_pull(StepFlow& flow) {
   const Index m = modal_.stop_count();
-  const double steps = steps_of(reached_, flow.h()), felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
+  const double steps = steps_of(reached_, flow.h()), most = felt(flow.h());
   // Not even if every stop pulled to the other side.
-  if (2.0 * largest_shift_ * steps * steps <= felt) return;
+  if (2.0 * largest_shift_ * steps * steps <= most) return;
   excess_ = 0.5 * (w_ + w_new_);
   contact_.force(excess_.head(m).matrix(), stop_forces_);
   for (const Index i : reachable_) stop_forces_[i] = 0.0;
   const auto moves = (stop_forces_ - pull_).array().abs() * flow.mobilities().abs();
-  if (moves.maxCoeff() * steps * steps <= felt) return;
+  if (moves.maxCoeff() * steps * steps <= most) return;
   pull_.swap(stop_forces_);
   sums_[0] = pull_sum_;
   modal_.stop_shapes().force(far_, pull_.data(), pull_sum_.data());
@@ -56,20 +55,21 @@ void ExponentialStep::place_pull(StepFlow& flow) {
 }
 
 void ExponentialStep::add_jumps(StepFlow& flow) {
-  const double h = flow.h(), steps = steps_of(reached_, h),
-               felt = kUnfeltPull * output_tolerance_ * reached_.displacement;
+  const double h = flow.h(), steps = steps_of(reached_, h), most = felt(h);
   jumping_.clear();
-  if (largest_shift_ * steps <= felt) return;
+  jumps_.clear();
+  if (largest_shift_ * steps <= most) return;
   for (const Index i : far_) {
     const double aside = kBump * h * (std::abs(wv_[i]) + std::abs(wv_new_[i]));
     if (std::min(w_[i], w_new_[i]) > aside || std::max(w_[i], w_new_[i]) < -aside) continue;
     const auto place = static_cast<std::size_t>(i);
-    if (pulls_[place].largest() * std::abs(flow.mobilities()[i]) * steps <= felt) continue;
+    if (pulls_[place].largest() * std::abs(flow.mobilities()[i]) * steps <= most) continue;
     if (jumping_.empty())
       for (ArrayXd& force : force_) force.setZero();
     const ForceMoments pull = stops_[place].far_force({w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0});
     for (std::size_t k = 0; k < 3; ++k) force_[k][i] = pull[k] - (k == 0 ? pull_[i] : 0.0);
     jumping_.push_back(i);
+    jumps_.push_back(pull);
   }
   if (jumping_.empty()) return;
   for (int k = 0; k < 3; ++k) {

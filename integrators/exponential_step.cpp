@@ -17,12 +17,13 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance,
-                                 double output_tolerance, std::size_t most)
+ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal,
+                                 std::size_t most)
     : modal_(modal),
       orders_(static_cast<std::size_t>(order / 2)),
-      tolerance_(tolerance),
-      output_tolerance_(output_tolerance),
+      goal_(goal),
+      tolerance_(goal.middle),
+      output_tolerance_(goal.outputs),
       contact_(dynamics.contact()),
       squares_(modal.frequencies().square()),
       is_strongly_damped_((4.0 * modal.decay() > modal.frequencies()).any()),
@@ -78,6 +79,10 @@ void ExponentialStep::begin(double t, const double* memory, StopScale scale) {
   w_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n, m);
   wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + m, m);
   scale_ = scale;
+  if (has_far_forces_)
+    for (std::size_t i = 0; i < stops_.size(); ++i)
+      stops_[i].allow(kLasting * goal_.tolerance / goal_.run_time * scale.speed /
+                      modal_.stop_shapes().of(static_cast<Index>(i)).squaredNorm());
   knots_.begin(t, q_.data(), v_.data(), w_.data());
   modal_bounds_.knot = static_cast<std::size_t>(-1);
   pull_.setZero();
@@ -113,7 +118,15 @@ void ExponentialStep::record_forces(std::size_t knot) {
     forces.paths.col(StepForces::kEndSpeed) = path_.speed;
     if (orders_ == 3) forces.paths.col(StepForces::kBulge) = bulge_;
     for (std::size_t k = 0; k < 3; ++k) forces.paths.col(StepForces::kMoments + static_cast<Index>(k)) = force_[k];
-    forces.felt_speed = output_tolerance_ * scale_.speed;
+  }
+  forces.felt_speed = output_tolerance_ * scale_.speed;
+  for (std::size_t j = 0; j < jumping_.size(); ++j) {
+    const Index i = jumping_[j];
+    forces.touched.push_back(i);
+    forces.paths(i, StepForces::kStartSpeed) = tried_h_ * wv_[i];
+    forces.paths(i, StepForces::kEndSpeed) = tried_h_ * wv_new_[i];
+    forces.paths(i, StepForces::kBulge) = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) forces.paths(i, StepForces::kMoments + static_cast<Index>(k)) = jumps_[j][k];
   }
   if (has_far_forces_) forces.standing = pull_;
   for (std::size_t k = 0; k < (forces.is_free ? 0 : forces.moments.size()); ++k) {
@@ -155,6 +168,7 @@ void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd
 }
 
 Trial ExponentialStep::attempt(StepFlow& flow) {
+  tried_h_ = flow.h();
   propagate(flow.whole, knots_.steps(), q_new_, &v_new_);
   reachable_.clear();
   is_near_ = false;

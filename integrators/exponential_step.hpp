@@ -30,6 +30,15 @@ inline constexpr int kMostSweeps = 25;
 /// The bump functions of cubic Hermite interpolation are at most 4/27.
 inline constexpr double kBump = 4.0 / 27.0;
 
+/// What a step may be wrong by.
+struct StepGoal {
+  double middle;     ///< the displacement in the middle of a step that the cubic through its ends does not explain,
+                     ///< relative to the largest displacement of a stop so far
+  double outputs;    ///< what outputs within a step are wrong by, relative to that
+  double tolerance;  ///< of the run
+  double run_time;   ///< s
+};
+
 /// The largest displacement and speed of a stop so far, which errors are relative to.
 struct StopScale {
   double displacement = 0.0, speed = 0.0;
@@ -41,11 +50,20 @@ inline double steps_of(StopScale scale, double h) {
   return h * scale.speed < scale.displacement ? scale.displacement / (h * scale.speed) : 1.0;
 }
 
+/// The part of the error of a run that may come of pulls that are wrong in the same sense all the time, 1/s in
+/// tolerances: the force of a stop may be wrong by this part of what would change its speed by the tolerance in a run.
+inline constexpr double kLasting = 0.4;
+/// What a pull may be wrong by in the time of h steps of the motion, where a run of many such times adds it up.
+inline double share_of_run(double h, double steps, double run_time) {
+  constexpr double kTimes = 10.0;
+  return std::min(1.0, kTimes * h * steps / run_time);
+}
+
 /// The part of the departure from the cubic, times (h omega_c)^4, that its force may get wrong in the speed after a
 /// step, times h. That of a whole impact within a step counts so much more than its small displacements: without it the
 /// speed after impacts at stops of 1e12 N/m came out wrong by percents at a tolerance of 1e-4. More of it counts while
 /// a stop stays closed, where a mass that is pressed against it turns many times before it leaves with what is left.
-inline constexpr double kOfSpeed = 0.02, kOfSpeedClosed = 0.5;
+inline constexpr double kOfSpeed = 0.05, kOfSpeedClosed = 0.5;
 
 /// The error of a stop's path in a step of h, as one of displacement: that of the speed after it counts as much,
 /// relative to the largest speed. `bulge` is the departure, `stiff` = (h omega_c)^2 of the stop alone.
@@ -82,11 +100,9 @@ inline constexpr double kUnresolved = 1.0;
 /// within reach, found together by sweeps.
 class ExponentialStep {
  public:
-  /// `order` 2, 4 or 6. `tolerance` bounds the displacement in the middle of a step that the cubic through its ends
-  /// does not explain, relative to the largest displacement of a stop so far, and `output_tolerance` what outputs
-  /// within a step without contact are wrong by. Blocks are of up to `most` steps.
-  ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance,
-                  double output_tolerance, std::size_t most);
+  /// `order` 2, 4 or 6. Blocks are of up to `most` steps.
+  ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal,
+                  std::size_t most);
 
   /// What a state has to remember: q, v, and displacements and speeds of the stops, which complete() adds to q and v.
   Index memory_size() const { return 2 * (modal_.size() + modal_.stop_count()); }
@@ -137,6 +153,11 @@ class ExponentialStep {
   bool is_near(Index stop) const { return reach_[stop] > borders_[stop]; }
   /// Whether the pull of an open stop is a constant, as far as the tolerance can tell.
   bool is_steady(solve::StepFlow& flow, Index stop) const;
+  /// What the pulls of stops may be wrong by over the motion's own time, m.
+  double felt(double h) const {
+    const double steps = steps_of(reached_, h);
+    return kUnfeltPull * output_tolerance_ * reached_.displacement * share_of_run(h, steps, goal_.run_time);
+  }
   /// Fills is_steady_, by FarPull::unfelt() for stops that stay on a side, and largest_shift_.
   void find_steady(solve::StepFlow& flow);
   /// What follows for a stop from the length of the step alone.
@@ -191,6 +212,7 @@ class ExponentialStep {
 
   solve::ModalSystem& modal_;
   std::size_t orders_;  ///< polynomials that the force is projected onto
+  StepGoal goal_;
   double tolerance_, output_tolerance_;
   std::vector<StopForce> stops_;
   std::vector<OwnForce> own_;
@@ -232,8 +254,10 @@ class ExponentialStep {
   std::array<Eigen::ArrayXd, 3> force_;
   std::vector<Index> reachable_;  ///< near their gap, or pulled by what is no constant
   std::vector<Index> touched_, far_;
-  std::vector<Index> jumping_;  ///< of those far away, the ones whose pull changes its sign
+  std::vector<Index> jumping_;       ///< of those far away, the ones whose pull changes its sign
+  std::vector<ForceMoments> jumps_;  ///< their forces
   std::vector<bool> is_touched_;
+  double tried_h_ = 0.0;  ///< of the last attempt
   bool is_near_ = false;  ///< any stop
   double error_ = 0.0;
 };

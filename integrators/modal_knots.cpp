@@ -10,6 +10,8 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 /// The largest |int_0^s (F - P F) ds| of a force F that rises by 1 a step from somewhere within it on, with its
 /// projection P F onto P_0, P_1 and P_2.
 constexpr double kKink = 4.73e-3;
+/// The same of a force that jumps by 1.
+constexpr double kJump = 0.0625;
 
 }  // namespace
 
@@ -143,6 +145,7 @@ const Motion& ModalKnots::motion_at(std::size_t knot, View& view) {
 }
 
 void ModalKnots::find_contacts(std::size_t knot) {
+  using Course = StopForce::Course;
   closed_.clear();
   changing_.clear();
   const StepForces& forces = forces_[knot];
@@ -155,8 +158,10 @@ void ModalKnots::find_contacts(std::size_t knot) {
     const Contact contact = {i,
                              {w_(i, k), hv0, w_(i, k + 1), hv1, at(StepForces::kBulge)},
                              {at(StepForces::kMoments), at(StepForces::kMoments + 1), at(StepForces::kMoments + 2)}};
-    const double off = kKink * stop.stiffness() * compliances_[i] * h * std::max(std::abs(hv0), std::abs(hv1));
-    const bool is_felt = off > forces.felt_speed && stop.course(contact.path) == StopForce::Course::changing;
+    const double kink = kKink * stop.stiffness() * h * std::max(std::abs(hv0), std::abs(hv1));
+    const bool is_felt =
+        (compliances_[i] * kink > forces.felt_speed && stop.course(contact.path) == Course::changing) ||
+        (compliances_[i] * kJump * h * stop.jump(contact.path) > forces.felt_speed);
     (is_felt ? changing_ : closed_).push_back(contact);
   }
 }

@@ -13,13 +13,14 @@ bool SingleStep::can_take(const solve::Dynamics& dynamics) {
          std::all_of(loads.begin(), loads.end(), [](const auto& load) { return load.in_time->harmonic().has_value(); });
 }
 
-SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance,
-                       double output_tolerance, std::size_t most)
+SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal,
+                       std::size_t most)
     : dynamics_(dynamics),
       modal_(modal),
       orders_(static_cast<std::size_t>(order / 2)),
-      tolerance_(tolerance),
-      output_tolerance_(output_tolerance),
+      goal_(goal),
+      tolerance_(goal.middle),
+      output_tolerance_(goal.outputs),
       stop_(dynamics.contact(), 0),
       own_(stop_.stiffness(), orders_),
       pull_(dynamics.contact(), 0),
@@ -59,6 +60,8 @@ void SingleStep::save(double* memory) const {
 void SingleStep::begin(double t, const double* memory, StopScale scale) {
   now_ = {memory[0], memory[1]};
   scale_ = scale;
+  if (!stop_.is_linear())
+    stop_.allow(kLasting * goal_.tolerance / goal_.run_time * scale.speed / (stop_shape_ * stop_shape_));
   knots_.assign(1, {t, now_});
   times_.assign(1, t);
   turns_ = static_cast<int>(memory[2]);
@@ -193,8 +196,9 @@ bool SingleStep::is_steady(const Flow& flow, double w, double reach) const {
   if (stop_.is_linear()) return true;
   const StopScale reached = {std::max(scale_.displacement, std::abs(path_[0])),
                              std::max(scale_.speed, std::abs(path_[1]) / flow.h)};
-  return pull_.unfelt(w, path_[0], reach, std::abs(flow.coupling[0][0]), steps_of(reached, flow.h)) <=
-         kUnfeltPull * output_tolerance_ * reached.displacement;
+  const double steps = steps_of(reached, flow.h);
+  return pull_.unfelt(w, path_[0], reach, std::abs(flow.coupling[0][0]), steps) <=
+         kUnfeltPull * output_tolerance_ * reached.displacement * share_of_run(flow.h, steps, goal_.run_time);
 }
 
 Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
@@ -232,10 +236,10 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
     if (change > enough && !is_expected) continue;
     error_ = std::abs(bulge);
     if (force_[0] != 0.0) {
-      const double stiff = stop_.stiffness() * coupling[1][0], h_speed = std::max(std::abs(hv), std::abs(path_[1]));
-      error_ = error_of_path(error_, stiff, flow.h, h_speed, {scale, scale_.speed}, course == Course::closed);
+      const double stiff = stop_.stiffness() * coupling[1][0], fastest = std::max(std::abs(hv), std::abs(path_[1]));
+      error_ = error_of_path(error_, stiff, flow.h, fastest, {scale, scale_.speed}, course == Course::closed);
       if (course != Course::closed)
-        error_ = std::max(error_, kKinkedOutput * stiff * h_speed * tolerance_ / (kAtKinks * output_tolerance_));
+        error_ = std::max(error_, kKinkedOutput * stiff * fastest * tolerance_ / (kAtKinks * output_tolerance_));
     }
     if (orders_ == 1) error_ += std::abs(coupling[0][1] * force_[1]);
     return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
@@ -269,15 +273,18 @@ StopPath SingleStep::path_from(std::size_t knot) const {
 
 bool SingleStep::is_quintic(std::size_t knot) const {
   // The part of a quintic's slope that is wrong: (omega h)^5 sqrt(5)/30000 where nothing bends the motion, and
-  // kKinkedSlope (omega h)^2 where a stop opens or closes.
-  constexpr double kGoodPart = 0.5, kKinkedSlope = 0.02;
+  // kKinkedSlope (omega h)^2 where a stop opens or closes; and up to kJumpedSlope of the speed that a force gives that
+  // jumps by the height of its jump.
+  constexpr double kGoodPart = 0.5, kKinkedSlope = 0.02, kJumpedSlope = 0.25;
   const Knot& from = knots_[knot];
   const double h = knots_[knot + 1].t - from.t;
   const double stiff = from.force[0] != 0.0 ? h * h * stop_.stiffness() * stop_shape_ * stop_shape_ : 0.0;
   const double angle = h * h * (square_ + 4.0 * decay_ * decay_ + load_frequency_ * load_frequency_) + stiff;
   const double good = kGoodPart * output_tolerance_;
   if (quintic_error(1.0, angle * angle * std::sqrt(angle)).v > good) return false;
-  return kKinkedSlope * stiff <= good || stop_.course(path_from(knot)) != StopForce::Course::changing;
+  const StopPath path = path_from(knot);
+  if (kJumpedSlope * h * stop_shape_ * stop_shape_ * stop_.jump(path) > good * scale_.speed) return false;
+  return kKinkedSlope * stiff <= good || stop_.course(path) != StopForce::Course::changing;
 }
 
 Motion SingleStep::motion_within(std::size_t knot, double t) {
@@ -293,7 +300,7 @@ Motion SingleStep::motion_within(std::size_t knot, double t) {
     moments[k] = padded_force_[k].data();
   }
   motion_.begin(from.t, h, padded_q_.data(), padded_v_.data(), moments.data());
-  if (stop_.course(path) == StopForce::Course::changing) {
+  if (stop_.course(path) == StopForce::Course::changing || stop_.jump(path) > 0.0) {
     const StopPath so_far = path.until(part);
     const ForceMoments along = stop_.project(so_far, stop_.course(so_far)).force,
                        projected = moments_within(force, 0.0, part);

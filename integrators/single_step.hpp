@@ -18,8 +18,7 @@ class SingleStep {
   /// A system of that kind.
   static bool can_take(const solve::Dynamics& dynamics);
 
-  SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, double tolerance, double output_tolerance,
-             std::size_t most);
+  SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal, std::size_t most);
 
   /// q, v, how often the phases of the loads were turned, and those.
   Index memory_size() const { return 3 + 2 * static_cast<Index>(harmonics_.size()); }
@@ -94,6 +93,7 @@ class SingleStep {
   solve::Dynamics& dynamics_;
   solve::ModalSystem& modal_;
   std::size_t orders_;
+  StepGoal goal_;
   double tolerance_, output_tolerance_, load_frequency_ = 0.0;
   StopForce stop_;
   OwnForce own_;

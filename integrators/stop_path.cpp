@@ -24,8 +24,8 @@ constexpr double kFarOff = 1e4;
 /// An end of the path this near to where the law bends, in parts of the path's range, is as the bend itself.
 constexpr double kBesideBend = 0.5;
 /// Panels beside a bend that is not sharp: each is shorter than the last by this factor.
-constexpr double kGrading = 0.15;
-constexpr int kPanels = 4;
+constexpr double kGrading = 0.15, kPreciseGrading = 0.25;
+constexpr int kPanels = 4, kPrecisePanels = 12;
 
 constexpr std::array<double, 7> kReciprocals = {1.0, 1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7};
 /// Four points: a path of degree 4 times s^2 is of degree 6.
@@ -107,6 +107,7 @@ StopForce::StopForce(solve::Contact& contact, Index stop)
       gap_(contact.gap_of(stop)),
       stiffness_(contact.law_of(stop).closed_stiffness()),
       bend_width_(contact.law_of(stop).bend_width()),
+      far_force_(contact.law_of(stop).far_force()),
       is_linear_(contact.law_of(stop).is_piecewise_linear()),
       on_upper_(contact.sides_of(stop) != model::Sides::negative),
       on_lower_(contact.sides_of(stop) != model::Sides::positive) {
@@ -208,8 +209,10 @@ ForceMoments StopForce::of_constant_rest(const StopPath& path, double begin, dou
 ForceMoments StopForce::of_graded_rest(const StopPath& path, double graded, double other, double side) {
   ForceMoments sum{};
   double outer = other;
-  for (int panel = 1; panel <= kPanels; ++panel) {
-    const double inner = panel == kPanels ? graded : graded + kGrading * (outer - graded);
+  const int panels = is_precise_ ? kPrecisePanels : kPanels;
+  const double grading = is_precise_ ? kPreciseGrading : kGrading;
+  for (int panel = 1; panel <= panels; ++panel) {
+    const double inner = panel == panels ? graded : graded + grading * (outer - graded);
     add(sum, of_rest(path, std::min(inner, outer), std::max(inner, outer), side));
     outer = inner;
   }
@@ -221,7 +224,7 @@ bool StopForce::stays_on_a_side(const StopPath& path) const {
 }
 
 bool StopForce::is_constant_beside_bends(const StopPath& path) const {
-  return bend_width_ <= kSharp * (path.highest() - path.lowest()) || is_off_bends(path);
+  return !is_precise_ && (bend_width_ <= kSharp * (path.highest() - path.lowest()) || is_off_bends(path));
 }
 
 bool StopForce::is_off_bends(const StopPath& path) const {

@@ -120,6 +120,9 @@ class StopForce {
     return Course::changing;
   }
   Projection project(const StopPath& path, Course course);
+  /// The error of the force that may last a whole run, N. Where the shortcuts for narrow and far bends exceed it, they
+  /// are not taken and integrals near bends take more panels. Of stops on both sides they err to both sides alike.
+  void allow(double error) { is_precise_ = on_upper_ != on_lower_ && kShortcuts * far_force_ > error; }
   /// Whether the force is that of a spring and a constant throughout.
   bool is_spring(const StopPath& path, Course course) const {
     return course == Course::closed && (is_linear_ || is_constant_beside_bends(path));
@@ -137,6 +140,10 @@ class StopForce {
   }
   /// Along a path without contact, the pull of a regularised law: a constant but for where it jumps.
   ForceMoments far_force(const StopPath& path);
+  /// By how much the pull of a regularised law jumps where a path crosses the middle of the gap, N.
+  double jump(const StopPath& path) const {
+    return on_upper_ && on_lower_ && path.lowest() < 0.0 && path.highest() > 0.0 ? 2.0 * far_force_ : 0.0;
+  }
   double stiffness() const { return stiffness_; }
   /// Without pull or smooth bend: nothing but a spring while closed.
   bool is_linear() const { return is_linear_; }
@@ -170,7 +177,11 @@ class StopForce {
 
   solve::Contact& contact_;
   Index stop_;
-  double gap_, stiffness_, bend_width_;
+  /// The error of the shortcuts, in parts of the law's pull: the part of it that is left at kFarOff and beside kSharp.
+  static constexpr double kShortcuts = 3e-3;
+
+  double gap_, stiffness_, bend_width_, far_force_;
+  bool is_precise_ = false;
   bool is_linear_, on_upper_, on_lower_;
   struct FarRest {
     double open, closed;

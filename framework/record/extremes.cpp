@@ -151,23 +151,25 @@ void Course::halve(std::size_t order, const Point& from, const Point& to, int& s
   if (!(middle > from.t && middle < to.t)) return;
   const double good = kGood * range.size(), departs = departure(order, from, to);
   const auto [least, greatest] = enclose(order, from, to, departs);
-  if (!(greatest > range.greatest + good) && !(least < range.least - good)) return;
+  Range target = range;
+  target.greatest -= margin_of(order, range);
+  target.least += margin_of(order, range);
+  if (!(greatest > target.greatest + good) && !(least < target.least - good)) return;
   if (!(departs > good)) {
-    Range beyond = range;
+    Range beyond = target;
     if (kind_ == time::DenseOutput::cubic) {
       if (order < 2) seek<3>(cubic(order, from, to), 0.0, 1.0, good, 0, beyond);
     } else {
       const Bernstein<5> bent = quintic(from, to);
       const Bernstein<3> straight = cubic(0, from, to);
-      const double x =
-          kind_ == time::DenseOutput::quintic && may_bend(from, to) ? at(middle).of[0] : middle_of<5>(bent);
+      const double x = kind_ != time::DenseOutput::other && may_bend(from, to) ? at(middle).of[0] : middle_of<5>(bent);
       if (std::abs(x - middle_of<3>(straight)) < std::abs(x - middle_of<5>(bent)))
         seek_in<3>(order, straight, h, good, beyond);
       else
         seek_in<5>(order, bent, h, good, beyond);
     }
-    for (const auto [value, before, place] : {std::array{beyond.greatest, range.greatest, beyond.t_greatest},
-                                              std::array{beyond.least, range.least, beyond.t_least}}) {
+    for (const auto [value, before, place] : {std::array{beyond.greatest, target.greatest, beyond.t_greatest},
+                                              std::array{beyond.least, target.least, beyond.t_least}}) {
       const double t = from.t + place * h;
       if (value != before && t > from.t && t < to.t) range.take(t, at(t).of[order]);
     }

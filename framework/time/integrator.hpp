@@ -28,9 +28,10 @@ struct EnergyAt {
 
 /// The dense output of a method between two neighbouring knots of a step.
 enum class DenseOutput {
-  cubic,    ///< x the cubic through x and v at both, v the one through v and a, a the straight line
-  quintic,  ///< x the quintic through x, v and a at both, or the cubic by x and v; v and a its derivatives
-  other     ///< any smooth motion; departure() bounds it
+  cubic,         ///< x the cubic through x and v at both, v the one through v and a, a the straight line
+  quintic,       ///< x the quintic through x, v and a at both, or the cubic by x and v; v and a its derivatives
+  near_quintic,  ///< near to that quintic, by a part of v and a that is small beside their largest values
+  other          ///< any smooth motion; departure() bounds it
 };
 
 /// A time integration method: takes State over a Step.
