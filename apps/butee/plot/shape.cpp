@@ -109,7 +109,7 @@ class Sampler {
   std::vector<std::optional<double>> closed_since_;  ///< s, since when the stop is closed
 };
 
-std::string number(double value) {
+std::string rounded(double value) {
   return short_number(value, 5);
 }
 
@@ -130,8 +130,8 @@ Picture picture_of(const Map& map, const std::string& title, const std::string& 
   if (!map.closures.empty()) {
     picture.data += "# closed stops: from, place, until\n$closed << EOD\n";
     for (const Closure& c : map.closures)
-      picture.data += number(c.begin * time.factor) + " " + number(c.place * place.factor) + " " +
-                      number((c.end - c.begin) * time.factor) + "\n";
+      picture.data += rounded(c.begin * time.factor) + " " + rounded(c.place * place.factor) + " " +
+                      rounded((c.end - c.begin) * time.factor) + "\n";
     picture.data += "EOD\n";
   }
   const double t0 = map.times.front() * time.factor, t1 = map.times.back() * time.factor;
@@ -144,12 +144,12 @@ Picture picture_of(const Map& map, const std::string& title, const std::string& 
                 gnuplot::quoted(u.axis("displacement")) + "\n";
   picture.set += "set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 '#b2182b')\n";
   const double limit = largest > 0.0 ? largest * u.factor : 1.0;
-  picture.set += "set cbrange [" + number(-limit) + ":" + number(limit) +
+  picture.set += "set cbrange [" + rounded(-limit) + ":" + rounded(limit) +
                  "]\nset colorbox user origin screen 0.885, graph 0 size screen 0.02, graph 1\n";
-  picture.set += "set xrange [" + number(t0) + ":" + number(t1) + "]\nset yrange [" + number(x0) + ":" + number(x1) +
-                 "]\nset rmargin screen 0.87\nunset grid\n" + gnuplot::legend_below({"stop closed"});
-  picture.plot = "plot $u matrix using (" + number(t0) + " + " + short_number(dt, 9) + " * $1):(" + number(x0) + " + " +
-                 short_number(dx, 9) + " * $2):3 with image notitle";
+  picture.set += "set xrange [" + rounded(t0) + ":" + rounded(t1) + "]\nset yrange [" + rounded(x0) + ":" +
+                 rounded(x1) + "]\nset rmargin screen 0.87\nunset grid\n" + gnuplot::legend_below({"stop closed"});
+  picture.plot = "plot $u matrix using (" + rounded(t0) + " + " + short_number(dt, 9) + " * $1):(" + rounded(x0) +
+                 " + " + short_number(dx, 9) + " * $2):3 with image notitle";
   if (!map.closures.empty())
     picture.plot +=
         ", \\\n     $closed using 1:2:3:(0) with vectors nohead lw 1.6 lc rgb '#111111' notitle, \\\n"
