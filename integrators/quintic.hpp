@@ -52,14 +52,16 @@ inline QuinticError quintic_error(double h, double sixth) {
 }
 
 /// The accelerations that the quintic through two motions takes: their own, or the cubic's through x and v where one of
-/// them departs from that far more than the other. So it does where a step ends within a stiff stop: its acceleration,
-/// of the last instant alone, would bend the whole step.
+/// them departs from that far more than the other, and by a tenth of the accelerations. So it does where a step ends
+/// within a stiff stop: its acceleration, of the last instant alone, would bend the whole step. In smooth motion one of
+/// them meets the cubic's by chance, where the fourth derivative vanishes; both then are near to it.
 inline void leave_out_kinks(double h, Motion& from, Motion& to) {
-  constexpr double kFarMore = 10.0;
+  constexpr double kFarMore = 10.0, kMuch = 0.1;
   const double rise = 6.0 * (to.x - from.x) / h;
   const double a0 = (rise - 4.0 * from.v - 2.0 * to.v) / h, a1 = (2.0 * from.v + 4.0 * to.v - rise) / h;
   const double off0 = std::abs(from.a - a0), off1 = std::abs(to.a - a1);
-  if (std::max(off0, off1) <= kFarMore * std::min(off0, off1)) return;
+  const double most = std::max(off0, off1);
+  if (most <= kFarMore * std::min(off0, off1) || most <= kMuch * std::max(std::abs(from.a), std::abs(to.a))) return;
   from.a = a0;
   to.a = a1;
 }

@@ -1,5 +1,7 @@
 #include "integrators/quintic.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -27,6 +29,23 @@ TEST(Quintic, IsOfOrderSixWhereTheMotionIsSmooth) {
   };
   EXPECT_LT(error(0.4), 1e-7);  // The cubic is wrong by h^4/384 = 7e-5.
   EXPECT_NEAR(std::log2(error(0.4) / error(0.2)), 6.0, 0.3);
+}
+
+TEST(Quintic, IsOfItsOrderWhereTheFourthDerivativeVanishes) {
+  constexpr double kStep = 0.1;
+  const std::array<Index, 1> dofs = {0};
+  const auto state = [](double t) { return at(t, std::sin(t), std::cos(t), -std::sin(t)); };
+  double worst = 0.0;
+  for (int i = -2000; i <= 2000; ++i) {
+    const double t = 1e-4 * i;
+    for (const double part : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      double v = 0.0;
+      integrators::interpolate_quintic(state(t), state(t + kStep), t + part * kStep, dofs, {{}, {&v, 1}, {}});
+      worst = std::max(worst, std::abs(v - std::cos(t + part * kStep)));
+    }
+  }
+  // The quintic's bound is sqrt(5)/30000 h^5; the slope of the cubic is wrong by up to h^4/200.
+  EXPECT_LT(worst, 1e-4 * std::pow(kStep, 5));
 }
 
 TEST(Quintic, IsNotBentByAnEndWithinAStiffStop) {

@@ -90,8 +90,9 @@ int run_suite(Options options) {
   const auto note = [&](const Scene& scene, const Method& method, const Outcome& outcome) {
     watchdog.note(scene.name + ", " + method.name);
     if (options.verbose || is_failure(outcome.verdict))
-      std::printf("%s, %s: %s, error %g, allowed %g, %g of the run, %s\n", scene.name.c_str(), method.name.c_str(),
-                  name_of(outcome.verdict), outcome.error, outcome.allowed, outcome.part, outcome.message.c_str());
+      std::printf("%s, %s: %s, error %g, %g times what is allowed, %g of the run, %s\n", scene.name.c_str(),
+                  method.name.c_str(), name_of(outcome.verdict), outcome.error, outcome.excess, outcome.part,
+                  outcome.message.c_str());
     std::fflush(stdout);
   };
   std::vector<Scene> scenes;

@@ -11,6 +11,8 @@ namespace {
 
 /// Of a run by `exact`, whatever the bound of others: where it is cut a scene ends.
 constexpr std::int64_t kReferenceWork = 200000;
+/// Of methods that are recorded, at most.
+constexpr std::int64_t kRecordedWork = 40000;
 
 }  // namespace
 
@@ -76,7 +78,7 @@ void run_all(const std::vector<Scene>& scenes, const std::vector<Method>& method
     tally.uncertain += reference.is_uncertain() ? 1 : 0;
     tally.unjudged += reference.exists() ? 0 : 1;
     for (const Method& method : methods) {
-      const Outcome outcome = run(scene, method, reference, work);
+      const Outcome outcome = run(scene, method, reference, method.is_judged ? work : std::min(work, kRecordedWork));
       tally.add(scene, method, outcome);
       if (on_run) on_run(scene, method, outcome);
     }
