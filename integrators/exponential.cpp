@@ -24,8 +24,10 @@ constexpr int kBlock = 32;
 /// a stop, whether the last step was a quiet one, without stops within reach, by how many rungs those are longer, and
 /// until when the last block was to go, without which it cannot be taken again.
 constexpr Index kExtras = 6;
-/// That is at most
+/// After a step with contact that is
 constexpr int kQuietRungs = 2;
+/// Rungs to go down where a long step without contact came within reach of a stop.
+constexpr int kRungsToStop = 3;
 /// What outputs between two quiet steps may be wrong by, in tolerances; the steps themselves go on from the exact
 /// state.
 constexpr double kOutputs = 2.0;
@@ -45,8 +47,14 @@ double middle_tolerance(const ExponentialOptions& options) {
     case 4:
       return 0.03 * options.tolerance;
     default:
-      return 0.08 * std::min(std::pow(options.tolerance, 0.8), std::pow(kProportional, -0.2) * options.tolerance);
+      return 0.12 * std::min(std::pow(options.tolerance, 0.8), std::pow(kProportional, -0.2) * options.tolerance);
   }
+}
+
+/// Rungs to go down after a step whose error was `ratio` times what it might have been, at the fifth power of h.
+int rungs_down(double ratio) {
+  constexpr double kPower = 5.0, kMost = 8.0;
+  return ratio > 1.0 ? static_cast<int>(std::clamp(std::floor(2.0 / kPower * std::log2(ratio)), 1.0, kMost)) : 1;
 }
 
 /// What a truncated basis lacks.
@@ -173,8 +181,8 @@ bool Exponential<Step>::advance(double end, StepReport& report) {
       if (!is_quiet_) {
         quiet_rungs_ = kQuietRungs;
         if (fits && step_.is_easy()) ++level_;
-      } else if (fits && quiet_rungs_ < kQuietRungs && step_.is_very_smooth()) {
-        ++quiet_rungs_;
+      } else if (fits) {
+        quiet_rungs_ += step_.spare_rungs();
       }
       return true;
     }
@@ -187,9 +195,9 @@ bool Exponential<Step>::advance(double end, StepReport& report) {
       rungs = fits ? rungs - 1 : static_cast<int>(std::ceil(2.0 * std::log2(limit))) - 1;
       quiet_rungs_ = rungs - level_;
     } else if (fits && rungs > level_) {
-      rungs = level_;  // A stop came within reach of a long step.
+      rungs = std::max(level_, rungs - kRungsToStop);  // A stop came within reach of a long step.
     } else {
-      rungs = fits ? rungs - 1 : static_cast<int>(std::ceil(2.0 * std::log2(limit))) - 1;
+      rungs = (fits ? rungs : static_cast<int>(std::ceil(2.0 * std::log2(limit)))) - rungs_down(step_.error_ratio());
       level_ = std::min(level_, rungs);
     }
   }

@@ -33,15 +33,22 @@ bool ExponentialStep::is_smooth(const StepFlow& flow) {
   unsmooth_ = bound > 0.0 ? bound / allowed : 0.0;
   if (unsmooth_ <= 1.0 && !is_strongly_damped_) return true;
   propagate(flow.half, knots_.steps(), q_half_, &v_half_);
-  modal_.stop_shapes().displacement(q_half_.data(), path_.middle.data());
+  modal_.stop_shapes().displacement(q_half_.data(), v_half_.data(), path_.middle.data(), path_.speed.data());
   const double h = flow.h(), t = knots_.last();
   find_accelerations(t, q_, v_, a_);
   find_accelerations(t + h, q_new_, v_new_, excess_);
-  const double miss =
+  const Index m = modal_.stop_count();
+  const double of_middle =
       (path_.middle - 0.5 * (w_ + w_new_) - (5.0 / 32.0 * h) * (wv_ - wv_new_) - (h * h / 64.0) * (a_ + excess_))
-          .head(modal_.stop_count())
+          .head(m)
           .abs()
           .maxCoeff();
+  const double of_speed =
+      (h * path_.speed - 1.875 * (w_new_ - w_) + (0.4375 * h) * (wv_ + wv_new_) - (h * h / 32.0) * (excess_ - a_))
+          .head(m)
+          .abs()
+          .maxCoeff();
+  const double miss = std::max(of_middle, kOddPart * of_speed);
   unsmooth_ = miss > 0.0 ? miss / allowed : 0.0;
   if (unsmooth_ > 1.0) {
     middle_knot_ = t + 0.5 * h;

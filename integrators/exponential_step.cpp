@@ -14,6 +14,8 @@ using solve::ModalFlow;
 using solve::StepFlow;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+/// Added to the distance of a side on which a stop does not act, m.
+constexpr double kNever = 1e100;
 
 }  // namespace
 
@@ -28,18 +30,21 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
       squares_(modal.frequencies().square()),
       is_strongly_damped_((4.0 * modal.decay() > modal.frequencies()).any()),
       knots_(dynamics, modal, stops_, 2 * most),
-      energy_(dynamics, modal) {
+      energy_(dynamics, modal),
+      longest_near_(longest_near_stops(modal)) {
   const solve::Contact& contact = contact_;
   const Index padded = StepFlow::padded(contact.size());
   for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2],
                          &jump_sums_[0], &jump_sums_[1], &jump_sums_[2]})
     array->setZero(modal_.size());
-  for (ArrayXd* array :
-       {&w_, &wv_, &w_new_, &wv_new_, &reach_, &a_, &hv_, &path_.end, &path_.speed, &path_.middle, &seen_.end,
-        &seen_.speed, &seen_.middle, &bulge_, &excess_, &force_[0], &force_[1], &force_[2]})
+  for (ArrayXd* array : {&w_,           &wv_,    &w_new_,    &wv_new_,     &largest_w_,   &largest_wv_, &reach_,
+                         &a_,           &hv_,    &path_.end, &path_.speed, &path_.middle, &seen_.end,   &seen_.speed,
+                         &seen_.middle, &bulge_, &excess_,   &force_[0],   &force_[1],    &force_[2]})
     array->setZero(padded);
   gaps_.setConstant(padded, kInfinite);
   borders_ = gaps_;
+  off_upper_.setZero(padded);
+  off_lower_.setZero(padded);
   upper_ = gaps_;
   lower_ = -gaps_;
   for (Index i = 0; i < contact.size(); ++i) {
@@ -48,8 +53,14 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
     gaps_[i] = contact.gap_of(i);
     borders_[i] = calm_border(contact, i);
     pulls_.emplace_back(contact, i);
-    if (contact.sides_of(i) != model::Sides::negative) upper_[i] = gaps_[i];
-    if (contact.sides_of(i) != model::Sides::positive) lower_[i] = -gaps_[i];
+    if (contact.sides_of(i) != model::Sides::negative)
+      upper_[i] = gaps_[i];
+    else
+      off_upper_[i] = kNever;
+    if (contact.sides_of(i) != model::Sides::positive)
+      lower_[i] = -gaps_[i];
+    else
+      off_lower_[i] = kNever;
     has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
   }
   pull_sizes_.setZero(padded);
@@ -68,8 +79,11 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
 
 void ExponentialStep::complete(double* memory) const {
   const Index n = modal_.size();
-  if (has_stops())
-    modal_.stop_shapes().displacement(memory, memory + n, memory + 2 * n, memory + 2 * n + modal_.stop_count());
+  if (!has_stops()) return;
+  const Index m = modal_.stop_count();
+  double* stops = memory + 2 * n;
+  modal_.stop_shapes().displacement(memory, memory + n, stops, stops + m);
+  Eigen::Map<ArrayXd>(stops + 2 * m, 2 * m) = Eigen::Map<const ArrayXd>(stops, 2 * m).abs();
 }
 
 void ExponentialStep::begin(double t, const double* memory, StopScale scale) {
@@ -78,6 +92,8 @@ void ExponentialStep::begin(double t, const double* memory, StopScale scale) {
   v_ = Eigen::Map<const ArrayXd>(memory + n, n);
   w_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n, m);
   wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + m, m);
+  largest_w_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + 2 * m, m);
+  largest_wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + 3 * m, m);
   scale_ = scale;
   if (has_far_forces_)
     for (std::size_t i = 0; i < stops_.size(); ++i)
@@ -95,6 +111,8 @@ void ExponentialStep::save(double* memory) const {
   Eigen::Map<ArrayXd>(memory + n, n) = v_;
   Eigen::Map<ArrayXd>(memory + 2 * n, m) = w_.head(m);
   Eigen::Map<ArrayXd>(memory + 2 * n + m, m) = wv_.head(m);
+  Eigen::Map<ArrayXd>(memory + 2 * n + 2 * m, m) = largest_w_.head(m);
+  Eigen::Map<ArrayXd>(memory + 2 * n + 3 * m, m) = largest_wv_.head(m);
 }
 
 void ExponentialStep::accept(double t) {
@@ -104,6 +122,8 @@ void ExponentialStep::accept(double t) {
   v_.swap(v_new_);
   w_.swap(w_new_);
   wv_.swap(wv_new_);
+  largest_w_ = largest_w_.max(w_.abs());
+  largest_wv_ = largest_wv_.max(wv_.abs());
   knots_.add(t, q_.data(), v_.data(), w_.data());
 }
 
@@ -178,6 +198,7 @@ Trial ExponentialStep::attempt(StepFlow& flow) {
   if (!std::isfinite(w_new_.sum() + wv_new_.sum())) return Trial::not_finite;
   reached_ = {std::max(scale_.displacement, w_new_.abs().maxCoeff()), std::max(scale_.speed, wv_new_.abs().maxCoeff())};
   find_reachable(flow);
+  if (is_near_ && flow.h() > longest_near_) return Trial::too_long;
   if (has_far_forces_) place_pull(flow);
   if (!reachable_.empty()) propagate(flow.half, knots_.steps(), q_half_, nullptr);
   if (is_quiet() && !is_smooth(flow)) return Trial::too_long;
@@ -205,7 +226,9 @@ void ExponentialStep::find_reachable(StepFlow& flow) {
     load_swing_ += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + flow.h()))) *
                    (flow.swing_force * load.shape.abs()).sum();
   const double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + load_swing_;
-  reach_ = w_.abs().max(w_new_.abs()) + (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
+  // A stop on one side is near on that side alone.
+  reach_ = (w_.max(w_new_) - off_upper_).max(-w_.min(w_new_) - off_lower_) +
+           (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
   far_.clear();
   if (has_far_forces_) find_steady(flow);
   for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {

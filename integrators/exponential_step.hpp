@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "butee/solve/modal_system.hpp"
@@ -50,6 +52,9 @@ inline double steps_of(StopScale scale, double h) {
   return h * scale.speed < scale.displacement ? scale.displacement / (h * scale.speed) : 1.0;
 }
 
+/// The path of a stop is wrong by this part of its bulge, whose own place in it is known.
+inline constexpr double kPathError = 0.1;
+
 /// The part of the error of a run that may come of pulls that are wrong in the same sense all the time, 1/s in
 /// tolerances: the force of a stop may be wrong by this part of what would change its speed by the tolerance in a run.
 inline constexpr double kLasting = 0.4;
@@ -67,8 +72,8 @@ inline constexpr double kOfSpeed = 0.05, kOfSpeedClosed = 0.5;
 
 /// The error of a stop's path in a step of h, as one of displacement: that of the speed after it counts as much,
 /// relative to the largest speed. `bulge` is the departure, `stiff` = (h omega_c)^2 of the stop alone.
-inline double error_of_path(double bulge, double stiff, double h, double h_speed, StopScale scale, bool stays_closed) {
-  const double speed = std::max(h * scale.speed, h_speed);
+inline double error_of_path(double bulge, double stiff, double h, StopScale scale, bool stays_closed) {
+  const double speed = h * scale.speed;
   const double of_speed = (stays_closed ? kOfSpeedClosed : kOfSpeed) * stiff * stiff;
   return bulge * (of_speed * scale.displacement > speed ? of_speed * scale.displacement / speed : 1.0);
 }
@@ -76,13 +81,25 @@ inline double error_of_path(double bulge, double stiff, double h, double h_speed
 /// Between the ends of a step that no force of a stop bends, outputs lie on a quintic. Its error is that of the cubic,
 /// (omega h)^4/384 of the amplitude, times (omega h)^2/120.
 inline constexpr double kQuintic = 1.0 / 120.0;
-/// Where a stop closes or opens within a step, that quintic is wrong by up to this part of the speed times h (h
-/// omega_c)^2, most where it does so just before an end; and that may be so many times what other outputs may be wrong
-/// by.
-inline constexpr double kKinkedOutput = 1.3e-3, kAtKinks = 5.0;
-/// A step of which outputs use up less than this part of what they may be wrong by is followed by one a rung longer,
-/// eight times that.
-inline constexpr double kVerySmooth = 0.05;
+/// Rungs to go up after a step without contact whose quintic is wrong by this part of what it may be, an error that
+/// grows by eight a rung.
+inline int rungs_up(double part) {
+  constexpr double kAim = 0.4, kMost = 8.0;
+  if (part <= 0.0) return static_cast<int>(kMost);
+  return static_cast<int>(std::clamp(std::floor(std::log2(kAim / part) / 3.0), 0.0, kMost));
+}
+/// The quintic misses an odd motion about its middle in the speed alone: 16 s^2 (1 - s)^2 (2 s - 1), whose slope there
+/// is -2, is at most 0.29.
+inline constexpr double kOddPart = 0.15;
+/// The longest step near a stop, s: the slowest mode and the loads turn by kMostTurn at most. In longer ones a few
+/// values of the path say nothing about where it was between.
+inline double longest_near_stops(const solve::ModalSystem& modal) {
+  constexpr double kMostTurn = 1.5;
+  double fastest = modal.frequencies().minCoeff();
+  for (const solve::ModalHarmonic& harmonic : modal.harmonics())
+    fastest = std::max(fastest, harmonic.angular_frequency);
+  return fastest > 0.0 ? kMostTurn / fastest : std::numeric_limits<double>::infinity();
+}
 /// With a knot in the middle of the step outputs are wrong by 1/64, or by 1/4 where modes turn too fast for any
 /// quintic.
 inline constexpr double kHalved = 10.0;
@@ -104,8 +121,9 @@ class ExponentialStep {
   ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal,
                   std::size_t most);
 
-  /// What a state has to remember: q, v, and displacements and speeds of the stops, which complete() adds to q and v.
-  Index memory_size() const { return 2 * (modal_.size() + modal_.stop_count()); }
+  /// What a state has to remember: q, v, displacements and speeds of the stops, and the largest so far of each, which
+  /// complete() adds to q and v.
+  Index memory_size() const { return 2 * modal_.size() + 4 * modal_.stop_count(); }
   void complete(double* memory) const;
   /// Begins a block with the state at t.
   void begin(double t, const double* memory, StopScale scale);
@@ -121,8 +139,10 @@ class ExponentialStep {
   StopScale scale() const { return scale_; }
   /// No stop came near its gap in the last attempt.
   bool is_quiet() const { return !is_near_; }
-  /// Such a step might be longer, for what outputs within it may be wrong by.
-  bool is_very_smooth() const { return unsmooth_ < kVerySmooth; }
+  /// The rungs by which such a step might be longer, for its quintic.
+  int spare_rungs() const { return rungs_up(unsmooth_); }
+  /// The error of the last attempt over what it might have been; 0 where none was found.
+  double error_ratio() const { return error_ / (tolerance_ * scale_.displacement); }
   /// It would do with a longer step.
   bool is_easy() const { return error_ < kEasy * tolerance_ * scale_.displacement; }
   bool has_stops() const { return !stops_.empty(); }
@@ -200,6 +220,13 @@ class ExponentialStep {
   /// Adds to the force at a stop, and what that does to all paths; the largest change of a path.
   double add_force(solve::StepFlow& flow, Index stop, const ForceMoments& more);
   void find_error(solve::StepFlow& flow, double displacement);
+  /// Of a stop that the path passes by, but might have changed its speed times h by `push`; relative to the
+  /// displacement.
+  double error_of_missed(double push, double h, StopScale scale) const {
+    return push / (h * scale.speed) * tolerance_ / goal_.tolerance;
+  }
+  /// What errors of a stop are relative to: its own largest displacement and speed, at least a part of all stops'.
+  StopScale scale_of(Index stop, double h, double displacement) const;
   /// Of the displacement, by a pull that jumps where the path is said to pass the middle of the gap.
   double error_of_pull(solve::StepFlow& flow, Index stop) const;
   /// Whether a stop is in contact at both ends of the step.
@@ -236,9 +263,11 @@ class ExponentialStep {
   std::array<Eigen::ArrayXd, 3> sums_, jump_sums_;  ///< modal: of contact, and of pulls that change their side
 
   // An entry a stop, padded to whole registers.
-  Eigen::ArrayXd gaps_, upper_, lower_;  ///< where it acts; infinite where it does not
-  Eigen::ArrayXd borders_;               ///< up to where the force of an open stop hardly changes
+  Eigen::ArrayXd gaps_, upper_, lower_;   ///< where it acts; infinite where it does not
+  Eigen::ArrayXd off_upper_, off_lower_;  ///< 0 where it acts on that side, else further off than any path
+  Eigen::ArrayXd borders_;                ///< up to where the force of an open stop hardly changes
   Eigen::ArrayXd w_, wv_, w_new_, wv_new_, reach_;
+  Eigen::ArrayXd largest_w_, largest_wv_;            ///< so far
   Eigen::ArrayXd a_;                                 ///< accelerations at the start, where they were asked for
   Eigen::ArrayXd pull_sizes_, bends_;                ///< FarPull::largest(), and the width of the law's bend
   Eigen::Array<bool, Eigen::Dynamic, 1> is_steady_;  ///< surely; of the others is_steady() knows
@@ -257,6 +286,7 @@ class ExponentialStep {
   std::vector<Index> jumping_;       ///< of those far away, the ones whose pull changes its sign
   std::vector<ForceMoments> jumps_;  ///< their forces
   std::vector<bool> is_touched_;
+  double longest_near_;   ///< longest_near_stops(), s
   double tried_h_ = 0.0;  ///< of the last attempt
   bool is_near_ = false;  ///< any stop
   double error_ = 0.0;

@@ -149,22 +149,31 @@ void ExponentialStep::guess(StepFlow& flow) {
   flow.add_forces(touched_, force_, near_registers_, path_);
 }
 
+StopScale ExponentialStep::scale_of(Index stop, double h, double displacement) const {
+  constexpr double kFloor = 1e-3;  // that of the promise (error-control.md)
+  const double speed = std::max(std::abs(hv_[stop]), std::abs(path_.speed[stop])) / h;
+  return {std::max({largest_w_[stop], std::abs(path_.end[stop]), kFloor * displacement}),
+          std::max({largest_wv_[stop], speed, kFloor * scale_.speed})};
+}
+
 void ExponentialStep::find_error(StepFlow& flow, double displacement) {
-  const double h = flow.h(), h_speed = std::max(hv_.abs().maxCoeff(), path_.speed.abs().maxCoeff());
+  const double h = flow.h();
   for (const Index i : reachable_) {
     const auto place = static_cast<std::size_t>(i);
     double error = is_near(i) ? std::abs(bulge_[i]) : error_of_pull(flow, i);
     if (is_near(i) && is_touched_[place]) {
-      const double stiff = stops_[place].stiffness() * flow.derived(i).coupling[1][0];
-      error = error_of_path(error, stiff, h, h_speed, {displacement, scale_.speed}, stays_closed(i));
-      const double of_outputs = kKinkedOutput * stiff * std::max(std::abs(hv_[i]), std::abs(path_.speed[i]));
+      const StopScale scale = scale_of(i, h, displacement);
+      const double stiffness = stops_[place].stiffness(), stiff = stiffness * flow.derived(i).coupling[1][0];
+      error = error_of_path(error, stiff, h, scale, stays_closed(i));
       if (!stays_closed(i)) {
-        error = std::max(error, of_outputs * tolerance_ / (kAtKinks * output_tolerance_));
-        const double unresolved = h * h * stops_[place].stiffness() * flow.derived(i).unresolved *
-                                  std::max(std::abs(hv_[i]), std::abs(path_.speed[i]));
-        error = std::max(error, unresolved * tolerance_ * displacement /
-                                    (kUnresolved * output_tolerance_ * std::max(h * scale_.speed, h_speed)));
+        const double kink = h * h * stiffness * flow.derived(i).unresolved *
+                            std::max(std::abs(hv_[i]), std::abs(path_.speed[i])) / (h * scale.speed);
+        error = std::max(error, kink * tolerance_ * scale.displacement / (kUnresolved * output_tolerance_));
       }
+      error *= displacement / scale.displacement;
+    } else if (const double depth = excess_[i] + kPathError * std::abs(bulge_[i]); is_near(i) && depth > 0.0) {
+      const double stiff = stops_[place].stiffness() * derived(flow, i).coupling[1][0];
+      error = std::max(error, error_of_missed(stiff * depth, h, scale_of(i, h, displacement)) * displacement);
     }
     if (orders_ == 1) error += std::abs(flow.own_coupling(i)[0][1] * force_[1][i]);
     error_ = std::max(error_, error);

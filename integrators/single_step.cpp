@@ -6,6 +6,9 @@
 #include "butee/solve/dynamics.hpp"
 
 namespace butee::integrators {
+namespace {
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+}
 
 bool SingleStep::can_take(const solve::Dynamics& dynamics) {
   const auto& loads = dynamics.system().loads;
@@ -25,6 +28,9 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       own_(stop_.stiffness(), orders_),
       pull_(dynamics.contact(), 0),
       gap_(dynamics.contact().gap_of(0)),
+      upper_(dynamics.contact().sides_of(0) == model::Sides::negative ? kInfinite : gap_),
+      lower_(dynamics.contact().sides_of(0) == model::Sides::positive ? -kInfinite : -gap_),
+      longest_near_(longest_near_stops(modal)),
       calm_border_(calm_border(dynamics.contact(), 0)),
       stop_shape_(modal.stop_shapes().matrix()(0, 0)),
       square_(modal.frequencies()[0] * modal.frequencies()[0]),
@@ -162,8 +168,9 @@ Trial SingleStep::attempt(const Flow& flow) {
   error_ = 0.0;
   force_ = {};
   const double swing = flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v);
-  const double reach = std::max(std::abs(w), std::abs(path_[0])) + kBump * (std::abs(hv) + std::abs(path_[1])) + swing +
-                       flow.swing_harmonics;
+  const double nearest = std::max(upper_ < kInfinite ? std::max(w, path_[0]) : -kInfinite,
+                                  lower_ > -kInfinite ? -std::min(w, path_[0]) : -kInfinite);
+  const double reach = nearest + kBump * (std::abs(hv) + std::abs(path_[1])) + swing + flow.swing_harmonics;
   is_quiet_ = reach <= calm_border_ && is_steady(flow, w, reach);
   if (is_quiet_) {
     // Of the slower and the faster of two decaying motions too, whose rates are within 2 delta + omega. What a load
@@ -177,6 +184,7 @@ Trial SingleStep::attempt(const Flow& flow) {
     if (unsmooth_ > 1.0) return Trial::too_long;
   }
   if (!is_quiet_) {
+    if (h > longest_near_) return Trial::too_long;
     const Trial trial = iterate(flow, w, hv);
     if (trial != Trial::accepted) return trial;
   } else if (!stop_.is_linear()) {
@@ -236,10 +244,13 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
     if (change > enough && !is_expected) continue;
     error_ = std::abs(bulge);
     if (force_[0] != 0.0) {
-      const double stiff = stop_.stiffness() * coupling[1][0], fastest = std::max(std::abs(hv), std::abs(path_[1]));
-      error_ = error_of_path(error_, stiff, flow.h, fastest, {scale, scale_.speed}, course == Course::closed);
-      if (course != Course::closed)
-        error_ = std::max(error_, kKinkedOutput * stiff * fastest * tolerance_ / (kAtKinks * output_tolerance_));
+      const double stiff = stop_.stiffness() * coupling[1][0],
+                   speed = std::max(std::abs(hv), std::abs(path_[1])) / flow.h;
+      error_ = error_of_path(error_, stiff, flow.h, {scale, std::max(scale_.speed, speed)}, course == Course::closed);
+    } else if (const double depth = beyond(path) + kPathError * std::abs(bulge); depth > 0.0) {
+      // The path passes the stop by, but might have changed its speed.
+      const double push = stop_.stiffness() * coupling[1][0] * depth;
+      error_ = std::max(error_, push / (flow.h * scale_.speed) * tolerance_ / goal_.tolerance * scale);
     }
     if (orders_ == 1) error_ += std::abs(coupling[0][1] * force_[1]);
     return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
@@ -264,6 +275,10 @@ const Motion& SingleStep::motion_at(std::size_t knot) {
     harmonic_force += c * harmonics_[j].cosine[0] + s * harmonics_[j].sine[0];
   }
   return at.motion = motion_of(at.at, harmonic_force);
+}
+
+double SingleStep::beyond(const StopPath& path) const {
+  return std::max(path.highest() - upper_, lower_ - path.lowest());
 }
 
 StopPath SingleStep::path_from(std::size_t knot) const {

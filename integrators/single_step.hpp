@@ -34,7 +34,8 @@ class SingleStep {
   const double* v() const { return &now_.v; }
   StopScale scale() const { return scale_; }
   bool is_quiet() const { return is_quiet_; }
-  bool is_very_smooth() const { return unsmooth_ < kVerySmooth; }
+  int spare_rungs() const { return rungs_up(unsmooth_); }
+  double error_ratio() const { return error_ / (tolerance_ * scale_.displacement); }
   bool is_easy() const { return error_ < kEasy * tolerance_ * scale_.displacement; }
   static constexpr bool has_stops() { return true; }
 
@@ -83,6 +84,8 @@ class SingleStep {
   /// Whether the pull of the open stop is a constant, as far as the tolerance can tell.
   bool is_steady(const Flow& flow, double w, double reach) const;
   const Motion& motion_at(std::size_t knot);
+  /// By how much a path is beyond the gap on a side on which the stop acts; negative where it is not.
+  double beyond(const StopPath& path) const;
   StopPath path_from(std::size_t knot) const;
   /// Whether the quintic is as good as the motion in the step from a knot.
   bool is_quintic(std::size_t knot) const;
@@ -98,7 +101,9 @@ class SingleStep {
   StopForce stop_;
   OwnForce own_;
   FarPull pull_;
-  double gap_, calm_border_, stop_shape_, square_, decay_;
+  double gap_, upper_, lower_;  ///< where the stop acts; infinite where it does not
+  double longest_near_;         ///< longest_near_stops(), s
+  double calm_border_, stop_shape_, square_, decay_;
   const std::vector<solve::ModalHarmonic>& harmonics_;
 
   std::array<Flow, 8> flows_;  ///< of rungs, by their last three bits
