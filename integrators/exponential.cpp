@@ -51,6 +51,12 @@ double middle_tolerance(const ExponentialOptions& options) {
   }
 }
 
+/// The highest rung whose step is shorter than this time.
+int rung_below(double time) {
+  if (!(time > 0.0)) return std::numeric_limits<int>::min();
+  return time < 1e30 ? static_cast<int>(std::floor(2.0 * std::log2(time))) : std::numeric_limits<int>::max();
+}
+
 /// Rungs to go down after a step whose error was `ratio` times what it might have been, at the fifth power of h.
 int rungs_down(double ratio) {
   constexpr double kPower = 5.0, kMost = 8.0;
@@ -168,6 +174,8 @@ template <class Step>
 bool Exponential<Step>::advance(double end, StepReport& report) {
   const double t = step_.t(), kink = next_kink(t), last = std::min(end, kink), limit = last - t;
   int rungs = level_ + (is_quiet_ ? quiet_rungs_ : 0);
+  // A flight ends before the stop that it leads to: a step beyond it would be tried in vain.
+  if (rungs > level_) rungs = std::clamp(rung_below(step_.time_to_stop()), level_, rungs);
   while (true) {
     const double h = ModalSystem::ladder_step(rungs);
     const bool fits = step_.has_stops() && t + h <= last;

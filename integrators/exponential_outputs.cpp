@@ -1,6 +1,7 @@
 // Of ExponentialStep: what outputs within and at the ends of a step take.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "integrators/exponential_step.hpp"
 #include "integrators/quintic.hpp"
@@ -13,6 +14,7 @@ using solve::StepFlow;
 
 /// A step between outputs is rounded to so many digits, so that equal intervals are equal.
 constexpr double kSameDigits = 1e10;
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 double rounded(double h) {
   const double unit = std::pow(10.0, std::floor(std::log10(h))) / kSameDigits;
@@ -23,6 +25,15 @@ double rounded(double h) {
 
 Trial ExponentialStep::attempt_length(double h) {
   return attempt(modal_.odd(has_stops() ? h : rounded(h)));
+}
+
+double ExponentialStep::time_to_stop() const {
+  double time = kForever;
+  for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {
+    if (wv_[i] > 0.0 && off_upper_[i] == 0.0) time = std::min(time, (borders_[i] - w_[i]) / wv_[i]);
+    if (wv_[i] < 0.0 && off_lower_[i] == 0.0) time = std::min(time, (borders_[i] + w_[i]) / -wv_[i]);
+  }
+  return time;
 }
 
 bool ExponentialStep::is_smooth(const StepFlow& flow) {

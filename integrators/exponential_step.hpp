@@ -139,6 +139,8 @@ class ExponentialStep {
   StopScale scale() const { return scale_; }
   /// No stop came near its gap in the last attempt.
   bool is_quiet() const { return !is_near_; }
+  /// When the first stop is reached at the speeds of now, s from now on; infinite where none is approached.
+  double time_to_stop() const;
   /// The rungs by which such a step might be longer, for its quintic.
   int spare_rungs() const { return rungs_up(unsmooth_); }
   /// The error of the last attempt over what it might have been; 0 where none was found.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 
 #include "butee/solve/dynamics.hpp"
 
@@ -36,8 +38,17 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       square_(modal.frequencies()[0] * modal.frequencies()[0]),
       decay_(modal.decay()[0]),
       harmonics_(modal.harmonics()),
+      oscillator_(modal.frequencies()[0], decay_),
       motion_(modal),
       energy_(dynamics, modal) {
+  for (const solve::ModalHarmonic& harmonic : harmonics_) {
+    constexpr double kResonance = 1e-7;
+    const double turn = harmonic.angular_frequency;
+    const std::complex<double> hold(square_ - turn * turn, 2.0 * decay_ * turn),
+        motion = std::complex<double>(harmonic.cosine[0], -harmonic.sine[0]) / hold;
+    is_kept_ = is_kept_ && std::abs(hold) > kResonance * (square_ + turn * turn);
+    kept_.push_back({motion.real(), -motion.imag()});
+  }
   for (const solve::ModalHarmonic& harmonic : harmonics_)
     load_frequency_ = std::max(load_frequency_, harmonic.angular_frequency);
   for (Eigen::VectorXd* one : {&padded_q_, &padded_v_, &padded_force_[0], &padded_force_[1], &padded_force_[2]})
@@ -277,6 +288,13 @@ const Motion& SingleStep::motion_at(std::size_t knot) {
   return at.motion = motion_of(at.at, harmonic_force);
 }
 
+double SingleStep::time_to_stop() const {
+  const double w = stop_shape_ * now_.q, speed = stop_shape_ * now_.v;
+  if (speed > 0.0 && upper_ < kInfinite) return (calm_border_ - w) / speed;
+  if (speed < 0.0 && lower_ > -kInfinite) return (calm_border_ + w) / -speed;
+  return kInfinite;
+}
+
 double SingleStep::beyond(const StopPath& path) const {
   return std::max(path.highest() - upper_, lower_ - path.lowest());
 }
@@ -304,30 +322,43 @@ bool SingleStep::is_quintic(std::size_t knot) const {
 
 Motion SingleStep::motion_within(std::size_t knot, double t) {
   const Knot& from = knots_[knot];
-  const double h = knots_[knot + 1].t - from.t, part = (t - from.t) / h;
-  ForceMoments force = from.force;
+  const double h = knots_[knot + 1].t - from.t, tau = t - from.t, part = tau / h;
   const StopPath path = path_from(knot);
+  const bool is_changing = stop_.course(path) == StopForce::Course::changing || stop_.jump(path) > 0.0;
+  ForceMoments force = moments_within(from.force, 0.0, part);
+  if (is_changing) {
+    const StopPath so_far = path.until(part);
+    force = stop_.project(so_far, stop_.course(so_far)).force;
+  }
+  for (double& moment : force) moment *= stop_shape_;
+  double harmonic_force = 0.0;
+  Oscillator::Point at{from.at.q, from.at.v}, kept{};
+  for (std::size_t j = 0; j < harmonics_.size(); ++j) {
+    const solve::ModalHarmonic& load = harmonics_[j];
+    const Kept& motion = kept_[j];
+    const Phase before = phases(knot)[j];
+    const double angle = load.angular_frequency * t, c = std::cos(angle), s = std::sin(angle);
+    harmonic_force += c * load.cosine[0] + s * load.sine[0];
+    at.q -= before.cosine * motion.cosine + before.sine * motion.sine;
+    at.v -= load.angular_frequency * (before.cosine * motion.sine - before.sine * motion.cosine);
+    kept.q += c * motion.cosine + s * motion.sine;
+    kept.v += load.angular_frequency * (c * motion.sine - s * motion.cosine);
+  }
+  if (is_kept_ && oscillator_.can_move(tau)) {
+    const double r = 1.0 / tau;
+    at = oscillator_.move(
+        at, {force[0] - force[1] + force[2], r * (2.0 * force[1] - 6.0 * force[2]), 6.0 * r * r * force[2]}, tau);
+    return motion_of({at.q + kept.q, at.v + kept.v}, harmonic_force);
+  }
   padded_q_[0] = from.at.q;
   padded_v_[0] = from.at.v;
   std::array<const double*, 3> moments{};
   for (std::size_t k = 0; k < 3; ++k) {
-    padded_force_[k][0] = stop_shape_ * force[k];
+    padded_force_[k][0] = force[k];
     moments[k] = padded_force_[k].data();
   }
-  motion_.begin(from.t, h, padded_q_.data(), padded_v_.data(), moments.data());
-  if (stop_.course(path) == StopForce::Course::changing || stop_.jump(path) > 0.0) {
-    const StopPath so_far = path.until(part);
-    const ForceMoments along = stop_.project(so_far, stop_.course(so_far)).force,
-                       projected = moments_within(force, 0.0, part);
-    motion_.add_force(modal_.stop_shapes().of(0),
-                      {along[0] - projected[0], along[1] - projected[1], along[2] - projected[2]}, part);
-  }
-  motion_.find(part);
-  double harmonic_force = 0.0;
-  for (const solve::ModalHarmonic& harmonic : harmonics_) {
-    const double angle = harmonic.angular_frequency * t;
-    harmonic_force += std::cos(angle) * harmonic.cosine[0] + std::sin(angle) * harmonic.sine[0];
-  }
+  motion_.begin(from.t, tau, padded_q_.data(), padded_v_.data(), moments.data());
+  motion_.find(1.0);
   return motion_of({motion_.q()[0], motion_.v()[0]}, harmonic_force);
 }
 

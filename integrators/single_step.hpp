@@ -8,6 +8,7 @@
 #include "integrators/exponential_step.hpp"
 #include "integrators/far_pull.hpp"
 #include "integrators/modal_energy.hpp"
+#include "integrators/oscillator.hpp"
 
 namespace butee::integrators {
 
@@ -34,6 +35,7 @@ class SingleStep {
   const double* v() const { return &now_.v; }
   StopScale scale() const { return scale_; }
   bool is_quiet() const { return is_quiet_; }
+  double time_to_stop() const;
   int spare_rungs() const { return rungs_up(unsmooth_); }
   double error_ratio() const { return error_ / (tolerance_ * scale_.displacement); }
   bool is_easy() const { return error_ < kEasy * tolerance_ * scale_.displacement; }
@@ -109,7 +111,14 @@ class SingleStep {
   std::array<Flow, 8> flows_;  ///< of rungs, by their last three bits
   Flow odd_;
   std::vector<Knot> knots_;
-  solve::ModalMotion motion_;
+  Oscillator oscillator_;
+  /// The motion that a load keeps up by itself.
+  struct Kept {
+    double cosine, sine;
+  };
+  std::vector<Kept> kept_;     ///< by load
+  bool is_kept_ = true;        ///< no load is in resonance
+  solve::ModalMotion motion_;  ///< where oscillator_ cannot
   Eigen::VectorXd padded_q_, padded_v_;
   std::array<Eigen::VectorXd, 3> padded_force_;
   ModalEnergy energy_;

@@ -37,19 +37,19 @@ struct Range {
 /// dense output.
 ///
 /// Between two points that no knot parts the dense output is a polynomial through both, or, of DenseOutput::other, as
-/// near to the quintic as Integrator::departure() says; of DenseOutput::near_quintic extremes of v and a are looked for
-/// wherever the quintic comes within kMargin of the largest so far, and are values of the dense output itself. The hull
-/// of its Bernstein coefficients tells whether anything in between goes beyond a range by more than kGood of it. If so,
-/// halves are looked at: of the polynomial, or of the interval while the dense output departs from it by more than
-/// that. After kMostSamples of an interval it is left as it is: so many are not enough only where a step spans hundreds
-/// of turns. Checked in tests/verification/peaks_test.cpp.
+/// near to the quintic as Integrator::departure() says; of DenseOutput::near_quintic extremes of v are looked for
+/// wherever the quintic comes within kMargin of the largest so far, and all are values of the dense output itself. The
+/// hull of its Bernstein coefficients tells whether anything in between goes beyond a range by more than kGood of it.
+/// If so, halves are looked at: of the polynomial, or of the interval while the dense output departs from it by more
+/// than that. After kMostSamples of an interval it is left as it is: so many are not enough only where a step spans
+/// hundreds of turns. Checked in tests/verification/peaks_test.cpp.
 class BUTEE_EXPORT Course {
  public:
   /// What an extreme may be wrong by, relative to the largest |value|.
   static constexpr double kGood = 1e-10;
   static constexpr int kMostSamples = 4000;
-  /// By which the derivatives of a quintic may miss those of DenseOutput::near_quintic.
-  static constexpr double kMargin = 0.02;
+  /// By which the slope of a quintic may miss that of DenseOutput::near_quintic, relative to the largest |value|.
+  static constexpr double kMargin = 0.005;
 
   /// Index b < 0: DOF a alone, and 0 where that is fixed too. `kind`: of the step's integrator. `step` must outlive it.
   Course(const time::AcceptedStep& step, time::DenseOutput kind, Index a, Index b)
@@ -77,7 +77,7 @@ class BUTEE_EXPORT Course {
 
  private:
   double margin_of(std::size_t order, const Range& range) const {
-    return kind_ == time::DenseOutput::near_quintic && order > 0 ? kMargin * range.size() : 0.0;
+    return kind_ == time::DenseOutput::near_quintic && order == 1 ? kMargin * range.size() : 0.0;
   }
   /// Bounds of the polynomials between their ends, by the inner Bernstein coefficients. Those of the quintic and of the
   /// cubic that it is where accelerations bend at an end.

@@ -30,7 +30,7 @@ struct EnergyAt {
 enum class DenseOutput {
   cubic,         ///< x the cubic through x and v at both, v the one through v and a, a the straight line
   quintic,       ///< x the quintic through x, v and a at both, or the cubic by x and v; v and a its derivatives
-  near_quintic,  ///< near to that quintic, by a part of v and a that is small beside their largest values
+  near_quintic,  ///< near to that quintic: v by 1/200 of its largest value or less
   other          ///< any smooth motion; departure() bounds it
 };
 
