@@ -100,10 +100,12 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
 
 void Run::add_fields(const record::ResultFolder& folder) {
   const record::OutputRequest& output = session_.output;
-  const model::FieldLayout layout = record::make_layout(session_.model, assembly_.system, output.fields);
+  model::FieldLayout layout = record::make_layout(session_.model, assembly_.system, output.fields);
+  layout.columns = record::HistoryRecorder::columns_with_units(output);
   std::vector<std::unique_ptr<model::FieldWriter>> writers;
   for (const std::string& name : output.fields.formats)
     writers.push_back(find_type(session_.catalogue.types().formats, name)->make(folder.path(), layout));
+  for (const auto& writer : writers) history_->also_to(*writer);
   assembly_.simulation.add(
       fields_.emplace(output, session_.integrator.options.end_time, assembly_.dynamics, std::move(writers)));
 }

@@ -12,7 +12,7 @@
 
 namespace butee::model {
 
-/// A quantity that is kept at every node.
+/// A quantity that is kept at every node, or a column of the history.
 struct Field {
   std::string name;    ///< "u"
   std::string unit;    ///< "m"
@@ -33,14 +33,18 @@ struct FieldLayout {
   std::vector<std::array<double, 3>> positions;  ///< m, at rest: along the beam, along u, across
   std::vector<FieldLine> lines;                  ///< a node in none of them is a point
   std::vector<Field> fields;
+  std::vector<Field> columns;  ///< of a row of the history: "t", "mid.u", ..., "h"; a reader leaves it empty
 };
 
-/// Takes the fields of a run, record by record. Every function throws RunError where writing fails.
+/// Takes the fields of a run, record by record, and its history, row by row. Every function throws RunError where
+/// writing fails.
 class BUTEE_EXPORT FieldWriter {
  public:
   virtual ~FieldWriter() = default;
   /// The record of instant `t` in s: all nodes of the first field, then of the next. Times ascend.
   virtual void append(double t, std::span<const double> values) = 0;
+  /// A row of the history, one value for each of FieldLayout::columns. Formats without a place for rows ignore it.
+  virtual void append_row(std::span<const double> /*values*/) {}
   /// Puts everything on disk. What was on disk before stays readable at any instant.
   virtual void finish() = 0;
 };

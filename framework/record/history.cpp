@@ -1,12 +1,15 @@
 #include "butee/record/history.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "butee/core/error.hpp"
 
 namespace butee::record {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 /// Rows of one step that are interpolated together.
 constexpr std::size_t kMostAtOnce = 64;
@@ -35,10 +38,17 @@ HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, 
 }
 
 std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) {
-  std::vector<std::string> all = {"t"};
+  std::vector<std::string> names;
+  for (const model::Field& column : columns_with_units(request)) names.push_back(column.name);
+  return names;
+}
+
+std::vector<model::Field> HistoryRecorder::columns_with_units(const OutputRequest& request) {
+  std::vector<model::Field> all = {{"t", "s"}};
   for (const ProbeRequest& probe : request.probes)
-    for (const Quantity quantity : probe.quantities) all.push_back(probe.label + "." + name_of(quantity));
-  all.emplace_back("h");
+    for (const Quantity quantity : probe.quantities)
+      all.push_back({probe.label + "." + name_of(quantity), unit_of(quantity)});
+  all.push_back({"h", "s"});
   return all;
 }
 
@@ -76,11 +86,15 @@ void HistoryRecorder::write_due(const time::AcceptedStep& step) {
 
 void HistoryRecorder::write_row(double t, double h) {
   for (std::size_t i = 0; i < values_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(values_[i]));
-  if (writer_ == nullptr) return;
+  if (writer_ == nullptr && writers_.empty()) return;
   row_.assign(1, t);
   row_.insert(row_.end(), values_.begin(), values_.end());
   row_.push_back(h);
-  writer_->row(row_);
+  if (writer_ != nullptr) writer_->row(row_);
+  if (writers_.empty()) return;
+  const auto begin = Clock::now();
+  for (model::FieldWriter* writer : writers_) writer->append_row(row_);
+  seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 void HistoryRecorder::finish() {

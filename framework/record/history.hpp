@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "butee/model/field_format.hpp"
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/output_times.hpp"
 #include "butee/record/peaks.hpp"
@@ -17,6 +18,9 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   /// Rows go to `writer`, or nowhere where it is nullptr. Everything given must outlive the recorder.
   HistoryRecorder(const OutputRequest& request, double end_time, solve::Dynamics& dynamics, CsvWriter* writer);
 
+  /// Rows go to `writer` as well, which must outlive the recorder's last row. Before the first step.
+  void also_to(model::FieldWriter& writer) { writers_.push_back(&writer); }
+
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
   void finish() override;
@@ -24,10 +28,12 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   bool watches_every_step() const override { return times_.counts_steps(); }
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
-  double file_seconds() const override { return writer_ != nullptr ? writer_->seconds() : 0.0; }
+  double file_seconds() const override { return seconds_ + (writer_ != nullptr ? writer_->seconds() : 0.0); }
 
   /// "t", the probes' columns, "h"
   static std::vector<std::string> columns(const OutputRequest& request);
+  /// The same with their units.
+  static std::vector<model::Field> columns_with_units(const OutputRequest& request);
 
   /// Largest |value| by column over the whole motion (Peaks) and the rows; u of every probe is always among them.
   std::map<std::string, double> peaks() const;
@@ -40,6 +46,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   Probes probes_;
   Peaks peaks_;
   CsvWriter* writer_;
+  std::vector<model::FieldWriter*> writers_;
+  double seconds_ = 0.0;  ///< in writers_
   double start_time_ = 0.0;
   std::vector<double> row_, first_row_;
   std::vector<double> due_;               ///< instants of rows within a step

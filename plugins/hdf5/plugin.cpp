@@ -6,7 +6,7 @@ BUTEE_PLUGIN(registrar) {
   using namespace butee::plugins::hdf5;
   registrar.add(
       model::FieldFormat{"hdf5",
-                         "fields of many nodes: fields.h5, and fields.xdmf for ParaView",
+                         "fields of many nodes and the probes: fields.h5, and fields.xdmf for ParaView",
                          {},
                          [](const std::string& folder, const model::FieldLayout& layout) {
                            return std::make_unique<FieldFile>(folder, layout);

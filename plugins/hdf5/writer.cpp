@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
+#include "growing.hpp"
+
 namespace butee::plugins::hdf5 {
 namespace {
 
 constexpr std::size_t kChunkValues = std::size_t{1} << 17;  ///< a megabyte of doubles
 constexpr std::size_t kMostRows = 512;                      ///< of a chunk
-constexpr unsigned kDeflate = 1;  ///< higher levels cost several times as much and gain a few percent
-constexpr auto kPatience = std::chrono::seconds(2);
+/// Rows of probes alone do not flush the file more often: a reader that opens it then has to try again.
+constexpr auto kPauseOfHistory = std::chrono::milliseconds(500);
 
 Handle create_file(const std::string& path) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set up a file");
@@ -29,41 +31,6 @@ Handle create_file(const std::string& path) {
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "make " + path};
 }
 
-void make_group(hid_t file, const char* name) {
-  const Handle group(H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                     std::string("make ") + name);
-}
-
-/// A dataset that grows in its first dimension.
-Handle make_growing(hid_t file, const std::string& path, hid_t type, const Sizes& chunk, Sizes size, bool packed) {
-  Sizes most = size;
-  size[0] = 0;
-  most[0] = H5S_UNLIMITED;
-  const int rank = static_cast<int>(size.size());
-  const Handle space(H5Screate_simple(rank, size.data(), most.data()), H5Sclose, "make " + path);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "make " + path);
-  check(H5Pset_chunk(creation, rank, chunk.data()), "make " + path);
-  if (packed) {
-    check(H5Pset_shuffle(creation), "make " + path);
-    check(H5Pset_deflate(creation, kDeflate), "make " + path);
-  }
-  return {H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose, "make " + path};
-}
-
-/// Appends rows behind the first `before`.
-void extend(hid_t set, std::size_t before, std::size_t rows, const double* values) {
-  Sizes size = size_of(set), start(size.size(), 0), count = size;
-  size[0] = before + rows;
-  start[0] = before;
-  count[0] = rows;
-  check(H5Dset_extent(set, size.data()), "extend fields.h5");
-  const Handle file(H5Dget_space(set), H5Sclose, "extend fields.h5");
-  const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose,
-                      "extend fields.h5");
-  check(H5Sselect_hyperslab(file, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "extend fields.h5");
-  check(H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, file, H5P_DEFAULT, values), "write fields.h5");
-}
-
 }  // namespace
 
 FieldFile::FieldFile(const std::string& folder, const model::FieldLayout& layout)
@@ -76,6 +43,7 @@ FieldFile::FieldFile(const std::string& folder, const model::FieldLayout& layout
   file_ = create_file(folder + "/fields.h5");
   write_layout(layout);
   make_datasets(layout);
+  history_ = HistoryRows(file_, layout.columns);
   check(H5Fflush(file_, H5F_SCOPE_LOCAL), "write fields.h5");
 }
 
@@ -126,12 +94,22 @@ void FieldFile::append(double t, std::span<const double> values) {
   if (full || (times_.size() >= in_chunk && Clock::now() - committed_ > kPatience)) commit();
 }
 
+void FieldFile::append_row(std::span<const double> values) {
+  if (history_.append(values) && Clock::now() - flushed_ > kPauseOfHistory) flush();
+}
+
+void FieldFile::flush() {
+  check(H5Fflush(file_, H5F_SCOPE_LOCAL), "write fields.h5");
+  flushed_ = Clock::now();
+}
+
 void FieldFile::commit() {
   if (times_.empty()) return;
   for (std::size_t field = 0; field < fields_; ++field)
     extend(sets_[field], records_, times_.size(), waiting_.data() + field * rows_ * nodes_);
   extend(time_, records_, times_.size(), times_.data());
-  check(H5Fflush(file_, H5F_SCOPE_LOCAL), "write fields.h5");
+  history_.commit();
+  flush();
   const std::size_t all = records_ + times_.size();
   for (const double t : times_) xdmf_.add(records_++, all, t);
   xdmf_.publish();
@@ -141,8 +119,11 @@ void FieldFile::commit() {
 
 void FieldFile::finish() {
   commit();
+  history_.commit();
+  flush();
   xdmf_.finish();
-  bool closed = time_.reset();
+  bool closed = history_.close();
+  closed = time_.reset() && closed;
   for (Handle& set : sets_) closed = set.reset() && closed;
   sets_.clear();
   if (!file_.reset() || !closed) throw RunError("HDF5 cannot close fields.h5; is the disk full?");

@@ -59,7 +59,8 @@ std::string results_text(const plugin::Catalogue&) {
   impacts.csv    where [output] impacts = true: node, side, t_in, t_out, peak_force, impulse, impact_speed
   energy.csv     where [output] energy = true: t, kinetic, strain, contact, work, dissipated (J)
   fields.h5, fields.xdmf
-                 where formats holds "hdf5": the fields of all nodes, for ParaView and h5py
+                 where formats holds "hdf5": the fields of all nodes, for ParaView and h5py; its group /probes has the
+                 columns of history.csv, each with its unit
   plots/         with --plot, or by `butee plot DIR`: pictures, each with its gnuplot script
   checkpoint.bin, checkpoint-before.bin
                  where [output] checkpoint = N, until the run is completed: butee run --resume DIR goes on from them

@@ -150,7 +150,7 @@ std::string output_text(const plugin::Catalogue&) {
   trust_accuracy   the accuracy it is to be trusted to, of the peak                (0.01)
   states           s: instants of which the whole motion is kept, for [initial] from of other scenes
   checkpoint       every so manyth accepted step the run is kept; butee run --resume DIR goes on
-  formats          ["csv"] and what modules bring: "hdf5", the fields of all nodes
+  formats          ["csv"] and what modules bring: "hdf5", the fields of all nodes and the probes
   fields           {nodes, quantities, interval} of such fields, where not all of them are wanted
 
   [[output.probe]]
