@@ -297,6 +297,20 @@ def local_orders():
                 print(f"   <-- {what} is of a lower order than {at_least}")
 
 
+def changes_of_contact():
+    print("\nA free mass that closes a stop within a step (any place), sigma = (h omega_c)^2, h = v = 1: largest errors")
+    print("   sigma, |b|/sigma, speed/sigma^2, displacement/sigma^2, largest speed error over largest |b|, kOfSpeed sigma^2")
+    for sigma in (0.01, 0.1, 0.3, 1.0, 3.0, 10.0):
+        fast, worst = np.sqrt(sigma), np.zeros(3)
+        for a in np.linspace(0.02, 0.98, 49):
+            t = 1.0 - a
+            exact = (np.sin(fast * t) / fast, np.cos(fast * t)) if fast * t < np.pi else (np.pi / fast - t, -1.0)
+            end, speed, bulge = one_step(1.0, sigma, 1e-4, -a, 1.0, 0.0)
+            worst = np.maximum(worst, (bulge, abs(speed - exact[1]), abs(end - exact[0])))
+        note("  ", sigma, worst[0] / sigma, *worst[1:] / sigma ** 2, worst[1] / worst[0],
+             constant("kOfSpeed") * sigma ** 2)
+
+
 def residual_force():
     print("\nResidual force of the law arctan, R(y)/R = y atan(1/y), y = |g|/bend")
     departs = lambda y: 1 - y * np.arctan(1 / y)
@@ -350,6 +364,7 @@ discontinuities()
 unresolved()
 contraction()
 local_orders()
+changes_of_contact()
 residual_force()
 series()
 print(f"\n{failures} values differ" if failures else "\nall values are what their derivations give")
