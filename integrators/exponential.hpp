@@ -23,7 +23,7 @@ struct ExponentialOptions {
 /// All modes, damping and harmonic or piecewise linear loads are without error; a scene without stops goes from output
 /// to output. Over a step the force of a stop is projected onto the Legendre polynomials P_0, P_1, P_2 along its path
 /// w(s), a quartic through the displacements and speeds at both ends and the displacement in the middle, of which the
-/// forces are a part: f is found by iteration over the stops within reach alone, which contracts by (h omega_c)^2/12 or
+/// forces are a part: f is found by iteration over the stops within reach alone, which contracts by (h omega_c)^2/26 or
 /// faster, omega_c^2 = k_c S M^-1 S^T. Kinks of the law within a step are integrated piece by piece, so that they do
 /// not cost the order and need no landing.
 ///

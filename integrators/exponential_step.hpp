@@ -100,7 +100,7 @@ inline double longest_near_stops(const solve::ModalSystem& modal) {
     fastest = std::max(fastest, harmonic.angular_frequency);
   return fastest > 0.0 ? kMostTurn / fastest : std::numeric_limits<double>::infinity();
 }
-/// With a knot in the middle of the step outputs are wrong by 1/64, or by 1/4 where modes turn too fast for any
+/// With a knot in the middle of the step quintics are wrong by 1/64, or by 1/4 where modes turn too fast for any
 /// quintic.
 inline constexpr double kHalved = 10.0;
 
@@ -108,7 +108,7 @@ inline constexpr double kHalved = 10.0;
 /// its projection P F onto P_0, P_1 and P_2, for a mode that turns by x in the step: what such a mode does not learn of
 /// a stop that closes or opens. Bounds of the integral, taken numerically over all places.
 inline double unresolved_part(double x) {
-  return std::min({7.4e-5 * x * x * x, 0.017, 0.12 / x});
+  return std::min({7.5e-5 * x * x * x, 0.0172, 0.174 / x});
 }
 /// That, of all modes, may be so many times what outputs may be wrong by, in the speed of a stop.
 inline constexpr double kUnresolved = 1.0;

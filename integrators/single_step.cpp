@@ -308,7 +308,7 @@ bool SingleStep::is_quintic(std::size_t knot) const {
   // The part of a quintic's slope that is wrong: (omega h)^5 sqrt(5)/30000 where nothing bends the motion, and
   // kKinkedSlope (omega h)^2 where a stop opens or closes; and up to kJumpedSlope of the speed that a force gives that
   // jumps by the height of its jump.
-  constexpr double kGoodPart = 0.5, kKinkedSlope = 0.02, kJumpedSlope = 0.25;
+  constexpr double kGoodPart = 0.5, kKinkedSlope = 5e-3, kJumpedSlope = 0.07;
   const Knot& from = knots_[knot];
   const double h = knots_[knot + 1].t - from.t;
   const double stiff = from.force[0] != 0.0 ? h * h * stop_.stiffness() * stop_shape_ * stop_shape_ : 0.0;

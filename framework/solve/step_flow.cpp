@@ -56,7 +56,8 @@ StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& 
       derived_(columns_.size()) {
   if (stops.count() == 0) return;
   const Eigen::ArrayXd angle = h() * frequencies, shape = stops.matrix().cwiseAbs().rowwise().maxCoeff().array();
-  swing_q = (kHermite * angle.square().square()).min(2.0) * shape;
+  // A cubic that follows the speeds of a fast mode departs from it by more than its amplitude.
+  swing_q = (kHermite * angle.square().square()).min(2.0 + 0.25 * angle) * shape;
   swing_v = (frequencies > 0.0).select(swing_q / frequencies, 0.0);
   // Within a step a force moves a mode by no more than this (also in resonance), and away from the cubic by no more
   // than h^4/384 times the fourth derivative, f'' - omega^2 f.
