@@ -239,6 +239,24 @@ def contraction():
         print("      eigenvalues " + " ".join(f"{x:.5f}" for x in values))
 
 
+def sweeps():
+    print("\nSweeps over 2 to 8 closed stops of random compliance c, theta << 1, sigma the largest h^2 k c_ii")
+    table = projection_of_powers(0.0, 1.0)[:, 2:] @ QUARTIC @ coupling_of_free_mass()
+    draw, below, diverging = np.random.default_rng(1), 0.0, np.inf
+    for _ in range(4000):
+        m = draw.integers(2, 9)
+        shapes = draw.normal(size=(m, draw.integers(1, m + 1)))
+        compliance = shapes @ shapes.T + 1e-3 * np.eye(m)
+        sigma = 10.0 ** draw.uniform(0.0, 3.0)
+        matrix = np.eye(3 * m) + np.kron(sigma / np.diag(compliance).max() * compliance, table)
+        lower = np.kron(np.tril(np.ones((m, m))), np.ones((3, 3))) * matrix
+        radius = np.abs(np.linalg.eigvals(np.eye(3 * m) - np.linalg.solve(lower, matrix))).max()
+        below = max(below, radius) if sigma < 10.0 else below
+        diverging = min(diverging, sigma) if radius > 1.0 else diverging
+    note("   largest contraction factor for sigma < 10", below)
+    note("   smallest sigma at which sweeps diverge", diverging)
+
+
 def one_step(h, k_c, omega, w0, v0, gap, always=False):
     """A step of the method for one DOF of mass 1 with a spring k_c beyond a gap (or always), order 6: q, v, |bulge|."""
     theta = omega * h
@@ -376,6 +394,7 @@ interpolation()
 discontinuities()
 unresolved()
 contraction()
+sweeps()
 local_orders()
 changes_of_contact()
 residual_force()
