@@ -25,13 +25,13 @@ class Oscillator {
  private:
   bool is_slow(double t) const { return rate_ * t <= 0.3; }
 
-  /// In powers of s = time/t; after kTerms of them what is left is below rounding.
+  /// In powers of s = time/t; after kPowers of them what is left is below rounding.
   Point by_series(Point from, const std::array<double, 3>& force, double t) const {
-    constexpr int kTerms = 12;
+    constexpr int kPowers = 12;
     const double damping = 2.0 * decay_ * t, stiffness = square_ * t * t,
                  forcing[] = {force[0] * t * t, force[1] * t * t * t, force[2] * t * t * t * t};
     double before = from.q, latest = t * from.v, q = before + latest, v = latest;
-    for (int k = 0; k + 2 <= kTerms; ++k) {
+    for (int k = 0; k + 2 <= kPowers; ++k) {
       const double next =
           ((k < 3 ? forcing[k] : 0.0) - (k + 1) * damping * latest - stiffness * before) / ((k + 1) * (k + 2));
       q += next;

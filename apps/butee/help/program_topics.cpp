@@ -25,8 +25,9 @@ const std::vector<Topic>& topics() {
 }
 
 std::string methods_text(const plugin::Catalogue&) {
-  return R"(`tolerance` of rodas4, dopri5, extrapolation8 and of bathe_, generalized_alpha_, hht_alpha_, discrete_gradient_ and
-central_differences_adaptive is a promise about every displacement, every rotation and their velocities:
+  return R"(`tolerance` of auto, exponential, rodas4, dopri5, extrapolation8 and of bathe_, generalized_alpha_, hht_alpha_,
+discrete_gradient_ and central_differences_adaptive is a promise about every displacement, every rotation and their
+velocities:
 
   scale S     the largest value of the component so far, at least a thousandth of the largest of its kind in the run
   error e     the largest |error|/S of all components
@@ -36,13 +37,12 @@ central_differences_adaptive is a promise about every displacement, every rotati
 
 Velocities near a change of contact are meant within 10 tolerance S/|w'| of time. Steps become shorter where end_time is
 longer, since errors of the period add up. Beyond end_time, in a structure that another program advances, the error goes on
-to grow at the same rate. The smallest tolerances are 1e-6 for methods of order 2, 1e-10 for rodas4, 1e-11 for dopri5 and
-1e-12 for extrapolation8; below them rounding or the number of steps leaves no use, and a scene is refused.
+to grow at the same rate. The smallest tolerances are 1e-6 for methods of order 2, 1e-10 for auto, exponential and
+rodas4, 1e-11 for dopri5 and 1e-12 for extrapolation8; below them rounding or the number of steps leaves no use, and a
+scene is refused.
 
 Exceptions: structures of more than 600 DOFs are measured as a whole, in the norm of the mass matrix, and every step is
-held to the tolerance, whatever their number. exponential measures displacements of stops, relative to the largest of
-them: velocities and rotations of beams, light parts beside heavy ones and hard impacts between long flights can miss by
-tens or hundreds of tolerances. exact has no truncation error. newmark_adaptive, newmark_modified_adaptive,
+held to the tolerance, whatever their number. exact has no truncation error. newmark_adaptive, newmark_modified_adaptive,
 rk4_fixed_factors, rk4_error_scaled and sundials control what their sources or libraries control. `butee run --trust` bounds
 the error of a run, whatever the method.
 )";
