@@ -104,8 +104,15 @@ std::span<const time::EnergyAt> ExponentialStep::energies(std::span<const double
     return ModalEnergy::Knot{knots_.time(knot), knots_.q(knot), knots_.v(knot), knots_.phases(knot)};
   };
   energy_.begin(at(0), instants);
-  for (std::size_t knot = 1; knot <= knots_.steps(); ++knot)
+  for (std::size_t knot = 1; knot <= knots_.steps(); ++knot) {
+    // Flights are as long as quintics allow, and the cubics of the energies need half of that.
+    if (knots_.forces(knot - 1).touched.empty()) {
+      const ModalKnots::Modes middle = knots_.middle_of(knot - 1);
+      modal_.stop_shapes().displacement(middle.q, excess_.data());
+      energy_.go_on({middle.t, middle.q, middle.v, middle.phases}, excess_.data(), false);
+    }
     energy_.go_on(at(knot), knots_.w(knot), knot == knots_.steps());
+  }
   return energy_.told();
 }
 

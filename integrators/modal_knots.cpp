@@ -187,11 +187,22 @@ void ModalKnots::find_within(std::size_t knot, double t) {
   motion_.find(part);
 }
 
-void ModalKnots::find_forces_within(std::size_t knot, double t) {
+ModalKnots::Modes ModalKnots::middle_of(std::size_t knot) {
+  const double t = 0.5 * (times_[knot] + times_[knot + 1]);
+  find_within(knot, t);
+  find_phases_within(t);
+  return {t, motion_.q(), motion_.v(), phases_within_};
+}
+
+void ModalKnots::find_phases_within(double t) {
   for (std::size_t j = 0; j < phases_within_.size(); ++j) {
     const double angle = modal_.harmonics()[j].angular_frequency * t;
     phases_within_[j] = {std::cos(angle), std::sin(angle)};
   }
+}
+
+void ModalKnots::find_forces_within(std::size_t knot, double t) {
+  find_phases_within(t);
   const StepForces& forces = forces_[knot];
   if (forces.is_free) return;
   stop_forces_within_ = forces.standing;

@@ -60,6 +60,14 @@ class ModalKnots {
   const double* v(std::size_t knot) const { return v_.col(static_cast<Index>(knot)).data(); }
   const double* w(std::size_t knot) const { return w_.col(static_cast<Index>(knot)).data(); }
 
+  /// The motion of the modes in the middle of the step from a knot.
+  struct Modes {
+    double t;
+    const double *q, *v;
+    std::span<const Phase> phases;
+  };
+  Modes middle_of(std::size_t knot);
+
   /// The motion of `dofs` at `times`, ascending.
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out);
 
@@ -84,6 +92,7 @@ class ModalKnots {
   void find_within(std::size_t knot, double t);
   void find_contacts(std::size_t knot);
   void find_forces_within(std::size_t knot, double t);
+  void find_phases_within(double t);
 
   solve::Dynamics& dynamics_;
   const solve::ModalSystem& modal_;

@@ -368,8 +368,18 @@ std::span<const time::EnergyAt> SingleStep::energies(std::span<const double> ins
     return ModalEnergy::Knot{known.t, &known.at.q, &known.at.v, {phases(knot), harmonics_.size()}};
   };
   energy_.begin(at(0), instants);
+  std::vector<Phase> middle_phases(harmonics_.size());
   for (std::size_t knot = 1; knot < knots_.size(); ++knot) {
-    const double w = stop_shape_ * knots_[knot].at.q;
+    // Flights are as long as quintics allow, and the cubics of the energies need half of that.
+    const double t = 0.5 * (knots_[knot - 1].t + knots_[knot].t);
+    const Motion motion = motion_within(knot - 1, t);
+    const Point middle = {motion.x / modal_.shapes()(0, 0), motion.v / modal_.shapes()(0, 0)};
+    for (std::size_t j = 0; j < harmonics_.size(); ++j) {
+      const double angle = harmonics_[j].angular_frequency * t;
+      middle_phases[j] = {std::cos(angle), std::sin(angle)};
+    }
+    const double w_middle = stop_shape_ * middle.q, w = stop_shape_ * knots_[knot].at.q;
+    energy_.go_on({t, &middle.q, &middle.v, middle_phases}, &w_middle, false);
     energy_.go_on(at(knot), &w, knot + 1 == knots_.size());
   }
   return energy_.told();
