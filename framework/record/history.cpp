@@ -14,10 +14,11 @@ using Clock = std::chrono::steady_clock;
 /// Rows of one step that are interpolated together.
 constexpr std::size_t kMostAtOnce = 64;
 
-/// The requested quantities and u of every probe.
+/// The requested quantities that Peaks follows, and u of every probe.
 std::vector<ProbeRequest> peak_requests(std::vector<ProbeRequest> requests, const model::DofTable& dofs) {
   for (ProbeRequest& request : requests) {
     auto& list = request.quantities;
+    std::erase_if(list, is_element_force);
     const bool has_u = std::find(list.begin(), list.end(), Quantity::u) != list.end();
     if (!has_u && dofs.exists({request.node, DofKind::u})) list.push_back(Quantity::u);
   }

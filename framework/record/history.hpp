@@ -35,7 +35,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   /// The same with their units.
   static std::vector<model::Field> columns_with_units(const OutputRequest& request);
 
-  /// Largest |value| by column over the whole motion (Peaks) and the rows; u of every probe is always among them.
+  /// Largest |value| by column over the whole motion (Peaks) and the rows, of forces of elements over the rows alone; u
+  /// of every probe is always among them.
   std::map<std::string, double> peaks() const;
 
  private:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "butee/core/error.hpp"
+
 namespace butee::record {
 namespace {
 
@@ -51,8 +53,10 @@ const std::vector<double>* Probes::samples_of(Quantity quantity) const {
     case Quantity::a:
     case Quantity::theta_a:
       return &a_;
-    default:
+    case Quantity::contact_force:
       return nullptr;
+    default:
+      throw LogicError("not a quantity of probes");
   }
 }
 

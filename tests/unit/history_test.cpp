@@ -157,6 +157,37 @@ quantities = ["v"]
   EXPECT_EQ(recorded.table->header(), (std::vector<std::string>{"t", "swing.v", "h"}));
 }
 
+TEST(History, peaks_of_element_forces_are_those_of_the_rows) {
+  // A soft spring: its force is a thousandth of the displacement, so that one cannot pass for the other.
+  const std::string scene = R"(
+schema = 1
+
+[integrator]
+type      = "rk4"
+time_step = 0.01
+end_time  = 6.2
+
+[initial]
+displacement = [{ nodes = "ball", value = 1.5 }]
+
+[[element]]
+type      = "spring"
+node      = "ball"
+stiffness = 1.0e-3
+
+[output]
+interval = 3.1
+
+[[output.probe]]
+label      = "swing"
+node       = "ball"
+quantities = ["spring_force"]
+)" + mass("ball", "2.0");
+  const Recorded recorded(scene);
+  EXPECT_NEAR(recorded.peaks.at("swing.spring_force"), 1.5e-3, kExact);
+  EXPECT_NEAR(recorded.peaks.at("swing.u"), 1.5, kExact);
+}
+
 /// The probe adds up all stops on the node: F = -k (u - gap) to ground, and the pair's share with its sign.
 TEST(History, contact_force_is_the_sum_over_the_stops_of_a_node) {
   const std::string scene = R"(

@@ -73,9 +73,10 @@ model.toml names the files that the scene reads (file, from) as they are found f
 one has changed since, running model.toml again is refused.
 
 A peak is the largest |value| over the whole motion, between steps and rows too: a stationary point of the method's own
-dense output, found to 1e-10 of it (the sum of several stops on a node to 1e-6), so that it is as good as the run. The
-largest peak_force of impacts.csv is the peak of contact_force where a node has one stop. Work and dissipation, with
-energy = true, are integrals over that output; a row of energy.csv stands at the end of a step.
+dense output, found to 1e-10 of it (the sum of several stops on a node to 1e-6), so that it is as good as the run. Of
+forces of elements (M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. The largest peak_force
+of impacts.csv is the peak of contact_force where a node has one stop. Work and dissipation, with energy = true, are
+integrals over that output; a row of energy.csv stands at the end of a step.
 
 Files of an earlier run there are replaced, anything else in the folder stays; a folder that is not empty and was not made by
 butee is refused. A run that fails keeps what was computed, in whole lines, and says so in summary.json.
