@@ -68,7 +68,7 @@ inline double share_of_run(double h, double steps, double run_time) {
 /// step, times h. That of a whole impact within a step counts so much more than its small displacements: without it the
 /// speed after impacts at stops of 1e12 N/m came out wrong by percents at a tolerance of 1e-4. More of it counts while
 /// a stop stays closed, where a mass that is pressed against it turns many times before it leaves with what is left.
-inline constexpr double kOfSpeed = 0.05, kOfSpeedClosed = 0.5;
+inline constexpr double kOfSpeed = 0.1, kOfSpeedClosed = 0.5;
 
 /// The error of a stop's path in a step of h, as one of displacement: that of the speed after it counts as much,
 /// relative to the largest speed. `bulge` is the departure, `stiff` = (h omega_c)^2 of the stop alone.
