@@ -32,7 +32,7 @@ inline constexpr int kMostSweeps = 25;
 /// The bump functions of cubic Hermite interpolation are at most 4/27.
 inline constexpr double kBump = 4.0 / 27.0;
 
-/// What a step may be wrong by.
+/// Error bounds of a step.
 struct StepGoal {
   double middle;     ///< the displacement in the middle of a step that the cubic through its ends does not explain,
                      ///< relative to the largest displacement of a stop so far
@@ -58,7 +58,7 @@ inline constexpr double kPathError = 0.1;
 /// The part of the error of a run that may come of pulls that are wrong in the same sense all the time, 1/s in
 /// tolerances: the force of a stop may be wrong by this part of what would change its speed by the tolerance in a run.
 inline constexpr double kLasting = 0.4;
-/// What a pull may be wrong by in the time of h steps of the motion, where a run of many such times adds it up.
+/// Share of a run's error bound for residual forces that one characteristic time of the motion, `steps` h, may use.
 inline double share_of_run(double h, double steps, double run_time) {
   constexpr double kTimes = 10.0;
   return std::min(1.0, kTimes * h * steps / run_time);
@@ -121,8 +121,8 @@ class ExponentialStep {
   ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal,
                   std::size_t most);
 
-  /// What a state has to remember: q, v, displacements and speeds of the stops, and the largest so far of each, which
-  /// complete() adds to q and v.
+  /// A state holds q, v, displacements and speeds of the stops, and the largest so far of each. complete() fills in all
+  /// after q and v.
   Index memory_size() const { return 2 * modal_.size() + 4 * modal_.stop_count(); }
   void complete(double* memory) const;
   /// Begins a block with the state at t.
@@ -175,7 +175,7 @@ class ExponentialStep {
   bool is_near(Index stop) const { return reach_[stop] > borders_[stop]; }
   /// Whether the pull of an open stop is a constant, as far as the tolerance can tell.
   bool is_steady(solve::StepFlow& flow, Index stop) const;
-  /// What the pulls of stops may be wrong by over the motion's own time, m.
+  /// Error bound of residual forces over one characteristic time of the motion, m.
   double felt(double h) const {
     const double steps = steps_of(reached_, h);
     return kUnfeltPull * output_tolerance_ * reached_.displacement * share_of_run(h, steps, goal_.run_time);
@@ -222,12 +222,12 @@ class ExponentialStep {
   /// Adds to the force at a stop, and what that does to all paths; the largest change of a path.
   double add_force(solve::StepFlow& flow, Index stop, const ForceMoments& more);
   void find_error(solve::StepFlow& flow, double displacement);
-  /// Of a stop that the path passes by, but might have changed its speed times h by `push`; relative to the
-  /// displacement.
+  /// Error, relative to the displacement, of a stop that the path passes by if contact would have changed its speed
+  /// times h by `push`.
   double error_of_missed(double push, double h, StopScale scale) const {
     return push / (h * scale.speed) * tolerance_ / goal_.tolerance;
   }
-  /// What errors of a stop are relative to: its own largest displacement and speed, at least a part of all stops'.
+  /// Error scales of a stop: its largest displacement and speed so far, at least a thousandth of those of all stops.
   StopScale scale_of(Index stop, double h, double displacement) const;
   /// Of the displacement, by a pull that jumps where the path is said to pass the middle of the gap.
   double error_of_pull(solve::StepFlow& flow, Index stop) const;

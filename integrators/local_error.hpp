@@ -41,7 +41,7 @@ class LocalErrorControl {
     /// Of an explicit method, the h omega at which it is stable within a closed stop: a longer step in which one closes
     /// or opens is redone, whatever its estimate says.
     double stability = std::numeric_limits<double>::infinity();
-    /// Of structures measured as a whole: the part of tolerance^(q/p) that the estimate of a step may reach.
+    /// For structures measured as a whole: the part of tolerance^(q/p) that the estimate of a step may reach.
     double share = 1.0;
   };
   /// Whether steps are taken from a ladder of ratio 2^(1/4), so that factorizations are found again.

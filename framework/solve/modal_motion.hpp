@@ -20,7 +20,7 @@ class BUTEE_EXPORT ModalMotion {
  public:
   /// `modal` must outlive it.
   explicit ModalMotion(const ModalSystem& modal);
-  /// Of modes with omega and delta in 1/s, ascending in omega but for the last few. All must outlive it.
+  /// Takes modes with omega and delta in 1/s, which ascend in omega but for the last few. All must outlive it.
   ModalMotion(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics,
               const std::vector<ModalSystem::OtherLoad>& other_loads);
   ~ModalMotion();

@@ -45,7 +45,7 @@ class TrialFolder {
   TrialFolder& operator=(const TrialFolder&) = delete;
 
   std::string results() const { return path_ + "/results"; }
-  /// Of all files but the last state.
+  /// Excludes the last state.
   double bytes() const {
     double bytes = 0.0;
     for (const auto& entry : fs::recursive_directory_iterator(path_))
