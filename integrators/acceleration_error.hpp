@@ -13,7 +13,7 @@ namespace butee::integrators {
 class AccelerationError {
  public:
   /// `kink`: LocalErrorControl::Orders::kink.
-  AccelerationError(solve::Dynamics& dynamics, const Goal& goal, double kink = 10.0)
+  AccelerationError(dynamics::Dynamics& dynamics, const Goal& goal, double kink = 10.0)
       : control_(dynamics, goal, {3.0, 2.0, kConstant, kink}, LocalErrorControl::Steps::ladder) {}
 
   const time::StepController& controller() const { return control_.controller(); }

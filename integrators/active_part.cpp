@@ -21,7 +21,7 @@ constexpr double kNegligible = 0.1;
 const Index kBefore = LocalErrorControl::memory_size(0);
 
 /// The DOFs that loads, the initial motion, stops that push at rest, and laws that pull at open stops begin with.
-std::vector<Index> moving_first(solve::Dynamics& dynamics, double tolerance) {
+std::vector<Index> moving_first(dynamics::Dynamics& dynamics, double tolerance) {
   const model::System& system = dynamics.system();
   Vector moves = system.initial_displacement.cwiseAbs() + system.initial_velocity.cwiseAbs();
   Vector force = Vector::Zero(system.size());
@@ -29,7 +29,7 @@ std::vector<Index> moving_first(solve::Dynamics& dynamics, double tolerance) {
   moves += force.cwiseAbs();
   for (const model::FreeLoad& load : system.loads)
     for (const Index dof : load.dofs) moves[dof] = 1.0;
-  const solve::Contact& contact = dynamics.contact();
+  const dynamics::Contact& contact = dynamics.contact();
   for (Index i = 0; i < contact.size(); ++i) {
     const model::ContactLaw& law = contact.law_of(i);
     if (law.far_force() <= kUnfelt * tolerance * law.closed_stiffness() * contact.gap_of(i)) continue;
@@ -43,7 +43,7 @@ std::vector<Index> moving_first(solve::Dynamics& dynamics, double tolerance) {
 }
 
 /// From those, in places of the pattern; what nothing leads to is behind all else.
-std::vector<Index> distances_of(solve::Dynamics& dynamics, double tolerance) {
+std::vector<Index> distances_of(dynamics::Dynamics& dynamics, double tolerance) {
   std::vector<Index> distances = model::distances(dynamics.system(), moving_first(dynamics, tolerance));
   const Index last = *std::max_element(distances.begin(), distances.end()) + 1;
   std::replace(distances.begin(), distances.end(), Index{-1}, last);
@@ -63,12 +63,12 @@ bool is_small(const std::vector<Index>& dofs, Index all) {
 
 }  // namespace
 
-bool ActivePart::can_take(solve::Dynamics& dynamics, double tolerance) {
+bool ActivePart::can_take(dynamics::Dynamics& dynamics, double tolerance) {
   if (dynamics.system().damping.is_modal()) return false;
   return is_small(within(distances_of(dynamics, tolerance), kFirstRadius), dynamics.size());
 }
 
-ActivePart::ActivePart(solve::Dynamics& dynamics, const Goal& goal, Make make)
+ActivePart::ActivePart(dynamics::Dynamics& dynamics, const Goal& goal, Make make)
     : Integrator(dynamics),
       goal_{goal.tolerance, goal.run_time, true},
       make_(make),
@@ -91,7 +91,7 @@ ActivePart::Part ActivePart::make_part(std::size_t place) const {
   }
   part.dofs = std::move(dofs);
   part.system = std::make_unique<model::System>(model::part_of(dynamics().system(), part.dofs));
-  part.dynamics = std::make_unique<solve::Dynamics>(*part.system);
+  part.dynamics = std::make_unique<dynamics::Dynamics>(*part.system);
   part.method = make_(*part.dynamics, goal_);
   const auto size = static_cast<Index>(part.dofs.size());
   part.is_outer = part.work = part.outer = Vector::Zero(size);

@@ -23,13 +23,13 @@ namespace butee::integrators {
 /// whole.
 class ActivePart final : public time::Integrator {
  public:
-  using Make = std::unique_ptr<time::Integrator> (*)(solve::Dynamics& dynamics, const Goal& goal);
+  using Make = std::unique_ptr<time::Integrator> (*)(dynamics::Dynamics& dynamics, const Goal& goal);
 
   /// Whether there is a part to begin with that leaves half of the structure out.
-  static bool can_take(solve::Dynamics& dynamics, double tolerance);
+  static bool can_take(dynamics::Dynamics& dynamics, double tolerance);
 
   /// Of a structure that it can take.
-  ActivePart(solve::Dynamics& dynamics, const Goal& goal, Make make);
+  ActivePart(dynamics::Dynamics& dynamics, const Goal& goal, Make make);
 
   const time::StepController* controller() const override { return parts_.front().method->controller(); }
   double first_step(const time::State& state) const override { return parts_.front().method->first_step(state); }
@@ -39,7 +39,7 @@ class ActivePart final : public time::Integrator {
   struct Part {
     std::vector<Index> dofs{};
     std::unique_ptr<model::System> system{};
-    std::unique_ptr<solve::Dynamics> dynamics{};
+    std::unique_ptr<dynamics::Dynamics> dynamics{};
     std::unique_ptr<time::Integrator> method{};
     Vector is_outer{};  ///< 1 in the outer quarter, else 0
     Vector work{}, outer{};

@@ -26,7 +26,7 @@ struct Cost {
 /// What a run to `end_time` would cost, to a factor of two or so. Step counts and times a step were measured on beams
 /// of 68 to 600 DOFs with a stop at every node, from 3 ms to 0.3 s at a tolerance of 1e-3; other machines differ in all
 /// of them alike.
-Cost estimate(solve::Dynamics& dynamics, double tolerance, double end_time) {
+Cost estimate(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const auto& contact = dynamics.contact();
   const model::System& system = dynamics.system();
   const Vector stiffness = contact.closed_stiffness();
@@ -49,7 +49,7 @@ constexpr double kStiffness = 0.35, kTightness = 0.2, kSteps = 20.0;
 constexpr double kRest = 3.0;
 constexpr int kInstants = 64;
 
-bool is_pressed(solve::Dynamics& dynamics, double stiffness, double end_time) {
+bool is_pressed(dynamics::Dynamics& dynamics, double stiffness, double end_time) {
   double gap = dynamics.contact().gap_of(0);
   for (Index i = 0; i < dynamics.stop_count(); ++i) gap = std::min(gap, dynamics.contact().gap_of(i));
   Vector force = Vector::Zero(1);
@@ -62,7 +62,7 @@ bool is_pressed(solve::Dynamics& dynamics, double stiffness, double end_time) {
 }
 
 /// Whether series from impact to impact are expected to be faster than steps.
-bool suits_exact(solve::Dynamics& dynamics, double tolerance, double end_time) {
+bool suits_exact(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   if (dynamics.size() != 1 || dynamics.stop_count() == 0) return false;
   const auto& contact = dynamics.contact();
   for (Index i = 0; i < contact.size(); ++i)
@@ -88,15 +88,15 @@ bool suits_exact(solve::Dynamics& dynamics, double tolerance, double end_time) {
   }
 }
 
-std::unique_ptr<time::Integrator> make_rodas4(solve::Dynamics& dynamics, const Goal& goal) {
+std::unique_ptr<time::Integrator> make_rodas4(dynamics::Dynamics& dynamics, const Goal& goal) {
   return std::make_unique<Rodas4>(dynamics, goal);
 }
 
 }  // namespace
 
-Choice choose(solve::Dynamics& dynamics, double tolerance, double end_time) {
+Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   using Method = Choice::Method;
-  const Index n = dynamics.size(), most = solve::ModalSystem::kAllModes;
+  const Index n = dynamics.size(), most = dynamics::ModalSystem::kAllModes;
   const std::string size = std::to_string(n) + " DOFs";
   if (n > most) return {Method::rodas4, size + " are too many to take all their modes"};
   if (n > 1 && dynamics.system().dashpots.size() > 0) return {Method::rodas4, "dashpots couple the modes"};
@@ -111,7 +111,7 @@ Choice choose(solve::Dynamics& dynamics, double tolerance, double end_time) {
   return {Method::exponential, size + " have all their modes, and the stops alone are left to approximate"};
 }
 
-std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, double tolerance, double end_time) {
+std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const Choice choice = choose(dynamics, tolerance, end_time);
   const std::string with = " with tolerance " + to_short_text(tolerance);
   std::unique_ptr<time::Integrator> integrator;
@@ -139,7 +139,7 @@ time::IntegratorType auto_type() {
           .summary = "looks at the scene and takes the method that suits it; the default",
           .parameters = {LocalErrorControl::parameter(1e-4, 1e-10)},
           .finds_first_step = true,
-          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return make_automatic(dynamics, p.number("tolerance"), p.number("end_time"));
           }};
 }

@@ -17,9 +17,9 @@ struct Choice {
 /// exponential where all modes can be had and nothing but the stops couples them, rodas4 for all else, and where it is
 /// expected to be done before the modes of a large system are found; exact on one DOF where linear stops are so stiff,
 /// or the tolerance so tight, that steps through them would take longer than series from impact to impact.
-Choice choose(solve::Dynamics& dynamics, double tolerance, double end_time);
+Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time);
 
 /// The chosen method with this tolerance; it knows why it was chosen.
-std::unique_ptr<time::Integrator> make_automatic(solve::Dynamics& dynamics, double tolerance, double end_time);
+std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, double tolerance, double end_time);
 
 }  // namespace butee::integrators

@@ -19,7 +19,7 @@ constexpr double kError0 = (4.0 * kWeight - 1.0) / 3.0, kError1 = -1.0 / 3.0, kE
 
 }  // namespace
 
-Bathe::Bathe(solve::Dynamics& dynamics, const std::optional<Goal>& goal)
+Bathe::Bathe(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal)
     : Integrator(dynamics), stage_(dynamics, kNewton) {
   if (goal)
     control_.emplace(dynamics, *goal, LocalErrorControl::Orders{3.0, 2.0, kConstant, kKink},
@@ -66,7 +66,7 @@ time::IntegratorType type_of(bool is_adaptive) {
           .fixed_step = !is_adaptive,
           .finds_first_step = is_adaptive,
           .make = [is_adaptive](const config::Parameters& p,
-                                solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+                                dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Bathe>(dynamics, Goal::read_if(is_adaptive, p));
           }};
 }

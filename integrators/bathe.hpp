@@ -18,7 +18,7 @@ namespace butee::integrators {
 class Bathe final : public time::Integrator {
  public:
   /// Without a goal: fixed steps.
-  Bathe(solve::Dynamics& dynamics, const std::optional<Goal>& goal);
+  Bathe(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
   double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }

@@ -4,7 +4,7 @@
 
 namespace butee::integrators {
 
-CentralDifferences::CentralDifferences(solve::Dynamics& dynamics, const std::optional<Goal>& goal)
+CentralDifferences::CentralDifferences(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal)
     : Integrator(dynamics) {
   if (goal) control_.emplace(dynamics, *goal);
 }
@@ -41,7 +41,7 @@ time::IntegratorType type_of(bool is_adaptive) {
           .fixed_step = !is_adaptive,
           .finds_first_step = is_adaptive,
           .make = [is_adaptive](const config::Parameters& p,
-                                solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+                                dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<CentralDifferences>(dynamics, Goal::read_if(is_adaptive, p));
           }};
 }

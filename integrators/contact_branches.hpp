@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "butee/solve/dynamics.hpp"
+#include "butee/dynamics/dynamics.hpp"
 #include "integrators/polynomial_root.hpp"
 
 namespace butee::integrators {
@@ -18,7 +18,7 @@ namespace butee::integrators {
 class ContactBranches {
  public:
   /// Throws InputError for a law that is neither piecewise linear nor gives a series. `contact` must outlive it.
-  ContactBranches(const solve::Contact& contact, int order);
+  ContactBranches(const dynamics::Contact& contact, int order);
 
   /// The branches of displacements w; where w lies on a border, undecided.
   void place(ConstVectorRef w);
@@ -57,7 +57,7 @@ class ContactBranches {
   /// know of it, and would carry the path across.
   void watch_bend(const Eigen::MatrixXd& w, Index stop, double until, std::optional<Change>& first);
 
-  const solve::Contact& contact_;
+  const dynamics::Contact& contact_;
   std::vector<Branch> branches_;
   std::vector<std::unique_ptr<model::ForceSeries>> series_;  ///< nullptr for piecewise linear laws
   PolynomialRoot root_;

@@ -11,7 +11,7 @@ namespace butee::integrators {
 class ContactOnTheWay {
  public:
   /// `dynamics` must outlive it.
-  ContactOnTheWay(solve::Dynamics& dynamics, double tolerance);
+  ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance);
 
   /// True where a stop is open at one end of the step and closed at the other, or where the force of one with two sides
   /// jumped from one side to the other between them: a law that is blunt against the gap, such as arctan with a lambda
@@ -35,7 +35,7 @@ class ContactOnTheWay {
   /// True where the jump of a stop within a step of h counts.
   bool is_felt(Index stop, double h, ConstVectorRef scale_v) const;
 
-  solve::Contact* contact_;
+  dynamics::Contact* contact_;
   double tolerance_;
   /// The largest k depth/(m S_v) of stop i for a depth of 1, 1/s.
   double impulse_rate(Index stop, ConstVectorRef scale_v) const;

@@ -17,7 +17,7 @@ constexpr NewtonOptions kNewtonOfEnergies = {1e-9, 1e-7, 40, false, false};
 }  // namespace
 
 void DiscreteGradientStage::begin(ConstVectorRef x) {
-  solve::Contact& contact = dynamics().contact();
+  dynamics::Contact& contact = dynamics().contact();
   if (contact.size() == 0) return;
   for (Vector* vector : {&start_, &end_, &force_start_, &force_end_, &tangent_end_}) vector->resize(contact.size());
   contact.displacement(x, start_);
@@ -25,7 +25,7 @@ void DiscreteGradientStage::begin(ConstVectorRef x) {
 }
 
 void DiscreteGradientStage::contact(ConstVectorRef w, bool, VectorRef f, VectorRef k) {
-  solve::Contact& contact = dynamics().contact();
+  dynamics::Contact& contact = dynamics().contact();
   end_ = 2.0 * w - start_;
   contact.tangent(end_, force_end_, tangent_end_);
   for (Index i = 0; i < end_.size(); ++i) {
@@ -42,7 +42,7 @@ void DiscreteGradientStage::contact(ConstVectorRef w, bool, VectorRef f, VectorR
   }
 }
 
-DiscreteGradient::DiscreteGradient(solve::Dynamics& dynamics, const std::optional<Goal>& goal)
+DiscreteGradient::DiscreteGradient(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal)
     : Integrator(dynamics), stage_(dynamics, kNewtonOfEnergies) {
   if (goal) control_.emplace(dynamics, *goal);
 }
@@ -80,7 +80,7 @@ time::IntegratorType type_of(bool is_adaptive) {
           .fixed_step = !is_adaptive,
           .finds_first_step = is_adaptive,
           .make = [is_adaptive](const config::Parameters& p,
-                                solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+                                dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<DiscreteGradient>(dynamics, Goal::read_if(is_adaptive, p));
           }};
 }

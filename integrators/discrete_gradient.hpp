@@ -33,7 +33,7 @@ class DiscreteGradientStage final : public StageSolver {
 class DiscreteGradient final : public time::Integrator {
  public:
   /// Without a goal: fixed steps.
-  DiscreteGradient(solve::Dynamics& dynamics, const std::optional<Goal>& goal);
+  DiscreteGradient(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
   double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }

@@ -25,7 +25,7 @@ constexpr double kStabilityLimit = 0.99718900, kDampingLimit = 3.30656789;
 
 }  // namespace
 
-DormandPrince::DormandPrince(solve::Dynamics& dynamics, const Goal& goal)
+DormandPrince::DormandPrince(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
       control_(dynamics, goal, {.estimate = 5.0, .method = 5.0, .constant = kConstant, .kink = kKink, .share = 0.05},
                LocalErrorControl::Steps::any),
@@ -82,7 +82,7 @@ time::IntegratorType dopri5_type() {
           .stability_limit = kStabilityLimit,
           .damping_limit = kDampingLimit,
           .finds_first_step = true,
-          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<DormandPrince>(dynamics, Goal::read(p));
           }};
 }

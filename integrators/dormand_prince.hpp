@@ -16,7 +16,7 @@ namespace butee::integrators {
 /// Appl. Math. 6 (1980) 19-26, doi 10.1016/0771-050X(80)90013-3.
 class DormandPrince final : public time::Integrator {
  public:
-  DormandPrince(solve::Dynamics& dynamics, const Goal& goal);
+  DormandPrince(dynamics::Dynamics& dynamics, const Goal& goal);
 
   const time::StepController* controller() const override { return &control_.controller(); }
   time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }

@@ -26,9 +26,9 @@ constexpr std::size_t kMostPieces = 20000;
 constexpr int kMostTrials = 12;
 
 /// 1/omega of the stiffest DOF with its stops closed, s; 1 s where nothing has a stiffness.
-double natural_time(solve::Dynamics& dynamics) {
+double natural_time(dynamics::Dynamics& dynamics) {
   Vector stiffness = dynamics.system().stiffness.diagonal();
-  const solve::Contact& contact = dynamics.contact();
+  const dynamics::Contact& contact = dynamics.contact();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
@@ -43,7 +43,7 @@ time::StepDecision Exact::Controller::decide(double, const StepReport& report) c
   return {true, report.error};
 }
 
-Exact::Exact(solve::Dynamics& dynamics, int order, double series_tolerance)
+Exact::Exact(dynamics::Dynamics& dynamics, int order, double series_tolerance)
     : Integrator(dynamics),
       expander_(dynamics, order, series_tolerance),
       branches_(dynamics.contact(), order),
@@ -206,7 +206,7 @@ time::IntegratorType exact_type() {
                          .sweep(1e-4, Exact::kSeriesTolerance),
                      config::number(kTolerance, "1", "ignored: truncation stays below rounding").above(0).optional()},
       .finds_first_step = true,
-      .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+      .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         return std::make_unique<Exact>(dynamics, static_cast<int>(p.integer("order")), p.number(kSeriesTolerance));
       },
       .check =

@@ -23,7 +23,7 @@ class Exact final : public time::Integrator {
   static constexpr double kSeriesTolerance = 1e-20;
 
   /// `series_tolerance` is the size of the last terms of a series relative to the largest.
-  Exact(solve::Dynamics& dynamics, int order, double series_tolerance);
+  Exact(dynamics::Dynamics& dynamics, int order, double series_tolerance);
 
   bool minds_load_kinks() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }

@@ -13,7 +13,7 @@
 namespace butee::integrators {
 namespace {
 
-using solve::ModalSystem;
+using dynamics::ModalSystem;
 using time::State;
 using time::StepReport;
 using time::StepStatus;
@@ -80,7 +80,7 @@ std::string describe_basis(const ModalSystem& modal, Index dofs) {
 }  // namespace
 
 template <class Step>
-Exponential<Step>::Exponential(solve::Dynamics& dynamics, const ExponentialOptions& options)
+Exponential<Step>::Exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options)
     : Integrator(dynamics),
       options_(options),
       modal_(dynamics.modal(options.modes)),
@@ -270,7 +270,7 @@ void Exponential<Step>::do_interpolate_all(const State& from, const State& to, s
 template class Exponential<ExponentialStep>;
 template class Exponential<SingleStep>;
 
-std::unique_ptr<time::Integrator> make_exponential(solve::Dynamics& dynamics, const ExponentialOptions& options) {
+std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options) {
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
   auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
   const ModalSystem& modal = dynamics.modal(options.modes);
@@ -289,7 +289,7 @@ time::IntegratorType exponential_type() {
                              .at_least(0)
                              .or_else(std::int64_t{0})},
           .finds_first_step = true,
-          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return make_exponential(dynamics,
                                     {p.number("tolerance"), p.number("end_time"), static_cast<int>(p.integer("order")),
                                      static_cast<Index>(p.integer("modes"))});

@@ -38,7 +38,7 @@ struct ExponentialOptions {
 template <class Step>
 class Exponential final : public time::Integrator {
  public:
-  Exponential(solve::Dynamics& dynamics, const ExponentialOptions& options);
+  Exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options);
 
   bool minds_load_kinks() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
@@ -76,7 +76,7 @@ class Exponential final : public time::Integrator {
 
   ExponentialOptions options_;
   Controller controller_;
-  solve::ModalSystem& modal_;
+  dynamics::ModalSystem& modal_;
   Step step_;
   std::vector<double> kinks_;
   int first_level_ = 0, level_ = 0;
@@ -88,6 +88,6 @@ class Exponential final : public time::Integrator {
   Vector begin_memory_;
 };
 
-std::unique_ptr<time::Integrator> make_exponential(solve::Dynamics& dynamics, const ExponentialOptions& options);
+std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options);
 
 }  // namespace butee::integrators

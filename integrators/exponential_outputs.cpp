@@ -9,8 +9,8 @@
 namespace butee::integrators {
 namespace {
 
+using dynamics::StepFlow;
 using Eigen::ArrayXd;
-using solve::StepFlow;
 
 /// A step between outputs is rounded to so many digits, so that equal intervals are equal.
 constexpr double kSameDigits = 1e10;
@@ -124,14 +124,14 @@ void ExponentialStep::find_bounds_from(std::size_t knot) {
   const double t = knots_.time(knot), h = knots_.time(knot + 1) - t;
   std::array<ArrayXd, 5> load;  // of f and its derivatives
   for (ArrayXd& bound : load) bound.setZero(modal_.size());
-  for (const solve::ModalHarmonic& harmonic : modal_.harmonics()) {
+  for (const dynamics::ModalHarmonic& harmonic : modal_.harmonics()) {
     double factor = 1.0;
     for (ArrayXd& bound : load) {
       bound += factor * (harmonic.cosine.square() + harmonic.sine.square()).sqrt();
       factor *= harmonic.angular_frequency;
     }
   }
-  for (const solve::ModalSystem::OtherLoad& other : modal_.other_loads()) {
+  for (const dynamics::ModalSystem::OtherLoad& other : modal_.other_loads()) {
     // Of the parabola through three values.
     const double f0 = other.in_time->value(t), f1 = other.in_time->value(t + 0.5 * h), f2 = other.in_time->value(t + h);
     const double bend = 4.0 * std::abs(f0 - 2.0 * f1 + f2);

@@ -6,8 +6,8 @@
 
 namespace butee::integrators {
 
+using dynamics::StepFlow;
 using Eigen::ArrayXd;
-using solve::StepFlow;
 
 bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
   const FarPull& pull = pulls_[static_cast<std::size_t>(stop)];
@@ -87,7 +87,7 @@ void ExponentialStep::add_moments(const StepFlow& flow, const std::vector<Index>
   if (!reachable_.empty() || middle_knot_ > 0.0) add_to_half(flow.half, static_cast<std::size_t>(k));
 }
 
-void ExponentialStep::add_to_half(const solve::ModalFlow& half, std::size_t k) {
+void ExponentialStep::add_to_half(const dynamics::ModalFlow& half, std::size_t k) {
   const ArrayXd& sum = sums_[k];
   const auto add = [&](ArrayXd& to, const auto& by) {
     // P_k of the step, written in those of its first half.

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "butee/solve/dynamics.hpp"
+#include "butee/dynamics/dynamics.hpp"
 
 namespace butee::integrators {
 namespace {
 
+using dynamics::ModalFlow;
+using dynamics::StepFlow;
 using Eigen::ArrayXd;
-using solve::ModalFlow;
-using solve::StepFlow;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Added to the distance of a side on which a stop does not act, m.
@@ -19,8 +19,8 @@ constexpr double kNever = 1e100;
 
 }  // namespace
 
-ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal,
-                                 std::size_t most)
+ExponentialStep::ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, int order,
+                                 const StepGoal& goal, std::size_t most)
     : modal_(modal),
       orders_(static_cast<std::size_t>(order / 2)),
       goal_(goal),
@@ -32,7 +32,7 @@ ExponentialStep::ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& 
       knots_(dynamics, modal, stops_, 2 * most),
       energy_(dynamics, modal),
       longest_near_(longest_near_stops(modal)) {
-  const solve::Contact& contact = contact_;
+  const dynamics::Contact& contact = contact_;
   const Index padded = StepFlow::padded(contact.size());
   for (ArrayXd* array : {&q_, &v_, &q_new_, &v_new_, &q_half_, &v_half_, &sums_[0], &sums_[1], &sums_[2],
                          &jump_sums_[0], &jump_sums_[1], &jump_sums_[2]})
@@ -177,7 +177,7 @@ void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd
     q += c * flow.harmonic_q(j, 0) - s * flow.harmonic_q(j, 1);
     if (v != nullptr) *v += c * flow.harmonic_v(j, 0) - s * flow.harmonic_v(j, 1);
   }
-  for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads()) {
+  for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads()) {
     const double h = flow.h(), f0 = load.in_time->value(t), f1 = load.in_time->value(t + 0.5 * h),
                  f2 = load.in_time->value(t + h);
     // The parabola through three values, in P_0, P_1 and P_2.
@@ -222,7 +222,7 @@ void ExponentialStep::find_reachable(StepFlow& flow) {
   // How far modes and loads too fast for a cubic can carry a stop away from it.
   load_swing_ = flow.swing_harmonics;
   const double t = knots_.last();
-  for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads())
+  for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads())
     load_swing_ += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + flow.h()))) *
                    (flow.swing_force * load.shape.abs()).sum();
   const double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + load_swing_;

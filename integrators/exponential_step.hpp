@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "butee/solve/modal_system.hpp"
+#include "butee/dynamics/modal_system.hpp"
 #include "integrators/far_pull.hpp"
 #include "integrators/modal_energy.hpp"
 #include "integrators/modal_knots.hpp"
@@ -93,10 +93,10 @@ inline int rungs_up(double part) {
 inline constexpr double kOddPart = 0.15;
 /// The longest step near a stop, s: the slowest mode and the loads turn by kMostTurn at most. In longer ones a few
 /// values of the path say nothing about where it was between.
-inline double longest_near_stops(const solve::ModalSystem& modal) {
+inline double longest_near_stops(const dynamics::ModalSystem& modal) {
   constexpr double kMostTurn = 1.5;
   double fastest = modal.frequencies().minCoeff();
-  for (const solve::ModalHarmonic& harmonic : modal.harmonics())
+  for (const dynamics::ModalHarmonic& harmonic : modal.harmonics())
     fastest = std::max(fastest, harmonic.angular_frequency);
   return fastest > 0.0 ? kMostTurn / fastest : std::numeric_limits<double>::infinity();
 }
@@ -118,7 +118,7 @@ inline constexpr double kUnresolved = 1.0;
 class ExponentialStep {
  public:
   /// `order` 2, 4 or 6. Blocks are of up to `most` steps.
-  ExponentialStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal,
+  ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, int order, const StepGoal& goal,
                   std::size_t most);
 
   /// A state holds q, v, displacements and speeds of the stops, and the largest so far of each. complete() fills in all
@@ -166,45 +166,45 @@ class ExponentialStep {
   };
   void find_bounds_from(std::size_t knot);
 
-  Trial attempt(solve::StepFlow& flow);
+  Trial attempt(dynamics::StepFlow& flow);
   /// From a knot; `v` only where it is given.
-  void propagate(const solve::ModalFlow& flow, std::size_t knot, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
+  void propagate(const dynamics::ModalFlow& flow, std::size_t knot, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
   void find_stops();
-  void find_reachable(solve::StepFlow& flow);
+  void find_reachable(dynamics::StepFlow& flow);
   /// Whether a stop may come so near its gap that its force changes.
   bool is_near(Index stop) const { return reach_[stop] > borders_[stop]; }
   /// Whether the pull of an open stop is a constant, as far as the tolerance can tell.
-  bool is_steady(solve::StepFlow& flow, Index stop) const;
+  bool is_steady(dynamics::StepFlow& flow, Index stop) const;
   /// Error bound of residual forces over one characteristic time of the motion, m.
   double felt(double h) const {
     const double steps = steps_of(reached_, h);
     return kUnfeltPull * output_tolerance_ * reached_.displacement * share_of_run(h, steps, goal_.run_time);
   }
   /// Fills is_steady_, by FarPull::unfelt() for stops that stay on a side, and largest_shift_.
-  void find_steady(solve::StepFlow& flow);
+  void find_steady(dynamics::StepFlow& flow);
   /// What follows for a stop from the length of the step alone.
-  const solve::StepFlow::Derived& derived(solve::StepFlow& flow, Index stop) const;
+  const dynamics::StepFlow::Derived& derived(dynamics::StepFlow& flow, Index stop) const;
   /// Whether quintics are enough for outputs within a step without contact: by a bound that takes all modes for in
   /// phase, or else by the exact displacements in the middle, where a knot is laid if one through the ends is not.
-  bool is_smooth(const solve::StepFlow& flow);
+  bool is_smooth(const dynamics::StepFlow& flow);
   /// Of the stops, without their forces but for standing pulls.
   void find_accelerations(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v, Eigen::ArrayXd& a);
   /// Sees that pull_ is what stops far from their gaps exert, as far as the tolerance can tell.
-  void place_pull(solve::StepFlow& flow);
+  void place_pull(dynamics::StepFlow& flow);
   /// Of those that pass the middle of their gap, where their pull changes its side.
-  void add_jumps(solve::StepFlow& flow);
+  void add_jumps(dynamics::StepFlow& flow);
   /// What the moments of order k of the forces of some stops do.
-  void add_moments(const solve::StepFlow& flow, const std::vector<Index>& stops, int k);
+  void add_moments(const dynamics::StepFlow& flow, const std::vector<Index>& stops, int k);
   /// What the forces in sums_[k] do to the middle of the step, and to a knot there.
-  void add_to_half(const solve::ModalFlow& half, std::size_t k);
-  Trial iterate(solve::StepFlow& flow);
+  void add_to_half(const dynamics::ModalFlow& half, std::size_t k);
+  Trial iterate(dynamics::StepFlow& flow);
   /// Fills near_registers_ and far_registers_.
   void choose_registers();
   /// Fills bulge_ and excess_ for the paths as they are.
   void find_bounds();
   /// Takes the stops in turn, each with the forces of all others as they are; the largest change of a path. A stop
   /// whose path is within `settled` of the one that its force was found for is passed over.
-  double sweep(solve::StepFlow& flow, double settled);
+  double sweep(dynamics::StepFlow& flow, double settled);
   StopPath path_of(Index stop) const {
     const double bulge =
         path_.middle[stop] - (0.5 * (w_[stop] + path_.end[stop]) + 0.125 * (hv_[stop] - path_.speed[stop]));
@@ -216,12 +216,12 @@ class ExponentialStep {
   void see(Index stop);
   /// By how much the path of a stop is another than when its force was found, and what a stiff stop makes of that in
   /// its speed times h.
-  double moved_since(solve::StepFlow& flow, Index stop) const;
+  double moved_since(dynamics::StepFlow& flow, Index stop) const;
   /// Takes the forces of the stops that are closed at the start as they would be at constant speed.
-  void guess(solve::StepFlow& flow);
+  void guess(dynamics::StepFlow& flow);
   /// Adds to the force at a stop, and what that does to all paths; the largest change of a path.
-  double add_force(solve::StepFlow& flow, Index stop, const ForceMoments& more);
-  void find_error(solve::StepFlow& flow, double displacement);
+  double add_force(dynamics::StepFlow& flow, Index stop, const ForceMoments& more);
+  void find_error(dynamics::StepFlow& flow, double displacement);
   /// Error, relative to the displacement, of a stop that the path passes by if contact would have changed its speed
   /// times h by `push`.
   double error_of_missed(double push, double h, StopScale scale) const {
@@ -230,16 +230,16 @@ class ExponentialStep {
   /// Error scales of a stop: its largest displacement and speed so far, at least a thousandth of those of all stops.
   StopScale scale_of(Index stop, double h, double displacement) const;
   /// Of the displacement, by a pull that jumps where the path is said to pass the middle of the gap.
-  double error_of_pull(solve::StepFlow& flow, Index stop) const;
+  double error_of_pull(dynamics::StepFlow& flow, Index stop) const;
   /// Whether a stop is in contact at both ends of the step.
   bool stays_closed(Index stop) const;
-  void apply_forces(solve::StepFlow& flow);
+  void apply_forces(dynamics::StepFlow& flow);
   /// Keeps the forces of the step from a knot, which may be parted by a knot in its middle.
   void record_forces(std::size_t knot);
   /// Without stops: the flow from a knot to t.
   void evaluate_exactly(double t, std::span<const Index> dofs, std::size_t place, time::Interpolated out);
 
-  solve::ModalSystem& modal_;
+  dynamics::ModalSystem& modal_;
   std::size_t orders_;  ///< polynomials that the force is projected onto
   StepGoal goal_;
   double tolerance_, output_tolerance_;
@@ -247,7 +247,7 @@ class ExponentialStep {
   std::vector<OwnForce> own_;
   std::vector<FarPull> pulls_;
   bool has_far_forces_ = false;
-  solve::Contact& contact_;
+  dynamics::Contact& contact_;
   Vector pull_;              ///< of stops far from their gaps, taken for constant from step to step, N; of others 0
   Eigen::ArrayXd pull_sum_;  ///< the same as modal forces, a part of the flow
   Vector stop_forces_;
@@ -277,8 +277,8 @@ class ExponentialStep {
   double unsmooth_ = 0.0;                            ///< the error of outputs, in parts of what it may be
   double load_swing_ = 0.0;                          ///< how far loads can carry a stop away from the cubic
   Eigen::ArrayXd hv_;                                ///< speed times h at the start
-  solve::StopMotion path_;  ///< with all forces found so far; outside near_registers_ once they are complete
-  solve::StopMotion seen_;  ///< what the path of a stop was when its force was found
+  dynamics::StopMotion path_;  ///< with all forces found so far; outside near_registers_ once they are complete
+  dynamics::StopMotion seen_;  ///< what the path of a stop was when its force was found
   std::vector<Index> near_registers_, far_registers_;  ///< those that hold reachable stops, and all others
   Eigen::ArrayXd bulge_;                               ///< by which the middle departs from the cubic through the ends
   Eigen::ArrayXd excess_;                              ///< by which a bound of the path is beyond the gap

@@ -6,8 +6,8 @@
 
 namespace butee::integrators {
 
+using dynamics::StepFlow;
 using Eigen::ArrayXd;
-using solve::StepFlow;
 
 Trial ExponentialStep::iterate(StepFlow& flow) {
   hv_ = flow.h() * wv_;

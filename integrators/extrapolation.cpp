@@ -14,7 +14,7 @@ constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
 }  // namespace
 
-Extrapolation::Extrapolation(solve::Dynamics& dynamics, const Goal& goal)
+Extrapolation::Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
       control_(
           dynamics, goal,
@@ -90,7 +90,7 @@ time::IntegratorType extrapolation8_type() {
           .stability_limit = kLimit,
           .damping_limit = kDampingLimit,
           .finds_first_step = true,
-          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Extrapolation>(dynamics, Goal::read(p));
           }};
 }

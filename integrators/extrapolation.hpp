@@ -18,7 +18,7 @@ namespace butee::integrators {
 /// II.9.
 class Extrapolation final : public time::Integrator {
  public:
-  Extrapolation(solve::Dynamics& dynamics, const Goal& goal);
+  Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal);
 
   const time::StepController* controller() const override { return &control_.controller(); }
   time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }

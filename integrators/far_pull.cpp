@@ -5,7 +5,7 @@
 
 namespace butee::integrators {
 
-FarPull::FarPull(const solve::Contact& contact, Index stop)
+FarPull::FarPull(const dynamics::Contact& contact, Index stop)
     : pull_(contact.law_of(stop).far_force()),
       bend_(contact.law_of(stop).bend_width()),
       gap_(contact.gap_of(stop)),
@@ -20,7 +20,7 @@ double FarPull::unfelt(double w0, double w1, double reach, double mobility, doub
   return pull_ * mobility * (varying + jump * steps);
 }
 
-double calm_border(const solve::Contact& contact, Index stop) {
+double calm_border(const dynamics::Contact& contact, Index stop) {
   constexpr double kBends = 10.0, kHuge = 1e100, kBlunt = 100.0;
   const model::ContactLaw& law = contact.law_of(stop);
   const double bend = std::min(law.bend_width(), kHuge), gap = contact.gap_of(stop);

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "butee/solve/contact.hpp"
+#include "butee/dynamics/contact.hpp"
 
 namespace butee::integrators {
 
 /// What an open stop with a regularised law pulls, which away from its gap is nearly constant but for its sign.
 class FarPull {
  public:
-  FarPull(const solve::Contact& contact, Index stop);
+  FarPull(const dynamics::Contact& contact, Index stop);
 
   double largest() const { return pull_; }  ///< N
   /// A bound for the displacement that comes of taking the force within a path from w0 to w1, of at most `reach`, for a
@@ -27,6 +27,6 @@ inline constexpr double kUnfeltPull = 0.02;
 /// The displacement up to which an open stop exerts hardly more than a constant pull, m: nearer to its gap than some
 /// widths of the bend of its law the force changes. A law so blunt that its bend is a part of the gap has no such
 /// place: a hundredth of the gap's width, and what its pull changes by is no less than the springs of the structure.
-double calm_border(const solve::Contact& contact, Index stop);
+double calm_border(const dynamics::Contact& contact, Index stop);
 
 }  // namespace butee::integrators

@@ -27,7 +27,7 @@ AlphaParameters AlphaParameters::hht(double alpha) {
   return {0.0, alpha, 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha};
 }
 
-GeneralizedAlpha::GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters,
+GeneralizedAlpha::GeneralizedAlpha(dynamics::Dynamics& dynamics, AlphaParameters parameters,
                                    const std::optional<Goal>& goal)
     : Integrator(dynamics), parameters_(parameters), stage_(dynamics, kNewton) {
   if (!goal) return;
@@ -94,17 +94,17 @@ time::IntegratorType type_of(std::string name, std::string alias, std::string su
                              std::function<AlphaParameters(const Parameters&)> read, bool is_adaptive) {
   std::vector<Parameter> parameters = {std::move(dissipation)};
   if (is_adaptive) parameters.push_back(LocalErrorControl::parameter(1e-4, LocalErrorControl::kSecondOrder));
-  return {
-      .name = std::move(name),
-      .aliases = {std::move(alias)},
-      .summary = std::move(summary),
-      .parameters = std::move(parameters),
-      .order = 2.0,
-      .fixed_step = !is_adaptive,
-      .finds_first_step = is_adaptive,
-      .make = [read, is_adaptive](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-        return std::make_unique<GeneralizedAlpha>(dynamics, read(p), Goal::read_if(is_adaptive, p));
-      }};
+  return {.name = std::move(name),
+          .aliases = {std::move(alias)},
+          .summary = std::move(summary),
+          .parameters = std::move(parameters),
+          .order = 2.0,
+          .fixed_step = !is_adaptive,
+          .finds_first_step = is_adaptive,
+          .make = [read, is_adaptive](const Parameters& p,
+                                      dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return std::make_unique<GeneralizedAlpha>(dynamics, read(p), Goal::read_if(is_adaptive, p));
+          }};
 }
 
 time::IntegratorType chung_hulbert(bool is_adaptive) {

@@ -35,7 +35,7 @@ struct AlphaParameters {
 class GeneralizedAlpha final : public time::Integrator {
  public:
   /// Without a goal: fixed steps.
-  GeneralizedAlpha(solve::Dynamics& dynamics, AlphaParameters parameters, const std::optional<Goal>& goal);
+  GeneralizedAlpha(dynamics::Dynamics& dynamics, AlphaParameters parameters, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
   double first_step(const time::State&) const override { return control_ ? control_->first_step() : 0.0; }

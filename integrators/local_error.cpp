@@ -35,7 +35,7 @@ double highest(const Vector& stiffness, const Vector& mass) {
 
 }  // namespace
 
-LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps)
+LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps)
     : dynamics_(dynamics),
       contact_(dynamics, goal.tolerance),
       account_(goal),
@@ -54,7 +54,7 @@ LocalErrorControl::LocalErrorControl(solve::Dynamics& dynamics, const Goal& goal
   const Vector mass = system.mass.diagonal();
   const double square = highest(stiffness, mass);
   first_step_ = square > 0.0 ? 0.1 / std::sqrt(square) : 1e-6;
-  const solve::Contact& contact = dynamics.contact();
+  const dynamics::Contact& contact = dynamics.contact();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})

@@ -47,7 +47,7 @@ class LocalErrorControl {
   /// Whether steps are taken from a ladder of ratio 2^(1/4), so that factorizations are found again.
   enum class Steps { any, ladder };
   /// `dynamics` must outlive it.
-  LocalErrorControl(solve::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps);
+  LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps);
 
   const time::StepController& controller() const { return controller_; }
   /// A step that is short for the stiffest entry of the system, s.
@@ -96,7 +96,7 @@ class LocalErrorControl {
   double any_step(double h, double r, double old, double order) const;
   double ladder_step(double h, double r, double order) const;
 
-  const solve::Dynamics& dynamics_;
+  const dynamics::Dynamics& dynamics_;
   Proposed controller_;
   ContactOnTheWay contact_;
   ErrorAccount account_;

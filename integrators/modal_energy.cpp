@@ -8,7 +8,7 @@ using Column = Eigen::Map<const ArrayXd>;
 
 }  // namespace
 
-ModalEnergy::ModalEnergy(solve::Dynamics& dynamics, const solve::ModalSystem& modal)
+ModalEnergy::ModalEnergy(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal)
     : dynamics_(dynamics),
       modal_(modal),
       double_decay_(2.0 * modal.decay()),
@@ -28,11 +28,11 @@ void ModalEnergy::look_at(const Knot& knot, std::vector<Path>& paths) const {
   const Column q(knot.q, modal_.size()), v(knot.v, modal_.size());
   auto path = paths.begin();
   const auto look = [&](const ArrayXd& shape) { *path++ = {(shape * q).sum(), (shape * v).sum()}; };
-  for (const solve::ModalHarmonic& harmonic : modal_.harmonics()) {
+  for (const dynamics::ModalHarmonic& harmonic : modal_.harmonics()) {
     look(harmonic.cosine);
     look(harmonic.sine);
   }
-  for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads()) look(load.shape);
+  for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads()) look(load.shape);
 }
 
 void ModalEnergy::go_on(const Knot& knot, const double* w, bool is_last) {
@@ -67,7 +67,7 @@ void ModalEnergy::add_work(const Knot& to) {
     add(c0, 0.5 * (c0 + c1) - turn * (s0 - s1), c1);
     add(s0, 0.5 * (s0 + s1) + turn * (c0 - c1), s1);
   }
-  for (const solve::ModalSystem::OtherLoad& load : modal_.other_loads())
+  for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads())
     add(load.in_time->value(last_.t), load.in_time->value(0.5 * (last_.t + to.t)), load.in_time->value(to.t));
 }
 

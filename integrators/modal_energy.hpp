@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "butee/solve/dynamics.hpp"
+#include "butee/dynamics/dynamics.hpp"
 #include "butee/time/integrator.hpp"
 #include "integrators/modal_knots.hpp"
 
@@ -20,7 +20,7 @@ namespace butee::integrators {
 class ModalEnergy {
  public:
   /// Both must outlive it.
-  ModalEnergy(solve::Dynamics& dynamics, const solve::ModalSystem& modal);
+  ModalEnergy(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal);
 
   /// A knot: the phases of the harmonic loads belong to t, and q and v stay where they are until the next one is taken.
   struct Knot {
@@ -43,8 +43,8 @@ class ModalEnergy {
   void add_work(const Knot& to);
   void add_dissipation(const Knot& to);
 
-  solve::Dynamics& dynamics_;
-  const solve::ModalSystem& modal_;
+  dynamics::Dynamics& dynamics_;
+  const dynamics::ModalSystem& modal_;
   Eigen::ArrayXd double_decay_;
   bool has_decay_;
   Knot last_{};

@@ -24,13 +24,13 @@ void StepForces::divide(double place, StepForces& second) {
   moments = moments_within<Vector>(moments, 0.0, place);
 }
 
-ModalKnots::ModalKnots(solve::Dynamics& dynamics, const solve::ModalSystem& modal, std::vector<StopForce>& stops,
+ModalKnots::ModalKnots(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal, std::vector<StopForce>& stops,
                        std::size_t most)
     : dynamics_(dynamics), modal_(modal), stops_(stops), motion_(modal), single_decay_(modal.decay()[0]) {
   if ((modal.decay() != single_decay_).any()) single_decay_ = -1.0;
   times_.reserve(most + 1);
   const auto columns = static_cast<Index>(most) + 1;
-  const Index room = solve::ModalMotion::padded(modal.size());
+  const Index room = dynamics::ModalMotion::padded(modal.size());
   for (Eigen::MatrixXd* matrix : {&q_, &v_}) matrix->setZero(room, columns);
   for (Eigen::MatrixXd* matrix : {&w_, &stop_forces_}) matrix->setZero(dynamics.stop_count(), columns);
   has_forces_.assign(most + 1, false);
@@ -42,7 +42,7 @@ ModalKnots::ModalKnots(solve::Dynamics& dynamics, const solve::ModalSystem& moda
   if (dynamics.stop_count() > 0) compliances_ = modal.stop_shapes().matrix().colwise().squaredNorm();
   for (StepForces& forces : forces_) {
     forces.standing.setZero(dynamics.stop_count());
-    forces.paths.setZero(solve::StepFlow::padded(dynamics.stop_count()), StepForces::kColumns);
+    forces.paths.setZero(dynamics::StepFlow::padded(dynamics.stop_count()), StepForces::kColumns);
     for (Vector& moment : forces.moments) moment.setZero(room);
   }
 }
@@ -140,8 +140,9 @@ const Motion& ModalKnots::motion_at(std::size_t knot, View& view) {
     find_stop_forces(knot);
     stop_forces_within_ = stop_forces_.col(static_cast<Index>(knot));
   }
-  return motion = motion_of(view, times_[knot], solve::ModalMotion::products(view.shape, view.of_q, q(knot), v(knot)),
-                            v(knot), phases(knot), has_stops ? &stop_forces_within_ : nullptr);
+  return motion =
+             motion_of(view, times_[knot], dynamics::ModalMotion::products(view.shape, view.of_q, q(knot), v(knot)),
+                       v(knot), phases(knot), has_stops ? &stop_forces_within_ : nullptr);
 }
 
 void ModalKnots::find_contacts(std::size_t knot) {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "butee/solve/dynamics.hpp"
-#include "butee/solve/modal_motion.hpp"
+#include "butee/dynamics/dynamics.hpp"
+#include "butee/dynamics/modal_motion.hpp"
 #include "integrators/quintic.hpp"
 #include "integrators/stop_path.hpp"
 
@@ -18,7 +18,7 @@ struct Phase {
 /// The forces of the stops over a step.
 struct StepForces {
   bool is_free = true;            ///< there are none
-  std::array<Vector, 3> moments;  ///< modal, of P_0, P_1 and P_2, as solve::ModalMotion takes them
+  std::array<Vector, 3> moments;  ///< modal, of P_0, P_1 and P_2, as dynamics::ModalMotion takes them
   Vector standing;                ///< the pulls of stops out of contact, N
   std::vector<Index> touched;     ///< stops in contact, and of each stop:
   /// speed times h at both ends, bulge and force moments, which tell its path
@@ -36,7 +36,7 @@ struct StepForces {
 class ModalKnots {
  public:
   /// For up to `most` steps. All must outlive it.
-  ModalKnots(solve::Dynamics& dynamics, const solve::ModalSystem& modal, std::vector<StopForce>& stops,
+  ModalKnots(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal, std::vector<StopForce>& stops,
              std::size_t most);
 
   /// `w`: the displacements of the stops.
@@ -75,7 +75,7 @@ class ModalKnots {
   /// What the acceleration of a DOF takes from the modes, the loads and the forces of the stops.
   struct View {
     Index dof;
-    Vector shape, of_q;  ///< padded for solve::ModalMotion
+    Vector shape, of_q;  ///< padded for dynamics::ModalMotion
     Vector of_v, of_harmonics, of_loads, of_stops;
     std::vector<Motion> motions;  ///< at the knots
     std::vector<bool> is_known;
@@ -94,10 +94,10 @@ class ModalKnots {
   void find_forces_within(std::size_t knot, double t);
   void find_phases_within(double t);
 
-  solve::Dynamics& dynamics_;
-  const solve::ModalSystem& modal_;
+  dynamics::Dynamics& dynamics_;
+  const dynamics::ModalSystem& modal_;
   std::vector<StopForce>& stops_;
-  solve::ModalMotion motion_;
+  dynamics::ModalMotion motion_;
   double single_decay_;  ///< of all modes alike, 1/s; negative where they differ
   std::vector<double> times_;
   Eigen::MatrixXd q_, v_, w_, stop_forces_;

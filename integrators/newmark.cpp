@@ -31,7 +31,7 @@ double NewmarkParameters::stability_limit() const {
   return excess > 0.0 ? 1.0 / std::sqrt(excess) : std::numeric_limits<double>::infinity();
 }
 
-Newmark::Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
+Newmark::Newmark(dynamics::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
                  std::unique_ptr<ZienkiewiczXie> controller)
     : Integrator(dynamics), parameters_(parameters), stage_(dynamics, newton), controller_(std::move(controller)) {}
 
@@ -82,7 +82,7 @@ IntegratorType newmark_type() {
           .parameters = newton_parameters(),
           .order = 2.0,
           .fixed_step = true,
-          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Newmark>(dynamics, NewmarkParameters::read(p), newton_options(p));
           }};
 }
@@ -95,7 +95,7 @@ IntegratorType newmark_adaptive_type() {
           .summary = "Newmark with Newton-Raphson, steps by Zienkiewicz and Xie's error",
           .parameters = std::move(parameters),
           .order = 2.0,
-          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Newmark>(dynamics, NewmarkParameters::read(p), newton_options(p),
                                              ZienkiewiczXie::make(p));
           },

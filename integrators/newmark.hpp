@@ -30,7 +30,7 @@ struct NewmarkParameters {
 /// Source: N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94.
 class Newmark final : public time::Integrator {
  public:
-  Newmark(solve::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
+  Newmark(dynamics::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
           std::unique_ptr<ZienkiewiczXie> controller = nullptr);
 
   double stability_limit() const override { return parameters_.stability_limit(); }

@@ -11,7 +11,7 @@ using time::IntegratorType;
 using time::State;
 using time::StepReport;
 
-ModifiedNewmark::ModifiedNewmark(solve::Dynamics& dynamics, NewmarkParameters parameters,
+ModifiedNewmark::ModifiedNewmark(dynamics::Dynamics& dynamics, NewmarkParameters parameters,
                                  std::unique_ptr<ZienkiewiczXie> controller)
     : Integrator(dynamics), parameters_(parameters), controller_(std::move(controller)) {
   secant_ = offset_ = Vector::Zero(dynamics.stop_count());
@@ -47,7 +47,7 @@ IntegratorType newmark_modified_type() {
           .parameters = NewmarkParameters::declare(),
           .order = 2.0,
           .fixed_step = true,
-          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p));
           }};
 }
@@ -60,7 +60,7 @@ IntegratorType newmark_modified_adaptive_type() {
           .summary = "Newmark with the stops' secant stiffness of the last step, steps by Zienkiewicz and Xie's error",
           .parameters = std::move(parameters),
           .order = 2.0,
-          .make = [](const Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<ModifiedNewmark>(dynamics, NewmarkParameters::read(p), ZienkiewiczXie::make(p));
           },
           .check = ZienkiewiczXie::check};

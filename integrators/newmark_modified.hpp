@@ -16,7 +16,7 @@ namespace butee::integrators {
 /// Source: C. Duran et al., IMechE VIRM10, London, 2012.
 class ModifiedNewmark final : public time::Integrator {
  public:
-  ModifiedNewmark(solve::Dynamics& dynamics, NewmarkParameters parameters,
+  ModifiedNewmark(dynamics::Dynamics& dynamics, NewmarkParameters parameters,
                   std::unique_ptr<ZienkiewiczXie> controller = nullptr);
 
   double stability_limit() const override { return parameters_.stability_limit(); }

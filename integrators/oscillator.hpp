@@ -5,7 +5,7 @@
 
 namespace butee::integrators {
 
-/// q'' + 2 delta q' + omega^2 q = f_0 + f_1 t + f_2 t^2, in plain numbers: solve::ModalMotion for one mode.
+/// q'' + 2 delta q' + omega^2 q = f_0 + f_1 t + f_2 t^2, in plain numbers: dynamics::ModalMotion for one mode.
 class Oscillator {
  public:
   struct Point {

@@ -16,7 +16,7 @@ namespace {
 constexpr double kConstant = 0.57, kKink = 10.0;
 }  // namespace
 
-Rodas4::Rodas4(solve::Dynamics& dynamics, const Goal& goal)
+Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics), control_(dynamics, goal, {4.0, 4.0, kConstant, kKink}, LocalErrorControl::Steps::ladder) {
   for (std::size_t i = 0; i < kStages; ++i) p_[i] = q_[i] = Vector::Zero(dynamics.size());
   work_ = other_ = residual_v_ = rate_ = Vector::Zero(dynamics.size());
@@ -38,7 +38,7 @@ void Rodas4::tangent_force(ConstVectorRef y) {
 
 time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step, time::State& to) {
   const double h = step.h, d = kGamma * h;
-  solve::EffectiveSolver& effective = dynamics().effective();
+  dynamics::EffectiveSolver& effective = dynamics().effective();
   effective.set_factors(d, d * d);
   if (dynamics().stop_count() > 0) {
     dynamics().contact().displacement(from.x, stop_displacement_);
@@ -94,7 +94,7 @@ time::IntegratorType rodas4_type() {
           .parameters = {LocalErrorControl::parameter(1e-4, 1e-10)},
           .order = 4.0,
           .finds_first_step = true,
-          .make = [](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Rodas4>(dynamics, Goal::read(p));
           }};
 }

@@ -19,7 +19,7 @@ namespace butee::integrators {
 /// section IV.7 and the program RODAS.
 class Rodas4 final : public time::Integrator {
  public:
-  Rodas4(solve::Dynamics& dynamics, const Goal& goal);
+  Rodas4(dynamics::Dynamics& dynamics, const Goal& goal);
 
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State&) const override { return control_.first_step(); }

@@ -51,7 +51,7 @@ time::IntegratorType rk4_type() {
           .stability_limit = kRungeKutta4Limit,
           .damping_limit = kRungeKutta4DampingLimit,
           .fixed_step = true,
-          .make = [](const config::Parameters&, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+          .make = [](const config::Parameters&, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<RungeKutta4>(dynamics);
           }};
 }

@@ -9,14 +9,14 @@ namespace butee::integrators {
 ///     k_1 = a(t, x, v),  k_2, k_3 at t + h/2,  k_4 at t + h;  three evaluations beside the given one
 class RungeKutta4Kernel {
  public:
-  explicit RungeKutta4Kernel(solve::Dynamics& dynamics) : dynamics_(dynamics) {}
+  explicit RungeKutta4Kernel(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {}
 
   /// Takes (x, v) with acceleration a over h, from t to t_end, into (x_new, v_new).
   void advance(double t, double h, double t_end, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, VectorRef x_new,
                VectorRef v_new);
 
  private:
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   Vector x_, v_, a2_, a3_, a4_;
 };
 
@@ -27,7 +27,7 @@ class RungeKutta4Kernel {
 /// in tests/conformance. Source: W. Kutta, Z. Math. Phys. 46 (1901) 435-453.
 class RungeKutta4 final : public time::Integrator {
  public:
-  explicit RungeKutta4(solve::Dynamics& dynamics) : Integrator(dynamics), kernel_(dynamics) {}
+  explicit RungeKutta4(dynamics::Dynamics& dynamics) : Integrator(dynamics), kernel_(dynamics) {}
 
  private:
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;

@@ -5,20 +5,20 @@
 #include <complex>
 #include <limits>
 
-#include "butee/solve/dynamics.hpp"
+#include "butee/dynamics/dynamics.hpp"
 
 namespace butee::integrators {
 namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }
 
-bool SingleStep::can_take(const solve::Dynamics& dynamics) {
+bool SingleStep::can_take(const dynamics::Dynamics& dynamics) {
   const auto& loads = dynamics.system().loads;
   return dynamics.size() == 1 && dynamics.stop_count() == 1 &&
          std::all_of(loads.begin(), loads.end(), [](const auto& load) { return load.in_time->harmonic().has_value(); });
 }
 
-SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal,
+SingleStep::SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, int order, const StepGoal& goal,
                        std::size_t most)
     : dynamics_(dynamics),
       modal_(modal),
@@ -41,7 +41,7 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
       oscillator_(modal.frequencies()[0], decay_),
       motion_(modal),
       energy_(dynamics, modal) {
-  for (const solve::ModalHarmonic& harmonic : harmonics_) {
+  for (const dynamics::ModalHarmonic& harmonic : harmonics_) {
     constexpr double kResonance = 1e-7;
     const double turn = harmonic.angular_frequency;
     const std::complex<double> hold(square_ - turn * turn, 2.0 * decay_ * turn),
@@ -49,10 +49,10 @@ SingleStep::SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int
     is_kept_ = is_kept_ && std::abs(hold) > kResonance * (square_ + turn * turn);
     kept_.push_back({motion.real(), -motion.imag()});
   }
-  for (const solve::ModalHarmonic& harmonic : harmonics_)
+  for (const dynamics::ModalHarmonic& harmonic : harmonics_)
     load_frequency_ = std::max(load_frequency_, harmonic.angular_frequency);
   for (Eigen::VectorXd* one : {&padded_q_, &padded_v_, &padded_force_[0], &padded_force_[1], &padded_force_[2]})
-    one->setZero(solve::ModalMotion::padded(1));
+    one->setZero(dynamics::ModalMotion::padded(1));
   knots_.reserve(most + 1);
   times_.reserve(most + 1);
   phases_.resize((most + 1) * harmonics_.size());
@@ -109,7 +109,7 @@ void SingleStep::accept(double t) {
 void SingleStep::find_phases() {
   turns_ = 0;
   Phase* phase = phases(knots_.size() - 1);
-  for (const solve::ModalHarmonic& harmonic : harmonics_) {
+  for (const dynamics::ModalHarmonic& harmonic : harmonics_) {
     const double angle = harmonic.angular_frequency * knots_.back().t;
     *phase++ = {std::cos(angle), std::sin(angle)};
   }
@@ -120,8 +120,8 @@ std::span<const double> SingleStep::knots() const {
   return {times_.data() + 1, times_.size() - 2};
 }
 
-void SingleStep::fill(solve::StepFlow& from, Flow& flow) const {
-  const solve::ModalFlow &whole = from.whole, &half = from.half;
+void SingleStep::fill(dynamics::StepFlow& from, Flow& flow) const {
+  const dynamics::ModalFlow &whole = from.whole, &half = from.half;
   flow.h = from.h();
   flow.qq = whole.qq()[0];
   flow.qv = whole.qv()[0];
@@ -334,7 +334,7 @@ Motion SingleStep::motion_within(std::size_t knot, double t) {
   double harmonic_force = 0.0;
   Oscillator::Point at{from.at.q, from.at.v}, kept{};
   for (std::size_t j = 0; j < harmonics_.size(); ++j) {
-    const solve::ModalHarmonic& load = harmonics_[j];
+    const dynamics::ModalHarmonic& load = harmonics_[j];
     const Kept& motion = kept_[j];
     const Phase before = phases(knot)[j];
     const double angle = load.angular_frequency * t, c = std::cos(angle), s = std::sin(angle);

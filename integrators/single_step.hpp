@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "butee/solve/modal_motion.hpp"
-#include "butee/solve/modal_system.hpp"
+#include "butee/dynamics/modal_motion.hpp"
+#include "butee/dynamics/modal_system.hpp"
 #include "integrators/exponential_step.hpp"
 #include "integrators/far_pull.hpp"
 #include "integrators/modal_energy.hpp"
@@ -17,9 +17,10 @@ namespace butee::integrators {
 class SingleStep {
  public:
   /// A system of that kind.
-  static bool can_take(const solve::Dynamics& dynamics);
+  static bool can_take(const dynamics::Dynamics& dynamics);
 
-  SingleStep(solve::Dynamics& dynamics, solve::ModalSystem& modal, int order, const StepGoal& goal, std::size_t most);
+  SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, int order, const StepGoal& goal,
+             std::size_t most);
 
   /// q, v, how often the phases of the loads were turned, and those.
   Index memory_size() const { return 3 + 2 * static_cast<Index>(harmonics_.size()); }
@@ -52,7 +53,7 @@ class SingleStep {
   struct Point {
     double q, v;
   };
-  /// A solve::StepFlow of one mode and one stop.
+  /// A dynamics::StepFlow of one mode and one stop.
   struct Flow {
     int level = 0;
     double h = 0.0;  ///< 0: not filled yet
@@ -77,7 +78,7 @@ class SingleStep {
     ForceMoments force{};
   };
 
-  void fill(solve::StepFlow& from, Flow& flow) const;
+  void fill(dynamics::StepFlow& from, Flow& flow) const;
   void find_phases();  ///< of the last knot
   Phase* phases(std::size_t knot) { return phases_.data() + knot * harmonics_.size(); }
   Trial attempt(const Flow& flow);
@@ -95,8 +96,8 @@ class SingleStep {
   Motion motion_within(std::size_t knot, double t);
   Motion motion_of(Point at, double harmonic_force) const;
 
-  solve::Dynamics& dynamics_;
-  solve::ModalSystem& modal_;
+  dynamics::Dynamics& dynamics_;
+  dynamics::ModalSystem& modal_;
   std::size_t orders_;
   StepGoal goal_;
   double tolerance_, output_tolerance_, load_frequency_ = 0.0;
@@ -106,7 +107,7 @@ class SingleStep {
   double gap_, upper_, lower_;  ///< where the stop acts; infinite where it does not
   double longest_near_;         ///< longest_near_stops(), s
   double calm_border_, stop_shape_, square_, decay_;
-  const std::vector<solve::ModalHarmonic>& harmonics_;
+  const std::vector<dynamics::ModalHarmonic>& harmonics_;
 
   std::array<Flow, 8> flows_;  ///< of rungs, by their last three bits
   Flow odd_;
@@ -116,9 +117,9 @@ class SingleStep {
   struct Kept {
     double cosine, sine;
   };
-  std::vector<Kept> kept_;     ///< by load
-  bool is_kept_ = true;        ///< no load is in resonance
-  solve::ModalMotion motion_;  ///< where oscillator_ cannot
+  std::vector<Kept> kept_;        ///< by load
+  bool is_kept_ = true;           ///< no load is in resonance
+  dynamics::ModalMotion motion_;  ///< where oscillator_ cannot
   Eigen::VectorXd padded_q_, padded_v_;
   std::array<Eigen::VectorXd, 3> padded_force_;
   ModalEnergy energy_;

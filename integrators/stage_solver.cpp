@@ -18,7 +18,7 @@ double square_of(ConstVectorRef y, Index begin, Index count) {
 
 }  // namespace
 
-StageSolver::StageSolver(solve::Dynamics& dynamics, NewtonOptions options) : dynamics_(dynamics), options_(options) {
+StageSolver::StageSolver(dynamics::Dynamics& dynamics, NewtonOptions options) : dynamics_(dynamics), options_(options) {
   load_ = zeros(dynamics.size());
   residual_ = zeros(dynamics.size());
   stop_displacement_ = stop_force_ = stop_tangent_ = Vector::Zero(dynamics.stop_count());
@@ -26,7 +26,7 @@ StageSolver::StageSolver(solve::Dynamics& dynamics, NewtonOptions options) : dyn
 
 StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) {
   dynamics_.external_force(t, load_);
-  solve::EffectiveSolver& effective = dynamics_.effective();
+  dynamics::EffectiveSolver& effective = dynamics_.effective();
   effective.set_factors(on_v, on_x);
   const bool has_stops = dynamics_.stop_count() > 0;
   StepReport report;
@@ -34,7 +34,7 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
   while (true) {
     // The first look always leads to a solve, except at rest; later ones seldom do, and ask for the tangent then.
     const bool first = report.newton_iterations == 0;
-    const solve::ForceBalance balance = evaluate_residual(x, v, a, first);
+    const linalg::ForceBalance balance = evaluate_residual(x, v, a, first);
     const double scale = balance.scale();
     if (!std::isfinite(scale)) {
       report.status = StepStatus::not_finite;
@@ -74,8 +74,8 @@ StageSolver::Change StageSolver::add_correction(double on_v, double on_x, Vector
   return {std::sqrt(square), std::sqrt(x_square)};
 }
 
-solve::ForceBalance StageSolver::evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
-                                                   bool with_tangent) {
+linalg::ForceBalance StageSolver::evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
+                                                    bool with_tangent) {
   if (dynamics_.stop_count() > 0) {
     dynamics_.contact().displacement(x, stop_displacement_);
     contact(stop_displacement_, with_tangent, stop_force_, stop_tangent_);

@@ -20,7 +20,7 @@ struct NewtonOptions {
 /// after the first solve, |dx| <= eps_delta |x|. Whatever the stage stands for, it is a system of the size of K.
 class StageSolver {
  public:
-  StageSolver(solve::Dynamics& dynamics, NewtonOptions options);
+  StageSolver(dynamics::Dynamics& dynamics, NewtonOptions options);
   virtual ~StageSolver() = default;
   StageSolver(const StageSolver&) = delete;
   StageSolver& operator=(const StageSolver&) = delete;
@@ -29,7 +29,7 @@ class StageSolver {
   time::StepReport solve(double t, double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a);
 
  protected:
-  solve::Dynamics& dynamics() const { return dynamics_; }
+  dynamics::Dynamics& dynamics() const { return dynamics_; }
 
  private:
   /// The stops' forces f and, where asked for, tangent stiffnesses k at displacements w.
@@ -40,9 +40,9 @@ class StageSolver {
   };
   /// a += correction, and v and x with their factors, by the solution in residual_.
   Change add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a);
-  solve::ForceBalance evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
+  linalg::ForceBalance evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   NewtonOptions options_;
   Vector load_, residual_;
   Vector stop_displacement_, stop_force_, stop_tangent_;

@@ -35,7 +35,7 @@ class ErrorScaled final : public time::StepController {
 /// al., Numerical Recipes, 2nd ed., section 16.2.
 class StepDoublingRungeKutta4 final : public time::Integrator {
  public:
-  StepDoublingRungeKutta4(solve::Dynamics& dynamics, std::unique_ptr<time::StepController> controller)
+  StepDoublingRungeKutta4(dynamics::Dynamics& dynamics, std::unique_ptr<time::StepController> controller)
       : Integrator(dynamics), kernel_(dynamics), controller_(std::move(controller)) {}
 
   const time::StepController* controller() const override { return controller_.get(); }

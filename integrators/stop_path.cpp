@@ -101,7 +101,7 @@ OwnForce::Matrix OwnForce::closed_inverse(const PathCoupling& coupling) const {
   return inverse(kReciprocals, coupling);
 }
 
-StopForce::StopForce(solve::Contact& contact, Index stop)
+StopForce::StopForce(dynamics::Contact& contact, Index stop)
     : contact_(contact),
       stop_(stop),
       gap_(contact.gap_of(stop)),

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "butee/solve/contact.hpp"
+#include "butee/dynamics/contact.hpp"
 
 namespace butee::integrators {
 
@@ -105,7 +105,7 @@ class OwnForce {
 class StopForce {
  public:
   /// `contact` must outlive it.
-  StopForce(solve::Contact& contact, Index stop);
+  StopForce(dynamics::Contact& contact, Index stop);
 
   /// How a path lies to the stop.
   enum class Course {
@@ -175,7 +175,7 @@ class StopForce {
   void find_places(const StopPath& path);
   void add_crossings(const StopPath& path, double border);
 
-  solve::Contact& contact_;
+  dynamics::Contact& contact_;
   Index stop_;
   /// The error of the shortcuts, in parts of the law's pull: the part of it that is left at kFarOff and beside kSharp.
   static constexpr double kShortcuts = 3e-3;

@@ -33,7 +33,7 @@ double TaylorExpansion::acceleration(Index dof, double s) const {
   return sum / (length * length);
 }
 
-TaylorExpander::TaylorExpander(solve::Dynamics& dynamics, int order, double tolerance)
+TaylorExpander::TaylorExpander(dynamics::Dynamics& dynamics, int order, double tolerance)
     : dynamics_(dynamics),
       order_(order),
       tolerance_(tolerance),
@@ -76,7 +76,7 @@ void TaylorExpander::expand_loads(double t, double length) {
 }
 
 void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
-  solve::Contact& contact = dynamics_.contact();
+  dynamics::Contact& contact = dynamics_.contact();
   const double h = to.length;
   for (Index k = 0; k <= order_; ++k) {
     if (contact.size() > 0) {

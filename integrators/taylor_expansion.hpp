@@ -26,7 +26,7 @@ class TaylorExpander {
  public:
   /// Throws InputError for loads that give no series. `dynamics` must outlive it. `tolerance` is the size of the last
   /// terms relative to the largest.
-  TaylorExpander(solve::Dynamics& dynamics, int order, double tolerance);
+  TaylorExpander(dynamics::Dynamics& dynamics, int order, double tolerance);
 
   /// Fills `to` from (t, x, v), with its length; decides undecided branches. False where that length overflows.
   bool expand(double t, const Vector& x, const Vector& v, ContactBranches& branches, TaylorExpansion& to);
@@ -39,7 +39,7 @@ class TaylorExpander {
   void recur(ContactBranches& branches, TaylorExpansion& to);
   double find_reach(const Eigen::MatrixXd& x);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   Index order_;
   double tolerance_;
   Eigen::MatrixXd loads_;  ///< coefficients of load j in row j

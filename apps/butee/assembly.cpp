@@ -13,7 +13,7 @@ model::System assemble_perturbed(const model::Model& model, double perturbation)
   return system;
 }
 
-std::unique_ptr<time::Integrator> make(Session& session, solve::Dynamics& dynamics) {
+std::unique_ptr<time::Integrator> make(Session& session, dynamics::Dynamics& dynamics) {
   const plugin::IntegratorChoice& choice = session.integrator;
   auto made = session.catalogue.load(choice.name).make(choice.parameters, dynamics);
   if (made == nullptr)

@@ -16,7 +16,7 @@ struct Assembly {
   explicit Assembly(Session& session, double perturbation = 0.0);
 
   model::System system;
-  solve::Dynamics dynamics;
+  dynamics::Dynamics dynamics;
   std::unique_ptr<time::Integrator> integrator;
   time::Simulation simulation;
 };

@@ -43,8 +43,8 @@ int check_command(const CheckArguments& arguments) {
   const model::System system = assemble(session.model);
   check::Facts facts;
   facts.survey = check::survey_of(session.model);
-  facts.open = frequency_range(system, solve::StopState::open);
-  facts.closed = system.stops.empty() ? facts.open : frequency_range(system, solve::StopState::closed);
+  facts.open = frequency_range(system, dynamics::StopState::open);
+  facts.closed = system.stops.empty() ? facts.open : frequency_range(system, dynamics::StopState::closed);
   facts.mechanics = check::mechanics_of(system, session.integrator.options.end_time);
   facts.cost = check::estimate(session, reading_seconds);
   const auto advice = check::advise(session, system, facts);

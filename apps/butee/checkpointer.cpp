@@ -45,7 +45,7 @@ void Checkpointer::go_on_from(const record::Checkpoint& checkpoint) {
   next_.setup_seconds += checkpoint.setup_seconds;
 }
 
-solve::Counters Checkpointer::counters() const {
+linalg::Counters Checkpointer::counters() const {
   return before_ + assembly_.dynamics.counters();
 }
 

@@ -25,7 +25,7 @@ class Checkpointer final : public time::Observer {
   /// What the run had cost when it was taken up again, and has now.
   void go_on_from(const record::Checkpoint& checkpoint);
   void set_setup_seconds(double seconds) { next_.setup_seconds = seconds; }
-  solve::Counters counters() const;
+  linalg::Counters counters() const;
 
   void step(const time::AcceptedStep&) override { ++since_; }
   double file_seconds() const override { return seconds_; }
@@ -43,7 +43,7 @@ class Checkpointer final : public time::Observer {
   record::CsvWriter* other_ = nullptr;
   std::int64_t every_, since_ = 0;
   record::Checkpoint next_;
-  solve::Counters before_;
+  linalg::Counters before_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double seconds_ = 0.0;  ///< spent here
 };

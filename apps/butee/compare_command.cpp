@@ -12,8 +12,8 @@
 #include <butee/core/log.hpp>
 #include <butee/core/target.hpp>
 #include <butee/core/text.hpp>
+#include <butee/dynamics/frequencies.hpp>
 #include <butee/record/result_folder.hpp>
-#include <butee/solve/frequencies.hpp>
 #include <butee/version.hpp>
 
 #include "commands.hpp"
@@ -94,7 +94,7 @@ class Comparison {
     document = session.document;
     Question question = question_of(session, study_.quantities);
     const model::System system = assemble(session.model);
-    const auto range = frequency_range(system, solve::StopState::closed);
+    const auto range = frequency_range(system, dynamics::StopState::closed);
     auto sweeps =
         complete_sweeps(study_, session.catalogue, range ? range->highest : 0.0, session.integrator.options.end_time);
     return {std::move(document), std::move(session), std::move(question), std::move(sweeps)};

@@ -8,8 +8,8 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
+#include <butee/dynamics/frequencies.hpp>
 #include <butee/record/field_layout.hpp>
-#include <butee/solve/frequencies.hpp>
 
 #include "check/advice.hpp"
 #include "interruption.hpp"
@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kMoreThanPull = 1.1;
 
 /// The largest force of an open stop, N: of the arctan law that is not 0.
-double largest_pull(const solve::Contact& contact) {
+double largest_pull(const dynamics::Contact& contact) {
   double largest = 0.0;
   for (Index i = 0; i < contact.size(); ++i) largest = std::max(largest, contact.law_of(i).far_force());
   return largest;
@@ -142,7 +142,7 @@ void Run::summarize() {
 
 void Run::look_at_rows() {
   const record::OutputRequest& output = session_.output;
-  const double frequency = solve::contact_frequency(assembly_.system, assembly_.dynamics.contact());
+  const double frequency = dynamics::contact_frequency(assembly_.system, assembly_.dynamics.contact());
   if (!output.interval || output.impacts || !(frequency > 0.0)) return;
   const double contact = std::numbers::pi / frequency;
   if (*output.interval * check::kRowsInContact <= contact) return;

@@ -20,7 +20,7 @@ Bench::Bench(const plugin::Catalogue& catalogue, const std::string& scene, const
   if (type.check) type.check(scene_.integrator->parameters, diagnostics);
   diagnostics.throw_if_any();
   system_ = std::make_unique<model::System>(assemble(scene_.model));
-  dynamics_ = std::make_unique<solve::Dynamics>(*system_);
+  dynamics_ = std::make_unique<dynamics::Dynamics>(*system_);
   integrator_ = type.make(scene_.integrator->parameters, *dynamics_);
   require(integrator_ != nullptr, "the maker of an integrator returns one");
   simulation_ = std::make_unique<time::Simulation>(*dynamics_, *integrator_, scene_.integrator->options);

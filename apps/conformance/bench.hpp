@@ -17,7 +17,7 @@ class Bench {
   Bench(const plugin::Catalogue& catalogue, const std::string& scene, const std::vector<std::string>& overrides = {});
 
   const model::System& system() const { return *system_; }
-  solve::Dynamics& dynamics() { return *dynamics_; }
+  dynamics::Dynamics& dynamics() { return *dynamics_; }
   time::Integrator& integrator() { return *integrator_; }
   time::Simulation& simulation() { return *simulation_; }
   /// The free DOF u of a selector that names one node.
@@ -29,7 +29,7 @@ class Bench {
   plugin::Catalogue catalogue_;
   plugin::Scene scene_;
   std::unique_ptr<model::System> system_;
-  std::unique_ptr<solve::Dynamics> dynamics_;
+  std::unique_ptr<dynamics::Dynamics> dynamics_;
   std::unique_ptr<time::Integrator> integrator_;
   std::unique_ptr<time::Simulation> simulation_;
 };

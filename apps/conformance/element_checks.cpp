@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 #include <butee/core/text.hpp>
-#include <butee/solve/dense_pairs.hpp>
+#include <butee/linalg/dense_pairs.hpp>
 
 #include "apps/conformance/bench.hpp"
 
@@ -33,7 +33,7 @@ std::string complaint(const std::string& name, const SparseMatrix& sparse) {
   constexpr double kRounding = 1e-12;
   const double scale = matrix.cwiseAbs().maxCoeff();
   if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kRounding * scale) return name + " is not symmetric";
-  const auto pairs = solve::dense_pairs(matrix);
+  const auto pairs = linalg::dense_pairs(matrix);
   if (!pairs) return name + " has no eigenvalues";
   const double lowest = pairs->values[0];
   if (lowest < -1e3 * kRounding * scale)

@@ -12,7 +12,7 @@ namespace {
 
 struct Target {
   std::string name;
-  std::size_t index;  ///< in the tables of solve/kernel/dispatch.hpp
+  std::size_t index;  ///< in the tables of linalg/kernel/dispatch.hpp
 };
 
 /// The best first.

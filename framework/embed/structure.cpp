@@ -54,7 +54,7 @@ struct Structure::Parts {
   plugin::Scene scene;
   std::map<Index, NodalForce*> forces;  ///< by DOF; owned by the model's loads
   std::optional<model::System> system;
-  std::optional<solve::Dynamics> dynamics;
+  std::optional<dynamics::Dynamics> dynamics;
   std::unique_ptr<time::Integrator> integrator;
   std::optional<time::Simulation> simulation;
   std::uint64_t origin = 0;  ///< of snapshots
@@ -331,7 +331,7 @@ const std::string& Structure::method() const {
   return parts_->scene.integrator->name;
 }
 
-const solve::Counters& Structure::counters() const {
+const linalg::Counters& Structure::counters() const {
   return parts_->dynamics->counters();
 }
 

@@ -105,7 +105,7 @@ class BUTEE_EXPORT Structure {
   record::Energy energy() const;
   /// The method's name, what has been counted, and what it came to so far.
   const std::string& method() const;
-  const solve::Counters& counters() const;
+  const linalg::Counters& counters() const;
   const time::RunReport& report() const;
 
  private:

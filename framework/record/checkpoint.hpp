@@ -4,8 +4,8 @@
 #include <string>
 
 #include "butee/core/target.hpp"
+#include "butee/linalg/counters.hpp"
 #include "butee/record/result_folder.hpp"
-#include "butee/solve/counters.hpp"
 #include "butee/time/snapshot.hpp"
 
 namespace butee::record {
@@ -18,7 +18,7 @@ struct Checkpoint {
   std::uint64_t model = 0;    ///< checksum of model.toml
   std::uint64_t history = 0;  ///< bytes of history.csv that belong to it
   double setup_seconds = 0.0;
-  solve::Counters counters;
+  linalg::Counters counters;
   time::Snapshot snapshot;
 };
 

@@ -17,14 +17,14 @@ void gather(const std::vector<Index>& dofs, ConstVectorRef from, Eigen::VectorXd
   for (std::size_t i = 0; i < dofs.size(); ++i) to[static_cast<Index>(i)] = dofs[i] >= 0 ? from[dofs[i]] : 0.0;
 }
 
-const model::Model& model_of(const solve::Dynamics& dynamics) {
+const model::Model& model_of(const dynamics::Dynamics& dynamics) {
   require(dynamics.system().model != nullptr, "forces of elements are those of an assembled model");
   return *dynamics.system().model;
 }
 
 }  // namespace
 
-ElementForces::ElementForces(solve::Dynamics& dynamics)
+ElementForces::ElementForces(dynamics::Dynamics& dynamics)
     : dynamics_(dynamics), model_(model_of(dynamics)), a_(Vector::Zero(dynamics.size())) {}
 
 void ElementForces::add(Quantity quantity, model::NodeId node, const std::string& element) {
@@ -117,7 +117,7 @@ std::size_t ElementForces::add_piece(std::span<const NodalDof> dofs, const model
 }
 
 double ElementForces::force_of_stop(Index stop, ConstVectorRef x) {
-  solve::Contact& contact = dynamics_.contact();
+  dynamics::Contact& contact = dynamics_.contact();
   const Index a = contact.dof_a(stop), b = contact.dof_b(stop);
   return contact.force_of(stop, (a >= 0 ? x[a] : 0.0) - (b >= 0 ? x[b] : 0.0));
 }

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "butee/dynamics/dynamics.hpp"
 #include "butee/record/output_request.hpp"
-#include "butee/solve/dynamics.hpp"
 
 namespace butee::record {
 
@@ -18,7 +18,7 @@ namespace butee::record {
 class BUTEE_EXPORT ElementForces {
  public:
   /// `dynamics` must outlive it, and its system must have a model.
-  explicit ElementForces(solve::Dynamics& dynamics);
+  explicit ElementForces(dynamics::Dynamics& dynamics);
 
   /// Adds a column; its number counts from 0.
   void add(Quantity quantity, model::NodeId node, const std::string& element);
@@ -66,7 +66,7 @@ class BUTEE_EXPORT ElementForces {
   std::size_t add_piece(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices);
   double force_of_stop(Index stop, ConstVectorRef x);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   const model::Model& model_;
   std::vector<Piece> pieces_;
   std::vector<Column> columns_;

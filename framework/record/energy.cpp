@@ -16,7 +16,7 @@ constexpr int kMostHalvingsOfWork = 12;
 
 }  // namespace
 
-Energy energy_of(const time::State& state, solve::Dynamics& dynamics) {
+Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics) {
   Vector force(dynamics.size());
   Energy energy;
   dynamics.inertia_force(state.v, force);
@@ -31,7 +31,7 @@ Energy energy_of(const time::State& state, solve::Dynamics& dynamics) {
   return energy;
 }
 
-EnergyRecorder::EnergyRecorder(solve::Dynamics& dynamics, CsvWriter* writer, std::optional<OutputTimes> times)
+EnergyRecorder::EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer, std::optional<OutputTimes> times)
     : dynamics_(dynamics),
       all_(static_cast<std::size_t>(dynamics.size())),
       middle_(dynamics.size()),

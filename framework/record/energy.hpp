@@ -15,7 +15,7 @@ struct Energy {
   double total() const { return kinetic + strain + contact; }
 };
 
-BUTEE_EXPORT Energy energy_of(const time::State& state, solve::Dynamics& dynamics);
+BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics);
 
 /// Follows the work of the loads and the dissipation over a run.
 ///
@@ -29,7 +29,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
   /// `dynamics` must outlive it. Where there is a `writer`, it gets a row at the start, at the first end or knot of a
   /// step at or after each of `times`, and at the last step.
-  explicit EnergyRecorder(solve::Dynamics& dynamics, CsvWriter* writer = nullptr,
+  explicit EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer = nullptr,
                           std::optional<OutputTimes> times = std::nullopt);
 
   void start(const time::State& state) override;
@@ -72,7 +72,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   void look_within(const time::AcceptedStep& step, double t);
   void write_row(double t);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   std::vector<Index> all_;
   Vector middle_, force_;
   std::vector<double> due_;  ///< instants that a row is still to be written for

@@ -12,7 +12,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// On which side a stop with displacement w is closed: +1, -1, or 0 where it is open.
-double closed_side(const solve::Contact& contact, Index stop, double w) {
+double closed_side(const dynamics::Contact& contact, Index stop, double w) {
   const model::Sides sides = contact.sides_of(stop);
   const double gap = contact.gap_of(stop);
   if (sides != model::Sides::negative && w > gap) return 1.0;
@@ -26,7 +26,7 @@ double at(std::span<const double> samples, std::int32_t place) {
 
 }  // namespace
 
-FieldRecorder::FieldRecorder(const OutputRequest& output, double end_time, solve::Dynamics& dynamics,
+FieldRecorder::FieldRecorder(const OutputRequest& output, double end_time, dynamics::Dynamics& dynamics,
                              std::vector<std::unique_ptr<model::FieldWriter>> writers)
     : dynamics_(dynamics),
       times_(output.fields.interval ? output.fields.interval : output.interval, output.every, end_time),
@@ -72,7 +72,7 @@ void FieldRecorder::find_stops() {
   std::vector<std::int32_t> places(static_cast<std::size_t>(dynamics_.size()), -1);
   for (std::size_t i = 0; i < kept; ++i) places[static_cast<std::size_t>(dofs_[i])] = static_cast<std::int32_t>(i);
   const auto place = [&](Index dof) { return dof < 0 ? -1 : places[static_cast<std::size_t>(dof)]; };
-  const solve::Contact& contact = dynamics_.contact();
+  const dynamics::Contact& contact = dynamics_.contact();
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
     if (place(a) < 0 && place(b) < 0) continue;

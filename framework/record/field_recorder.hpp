@@ -14,7 +14,7 @@ namespace butee::record {
 class BUTEE_EXPORT FieldRecorder final : public time::Observer {
  public:
   /// `output.fields` says what; `dynamics` must outlive it.
-  FieldRecorder(const OutputRequest& output, double end_time, solve::Dynamics& dynamics,
+  FieldRecorder(const OutputRequest& output, double end_time, dynamics::Dynamics& dynamics,
                 std::vector<std::unique_ptr<model::FieldWriter>> writers);
 
   void start(const time::State& state) override;
@@ -41,7 +41,7 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
   void fill(const time::State& state);
   void write(double t);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   OutputTimes times_;
   std::vector<Quantity> quantities_;
   std::vector<std::unique_ptr<model::FieldWriter>> writers_;

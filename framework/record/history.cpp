@@ -27,7 +27,7 @@ std::vector<ProbeRequest> peak_requests(std::vector<ProbeRequest> requests, cons
 
 }  // namespace
 
-HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, solve::Dynamics& dynamics,
+HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, dynamics::Dynamics& dynamics,
                                  CsvWriter* writer)
     : times_(request.interval, request.every, end_time),
       probes_(request.probes, dynamics),

@@ -16,7 +16,7 @@ namespace butee::record {
 class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
  public:
   /// Rows go to `writer`, or nowhere where it is nullptr. Everything given must outlive the recorder.
-  HistoryRecorder(const OutputRequest& request, double end_time, solve::Dynamics& dynamics, CsvWriter* writer);
+  HistoryRecorder(const OutputRequest& request, double end_time, dynamics::Dynamics& dynamics, CsvWriter* writer);
 
   /// Rows go to `writer` as well, which must outlive the recorder's last row. Before the first step.
   void also_to(model::FieldWriter& writer) { writers_.push_back(&writer); }

@@ -31,8 +31,8 @@ void take(Impact& impact, ByteReader& from) {
 
 }  // namespace
 
-ImpactRecorder::ImpactRecorder(solve::Dynamics& dynamics) : dynamics_(dynamics) {
-  const solve::Contact& contact = dynamics.contact();
+ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
+  const dynamics::Contact& contact = dynamics.contact();
   const auto node = [&](Index dof) {
     const std::string name = dynamics.dof_name(dof);
     return name.substr(name.rfind(' ') + 1);

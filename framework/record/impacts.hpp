@@ -26,7 +26,7 @@ struct Impact {
 class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
  public:
   /// `dynamics` must outlive it.
-  explicit ImpactRecorder(solve::Dynamics& dynamics);
+  explicit ImpactRecorder(dynamics::Dynamics& dynamics);
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
@@ -59,7 +59,7 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
   Point crossing(const Watch& watch, const Course& course, double begin, double end) const;
   double force(const Watch& watch, const Point& point);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   Tracks tracks_;
   std::vector<Watch> watches_;
   std::vector<Impact> done_;

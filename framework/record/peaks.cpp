@@ -21,7 +21,7 @@ std::size_t order_of(Quantity quantity) {
 
 /// The largest |force| of a stop whose displacement goes from `least` to `greatest`. With two sides it also jumps where
 /// that passes the middle, if the law pulls at open stops.
-double largest_force(solve::Contact& contact, Index stop, double least, double greatest) {
+double largest_force(dynamics::Contact& contact, Index stop, double least, double greatest) {
   const auto size_at = [&](double w) { return std::abs(contact.force_of(stop, w)); };
   double largest = std::max(size_at(least), size_at(greatest));
   if (contact.sides_of(stop) == model::Sides::both && least < 0.0 && greatest > 0.0 &&
@@ -32,7 +32,7 @@ double largest_force(solve::Contact& contact, Index stop, double least, double g
 
 }  // namespace
 
-Peaks::Peaks(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics) : dynamics_(dynamics) {
+Peaks::Peaks(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
   const model::DofTable& table = dynamics.system().dofs;
   for (const ProbeRequest& request : requests)
     for (const Quantity quantity : request.quantities) {
@@ -54,7 +54,7 @@ std::size_t Peaks::follow(Index a, Index b, std::size_t order) {
 }
 
 std::vector<Peaks::Stop> Peaks::stops_on(Index dof) {
-  const solve::Contact& contact = dynamics_.contact();
+  const dynamics::Contact& contact = dynamics_.contact();
   std::vector<Stop> stops;
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);

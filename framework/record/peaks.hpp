@@ -21,7 +21,7 @@ class BUTEE_EXPORT Peaks final : public time::Observer {
   static constexpr double kGoodSum = 1e-6;
 
   /// `dynamics` must outlive it.
-  Peaks(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics);
+  Peaks(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dynamics);
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
@@ -61,7 +61,7 @@ class BUTEE_EXPORT Peaks final : public time::Observer {
   double sum_at(const Column& column, const std::vector<Point>& points) const;
   double value_of(const Column& column) const;
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   Tracks tracks_;
   std::vector<Followed> followed_;  ///< an entry a track
   std::vector<Column> columns_;

@@ -13,7 +13,7 @@ constexpr std::size_t kLargestSample = 1U << 14U;
 
 }  // namespace
 
-Probes::Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics) : dynamics_(dynamics) {
+Probes::Probes(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
   const model::DofTable& table = dynamics.system().dofs;
   for (const ProbeRequest& request : requests)
     for (const Quantity quantity : request.quantities) {
@@ -71,7 +71,7 @@ std::size_t Probes::slot(Index dof) {
 }
 
 void Probes::add_stops(Index dof) {
-  const solve::Contact& contact = dynamics_.contact();
+  const dynamics::Contact& contact = dynamics_.contact();
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
     if (a != dof && b != dof) continue;

@@ -14,7 +14,7 @@ namespace butee::record {
 class BUTEE_EXPORT Probes {
  public:
   /// `dynamics` must outlive it.
-  Probes(const std::vector<ProbeRequest>& requests, solve::Dynamics& dynamics);
+  Probes(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dynamics);
   Probes(const Probes&) = delete;
   Probes& operator=(const Probes&) = delete;
 
@@ -61,7 +61,7 @@ class BUTEE_EXPORT Probes {
   void sample_forces(const time::AcceptedStep& step, std::span<const double> times);
   void evaluate_forces(double t, ConstVectorRef x, ConstVectorRef v, std::size_t instant);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   std::vector<std::string> columns_;
   std::vector<Column> sources_;
   std::vector<ProbedStop> stops_;

@@ -39,7 +39,7 @@ Progress::Style Progress::standard_style() {
           terminal_width(stderr)};
 }
 
-Progress::Progress(solve::Dynamics& dynamics, double end_time, Style style)
+Progress::Progress(dynamics::Dynamics& dynamics, double end_time, Style style)
     : dynamics_(dynamics),
       end_time_(end_time),
       style_(style),

@@ -28,7 +28,7 @@ class BUTEE_EXPORT Progress final : public time::Observer {
   static Style standard_style();
 
   /// `dynamics` must outlive it.
-  Progress(solve::Dynamics& dynamics, double end_time, Style style = standard_style());
+  Progress(dynamics::Dynamics& dynamics, double end_time, Style style = standard_style());
   ~Progress() override;
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -45,7 +45,7 @@ class BUTEE_EXPORT Progress final : public time::Observer {
   Index closed_stops();
   void clear();
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   double end_time_;
   Style style_;
   Clock::time_point begin_, looked_, drawn_;

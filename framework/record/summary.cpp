@@ -38,7 +38,7 @@ Json to_json(const Trust& trust) {
 
 std::string to_json(const Summary& summary) {
   const time::RunReport& report = summary.report;
-  const solve::Counters& counters = summary.counters;
+  const linalg::Counters& counters = summary.counters;
   Json json;
   json["status"] = report.completed ? "completed" : "failed";
   json["message"] = report.message;

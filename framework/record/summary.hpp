@@ -14,7 +14,7 @@ struct Summary {
   time::RunReport report;
   std::string integrator;
   std::string choice;  ///< of the method by another, and why; empty where the scene named it
-  solve::Counters counters;
+  linalg::Counters counters;
   double setup_seconds = 0.0;
   Index dofs = 0, contacts = 0;
   std::map<std::string, double> peaks;

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "butee/core/text.hpp"
-#include "butee/solve/dense_pairs.hpp"
-#include "butee/solve/free_motion.hpp"
-#include "butee/solve/frequencies.hpp"
+#include "butee/dynamics/free_motion.hpp"
+#include "butee/dynamics/frequencies.hpp"
+#include "butee/linalg/dense_pairs.hpp"
 
 namespace butee::time {
 namespace {
@@ -31,7 +31,8 @@ double rate_of_mode(const MethodLimits& limits, double omega, double c) {
   return rate(limits, 0.0, 0.5 * c + std::sqrt(-square));
 }
 
-std::optional<double> dense_rate(solve::Dynamics& dynamics, const MethodLimits& limits, const SparseMatrix& stiffness) {
+std::optional<double> dense_rate(dynamics::Dynamics& dynamics, const MethodLimits& limits,
+                                 const SparseMatrix& stiffness) {
   const Index n = dynamics.size();
   Eigen::MatrixXd damping(n, n);
   Vector column(n);
@@ -45,7 +46,7 @@ std::optional<double> dense_rate(solve::Dynamics& dynamics, const MethodLimits& 
   motion.bottomLeftCorner(n, n) = -mass.solve(Eigen::MatrixXd(stiffness));
   motion.bottomRightCorner(n, n) = -mass.solve(damping);
   if (mass.info() != Eigen::Success || !motion.allFinite()) return std::nullopt;
-  const auto values = solve::eigenvalues(motion);
+  const auto values = linalg::eigenvalues(motion);
   if (!values) return std::nullopt;
   double largest = 0.0;
   for (const std::complex<double>& value : *values)
@@ -53,12 +54,13 @@ std::optional<double> dense_rate(solve::Dynamics& dynamics, const MethodLimits& 
   return largest;
 }
 
-std::optional<double> critical_rate(solve::Dynamics& dynamics, const MethodLimits& limits, solve::StopState stops) {
+std::optional<double> critical_rate(dynamics::Dynamics& dynamics, const MethodLimits& limits,
+                                    dynamics::StopState stops) {
   const model::System& system = dynamics.system();
   const bool has_others = system.dashpots.size() > 0 || system.damping.is_modal();
   if (dynamics.has_damping() && dynamics.size() <= kDense)
-    return dense_rate(dynamics, limits, solve::stiffness_with_stops(system, stops));
-  const auto range = solve::frequency_range(system, stops);
+    return dense_rate(dynamics, limits, dynamics::stiffness_with_stops(system, stops));
+  const auto range = dynamics::frequency_range(system, stops);
   if (!range) return std::nullopt;
   if (has_others) return rate(limits, range->highest, 0.0);
   const double m = system.damping.mass_proportional, k = system.damping.stiffness_proportional;
@@ -67,7 +69,7 @@ std::optional<double> critical_rate(solve::Dynamics& dynamics, const MethodLimit
   return rate_of_mode(limits, range->highest, m + k * range->highest * range->highest);
 }
 
-std::string overflowing_load(solve::Dynamics& dynamics, double t) {
+std::string overflowing_load(dynamics::Dynamics& dynamics, double t) {
   Vector force(dynamics.size());
   dynamics.external_force(t, force);
   for (Index i = 0; i < force.size(); ++i)
@@ -77,19 +79,19 @@ std::string overflowing_load(solve::Dynamics& dynamics, double t) {
   return {};
 }
 
-std::string overflow(solve::Dynamics& dynamics, const MethodLimits& limits, const State& from, const Step& step) {
+std::string overflow(dynamics::Dynamics& dynamics, const MethodLimits& limits, const State& from, const Step& step) {
   for (const double t : {from.t, 0.5 * (from.t + step.t_end), step.t_end})
     if (const std::string load = overflowing_load(dynamics, t); !load.empty()) return load;
   return "the solution is no longer finite; it moves fastest in " + fastest_dof(dynamics, from) + ". " +
          describe_remedy(dynamics, limits, step.h);
 }
 
-std::string singular(solve::Dynamics& dynamics, const Step& step) {
+std::string singular(dynamics::Dynamics& dynamics, const Step& step) {
   const model::System& system = dynamics.system();
   const SparseMatrix effective =
-      system.mass + 0.25 * step.h * step.h * solve::stiffness_with_stops(system, solve::StopState::closed);
+      system.mass + 0.25 * step.h * step.h * dynamics::stiffness_with_stops(system, dynamics::StopState::closed);
   return "the effective matrix is not positive definite; what resists least is the motion of " +
-         solve::describe_softest_motion(effective, system.dofs) +
+         dynamics::describe_softest_motion(effective, system.dofs) +
          ". Check the masses and stiffnesses there, which may be too far apart for 16 digits, or use a smaller step "
          "than " +
          to_short_text(step.h) + " s";
@@ -97,16 +99,16 @@ std::string singular(solve::Dynamics& dynamics, const Step& step) {
 
 }  // namespace
 
-std::optional<CriticalSteps> critical_steps(solve::Dynamics& dynamics, const MethodLimits& limits) {
+std::optional<CriticalSteps> critical_steps(dynamics::Dynamics& dynamics, const MethodLimits& limits) {
   if (!limits.is_bounded()) return std::nullopt;
-  const auto open = critical_rate(dynamics, limits, solve::StopState::open);
-  const auto closed = dynamics.stop_count() > 0 ? critical_rate(dynamics, limits, solve::StopState::closed) : open;
+  const auto open = critical_rate(dynamics, limits, dynamics::StopState::open);
+  const auto closed = dynamics.stop_count() > 0 ? critical_rate(dynamics, limits, dynamics::StopState::closed) : open;
   if (!open || !closed) return std::nullopt;
   const auto step = [](double r) { return r > 0.0 ? 1.0 / r : kInfinity; };
   return CriticalSteps{step(*open), step(*closed)};
 }
 
-std::string describe_remedy(solve::Dynamics& dynamics, const MethodLimits& limits, double h) {
+std::string describe_remedy(dynamics::Dynamics& dynamics, const MethodLimits& limits, double h) {
   const bool has_stops = dynamics.stop_count() > 0;
   const auto critical = critical_steps(dynamics, limits);
   if (critical && h > critical->closed) {
@@ -130,7 +132,7 @@ std::string describe_remedy(solve::Dynamics& dynamics, const MethodLimits& limit
   return text;
 }
 
-std::string fastest_dof(const solve::Dynamics& dynamics, const State& state) {
+std::string fastest_dof(const dynamics::Dynamics& dynamics, const State& state) {
   const model::System& system = dynamics.system();
   // Scaled, so that squares of what is about to overflow are numbers still.
   const double speed = std::max(state.v.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min()),
@@ -149,8 +151,8 @@ std::string fastest_dof(const solve::Dynamics& dynamics, const State& state) {
   return dynamics.dof_name(largest);
 }
 
-std::string describe_failure(solve::Dynamics& dynamics, const MethodLimits& limits, const State& from, const Step& step,
-                             const StepReport& report) {
+std::string describe_failure(dynamics::Dynamics& dynamics, const MethodLimits& limits, const State& from,
+                             const Step& step, const StepReport& report) {
   switch (report.status) {
     case StepStatus::not_finite:
       return overflow(dynamics, limits, from, step);
@@ -173,7 +175,7 @@ std::string describe_failure(solve::Dynamics& dynamics, const MethodLimits& limi
   return text + ". Loosen the tolerance, or look for a jump there: a load, or a stop too stiff for its mass";
 }
 
-std::string describe_start(solve::Dynamics& dynamics, const State& state) {
+std::string describe_start(dynamics::Dynamics& dynamics, const State& state) {
   std::string text = "the initial acceleration is not finite; ";
   if (const std::string load = overflowing_load(dynamics, state.t); !load.empty()) return text + load;
   for (Index i = 0; i < state.a.size(); ++i)

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "butee/solve/dynamics.hpp"
+#include "butee/dynamics/dynamics.hpp"
 #include "butee/time/state.hpp"
 
 namespace butee::time {
@@ -28,20 +28,20 @@ struct CriticalSteps {
 /// 1/h = max over the modes of |Im lambda|/limits.stability + |Re lambda|/limits.damping: exact without damping, safe
 /// with it. Nothing for unconditionally stable methods and where the frequencies could not be computed. Dashpots count
 /// in systems of up to 100 DOFs.
-BUTEE_EXPORT std::optional<CriticalSteps> critical_steps(solve::Dynamics& dynamics, const MethodLimits& limits);
+BUTEE_EXPORT std::optional<CriticalSteps> critical_steps(dynamics::Dynamics& dynamics, const MethodLimits& limits);
 
 /// "h = 1e-3 s is 3 times the critical step of rk4, ...: take ..."; where the step is below it, or the method has none,
 /// what else there is to do.
-BUTEE_EXPORT std::string describe_remedy(solve::Dynamics& dynamics, const MethodLimits& limits, double h);
+BUTEE_EXPORT std::string describe_remedy(dynamics::Dynamics& dynamics, const MethodLimits& limits, double h);
 
 /// The DOF that holds most of the energy, its rotations and displacements weighed by M and K: "u of string:17".
-BUTEE_EXPORT std::string fastest_dof(const solve::Dynamics& dynamics, const State& state);
+BUTEE_EXPORT std::string fastest_dof(const dynamics::Dynamics& dynamics, const State& state);
 
 /// Why a step from `from` failed, and what to do about it.
-BUTEE_EXPORT std::string describe_failure(solve::Dynamics& dynamics, const MethodLimits& limits, const State& from,
+BUTEE_EXPORT std::string describe_failure(dynamics::Dynamics& dynamics, const MethodLimits& limits, const State& from,
                                           const Step& step, const StepReport& report);
 
 /// Why there is no initial acceleration.
-BUTEE_EXPORT std::string describe_start(solve::Dynamics& dynamics, const State& state);
+BUTEE_EXPORT std::string describe_start(dynamics::Dynamics& dynamics, const State& state);
 
 }  // namespace butee::time

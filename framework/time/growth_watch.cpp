@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "butee/core/text.hpp"
-#include "butee/solve/frequencies.hpp"
+#include "butee/dynamics/frequencies.hpp"
 
 namespace butee::time {
 namespace {
@@ -38,7 +38,7 @@ double excess_over(double explained, double energy) {
 
 }  // namespace
 
-GrowthWatch::GrowthWatch(solve::Dynamics& dynamics, const MethodLimits& limits, const Integrator& integrator)
+GrowthWatch::GrowthWatch(dynamics::Dynamics& dynamics, const MethodLimits& limits, const Integrator& integrator)
     : dynamics_(dynamics),
       limits_(limits),
       has_fixed_steps_(integrator.controller() == nullptr),
@@ -54,7 +54,7 @@ void GrowthWatch::start(const State& state) {
   last_time_ = begin_time_ = start_time_ = state.t;
   last_energy_ = begin_energy_ = start_energy_ = energy(state);
   sound_energy_ = 0.0;
-  if (may_be_coarse_) contact_frequency_ = solve::contact_frequency(dynamics_.system(), dynamics_.contact());
+  if (may_be_coarse_) contact_frequency_ = dynamics::contact_frequency(dynamics_.system(), dynamics_.contact());
 }
 
 void GrowthWatch::prepare() {
@@ -87,7 +87,7 @@ double GrowthWatch::energy(const State& state) {
   dynamics_.elastic_force(state.x, work_);
   sum += 0.5 * state.x.dot(work_);
   if (stops_.size() == 0) return sum;
-  const solve::Contact& contact = dynamics_.contact();
+  const dynamics::Contact& contact = dynamics_.contact();
   contact.displacement(state.x, stops_);
   contact.penetration(stops_, stops_);
   for (Index i = 0; i < stops_.size(); ++i) {

@@ -23,7 +23,7 @@ namespace butee::time {
 class BUTEE_EXPORT GrowthWatch {
  public:
   /// `dynamics` must outlive it.
-  GrowthWatch(solve::Dynamics& dynamics, const MethodLimits& limits, const Integrator& integrator);
+  GrowthWatch(dynamics::Dynamics& dynamics, const MethodLimits& limits, const Integrator& integrator);
 
   void start(const State& state);
 
@@ -55,7 +55,7 @@ class BUTEE_EXPORT GrowthWatch {
   void find_load_norms();
   void note_coarseness(const State& from, const State& to, double h);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   MethodLimits limits_;
   bool has_fixed_steps_, may_be_coarse_, is_watching_;
   double too_much_;  ///< the logarithm of what ends a run

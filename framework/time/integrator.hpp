@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "butee/config/parameters.hpp"
-#include "butee/solve/dynamics.hpp"
+#include "butee/dynamics/dynamics.hpp"
 #include "butee/time/state.hpp"
 #include "butee/time/step_controller.hpp"
 
@@ -42,7 +42,7 @@ enum class DenseOutput {
 class BUTEE_EXPORT Integrator {
  public:
   /// `dynamics` must outlive it.
-  explicit Integrator(solve::Dynamics& dynamics) : dynamics_(dynamics) {}
+  explicit Integrator(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {}
   virtual ~Integrator() = default;
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
@@ -111,7 +111,7 @@ class BUTEE_EXPORT Integrator {
   }
 
  protected:
-  solve::Dynamics& dynamics() const { return dynamics_; }
+  dynamics::Dynamics& dynamics() const { return dynamics_; }
 
  private:
   virtual void do_start(State& state);
@@ -123,7 +123,7 @@ class BUTEE_EXPORT Integrator {
   virtual void do_interpolate_all(const State& from, const State& to, std::span<const double> times,
                                   std::span<const Index> dofs, Interpolated out) const;
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   std::string choice_;
 };
 
@@ -148,7 +148,7 @@ struct IntegratorType {
   /// False where a method remembers more than the State holds, so that a run taken up again from a checkpoint would not
   /// be the unbroken one to the last bit; checkpoints are then refused.
   bool restarts_exactly = true;
-  std::function<std::unique_ptr<Integrator>(const config::Parameters&, solve::Dynamics&)> make{};
+  std::function<std::unique_ptr<Integrator>(const config::Parameters&, dynamics::Dynamics&)> make{};
   /// Reports values that are each allowed but do not go together. May be empty.
   std::function<void(const config::Parameters&, config::Diagnostics&)> check{};
 };

@@ -37,7 +37,7 @@ MethodLimits narrowed(MethodLimits limits, const Integrator& integrator) {
 
 }  // namespace
 
-Simulation::Simulation(solve::Dynamics& dynamics, Integrator& integrator, SimulationOptions options)
+Simulation::Simulation(dynamics::Dynamics& dynamics, Integrator& integrator, SimulationOptions options)
     : dynamics_(dynamics),
       integrator_(integrator),
       controller_(integrator.controller()),

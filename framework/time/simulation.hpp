@@ -81,7 +81,7 @@ struct Snapshot {
 class BUTEE_EXPORT Simulation {
  public:
   /// `dynamics` and `integrator` must outlive it; the integrator is one of this dynamics.
-  Simulation(solve::Dynamics& dynamics, Integrator& integrator, SimulationOptions options);
+  Simulation(dynamics::Dynamics& dynamics, Integrator& integrator, SimulationOptions options);
 
   /// `observer` must outlive the simulation. Before the first step.
   void add(Observer& observer);
@@ -135,7 +135,7 @@ class BUTEE_EXPORT Simulation {
   bool has_stalled();
   void fail(const Step& step, const std::string& reason);
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   Integrator& integrator_;
   const StepController* controller_;  ///< the integrator's; null for fixed steps
   SimulationOptions options_;

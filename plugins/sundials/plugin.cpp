@@ -24,7 +24,7 @@ time::IntegratorType type_of(std::string name, std::string summary, plugins::Fam
                          .or_else(std::int64_t{0})},
       .finds_first_step = true,
       .restarts_exactly = false,
-      .make = [family](const config::Parameters& p, solve::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+      .make = [family](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         double length = 0.0;
         for (Index i = 0; i < dynamics.stop_count(); ++i) length = std::max(length, dynamics.contact().gap_of(i));
         if (length == 0.0) length = 1e-3;

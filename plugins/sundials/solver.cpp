@@ -20,7 +20,7 @@ time::StepDecision SundialsIntegrator::Controller::decide(double, const time::St
   return {true, std::numeric_limits<double>::infinity()};
 }
 
-SundialsIntegrator::SundialsIntegrator(solve::Dynamics& dynamics, Family family, double tolerance,
+SundialsIntegrator::SundialsIntegrator(dynamics::Dynamics& dynamics, Family family, double tolerance,
                                        double absolute_tolerance, int order)
     : Integrator(dynamics),
       family_(family),
@@ -153,7 +153,7 @@ int SundialsIntegrator::solve(double* z, const double* r) {
   // (M + gamma C + gamma^2 (K + K_t)) z_v = M r_v - gamma (K + K_t) r_x,   z_x = r_x + gamma z_v
   dynamics().elastic_force(r_x, work_);
   if (dynamics().stop_count() > 0) {
-    solve::Contact& contact = dynamics().contact();
+    dynamics::Contact& contact = dynamics().contact();
     contact.displacement(x, stop_displacement_);
     contact.tangent(stop_displacement_, stop_force_, tangent_);
     contact.displacement(r_x, stop_work_);
@@ -162,7 +162,7 @@ int SundialsIntegrator::solve(double* z, const double* r) {
   }
   dynamics().inertia_force(r_v, other_);
   other_ -= gamma * work_;
-  solve::EffectiveSolver& effective = dynamics().effective();
+  dynamics::EffectiveSolver& effective = dynamics().effective();
   effective.set_factors(gamma, gamma * gamma);
   if (!effective.solve(tangent_, other_)) return 1;
   z_x = r_x + gamma * other_;

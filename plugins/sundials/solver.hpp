@@ -22,7 +22,8 @@ enum class Family { cvode_bdf, cvode_adams, arkode_erk, arkode_dirk };
 class SundialsIntegrator final : public time::Integrator {
  public:
   /// `order` 0: the solver's own choice. `absolute_tolerance` in m, rad, m/s and rad/s.
-  SundialsIntegrator(solve::Dynamics& dynamics, Family family, double tolerance, double absolute_tolerance, int order);
+  SundialsIntegrator(dynamics::Dynamics& dynamics, Family family, double tolerance, double absolute_tolerance,
+                     int order);
   ~SundialsIntegrator() override;
 
   const time::StepController* controller() const override { return &controller_; }

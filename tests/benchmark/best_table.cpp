@@ -69,7 +69,7 @@ Outcome run_plain(const plain::Problem& problem, plain::Method method, const pla
 Outcome run_butee(app::Session& session, const Reference& reference) {
   const auto begin = Clock::now();
   const model::System system = assemble(session.model);
-  solve::Dynamics dynamics(system);
+  dynamics::Dynamics dynamics(system);
   const auto& choice = session.integrator;
   const auto integrator = session.catalogue.load(choice.name).make(choice.parameters, dynamics);
   time::Simulation simulation(dynamics, *integrator, choice.options);

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include <benchmark/benchmark.h>
-#include <butee/solve/band_factor.hpp>
-#include <butee/solve/linear_solver.hpp>
+#include <butee/linalg/band_factor.hpp>
+#include <butee/linalg/linear_solver.hpp>
 
 #include "plain/plain_contact.hpp"
 #include "suite.hpp"
@@ -93,8 +93,8 @@ void add_solutions() {
   struct Solver {
     explicit Solver(const SparseMatrix& a) : matrix(a), solver(matrix, counters) { (void)solver.factorize(matrix); }
     SparseMatrix matrix;
-    solve::Counters counters;
-    solve::LinearSolver solver;
+    linalg::Counters counters;
+    linalg::LinearSolver solver;
   };
   add("factorize/68/butee", [] {
     const auto solver = std::make_shared<Solver>(effective_matrix(beam1()->system()));
@@ -123,7 +123,7 @@ void add_solutions() {
 }
 
 /// Displacements with the first stops pressed or touching and all others open.
-Vector with_closed_stops(const solve::Contact& contact, Index closed, double displacement) {
+Vector with_closed_stops(const dynamics::Contact& contact, Index closed, double displacement) {
   Vector x = Vector::Constant(contact.system_size(), kOpen);
   for (Index i = 0; i < closed; ++i) x[contact.dof_a(i)] = displacement;
   return x;
@@ -150,7 +150,7 @@ void add_laws() {
     const double at = displacement;
     add(std::string("force/33") + suffix + "/butee", [at] {
       return [laws = std::make_shared<Laws>(at)] {
-        solve::Contact& contact = laws->scene->dynamics().contact();
+        dynamics::Contact& contact = laws->scene->dynamics().contact();
         contact.displacement(laws->x, laws->w);
         contact.force(laws->w, laws->f);
       };
@@ -159,7 +159,7 @@ void add_laws() {
         [at] { return [laws = std::make_shared<PlainLaws>(at)] { laws->contact.evaluate_force(laws->x); }; });
     add(std::string("tangent/33") + suffix + "/butee", [at] {
       return [laws = std::make_shared<Laws>(at)] {
-        solve::Contact& contact = laws->scene->dynamics().contact();
+        dynamics::Contact& contact = laws->scene->dynamics().contact();
         contact.displacement(laws->x, laws->w);
         contact.tangent(laws->w, laws->f, laws->k);
       };
@@ -173,7 +173,7 @@ void add_laws() {
 void add_effective_solutions() {
   for (const Index closed : {0, 3, 33}) {
     const auto stiffness = [closed](test::SceneRun& scene) {
-      solve::Contact& contact = scene.dynamics().contact();
+      dynamics::Contact& contact = scene.dynamics().contact();
       const Vector x = with_closed_stops(contact, closed, kPressed);
       Vector w(33), f(33), kappa(33);
       contact.displacement(x, w);

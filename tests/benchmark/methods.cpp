@@ -50,7 +50,7 @@ class Peaks final : public time::Observer {
 time::RunReport run_once(app::Session& session) {
   const plugin::IntegratorChoice& choice = session.integrator;
   const model::System system = assemble(session.model);
-  solve::Dynamics dynamics(system);
+  dynamics::Dynamics dynamics(system);
   const auto integrator = session.catalogue.load(choice.name).make(choice.parameters, dynamics);
   time::Simulation simulation(dynamics, *integrator, choice.options);
   Peaks peaks(system.loads.front().dofs.front());

@@ -38,7 +38,7 @@ void measure(benchmark::State& state, const std::string& scene, const std::strin
   std::optional<model::System> system;
   const double read = seconds_of([&] { session.emplace(test::read_scene(scene, {"integrator.type=" + method})); });
   const double assembly = seconds_of([&] { system.emplace(assemble(session->model)); });
-  solve::Dynamics dynamics(*system);
+  dynamics::Dynamics dynamics(*system);
   const auto& choice = session->integrator;
   const auto integrator = session->catalogue.load(choice.name).make(choice.parameters, dynamics);
   time::Simulation simulation(dynamics, *integrator, choice.options);

@@ -42,7 +42,7 @@ TEST_P(Skips, ContactWhereThereAreNoStops) {
   StepSizes sizes;
   run.simulation().add(sizes);
   ASSERT_TRUE(run.run().completed);
-  const solve::Counters& counters = run.dynamics().counters();
+  const linalg::Counters& counters = run.dynamics().counters();
   EXPECT_EQ(counters.contact_evaluations, 0);
   EXPECT_EQ(counters.law_evaluations, 0);
   EXPECT_EQ(counters.factor_updates, 0);
@@ -59,7 +59,7 @@ TEST_P(Skips, StopsOnSupports) {
   ASSERT_TRUE(with.run().completed);
   EXPECT_EQ(with.system().skipped_stops, 2);
   EXPECT_EQ(with.dynamics().stop_count(), 0);
-  const solve::Counters &counters = with.dynamics().counters(), &expected = without.dynamics().counters();
+  const linalg::Counters &counters = with.dynamics().counters(), &expected = without.dynamics().counters();
   EXPECT_EQ(counters.contact_evaluations, 0);
   EXPECT_EQ(counters.law_evaluations, 0);
   EXPECT_EQ(counters.force_evaluations, expected.force_evaluations);
@@ -72,7 +72,7 @@ TEST_P(Skips, StopsOnSupports) {
 TEST_P(Skips, TheStopsThatCannotActAmongOthers) {
   SceneRun run(bar(GetParam(), stops_at("\"bar:all\"")));
   ASSERT_TRUE(run.run().completed);
-  const solve::Counters& counters = run.dynamics().counters();
+  const linalg::Counters& counters = run.dynamics().counters();
   EXPECT_EQ(run.dynamics().stop_count(), 9);
   EXPECT_GT(counters.contact_evaluations, 0);
   EXPECT_EQ(counters.law_evaluations, 9 * counters.contact_evaluations);

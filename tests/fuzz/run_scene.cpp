@@ -21,7 +21,7 @@ void run(fuzz::SceneInput& input) {
   const plugin::IntegratorChoice& choice = *input.scene.integrator;
   const model::System system = assemble(input.scene.model);
   if (system.size() > kMostDofs) return;
-  solve::Dynamics dynamics(system);
+  dynamics::Dynamics dynamics(system);
   const auto method = fuzz::catalogue().load(choice.name).make(choice.parameters, dynamics);
   time::Simulation simulation(dynamics, *method, choice.options);
   const bool has_history = !input.output.interval || choice.options.end_time / *input.output.interval < kMostRows;

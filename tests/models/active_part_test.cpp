@@ -64,7 +64,7 @@ TEST(ActivePart, DoesTheWorkOfThePart) {
   EXPECT_TRUE(is_on_a_part(part)) << part.integrator().choice();
   ASSERT_TRUE(part.run().completed);
   ASSERT_TRUE(whole.run().completed);
-  const solve::Counters &of_part = part.dynamics().counters(), &of_whole = whole.dynamics().counters();
+  const linalg::Counters &of_part = part.dynamics().counters(), &of_whole = whole.dynamics().counters();
   EXPECT_LT(static_cast<double>(of_part.law_evaluations), 0.3 * static_cast<double>(of_whole.law_evaluations));
   EXPECT_GE(of_part.solves, 6 * part.simulation().report().steps) << "what the part solves is counted";
   EXPECT_LE(of_part.solves, of_whole.solves);

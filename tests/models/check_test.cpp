@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <butee/solve/frequencies.hpp>
+#include <butee/dynamics/frequencies.hpp>
 #include <gtest/gtest.h>
 
 #include "support/program.hpp"
@@ -80,7 +80,7 @@ TEST(Check, WarnsOfAStepBeyondTheCriticalOne) {
 }
 
 /// A pinned steel bar of 0.1 m x 0.2 m, its elements 25 mm long.
-solve::FrequencyRange range_of_bar(int elements) {
+dynamics::FrequencyRange range_of_bar(int elements) {
   SceneRun run(
       "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 8000\n[section.r]\nshape = \"rectangle\"\nwidth = "
       "0.1\n"
@@ -88,7 +88,7 @@ solve::FrequencyRange range_of_bar(int elements) {
       std::to_string(0.025 * elements) + "\nelements = " + std::to_string(elements) +
       "\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"u\"]\n"
       "[integrator]\ntype = \"rk4\"\ntime_step = 1e-6\nend_time = 1e-5\n");
-  return solve::frequency_range(run.system(), solve::StopState::open).value();
+  return dynamics::frequency_range(run.system(), dynamics::StopState::open).value();
 }
 
 TEST(Check, LargeSystemsGoThroughLanczosWithTheSameAnswer) {

@@ -68,7 +68,7 @@ SceneRun::SceneRun(const std::string& toml, const std::vector<std::string>& over
   app::Session& session = parts_->session;
   const auto& choice = session.integrator;
   parts_->system = std::make_unique<model::System>(assemble(session.model));
-  parts_->dynamics = std::make_unique<solve::Dynamics>(*parts_->system);
+  parts_->dynamics = std::make_unique<dynamics::Dynamics>(*parts_->system);
   parts_->integrator = session.catalogue.load(choice.name).make(choice.parameters, *parts_->dynamics);
   parts_->simulation = std::make_unique<time::Simulation>(*parts_->dynamics, *parts_->integrator, choice.options);
 }

@@ -28,7 +28,7 @@ class SceneRun {
   explicit SceneRun(const std::string& toml, const std::vector<std::string>& overrides = {});
   static SceneRun of_model(const std::string& stem, const std::vector<std::string>& overrides = {});
 
-  solve::Dynamics& dynamics() { return *parts_->dynamics; }
+  dynamics::Dynamics& dynamics() { return *parts_->dynamics; }
   const model::System& system() const { return *parts_->system; }
   const model::Model& model() const { return parts_->session.model; }
   time::Integrator& integrator() { return *parts_->integrator; }
@@ -43,7 +43,7 @@ class SceneRun {
   struct Parts {
     app::Session session;
     std::unique_ptr<model::System> system;
-    std::unique_ptr<solve::Dynamics> dynamics;
+    std::unique_ptr<dynamics::Dynamics> dynamics;
     std::unique_ptr<time::Integrator> integrator;
     std::unique_ptr<time::Simulation> simulation;
   };

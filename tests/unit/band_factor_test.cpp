@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include <Eigen/Dense>
-#include <butee/solve/band_factor.hpp>
+#include <butee/linalg/band_factor.hpp>
 #include <gtest/gtest.h>
 
 namespace butee::test::band_factor_test {
@@ -22,11 +22,11 @@ TEST(BandFactor, solves_what_the_dense_matrix_says) {
   // Both are direct solutions; the matrices have condition numbers below 100.
   constexpr double kSolved = 1e-13;
   int cases = 0;
-  for (Index band = 1; band <= solve::BandFactor::kWidestBand; ++band)
+  for (Index band = 1; band <= linalg::BandFactor::kWidestBand; ++band)
     for (Index size = 3 * band + 1; size <= 3 * band + 12; ++size) {
       const SparseMatrix matrix = band_matrix(size, band, 2.0 * static_cast<double>(band) + 2.0);
-      ASSERT_TRUE(solve::BandFactor::fits(size, band));
-      solve::BandFactor factor(size, band);
+      ASSERT_TRUE(linalg::BandFactor::fits(size, band));
+      linalg::BandFactor factor(size, band);
       ASSERT_TRUE(factor.factorize(matrix));
       Vector right(size);
       for (Index i = 0; i < size; ++i) right[i] = std::cos(1.0 + static_cast<double>(i));
@@ -43,7 +43,7 @@ TEST(BandFactor, solves_what_the_dense_matrix_says) {
 }
 
 TEST(BandFactor, forgets_the_matrix_before) {
-  solve::BandFactor factor(30, 3);
+  linalg::BandFactor factor(30, 3);
   ASSERT_TRUE(factor.factorize(band_matrix(30, 3, 8.0)));
   const SparseMatrix matrix = band_matrix(30, 3, 20.0);
   ASSERT_TRUE(factor.factorize(matrix));
@@ -57,7 +57,7 @@ TEST(BandFactor, refuses_what_is_not_positive_definite_wherever_it_shows) {
   for (const Index row : {0, 14, 15, 29}) {
     SparseMatrix matrix = band_matrix(30, 3, 8.0);
     matrix.coeffRef(row, row) = -1.0;
-    EXPECT_FALSE(solve::BandFactor(30, 3).factorize(matrix)) << row;
+    EXPECT_FALSE(linalg::BandFactor(30, 3).factorize(matrix)) << row;
   }
 }
 

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include <Eigen/Dense>
-#include <butee/solve/dense_pairs.hpp>
+#include <butee/linalg/dense_pairs.hpp>
 #include <gtest/gtest.h>
 
 #include "unit/scenes.hpp"
@@ -62,7 +62,7 @@ Vector eigenvalues(const std::string& supports, int elements) {
   const std::string mesh = "length = " + std::to_string(kLength) + "\nelements = " + std::to_string(elements);
   const SceneRun scene(kHeader + kSteelBar + beam("rod", mesh) + supports);
   const Eigen::MatrixXd mass(scene.system().mass), stiffness(scene.system().stiffness);
-  return solve::dense_values(stiffness, mass).value();
+  return linalg::dense_values(stiffness, mass).value();
 }
 
 /// (beta L)^2 sqrt(EI/rho A)/L^2

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <butee/solve/symmetric_product.hpp>
+#include <butee/linalg/symmetric_product.hpp>
 #include <gtest/gtest.h>
 
 #include "support/large_scenes.hpp"
@@ -43,7 +43,7 @@ TEST(Blocks, CoverEveryRowOnce) {
 
 class LargeScene : public testing::TestWithParam<std::string> {
  protected:
-  solve::Dynamics& dynamics() { return scene_.dynamics(); }
+  dynamics::Dynamics& dynamics() { return scene_.dynamics(); }
   const model::System& system() const { return scene_.system(); }
   Index size() const { return system().size(); }
   Vector damping_force(const Vector& v) const {
@@ -64,7 +64,7 @@ TEST_P(LargeScene, HasTheProductsOfItsMatrices) {
   Vector y(size());
   dynamics().elastic_force(x, y);
   expect_near(y, system().stiffness * x);
-  const solve::SymmetricProduct product(system().stiffness);
+  const linalg::SymmetricProduct product(system().stiffness);
   Vector by_blocks(size());
   in_blocks(size(),
             [&](Index begin, Index count) { product.multiply(x.data(), begin, count, by_blocks.data() + begin); });
@@ -79,7 +79,7 @@ TEST_P(LargeScene, HasTheResidualOfItsEquations) {
   const Vector stop_force = 1e8 * wave(stops, 4.0);
   Vector r(size()), load(size()), contact = Vector::Zero(size());
   dynamics().external_force(0.3, load);
-  const solve::ForceBalance balance = dynamics().residual(load, stop_force, x, v, a, r);
+  const linalg::ForceBalance balance = dynamics().residual(load, stop_force, x, v, a, r);
   dynamics().contact().scatter(stop_force, contact);
   const Vector inertia = system().mass * a, elastic = system().stiffness * x, damping = damping_force(v);
   expect_near(r, load + contact - inertia - damping - elastic);

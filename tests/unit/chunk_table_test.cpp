@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include <butee/solve/band_factor.hpp>
-#include <butee/solve/chunk_table.hpp>
-#include <butee/solve/symmetric_product.hpp>
+#include <butee/linalg/band_factor.hpp>
+#include <butee/linalg/chunk_table.hpp>
+#include <butee/linalg/symmetric_product.hpp>
 #include <gtest/gtest.h>
 
 namespace butee::test::chunk_table_test {
@@ -15,8 +15,8 @@ double entry(Index chunk, Index i) {
 }
 
 /// Chunks of which each `period`-th is the same.
-solve::ChunkTable table(Index period) {
-  solve::ChunkTable all(kWidth, kCount);
+linalg::ChunkTable table(Index period) {
+  linalg::ChunkTable all(kWidth, kCount);
   double* to = all.write();
   for (Index chunk = 0; chunk < kCount; ++chunk)
     for (Index i = 0; i < kWidth; ++i) *to++ = entry(chunk % period, i);
@@ -26,7 +26,7 @@ solve::ChunkTable table(Index period) {
 
 TEST(ChunkTable, HoldsWhatWasWrittenSharedOrNot) {
   for (const Index period : {Index{1}, Index{7}, Index{200}, kCount / 2, kCount}) {
-    const solve::ChunkTable all = table(period);
+    const linalg::ChunkTable all = table(period);
     EXPECT_EQ(all.is_shared(), period <= 200) << period;
     for (Index chunk = 0; chunk < kCount; ++chunk)
       for (Index i = 0; i < kWidth; ++i) ASSERT_EQ(all[chunk][i], entry(chunk % period, i)) << period;
@@ -35,7 +35,7 @@ TEST(ChunkTable, HoldsWhatWasWrittenSharedOrNot) {
 }
 
 TEST(ChunkTable, IsWrittenAgainAfterSharing) {
-  solve::ChunkTable all = table(3);
+  linalg::ChunkTable all = table(3);
   double* to = all.write();
   EXPECT_FALSE(all.is_shared());
   for (Index i = 0; i < kWidth * kCount; ++i) to[i] = static_cast<double>(i);
@@ -77,7 +77,7 @@ TEST(SharedRows, SolveAndMultiplyWhatTheMatrixSays) {
         const Vector x = some_vector(size);
         const Vector right = matrix * x;
         Vector product(size);
-        const solve::SymmetricProduct symmetric(matrix);
+        const linalg::SymmetricProduct symmetric(matrix);
         symmetric.multiply(x.data(), product.data());
         EXPECT_LE((product - right).norm(), kSolved * right.norm()) << size << " " << band << " " << period;
         // By blocks, as in_blocks() cuts them.
@@ -85,7 +85,7 @@ TEST(SharedRows, SolveAndMultiplyWhatTheMatrixSays) {
         symmetric.multiply(x.data(), 2048, size - 2048, product.data() + 2048);
         EXPECT_LE((product - right).norm(), kSolved * right.norm()) << size << " " << band << " " << period;
 
-        solve::BandFactor factor(size, band);
+        linalg::BandFactor factor(size, band);
         ASSERT_TRUE(factor.factorize(repeating(size, band, 2)));
         ASSERT_TRUE(factor.factorize(matrix));
         Vector solution = right;

@@ -32,7 +32,7 @@ class OneStop {
     return f[0];
   }
   double energy(double w) { return contact().energy(Vector::Constant(1, w)); }
-  solve::Contact& contact() { return scene_.dynamics().contact(); }
+  dynamics::Contact& contact() { return scene_.dynamics().contact(); }
 
  private:
   SceneRun scene_;
@@ -146,7 +146,7 @@ TEST(Contact, stops_on_supports_are_skipped_and_never_evaluated) {
   ASSERT_EQ(scene.dynamics().stop_count(), 3);
   Vector force = Vector::Zero(scene.system().size());
   scene.dynamics().add_contact_force(Vector::Constant(scene.system().size(), 0.02), force);
-  const solve::Counters& counters = scene.dynamics().counters();
+  const linalg::Counters& counters = scene.dynamics().counters();
   EXPECT_EQ(counters.contact_evaluations, 1);
   EXPECT_EQ(counters.law_evaluations, 3);
   scene.dynamics().contact().force_of(1, 0.02);

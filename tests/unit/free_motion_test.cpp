@@ -1,4 +1,4 @@
-#include <butee/solve/free_motion.hpp>
+#include <butee/dynamics/free_motion.hpp>
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
@@ -20,13 +20,13 @@ std::string row(const std::string& last) {
 
 TEST(FreeMotion, IsThatOfTheNodeThatNothingHolds) {
   SceneRun run(row(""));
-  EXPECT_EQ(solve::describe_softest_motion(run.system().stiffness, run.system().dofs), "u of c");
+  EXPECT_EQ(dynamics::describe_softest_motion(run.system().stiffness, run.system().dofs), "u of c");
 }
 
 TEST(FreeMotion, NamesAllThatMoveTogether) {
   SceneRun run(row("[[element]]\ntype = \"spring\"\nnodes = [\"b\", \"c\"]\nstiffness = 1e7\n"),
                {"element[3].stiffness=0.0"});
-  const std::string text = solve::describe_softest_motion(run.system().stiffness, run.system().dofs);
+  const std::string text = dynamics::describe_softest_motion(run.system().stiffness, run.system().dofs);
   for (const char* name : {"u of a", "u of b", "u of c"}) EXPECT_NE(text.find(name), std::string::npos) << text;
 }
 
@@ -40,7 +40,7 @@ TEST(FreeMotion, OfABeamWithoutSupportsIsThatOfItsNodes) {
         "\n[[support]]\nnodes = [\"b:first\"]\nfix = [\"u\"]\n[integrator]\ntype = \"rk4\"\n"
         "time_step = 1e-6\nend_time = 1.0\n");
     // It turns about its one support: the far end moves most.
-    const std::string text = solve::describe_softest_motion(run.system().stiffness, run.system().dofs);
+    const std::string text = dynamics::describe_softest_motion(run.system().stiffness, run.system().dofs);
     EXPECT_EQ(text.find("u of b:" + std::to_string(elements)), 0U) << text;
     EXPECT_EQ(text.find("theta"), std::string::npos) << text;
   }
@@ -50,7 +50,7 @@ TEST(FreeMotion, CountsWhatItDoesNotName) {
   SceneRun run(
       row("[[element]]\ntype = \"mass\"\nname = \"d\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
           "\"e\"\nmass = 1.0\n"));
-  EXPECT_EQ(solve::describe_motion(Vector::Ones(5), run.system().dofs), "u of a, u of b, u of c, u of d and 1 more");
+  EXPECT_EQ(dynamics::describe_motion(Vector::Ones(5), run.system().dofs), "u of a, u of b, u of c, u of d and 1 more");
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ TEST(Diagnosis, SaysWhyAStepFellBelowItsFloor) {
 /// Goes nowhere: after a first step of half the run it asks for steps of one length.
 class Crawler final : public time::Integrator {
  public:
-  Crawler(solve::Dynamics& dynamics, double h) : Integrator(dynamics), controller_(h) {}
+  Crawler(dynamics::Dynamics& dynamics, double h) : Integrator(dynamics), controller_(h) {}
   const time::StepController* controller() const override { return &controller_; }
 
  private:

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
-const std::vector<std::string> kRooms = {"core", "config", "model", "solve", "time", "record"};
+const std::vector<std::string> kRooms = {"core", "config", "model", "linalg", "dynamics", "time", "record"};
 
 /// The rooms of the framework that a folder may include.
 Names allowed_rooms(const std::string& folder) {
@@ -27,25 +27,27 @@ Names allowed_rooms(const std::string& folder) {
     }
     return rooms;
   };
-  if (folder == "framework/plugin") return {"core", "config", "model", "solve", "time", "plugin"};
-  if (folder == "framework/embed") return {"core", "config", "model", "solve", "time", "record", "plugin", "embed"};
+  if (folder == "framework/plugin") return {"core", "config", "model", "linalg", "dynamics", "time", "plugin"};
+  if (folder == "framework/embed")
+    return {"core", "config", "model", "linalg", "dynamics", "time", "record", "plugin", "embed"};
+  if (folder == "framework/linalg") return {"core", "linalg"};
   if (folder.rfind("framework/", 0) == 0) return up_to(folder.substr(10));
   if (folder == "elements" || folder == "contact") return up_to("model");
   if (folder == "integrators") return up_to("time");
   if (folder == "plugins") return {"core", "model", "plugin"};
-  return {"core", "config", "model", "solve", "time", "record", "plugin", "embed"};
+  return {"core", "config", "model", "linalg", "dynamics", "time", "record", "plugin", "embed"};
 }
 
 /// Third-party headers and the only files, or folders, that may include them.
 const std::map<std::string, Names> kDoors = {
-    {"suitesparse/", {"framework/solve/symmetric_factor.cpp"}},
+    {"suitesparse/", {"framework/linalg/symmetric_factor.cpp"}},
     {"toml.hpp", {"framework/config/toml.cpp"}},
     {"dlfcn.h", {"framework/plugin/module.cpp"}},
     {"spdlog/", {"framework/core/log.cpp"}},
     {"nlohmann/", {"framework/record/summary.cpp", "apps/"}},
-    {"Spectra/", {"framework/solve/frequencies.cpp", "framework/solve/lanczos.cpp"}},
+    {"Spectra/", {"framework/linalg/lanczos.cpp"}},
     {"CLI/", {"apps/"}},
-    {"hwy/", {"framework/core/target.cpp", "framework/solve/kernel/"}},
+    {"hwy/", {"framework/core/target.cpp", "framework/linalg/kernel/", "framework/dynamics/kernel/"}},
 };
 
 struct Include {

@@ -5,12 +5,12 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/target.hpp>
+#include <butee/dynamics/step_flow.hpp>
+#include <butee/linalg/band_factor.hpp>
+#include <butee/linalg/dense_product.hpp>
+#include <butee/linalg/force_balance.hpp>
+#include <butee/linalg/symmetric_product.hpp>
 #include <butee/plugin/module.hpp>
-#include <butee/solve/band_factor.hpp>
-#include <butee/solve/dense_product.hpp>
-#include <butee/solve/force_balance.hpp>
-#include <butee/solve/step_flow.hpp>
-#include <butee/solve/symmetric_product.hpp>
 #include <gtest/gtest.h>
 
 #include "support/program.hpp"
@@ -63,10 +63,10 @@ TEST_F(Kernels, another_name_is_bad_input) {
 
 TEST_F(Kernels, dense_products) {
   on_every_target([] {
-    for (Index rows = 1; rows <= solve::DenseProduct::kMostRows; ++rows) {
+    for (Index rows = 1; rows <= linalg::DenseProduct::kMostRows; ++rows) {
       const Index columns = 1 + (7 * rows) % 97;
       const MatrixXd a = waves(rows, columns);
-      const solve::DenseProduct product(a);
+      const linalg::DenseProduct product(a);
       const Vector x0 = wave(columns, 0.1), x1 = wave(columns, 0.9);
       // What lies behind the rows is left alone.
       Vector y0 = Vector::Constant(rows + 1, 7.0), y1 = y0;
@@ -104,7 +104,7 @@ TEST_F(Kernels, products_by_diagonals) {
   on_every_target([] {
     const auto check = [](Index size, Index band, bool uniform) {
       const SparseMatrix matrix = band_matrix(size, band, uniform);
-      const solve::SymmetricProduct product(matrix);
+      const linalg::SymmetricProduct product(matrix);
       const Vector x = wave(size, 0.2), expected = matrix * x;
       Vector y = Vector::Constant(size + 1, 7.0);
       product.multiply(x.data(), 0, size, y.data());
@@ -126,10 +126,10 @@ TEST_F(Kernels, products_by_diagonals) {
 
 TEST_F(Kernels, solutions_with_a_narrow_band) {
   on_every_target([] {
-    for (Index band = 1; band <= solve::BandFactor::kWidestBand; ++band)
+    for (Index band = 1; band <= linalg::BandFactor::kWidestBand; ++band)
       for (Index size = 3 * band + 1; size <= 3 * band + 20; ++size) {
         const SparseMatrix matrix = band_matrix(size, band, false);
-        solve::BandFactor factor(size, band);
+        linalg::BandFactor factor(size, band);
         ASSERT_TRUE(factor.factorize(matrix));
         Vector x = wave(size, 0.4), less = x;
         const Vector right = x, v = wave(size, 0.8);
@@ -152,7 +152,7 @@ TEST_F(Kernels, sums_of_forces) {
         if (given(2, 1) == nullptr) terms[1].setZero();
         if (given(4, 3) == nullptr) terms[3].setZero();
         Vector r = Vector::Constant(count + 1, 7.0);
-        solve::ForceBalance balance;
+        linalg::ForceBalance balance;
         balance.add({given(1, 0), given(2, 1), terms[2].data(), given(4, 3), terms[4].data()}, count, r.data());
         const Vector expected = terms[0] + terms[1] - terms[2] - terms[3] - terms[4];
         double scale = 0.0;
@@ -168,15 +168,16 @@ TEST_F(Kernels, sums_of_forces) {
 constexpr double kStep = 0.01;
 
 /// Modes 0 ... n-1 rad/s, the first of them rigid, without damping.
-solve::ModalFlow modes_over(double h, Index count, const std::vector<solve::ModalHarmonic>& harmonics = {}) {
+dynamics::ModalFlow modes_over(double h, Index count, const std::vector<dynamics::ModalHarmonic>& harmonics = {}) {
   return {ArrayXd::LinSpaced(count, 0.0, static_cast<double>(count - 1)), ArrayXd::Zero(count), harmonics, h};
 }
 
 TEST_F(Kernels, series_of_modes) {
   on_every_target([] {
     for (const Index count : {1, 7, 8, 21}) {
-      const solve::ModalHarmonic load{2.5, ArrayXd::LinSpaced(count, 1.0, 2.0), ArrayXd::LinSpaced(count, -1.0, 1.0)};
-      const solve::ModalFlow flow = modes_over(kStep, count, {load});
+      const dynamics::ModalHarmonic load{2.5, ArrayXd::LinSpaced(count, 1.0, 2.0),
+                                         ArrayXd::LinSpaced(count, -1.0, 1.0)};
+      const dynamics::ModalFlow flow = modes_over(kStep, count, {load});
       for (Index i = 1; i < count; ++i) {
         const double omega = static_cast<double>(i), angle = omega * kStep, h = kStep;
         EXPECT_NEAR(flow.qq()[i], std::cos(angle), kRounding);
@@ -204,17 +205,17 @@ TEST_F(Kernels, what_forces_do_to_stops) {
   on_every_target([] {
     constexpr Index kModes = 21, kStops = 19;
     const MatrixXd shapes = waves(kModes, kStops);
-    const solve::StopShapes stops(shapes);
-    solve::StepFlow flow(modes_over(kStep, kModes), modes_over(0.5 * kStep, kModes), stops,
-                         ArrayXd::LinSpaced(kModes, 0.0, kModes - 1.0), {});
-    const Index padded = solve::StepFlow::padded(kStops), second = solve::StepFlow::next_register(0);
+    const dynamics::StopShapes stops(shapes);
+    dynamics::StepFlow flow(modes_over(kStep, kModes), modes_over(0.5 * kStep, kModes), stops,
+                            ArrayXd::LinSpaced(kModes, 0.0, kModes - 1.0), {});
+    const Index padded = dynamics::StepFlow::padded(kStops), second = dynamics::StepFlow::next_register(0);
     const auto at_rest = [&] {
-      return solve::StopMotion{ArrayXd::Zero(padded), ArrayXd::Zero(padded), ArrayXd::Zero(padded)};
+      return dynamics::StopMotion{ArrayXd::Zero(padded), ArrayXd::Zero(padded), ArrayXd::Zero(padded)};
     };
-    const std::vector<Index> stop = {4, 17}, registers = {0, second, solve::StepFlow::next_register(second)};
+    const std::vector<Index> stop = {4, 17}, registers = {0, second, dynamics::StepFlow::next_register(second)};
     std::array<ArrayXd, 3> force;
     for (double phase = 0.0; ArrayXd & f : force) f = wave(kStops, ++phase).array();
-    solve::StopMotion expected = at_rest(), together = at_rest(), apart = at_rest();
+    dynamics::StopMotion expected = at_rest(), together = at_rest(), apart = at_rest();
     double largest = 0.0;
     for (const Index i : stop) {
       Vector q = Vector::Zero(kModes), v = q, q_half = q;
@@ -238,13 +239,13 @@ TEST_F(Kernels, what_forces_do_to_stops) {
     }
     flow.add_forces(stop, force, registers, together);
     const double allowed = kRounding * largest;
-    for (const solve::StopMotion& motion : {together, apart}) {
+    for (const dynamics::StopMotion& motion : {together, apart}) {
       EXPECT_LE((motion.end - expected.end).abs().maxCoeff(), allowed);
       EXPECT_LE((motion.speed - expected.speed).abs().maxCoeff(), allowed);
       EXPECT_LE((motion.middle - expected.middle).abs().maxCoeff(), allowed);
     }
     // In the second register alone, and a force that is no number.
-    solve::StopMotion part = at_rest();
+    dynamics::StopMotion part = at_rest();
     flow.add_force(4, {1.0, 0.0, 0.0}, 0.3, std::vector<Index>{second}, part);
     EXPECT_EQ(part.end.head(second).abs().maxCoeff(), 0.0);
     EXPECT_GT(part.end.segment(second, second).abs().maxCoeff(), 0.0);

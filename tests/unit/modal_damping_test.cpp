@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include <Eigen/Dense>
-#include <butee/solve/dense_pairs.hpp>
-#include <butee/solve/frequencies.hpp>
+#include <butee/dynamics/frequencies.hpp>
+#include <butee/linalg/dense_pairs.hpp>
 #include <gtest/gtest.h>
 
 #include "unit/scenes.hpp"
@@ -62,13 +62,13 @@ Vector some_vector(Index size) {
 
 /// C of one ratio without any mode: 2 zeta M^(1/2) (M^(-1/2) K M^(-1/2))^(1/2) M^(1/2).
 Eigen::MatrixXd damping_of_all(const model::System& system, double zeta) {
-  const solve::Pairs mass = solve::dense_pairs(Eigen::MatrixXd(system.mass)).value();
+  const linalg::Pairs mass = linalg::dense_pairs(Eigen::MatrixXd(system.mass)).value();
   const auto power = [&](double exponent) {
     const Vector powers = mass.values.array().pow(exponent);
     return Eigen::MatrixXd(mass.vectors * powers.asDiagonal() * mass.vectors.transpose());
   };
   const Eigen::MatrixXd root = power(0.5), inverse = power(-0.5);
-  const solve::Pairs dynamic = solve::dense_pairs(Eigen::MatrixXd(inverse * system.stiffness * inverse)).value();
+  const linalg::Pairs dynamic = linalg::dense_pairs(Eigen::MatrixXd(inverse * system.stiffness * inverse)).value();
   const Vector omega = dynamic.values.cwiseMax(0.0).cwiseSqrt();
   return 2.0 * zeta * root * dynamic.vectors * omega.asDiagonal() * dynamic.vectors.transpose() * root;
 }
@@ -76,7 +76,7 @@ Eigen::MatrixXd damping_of_all(const model::System& system, double zeta) {
 /// C of a list of ratios, M Phi diag(2 zeta omega) Phi^T M.
 Eigen::MatrixXd damping_of_lowest(const model::System& system, const std::vector<double>& zeta) {
   const Eigen::MatrixXd mass(system.mass);
-  const solve::Pairs pairs = solve::dense_pairs(Eigen::MatrixXd(system.stiffness), mass).value();
+  const linalg::Pairs pairs = linalg::dense_pairs(Eigen::MatrixXd(system.stiffness), mass).value();
   Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   for (std::size_t i = 0; i < zeta.size(); ++i) {
     const auto mode = static_cast<Index>(i);
@@ -140,7 +140,7 @@ TEST_P(ModalDamping, deceleration_is_that_of_the_dense_matrix) {
 }
 
 TEST_P(ModalDamping, effective_equations_are_solved_with_stops_open_and_closed) {
-  const solve::Contact& contact = scene_.dynamics().contact();
+  const dynamics::Contact& contact = scene_.dynamics().contact();
   Eigen::MatrixXd pick = Eigen::MatrixXd::Zero(contact.size(), system_.size());
   for (Index i = 0; i < contact.size(); ++i) {
     if (contact.dof_a(i) >= 0) pick(i, contact.dof_a(i)) += 1.0;
@@ -148,12 +148,12 @@ TEST_P(ModalDamping, effective_equations_are_solved_with_stops_open_and_closed) 
   }
   const Eigen::MatrixXd mass(system_.mass), stiffness(system_.stiffness), c = damping();
   const Vector right = some_vector(system_.size());
-  using Contacts = solve::EffectiveSolver::Contacts;
-  const auto modal = solve::ModalDamping::of(system_);
+  using Contacts = dynamics::EffectiveSolver::Contacts;
+  const auto modal = dynamics::ModalDamping::of(system_);
   ASSERT_NE(modal, nullptr);
   for (const Contacts way : {Contacts::local, Contacts::factorized}) {
-    solve::Counters counters;
-    solve::EffectiveSolver solver(system_, contact, counters, way, modal.get());
+    linalg::Counters counters;
+    dynamics::EffectiveSolver solver(system_, contact, counters, way, modal.get());
     for (const double h : {1e-5, 1e-3, 1e-5})
       for (const double closed : {0.0, 1.0, 1e7}) {
         Vector kappa(contact.size()), y = right;
@@ -229,7 +229,7 @@ TEST(LowestModes, are_found_also_where_two_are_equal) {
   const SceneRun scene(kHeader + kSteelBar + beam("a", mesh) + beam("b", mesh) +
                        support(R"(["a:first", "a:last", "b:first", "b:last"])", R"(["u"])"));
   for (const Index count : {2, 4, 6}) {
-    const auto modes = solve::lowest_modes(scene.system(), count);
+    const auto modes = dynamics::lowest_modes(scene.system(), count);
     ASSERT_TRUE(modes.has_value());
     for (Index i = 0; i < count; i += 2)
       EXPECT_NEAR(modes->frequencies[i + 1] / modes->frequencies[i], 1.0, kLanczos) << "pair " << i / 2;

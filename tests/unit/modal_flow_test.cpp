@@ -1,16 +1,16 @@
 #include <cmath>
 #include <complex>
 
-#include <butee/solve/step_flow.hpp>
+#include <butee/dynamics/step_flow.hpp>
 #include <gtest/gtest.h>
 
 namespace butee::test::modal_flow_test {
 namespace {
 
 using Complex = std::complex<double>;
+using dynamics::ModalFlow;
+using dynamics::ModalHarmonic;
 using Eigen::ArrayXd;
-using solve::ModalFlow;
-using solve::ModalHarmonic;
 
 /// Relative to the size of each quantity; a hundred times rounding, for up to twenty doublings.
 constexpr double kTight = 1e-12;
@@ -124,9 +124,10 @@ TEST(StepFlow, MobilitiesAreWhatAConstantForceDoes) {
   Eigen::MatrixXd shapes(8, 3);
   for (Index i = 0; i < 8; ++i)
     for (Index j = 0; j < 3; ++j) shapes(i, j) = std::cos(1.0 + static_cast<double>(3 * i + 2 * j));
-  const solve::StopShapes stops(shapes);
+  const dynamics::StopShapes stops(shapes);
   for (const double h : {1e-3, 0.4}) {
-    solve::StepFlow flow(ModalFlow(kOmega, kDelta, {}, h), ModalFlow(kOmega, kDelta, {}, 0.5 * h), stops, kOmega, {});
+    dynamics::StepFlow flow(ModalFlow(kOmega, kDelta, {}, h), ModalFlow(kOmega, kDelta, {}, 0.5 * h), stops, kOmega,
+                            {});
     for (Index i = 0; i < 3; ++i) {
       const double own = flow.own_coupling(i)[0][0];
       EXPECT_GT(own, 0.0);

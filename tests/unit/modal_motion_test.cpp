@@ -2,16 +2,16 @@
 #include <random>
 
 #include <butee/core/target.hpp>
-#include <butee/solve/modal_motion.hpp>
+#include <butee/dynamics/modal_motion.hpp>
 #include <gtest/gtest.h>
 
 namespace butee::test::modal_motion_test {
 namespace {
 
+using dynamics::ModalFlow;
+using dynamics::ModalHarmonic;
+using dynamics::ModalMotion;
 using Eigen::ArrayXd;
-using solve::ModalFlow;
-using solve::ModalHarmonic;
-using solve::ModalMotion;
 
 /// Relative to the largest of what makes up the motion: rounding of that and of the flow's doublings.
 constexpr double kTight = 1e-12;
@@ -20,7 +20,7 @@ constexpr double kTight = 1e-12;
 struct Modes {
   ArrayXd omega = ArrayXd(19), delta = ArrayXd::Zero(19);
   std::vector<ModalHarmonic> loads;
-  std::vector<solve::ModalSystem::OtherLoad> others;
+  std::vector<dynamics::ModalSystem::OtherLoad> others;
 
   Modes() {
     omega << 0, 0, 1e-3, 0.5, 2, 3, 4, 7, 9, 20, 50, 90, 200, 430, 900, 2e3, 5e3, 1e4, 3e5;
@@ -90,7 +90,7 @@ TEST(ModalMotion, ForcesOfTheWholeStepHoldWithinIt) {
   // f = 2 s - 1 and 6 s^2 - 6 s + 1 on a rigid mass from rest: closed forms.
   const ArrayXd zero = ArrayXd::Zero(1);
   const std::vector<ModalHarmonic> none;
-  const std::vector<solve::ModalSystem::OtherLoad> no_other;
+  const std::vector<dynamics::ModalSystem::OtherLoad> no_other;
   ModalMotion motion(zero, zero, none, no_other);
   const Vector rest = Vector::Zero(ModalMotion::padded(1)), unit = Vector::Unit(rest.size(), 0);
   const double h = 0.3, s = 0.4;

@@ -1,9 +1,9 @@
-#include "butee/solve/modes.hpp"
+#include "butee/dynamics/modes.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include <butee/solve/dense_pairs.hpp>
+#include <butee/linalg/dense_pairs.hpp>
 #include <gtest/gtest.h>
 
 #include "unit/scenes.hpp"
@@ -32,9 +32,9 @@ std::string pinned(const std::string& name) {
   return support("[\"" + name + ":first\", \"" + name + ":last\"]", R"(["u"])");
 }
 
-solve::NaturalModes modes_of(const SceneRun& scene, Index count) {
-  const solve::Structure structure(scene.model(), scene.system().dofs);
-  auto modes = solve::find_modes(structure, count);
+dynamics::NaturalModes modes_of(const SceneRun& scene, Index count) {
+  const dynamics::Structure structure(scene.model(), scene.system().dofs);
+  auto modes = dynamics::find_modes(structure, count);
   EXPECT_EQ(modes.problem, "");
   return modes;
 }
@@ -100,7 +100,7 @@ TEST(Modes, are_orthonormal_and_solve_the_eigenvalue_problem) {
   EXPECT_LT(modes.residuals.maxCoeff(), kOrthogonal);
 
   const Vector dense =
-      solve::dense_values(Eigen::MatrixXd(scene.system().stiffness), Eigen::MatrixXd(scene.system().mass)).value();
+      linalg::dense_values(Eigen::MatrixXd(scene.system().stiffness), Eigen::MatrixXd(scene.system().mass)).value();
   for (Index i = 6; i < 12; ++i) EXPECT_NEAR(modes.frequencies[i] / std::sqrt(dense[i]), 1.0, kDenseRounding) << i;
 }
 
@@ -117,7 +117,7 @@ TEST(DensePairs, of_sparse_matrices_solve_the_eigenvalue_problem) {
       return ordered;
     };
     const SparseMatrix k = order(scene.system().stiffness), m = order(scene.system().mass);
-    const auto pairs = solve::dense_pairs(k, m);
+    const auto pairs = linalg::dense_pairs(k, m);
     ASSERT_TRUE(pairs);
     const Eigen::MatrixXd mass = pairs->vectors.transpose() * (m * pairs->vectors);
     EXPECT_LT((mass - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), kOrthogonal) << mix;
@@ -128,7 +128,7 @@ TEST(DensePairs, of_sparse_matrices_solve_the_eigenvalue_problem) {
   }
   SparseMatrix indefinite = scene.system().mass;
   indefinite.coeffRef(3, 3) = -1.0;
-  EXPECT_FALSE(solve::dense_pairs(scene.system().stiffness, indefinite));
+  EXPECT_FALSE(linalg::dense_pairs(scene.system().stiffness, indefinite));
 }
 
 TEST(Modes, find_every_copy_of_equal_frequencies) {
@@ -190,8 +190,8 @@ TEST(Modes, take_a_closed_stop_as_a_spring) {
   const SceneRun with_spring(plain + "\n[[element]]\ntype = \"spring\"\nnode = \"rod:7\"\nstiffness = 3.0e4\n");
   const SceneRun open(plain);
   const auto node = open.model().nodes.select("rod:7").nodes.front();
-  const solve::Structure closed(open.model(), open.system().dofs, {{node, solve::ClosedStop::kGround, 3.0e4}});
-  const auto expected = modes_of(with_spring, 5), found = solve::find_modes(closed, 5);
+  const dynamics::Structure closed(open.model(), open.system().dofs, {{node, dynamics::ClosedStop::kGround, 3.0e4}});
+  const auto expected = modes_of(with_spring, 5), found = dynamics::find_modes(closed, 5);
   for (Index i = 0; i < 5; ++i) EXPECT_NEAR(found.frequencies[i] / expected.frequencies[i], 1.0, kOrthogonal);
   EXPECT_GT(found.frequencies[0], 1.01 * modes_of(open, 1).frequencies[0]);
 }

@@ -42,7 +42,7 @@ stiffness_proportional = 1.0e-4
 )";
 }
 
-Eigen::MatrixXd dense_effective(const SceneRun& scene, solve::Contact& contact, double c, double k,
+Eigen::MatrixXd dense_effective(const SceneRun& scene, dynamics::Contact& contact, double c, double k,
                                 const Vector& kappa) {
   const model::System& system = scene.system();
   const Eigen::MatrixXd mass(system.mass), stiffness(system.stiffness);
@@ -58,9 +58,9 @@ Eigen::MatrixXd dense_effective(const SceneRun& scene, solve::Contact& contact, 
 
 TEST(EffectiveSolver, solves_what_the_dense_matrix_says) {
   SceneRun scene(coupled_scene());
-  solve::Contact& contact = scene.dynamics().contact();
+  dynamics::Contact& contact = scene.dynamics().contact();
   ASSERT_EQ(contact.size(), 10);
-  solve::EffectiveSolver& solver = scene.dynamics().effective();
+  dynamics::EffectiveSolver& solver = scene.dynamics().effective();
   Vector kappa(contact.size()), right(scene.system().size());
   for (Index i = 0; i < right.size(); ++i) right[i] = std::cos(1.0 + static_cast<double>(i));
   std::size_t cases = 0;
@@ -83,12 +83,12 @@ TEST(EffectiveSolver, gives_the_same_with_local_contact_as_with_full_factorizati
   // Relative to the largest entry; both are direct solutions of one system.
   // Rounding is magnified by the condition of the matrix, which grows with h: 1.4e-12 in the worst of the 128 cases.
   constexpr double kSame = 5e-12;
-  using Contacts = solve::EffectiveSolver::Contacts;
+  using Contacts = dynamics::EffectiveSolver::Contacts;
   SceneRun scene(coupled_scene());
-  const solve::Contact& contact = scene.dynamics().contact();
-  solve::Counters local_counters, full_counters;
-  solve::EffectiveSolver local(scene.system(), contact, local_counters, Contacts::local);
-  solve::EffectiveSolver full(scene.system(), contact, full_counters, Contacts::factorized);
+  const dynamics::Contact& contact = scene.dynamics().contact();
+  linalg::Counters local_counters, full_counters;
+  dynamics::EffectiveSolver local(scene.system(), contact, local_counters, Contacts::local);
+  dynamics::EffectiveSolver full(scene.system(), contact, full_counters, Contacts::factorized);
   Vector kappa(contact.size()), right(scene.system().size());
   for (Index i = 0; i < right.size(); ++i) right[i] = std::cos(1.0 + static_cast<double>(i));
   std::size_t cases = 0;
@@ -112,7 +112,7 @@ TEST(EffectiveSolver, gives_the_same_with_local_contact_as_with_full_factorizati
 
 TEST(EffectiveSolver, says_where_the_matrix_is_not_positive_definite) {
   SceneRun scene(coupled_scene());
-  solve::EffectiveSolver& solver = scene.dynamics().effective();
+  dynamics::EffectiveSolver& solver = scene.dynamics().effective();
   solver.set_factors(5e-4, 2.5e-7);
   Vector right = Vector::Ones(scene.system().size());
   EXPECT_FALSE(solver.solve(Vector::Constant(10, -1e12), right));
@@ -128,7 +128,7 @@ TEST(EffectiveSolver, says_where_the_matrix_is_not_positive_definite) {
 
 TEST(EffectiveSolver, without_stops_factorizes_once_for_a_step) {
   SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 2.0\nelements = 4"));
-  solve::EffectiveSolver& solver = scene.dynamics().effective();
+  dynamics::EffectiveSolver& solver = scene.dynamics().effective();
   const Vector none(0);
   Vector y = Vector::Ones(scene.system().size());
   for (int i = 0; i < 5; ++i) {
@@ -163,9 +163,9 @@ SparseMatrix banded(Index size, Index half, double diagonal) {
 class SymmetricFactor : public testing::TestWithParam<int> {};
 
 TEST_P(SymmetricFactor, solves_several_right_hand_sides) {
-  solve::Counters counters;
+  linalg::Counters counters;
   const SparseMatrix matrix = banded(60, GetParam(), 2.0 * GetParam() + 0.5);
-  solve::SymmetricFactor factor(matrix, counters);
+  linalg::SymmetricFactor factor(matrix, counters);
   ASSERT_TRUE(factor.factorize(matrix));
   Eigen::MatrixXd x(60, 3);
   for (Index j = 0; j < 3; ++j)
@@ -178,10 +178,10 @@ TEST_P(SymmetricFactor, solves_several_right_hand_sides) {
 }
 
 TEST_P(SymmetricFactor, rejects_an_indefinite_matrix_and_recovers) {
-  solve::Counters counters;
+  linalg::Counters counters;
   const double definite = 2.0 * GetParam() + 0.5;
   const SparseMatrix matrix = banded(60, GetParam(), definite);
-  solve::SymmetricFactor factor(matrix, counters);
+  linalg::SymmetricFactor factor(matrix, counters);
   EXPECT_FALSE(factor.factorize(banded(60, GetParam(), 0.5)));
   EXPECT_FALSE(factor.factorize(banded(60, GetParam(), -definite)));
   SparseMatrix late = matrix;
@@ -196,9 +196,9 @@ TEST_P(SymmetricFactor, rejects_an_indefinite_matrix_and_recovers) {
 }
 
 TEST_P(SymmetricFactor, rejects_a_singular_matrix) {
-  solve::Counters counters;
+  linalg::Counters counters;
   SparseMatrix matrix = banded(60, GetParam(), 2.0 * GetParam() + 0.5);
-  solve::SymmetricFactor factor(matrix, counters);
+  linalg::SymmetricFactor factor(matrix, counters);
   matrix.coeffs().setZero();
   EXPECT_FALSE(factor.factorize(matrix));
 }

@@ -1,4 +1,4 @@
-#include "butee/solve/static_shapes.hpp"
+#include "butee/dynamics/static_shapes.hpp"
 
 #include <cmath>
 
@@ -21,7 +21,7 @@ class StaticShapes : public testing::Test {
     return all;
   }
   const model::System& system() const { return scene_.system(); }
-  solve::Modes lowest() const { return *solve::lowest_modes(system(), kKept); }
+  dynamics::Modes lowest() const { return *dynamics::lowest_modes(system(), kKept); }
 
  private:
   SceneRun scene_{kHeader + kSteelBar + beam("pipe", "length = 8.0\nelements = 40") +
@@ -30,7 +30,7 @@ class StaticShapes : public testing::Test {
 
 TEST_F(StaticShapes, HoldTheStaticResponseToTheirForces) {
   const Eigen::MatrixXd loads = forces({"pipe:7", "pipe:20", "pipe:21"});
-  solve::Modes modes = lowest();
+  dynamics::Modes modes = lowest();
   const auto response = [&] {
     const Vector square = modes.frequencies.array().square();
     return Eigen::MatrixXd(modes.shapes * square.cwiseInverse().asDiagonal() * modes.shapes.transpose() * loads);
@@ -46,7 +46,7 @@ TEST_F(StaticShapes, HoldTheStaticResponseToTheirForces) {
 }
 
 TEST_F(StaticShapes, AreModesOfTheBasisThatTheyMake) {
-  solve::Modes modes = lowest();
+  dynamics::Modes modes = lowest();
   add_static_shapes(system(), forces({"pipe:7", "pipe:20", "pipe:21"}), modes);
   const Index size = modes.frequencies.size();
   const Eigen::MatrixXd mass = modes.shapes.transpose() * system().mass * modes.shapes,
@@ -60,7 +60,7 @@ TEST_F(StaticShapes, AreModesOfTheBasisThatTheyMake) {
 TEST_F(StaticShapes, OfForcesThatDependOnOthersAreLeftOut) {
   Eigen::MatrixXd loads = forces({"pipe:7", "pipe:7", "pipe:30"});
   loads.col(2) = 2.0 * loads.col(0);
-  solve::Modes modes = lowest();
+  dynamics::Modes modes = lowest();
   add_static_shapes(system(), loads, modes);
   EXPECT_EQ(modes.frequencies.size(), kKept + 1);
 }
@@ -68,7 +68,7 @@ TEST_F(StaticShapes, OfForcesThatDependOnOthersAreLeftOut) {
 TEST_F(StaticShapes, OfAForceThatMovesNothingAreNone) {
   Eigen::MatrixXd loads = forces({"pipe:7", "pipe:20"});
   loads.col(1).setZero();
-  solve::Modes modes = lowest();
+  dynamics::Modes modes = lowest();
   const Vector shares = add_static_shapes(system(), loads, modes);
   EXPECT_EQ(modes.frequencies.size(), kKept + 1);
   EXPECT_GT(shares[0], 0.0);

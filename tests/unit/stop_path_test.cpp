@@ -4,7 +4,7 @@
 #include <random>
 
 #include <butee/core/text.hpp>
-#include <butee/solve/contact.hpp>
+#include <butee/dynamics/contact.hpp>
 #include <gtest/gtest.h>
 
 #include "contact/arctan.hpp"
@@ -26,7 +26,7 @@ std::string scene(const std::string& law, const std::string& sides) {
 }
 
 /// The moments by Simpson's rule over very many intervals.
-ForceMoments by_simpson(solve::Contact& contact, const StopPath& path) {
+ForceMoments by_simpson(dynamics::Contact& contact, const StopPath& path) {
   constexpr int kIntervals = 200000;
   ForceMoments sum{};
   for (int i = 0; i <= kIntervals; ++i) {
@@ -49,7 +49,7 @@ int compare(const std::string& law, double tolerance) {
   int springs = 0;
   for (const std::string sides : {"both", "positive", "negative"}) {
     SceneRun run(scene(law, sides));
-    solve::Contact& contact = run.dynamics().contact();
+    dynamics::Contact& contact = run.dynamics().contact();
     StopForce force(contact, 0);
     for (int i = 0; i < 60; ++i) {
       const double w0 = number(random), w1 = i % 3 == 0 ? w0 + 0.1 * number(random) : number(random);
@@ -96,7 +96,7 @@ TEST(StopForce, OfASmoothLawIsCloseToItsIntegral) {
 TEST(StopForce, OfASmoothLawIsCloseBesideABendThatThePathEndsAt) {
   for (const double lambda : {1e2, 1e3}) {
     SceneRun run(scene("law = \"arctan\"\nregularization = " + to_text(lambda), "both"));
-    solve::Contact& contact = run.dynamics().contact();
+    dynamics::Contact& contact = run.dynamics().contact();
     StopForce force(contact, 0);
     for (const double beside : {-1e-2, -1e-3, -1e-4, 1e-4, 1e-3, 1e-2})
       for (const double from : {0.3, 0.7})
@@ -117,7 +117,7 @@ TEST(FarPull, IsAConstantAsFarAsItsSeriesAndItsJumpGo) {
   SceneRun linear(scene("law = \"linear\"", "both"));
   EXPECT_EQ(integrators::FarPull(linear.dynamics().contact(), 0).unfelt(0.1, -0.1, 0.2, kMobility, kSteps), 0.0);
   SceneRun run(scene("law = \"arctan\"\nregularization = 1e2", "both"));
-  solve::Contact& contact = run.dynamics().contact();
+  dynamics::Contact& contact = run.dynamics().contact();
   const integrators::FarPull pull(contact, 0);
   // What the constant is off by, with the square of the steps.
   const double off = std::abs(std::abs(contact.force_of(0, 0.25)) - pull.largest());

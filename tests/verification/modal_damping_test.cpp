@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <butee/solve/frequencies.hpp>
+#include <butee/dynamics/frequencies.hpp>
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
@@ -76,7 +76,7 @@ class ModalDecay : public testing::TestWithParam<Decay> {
   /// The modal coordinates after two periods of the lowest mode, from rest and all of them 1.
   Vector end(const std::string& method) {
     SceneRun scene(pinned_beam(GetParam().modal, method, 1e-6));
-    modes_ = *solve::lowest_modes(scene.system(), 8);
+    modes_ = *dynamics::lowest_modes(scene.system(), 8);
     h_ = 0.02 / modes_.frequencies[7];
     steps_ = static_cast<int>(std::ceil(4.0 * std::numbers::pi / modes_.frequencies[0] / h_));
     time::State from, to;
@@ -98,7 +98,7 @@ class ModalDecay : public testing::TestWithParam<Decay> {
     return phase * std::exp(-zeta * modes_.frequencies[mode] * steps_ * h_);
   }
 
-  solve::Modes modes_;
+  dynamics::Modes modes_;
   double h_ = 0.0;
   int steps_ = 0;
 };
@@ -224,7 +224,7 @@ TEST(Nafems5t, closed_forms_are_the_recomputed_numbers) {
 
 TEST(Nafems5t, lowest_frequency_of_the_mesh) {
   const SceneRun scene(kNafems);
-  const auto modes = solve::lowest_modes(scene.system(), 1);
+  const auto modes = dynamics::lowest_modes(scene.system(), 1);
   ASSERT_TRUE(modes.has_value());
   // The mesh errs by (pi/20)^4/1440 = 4e-7 of it.
   EXPECT_NEAR(modes->frequencies[0] / (2 * std::numbers::pi), 45.34498, 5e-7 * 45.34498 + kFrequencyPrinted);

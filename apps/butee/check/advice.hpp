@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <butee/solve/frequencies.hpp>
+#include <butee/dynamics/frequencies.hpp>
 
 #include "../session.hpp"
 #include "estimate.hpp"
@@ -24,7 +24,7 @@ struct Advice {
 
 /// All that is known of a scene before it runs.
 struct Facts {
-  std::optional<solve::FrequencyRange> open, closed;  ///< nothing where the eigenvalue solver did not converge
+  std::optional<dynamics::FrequencyRange> open, closed;  ///< nothing where the eigenvalue solver did not converge
   Mechanics mechanics;
   Survey survey;
   Estimate cost;

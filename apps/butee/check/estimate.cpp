@@ -61,7 +61,7 @@ class TrialFolder {
 /// Looks at the course of a trial.
 class Watcher final : public time::Observer {
  public:
-  Watcher(solve::Dynamics& dynamics, double begin)
+  Watcher(dynamics::Dynamics& dynamics, double begin)
       : steps(begin),
         seconds(begin),
         dynamics_(dynamics),
@@ -88,7 +88,7 @@ class Watcher final : public time::Observer {
     has_struck_ = penetration.maxCoeff() > 0.0;
   }
 
-  solve::Dynamics& dynamics_;
+  dynamics::Dynamics& dynamics_;
   Vector stops_;
   bool has_struck_;
   Clock::time_point started_;

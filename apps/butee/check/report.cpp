@@ -8,8 +8,8 @@
 
 #include <butee/core/format.hpp>
 #include <butee/core/text.hpp>
-#include <butee/solve/free_motion.hpp>
-#include <butee/solve/modal_damping.hpp>
+#include <butee/dynamics/free_motion.hpp>
+#include <butee/dynamics/modal_damping.hpp>
 
 namespace butee::app::check {
 namespace {
@@ -41,13 +41,13 @@ void print_contents(const model::Model& model, const model::System& system, cons
 /// `modal` in words: the ratios and, of a list, the frequencies that they belong to.
 void print_modal_damping(const model::System& system) {
   const model::Damping& damping = system.damping;
-  (void)solve::ModalDamping::of(system);  // Throws where a run would.
+  (void)dynamics::ModalDamping::of(system);  // Throws where a run would.
   if (damping.every_mode != 0.0)
     std::printf("damping    modal: the ratio %s in all %td modes\n", to_short_text(damping.every_mode).c_str(),
                 system.size());
   if (damping.lowest_modes.empty()) return;
   const auto count = static_cast<Index>(damping.lowest_modes.size());
-  const auto modes = solve::lowest_modes(system, count);
+  const auto modes = dynamics::lowest_modes(system, count);
   std::printf("damping    modal: ratios in the %td lowest modes, none in the %td above%s\n", count,
               system.size() - count, modes ? "" : " (the eigenvalue solver did not converge)");
   for (Index i = 0; modes && i < std::min(count, kListedModes); ++i)
@@ -89,7 +89,7 @@ std::string span(double low, double high) {
   return first == last ? first : first + " ... " + last;
 }
 
-void print_range(const char* label, const std::optional<solve::FrequencyRange>& range) {
+void print_range(const char* label, const std::optional<dynamics::FrequencyRange>& range) {
   if (!range) {
     std::printf("%s (the eigenvalue solver did not converge)\n", label);
     return;
@@ -154,7 +154,7 @@ void print_cost(const Estimate& cost, bool trust) {
   if (cost.rows) std::printf("results    %.4g rows, about %s\n", *cost.rows, size_of(*cost.bytes).c_str());
 }
 
-Json json_of(const std::optional<solve::FrequencyRange>& range) {
+Json json_of(const std::optional<dynamics::FrequencyRange>& range) {
   if (!range) return {};
   Json json;
   json["lowest"] = range->lowest;
@@ -193,7 +193,7 @@ void print(const Session& session, const model::System& system, const Facts& fac
       std::printf(
           "free       with all stops open the structure can move as a rigid body or a mechanism (lowest frequency ~ "
           "0): %s\n",
-          solve::describe_softest_motion(system.stiffness, system.dofs).c_str());
+          dynamics::describe_softest_motion(system.stiffness, system.dofs).c_str());
   }
   print_mechanics(facts.mechanics);
   print_cost(facts.cost, session.output.trust);

@@ -8,7 +8,7 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
-#include <butee/solve/modal_system.hpp>
+#include <butee/dynamics/modal_system.hpp>
 
 #include "../csv.hpp"
 
@@ -131,7 +131,8 @@ Reference find_reference(const Study& study, const config::Document& scene, plug
   } catch (const InputError&) {
     // Without all modes exponential would agree with itself alone.
     const auto dofs = assemble(read_session(scene, catalogue).model).size();
-    if (!reference.values.empty() || catalogue.find("exponential") == nullptr || dofs > solve::ModalSystem::kAllModes)
+    if (!reference.values.empty() || catalogue.find("exponential") == nullptr ||
+        dofs > dynamics::ModalSystem::kAllModes)
       throw;
     reference.values = by("exponential", "tolerance", config::Value(kTight), 0.0);
     reference.method = "exponential";

@@ -31,7 +31,7 @@ double seconds_since(Clock::time_point begin) {
 /// Takes the quantity at the times of the question, by the method's own interpolant.
 class Sampler final : public time::Observer {
  public:
-  Sampler(const Question& question, solve::Dynamics& dynamics)
+  Sampler(const Question& question, dynamics::Dynamics& dynamics)
       : question_(question), probes_(question.probes, dynamics), row_(question.columns.size()) {
     values.resize(row_.size());
   }
@@ -106,7 +106,7 @@ Answer run_once(Session& session, const Question& question, double time_limit, d
   const log::WithoutWarnings quiet;  // The table says which methods are slow, or fail.
   const auto begin = Clock::now();
   Assembly assembly(session, perturbation);
-  solve::Dynamics& dynamics = assembly.dynamics;
+  dynamics::Dynamics& dynamics = assembly.dynamics;
   time::Simulation& simulation = assembly.simulation;
   Sampler sampler(question, dynamics);
   simulation.add(sampler);

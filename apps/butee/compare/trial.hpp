@@ -34,7 +34,7 @@ struct Answer {
   Values values;         ///< as far as it came
   double seconds = 0.0;  ///< set-up and integration
   time::RunReport report;
-  solve::Counters counters;
+  linalg::Counters counters;
 };
 
 /// Runs once, without files. Ends with "too slow" where it takes more than `time_limit` seconds. `perturbation` (m or

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <butee/solve/modes.hpp>
+#include <butee/dynamics/modes.hpp>
 
 #include "../session.hpp"
 
@@ -32,10 +32,10 @@ struct Analysis {
 };
 
 /// The stops that a selector of --closed names: "all", or those that act on the nodes it selects. Throws InputError.
-std::vector<solve::ClosedStop> closed_stops(const model::Model& model, const std::vector<std::string>& selectors);
+std::vector<dynamics::ClosedStop> closed_stops(const model::Model& model, const std::vector<std::string>& selectors);
 
 /// `count` modes. Throws InputError where the scene has not so many, RunError where they could not be computed.
-Analysis analyse(const model::Model& model, const model::System& system, const std::vector<solve::ClosedStop>& closed,
-                 Index count);
+Analysis analyse(const model::Model& model, const model::System& system,
+                 const std::vector<dynamics::ClosedStop>& closed, Index count);
 
 }  // namespace butee::app::modes

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <butee/solve/dense_pairs.hpp>
+#include <butee/linalg/dense_pairs.hpp>
 
 namespace butee::app::stability {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kPi = 3.141592653589793;
 
 /// NaN where there are none.
 Eigen::Vector3cd eigenvalues_of(const Eigen::Matrix3d& map) {
-  const auto values = solve::eigenvalues(map);
+  const auto values = linalg::eigenvalues(map);
   if (!values) return Eigen::Vector3cd::Constant(std::numeric_limits<double>::quiet_NaN());
   return *values;
 }

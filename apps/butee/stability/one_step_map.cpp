@@ -62,7 +62,7 @@ OneStepMap::OneStepMap(const plugin::Catalogue& catalogue, const std::string& me
   parameters_ = parameters_of(document);
   session_ = std::make_unique<Session>(read_session(std::move(document), catalogue_));
   system_ = std::make_unique<model::System>(assemble(session_->model));
-  dynamics_ = std::make_unique<solve::Dynamics>(*system_);
+  dynamics_ = std::make_unique<dynamics::Dynamics>(*system_);
   integrator_ = type_.make(session_->integrator.parameters, *dynamics_);
 }
 

@@ -49,7 +49,7 @@ class OneStepMap {
   double rate_;  ///< by which velocities are scaled, 1/s
   std::unique_ptr<Session> session_;
   std::unique_ptr<model::System> system_;
-  std::unique_ptr<solve::Dynamics> dynamics_;
+  std::unique_ptr<dynamics::Dynamics> dynamics_;
   std::unique_ptr<time::Integrator> integrator_;
   std::string parameters_, refusal_;
 };

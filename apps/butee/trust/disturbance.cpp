@@ -19,7 +19,7 @@ constexpr double kLost = 1e-6;
 /// The energy-like size of a motion.
 class Size {
  public:
-  Size(const solve::Dynamics& dynamics, const FollowedRun& run) : dynamics_(dynamics), work_(dynamics.size()) {
+  Size(const dynamics::Dynamics& dynamics, const FollowedRun& run) : dynamics_(dynamics), work_(dynamics.size()) {
     double x = 0.0, v = 0.0, elastic = 0.0;
     for (Index i = 0; i < run.x.cols(); ++i) {
       elastic = std::max(elastic, elastic_square(run.x.col(i)));
@@ -49,7 +49,7 @@ class Size {
     return std::max(0.0, y.dot(work_));
   }
 
-  const solve::Dynamics& dynamics_;
+  const dynamics::Dynamics& dynamics_;
   Vector work_;
   double omega_square_ = 0.0, elastic_square_ = 0.0, largest_ = 0.0;
 };

@@ -36,7 +36,7 @@ std::vector<record::ProbeRequest> displacement_probes(const Session& session) {
 /// Takes the probes at the compared times, and whole states.
 class Follower final : public time::Observer {
  public:
-  Follower(const Session& session, solve::Dynamics& dynamics, FollowedRun& to, bool with_states)
+  Follower(const Session& session, dynamics::Dynamics& dynamics, FollowedRun& to, bool with_states)
       : probes_(displacement_probes(session), dynamics), to_(to), row_(probes_.columns().size()) {
     to_.courses.values.resize(row_.size());
     to_.courses.times = compared_times(session);
@@ -88,20 +88,20 @@ class Follower final : public time::Observer {
 };
 
 /// The displacements of the probes, then those of the stops.
-std::vector<TurningPoints::Path> paths_of(const Session& session, solve::Dynamics& dynamics) {
+std::vector<TurningPoints::Path> paths_of(const Session& session, dynamics::Dynamics& dynamics) {
   std::vector<TurningPoints::Path> paths;
   const auto& table = dynamics.system().dofs;
   for (const record::ProbeRequest& probe : session.output.probes)
     paths.push_back({table.index({probe.node, record::kind_of(record::Quantity::u)}), -1});
-  const solve::Contact& contact = dynamics.contact();
+  const dynamics::Contact& contact = dynamics.contact();
   for (Index i = 0; i < contact.size(); ++i) paths.push_back({contact.dof_a(i), contact.dof_b(i)});
   return paths;
 }
 
 /// An upper estimate of the highest frequency with all stops closed, from the largest k/m of a DOF, rad/s.
-double highest_frequency(solve::Dynamics& dynamics) {
+double highest_frequency(dynamics::Dynamics& dynamics) {
   Vector stiffness = dynamics.system().stiffness.diagonal();
-  const solve::Contact& contact = dynamics.contact();
+  const dynamics::Contact& contact = dynamics.contact();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
@@ -110,7 +110,7 @@ double highest_frequency(solve::Dynamics& dynamics) {
   return std::isfinite(square) ? std::sqrt(std::max(0.0, square)) : 0.0;
 }
 
-void sum_up(const Session& session, solve::Dynamics& dynamics, const std::vector<TurningPoints::Path>& paths,
+void sum_up(const Session& session, dynamics::Dynamics& dynamics, const std::vector<TurningPoints::Path>& paths,
             FollowedRun& run) {
   for (std::size_t i = 0; i < session.output.probes.size(); ++i) {
     double squares = 0.0;
@@ -155,7 +155,7 @@ FollowedRun follow(Session& session, double disturbance, double most, Wanted wan
   const log::WithoutWarnings quiet;
   FollowedRun run;
   Assembly assembly(session, disturbance);
-  solve::Dynamics& dynamics = assembly.dynamics;
+  dynamics::Dynamics& dynamics = assembly.dynamics;
   run.size = dynamics.size();
   run.choice = assembly.integrator->choice();
   Follower follower(session, dynamics, run, wanted.states);
@@ -165,7 +165,7 @@ FollowedRun follow(Session& session, double disturbance, double most, Wanted wan
   if (wanted.numbers) assembly.simulation.add(turning);
   if (wanted.impacts && dynamics.stop_count() > 0) assembly.simulation.add(impacts);
   const auto work = [&] {
-    const solve::Counters& counters = dynamics.counters();
+    const linalg::Counters& counters = dynamics.counters();
     return static_cast<double>(counters.force_evaluations + counters.solves + counters.contact_evaluations) *
                static_cast<double>(dynamics.size() + dynamics.stop_count()) +
            kWatching * static_cast<double>(assembly.simulation.report().steps) *

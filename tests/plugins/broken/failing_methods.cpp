@@ -12,7 +12,7 @@ enum class Fault { exception, not_a_number, wrong_time, no_exception };
 /// A method that takes five steps and then breaks.
 class Failing final : public butee::time::Integrator {
  public:
-  Failing(butee::solve::Dynamics& dynamics, Fault fault) : Integrator(dynamics), fault_(fault) {}
+  Failing(butee::dynamics::Dynamics& dynamics, Fault fault) : Integrator(dynamics), fault_(fault) {}
 
  private:
   butee::time::StepReport do_step(const butee::time::State& from, const butee::time::Step&,
@@ -36,7 +36,7 @@ IntegratorType failing(const char* name, Fault fault) {
   IntegratorType type;
   type.name = name;
   type.make = [fault](const butee::config::Parameters&,
-                      butee::solve::Dynamics& dynamics) -> std::unique_ptr<butee::time::Integrator> {
+                      butee::dynamics::Dynamics& dynamics) -> std::unique_ptr<butee::time::Integrator> {
     return std::make_unique<Failing>(dynamics, fault);
   };
   return type;
@@ -52,12 +52,12 @@ BUTEE_PLUGIN(registrar) {
   IntegratorType type;
   type.name = "throws_in_make";
   type.make = [](const butee::config::Parameters&,
-                 butee::solve::Dynamics&) -> std::unique_ptr<butee::time::Integrator> {
+                 butee::dynamics::Dynamics&) -> std::unique_ptr<butee::time::Integrator> {
     throw std::runtime_error("no licence for this scene");
   };
   registrar.add(type);
   type.name = "makes_nothing";
-  type.make = [](const butee::config::Parameters&, butee::solve::Dynamics&) {
+  type.make = [](const butee::config::Parameters&, butee::dynamics::Dynamics&) {
     return std::unique_ptr<butee::time::Integrator>();
   };
   registrar.add(type);

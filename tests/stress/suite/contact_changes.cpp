@@ -19,7 +19,7 @@ std::vector<double> ends_of(const time::AcceptedStep& step) {
   return ends;
 }
 
-double sum_of_ends(const solve::Contact& contact, Index stop, ConstVectorRef values) {
+double sum_of_ends(const dynamics::Contact& contact, Index stop, ConstVectorRef values) {
   double sum = 0.0;
   for (const Index dof : {contact.dof_a(stop), contact.dof_b(stop)})
     if (dof >= 0) sum += values[dof];
@@ -28,7 +28,7 @@ double sum_of_ends(const solve::Contact& contact, Index stop, ConstVectorRef val
 
 }  // namespace
 
-CourseWatch::CourseWatch(const solve::Contact& contact)
+CourseWatch::CourseWatch(const dynamics::Contact& contact)
     : contact_(contact),
       w_(contact.size()),
       penetration_(contact.size()),
@@ -118,8 +118,8 @@ void VelocityBand::step(const time::AcceptedStep& step) {
   }
 }
 
-double time_margin(const std::vector<ContactChange>& changes, const solve::Contact& contact, const Trajectory& scales,
-                   Index row, double t, double parts) {
+double time_margin(const std::vector<ContactChange>& changes, const dynamics::Contact& contact,
+                   const Trajectory& scales, Index row, double t, double parts) {
   double margin = 0.0;
   for (const ContactChange& change : changes) {
     const double size = sum_of_ends(contact, change.stop, scales.x.col(row)), way = parts * size;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <butee/solve/contact.hpp>
+#include <butee/dynamics/contact.hpp>
 
 #include "promise.hpp"
 
@@ -22,7 +22,7 @@ struct ContactChange {
 class CourseWatch final : public time::Observer {
  public:
   /// `contact` must outlive it.
-  explicit CourseWatch(const solve::Contact& contact);
+  explicit CourseWatch(const dynamics::Contact& contact);
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
@@ -35,7 +35,7 @@ class CourseWatch final : public time::Observer {
  private:
   void change(const time::AcceptedStep& step, double t, Index stop, double side);
 
-  const solve::Contact& contact_;
+  const dynamics::Contact& contact_;
   std::vector<Index> all_;
   std::vector<double> times_, x_, v_;
   Vector w_, penetration_;
@@ -61,7 +61,7 @@ class VelocityBand final : public time::Observer {
 /// How far in time, s, velocities at `t` may be off near changes of contact, if w may be off by `parts` of the scales
 /// S_w at `row`: parts S_w/|w'| from each change on, but no longer than w'' takes for that way. A contact that is
 /// shorter than the motion's own time S_w/S_w' counts as near in all its length. 0 where no change is near.
-double time_margin(const std::vector<ContactChange>& changes, const solve::Contact& contact, const Trajectory& scales,
-                   Index row, double t, double parts);
+double time_margin(const std::vector<ContactChange>& changes, const dynamics::Contact& contact,
+                   const Trajectory& scales, Index row, double t, double parts);
 
 }  // namespace butee::stress

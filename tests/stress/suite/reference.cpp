@@ -6,7 +6,7 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
-#include <butee/solve/frequencies.hpp>
+#include <butee/dynamics/frequencies.hpp>
 
 #include "work.hpp"
 
@@ -36,7 +36,7 @@ std::string exact(const Scene& scene, double end_time, const std::string& keys =
 }
 
 /// 1, or how many thousand periods of the slowest mode that moves the run has.
-double allowance(const model::System& system, const solve::Modes& modes, const Trajectory& motion,
+double allowance(const model::System& system, const dynamics::Modes& modes, const Trajectory& motion,
                  const Trajectory& largest, double end_time) {
   for (Index k = 0; k < modes.frequencies.size(); ++k) {
     const double periods = end_time * modes.frequencies[k] / kTurn;
@@ -50,8 +50,8 @@ double allowance(const model::System& system, const solve::Modes& modes, const T
 
 /// A disturbance that vibrates on with e = 1 in every mode, of random phases, scaled to e = 1 at once. Moving every
 /// component by itself instead makes fast modes vibrate with e = S_x omega/S_v, which no smooth error does.
-void modal_pattern(const solve::Modes& modes, ConstVectorRef scale_x, ConstVectorRef scale_v, Random& random, Vector& x,
-                   Vector& v) {
+void modal_pattern(const dynamics::Modes& modes, ConstVectorRef scale_x, ConstVectorRef scale_v, Random& random,
+                   Vector& x, Vector& v) {
   x.setZero(scale_x.size());
   v.setZero(scale_v.size());
   for (Index k = 0; k < modes.frequencies.size(); ++k) {
@@ -100,7 +100,7 @@ void Reference::solve() {
   const model::System& system = run_->system();
   std::vector<bool> is_rotation;
   for (const model::NodalDof& dof : system.dofs.free()) is_rotation.push_back(dof.kind == DofKind::theta);
-  modes_ = solve::lowest_modes(system, system.size());
+  modes_ = dynamics::lowest_modes(system, system.size());
   if (!modes_) return;
   promise_.emplace(base_, largest_, is_rotation, scene_.tolerance,
                    allowance(system, *modes_, base_, largest_, end_time_));
@@ -132,7 +132,7 @@ bool Reference::advance_to(double t) {
 double Reference::follow() {
   place_instants();
   run_ = std::make_unique<test::SceneRun>(exact(scene_, end_time_));
-  const auto range = solve::frequency_range(run_->system(), solve::StopState::closed);
+  const auto range = dynamics::frequency_range(run_->system(), dynamics::StopState::closed);
   critical_step_ = range && range->highest > 0.0 ? 2.0 / range->highest : end_time_;
   watch_ = std::make_unique<CourseWatch>(run_->dynamics().contact());
   band_ = std::make_unique<VelocityBand>();
@@ -260,7 +260,7 @@ void Reference::measure() {
 }
 
 void Reference::place_bands() {
-  const solve::Contact& contact = run_->dynamics().contact();
+  const dynamics::Contact& contact = run_->dynamics().contact();
   time::Simulation& simulation = run_->simulation();
   for (Index row = 0; row < promise_->rows(); ++row) {
     const double t = instants_[static_cast<std::size_t>(row)];

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <butee/solve/frequencies.hpp>
+#include <butee/dynamics/frequencies.hpp>
 
 #include "contact_changes.hpp"
 #include "scenes.hpp"
@@ -86,7 +86,7 @@ class Reference {
   std::vector<time::Snapshot> snapshots_;
   std::vector<Disturbed> disturbed_;
   Trajectory base_, largest_, other_;
-  std::optional<solve::Modes> modes_;
+  std::optional<dynamics::Modes> modes_;
   std::optional<Promise> promise_;
   int level_ = 0;
   bool is_uncertain_ = false;

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/effective_solver.hpp"
+#include "butee/dynamics/modal_damping.hpp"
+#include "butee/dynamics/modal_system.hpp"
+#include "butee/linalg/force_balance.hpp"
+#include "butee/linalg/symmetric_product.hpp"
+
+namespace butee::dynamics {
+
+/// What an integrator may ask of the system M a + C v + K x = F(t) + F_c(x).
+///
+/// Matrices, factorizations and caches live here, never in an integrator. Each is made at its first use, so that a
+/// method pays for nothing it does not ask for. Vectors have size(): displacements m or rad, forces N or N m. Not for
+/// several threads at once; a simulation of its own for each.
+class BUTEE_EXPORT Dynamics {
+ public:
+  /// `system` must outlive it. Throws InputError where modes that are to be damped could not be computed.
+  explicit Dynamics(const model::System& system);
+
+  const model::System& system() const { return system_; }
+  Index size() const { return system_.size(); }
+  Index stop_count() const { return contact_.size(); }
+  bool has_damping() const { return has_damping_; }
+  Contact& contact() { return contact_; }
+  linalg::Counters& counters() { return counters_; }
+  const linalg::Counters& counters() const { return counters_; }
+
+  /// F := F(t)
+  void external_force(double t, VectorRef force);
+  /// Says that the loads' functions of time are others than before.
+  void loads_changed() { load_time_ = std::numeric_limits<double>::quiet_NaN(); }
+  /// F := dF/dt(t), from the loads' Taylor series or, where they have none, a difference over `h` s
+  void external_force_rate(double t, double h, VectorRef rate);
+  /// F += F_c(x)
+  void add_contact_force(ConstVectorRef x, VectorRef force);
+  /// y := K x
+  void elastic_force(ConstVectorRef x, VectorRef y) const;
+  /// y := C v
+  void damping_force(ConstVectorRef v, VectorRef y);
+  /// y := M a
+  void inertia_force(ConstVectorRef a, VectorRef y) const;
+
+  /// r := F(t) + F_c(x) - C v - K x
+  void total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef r);
+
+  /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that meets F_c at x
+  void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
+  /// a := the solution of (M + on_v C + on_x (K + S^T kappa S)) a = F(t) + S^T (c - kappa S x) - C v - K x, so that the
+  /// equations of motion with those stops hold at x + on_x a and v + on_v a. False where the matrix is not positive
+  /// definite.
+  [[nodiscard]] bool solve_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
+                                  ConstVectorRef x, ConstVectorRef v, VectorRef a);
+
+  /// r := F + F_c - M a - C v - K x with the forces of `load`, zero where no load acts,
+  /// and, in stop space, of `stop_force`; returns |r| and
+  /// |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), against which it is small or not.
+  linalg::ForceBalance residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v,
+                                ConstVectorRef a, VectorRef r);
+
+  /// a := M^-1 (F(t) + F_c(x) - C v - K x)
+  void acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a);
+  /// a := M^-1 (a - C v - K x), with the forces given in a
+  void respond(ConstVectorRef x, ConstVectorRef v, VectorRef a);
+
+  /// The effective equations of an implicit method.
+  EffectiveSolver& effective();
+
+  /// The system in its `count` lowest modes (0: as ModalSystem chooses), computed at the first call. Throws InputError.
+  ModalSystem& modal(Index count = 0);
+  /// The instants at which a load or one of its derivatives jumps, ascending.
+  std::vector<double> load_kinks() const;
+
+  /// "u of string:17"
+  std::string dof_name(Index dof) const;
+
+ private:
+  struct LoadedDof {
+    Index dof;
+    double weight;
+    std::size_t load;
+  };
+
+  linalg::LinearSolver& mass_solver();
+  enum class From { given, nothing };
+
+  /// F += F(t)
+  void add_external_force(double t, VectorRef force);
+  /// x + shift v
+  const double* shifted(ConstVectorRef x, double shift, ConstVectorRef v);
+  bool solve_secant_of_many(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
+                            ConstVectorRef x, ConstVectorRef v, VectorRef a);
+  bool solve_single_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x,
+                           ConstVectorRef v, VectorRef a);
+  /// r -= C v + K x
+  void subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r);
+  /// r -= what of C v + K x is no multiple of M v, and no modal damping; from nothing, r was 0.
+  void subtract_from(From from, ConstVectorRef x, ConstVectorRef v, VectorRef r);
+  /// r -= K x + on_v D v with the dashpots D
+  void subtract_products(From from, const double* x, double on_v, ConstVectorRef v, VectorRef r);
+  /// a := M^-1 a, less the deceleration by damping that subtract_from() left out
+  void solve_mass(ConstVectorRef v, VectorRef a);
+  /// y := a block of the rows of C v, but for modal damping
+  void damping_rows(ConstVectorRef v, Index begin, Index count, double* y);
+
+  const model::System& system_;
+  linalg::Counters counters_;
+  Contact contact_;
+  std::unique_ptr<const ModalDamping> modal_;  ///< null without modal damping
+  bool has_damping_;
+  double single_damping_ = 0.0;  ///< C of a system of one DOF
+  linalg::SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
+  std::optional<linalg::LinearSolver> mass_solver_;
+  std::optional<EffectiveSolver> effective_;
+  std::unique_ptr<ModalSystem> modal_system_;
+  std::vector<LoadedDof> loaded_dofs_;
+  double load_time_;
+  std::array<double, 2> load_series_{};
+  std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant
+  std::vector<bool> has_stops_, has_loads_;  ///< of each block of rows
+  Vector contact_force_, stop_displacement_, stop_velocity_, stop_force_;
+  Vector shifted_, modal_force_;             ///< x + s v and C v, of systems with Rayleigh and with modal damping
+  Vector work_, other_, inertia_, damping_;  ///< of a block of rows
+};
+
+}  // namespace butee::dynamics

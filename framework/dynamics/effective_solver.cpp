@@ -1,0 +1,133 @@
+#include "butee/dynamics/effective_solver.hpp"
+
+#include <algorithm>
+
+#include "butee/core/error.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+/// An adaptive method goes back and forth between few step sizes; each kept one costs a factor's memory.
+constexpr std::size_t kSlots = 4;
+
+Index place_of(const SparseMatrix& matrix, Index row, Index column) {
+  if (row < 0 || column < 0) return -1;
+  const int* begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column];
+  const int* end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column + 1];
+  const int* found = std::lower_bound(begin, end, static_cast<int>(row));
+  require(found != end && *found == row, "the pattern lacks the place of a stop");
+  return found - matrix.innerIndexPtr();
+}
+
+bool prefers_local(const model::System& system, const Contact& contact, const ModalDamping* modal) {
+  if (system.size() == 1) return contact.size() == 0;
+  return contact.size() <= LocalContact::kMostStops || (modal != nullptr && modal->matrix().prefers_dense());
+}
+
+}  // namespace
+
+EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
+                                 const ModalDamping* modal)
+    : EffectiveSolver(system, contact, counters,
+                      prefers_local(system, contact, modal) ? Contacts::local : Contacts::factorized, modal) {}
+
+EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
+                                 Contacts contacts, const ModalDamping* modal)
+    : system_(system), contact_(contact), counters_(counters), modal_(modal), contacts_(contacts), base_(system.mass) {}
+
+void EffectiveSolver::prepare_factorized() {
+  effective_ = base_;
+  if (modal_ != nullptr)
+    modal_factor_.emplace(base_, counters_, &modal_->matrix());
+  else
+    factor_.emplace(base_, counters_);
+  for (Index i = 0; i < contact_.size(); ++i) {
+    const Index a = contact_.dof_a(i), b = contact_.dof_b(i);
+    places_.push_back({place_of(base_, a, a), place_of(base_, b, b), place_of(base_, a, b), place_of(base_, b, a)});
+  }
+}
+
+void EffectiveSolver::assemble_base(double damping, double stiffness) {
+  const double on_mass = 1.0 + damping * system_.damping.mass_proportional;
+  const double on_stiffness = stiffness + damping * system_.damping.stiffness_proportional;
+  base_.coeffs() = on_mass * system_.mass.coeffs() + on_stiffness * system_.stiffness.coeffs();
+  if (system_.dashpots.size() > 0) base_.coeffs() += damping * system_.dashpots.coeffs();
+}
+
+void EffectiveSolver::set_factors(double damping, double stiffness) {
+  if (damping == damping_factor_ && stiffness == stiffness_factor_) return;
+  damping_factor_ = damping;
+  stiffness_factor_ = stiffness;
+  if (contacts_ == Contacts::factorized) return assemble_base(damping, stiffness);
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    if (slots_[i]->damping == damping && slots_[i]->stiffness == stiffness) {
+      current_ = i;
+      return;
+    }
+  if (slots_.size() < kSlots) {
+    current_ = slots_.size();
+    slots_.push_back(std::make_unique<Slot>(base_, counters_, modal_));
+    if (contact_.size() > 0) slots_.back()->local.emplace(contact_);
+  } else {
+    current_ = oldest_;
+    oldest_ = (oldest_ + 1) % kSlots;
+  }
+  Slot& slot = *slots_[current_];
+  slot.damping = damping;
+  slot.stiffness = stiffness;
+  assemble_base(damping, stiffness);
+  slot.usable = slot.base.factorize(base_, damping);
+  if (slot.usable && slot.local) slot.local->set_base(slot.base);
+}
+
+bool EffectiveSolver::solve(ConstVectorRef kappa, VectorRef b) {
+  require(stiffness_factor_ >= 0.0, "set_factors() comes before solve()");
+  if (contacts_ == Contacts::factorized)
+    return system_.size() == 1 ? solve_scalar(kappa, b) : solve_factorized(kappa, b);
+  Slot& slot = *slots_[current_];
+  if (!slot.usable) return false;
+  if (!(kappa.array() >= 0.0).all()) {
+    assemble_base(damping_factor_, stiffness_factor_);
+    return solve_factorized(kappa, b);
+  }
+  slot.base.solve(b);
+  return !slot.local || slot.local->correct(slot.base, stiffness_factor_, kappa, b);
+}
+
+bool EffectiveSolver::solve_scalar(ConstVectorRef kappa, VectorRef b) {
+  ++counters_.factorizations;
+  ++counters_.solves;
+  double stiffness = 0.0;
+  for (Index i = 0; i < kappa.size(); ++i) stiffness += kappa[i];
+  const double modal = modal_ != nullptr ? damping_factor_ * modal_->single() : 0.0;
+  const double a = base_.valuePtr()[0] + modal + stiffness_factor_ * stiffness;
+  if (!(a > 0.0)) return false;
+  b[0] /= a;
+  return true;
+}
+
+bool EffectiveSolver::solve_factorized(ConstVectorRef kappa, VectorRef b) {
+  if (effective_.size() == 0) prepare_factorized();
+  effective_.coeffs() = base_.coeffs();
+  double* values = effective_.valuePtr();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const double k = stiffness_factor_ * kappa[static_cast<Index>(i)];
+    const auto [aa, bb, ab, ba] = places_[i];
+    if (aa >= 0) values[aa] += k;
+    if (bb >= 0) values[bb] += k;
+    if (ab >= 0) values[ab] -= k;
+    if (ba >= 0) values[ba] -= k;
+  }
+  if (modal_ != nullptr) return solve_modal(b);
+  if (!factor_->factorize(effective_)) return false;
+  factor_->solve(b);
+  return true;
+}
+
+bool EffectiveSolver::solve_modal(VectorRef b) {
+  if (!modal_factor_->factorize(effective_, damping_factor_)) return false;
+  modal_factor_->solve(b);
+  return true;
+}
+
+}  // namespace butee::dynamics

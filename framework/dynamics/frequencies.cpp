@@ -1,0 +1,155 @@
+#include "butee/dynamics/frequencies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/SparseCholesky>
+
+#include "butee/core/error.hpp"
+#include "butee/core/memory.hpp"
+#include "butee/dynamics/contact.hpp"
+#include "butee/linalg/dense_pairs.hpp"
+#include "butee/linalg/lanczos.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+/// Vectors of the size of the system that a mode takes while it is computed, with all copies of it.
+constexpr double kVectorsOfMode = 6.0;
+/// Of the eigenvectors; a Ritz value is accurate to its square, where the highest eigenvalues of a long beam lie too
+/// close for more.
+constexpr double kLanczosTolerance = 1e-4;
+constexpr int kLanczosVectors = 30;
+constexpr int kLanczosRestarts = 200;
+/// Of mode shapes, which enter the damping matrix as they are.
+constexpr double kShapeTolerance = 1e-12;
+/// An eigenvalue below this part of the highest is rounding: some hundred units of it.
+constexpr double kRigid = 1e-13;
+/// The place between two eigenvalues at which they are counted, relative to the larger.
+constexpr double kCountedBelow = 1e-6;
+
+double frequency(double eigenvalue) {
+  return std::sqrt(std::max(eigenvalue, 0.0));
+}
+
+/// A^-1 of a sparse matrix.
+class Inverse final : public linalg::SymmetricMap {
+ public:
+  explicit Inverse(const SparseMatrix& matrix) : factor_(matrix) {}
+
+  bool is_regular() const { return factor_.info() == Eigen::Success; }
+  void apply(const double* x, double* y) const override {
+    Eigen::Map<Vector>(y, factor_.rows()) = factor_.solve(Eigen::Map<const Vector>(x, factor_.rows()));
+  }
+
+ private:
+  Eigen::SimplicialLDLT<SparseMatrix> factor_;
+};
+
+std::optional<double> highest_eigenvalue(const SparseMatrix& stiffness, const SparseMatrix& mass) {
+  const Inverse map(mass);
+  if (!map.is_regular()) return std::nullopt;
+  const auto pairs = linalg::largest_pairs(map, stiffness, 1, {kLanczosVectors, kLanczosRestarts, kLanczosTolerance});
+  if (!pairs) return std::nullopt;
+  return pairs->values[0];
+}
+
+/// A shift a little below zero keeps the matrix regular where the structure can move as a rigid body.
+std::optional<linalg::Pairs> lowest_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass, double highest,
+                                          Index count, double tolerance) {
+  const double shift = -1e-12 * highest;
+  const Inverse map(stiffness - shift * mass);
+  if (!map.is_regular()) return std::nullopt;
+  const Index vectors = std::min(stiffness.rows(), std::max<Index>(2 * count + 1, kLanczosVectors));
+  const auto pairs = linalg::largest_pairs(map, mass, count, {vectors, kLanczosRestarts, tolerance});
+  if (!pairs) return std::nullopt;
+  const Vector values = pairs->values.cwiseInverse().array() + shift;
+  std::vector<Index> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return values[a] < values[b]; });
+  return linalg::Pairs{values(order), pairs->vectors(Eigen::all, order)};
+}
+
+/// Sylvester's law of inertia: as many eigenvalues lie below `limit` as K - limit M has negative pivots.
+Index count_below(const SparseMatrix& stiffness, const SparseMatrix& mass, double limit) {
+  const Eigen::SimplicialLDLT<SparseMatrix> factor(SparseMatrix(stiffness - limit * mass));
+  return (factor.vectorD().array() < 0.0).count();
+}
+
+/// Lanczos may miss one of several equal eigenvalues.
+bool is_complete(const SparseMatrix& stiffness, const SparseMatrix& mass, const Vector& values, double highest) {
+  const double last = values[values.size() - 1];
+  if (last <= kRigid * highest) return true;
+  const double limit = (1.0 - kCountedBelow) * last;
+  return count_below(stiffness, mass, limit) == (values.array() < limit).count();
+}
+
+Modes modes_of(const linalg::Pairs& pairs, double highest) {
+  const Vector values = (pairs.values.array() > kRigid * highest).select(pairs.values, 0.0);
+  return {values.cwiseSqrt(), pairs.vectors};
+}
+
+std::optional<Modes> dense_modes(const model::System& system, Index count) {
+  const auto pairs = linalg::dense_pairs(system.stiffness, system.mass);
+  if (!pairs) return std::nullopt;
+  return modes_of({pairs->values.head(count), pairs->vectors.leftCols(count)}, pairs->values.maxCoeff());
+}
+
+}  // namespace
+
+double contact_frequency(const model::System& system, const Contact& contact) {
+  double square = 0.0;
+  const Vector stiffness = contact.closed_stiffness();
+  for (Index i = 0; i < contact.size(); ++i)
+    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
+      if (dof >= 0) square = std::max(square, stiffness[i] / system.mass.coeff(dof, dof));
+  return std::sqrt(square);
+}
+
+SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) {
+  SparseMatrix stiffness = system.stiffness;
+  if (stops == StopState::open) return stiffness;
+  linalg::Counters counters;
+  const Contact contact(system, counters);
+  const Vector closed = contact.closed_stiffness();
+  for (Index i = 0; i < contact.size(); ++i) {
+    const Index a = contact.dof_a(i), b = contact.dof_b(i);
+    if (a >= 0) stiffness.coeffRef(a, a) += closed[i];
+    if (b >= 0) stiffness.coeffRef(b, b) += closed[i];
+    if (a < 0 || b < 0) continue;
+    stiffness.coeffRef(a, b) -= closed[i];
+    stiffness.coeffRef(b, a) -= closed[i];
+  }
+  return stiffness;
+}
+
+std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops) {
+  const SparseMatrix stiffness = stiffness_with_stops(system, stops);
+  if (system.size() <= linalg::kDense) {
+    const auto values = linalg::dense_values(Eigen::MatrixXd(stiffness), Eigen::MatrixXd(system.mass));
+    if (!values) return std::nullopt;
+    return FrequencyRange{frequency(values->minCoeff()), frequency(values->maxCoeff())};
+  }
+  const auto highest = highest_eigenvalue(stiffness, system.mass);
+  if (!highest) return std::nullopt;
+  const auto lowest = lowest_pairs(stiffness, system.mass, *highest, 1, kLanczosTolerance);
+  if (!lowest) return std::nullopt;
+  return FrequencyRange{frequency(lowest->values[0]), frequency(*highest)};
+}
+
+std::optional<Modes> lowest_modes(const model::System& system, Index count) {
+  require(count >= 1 && count <= system.size(), "a system has as many modes as DOFs");
+  const double numbers = kVectorsOfMode * static_cast<double>(count) * static_cast<double>(system.size());
+  if (const std::string complaint = memory_complaint(numbers * sizeof(double)); !complaint.empty())
+    throw InputError("the " + std::to_string(count) + " lowest modes of " + std::to_string(system.size()) +
+                     " degrees of freedom: that " + complaint + "; take fewer modes, or a method that needs none");
+  if (system.size() <= linalg::kDense || 2 * count + 1 > system.size()) return dense_modes(system, count);
+  const auto highest = highest_eigenvalue(system.stiffness, system.mass);
+  if (!highest) return std::nullopt;
+  const auto pairs = lowest_pairs(system.stiffness, system.mass, *highest, count, kShapeTolerance);
+  if (!pairs || !is_complete(system.stiffness, system.mass, pairs->values, *highest)) return std::nullopt;
+  return modes_of(*pairs, *highest);
+}
+
+}  // namespace butee::dynamics

@@ -1,0 +1,277 @@
+#include "butee/dynamics/modal_motion.hpp"
+
+#include <cmath>
+#include <complex>
+
+#include "butee/dynamics/kernel/modal_motion.hpp"
+#include "butee/dynamics/kernel/modal_series.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+using Eigen::ArrayXd;
+
+/// |omega^2 - Omega^2 + 2 i delta Omega| over omega^2 + Omega^2, below which a mode is in resonance.
+constexpr double kResonance = 1e-7;
+/// (omega_d/omega)^2 below which an oscillation is too near to critical damping for its closed form.
+constexpr double kCritical = 1e-2;
+
+/// Terms of the series that count where (omega + delta) t is at most x: x^k/k! is below rounding from then on.
+int terms_of(double x) {
+  constexpr double kRounding = 1e-17;
+  int terms = 5;
+  for (double term = x * x * x * x * x / 120.0; term > kRounding && terms < kernel::kTerms; term *= x / ++terms) {
+  }
+  return terms;
+}
+
+}  // namespace
+
+struct ModalMotion::Parts {
+  /// The motion that a harmonic load keeps up by itself: cosine cos(Omega t) + sine sin(Omega t).
+  struct Kept {
+    double angular_frequency;
+    ArrayXd cosine, sine;
+  };
+  struct Rates {
+    double smallest, largest;
+  };
+
+  Parts(const ArrayXd& omega, const ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics,
+        const std::vector<ModalSystem::OtherLoad>& other_loads);
+  kernel::ModesInMotion modes();
+  std::span<const kernel::KeptUp> kept_at(double t);
+  void begin(double t, double h, const double* q, const double* v, const double* const* moments);
+  void add_other_loads();
+  void add_force(Eigen::Ref<const Eigen::VectorXd> shape, const std::array<double, 3>& f, double part);
+  void find(double part);
+  void find_others(double tau);
+  void find_other(Index mode, double tau);
+
+  const ArrayXd &omega_, &delta_;
+  const std::vector<ModalHarmonic>& harmonics_;
+  const std::vector<ModalSystem::OtherLoad>& other_loads_;
+  // Padded by modes at rest.
+  ArrayXd square_, decay_, frequency_;
+  ArrayXd compliance_;        ///< 1/omega^2; 0 of rigid modes, which are always slow or without closed form
+  double single_decay_;       ///< of all modes alike, 1/s; negative where they differ
+  std::vector<Rates> rates_;  ///< omega + delta in each register
+  std::vector<Kept> kept_;
+  std::vector<kernel::KeptUp> kept_up_;
+  std::vector<Index> resonant_, damped_;  ///< modes without closed form; the damped ones have a series while slow
+
+  double t_ = 0.0, h_ = 0.0;
+  ArrayXd q0_, v0_;  ///< without what is kept up
+  std::array<ArrayXd, 3> force_;
+  std::array<ArrayXd, 3> led_;  ///< the polynomial in time that the forces lead to
+  ArrayXd cosine_, sine_;       ///< of the oscillation about it
+  bool has_force_ = false, is_led_ = false;
+  ArrayXd q_, v_;
+};
+
+ModalMotion::ModalMotion(const ModalSystem& modal)
+    : ModalMotion(modal.frequencies(), modal.decay(), modal.harmonics(), modal.other_loads()) {}
+
+ModalMotion::ModalMotion(const ArrayXd& omega, const ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics,
+                         const std::vector<ModalSystem::OtherLoad>& other_loads)
+    : parts_(std::make_unique<Parts>(omega, delta, harmonics, other_loads)) {}
+
+ModalMotion::~ModalMotion() = default;
+
+const double* ModalMotion::q() const {
+  return parts_->q_.data();
+}
+
+const double* ModalMotion::v() const {
+  return parts_->v_.data();
+}
+
+void ModalMotion::begin(double t, double h, const double* q, const double* v, const double* const* moments) {
+  parts_->begin(t, h, q, v, moments);
+}
+
+void ModalMotion::add_force(Eigen::Ref<const Eigen::VectorXd> shape, const std::array<double, 3>& f, double part) {
+  parts_->add_force(shape, f, part);
+}
+
+void ModalMotion::find(double part) {
+  parts_->find(part);
+}
+
+ModalMotion::Parts::Parts(const ArrayXd& omega, const ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics,
+                          const std::vector<ModalSystem::OtherLoad>& other_loads)
+    : omega_(omega), delta_(delta), harmonics_(harmonics), other_loads_(other_loads) {
+  const Index n = omega.size(), room = padded(n);
+  for (ArrayXd* array : {&decay_, &q0_, &v0_, &q_, &v_, &cosine_, &sine_}) array->setZero(room);
+  for (auto* arrays : {&force_, &led_})
+    for (ArrayXd& array : *arrays) array.setZero(room);
+  square_.setConstant(room, 1.0);
+  frequency_.setConstant(room, 1.0);
+  square_.head(n) = omega.square();
+  compliance_ = (square_ > 0.0).select(1.0 / square_, 0.0);
+  decay_.head(n) = delta;
+  single_decay_ = (delta == delta[0]).all() ? delta[0] : -1.0;
+  for (Index begin = 0; begin < n; begin += kernel::kModesAtOnce) {
+    const auto rates = (omega + delta).segment(begin, std::min(kernel::kModesAtOnce, n - begin));
+    rates_.push_back({rates.minCoeff(), rates.maxCoeff()});
+  }
+  for (Index i = 0; i < n; ++i) {
+    const double turning = omega[i] * omega[i] - delta[i] * delta[i];
+    if (turning > kCritical * omega[i] * omega[i])
+      frequency_[i] = std::sqrt(turning);
+    else
+      damped_.push_back(i);
+  }
+  std::vector<bool> is_resonant(static_cast<std::size_t>(n), false);
+  for (const ModalHarmonic& load : harmonics) {
+    const double turn = load.angular_frequency;
+    Kept& kept = kept_.emplace_back(Kept{turn, ArrayXd::Zero(room), ArrayXd::Zero(room)});
+    if (turn == 0.0) continue;  // A constant force, which needs no such motion.
+    for (Index i = 0; i < n; ++i) {
+      const std::complex<double> hold(omega[i] * omega[i] - turn * turn, 2.0 * delta[i] * turn);
+      if (std::abs(hold) < kResonance * (omega[i] * omega[i] + turn * turn)) {
+        is_resonant[static_cast<std::size_t>(i)] = true;
+        continue;
+      }
+      const std::complex<double> motion = std::complex<double>(load.cosine[i], -load.sine[i]) / hold;
+      kept.cosine[i] = motion.real();
+      kept.sine[i] = -motion.imag();
+    }
+  }
+  for (Index i = 0; i < n; ++i)
+    if (is_resonant[static_cast<std::size_t>(i)]) resonant_.push_back(i);
+}
+
+Index ModalMotion::padded(Index modes) {
+  return (modes + kernel::kModesAtOnce - 1) / kernel::kModesAtOnce * kernel::kModesAtOnce;
+}
+
+std::array<double, 3> ModalMotion::products(const Eigen::VectorXd& shape, const Eigen::VectorXd& weight,
+                                            const double* q, const double* v) {
+  const kernel::Products of = kernel::modal_motion().multiply(shape.size(), shape.data(), weight.data(), q, v);
+  return {of.q, of.v, of.weighted};
+}
+
+kernel::ModesInMotion ModalMotion::Parts::modes() {
+  return {square_.size(),
+          square_.data(),
+          compliance_.data(),
+          decay_.data(),
+          frequency_.data(),
+          single_decay_,
+          q0_.data(),
+          v0_.data(),
+          {force_[0].data(), force_[1].data(), force_[2].data()},
+          {led_[0].data(), led_[1].data(), led_[2].data()},
+          cosine_.data(),
+          sine_.data()};
+}
+
+std::span<const kernel::KeptUp> ModalMotion::Parts::kept_at(double t) {
+  kept_up_.clear();
+  for (const Kept& kept : kept_) {
+    if (kept.angular_frequency == 0.0) continue;
+    const double angle = kept.angular_frequency * t;
+    kept_up_.push_back(
+        {kept.angular_frequency, kept.cosine.data(), kept.sine.data(), std::cos(angle), std::sin(angle)});
+  }
+  return kept_up_;
+}
+
+void ModalMotion::Parts::begin(double t, double h, const double* q, const double* v, const double* const* moments) {
+  t_ = t;
+  h_ = h;
+  const auto kept = kept_at(t);
+  kernel::modal_motion().start(modes(), q, v, kept.data(), std::ssize(kept));
+  if (has_force_)
+    for (ArrayXd& power : force_) power.setZero();
+  has_force_ = moments != nullptr || !other_loads_.empty();
+  for (const ModalHarmonic& load : harmonics_) {
+    if (load.angular_frequency != 0.0) continue;
+    has_force_ = true;
+    force_[0].head(omega_.size()) += load.cosine;
+  }
+  add_other_loads();
+  kernel::modal_motion().lead(modes(), moments, 1.0 / h);
+  is_led_ = true;
+}
+
+void ModalMotion::Parts::add_other_loads() {
+  const Index n = omega_.size();
+  for (const ModalSystem::OtherLoad& load : other_loads_) {
+    const double f0 = load.in_time->value(t_), f1 = load.in_time->value(t_ + 0.5 * h_),
+                 f2 = load.in_time->value(t_ + h_);
+    force_[0].head(n) += f0 * load.shape;
+    force_[1].head(n) += (4.0 * f1 - 3.0 * f0 - f2) / h_ * load.shape;
+    force_[2].head(n) += 2.0 * (f0 - 2.0 * f1 + f2) / (h_ * h_) * load.shape;
+  }
+}
+
+void ModalMotion::Parts::add_force(Eigen::Ref<const Eigen::VectorXd> shape, const std::array<double, 3>& f,
+                                   double part) {
+  const double r = 1.0 / (part * h_),
+               powers[] = {f[0] - f[1] + f[2], r * (2.0 * f[1] - 6.0 * f[2]), 6.0 * r * r * f[2]};
+  for (std::size_t k = 0; k < force_.size(); ++k) force_[k].head(omega_.size()) += powers[k] * shape.array();
+  has_force_ = true;
+  is_led_ = false;
+}
+
+void ModalMotion::Parts::find(double part) {
+  if (!is_led_) kernel::modal_motion().lead(modes(), nullptr, 0.0);
+  is_led_ = true;
+  const double tau = part * h_;
+  kernel::Speeds speeds{0, square_.size(), 0};
+  double largest = 0.0;
+  for (const Rates& rates : rates_) {
+    if (rates.largest * tau > kernel::kSlow) break;
+    largest = std::max(largest, rates.largest * tau);
+    speeds.slow += kernel::kModesAtOnce;
+  }
+  speeds.terms = terms_of(largest);
+  for (auto rates = rates_.rbegin(); speeds.fast > speeds.slow && rates->smallest * tau > kernel::kSlow; ++rates)
+    speeds.fast -= kernel::kModesAtOnce;
+  const auto kept = kept_at(t_ + tau);
+  kernel::modal_motion().move(modes(), tau, speeds, kept.data(), std::ssize(kept), q_.data(), v_.data());
+  find_others(tau);
+}
+
+void ModalMotion::Parts::find_others(double tau) {
+  for (const Index i : resonant_) find_other(i, tau);
+  for (const Index i : damped_)
+    if ((omega_[i] + delta_[i]) * tau > kernel::kSlow) find_other(i, tau);
+  for (Index i = omega_.size(); i-- > 0 && omega_[i] * tau > kernel::kLargestAngle;) find_other(i, tau);
+}
+
+void ModalMotion::Parts::find_other(Index i, double tau) {
+  const ArrayXd of_omega = omega_.segment(i, 1), of_delta = delta_.segment(i, 1);
+  std::vector<ModalHarmonic> loads;
+  for (std::size_t j = 0; j < kept_.size(); ++j) {
+    const ModalHarmonic& load = harmonics_[j];
+    const bool is_kept = kept_[j].cosine[i] != 0.0 || kept_[j].sine[i] != 0.0;
+    if (load.angular_frequency != 0.0 && !is_kept)
+      loads.push_back({load.angular_frequency, load.cosine.segment(i, 1), load.sine.segment(i, 1)});
+  }
+  ModalFlow flow(of_omega, of_delta, loads, tau);
+  flow.refine(of_omega, of_delta);
+  const double c0 = force_[0][i], c1 = tau * force_[1][i], c2 = tau * tau * force_[2][i];
+  const double f[] = {c0 + c1 / 2.0 + c2 / 3.0, (c1 + c2) / 2.0, c2 / 6.0};
+  double q = flow.qq()[0] * q0_[i] + flow.qv()[0] * v0_[i], v = flow.vq()[0] * q0_[i] + flow.vv()[0] * v0_[i];
+  for (int k = 0; k < 3; ++k) {
+    q += f[k] * flow.force_q(k)[0];
+    v += f[k] * flow.force_v(k)[0];
+  }
+  for (std::size_t j = 0; j < loads.size(); ++j) {
+    const double angle = loads[j].angular_frequency * t_, c = std::cos(angle), s = std::sin(angle);
+    q += c * flow.harmonic_q(j, 0)[0] - s * flow.harmonic_q(j, 1)[0];
+    v += c * flow.harmonic_v(j, 0)[0] - s * flow.harmonic_v(j, 1)[0];
+  }
+  for (const Kept& kept : kept_) {
+    const double angle = kept.angular_frequency * (t_ + tau), c = std::cos(angle), s = std::sin(angle);
+    q += c * kept.cosine[i] + s * kept.sine[i];
+    v += kept.angular_frequency * (c * kept.sine[i] - s * kept.cosine[i]);
+  }
+  q_[i] = q;
+  v_[i] = v;
+}
+
+}  // namespace butee::dynamics

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include <butee/export.hpp>
+
+#include "butee/linalg/extended.hpp"
+
+namespace butee::linalg {
+
+/// Systems up to this size are solved densely, which is as fast as any other way and cannot fail to converge.
+inline constexpr Index kDense = 200;
+
+/// Eigenvalues, ascending, and their vectors, one in each column.
+struct Pairs {
+  Vector values;
+  Eigen::MatrixXd vectors;
+};
+
+/// All pairs of K x = lambda M x with X^T M X = 1, of dense symmetric matrices, M positive definite; nothing where the
+/// iteration did not converge. For this project, not installed: the solvers of Eigen are compiled once, here.
+BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+
+/// The same of sparse matrices, computed densely; the faster, the nearer M is to its diagonal.
+BUTEE_EXPORT std::optional<Pairs> dense_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass);
+
+/// The eigenvalues alone.
+BUTEE_EXPORT std::optional<Vector> dense_values(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+
+/// All pairs of a dense symmetric matrix.
+BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& matrix);
+
+/// The eigenvalues of any square matrix.
+BUTEE_EXPORT std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix);
+
+/// The vectors of K x = lambda M x in extended precision; none where that failed.
+ExtendedColumns extended_vectors(const ExtendedColumns& stiffness, const ExtendedColumns& mass);
+
+}  // namespace butee::linalg

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "butee/linalg/band_factor.hpp"
+#include "butee/linalg/dense_product.hpp"
+#include "butee/linalg/low_rank.hpp"
+#include "butee/linalg/symmetric_factor.hpp"
+
+namespace butee::linalg {
+
+/// Solves A x = b for a symmetric positive definite A: tiny and small ones without a narrow band by their inverse,
+/// which costs one dense product, narrow bands from both ends, all others by sparse Cholesky (CHOLMOD). The choice
+/// depends on the pattern alone. Allocates nothing after the first solve.
+///
+/// With a term of low rank, as of modal damping, A = sparse part + c C: small systems and terms of many columns are
+/// solved densely, terms of few columns by the sparse factor and Woodbury's formula.
+class BUTEE_EXPORT LinearSolver {
+ public:
+  /// Systems up to this size are inverted; with a narrow band only those up to kTiny.
+  static constexpr Index kLargestInverse = DenseProduct::kMostRows;
+  static constexpr Index kTiny = 16;
+
+  /// Analyses the pattern of `matrix`; `counters` and `term`, the C below or null, must outlive the solver.
+  LinearSolver(const SparseMatrix& matrix, Counters& counters, const LowRank* term = nullptr);
+
+  /// Takes `matrix` + c C. False where that, or `matrix`, is not positive definite.
+  [[nodiscard]] bool factorize(const SparseMatrix& matrix, double c = 0.0);
+
+  /// b := A^-1 b. After a successful factorize().
+  void solve(VectorRef b);
+  /// b := A^-1 b - factor v
+  void solve_less(VectorRef b, double factor, ConstVectorRef v);
+
+ private:
+  bool factorize_sparse(const SparseMatrix& matrix);
+  bool factorize_dense(const SparseMatrix& matrix, double c);
+  void solve_sparse(VectorRef b);
+
+  Counters* counters_;
+  const LowRank* term_;
+  std::optional<SymmetricFactor> factor_;
+  std::optional<BandFactor> band_;
+  double reciprocal_ = 0.0;  ///< of a single equation
+  DenseProduct inverse_;
+  Vector right_;
+  std::unique_ptr<DenseFactor> dense_;       ///< of large systems whose term has many columns
+  std::unique_ptr<LowRankUpdate> low_rank_;  ///< where it has few
+};
+
+}  // namespace butee::linalg

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <butee/export.hpp>
+
+#include "butee/linalg/chunk_table.hpp"
+
+namespace butee::linalg {
+
+namespace kernel {
+struct BandMatrix;
+struct Rows;
+}  // namespace kernel
+
+/// y = A x for a symmetric sparse A. Narrow bands, those of chains of beams, are kept by diagonals, which needs no
+/// indices and vectorises; everything else by rows. Of large ones equal rows are stored once. Allocates nothing after
+/// construction.
+class BUTEE_EXPORT SymmetricProduct {
+ public:
+  SymmetricProduct() = default;
+  /// Takes a symmetric matrix stored in full; by rows it refers to `matrix`, which must outlive it.
+  explicit SymmetricProduct(const SparseMatrix& matrix);
+
+  /// A(0, 0)
+  double first() const { return first_; }
+  /// y := A x; x and y have size() and do not overlap.
+  void multiply(const double* x, double* y) const {
+    if (size_ == 1)
+      y[0] = first_ * x[0];
+    else
+      multiply(x, 0, size_, y);
+  }
+  /// y := rows begin to begin + count of A x, into y[0] to y[count - 1]: all of them, or blocks as in_blocks() cuts
+  /// them.
+  void multiply(const double* x, Index begin, Index count, double* y) const;
+
+ private:
+  void multiply_band(const double* x, Index begin, Index count, double* y) const;
+  void share_rows();
+  void multiply_rows(const double* x, Index begin, Index count, double* y) const;
+
+  void (*kernel_)(const kernel::BandMatrix&, kernel::Rows, const double*, double*) = nullptr;
+  Index size_ = 0, band_ = 0;
+  double first_ = 0.0;
+  const SparseMatrix* rows_ = nullptr;
+  /// A(i, i + k) and A(i, i - k), diagonal k = 0 ... band behind diagonal, stride_ entries apart, with zeros around;
+  /// empty where kept by rows, below_ where large too.
+  Vector above_, below_;
+  Index stride_ = 0;
+  /// Instead of those, where that saves much: for each chunk of rows, and for the last two chunks again as they end the
+  /// matrix, diagonals k = 0 ... band above and 1 ... band below.
+  ChunkTable chunks_;
+};
+
+/// The largest distance of an entry from the diagonal.
+Index bandwidth(const SparseMatrix& matrix);
+
+}  // namespace butee::linalg
