@@ -15,7 +15,7 @@ constexpr double kNear = 1e-3;
 /// much; what it changes in the displacements at the end of a step, k times the solution, is far below their rounding.
 constexpr double kHidden = 1e-11;
 /// Sweeps go on until what they change is lost in rounding.
-constexpr double kRounding = 1e-17;
+constexpr double kLostInRounding = 1e-17;
 
 }  // namespace
 
@@ -104,7 +104,7 @@ bool LocalContact::find_forces(double k, ConstVectorRef kappa) {
   // A far force is wrong by its relative error times the contraction where it acts on displacements, a near one,
   // which answers the far ones, by the error itself.
   double error = near_stops_.empty() ? contraction_ * contraction_ : contraction_;
-  for (; error > kRounding; error *= contraction_) {
+  for (; error > kLostInRounding; error *= contraction_) {
     spread_far();
     solve_near(k);
     update_far(k, kappa);
