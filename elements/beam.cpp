@@ -2,93 +2,194 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <numeric>
 
 namespace butee::elements {
 
-using config::Diagnostics;
-using config::Parameters;
 using model::NodalDof;
 using model::NodeId;
+using Motion = BeamOptions::Motion;
 
 namespace {
 
-constexpr double kMostElements = 5e6;
-constexpr Index kVy = 1, kMz = 5;  ///< rows of SectionCut::resultants
+constexpr std::array<DofKind, 2> kPlaneY = {DofKind::uy, DofKind::rz}, kPlaneZ = {DofKind::uz, DofKind::ry};
 
-/// Consistent nodal forces of 1 N/m on an element of length l.
-std::array<double, 4> line_load_of(double l) {
-  return {l / 2, l * l / 12, l / 2, -l * l / 12};
+/// Where the DOFs of one plane of bending, of axial motion or of torsion stand among those of a part.
+std::vector<Index> places_of(const std::vector<DofKind>& kinds, std::span<const DofKind> wanted) {
+  std::vector<Index> places;
+  for (Index node = 0; node < 2; ++node)
+    for (const DofKind kind : wanted)
+      places.push_back(node * std::ssize(kinds) + (std::find(kinds.begin(), kinds.end(), kind) - kinds.begin()));
+  return places;
 }
 
-std::array<NodalDof, 4> dofs_between(NodeId left, NodeId right) {
-  return {NodalDof{left, DofKind::u}, NodalDof{left, DofKind::theta}, NodalDof{right, DofKind::u},
-          NodalDof{right, DofKind::theta}};
+/// Turns (u1, theta1, u2, theta2) of the plane (x, z), theta = -ry, into (uz1, ry1, uz2, ry2).
+Eigen::Matrix4d with_ry(const Eigen::Matrix4d& matrix) {
+  const Eigen::Vector4d sign(1, -1, 1, -1);
+  return sign.asDiagonal() * matrix * sign.asDiagonal();
 }
 
-std::vector<double> even_coordinates(double length, Index elements) {
-  std::vector<double> x(static_cast<std::size_t>(elements) + 1);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = length * static_cast<double>(i) / static_cast<double>(elements);
-  return x;
+void add_at(const std::vector<Index>& rows, const std::vector<Index>& columns, const Eigen::MatrixXd& block,
+            Eigen::MatrixXd& matrix) {
+  matrix(rows, columns) += block;
 }
 
-model::ElementType::Nodes read_coordinates(const Parameters& p, Diagnostics& diagnostics) {
-  if (p.has("coordinates")) {
-    if (p.has("length") || p.has("elements"))
-      p.complain(diagnostics, "coordinates", "stands in place of length and elements; remove one of the two");
-    auto x = p.numbers("coordinates");
-    if (x.size() < 2) p.complain(diagnostics, "coordinates", "must hold at least two coordinates");
-    if (std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end())
-      p.complain(diagnostics, "coordinates", "must ascend: every coordinate larger than the one before");
-    return x;
-  }
-  for (const char* key : {"length", "elements"})
-    if (!p.has(key)) p.complain(diagnostics, key, "missing; give length and elements, or coordinates");
-  if (!p.has("length") || !p.has("elements")) return std::vector<double>{};
-  return even_coordinates(p.number("length"), p.integer("elements"));
+model::ElementMatrices selected(const model::ElementMatrices& whole, const std::vector<Index>& places) {
+  model::ElementMatrices part(std::ssize(places));
+  part.mass = whole.mass(places, places);
+  part.stiffness = whole.stiffness(places, places);
+  if (whole.gyroscopic.size() > 0) part.gyroscopic = whole.gyroscopic(places, places);
+  return part;
 }
 
-std::unique_ptr<model::Element> make_beam(const Parameters& p, model::ElementContext& context) {
-  const auto material = context.material(p, "material");
-  const auto section = context.section(p, "section");
-  const std::vector<double> x = read_coordinates(p, context.diagnostics()).value();
-  std::vector<NodeId> nodes(x.size());
-  std::iota(nodes.begin(), nodes.end(), context.own_node());
-  for (const auto& [key, own] : {std::pair("start_node", nodes.front()), std::pair("end_node", nodes.back())}) {
-    if (!p.has(key)) continue;
-    const auto shared = context.node(p, key);
-    if (!shared) return nullptr;
-    if (*shared >= nodes.front() && *shared <= nodes.back()) {
-      p.complain(context.diagnostics(), key, "must be a node of another element");
-      return nullptr;
-    }
-    context.join(*shared, own);
-  }
-  if (!material || !section) return nullptr;
-  return std::make_unique<Beam>(*material, *section, std::move(nodes), x);
+/// The shear ratio Phi, or 0 where shear is left out.
+double shear_ratio(const BeamOptions& options, const model::Material& material, double bending_stiffness, double area,
+                   const model::ShearFactor& factor, double l) {
+  if (options.theory != BeamTheory::timoshenko) return 0.0;
+  return 12.0 * bending_stiffness / (factor.at(material.poisson_ratio()) * material.shear_modulus * area * l * l);
 }
 
 }  // namespace
 
-Beam::Beam(model::Material material, model::Section section, std::vector<NodeId> nodes, std::vector<double> coordinates)
-    : material_(material), section_(section), nodes_(std::move(nodes)), coordinates_(std::move(coordinates)) {}
+Beam::Beam(model::Material material, model::Section section, std::vector<NodeId> nodes, std::vector<double> coordinates,
+           BeamOptions options)
+    : material_(material),
+      section_(section),
+      nodes_(std::move(nodes)),
+      coordinates_(std::move(coordinates)),
+      options_(std::move(options)) {}
 
-void Beam::claim(model::DofTable& dofs) const {
-  for (const NodeId node : nodes_) {
-    dofs.claim({node, DofKind::u}, true);
-    dofs.claim({node, DofKind::theta}, true);
-  }
+bool Beam::is_along_axes() const {
+  return options_.axes.isIdentity(0.0);
 }
 
-void Beam::assemble(model::MatrixSink& sink) const {
+std::vector<DofKind> Beam::kinds() const {
+  switch (options_.motion) {
+    case Motion::planar:
+      return {DofKind::uy, DofKind::rz};
+    case Motion::lateral:
+      return {DofKind::uy, DofKind::uz, DofKind::ry, DofKind::rz};
+    case Motion::spatial:
+      break;
+  }
+  return {kAllDofKinds.begin(), kAllDofKinds.end()};
+}
+
+std::vector<NodalDof> Beam::dofs_of(Index part) const {
+  const auto e = static_cast<std::size_t>(part);
+  std::vector<NodalDof> dofs;
+  for (const NodeId node : {nodes_[e], nodes_[e + 1]})
+    for (const DofKind kind : kinds()) dofs.push_back({node, kind});
+  return dofs;
+}
+
+void Beam::claim(model::DofTable& dofs) const {
+  const auto kinds = this->kinds();
+  for (const NodeId node : nodes_)
+    for (const DofKind kind : kinds) dofs.claim({node, kind}, true);
+}
+
+BendingMatrices Beam::bending(double l, bool in_xy) const {
+  const double moment = in_xy ? section_.second_moment : section_.second_moment_y;
+  const double stiffness = material_.young_modulus * moment;
+  const auto& factor = in_xy ? section_.shear_factor_y : section_.shear_factor_z;
+  return BendingMatrices({l, stiffness, material_.density * section_.area,
+                          options_.theory == BeamTheory::euler ? 0.0 : material_.density * moment,
+                          shear_ratio(options_, material_, stiffness, section_.area, factor, l), options_.preload});
+}
+
+model::ElementMatrices Beam::matrices_of(double l, bool turns) const {
+  const auto kinds = this->kinds();
+  model::ElementMatrices matrices(2 * std::ssize(kinds));
+  const BendingMatrices in_xy = bending(l, true);
+  const auto y = places_of(kinds, kPlaneY);
+  add_at(y, y, in_xy.mass, matrices.mass);
+  add_at(y, y, in_xy.stiffness, matrices.stiffness);
+  if (options_.motion == Motion::planar) return matrices;
+  const BendingMatrices in_xz = bending(l, false);
+  const auto z = places_of(kinds, kPlaneZ);
+  add_at(z, z, with_ry(in_xz.mass), matrices.mass);
+  add_at(z, z, with_ry(in_xz.stiffness), matrices.stiffness);
+  if (turns) {
+    // plane y: + Omega G theta'-rates of plane z; plane z: - Omega G those of plane y.
+    const Eigen::Matrix4d gyroscopic = in_xy.rotary + in_xz.rotary;
+    const Eigen::DiagonalMatrix<double, 4> sign(1, -1, 1, -1);
+    matrices.gyroscopic = Eigen::MatrixXd::Zero(matrices.mass.rows(), matrices.mass.cols());
+    add_at(y, z, gyroscopic * sign, matrices.gyroscopic);
+    add_at(z, y, -(sign * gyroscopic), matrices.gyroscopic);
+  }
+  if (options_.motion == Motion::lateral) return matrices;
+  Eigen::Matrix2d bar, rod;
+  bar << 1, -1, -1, 1;
+  rod << 2, 1, 1, 2;
+  const auto x = places_of(kinds, std::array{DofKind::ux}), twist = places_of(kinds, std::array{DofKind::rx});
+  add_at(x, x, material_.young_modulus * section_.area / l * bar, matrices.stiffness);
+  add_at(x, x, material_.density * section_.area * l / 6.0 * rod, matrices.mass);
+  add_at(twist, twist, material_.shear_modulus * section_.torsion_constant / l * bar, matrices.stiffness);
+  add_at(twist, twist, material_.density * (section_.second_moment + section_.second_moment_y) * l / 6.0 * rod,
+         matrices.mass);
+  if (is_along_axes()) return matrices;
+  Eigen::MatrixXd to_space = Eigen::MatrixXd::Zero(12, 12);
+  for (Index i = 0; i < 12; i += 3) to_space.block<3, 3>(i, i) = options_.axes;
+  for (Eigen::MatrixXd* matrix : {&matrices.mass, &matrices.stiffness}) {
+    *matrix = (to_space * *matrix * to_space.transpose()).eval();
+    *matrix = (0.5 * (*matrix + matrix->transpose())).eval();
+  }
+  return matrices;
+}
+
+void Beam::assemble_planar(model::MatrixSink& sink) const {
   double length_before = 0.0;
   model::ElementMatrices matrices(4);
   for (std::size_t e = 0; e + 1 < nodes_.size(); ++e) {
     const double l = coordinates_[e + 1] - coordinates_[e];
-    if (l != length_before) matrices = beam_matrices(material_, section_, l);
+    if (l != length_before) {
+      const BendingMatrices in_xy = bending(l, true);
+      matrices.mass = in_xy.mass;
+      matrices.stiffness = in_xy.stiffness;
+    }
     length_before = l;
-    sink.add(dofs_between(nodes_[e], nodes_[e + 1]), matrices);
+    const std::array<NodalDof, 4> dofs = {NodalDof{nodes_[e], DofKind::uy}, NodalDof{nodes_[e], DofKind::rz},
+                                          NodalDof{nodes_[e + 1], DofKind::uy}, NodalDof{nodes_[e + 1], DofKind::rz}};
+    sink.add(dofs, matrices);
+  }
+}
+
+void Beam::assemble(model::MatrixSink& sink) const {
+  if (options_.motion == Motion::planar) return assemble_planar(sink);
+  // DOFs that nothing couples are added apart, so that the pattern shows it.
+  std::vector<std::vector<DofKind>> sets;
+  if (!is_along_axes()) {
+    sets = {kinds()};
+  } else {
+    if (sink.turns())
+      sets = {{DofKind::uy, DofKind::uz, DofKind::ry, DofKind::rz}};
+    else
+      sets = {{kPlaneY.begin(), kPlaneY.end()}, {kPlaneZ.begin(), kPlaneZ.end()}};
+    if (options_.motion == Motion::spatial) sets.insert(sets.end(), {{DofKind::ux}, {DofKind::rx}});
+  }
+  add_parts(sink, sets, sink.turns());
+}
+
+void Beam::add_parts(model::MatrixSink& sink, const std::vector<std::vector<DofKind>>& sets, bool turns) const {
+  const auto kinds = this->kinds();
+  double length_before = 0.0;
+  std::vector<model::ElementMatrices> matrices;
+  std::vector<NodalDof> dofs;
+  for (std::size_t e = 0; e + 1 < nodes_.size(); ++e) {
+    const double l = coordinates_[e + 1] - coordinates_[e];
+    if (l != length_before) {
+      matrices.clear();
+      const model::ElementMatrices whole = matrices_of(l, turns);
+      for (const auto& set : sets)
+        matrices.push_back(set.size() == kinds.size() ? whole : selected(whole, places_of(kinds, set)));
+    }
+    length_before = l;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      dofs.clear();
+      for (const NodeId node : {nodes_[e], nodes_[e + 1]})
+        for (const DofKind kind : sets[i]) dofs.push_back({node, kind});
+      sink.add(dofs, matrices[i]);
+    }
   }
 }
 
@@ -97,56 +198,59 @@ double Beam::length_of(Index part) const {
   return coordinates_.at(e + 1) - coordinates_.at(e);
 }
 
-std::optional<model::SectionCut> Beam::cut(Index part, bool at_end) const {
-  const auto e = static_cast<std::size_t>(part);
-  const double l = length_of(part), sign = at_end ? 1.0 : -1.0;
-  const auto dofs = dofs_between(nodes_[e], nodes_[e + 1]);
-  const auto consistent = line_load_of(l);
-  model::SectionCut cut({dofs.begin(), dofs.end()});
-  cut.matrices = beam_matrices(material_, section_, l);
-  cut.line_load = Eigen::Map<const Eigen::Vector4d>(consistent.data());
-  cut.resultants(kVy, at_end ? 2 : 0) = sign;
-  cut.resultants(kMz, at_end ? 3 : 1) = sign;
-  if (section_.outer_fibre > 0.0) cut.modulus = section_.second_moment / section_.outer_fibre;
-  return cut;
+Eigen::VectorXd Beam::line_load(double l, const Eigen::Vector3d& in_space) const {
+  const auto kinds = this->kinds();
+  const Eigen::Vector3d q = options_.axes.transpose() * in_space;
+  Eigen::VectorXd load(2 * std::ssize(kinds));
+  for (Index node = 0; node < 2; ++node) {
+    const double couple = (node == 0 ? 1.0 : -1.0) * l * l / 12.0;
+    const Eigen::Vector3d force = options_.axes * (0.5 * l * q);
+    const Eigen::Vector3d moment = options_.axes * Eigen::Vector3d(0.0, -couple * q[2], couple * q[1]);
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      load[node * std::ssize(kinds) + static_cast<Index>(k)] =
+          is_rotation(kinds[k]) ? moment[axis_of(kinds[k])] : force[axis_of(kinds[k])];
+  }
+  return load;
 }
 
-bool Beam::add_line_load(std::vector<model::NodalValue>& loads) const {
-  for (std::size_t e = 0; e + 1 < nodes_.size(); ++e) {
-    const auto consistent = line_load_of(length_of(static_cast<Index>(e)));
-    const auto dofs = dofs_between(nodes_[e], nodes_[e + 1]);
-    for (std::size_t i = 0; i < dofs.size(); ++i) loads.push_back({dofs[i], consistent[i]});
+bool Beam::add_line_load(std::vector<model::NodalValue>& loads, DofKind along) const {
+  const auto kinds = this->kinds();
+  if (is_rotation(along) || std::find(kinds.begin(), kinds.end(), along) == kinds.end()) return false;
+  for (Index e = 0; e + 1 < std::ssize(nodes_); ++e) {
+    const Eigen::VectorXd consistent = line_load(length_of(e), Eigen::Vector3d::Unit(axis_of(along)));
+    const auto dofs = dofs_of(e);
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      if (const double value = consistent[static_cast<Index>(i)]; value != 0.0) loads.push_back({dofs[i], value});
   }
   return true;
 }
 
-model::ElementMatrices beam_matrices(const model::Material& material, const model::Section& section, double l) {
-  model::ElementMatrices matrices(4);
-  matrices.stiffness << 12, 6 * l, -12, 6 * l,  //
-      6 * l, 4 * l * l, -6 * l, 2 * l * l,      //
-      -12, -6 * l, 12, -6 * l,                  //
-      6 * l, 2 * l * l, -6 * l, 4 * l * l;      //
-  matrices.mass << 156, 22 * l, 54, -13 * l,    //
-      22 * l, 4 * l * l, 13 * l, -3 * l * l,    //
-      54, 13 * l, 156, -22 * l,                 //
-      -13 * l, -3 * l * l, -22 * l, 4 * l * l;  //
-  matrices.stiffness *= material.young_modulus * section.second_moment / (l * l * l);
-  matrices.mass *= material.density * section.area * l / 420.0;
-  return matrices;
+std::optional<model::SectionCut> Beam::cut(Index part, bool at_end) const {
+  const double l = length_of(part), sign = at_end ? 1.0 : -1.0;
+  const auto kinds = this->kinds();
+  model::SectionCut cut(dofs_of(part));
+  cut.matrices = matrices_of(l, false);
+  for (int axis = 0; axis < 3; ++axis) cut.line_loads.col(axis) = line_load(l, Eigen::Vector3d::Unit(axis));
+  // Rows of the forces along, and of the moments about, the beam's own axes.
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const Index column = (at_end ? std::ssize(kinds) : 0) + static_cast<Index>(k);
+    const int first = is_rotation(kinds[k]) ? 3 : 0;
+    cut.resultants.block<3, 1>(first, column) = sign * options_.axes.row(axis_of(kinds[k])).transpose();
+  }
+  if (section_.outer_fibre > 0.0) cut.modulus = section_.second_moment / section_.outer_fibre;
+  if (section_.outer_fibre_z > 0.0) cut.modulus_y = section_.second_moment_y / section_.outer_fibre_z;
+  return cut;
 }
 
-model::ElementType beam_type() {
-  using config::integer, config::number, config::numbers, config::text;
-  return {"beam",
-          "planar Euler-Bernoulli beam: Hermite cubics, consistent mass, DOFs u and theta",
-          {text("material", "the [material.NAME]"), text("section", "the [section.NAME]"),
-           number("length", "m", "the length, divided evenly").above(0).optional(),
-           integer("elements", "the number of elements").at_least(1).at_most(kMostElements).optional(),
-           numbers("coordinates", "m", "the nodes of an uneven mesh, ascending").optional(),
-           text("start_node", "a node of another element that is this beam's first").optional(),
-           text("end_node", "a node of another element that is this beam's last").optional()},
-          read_coordinates,
-          make_beam};
+Beam::Turning Beam::turning() const {
+  const bool is_along_x = options_.axes.col(0) == Eigen::Vector3d::UnitX();
+  return options_.motion != Motion::planar && is_along_x ? Turning::possible : Turning::never;
+}
+
+std::string Beam::turning_problem() const {
+  const double a = section_.second_moment, b = section_.second_moment_y;
+  if (std::abs(a - b) <= 1e-9 * std::max(a, b)) return "";
+  return "its second moments of area about y and z differ, so that its stiffness would change as it turns";
 }
 
 }  // namespace butee::elements

@@ -1,44 +1,65 @@
 #pragma once
 
 #include "butee/model/types.hpp"
+#include "elements/beam_matrices.hpp"
 
 namespace butee::elements {
 
-/// A planar Euler-Bernoulli beam of two-node elements with Hermite cubics and consistent mass, DOFs (u, theta) a node.
+/// How a beam moves, and what it takes into account.
+struct BeamOptions {
+  enum class Motion {
+    planar,   ///< bends in the plane (x, y): uy, rz
+    lateral,  ///< bends in two planes: uy, rz, uz, ry
+    spatial   ///< all six DOFs, axial and torsion too
+  };
+  Motion motion = Motion::planar;
+  BeamTheory theory = BeamTheory::euler;
+  double preload = 0.0;  ///< N, tension positive: the axial force that is there before
+  /// Columns: the beam's own axes x, y and z in space. Those of planar and lateral beams are the axes of space.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// A straight beam of two-node elements with cubic shape functions and consistent mass; see BendingMatrices for
+/// bending. Axial and torsional motion have linear shape functions, polar inertia rho (Iy + Iz).
 ///
-/// With l the length, EI the bending stiffness and rho A the mass per length of an element, DOFs (u1, theta1, u2,
-/// theta2):
-///
-///     K_e = E I / l^3 [12 6l -12 6l; . 4l^2 -6l 2l^2; . . 12 -6l; sym 4l^2]
-///     M_e = rho A l / 420 [156 22l 54 -13l; . 4l^2 13l -3l^2; . . 156 -22l; sym 4l^2]
-///
-/// Frequencies are too high by O(l^4). Shear and rotary inertia of the section are left out. Checked against closed
-/// forms in tests/unit/beam_test.cpp. Source: J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968,
-/// sections 5.6, 11.4.
+/// In the plane (x, z) theta is -ry. Frequencies are too high by O(l^4) without shear, O(l^2) with it and in axial and
+/// torsional motion. Of a turning round shaft with rotary inertia G = 2 M_r couples the planes, so that forward whirl
+/// (in the sense of the rotation) goes up with the speed. Checked against closed forms in tests/unit/beam_test.cpp and
+/// tests/verification/space_test.cpp.
 class Beam final : public model::Element {
  public:
-  /// `nodes` along the beam at ascending `coordinates`, m.
+  /// `nodes` along the beam at ascending `coordinates`, m. The section and the material know what `options` need.
   Beam(model::Material material, model::Section section, std::vector<model::NodeId> nodes,
-       std::vector<double> coordinates);
+       std::vector<double> coordinates, BeamOptions options = {});
 
   void claim(model::DofTable& dofs) const override;
   void assemble(model::MatrixSink& sink) const override;
-  bool add_line_load(std::vector<model::NodalValue>& loads) const override;
+  bool add_line_load(std::vector<model::NodalValue>& loads, DofKind along) const override;
   std::vector<model::NodeId> axis() const override { return nodes_; }
-  /// V = p_u and M = p_theta at the end of a part, their opposites at its beginning.
+  /// p at the end of a part in the beam's own axes, its opposite at its beginning.
   std::optional<model::SectionCut> cut(Index part, bool at_end) const override;
+  Turning turning() const override;
+  std::string turning_problem() const override;
 
  private:
   double length_of(Index part) const;
+  std::vector<DofKind> kinds() const;
+  std::vector<model::NodalDof> dofs_of(Index part) const;
+  BendingMatrices bending(double l, bool in_xy) const;
+  /// Mass, stiffness and, where it turns, gyroscopic matrix of an element of length l on the DOFs of dofs_of().
+  model::ElementMatrices matrices_of(double l, bool turns) const;
+  /// Consistent nodal forces of a line load in N/m on an element of length l.
+  Eigen::VectorXd line_load(double l, const Eigen::Vector3d& in_space) const;
+  void assemble_planar(model::MatrixSink& sink) const;
+  void add_parts(model::MatrixSink& sink, const std::vector<std::vector<DofKind>>& sets, bool turns) const;
+  bool is_along_axes() const;
 
   model::Material material_;
   model::Section section_;
   std::vector<model::NodeId> nodes_;
   std::vector<double> coordinates_;
+  BeamOptions options_;
 };
-
-/// Mass and stiffness of one element of length l.
-model::ElementMatrices beam_matrices(const model::Material& material, const model::Section& section, double l);
 
 model::ElementType beam_type();
 

@@ -1,13 +1,15 @@
 #include "elements/elements.hpp"
 
 #include "elements/beam.hpp"
+#include "elements/bearing.hpp"
+#include "elements/disc.hpp"
 #include "elements/mass.hpp"
 #include "elements/spring.hpp"
 
 namespace butee::elements {
 
 std::vector<model::ElementType> element_types() {
-  return {beam_type(), mass_type(), spring_type()};
+  return {beam_type(), mass_type(), spring_type(), disc_type(), bearing_type()};
 }
 
 }  // namespace butee::elements

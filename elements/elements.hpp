@@ -4,7 +4,7 @@
 
 namespace butee::elements {
 
-/// beam, mass and spring.
+/// beam, mass, spring, disc and bearing.
 std::vector<model::ElementType> element_types();
 
 /// tube, circle, rectangle and general.

@@ -10,15 +10,25 @@ Mass::Mass(model::NodeId node, double mass, double rotary_inertia)
     : node_(node), mass_(mass), rotary_inertia_(rotary_inertia) {}
 
 void Mass::claim(model::DofTable& dofs) const {
-  if (mass_ > 0.0) dofs.claim({node_, DofKind::u}, true);
-  if (rotary_inertia_ > 0.0) dofs.claim({node_, DofKind::theta}, true);
+  if (mass_ > 0.0) dofs.claim({node_, DofKind::uy}, true);
+  if (rotary_inertia_ > 0.0) dofs.claim({node_, DofKind::rz}, true);
+}
+
+void Mass::claim_shared(model::DofTable& dofs) const {
+  for (const DofKind kind : kAllDofKinds)
+    if (of(kind) > 0.0 && dofs.exists({node_, kind})) dofs.claim({node_, kind}, true);
+}
+
+double Mass::of(DofKind kind) const {
+  if (!is_rotation(kind)) return mass_;
+  return kind == DofKind::rx ? 0.0 : rotary_inertia_;
 }
 
 void Mass::assemble(model::MatrixSink& sink) const {
-  for (const auto& [kind, value] : {std::pair(DofKind::u, mass_), std::pair(DofKind::theta, rotary_inertia_)}) {
-    if (value <= 0.0) continue;
+  for (const DofKind kind : kAllDofKinds) {
+    if (of(kind) <= 0.0) continue;
     model::ElementMatrices matrices(1);
-    matrices.mass(0, 0) = value;
+    matrices.mass(0, 0) = of(kind);
     sink.add(std::array{model::NodalDof{node_, kind}}, matrices);
   }
 }
@@ -28,7 +38,7 @@ model::ElementType mass_type() {
   return {"mass",
           "lumped mass, on a node of its own or on one of a beam",
           {number("mass", "kg", "the mass").at_least(0),
-           number("rotary_inertia", "kg m2", "the moment of inertia").at_least(0).or_else(0.0),
+           number("rotary_inertia", "kg m2", "the moment of inertia about y and z").at_least(0).or_else(0.0),
            config::text("node", "the node it sits on; without it one is created with the element's name").optional()},
           [](const Parameters& p, config::Diagnostics& diagnostics) -> model::ElementType::Nodes {
             if (p.number("mass") == 0.0 && p.number("rotary_inertia") == 0.0)

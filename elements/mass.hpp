@@ -4,15 +4,19 @@
 
 namespace butee::elements {
 
-/// A lumped mass (kg) with rotary inertia (kg m2) at one node. A zero claims no DOF.
+/// A lumped mass (kg) at one node, in uy and in every other translation that something uses, with rotary inertia
+/// (kg m2) in rz and, where something uses it, ry. A zero claims no DOF.
 class Mass final : public model::Element {
  public:
   Mass(model::NodeId node, double mass, double rotary_inertia);
 
   void claim(model::DofTable& dofs) const override;
+  void claim_shared(model::DofTable& dofs) const override;
   void assemble(model::MatrixSink& sink) const override;
 
  private:
+  double of(DofKind kind) const;
+
   model::NodeId node_;
   double mass_, rotary_inertia_;
 };

@@ -98,6 +98,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   using Method = Choice::Method;
   const Index n = dynamics.size(), most = dynamics::ModalSystem::kAllModes;
   const std::string size = std::to_string(n) + " DOFs";
+  if (!dynamics.system().is_symmetric)
+    return {Method::rodas4, "shafts turn or bearings have cross terms, so that the matrices are not symmetric"};
   if (n > most) return {Method::rodas4, size + " are too many to take all their modes"};
   if (n > 1 && dynamics.system().dashpots.size() > 0) return {Method::rodas4, "dashpots couple the modes"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};

@@ -8,7 +8,7 @@ namespace butee::integrators {
 
 ComponentScales::ComponentScales(const model::System& system) {
   for (const model::NodalDof& dof : system.dofs.free())
-    kinds_.push_back(dof.kind == DofKind::theta ? std::uint8_t{1} : std::uint8_t{0});
+    kinds_.push_back(is_rotation(dof.kind) ? std::uint8_t{1} : std::uint8_t{0});
 }
 
 void ComponentScales::raise(ConstVectorRef y, Eigen::Ref<Vector> scales) const {

@@ -39,12 +39,14 @@ void Rodas4::tangent_force(ConstVectorRef y) {
 time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step, time::State& to) {
   const double h = step.h, d = kGamma * h;
   dynamics::EffectiveSolver& effective = dynamics().effective();
+  dynamics().set_time(from.t);
   effective.set_factors(d, d * d);
   if (dynamics().stop_count() > 0) {
     dynamics().contact().displacement(from.x, stop_displacement_);
     dynamics().contact().tangent(stop_displacement_, stop_force_, tangent_);
   }
   dynamics().external_force_rate(from.t, 1e-3 * h, rate_);
+  dynamics().subtract_matrix_rate(from.x, from.v, rate_);
   time::StepReport report;
   for (std::size_t i = 0; i < kStages; ++i) {
     x_ = from.x;
@@ -60,6 +62,7 @@ time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step
       other_ += (kC[i][j] / h) * q_[j];
     }
     dynamics().total_force(from.t + kTimes[i] * h, x_, v_, residual_v_);
+    dynamics().set_time(from.t);
     if (i > 0) {
       dynamics().inertia_force(other_, work_);
       residual_v_ += work_;

@@ -45,6 +45,10 @@ TaylorExpander::TaylorExpander(dynamics::Dynamics& dynamics, int order, double t
       stops_(dynamics.stop_count()),
       velocity_(dynamics.size()),
       terms_(order + 1) {
+  if (dynamics.system().rotation != nullptr)
+    throw InputError(
+        "integrator.type: exact takes shafts that turn at a constant speed, since its series are those of constant "
+        "matrices; with rotation.speed that varies take rodas4, dopri5 or extrapolation8");
   for (const model::FreeLoad& load : dynamics.system().loads)
     if (!load.in_time->taylor(0.0, 1.0, load_))
       throw InputError(

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <butee/config/file_reference.hpp>
 #include <butee/config/toml.hpp>
@@ -7,6 +10,7 @@
 
 #include "commands.hpp"
 #include "modes/report.hpp"
+#include "modes/whirl_report.hpp"
 
 namespace butee::app {
 namespace {
@@ -19,7 +23,76 @@ struct ModesArguments {
   std::vector<std::string> closed;
   std::string folder;  ///< empty: nothing is written, unless a plot is wanted
   bool json = false, plot = false;
+  std::optional<double> speed;   ///< rad/s
+  std::vector<double> campbell;  ///< from, to (rad/s), number of steps
+  double order = 1.0;            ///< of critical speeds
 };
+
+constexpr Index kMostCampbellSteps = 100000;
+
+std::string folder_of(const ModesArguments& arguments) {
+  return !arguments.folder.empty() ? arguments.folder
+                                   : std::filesystem::path(arguments.model.model).stem().string() + "-modes";
+}
+
+/// What turns, where the scene itself does not say a speed.
+void let_turn(model::Model& model) {
+  if (model.rotation == nullptr) {
+    model.rotation = std::make_unique<model::Rotation>(std::vector{0.0}, std::vector{0.0});
+    model.turns.assign(model.elements.size(), false);
+    for (std::size_t i = 0; i < model.elements.size(); ++i)
+      model.turns[i] =
+          model.elements[i]->turning() != model::Element::Turning::never && model.elements[i]->turning_problem().empty();
+  }
+  if (std::find(model.turns.begin(), model.turns.end(), true) == model.turns.end())
+    throw InputError(
+        "--speed: nothing turns in this scene: it has no disc and no beam along x with motion = \"lateral\" or "
+        "\"spatial\"");
+}
+
+int whirl_command(const ModesArguments& arguments) {
+  Session session = open_session(arguments.model);
+  if (!arguments.closed.empty()) throw InputError("--closed goes without --speed and --campbell");
+  let_turn(session.model);
+  const dynamics::Whirl whirl(session.model);
+  const Index count = std::min(arguments.count > 0 ? arguments.count : kDefaultCount, 2 * whirl.size());
+  if (arguments.campbell.empty()) {
+    if (arguments.plot || !arguments.folder.empty())
+      throw InputError("--speed writes nothing; with -o and --plot take --campbell FROM TO N");
+    const auto analysis = modes::whirl_at(whirl, session.model.title, *arguments.speed, count);
+    if (arguments.json)
+      print_json(modes::to_json(analysis));
+    else
+      modes::print(analysis);
+    return kDone;
+  }
+  const double from = arguments.campbell[0], to = arguments.campbell[1], steps = arguments.campbell[2];
+  if (arguments.speed) throw InputError("--speed goes without --campbell, which has speeds of its own");
+  if (!(from < to) || !(from >= 0.0)) throw InputError("--campbell: FROM and TO are speeds in rad/s, 0 <= FROM < TO");
+  if (steps != std::floor(steps) || steps < 1 || steps > static_cast<double>(kMostCampbellSteps))
+    throw InputError("--campbell: N is the number of steps between FROM and TO, 1 to " +
+                     std::to_string(kMostCampbellSteps));
+  const bool writes = arguments.plot || !arguments.folder.empty();
+  const record::ResultFolder folder(folder_of(arguments));
+  if (writes) folder.check();
+  if (writes && std::filesystem::exists(folder.file("history.csv")))
+    throw InputError(folder.path() + ": holds the results of a run; choose another folder with -o");
+  const auto diagram =
+      modes::campbell(whirl, session.model.title, from, to, static_cast<Index>(steps), arguments.order, count);
+  if (arguments.json)
+    print_json(modes::to_json(diagram));
+  else
+    modes::print(diagram);
+  std::fflush(stdout);
+  if (!writes) return kDone;
+  const record::FolderLock lock = folder.lock();
+  folder.prepare(config::write_toml(config::with_files_found_from(session.document, folder.path())));
+  folder.write("campbell.csv", modes::campbell_csv(diagram));
+  if (arguments.plot && !modes::draw(diagram, folder))
+    log::warning("gnuplot could not draw; its script is " + folder.file("campbell.gp") + " (Debian: gnuplot-nox)");
+  log::info("the Campbell diagram is in " + folder.path());
+  return kDone;
+}
 
 void write(const modes::Analysis& analysis, const Session& session, const model::System& system,
            const ModesArguments& arguments, const record::ResultFolder& folder) {
@@ -33,13 +106,12 @@ void write(const modes::Analysis& analysis, const Session& session, const model:
 }
 
 int modes_command(const ModesArguments& arguments) {
+  if (arguments.speed || !arguments.campbell.empty()) return whirl_command(arguments);
   const Session session = open_session(arguments.model);
   const model::System system = assemble(session.model);
   const auto closed = modes::closed_stops(session.model, arguments.closed);
   const bool writes = arguments.plot || !arguments.folder.empty();
-  const record::ResultFolder folder(!arguments.folder.empty()
-                                        ? arguments.folder
-                                        : std::filesystem::path(arguments.model.model).stem().string() + "-modes");
+  const record::ResultFolder folder(folder_of(arguments));
   if (writes) folder.check();
   if (writes && std::filesystem::exists(folder.file("history.csv")))
     throw InputError(folder.path() + ": holds the results of a run; choose another folder with -o");
@@ -70,6 +142,14 @@ Command add_modes_command(CLI::App& program) {
       ->type_name("DIR");
   app->add_flag("--json", arguments->json, "print JSON");
   app->add_flag("--plot", arguments->plot, "draw the shapes by gnuplot; into <model>-modes where -o is not given");
+  app->add_option("--speed", arguments->speed, "damped, whirling modes at this speed of rotation, rad/s")
+      ->type_name("OMEGA");
+  app->add_option("--campbell", arguments->campbell, "whirling modes at N + 1 speeds (rad/s), and critical speeds")
+      ->expected(3)
+      ->type_name("FROM TO N");
+  app->add_option("--order", arguments->order, "of critical speeds: oscillations for each turn; 1 where not given")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->type_name("X");
   add_log_options(*app, false);
   return {app, [arguments] { return modes_command(*arguments); }};
 }

@@ -61,6 +61,21 @@ std::string array_complaint(const Parameter& parameter, const Value& value, cons
   return "";
 }
 
+std::string matrix_complaint(const Parameter& parameter, const Value& value) {
+  const std::string shape = "must be " + std::to_string(*parameter.length) + " arrays of " +
+                            std::to_string(*parameter.columns) + " numbers each";
+  if (value.array() == nullptr || value.array()->size() != *parameter.length) return shape;
+  Parameter row = parameter;
+  row.length = parameter.columns;
+  for (const Value& item : *value.array()) {
+    if (item.array() == nullptr || item.array()->size() != *parameter.columns) return shape;
+    const std::string wrong =
+        array_complaint(row, item, "numbers", [&](const Value& entry) { return number_complaint(parameter, entry); });
+    if (!wrong.empty()) return shape + ": " + wrong;
+  }
+  return "";
+}
+
 /// A column of a file: counted from 1, or by its name.
 constexpr const char* kColumn = "column";
 
@@ -148,6 +163,8 @@ std::string Parameter::describe() const {
       return choices.empty() ? "text or list of texts" : "list of " + quoted_choices(*this);
     case Kind::table:
       return "table";
+    case Kind::matrix:
+      return std::to_string(*length) + " x " + std::to_string(*columns) + " numbers" + bounds_text(*this);
   }
   return "";
 }
@@ -173,6 +190,8 @@ std::string Parameter::complaint(const Value& value) const {
       if (value.array() == nullptr) return std::string("must be a string or an array of strings, not ") + value.kind();
       return array_complaint(*this, value, "strings",
                              [this](const Value& item) { return text_complaint(*this, item); });
+    case Kind::matrix:
+      return matrix_complaint(*this, value);
     case Kind::table:
       return is_tables(value) ? "" : std::string("must be a table, not ") + value.kind();
   }
@@ -193,6 +212,12 @@ Parameter text(std::string name, std::string help) {
 }
 Parameter numbers(std::string name, std::string unit, std::string help) {
   return declare(Parameter::Kind::numbers, std::move(name), std::move(unit), std::move(help));
+}
+Parameter matrix(std::string name, std::string unit, std::string help, std::size_t rows, std::size_t columns) {
+  Parameter parameter = declare(Parameter::Kind::matrix, std::move(name), std::move(unit), std::move(help));
+  parameter.length = rows;
+  parameter.columns = columns;
+  return parameter;
 }
 Parameter texts(std::string name, std::string help) {
   return declare(Parameter::Kind::texts, std::move(name), "", std::move(help));

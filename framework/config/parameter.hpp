@@ -19,7 +19,7 @@ namespace butee::config {
 ///     number("gap", "m", "free play on each side").at_least(0)
 ///     number("beta", "1", "Newmark's beta").or_else(0.25)
 struct BUTEE_EXPORT Parameter {
-  enum class Kind { number, integer, boolean, text, numbers, texts, table };
+  enum class Kind { number, integer, boolean, text, numbers, texts, table, matrix };
 
   Parameter at_least(double bound) const;
   Parameter above(double bound) const;
@@ -52,7 +52,8 @@ struct BUTEE_EXPORT Parameter {
   double upper = std::numeric_limits<double>::infinity();
   bool lower_open = false;
   std::vector<std::string> choices;
-  std::optional<std::size_t> length;
+  std::optional<std::size_t> length;   ///< of an array, or the rows of a matrix
+  std::optional<std::size_t> columns;  ///< of a matrix
   std::optional<Value> first_try;
   std::optional<std::pair<double, double>> swept;  ///< from loose to tight
 };
@@ -64,6 +65,9 @@ BUTEE_EXPORT Parameter boolean(std::string name, std::string help);
 BUTEE_EXPORT Parameter text(std::string name, std::string help);
 /// An array of finite real numbers.
 BUTEE_EXPORT Parameter numbers(std::string name, std::string unit, std::string help);
+/// `rows` arrays of `columns` finite real numbers each.
+BUTEE_EXPORT Parameter matrix(std::string name, std::string unit, std::string help, std::size_t rows,
+                              std::size_t columns);
 /// An array of strings; a single string stands for an array of one.
 BUTEE_EXPORT Parameter texts(std::string name, std::string help);
 /// A table or an array of tables, read further by its owner.

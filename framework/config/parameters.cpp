@@ -44,6 +44,17 @@ std::vector<double> Parameters::numbers(std::string_view name) const {
   return list;
 }
 
+Eigen::MatrixXd Parameters::matrix(std::string_view name) const {
+  const auto& rows = std::get<Array>(value(name).data);
+  const auto columns = rows.empty() ? std::size_t{0} : std::get<Array>(rows.front().data).size();
+  Eigen::MatrixXd matrix(static_cast<Index>(rows.size()), static_cast<Index>(columns));
+  for (Index i = 0; i < matrix.rows(); ++i)
+    for (Index j = 0; j < matrix.cols(); ++j)
+      matrix(i, j) =
+          as_number(std::get<Array>(rows[static_cast<std::size_t>(i)].data)[static_cast<std::size_t>(j)]).value();
+  return matrix;
+}
+
 std::vector<std::string> Parameters::texts(std::string_view name) const {
   const Value& given = value(name);
   if (const std::string* single = given.text()) return {*single};

@@ -26,6 +26,7 @@ class BUTEE_EXPORT Parameters {
   bool flag(std::string_view name) const;
   const std::string& text(std::string_view name) const;
   std::vector<double> numbers(std::string_view name) const;
+  Eigen::MatrixXd matrix(std::string_view name) const;
   std::vector<std::string> texts(std::string_view name) const;
   const Value& value(std::string_view name) const;
 

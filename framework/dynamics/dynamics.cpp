@@ -25,14 +25,18 @@ Dynamics::Dynamics(const model::System& system)
       contact_(system, counters_),
       modal_(ModalDamping::of(system)),
       has_damping_(system.damping.is_rayleigh() || system.dashpots.size() > 0 || modal_ != nullptr),
+      turning_(system.rotation != nullptr ? std::make_unique<Turning>(system) : nullptr),
       mass_product_(system.mass),
-      stiffness_product_(system.stiffness),
+      stiffness_product_(system.stiffness, system.stiffness_is_symmetric),
       load_time_(std::numeric_limits<double>::quiet_NaN()),
       load_values_(system.loads.size()),
       contact_force_(zeros(contact_.size() > 0 ? system.size() : 0)),
       stop_displacement_(Vector::Zero(contact_.size())),
       stop_velocity_(stop_displacement_),
       stop_force_(stop_displacement_),
+      other_vector_(Vector::Zero(turning_ ? system.size() : 0)),
+      turning_damping_(other_vector_),
+      turning_inertia_(other_vector_),
       shifted_(zeros(system.damping.is_rayleigh() ? system.size() : 0)),
       modal_force_(Vector::Zero(modal_ ? system.size() : 0)),
       work_(Vector::Zero(std::min(system.size(), kLargestBlock))),
@@ -46,7 +50,11 @@ Dynamics::Dynamics(const model::System& system)
   };
   for (Index i = 0; i < stop_count(); ++i)
     for (const Index dof : {contact_.dof_a(i), contact_.dof_b(i)}) mark(has_stops_, dof);
-  if (system.dashpots.size() > 0) dashpot_product_ = linalg::SymmetricProduct(system.dashpots);
+  if (system.dashpots.size() > 0) dashpot_product_ = linalg::SymmetricProduct(system.dashpots, system.is_symmetric);
+  if (modal_ && !system.is_symmetric)
+    throw InputError(
+        "modal damping is that of the modes of symmetric matrices, but shafts turn here or bearings have cross terms; "
+        "give mass_proportional and stiffness_proportional, or damping of bearings and springs");
   if (size() == 1)
     single_damping_ = system.damping.mass_proportional * system.mass.coeff(0, 0) +
                       system.damping.stiffness_proportional * system.stiffness.coeff(0, 0) +
@@ -64,6 +72,7 @@ void Dynamics::external_force(double t, VectorRef force) {
 }
 
 void Dynamics::add_external_force(double t, VectorRef force) {
+  set_time(t);
   if (t != load_time_) {
     for (std::size_t i = 0; i < load_values_.size(); ++i) load_values_[i] = system_.loads[i].in_time->value(t);
     load_time_ = t;
@@ -92,6 +101,7 @@ void Dynamics::add_contact_force(ConstVectorRef x, VectorRef force) {
 
 void Dynamics::elastic_force(ConstVectorRef x, VectorRef y) const {
   stiffness_product_.multiply(x.data(), y.data());
+  if (turning_) turning_->add_elastic_force(x, y);
 }
 void Dynamics::inertia_force(ConstVectorRef a, VectorRef y) const {
   mass_product_.multiply(a.data(), y.data());
@@ -100,6 +110,7 @@ void Dynamics::inertia_force(ConstVectorRef a, VectorRef y) const {
 void Dynamics::damping_force(ConstVectorRef v, VectorRef y) {
   in_blocks(size(), [&](Index begin, Index count) { damping_rows(v, begin, count, y.data() + begin); });
   if (modal_) modal_->add_force(v, y);
+  if (turning_) turning_->add_damping_force(v, y);
 }
 
 void Dynamics::damping_rows(ConstVectorRef v, Index begin, Index count, double* y) {
@@ -135,6 +146,12 @@ void Dynamics::subtract_internal_force(ConstVectorRef x, ConstVectorRef v, Vecto
     damping_rows(v, begin, count, damping_.data());
     rows -= damping_.head(count);
   });
+  if (turning_) {
+    other_vector_.setZero();
+    turning_->add_elastic_force(x, other_vector_);
+    turning_->add_damping_force(v, other_vector_);
+    r -= other_vector_;
+  }
   if (!modal_) return;
   damping_force(v, modal_force_);
   r -= modal_force_;
@@ -153,6 +170,7 @@ void Dynamics::subtract_products(From from, const double* x, double on_v, ConstV
     dashpot_product_.multiply(v.data(), begin, count, work_.data());
     rows -= on_v * product;
   });
+  if (turning_) turning_->subtract_forces(x, on_v, v, r);
 }
 
 const double* Dynamics::shifted(ConstVectorRef x, double shift, ConstVectorRef v) {
@@ -169,6 +187,7 @@ void Dynamics::total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorR
 }
 
 void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+  set_time(t);
   subtract_from(From::nothing, x, v, a);
   add_external_force(t, a);
   add_contact_force(x, a);
@@ -206,7 +225,7 @@ linalg::LinearSolver& Dynamics::mass_solver() {
 }
 
 EffectiveSolver& Dynamics::effective() {
-  if (!effective_) effective_.emplace(system_, contact_, counters_, modal_.get());
+  if (!effective_) effective_.emplace(system_, contact_, counters_, modal_.get(), turning_.get());
   return *effective_;
 }
 
@@ -219,6 +238,10 @@ std::vector<double> Dynamics::load_kinks() const {
   std::vector<double> all;
   for (const model::FreeLoad& load : system_.loads) {
     const auto kinks = load.in_time->kinks();
+    all.insert(all.end(), kinks.begin(), kinks.end());
+  }
+  if (system_.rotation != nullptr) {
+    const auto kinks = system_.rotation->kinks();
     all.insert(all.end(), kinks.begin(), kinks.end());
   }
   std::sort(all.begin(), all.end());

@@ -6,14 +6,17 @@
 
 #include "butee/dynamics/contact.hpp"
 #include "butee/dynamics/effective_solver.hpp"
+#include "butee/linalg/force_balance.hpp"
 #include "butee/dynamics/modal_damping.hpp"
 #include "butee/dynamics/modal_system.hpp"
-#include "butee/linalg/force_balance.hpp"
 #include "butee/linalg/symmetric_product.hpp"
+#include "butee/dynamics/turning.hpp"
 
 namespace butee::dynamics {
 
 /// What an integrator may ask of the system M a + C v + K x = F(t) + F_c(x).
+///
+/// Where the speed of rotation varies, C and K are those of the last instant t that was asked for.
 ///
 /// Matrices, factorizations and caches live here, never in an integrator. Each is made at its first use, so that a
 /// method pays for nothing it does not ask for. Vectors have size(): displacements m or rad, forces N or N m. Not for
@@ -31,12 +34,20 @@ class BUTEE_EXPORT Dynamics {
   linalg::Counters& counters() { return counters_; }
   const linalg::Counters& counters() const { return counters_; }
 
+  /// Takes C and K of an instant, where the speed of rotation varies.
+  void set_time(double t) {
+    if (turning_) turning_->set_time(t);
+  }
   /// F := F(t)
   void external_force(double t, VectorRef force);
   /// Says that the loads' functions of time are others than before.
   void loads_changed() { load_time_ = std::numeric_limits<double>::quiet_NaN(); }
   /// F := dF/dt(t), from the loads' Taylor series or, where they have none, a difference over `h` s
   void external_force_rate(double t, double h, VectorRef rate);
+  /// rate -= dC/dt v + dK/dt x, zero unless the speed of rotation varies; at the last instant that was asked for
+  void subtract_matrix_rate(ConstVectorRef x, ConstVectorRef v, VectorRef rate) const {
+    if (turning_) turning_->subtract_rate(x, v, rate);
+  }
   /// F += F_c(x)
   void add_contact_force(ConstVectorRef x, VectorRef force);
   /// y := K x
@@ -113,6 +124,7 @@ class BUTEE_EXPORT Dynamics {
   Contact contact_;
   std::unique_ptr<const ModalDamping> modal_;  ///< null without modal damping
   bool has_damping_;
+  std::unique_ptr<Turning> turning_;  ///< null unless the speed of rotation varies
   double single_damping_ = 0.0;  ///< C of a system of one DOF
   linalg::SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
   std::optional<linalg::LinearSolver> mass_solver_;
@@ -124,6 +136,7 @@ class BUTEE_EXPORT Dynamics {
   std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant
   std::vector<bool> has_stops_, has_loads_;  ///< of each block of rows
   Vector contact_force_, stop_displacement_, stop_velocity_, stop_force_;
+  Vector other_vector_, turning_damping_, turning_inertia_;  ///< of systems whose speed of rotation varies
   Vector shifted_, modal_force_;             ///< x + s v and C v, of systems with Rayleigh and with modal damping
   Vector work_, other_, inertia_, damping_;  ///< of a block of rows
 };

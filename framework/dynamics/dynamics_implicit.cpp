@@ -18,6 +18,7 @@ bool Dynamics::solve_secant(double t, double on_v, double on_x, ConstVectorRef k
 bool Dynamics::solve_secant_of_many(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
                                     ConstVectorRef x, ConstVectorRef v, VectorRef a) {
   // The solution for a + s v instead of a lacks the product M v: what C v asks for is then a shift of x in K x.
+  set_time(t);
   const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
   const double s = on_mass / (1.0 + on_v * on_mass), shift = on_stiffness - s * (on_x + on_v * on_stiffness);
   subtract_products(From::nothing, shifted(x, shift, v), 1.0 - s * on_v, v, a);
@@ -79,6 +80,16 @@ linalg::ForceBalance Dynamics::residual(ConstVectorRef load, ConstVectorRef stop
     return balance;
   }
   if (modal_) damping_force(v, modal_force_);
+  if (turning_) {
+    // Of these small systems the forces are kept whole.
+    damping_force(v, turning_damping_);
+    elastic_force(x, other_vector_);
+    inertia_force(a, turning_inertia_);
+    balance.add({load.data(), has_stops ? contact_force_.data() : nullptr, turning_inertia_.data(),
+                 turning_damping_.data(), other_vector_.data()},
+                size(), r.data());
+    return balance;
+  }
   in_blocks(size(), [&](Index begin, Index count) {
     linalg::ForceTerms terms{nullptr, nullptr, inertia_.data(), nullptr, work_.data()};
     mass_product_.multiply(a.data(), begin, count, inertia_.data());

@@ -21,24 +21,33 @@ Index place_of(const SparseMatrix& matrix, Index row, Index column) {
 
 bool prefers_local(const model::System& system, const Contact& contact, const ModalDamping* modal) {
   if (system.size() == 1) return contact.size() == 0;
+  if (!system.is_symmetric) return true;
   return contact.size() <= LocalContact::kMostStops || (modal != nullptr && modal->matrix().prefers_dense());
 }
 
 }  // namespace
 
 EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
-                                 const ModalDamping* modal)
+                                 const ModalDamping* modal, const Turning* turning)
     : EffectiveSolver(system, contact, counters,
-                      prefers_local(system, contact, modal) ? Contacts::local : Contacts::factorized, modal) {}
+                      prefers_local(system, contact, modal) ? Contacts::local : Contacts::factorized, modal, turning) {}
 
 EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
-                                 Contacts contacts, const ModalDamping* modal)
-    : system_(system), contact_(contact), counters_(counters), modal_(modal), contacts_(contacts), base_(system.mass) {}
+                                 Contacts contacts, const ModalDamping* modal, const Turning* turning)
+    : system_(system),
+      contact_(contact),
+      counters_(counters),
+      modal_(modal),
+      turning_(turning),
+      contacts_(contacts),
+      base_(system.mass) {}
 
 void EffectiveSolver::prepare_factorized() {
   effective_ = base_;
   if (modal_ != nullptr)
     modal_factor_.emplace(base_, counters_, &modal_->matrix());
+  else if (!system_.is_symmetric)
+    general_factor_.emplace(base_, counters_, nullptr, false);
   else
     factor_.emplace(base_, counters_);
   for (Index i = 0; i < contact_.size(); ++i) {
@@ -52,22 +61,25 @@ void EffectiveSolver::assemble_base(double damping, double stiffness) {
   const double on_stiffness = stiffness + damping * system_.damping.stiffness_proportional;
   base_.coeffs() = on_mass * system_.mass.coeffs() + on_stiffness * system_.stiffness.coeffs();
   if (system_.dashpots.size() > 0) base_.coeffs() += damping * system_.dashpots.coeffs();
+  if (turning_ != nullptr) turning_->add_to(damping, on_stiffness, base_);
 }
 
 void EffectiveSolver::set_factors(double damping, double stiffness) {
-  if (damping == damping_factor_ && stiffness == stiffness_factor_) return;
+  const int revision = turning_ != nullptr ? turning_->revision() : 0;
+  if (damping == damping_factor_ && stiffness == stiffness_factor_ && revision == revision_) return;
+  revision_ = revision;
   damping_factor_ = damping;
   stiffness_factor_ = stiffness;
   if (contacts_ == Contacts::factorized) return assemble_base(damping, stiffness);
   for (std::size_t i = 0; i < slots_.size(); ++i)
-    if (slots_[i]->damping == damping && slots_[i]->stiffness == stiffness) {
+    if (slots_[i]->damping == damping && slots_[i]->stiffness == stiffness && slots_[i]->revision == revision) {
       current_ = i;
       return;
     }
   if (slots_.size() < kSlots) {
     current_ = slots_.size();
-    slots_.push_back(std::make_unique<Slot>(base_, counters_, modal_));
-    if (contact_.size() > 0) slots_.back()->local.emplace(contact_);
+    slots_.push_back(std::make_unique<Slot>(base_, counters_, modal_, system_.is_symmetric));
+    if (contact_.size() > 0 && system_.is_symmetric) slots_.back()->local.emplace(contact_);
   } else {
     current_ = oldest_;
     oldest_ = (oldest_ + 1) % kSlots;
@@ -75,6 +87,7 @@ void EffectiveSolver::set_factors(double damping, double stiffness) {
   Slot& slot = *slots_[current_];
   slot.damping = damping;
   slot.stiffness = stiffness;
+  slot.revision = revision;
   assemble_base(damping, stiffness);
   slot.usable = slot.base.factorize(base_, damping);
   if (slot.usable && slot.local) slot.local->set_base(slot.base);
@@ -86,7 +99,8 @@ bool EffectiveSolver::solve(ConstVectorRef kappa, VectorRef b) {
     return system_.size() == 1 ? solve_scalar(kappa, b) : solve_factorized(kappa, b);
   Slot& slot = *slots_[current_];
   if (!slot.usable) return false;
-  if (!(kappa.array() >= 0.0).all()) {
+  const bool by_base = system_.is_symmetric ? (kappa.array() >= 0.0).all() : kappa.isZero(0.0);
+  if (!by_base) {
     assemble_base(damping_factor_, stiffness_factor_);
     return solve_factorized(kappa, b);
   }
@@ -119,6 +133,11 @@ bool EffectiveSolver::solve_factorized(ConstVectorRef kappa, VectorRef b) {
     if (ba >= 0) values[ba] -= k;
   }
   if (modal_ != nullptr) return solve_modal(b);
+  if (general_factor_) {
+    if (!general_factor_->factorize(effective_)) return false;
+    general_factor_->solve(b);
+    return true;
+  }
   if (!factor_->factorize(effective_)) return false;
   factor_->solve(b);
   return true;

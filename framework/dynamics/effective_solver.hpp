@@ -7,6 +7,7 @@
 
 #include "butee/dynamics/local_contact.hpp"
 #include "butee/dynamics/modal_damping.hpp"
+#include "butee/dynamics/turning.hpp"
 
 namespace butee::dynamics {
 
@@ -21,6 +22,8 @@ namespace butee::dynamics {
 /// by LocalContact. Systems of one DOF, for which that is a detour, and those with very many stops are
 /// factorized anew for every kappa, as is any with a negative kappa. The result is a function of (system, c, k, kappa)
 /// alone, whatever was solved before.
+///
+/// Where C or K is not symmetric, A_0 is factorized by sparse LU; with a stop closed the whole matrix is.
 class BUTEE_EXPORT EffectiveSolver {
  public:
   enum class Contacts {
@@ -28,13 +31,13 @@ class BUTEE_EXPORT EffectiveSolver {
     factorized  ///< a new factorization for every kappa
   };
 
-  /// All arguments must outlive it; `modal` is null without modal damping. The way to treat contacts is chosen by their
+  /// All arguments must outlive it; `modal` is null without modal damping, `turning` unless the speed of rotation varies. The way to treat contacts is chosen by their
   /// number.
   EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
-                  const ModalDamping* modal = nullptr);
+                  const ModalDamping* modal = nullptr, const Turning* turning = nullptr);
   /// With a way of one's own, for comparisons.
   EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters, Contacts contacts,
-                  const ModalDamping* modal = nullptr);
+                  const ModalDamping* modal = nullptr, const Turning* turning = nullptr);
 
   /// Sets the feedback factors; work is done only where they are new.
   void set_factors(double damping, double stiffness);
@@ -45,10 +48,11 @@ class BUTEE_EXPORT EffectiveSolver {
  private:
   /// What is kept of one pair of factors.
   struct Slot {
-    Slot(const SparseMatrix& pattern, linalg::Counters& counters, const ModalDamping* modal)
-        : base(pattern, counters, modal != nullptr ? &modal->matrix() : nullptr) {}
+    Slot(const SparseMatrix& pattern, linalg::Counters& counters, const ModalDamping* modal, bool is_symmetric)
+        : base(pattern, counters, modal != nullptr ? &modal->matrix() : nullptr, is_symmetric) {}
 
     double damping = -1.0, stiffness = -1.0;
+    int revision = 0;  ///< of the turning parts
     bool usable = false;
     linalg::LinearSolver base;
     std::optional<LocalContact> local;
@@ -64,15 +68,18 @@ class BUTEE_EXPORT EffectiveSolver {
   const Contact& contact_;
   linalg::Counters& counters_;
   const ModalDamping* modal_;
+  const Turning* turning_;
   Contacts contacts_;
   SparseMatrix base_;  ///< M + c C + k K without modal damping
   std::vector<std::unique_ptr<Slot>> slots_;
   std::size_t current_ = 0, oldest_ = 0;
   double damping_factor_ = -1.0, stiffness_factor_ = -1.0;
+  int revision_ = 0;
 
   // Where factorized for every kappa.
   SparseMatrix effective_;
   std::optional<linalg::SymmetricFactor> factor_;
+  std::optional<linalg::LinearSolver> general_factor_;  ///< instead, of matrices that are not symmetric
   std::optional<linalg::LinearSolver> modal_factor_;  ///< instead, with modal damping
   /// Places of stop i in the value array: (a,a), (b,b), (a,b), (b,a), -1 where an end is fixed.
   std::vector<std::array<Index, 4>> places_;

@@ -35,7 +35,7 @@ Vector softest(const SparseMatrix& scaled) {
 std::string describe_motion(ConstVectorRef shape, const model::DofTable& dofs) {
   const auto& free = dofs.free();
   double largest[2] = {0.0, 0.0};
-  const auto kind = [&](Index i) { return free[static_cast<std::size_t>(i)].kind == DofKind::theta ? 1 : 0; };
+  const auto kind = [&](Index i) { return is_rotation(free[static_cast<std::size_t>(i)].kind) ? 1 : 0; };
   for (Index i = 0; i < shape.size(); ++i) largest[kind(i)] = std::max(largest[kind(i)], std::abs(shape[i]));
   const int wanted = largest[0] > 1e-6 * largest[1] ? 0 : 1;
   std::vector<Index> moving;

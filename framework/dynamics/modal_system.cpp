@@ -49,6 +49,11 @@ Eigen::MatrixXd forces_of(const model::System& system) {
 
 ModalSystem::ModalSystem(Dynamics& dynamics, Index count) {
   const model::System& system = dynamics.system();
+  if (!system.is_symmetric)
+    throw InputError(
+        "integrator.type: shafts turn or bearings have cross terms in this scene, so that its matrices are not "
+        "symmetric and its modes are not those that this method takes; take rodas4, dopri5, extrapolation8 or exact, "
+        "or auto, which chooses among them");
   Modes modes = find_modes(system, count);
   if (modes.frequencies.size() < system.size()) add_static(system, modes);
   frequencies_ = modes.frequencies.array();

@@ -63,11 +63,12 @@ class ForceSink final : public model::MatrixSink {
     stiffness_ = matrices.stiffness.cast<long double>();
     gather(dofs);
     strained_ = own_;
-    if (is_free_to_translate(dofs, matrices.stiffness)) {
+    for (const DofKind kind : {DofKind::ux, DofKind::uy, DofKind::uz}) {
+      if (!is_free_to_translate(dofs, kind, matrices.stiffness)) continue;
       std::size_t first = 0;
-      while (dofs[first].kind != DofKind::u) ++first;
+      while (dofs[first].kind != kind) ++first;
       for (std::size_t i = 0; i < dofs.size(); ++i)
-        if (dofs[i].kind == DofKind::u) strained_.row(static_cast<Index>(i)) -= own_.row(static_cast<Index>(first));
+        if (dofs[i].kind == kind) strained_.row(static_cast<Index>(i)) -= own_.row(static_cast<Index>(first));
     }
     forces_.noalias() = stiffness_.lazyProduct(strained_);
     for (std::size_t i = 0; i < dofs.size(); ++i)
@@ -85,14 +86,14 @@ class ForceSink final : public model::MatrixSink {
   }
 
   /// To the last bit, as the two-node elements of the framework are.
-  static bool is_free_to_translate(std::span<const NodalDof> dofs, const Eigen::MatrixXd& stiffness) {
+  static bool is_free_to_translate(std::span<const NodalDof> dofs, DofKind kind, const Eigen::MatrixXd& stiffness) {
     int count = 0;
-    for (const NodalDof& dof : dofs) count += dof.kind == DofKind::u ? 1 : 0;
+    for (const NodalDof& dof : dofs) count += dof.kind == kind ? 1 : 0;
     if (count < 2) return false;
     for (Index i = 0; i < stiffness.rows(); ++i) {
       double sum = 0.0;
       for (std::size_t j = 0; j < dofs.size(); ++j)
-        if (dofs[j].kind == DofKind::u) sum += stiffness(i, static_cast<Index>(j));
+        if (dofs[j].kind == kind) sum += stiffness(i, static_cast<Index>(j));
       if (sum != 0.0) return false;
     }
     return true;

@@ -1,15 +1,20 @@
 #include "butee/linalg/linear_solver.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "butee/linalg/symmetric_product.hpp"
 
 namespace butee::linalg {
 
-LinearSolver::LinearSolver(const SparseMatrix& matrix, Counters& counters, const LowRank* term)
-    : counters_(&counters), term_(term) {
+LinearSolver::LinearSolver(const SparseMatrix& matrix, Counters& counters, const LowRank* term, bool is_symmetric)
+    : counters_(&counters), term_(term), is_symmetric_(is_symmetric) {
   const Index size = matrix.rows(), band = bandwidth(matrix);
   if (size <= kTiny) return;
+  if (!is_symmetric) {
+    general_.emplace(matrix, counters);
+    return;
+  }
   if (term != nullptr && term->prefers_dense()) {
     if (size > kLargestInverse) dense_ = std::make_unique<DenseFactor>();
     return;
@@ -22,6 +27,7 @@ LinearSolver::LinearSolver(const SparseMatrix& matrix, Counters& counters, const
 }
 
 bool LinearSolver::factorize(const SparseMatrix& matrix, double c) {
+  if (general_) return general_->factorize(matrix);
   if (!band_ && !factor_) return factorize_dense(matrix, c);
   if (!factorize_sparse(matrix)) return false;
   return !low_rank_ || low_rank_->set(c, [this](VectorRef b) { solve_sparse(b); });
@@ -38,9 +44,15 @@ bool LinearSolver::factorize_dense(const SparseMatrix& matrix, double c) {
   Eigen::MatrixXd full(matrix);
   if (term_ != nullptr) term_->add_to(full, c);
   if (dense_) return dense_->factorize(full);
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(full);
-  if (cholesky.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd inverse = cholesky.solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  const Eigen::MatrixXd unity = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
+  Eigen::MatrixXd inverse;
+  if (is_symmetric_) {
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(full);
+    if (cholesky.info() != Eigen::Success) return false;
+    inverse = cholesky.solve(unity);
+  } else {
+    inverse = Eigen::PartialPivLU<Eigen::MatrixXd>(full).solve(unity);
+  }
   reciprocal_ = inverse(0, 0);
   right_.resize(matrix.rows());
   inverse_ = DenseProduct(inverse);
@@ -64,6 +76,7 @@ void LinearSolver::solve_less(VectorRef b, double factor, ConstVectorRef v) {
 
 void LinearSolver::solve_sparse(VectorRef b) {
   if (factor_) return factor_->solve(b);
+  if (general_) return general_->solve(b);
   ++counters_->solves;
   if (b.size() == 1) {
     b[0] *= reciprocal_;

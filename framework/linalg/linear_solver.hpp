@@ -5,14 +5,15 @@
 
 #include "butee/linalg/band_factor.hpp"
 #include "butee/linalg/dense_product.hpp"
+#include "butee/linalg/general_factor.hpp"
 #include "butee/linalg/low_rank.hpp"
 #include "butee/linalg/symmetric_factor.hpp"
 
 namespace butee::linalg {
 
-/// Solves A x = b for a symmetric positive definite A: tiny and small ones without a narrow band by their inverse,
-/// which costs one dense product, narrow bands from both ends, all others by sparse Cholesky (CHOLMOD). The choice
-/// depends on the pattern alone. Allocates nothing after the first solve.
+/// Solves A x = b for a symmetric positive definite A, or a general one of symmetric pattern: tiny and small ones without a narrow band by their inverse,
+/// which costs one dense product, narrow bands from both ends, all others by sparse Cholesky (CHOLMOD); general ones
+/// that are not small by sparse LU (KLU). The choice depends on the pattern and the symmetry alone. Allocates nothing after the first solve.
 ///
 /// With a term of low rank, as of modal damping, A = sparse part + c C: small systems and terms of many columns are
 /// solved densely, terms of few columns by the sparse factor and Woodbury's formula.
@@ -22,10 +23,12 @@ class BUTEE_EXPORT LinearSolver {
   static constexpr Index kLargestInverse = DenseProduct::kMostRows;
   static constexpr Index kTiny = 16;
 
-  /// Analyses the pattern of `matrix`; `counters` and `term`, the C below or null, must outlive the solver.
-  LinearSolver(const SparseMatrix& matrix, Counters& counters, const LowRank* term = nullptr);
+  /// Analyses the pattern of `matrix`; `counters` and `term`, the C below or null, must outlive the solver. A matrix
+  /// that is not symmetric goes without C.
+  LinearSolver(const SparseMatrix& matrix, Counters& counters, const LowRank* term = nullptr, bool is_symmetric = true);
 
-  /// Takes `matrix` + c C. False where that, or `matrix`, is not positive definite.
+  /// Takes `matrix` + c C. False where that, or `matrix`, is not positive definite, or, where
+  /// it is not symmetric, singular.
   [[nodiscard]] bool factorize(const SparseMatrix& matrix, double c = 0.0);
 
   /// b := A^-1 b. After a successful factorize().
@@ -40,7 +43,9 @@ class BUTEE_EXPORT LinearSolver {
 
   Counters* counters_;
   const LowRank* term_;
+  bool is_symmetric_;
   std::optional<SymmetricFactor> factor_;
+  std::optional<GeneralFactor> general_;
   std::optional<BandFactor> band_;
   double reciprocal_ = 0.0;  ///< of a single equation
   DenseProduct inverse_;

@@ -33,9 +33,14 @@ Index bandwidth(const SparseMatrix& matrix) {
   return band;
 }
 
-SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix)
+SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix, bool is_symmetric)
     : size_(matrix.rows()), first_(size_ > 0 ? matrix.coeff(0, 0) : 0.0) {
   band_ = bandwidth(matrix);
+  if (!is_symmetric && (size_ > kInCache || band_ > static_cast<Index>(kWidestBand))) {
+    transposed_ = std::make_unique<const SparseMatrix>(matrix.transpose());
+    rows_ = transposed_.get();
+    return;
+  }
   if (band_ > static_cast<Index>(kWidestBand)) {
     rows_ = &matrix;
     return;
@@ -55,6 +60,10 @@ SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix)
   below_ = zeros(above_.size());
   for (Index k = 0; k <= band_; ++k)
     below_.segment(k * stride_, padded - kPadding) = above_.segment(k * stride_ + kPadding - k, padded - kPadding);
+  if (is_symmetric) return;
+  for (Index j = 0; j < matrix.cols(); ++j)
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
+      if (entry.row() > j) below_[(entry.row() - j) * stride_ + entry.row()] = entry.value();
 }
 
 void SymmetricProduct::share_rows() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include <butee/export.hpp>
 
 #include "butee/linalg/chunk_table.hpp"
@@ -11,14 +13,15 @@ struct BandMatrix;
 struct Rows;
 }  // namespace kernel
 
-/// y = A x for a symmetric sparse A. Narrow bands, those of chains of beams, are kept by diagonals, which needs no
+/// y = A x for a sparse A of symmetric pattern. Narrow bands, those of chains of beams, are kept by diagonals, which needs no
 /// indices and vectorises; everything else by rows. Of large ones equal rows are stored once. Allocates nothing after
 /// construction.
 class BUTEE_EXPORT SymmetricProduct {
  public:
   SymmetricProduct() = default;
-  /// Takes a symmetric matrix stored in full; by rows it refers to `matrix`, which must outlive it.
-  explicit SymmetricProduct(const SparseMatrix& matrix);
+  /// Takes a symmetric matrix stored in full; by rows it refers to `matrix`, which must outlive it. One that is not
+  /// symmetric is copied.
+  explicit SymmetricProduct(const SparseMatrix& matrix, bool is_symmetric = true);
 
   /// A(0, 0)
   double first() const { return first_; }
@@ -42,6 +45,7 @@ class BUTEE_EXPORT SymmetricProduct {
   Index size_ = 0, band_ = 0;
   double first_ = 0.0;
   const SparseMatrix* rows_ = nullptr;
+  std::unique_ptr<const SparseMatrix> transposed_;  ///< what rows_ points to where A is not symmetric
   /// A(i, i + k) and A(i, i - k), diagonal k = 0 ... band behind diagonal, stride_ entries apart, with zeros around;
   /// empty where kept by rows, below_ where large too.
   Vector above_, below_;

@@ -2,35 +2,36 @@
 
 namespace butee::model {
 
-DofTable::DofTable(const NodeTable& nodes)
-    : nodes_(&nodes), flags_(2 * static_cast<std::size_t>(nodes.size())), numbers_(flags_.size(), kAbsent) {}
+DofTable::DofTable(const NodeTable& nodes) : nodes_(&nodes), entries_(static_cast<std::size_t>(nodes.size())) {}
 
 void DofTable::claim(NodalDof dof, bool with_mass) {
-  flags_[slot(dof)] |= kExists | (with_mass ? kHasMass : 0);
+  NodeEntry& node = at(dof.node);
+  node.exists |= bit(dof.kind);
+  if (with_mass) node.with_mass |= bit(dof.kind);
 }
 
 void DofTable::fix(NodalDof dof) {
-  flags_[slot(dof)] |= kIsFixed;
+  at(dof.node).fixed |= bit(dof.kind);
 }
 
 void DofTable::number() {
   free_.clear();
   fixed_count_ = 0;
-  for (std::size_t i = 0; i < flags_.size(); ++i) {
-    numbers_[i] = kAbsent;
-    if (!(flags_[i] & kExists)) continue;
-    if (flags_[i] & kIsFixed) {
-      numbers_[i] = kFixed;
-      ++fixed_count_;
-    } else {
-      numbers_[i] = static_cast<std::int32_t>(free_.size());
-      free_.push_back({static_cast<NodeId>(i / 2), i % 2 == 0 ? DofKind::u : DofKind::theta});
-    }
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    NodeEntry& node = entries_[i];
+    node.first = static_cast<std::int32_t>(free_.size());
+    fixed_count_ += std::popcount(static_cast<std::uint8_t>(node.exists & node.fixed));
+    for (unsigned left = node.exists & ~unsigned{node.fixed}; left != 0; left &= left - 1)
+      free_.push_back({static_cast<NodeId>(i), static_cast<DofKind>(std::countr_zero(left))});
   }
 }
 
 std::string DofTable::name(NodalDof dof) const {
   return std::string(name_of(dof.kind)) + " of " + nodes_->name(dof.node);
+}
+
+std::vector<std::string> dof_names() {
+  return {kDofNames.begin(), kDofNames.end()};
 }
 
 }  // namespace butee::model

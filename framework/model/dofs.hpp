@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,8 @@ struct NodalValue {
 
 /// Which degrees of freedom exist, which are fixed, and the numbers of the free ones.
 ///
-/// A node has only the DOFs that some element claims. Joined nodes share theirs. Free DOFs are numbered by node, u
-/// before theta.
+/// A node has only the DOFs that some element claims. Joined nodes share theirs. Free DOFs are numbered by node, and
+/// within a node in the order of DofKind.
 class BUTEE_EXPORT DofTable {
  public:
   static constexpr Index kFixed = -1;
@@ -34,12 +35,17 @@ class BUTEE_EXPORT DofTable {
   void fix(NodalDof dof);
   void number();
 
-  bool exists(NodalDof dof) const { return flags(dof) & kExists; }
-  bool is_fixed(NodalDof dof) const { return flags(dof) & kIsFixed; }
-  bool has_mass(NodalDof dof) const { return flags(dof) & kHasMass; }
+  bool exists(NodalDof dof) const { return at(dof.node).exists & bit(dof.kind); }
+  bool is_fixed(NodalDof dof) const { return at(dof.node).fixed & bit(dof.kind); }
+  bool has_mass(NodalDof dof) const { return at(dof.node).with_mass & bit(dof.kind); }
 
   /// The number of a free DOF in the system, or kFixed, or kAbsent. After number().
-  Index index(NodalDof dof) const { return numbers_[slot(dof)]; }
+  Index index(NodalDof dof) const {
+    const NodeEntry& node = at(dof.node);
+    if (!(node.exists & bit(dof.kind))) return kAbsent;
+    if (node.fixed & bit(dof.kind)) return kFixed;
+    return node.first + std::popcount(static_cast<std::uint8_t>(node.exists & ~node.fixed & (bit(dof.kind) - 1U)));
+  }
   Index free_count() const { return static_cast<Index>(free_.size()); }
   Index fixed_count() const { return fixed_count_; }
   const std::vector<NodalDof>& free() const { return free_; }
@@ -47,18 +53,23 @@ class BUTEE_EXPORT DofTable {
   std::string name(NodalDof dof) const;
 
  private:
-  enum Flag : std::uint8_t { kExists = 1, kHasMass = 2, kIsFixed = 4 };
+  /// Sets of kinds as bits, and the number of the first free DOF.
+  struct NodeEntry {
+    std::uint8_t exists = 0, fixed = 0, with_mass = 0;
+    std::int32_t first = 0;
+  };
 
-  std::size_t slot(NodalDof dof) const {
-    return 2 * static_cast<std::size_t>(nodes_->canonical(dof.node)) + (dof.kind == DofKind::theta ? 1 : 0);
-  }
-  std::uint8_t flags(NodalDof dof) const { return flags_[slot(dof)]; }
+  static constexpr std::uint8_t bit(DofKind kind) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(kind)); }
+  const NodeEntry& at(NodeId node) const { return entries_[static_cast<std::size_t>(nodes_->canonical(node))]; }
+  NodeEntry& at(NodeId node) { return entries_[static_cast<std::size_t>(nodes_->canonical(node))]; }
 
   const NodeTable* nodes_;
-  std::vector<std::uint8_t> flags_;
-  std::vector<std::int32_t> numbers_;
+  std::vector<NodeEntry> entries_;
   std::vector<NodalDof> free_;
   Index fixed_count_ = 0;
 };
+
+/// The names that a scene may give to DOFs, for declarations of keys.
+BUTEE_EXPORT std::vector<std::string> dof_names();
 
 }  // namespace butee::model

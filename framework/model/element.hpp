@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -11,11 +12,15 @@
 
 namespace butee::model {
 
-/// Symmetric matrices on a few DOFs: mass (kg, kg m, kg m2), damping (N s/m ...), stiffness (N/m, N, N m).
+/// Matrices on a few DOFs: mass (kg, kg m, kg m2; symmetric), damping (N s/m ...), stiffness (N/m, N, N m).
 struct ElementMatrices {
   explicit ElementMatrices(Index size) : mass(Eigen::MatrixXd::Zero(size, size)), damping(mass), stiffness(mass) {}
 
   Eigen::MatrixXd mass, damping, stiffness;
+  /// Of parts that turn at Omega rad/s, which a sink asks for with turns(); 0 x 0 where there is none. The forces on
+  /// the element are -Omega gyroscopic v (kg m2, skew-symmetric) and, of damping that turns with the part,
+  /// -rotating_damping (v - Omega e_x x u) with the cross product taken of displacements and of rotations.
+  Eigen::MatrixXd gyroscopic{}, rotating_damping{};
 };
 
 /// Takes what elements add to the global matrices.
@@ -24,6 +29,8 @@ class BUTEE_EXPORT MatrixSink {
   virtual ~MatrixSink() = default;
   /// `matrices` are of the size of `dofs`. Their damping is what comes on top of Rayleigh damping: dashpots.
   virtual void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) = 0;
+  /// True where the element turns about x, so that its gyroscopic matrix and rotating damping are of use.
+  virtual bool turns() const { return false; }
 };
 
 /// One end of a part of a beam, a part being the stretch between two neighbouring nodes.
@@ -35,15 +42,16 @@ struct SectionCut {
   explicit SectionCut(std::vector<NodalDof> of)
       : dofs(std::move(of)),
         matrices(static_cast<Index>(dofs.size())),
-        line_load(Eigen::VectorXd::Zero(matrices.mass.rows())),
+        line_loads(Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(matrices.mass.rows(), 3)),
         resultants(decltype(resultants)::Zero(6, matrices.mass.rows())) {}
 
   std::vector<NodalDof> dofs;  ///< of the part
   ElementMatrices matrices;    ///< of the part
-  Eigen::VectorXd line_load;   ///< f of a line load of 1 N/m
+  Eigen::Matrix<double, Eigen::Dynamic, 3> line_loads;  ///< f of line loads of 1 N/m along x, y and z
   /// Rows N, Vy, Vz, T, My, Mz from p; zero where the beam has no such force.
   Eigen::Matrix<double, 6, Eigen::Dynamic> resultants;
-  std::optional<double> modulus;  ///< m3: Mz over the stress of the outer fibre, where the section knows that fibre
+  std::optional<double> modulus;    ///< m3: Mz over the stress of the outer fibre, where the section knows that fibre
+  std::optional<double> modulus_y;  ///< m3: the same of My
 };
 
 /// A linear structural element of the model file: a whole beam, a lumped mass, a spring.
@@ -54,14 +62,24 @@ class BUTEE_EXPORT Element {
   /// Claims the DOFs that it uses and says which of them it gives mass to.
   virtual void claim(DofTable& dofs) const = 0;
 
+  /// Claims further DOFs of its nodes where other elements use them; called after every element's claim().
+  virtual void claim_shared(DofTable& dofs) const { (void)dofs; }
+
   /// Adds its matrices.
   virtual void assemble(MatrixSink& sink) const = 0;
 
-  /// Adds the consistent nodal loads of a line load of 1 N/m and returns true, or false where it has no length.
-  virtual bool add_line_load(std::vector<NodalValue>& loads) const {
-    (void)loads;
+  /// Adds the consistent nodal loads of a line load of 1 N/m along a displacement and returns true, or false where it
+  /// has no length or no such displacement.
+  virtual bool add_line_load(std::vector<NodalValue>& loads, DofKind along = DofKind::uy) const {
+    (void)loads, (void)along;
     return false;
   }
+
+  /// Whether the element turns about x with [rotation]: beams along x and discs may, damping that turns always does.
+  enum class Turning { never, possible, always };
+  virtual Turning turning() const { return Turning::never; }
+  /// Why one that may turn cannot after all, or "".
+  virtual std::string turning_problem() const { return ""; }
 
   /// The nodes of a beam in the order of its parts: part i lies between nodes i and i + 1. Empty for other elements.
   virtual std::vector<NodeId> axis() const { return {}; }

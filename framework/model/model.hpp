@@ -9,6 +9,7 @@
 #include "butee/model/dofs.hpp"
 #include "butee/model/element.hpp"
 #include "butee/model/nodes.hpp"
+#include "butee/model/rotation.hpp"
 #include "butee/model/time_function.hpp"
 
 namespace butee::model {
@@ -32,6 +33,7 @@ struct Load {
   std::unique_ptr<TimeFunction> in_time;
   const Element* line = nullptr;  ///< the element that it is a line load of, whose section forces it enters
   double per_length = 0.0;        ///< N/m, of a line load
+  DofKind along = DofKind::uy;    ///< the displacement that a line load acts along
 };
 
 /// A motion to start from: of every free DOF, in the order of DofTable::free().
@@ -67,10 +69,17 @@ struct Model {
   std::vector<StopGroup> stops;
   std::vector<Load> loads;
   Damping damping;
+  std::unique_ptr<Rotation> rotation;  ///< null where nothing turns
+  std::vector<bool> turns;             ///< of `elements`, those that turn with it; may be shorter
+  double rotating_damping = 0.0;       ///< s: of the parts that turn, stiffness-proportional damping that turns with them
   std::optional<InitialMotion> initial_motion;  ///< of an earlier run; the values below replace parts of it
   std::vector<NodalValue> initial_displacement;
   std::vector<NodalValue> initial_velocity;
 };
+
+/// M r: the forces (N, N m) that accelerate every mass by `acceleration` (m/s2 along x, y, z), node by node; those on
+/// DOFs that supports hold are left out.
+BUTEE_EXPORT std::vector<NodalValue> inertia_pattern(const Model& model, const Eigen::Vector3d& acceleration);
 
 /// The DOFs that the elements claim, with the supports applied, numbered.
 BUTEE_EXPORT DofTable number_dofs(const Model& model);

@@ -102,6 +102,12 @@ NodeId NodeTable::canonical(NodeId node) const {
   return node;
 }
 
+void NodeTable::place(NodeId node, const std::array<double, 3>& origin, const std::array<double, 3>& direction) {
+  const NodeGroup& group = group_of(node);
+  groups_[static_cast<std::size_t>(&group - groups_.data())].origin = origin;
+  groups_[static_cast<std::size_t>(&group - groups_.data())].direction = direction;
+}
+
 void NodeTable::join(NodeId a, NodeId b) {
   a = canonical(a);
   b = canonical(b);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,6 +19,8 @@ struct NodeGroup {
   std::string name;
   NodeId first = 0;
   std::vector<double> coordinates;  ///< m, along the beam; empty for a lone node
+  /// In space: node i lies at origin + coordinates[i] direction, m.
+  std::array<double, 3> origin{}, direction{1.0, 0.0, 0.0};
 
   bool lone() const { return coordinates.empty(); }
   NodeId size() const { return lone() ? 1 : static_cast<NodeId>(coordinates.size()); }
@@ -35,6 +38,9 @@ class BUTEE_EXPORT NodeTable {
  public:
   /// Adds a chain of nodes (or a lone node where `coordinates` is empty) and returns the first.
   NodeId add(const std::string& name, std::vector<double> coordinates = {});
+
+  /// Places the chain that `node` belongs to in space.
+  void place(NodeId node, const std::array<double, 3>& origin, const std::array<double, 3>& direction);
 
   /// Makes two nodes one and the same.
   void join(NodeId a, NodeId b);

@@ -70,6 +70,11 @@ System part_of(const System& whole, std::span<const Index> dofs) {
   part.mass = restricted(whole.mass, dofs, places);
   part.stiffness = restricted(whole.stiffness, dofs, places);
   part.dashpots = restricted(whole.dashpots, dofs, places);
+  part.is_symmetric = whole.is_symmetric;
+  part.stiffness_is_symmetric = whole.stiffness_is_symmetric;
+  part.gyroscopic = restricted(whole.gyroscopic, dofs, places);
+  part.circulatory = restricted(whole.circulatory, dofs, places);
+  part.rotation = whole.rotation;
   part.damping = whole.damping;
   for (const FreeStops& stops : whole.stops) {
     FreeStops kept = restricted(stops, places);

@@ -35,6 +35,9 @@ class ReadingContext final : public ElementContext {
   std::optional<Section> section(const Parameters& parameters, const std::string& key) override {
     return look_up(reader_.sections_, "section", parameters, key);
   }
+  void place(NodeId first, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) override {
+    reader_.model_.nodes.place(first, {origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]});
+  }
   void join(NodeId a, NodeId b) override { reader_.model_.nodes.join(a, b); }
   config::Diagnostics& diagnostics() override { return reader_.diagnostics_; }
 

@@ -101,7 +101,7 @@ void SceneReader::read_initial_entry(const Value& entry, const std::string& path
   const auto p = read_table(
       entry, path,
       {config::texts("nodes", "the nodes"),
-       config::text("dof", "the degree of freedom").one_of({"u", "theta"}).or_else("u"),
+       config::text("dof", "the degree of freedom").one_of(dof_names()).or_else("u"),
        config::number("value", moves ? "m/s" : "m", "the value").optional(),
        config::number("rotation", moves ? "rad/s" : "rad", "in place of value, a rigid rotation of a beam").optional(),
        config::number("about", "m", "the coordinate that it leaves in place").optional()});
@@ -126,7 +126,7 @@ void SceneReader::read_initial_entry(const Value& entry, const std::string& path
     values = rigid_rotation(*p, *nodes);
   else
     for (const NodeId node : *nodes)
-      values.push_back({{node, p->text("dof") == "u" ? DofKind::u : DofKind::theta}, p->number("value")});
+      values.push_back({{node, *dof_named(p->text("dof"))}, p->number("value")});
   std::vector<NodalValue>& target = moves ? model_.initial_velocity : model_.initial_displacement;
   for (const NodalValue& value : values) {
     check_free(*p, "nodes", value.dof, "an initial value");

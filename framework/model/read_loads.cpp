@@ -8,6 +8,12 @@ namespace butee::model {
 using config::Parameters;
 using config::Value;
 
+namespace {
+
+const std::vector<std::string> kDirections = {"u", "w", "ux", "uy", "uz"};
+
+}  // namespace
+
 void SceneReader::read_loads() {
   for (const auto& [entry, path] : entries("load")) read_load(*entry, path);
 }
@@ -18,6 +24,7 @@ void SceneReader::read_load(const Value& entry, const std::string& path) {
   const auto type = type_of(entry, path, "type", known);
   if (entry.table() == nullptr) return;
   if (type == "distributed") return read_distributed(entry, path);
+  if (type == "unbalance" && entry.table()->find("speed") == nullptr) return read_turning_unbalance(entry, path);
 
   auto in_time = type ? read_in_time(entry, path, {"node", "dof"}) : nullptr;
   std::vector<std::string> in_time_keys;
@@ -25,20 +32,53 @@ void SceneReader::read_load(const Value& entry, const std::string& path) {
     if (key != "node" && key != "dof") in_time_keys.push_back(key);
   const auto p = read_table(entry, path,
                             {config::text("node", "the loaded node"),
-                             config::text("dof", "the loaded degree of freedom").one_of({"u", "theta"}).or_else("u")},
+                             config::text("dof", "the loaded degree of freedom").one_of(dof_names()).or_else("u")},
                             in_time_keys);
   if (!p) return;
   const auto node = select_one(*p, "node");
   if (!node) return;
-  const NodalDof dof{*node, p->text("dof") == "u" ? DofKind::u : DofKind::theta};
+  const NodalDof dof{*node, *dof_named(p->text("dof"))};
   check_free(*p, "node", dof, "a load");
   if (in_time != nullptr) model_.loads.push_back({{{dof, 1.0}}, std::move(in_time), nullptr, 0.0});
+}
+
+void SceneReader::read_turning_unbalance(const Value& entry, const std::string& path) {
+  const auto p = read_table(entry, path,
+                            {config::text("node", "the node that carries the unbalance"),
+                             config::number("moment", "kg m", "mass times eccentricity"),
+                             config::number("phase", "rad", "the angle from y at t = 0").or_else(0.0)},
+                            {"type", "dof"});
+  if (!p) return;
+  const auto node = select_one(*p, "node");
+  if (root_.table()->find("rotation") == nullptr)
+    return diagnostics_.error(path + ".speed", entry.at,
+                              "missing; give the speed of rotation (number, rad/s), or [rotation] with the speed of the "
+                              "shaft that carries the unbalance");
+  if (const Value* dof = entry.table()->find("dof"))
+    return diagnostics_.error(path + ".dof", *dof,
+                              "belongs to an unbalance with speed; one that turns with [rotation] acts along y and z");
+  if (!node || model_.rotation == nullptr) return;
+  bool acts = false;
+  for (const auto& [kind, along] :
+       {std::pair(DofKind::uy, TurningUnbalance::Along::y), std::pair(DofKind::uz, TurningUnbalance::Along::z)}) {
+    const NodalDof dof{*node, kind};
+    if (!dofs_->exists(dof) || dofs_->is_fixed(dof)) continue;
+    acts = true;
+    model_.loads.push_back(
+        {{{dof, 1.0}},
+         std::make_unique<TurningUnbalance>(*model_.rotation, p->number("moment"), p->number("phase"), along),
+         nullptr,
+         0.0});
+  }
+  if (!acts && !lacks_elements_)
+    p->complain(diagnostics_, "node", "neither uy nor uz of " + model_.nodes.name(*node) + " is free to move");
 }
 
 void SceneReader::read_distributed(const Value& entry, const std::string& path) {
   const auto p =
       read_parameters(entry, path,
                       {config::text("beam", "the loaded beam"), config::number("value", "N/m", "the load per length"),
+                       config::text("dof", "the displacement that it acts along").one_of(kDirections).or_else("u"),
                        config::table("in_time", "a factor in time").optional()},
                       diagnostics_, {"type"});
   if (!p) return;
@@ -56,7 +96,11 @@ void SceneReader::read_distributed(const Value& entry, const std::string& path) 
                                   [&](const auto& element) { return element.first == name; });
   std::vector<NodalValue> pattern;
   const bool is_read = named != named_elements_.end();
-  if (!is_read || !named->second->add_line_load(pattern)) {
+  const DofKind along = *dof_named(p->text("dof"));
+  if (is_read && !named->second->axis().empty() && !named->second->add_line_load(pattern, along))
+    return p->complain(diagnostics_, "dof",
+                       std::string("\"") + name_of(along) + "\" is no displacement that " + name + " has");
+  if (!is_read || !named->second->add_line_load(pattern, along)) {
     const bool was_reported = !is_read && (model_.nodes.find(name) != nullptr || model_.nodes.select(name).excused);
     if (was_reported) return;
     std::vector<std::string> beams;
@@ -68,7 +112,7 @@ void SceneReader::read_distributed(const Value& entry, const std::string& path) 
   }
   for (NodalValue& nodal : pattern) nodal.value *= p->number("value");
   if (in_time != nullptr)
-    model_.loads.push_back({std::move(pattern), std::move(in_time), named->second, p->number("value")});
+    model_.loads.push_back({std::move(pattern), std::move(in_time), named->second, p->number("value"), along});
 }
 
 std::unique_ptr<TimeFunction> SceneReader::read_in_time(const Value& entry, const std::string& path,

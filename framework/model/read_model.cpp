@@ -13,7 +13,8 @@ using config::Parameters;
 using config::Value;
 
 std::vector<std::string> model_keys() {
-  return {"schema", "title", "material", "section", "element", "support", "contact", "load", "damping", "initial"};
+  return {"schema", "title", "material", "section", "element", "support", "contact", "load", "damping", "initial",
+          "rotation", "gravity"};
 }
 
 Model read_model(const Value& root, const ModelTypes& types, Diagnostics& diagnostics) {
@@ -67,11 +68,13 @@ Model SceneReader::read() {
   read_materials();
   read_sections();
   read_elements();
+  read_rotation();
   read_supports();
   dofs_.emplace(number_dofs(model_));
   if (diagnostics_.error_count() == 0) check_dofs();
   read_contacts();
   read_loads();
+  read_gravity();
   read_damping();
   read_initial();
   return std::move(model_);
@@ -99,9 +102,20 @@ void SceneReader::read_materials() {
   for (const auto& [name, entry] : tables->table()->entries) {
     const auto p = read_parameters(
         entry, "material." + name,
-        {number("young_modulus", "Pa", "Young's modulus").above(0), number("density", "kg/m3", "the density").above(0)},
+        {number("young_modulus", "Pa", "Young's modulus").above(0), number("density", "kg/m3", "the density").above(0),
+         number("poisson_ratio", "1", "Poisson's ratio").above(-1).at_most(0.5).optional(),
+         number("shear_modulus", "Pa", "the shear modulus, in place of poisson_ratio").above(0).optional()},
         diagnostics_);
-    materials_[name] = p ? std::optional(Material{p->number("young_modulus"), p->number("density")}) : std::nullopt;
+    auto& material = materials_[name];
+    if (!p) continue;
+    if (p->has("poisson_ratio") && p->has("shear_modulus")) {
+      p->complain(diagnostics_, "shear_modulus", "stands beside poisson_ratio; give one of the two");
+      continue;
+    }
+    material = Material{p->number("young_modulus"), p->number("density")};
+    if (p->has("poisson_ratio"))
+      material->shear_modulus = 0.5 * material->young_modulus / (1.0 + p->number("poisson_ratio"));
+    if (p->has("shear_modulus")) material->shear_modulus = p->number("shear_modulus");
   }
 }
 
@@ -125,14 +139,14 @@ void SceneReader::read_supports() {
   for (const auto& [entry, path] : entries("support")) {
     const auto p = read_table(*entry, path,
                               {config::texts("nodes", "the nodes held"),
-                               config::texts("fix", "the displacements held").one_of({"u", "theta"})});
+                               config::texts("fix", "the displacements held").one_of(dof_names())});
     if (!p) continue;
     const auto nodes = select(*p, "nodes");
-    if (p->texts("fix").empty()) p->complain(diagnostics_, "fix", "holds nothing; name \"u\", \"theta\" or both");
+    if (p->texts("fix").empty()) p->complain(diagnostics_, "fix", "holds nothing; name \"u\", \"theta\" or others of ux ... rz");
     if (!nodes) continue;
     for (const std::string& kind : p->texts("fix"))
       for (const NodeId node : *nodes) {
-        const NodalDof dof{node, kind == "u" ? DofKind::u : DofKind::theta};
+        const NodalDof dof{node, *dof_named(kind)};
         if (dofs.exists(dof))
           model_.fixed.push_back(dof);
         else if (!lacks_elements_)
@@ -151,7 +165,7 @@ void SceneReader::check_dofs() {
       diagnostics_.error(
           element_places_[i].first, element_places_[i].second,
           "the free " + dofs_->name(dof) + " has no mass, so its motion is undetermined: give the node a mass" +
-              (dof.kind == DofKind::theta ? " with rotary_inertia" : "") + ", or fix it with a [[support]]");
+              (is_rotation(dof.kind) ? " with rotary_inertia" : "") + ", or fix it with a [[support]]");
       break;
     }
   }

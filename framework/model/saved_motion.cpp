@@ -1,6 +1,7 @@
 #include "butee/model/saved_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,19 @@ bool is_same_place(const std::vector<double>& a, const std::vector<double>& b) {
   const double allowed = a.empty() ? 0.0 : kSamePlace * (a.back() - a.front());
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [&](double one, double other) { return std::abs(one - other) <= allowed; });
+}
+
+/// The kinds in the order of their codes in a file.
+constexpr std::array<DofKind, kDofKinds> kCodes = {DofKind::uy, DofKind::rz, DofKind::ux,
+                                                   DofKind::uz, DofKind::rx, DofKind::ry};
+
+std::uint8_t code_of(DofKind kind) {
+  return static_cast<std::uint8_t>(std::find(kCodes.begin(), kCodes.end(), kind) - kCodes.begin());
+}
+
+DofKind kind_of_code(std::uint8_t code) {
+  if (code >= kCodes.size()) throw RunError("is damaged: it names a degree of freedom that no node has");
+  return kCodes.at(code);
 }
 
 bool is_same_dof(NodalDof a, NodalDof b) {
@@ -61,7 +75,7 @@ std::vector<std::byte> to_bytes(const SavedMotions& saved) {
   inner.put(static_cast<std::uint64_t>(saved.free.size()));
   for (const NodalDof dof : saved.free) {
     inner.put(dof.node);
-    inner.put(static_cast<std::uint8_t>(dof.kind));
+    inner.put(code_of(dof.kind));
   }
   inner.put(static_cast<std::uint64_t>(saved.motions.size()));
   for (const SavedMotion& motion : saved.motions) {
@@ -96,7 +110,7 @@ SavedMotions to_saved_motions(std::span<const std::byte> bytes) {
   saved.free.resize(inner.count(sizeof(NodeId) + 1));
   for (NodalDof& dof : saved.free) {
     inner.take(dof.node);
-    dof.kind = static_cast<DofKind>(inner.take<std::uint8_t>());
+    dof.kind = kind_of_code(inner.take<std::uint8_t>());
   }
   saved.motions.resize(inner.count(sizeof(double)));
   for (SavedMotion& motion : saved.motions) {

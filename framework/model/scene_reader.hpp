@@ -30,12 +30,17 @@ class SceneReader {
   std::optional<PendingElement> read_element(const config::Value& entry, const std::string& path);
   void check_size(const std::vector<double>& coordinates, const std::string& path, const config::Value& entry);
   void excuse_names_of(const config::Value& entry);
+  void read_rotation();
+  std::unique_ptr<Rotation> read_speed(const config::Value& rotation);
+  void choose_turning(const config::Parameters& parameters);
+  void read_gravity();
   void read_supports();
   void read_contacts();
   void read_contact(const config::Value& entry, const std::string& path);
   void read_pairs(const config::Parameters& parameters, StopGroup& group);
   void read_loads();
   void read_load(const config::Value& entry, const std::string& path);
+  void read_turning_unbalance(const config::Value& entry, const std::string& path);
   void read_distributed(const config::Value& entry, const std::string& path);
   std::unique_ptr<TimeFunction> read_in_time(const config::Value& entry, const std::string& path,
                                              const std::vector<std::string>& ignored);

@@ -1,6 +1,8 @@
 #include "butee/model/system.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "butee/core/error.hpp"
 
@@ -9,25 +11,79 @@ namespace {
 
 using Triplet = Eigen::Triplet<double>;
 
-/// Collects M, K and D with one common sequence of places, so that the three get one pattern.
-class TripletSink final : public MatrixSink {
- public:
-  explicit TripletSink(const DofTable& dofs) : dofs_(dofs) {}
+/// Differences between a(i, j) and a(j, i) up to this part of them are rounding.
+constexpr double kRounding = 1e-12;
 
-  void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) override {
-    for (std::size_t j = 0; j < dofs.size(); ++j) {
-      const Index column = dofs_.index(dofs[j]);
-      if (column < 0) continue;
-      for (std::size_t i = 0; i < dofs.size(); ++i) {
-        const Index row = dofs_.index(dofs[i]);
-        if (row < 0) continue;
-        const auto p = static_cast<Index>(i), q = static_cast<Index>(j);
-        add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q));
-      }
+bool is_symmetric(const Eigen::MatrixXd& matrix) {
+  for (Index j = 0; j < matrix.cols(); ++j)
+    for (Index i = 0; i < j; ++i) {
+      const double a = matrix(i, j), b = matrix(j, i);
+      if (a != b && !(std::abs(a - b) <= kRounding * (std::abs(a) + std::abs(b)))) return false;
     }
+  return true;
+}
+
+/// W = -D J per rad/s of rotating damping D on `dofs`, where J x is the cross product of e_x with the displacements and
+/// rotations of each node.
+Eigen::MatrixXd circulatory_of(std::span<const NodalDof> dofs, const Eigen::MatrixXd& damping) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(damping.rows(), damping.cols());
+  for (std::size_t j = 0; j < dofs.size(); ++j) {
+    const bool along_y = axis_of(dofs[j].kind) == 1;
+    if (axis_of(dofs[j].kind) == 0) continue;
+    const int other = is_rotation(dofs[j].kind) ? 3 : 0;
+    const NodalDof partner{dofs[j].node, static_cast<DofKind>(other + (along_y ? 2 : 1))};
+    for (std::size_t k = 0; k < dofs.size(); ++k)
+      if (dofs[k].node == partner.node && dofs[k].kind == partner.kind)
+        result.col(static_cast<Index>(j)) = (along_y ? -1.0 : 1.0) * damping.col(static_cast<Index>(k));
+  }
+  return result;
+}
+
+/// The entries of one matrix at a sequence of places that all matrices share, from the first that is not zero on.
+class Entries {
+ public:
+  void add(const std::vector<Triplet>& places, int i, int j, double value) {
+    if (value != 0.0 && !is_used_) {
+      is_used_ = true;
+      for (const Triplet& place : places) triplets_.emplace_back(place.row(), place.col(), 0.0);
+    }
+    if (is_used_) triplets_.emplace_back(i, j, value);
+  }
+  SparseMatrix build(Index n) {
+    if (!is_used_) return {};
+    SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(triplets_.begin(), triplets_.end());
+    triplets_ = {};
+    return matrix;
   }
 
-  void add_place(Index row, Index column) { add_entry(row, column, 0.0, 0.0, 0.0); }
+ private:
+  std::vector<Triplet> triplets_;
+  bool is_used_ = false;
+};
+
+/// Collects M, K, D, G and W with one common sequence of places, so that all get one pattern.
+class TripletSink final : public MatrixSink {
+ public:
+  TripletSink(const DofTable& dofs, double rotating_damping) : dofs_(dofs), rotating_damping_(rotating_damping) {}
+
+  void begin_element(bool turns) { turns_ = turns; }
+  bool turns() const override { return turns_; }
+
+  void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) override {
+    if (!is_symmetric(matrices.mass))
+      throw InputError("the mass matrix of an element on " + dofs_.name(dofs.front()) + " is not symmetric");
+    stiffness_is_symmetric_ = stiffness_is_symmetric_ && is_symmetric(matrices.stiffness);
+    damping_is_symmetric_ = damping_is_symmetric_ && is_symmetric(matrices.damping);
+    if (turns_) return add_turning(dofs, matrices);
+    visit(dofs, [&](int row, int column, Index p, Index q) {
+      add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q));
+    });
+  }
+
+  void add_place(Index row, Index column) {
+    add_entry(static_cast<int>(row), static_cast<int>(column), 0.0, 0.0, 0.0);
+  }
 
   void build(System& system) {
     const Index n = dofs_.free_count();
@@ -37,27 +93,79 @@ class TripletSink final : public MatrixSink {
       triplets = {};
       return matrix;
     };
-    system.mass = make(mass_);
+    system.dashpots = dashpots_.build(n);
+    system.gyroscopic = gyroscopic_.build(n);
+    system.circulatory = circulatory_.build(n);
     system.stiffness = make(stiffness_);
-    if (has_dashpots_) system.dashpots = make(dashpots_);
+    system.mass = make(mass_);
+    system.stiffness_is_symmetric = stiffness_is_symmetric_;
+    system.is_symmetric = stiffness_is_symmetric_ && damping_is_symmetric_;
   }
 
  private:
-  void add_entry(Index row, Index column, double m, double k, double c) {
-    const int i = static_cast<int>(row), j = static_cast<int>(column);
-    if (c != 0.0 && !has_dashpots_) {
-      has_dashpots_ = true;
-      for (const Triplet& place : mass_) dashpots_.emplace_back(place.row(), place.col(), 0.0);
+  template <class Visit>
+  void visit(std::span<const NodalDof> dofs, Visit entry) {
+    for (std::size_t j = 0; j < dofs.size(); ++j) {
+      const Index column = dofs_.index(dofs[j]);
+      if (column < 0) continue;
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        if (const Index row = dofs_.index(dofs[i]); row >= 0)
+          entry(static_cast<int>(row), static_cast<int>(column), static_cast<Index>(i), static_cast<Index>(j));
     }
+  }
+
+  void add_turning(std::span<const NodalDof> dofs, const ElementMatrices& matrices) {
+    const auto size = matrices.mass.rows();
+    const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(size, size);
+    Eigen::MatrixXd turning = rotating_damping_ * matrices.stiffness;
+    if (matrices.rotating_damping.size() > 0) turning += matrices.rotating_damping;
+    const Eigen::MatrixXd circulatory = circulatory_of(dofs, turning);
+    const Eigen::MatrixXd& gyroscopic = matrices.gyroscopic.size() > 0 ? matrices.gyroscopic : none;
+    visit(dofs, [&](int row, int column, Index p, Index q) {
+      add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q) + turning(p, q),
+                gyroscopic(p, q), circulatory(p, q));
+    });
+  }
+
+  void add_entry(int i, int j, double m, double k, double c, double g = 0.0, double w = 0.0) {
+    dashpots_.add(mass_, i, j, c);
+    gyroscopic_.add(mass_, i, j, g);
+    circulatory_.add(mass_, i, j, w);
     mass_.emplace_back(i, j, m);
     stiffness_.emplace_back(i, j, k);
-    if (has_dashpots_) dashpots_.emplace_back(i, j, c);
   }
 
   const DofTable& dofs_;
-  std::vector<Triplet> mass_, stiffness_, dashpots_;
-  bool has_dashpots_ = false;
+  double rotating_damping_;
+  bool turns_ = false, stiffness_is_symmetric_ = true, damping_is_symmetric_ = true;
+  std::vector<Triplet> mass_, stiffness_;
+  Entries dashpots_, gyroscopic_, circulatory_;
 };
+
+/// D and K of a constant speed, or what Dynamics needs to find those of every instant.
+void apply_rotation(const Model& model, System& system) {
+  const bool has_gyroscopic = system.gyroscopic.size() > 0, has_circulatory = system.circulatory.size() > 0;
+  if (!has_gyroscopic && !has_circulatory) return;
+  require(model.rotation != nullptr, "a rotation where parts turn");
+  const double speed = model.rotation->speed(0.0);
+  if (model.rotation->is_constant() && speed == 0.0) {
+    system.gyroscopic = system.circulatory = {};
+    return;
+  }
+  system.is_symmetric = false;
+  system.stiffness_is_symmetric = system.stiffness_is_symmetric && !has_circulatory;
+  if (system.dashpots.size() == 0) system.dashpots = 0.0 * system.mass;
+  if (!model.rotation->is_constant()) {
+    system.rotation = model.rotation.get();
+    return;
+  }
+  if (has_gyroscopic) system.dashpots.coeffs() += speed * system.gyroscopic.coeffs();
+  if (has_circulatory) {
+    system.stiffness.coeffs() += speed * system.circulatory.coeffs();
+    system.dashpots.coeffs() -= system.damping.stiffness_proportional * speed * system.circulatory.coeffs();
+  }
+  system.gyroscopic = system.circulatory = {};
+}
 
 FreeStops reduce(const StopGroup& group, const DofTable& dofs, Index& skipped) {
   FreeStops stops;
@@ -105,12 +213,47 @@ Vector initial_vector(Vector x, const std::vector<NodalValue>& values, const Dof
 DofTable number_dofs(const Model& model) {
   DofTable dofs(model.nodes);
   for (const auto& element : model.elements) element->claim(dofs);
+  for (const auto& element : model.elements) element->claim_shared(dofs);
   for (const NodalDof& dof : model.fixed) dofs.fix(dof);
   dofs.number();
   return dofs;
 }
 
-System assemble(const Model& model) {
+std::vector<NodalValue> inertia_pattern(const Model& model, const Eigen::Vector3d& acceleration) {
+  /// Sums M r of elements over the nodes.
+  class Sum final : public MatrixSink {
+   public:
+    Sum(const NodeTable& nodes, const Eigen::Vector3d& r)
+        : nodes_(nodes), r_(r), forces(static_cast<std::size_t>(nodes.size())) {}
+    void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) override {
+      for (std::size_t j = 0; j < dofs.size(); ++j) {
+        if (is_rotation(dofs[j].kind)) continue;
+        const double r = r_[axis_of(dofs[j].kind)];
+        for (std::size_t i = 0; i < dofs.size() && r != 0.0; ++i)
+          forces[static_cast<std::size_t>(nodes_.canonical(dofs[i].node))][static_cast<std::size_t>(dofs[i].kind)] +=
+              matrices.mass(static_cast<Index>(i), static_cast<Index>(j)) * r;
+      }
+    }
+
+   private:
+    const NodeTable& nodes_;
+    const Eigen::Vector3d& r_;
+
+   public:
+    std::vector<std::array<double, kDofKinds>> forces;
+  };
+  Sum sum(model.nodes, acceleration);
+  for (const auto& element : model.elements) element->assemble(sum);
+  const DofTable dofs = number_dofs(model);
+  std::vector<NodalValue> pattern;
+  for (const NodalDof& dof : dofs.free())
+    if (const double force = sum.forces[static_cast<std::size_t>(dof.node)][static_cast<std::size_t>(dof.kind)];
+        force != 0.0)
+      pattern.push_back({dof, force});
+  return pattern;
+}
+
+System assemble(const Model& model, TurningParts turning) {
   System system(number_dofs(model));
   system.model = &model;
   const DofTable& dofs = system.dofs;
@@ -123,8 +266,11 @@ System assemble(const Model& model) {
     FreeStops stops = reduce(group, dofs, system.skipped_stops);
     if (stops.size() > 0) system.stops.push_back(std::move(stops));
   }
-  TripletSink sink(dofs);
-  for (const auto& element : model.elements) element->assemble(sink);
+  TripletSink sink(dofs, model.rotating_damping);
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    sink.begin_element(model.rotation != nullptr && i < model.turns.size() && model.turns[i]);
+    model.elements[i]->assemble(sink);
+  }
   for (const FreeStops& stops : system.stops)
     for (std::size_t i = 0; i < stops.size(); ++i) {
       if (stops.a[i] < 0 || stops.b[i] < 0) continue;
@@ -133,6 +279,7 @@ System assemble(const Model& model) {
     }
   sink.build(system);
   system.damping = model.damping;
+  if (turning == TurningParts::included) apply_rotation(model, system);
 
   for (const Load& load : model.loads) {
     FreeLoad free = reduce(load, dofs);

@@ -30,8 +30,15 @@ struct FreeLoad {
 /// The semi-discrete system M a + C v + K x = F(t) + F_c(x) on the n free DOFs,
 /// C = mass_proportional M + stiffness_proportional K + D, or modal damping + D.
 ///
-/// M, K (and D where there are dashpots, else 0 x 0) are symmetric, stored in full, with one common pattern that holds
-/// the diagonal and the places of stops between nodes. The Model must outlive its System and stay where it is.
+/// M, K (and D where there are dashpots, else 0 x 0) are stored in full, with one common, symmetric pattern that holds
+/// the diagonal and the places of stops between nodes. M is symmetric; K and D are where is_symmetric says so.
+///
+/// Parts that turn at the speed Omega add Omega G (gyroscopic, skew) to D and, where damping turns with them, Omega W to
+/// K. At a constant speed D and K hold these; otherwise `rotation` is set and
+/// C(t) = C + Omega(t) G, K(t) = K + Omega(t) W + Omega'(t) G.
+/// Rayleigh damping is proportional to K without W and G: D makes up for it.
+///
+/// The Model must outlive its System and stay where it is.
 struct System {
   explicit System(DofTable table) : dofs(std::move(table)) {}
 
@@ -39,6 +46,10 @@ struct System {
 
   DofTable dofs;
   SparseMatrix mass, stiffness, dashpots;
+  bool is_symmetric = true;            ///< K and D
+  bool stiffness_is_symmetric = true;  ///< K
+  SparseMatrix gyroscopic, circulatory;  ///< G, kg m2 ..., and W, N s/m ...; 0 x 0 where none or the speed is constant
+  const Rotation* rotation = nullptr;    ///< set where its speed varies and G or W is there
   Damping damping;
   std::vector<FreeLoad> loads;
   std::vector<FreeStops> stops;
@@ -49,8 +60,12 @@ struct System {
   Index skipped_loads = 0;       ///< loads that vanish at all times
 };
 
+/// Where the matrices of parts that turn go: into D and K, at the speed of the model, or apart, into `gyroscopic` and
+/// `circulatory`, D and K being those of rest.
+enum class TurningParts { included, apart };
+
 /// Assembles the model. Throws InputError that names the node where a free DOF has no mass, a loaded DOF is fixed or
 /// absent, or nothing is free to move.
-BUTEE_EXPORT System assemble(const Model& model);
+BUTEE_EXPORT System assemble(const Model& model, TurningParts turning = TurningParts::included);
 
 }  // namespace butee::model

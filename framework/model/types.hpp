@@ -27,6 +27,8 @@ class BUTEE_EXPORT ElementContext {
   virtual std::optional<std::vector<NodeId>> nodes(const config::Parameters& parameters, const std::string& key) = 0;
   virtual std::optional<Material> material(const config::Parameters& parameters, const std::string& key) = 0;
   virtual std::optional<Section> section(const config::Parameters& parameters, const std::string& key) = 0;
+  /// Says where a chain of nodes lies in space; without it, along x from the origin.
+  virtual void place(NodeId first, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) = 0;
   /// Makes two nodes one.
   virtual void join(NodeId a, NodeId b) = 0;
   virtual config::Diagnostics& diagnostics() = 0;

@@ -15,8 +15,9 @@ using config::Parameter;
 using config::Table;
 using config::Value;
 
-constexpr std::int64_t kManifestSchema = 6;
-constexpr std::array<const char*, 7> kKinds = {"number", "integer", "boolean", "text", "numbers", "texts", "table"};
+constexpr std::int64_t kManifestSchema = 7;
+constexpr std::array<const char*, 8> kKinds = {"number",  "integer", "boolean", "text",
+                                                "numbers", "texts",   "table",   "matrix"};
 
 Value text_array(const std::vector<std::string>& texts) {
   Array array;
@@ -39,6 +40,7 @@ Value to_value(const Parameter& parameter) {
   if (parameter.first_try) table["first_try"] = *parameter.first_try;
   if (parameter.swept) table["sweep"] = Value(Array{Value(parameter.swept->first), Value(parameter.swept->second)});
   if (parameter.length) table["length"] = Value(static_cast<std::int64_t>(*parameter.length));
+  if (parameter.columns) table["columns"] = Value(static_cast<std::int64_t>(*parameter.columns));
   return {table};
 }
 
@@ -83,6 +85,8 @@ Parameter to_parameter(const Table& table) {
     parameter.swept = std::pair(std::get<double>(ends[0].data), std::get<double>(ends[1].data));
   }
   if (table.find("length") != nullptr) parameter.length = static_cast<std::size_t>(get<std::int64_t>(table, "length"));
+  if (table.find("columns") != nullptr)
+    parameter.columns = static_cast<std::size_t>(get<std::int64_t>(table, "columns"));
   return parameter;
 }
 

@@ -58,7 +58,7 @@ void ElementForces::add_section_force(Quantity quantity, model::NodeId node, con
   column.shares.push_back({add_piece(cut.dofs, cut.matrices), weights});
   for (const model::Load& load : model_.loads)
     if (load.line == choice.beam)
-      column.loads.push_back({load.in_time.get(), -load.per_length * weights.dot(cut.line_load)});
+      column.loads.push_back({load.in_time.get(), -load.per_length * weights.dot(cut.line_loads.col(axis_of(load.along)))});
 }
 
 void ElementForces::add_springs(NodalDof dof, const std::string& element, Column& column) {

@@ -40,12 +40,12 @@ Names allowed_rooms(const std::string& folder) {
 
 /// Third-party headers and the only files, or folders, that may include them.
 const std::map<std::string, Names> kDoors = {
-    {"suitesparse/", {"framework/linalg/symmetric_factor.cpp"}},
+    {"suitesparse/", {"framework/linalg/symmetric_factor.cpp", "framework/linalg/general_factor.cpp"}},
     {"toml.hpp", {"framework/config/toml.cpp"}},
     {"dlfcn.h", {"framework/plugin/module.cpp"}},
     {"spdlog/", {"framework/core/log.cpp"}},
     {"nlohmann/", {"framework/record/summary.cpp", "apps/"}},
-    {"Spectra/", {"framework/linalg/lanczos.cpp"}},
+    {"Spectra/", {"framework/linalg/lanczos.cpp", "framework/dynamics/whirl.cpp"}},
     {"CLI/", {"apps/"}},
     {"hwy/", {"framework/core/target.cpp", "framework/linalg/kernel/", "framework/dynamics/kernel/"}},
 };

@@ -1,0 +1,157 @@
+#include "whirl_report.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include <butee/core/format.hpp>
+#include <butee/core/text.hpp>
+
+namespace butee::app::modes {
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+/// Orbits flatter than this are called planar.
+constexpr double kPlanar = 1e-6;
+
+const char* sense_of(const dynamics::WhirlMode& mode, double speed) {
+  if (mode.frequency() == 0.0) return "no oscillation";
+  if (mode.is_mixed) return "mixed";
+  if (std::abs(mode.direction) < kPlanar || speed == 0.0) return "planar";
+  return mode.direction * speed > 0.0 ? "forward" : "backward";
+}
+
+std::string rpm(double speed) {
+  return formatted("%.6f", speed * 60.0 / kTwoPi);
+}
+
+Json to_json(const dynamics::WhirlMode& mode, double speed) {
+  Json row;
+  row["angular_frequency"] = mode.frequency();
+  row["frequency"] = mode.frequency() / kTwoPi;
+  row["damping"] = mode.damping_ratio();
+  row["logarithmic_decrement"] = mode.frequency() > 0.0 ? Json(mode.logarithmic_decrement()) : Json();
+  row["growth"] = mode.lambda.real();
+  row["direction"] = mode.direction;
+  row["whirl"] = sense_of(mode, speed);
+  return row;
+}
+
+}  // namespace
+
+WhirlAnalysis whirl_at(const dynamics::Whirl& whirl, const std::string& title, double speed, Index count) {
+  return {title, whirl.size(), speed, whirl.modes(speed, count)};
+}
+
+Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double from, double to, Index steps,
+                  double order, Index count) {
+  Campbell diagram{title, order, {}, {}, {}};
+  for (Index i = 0; i <= steps; ++i) {
+    diagram.speeds.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
+    diagram.modes.push_back(whirl.modes(diagram.speeds.back(), count));
+  }
+  diagram.critical = whirl.critical_speeds(from, to, steps, order, count);
+  return diagram;
+}
+
+void print(const WhirlAnalysis& analysis) {
+  if (!analysis.title.empty()) std::printf("%s\n", printable(analysis.title).c_str());
+  std::printf("  %td free DOFs, at %s rad/s (%s rev/min)\n\n", analysis.dofs, to_short_text(analysis.speed).c_str(),
+              rpm(analysis.speed).c_str());
+  std::printf("  mode         rad/s            Hz     damping   log. decrement  whirl\n");
+  for (std::size_t i = 0; i < analysis.modes.size(); ++i) {
+    const dynamics::WhirlMode& mode = analysis.modes[i];
+    const bool oscillates = mode.frequency() > 0.0;
+    std::printf("  %4zu  %12s  %12s  %10.4g  %15s  %s%s\n", i + 1, formatted("%.9g", mode.frequency()).c_str(),
+                formatted("%.9g", mode.frequency() / kTwoPi).c_str(), mode.damping_ratio(),
+                oscillates ? formatted("%.4g", mode.logarithmic_decrement()).c_str() : "-",
+                sense_of(mode, analysis.speed),
+                mode.lambda.real() > 1e-9 * std::abs(mode.lambda) ? ", unstable" : "");
+  }
+}
+
+void print(const Campbell& diagram) {
+  if (!diagram.title.empty()) std::printf("%s\n", printable(diagram.title).c_str());
+  std::printf("  critical speeds of order %s between %s and %s rad/s\n\n", to_short_text(diagram.order).c_str(),
+              to_short_text(diagram.speeds.front()).c_str(), to_short_text(diagram.speeds.back()).c_str());
+  if (diagram.critical.empty()) std::printf("  none\n");
+  for (const dynamics::CriticalSpeed& critical : diagram.critical)
+    std::printf("  %14s rad/s  %16s rev/min  %s\n", formatted("%.10g", critical.speed).c_str(),
+                rpm(critical.speed).c_str(),
+                std::abs(critical.direction) < kPlanar         ? "planar"
+                : critical.direction * critical.speed > 0.0 ? "forward"
+                                                            : "backward");
+}
+
+Json to_json(const WhirlAnalysis& analysis) {
+  Json json;
+  json["title"] = analysis.title;
+  json["dofs"] = analysis.dofs;
+  json["speed"] = analysis.speed;
+  json["modes"] = Json::array();
+  for (const dynamics::WhirlMode& mode : analysis.modes) json["modes"].push_back(to_json(mode, analysis.speed));
+  return json;
+}
+
+Json to_json(const Campbell& diagram) {
+  Json json;
+  json["title"] = diagram.title;
+  json["order"] = diagram.order;
+  json["critical_speeds"] = Json::array();
+  for (const dynamics::CriticalSpeed& critical : diagram.critical)
+    json["critical_speeds"].push_back({{"speed", critical.speed}, {"direction", critical.direction}});
+  json["speeds"] = Json::array();
+  for (std::size_t i = 0; i < diagram.speeds.size(); ++i) {
+    Json row;
+    row["speed"] = diagram.speeds[i];
+    row["modes"] = Json::array();
+    for (const dynamics::WhirlMode& mode : diagram.modes[i]) row["modes"].push_back(to_json(mode, diagram.speeds[i]));
+    json["speeds"].push_back(std::move(row));
+  }
+  return json;
+}
+
+std::string campbell_csv(const Campbell& diagram) {
+  std::string text = "speed,mode,angular_frequency,damping,logarithmic_decrement,direction,whirl\n";
+  for (std::size_t i = 0; i < diagram.speeds.size(); ++i)
+    for (std::size_t k = 0; k < diagram.modes[i].size(); ++k) {
+      const dynamics::WhirlMode& mode = diagram.modes[i][k];
+      text += formatted("%.17g,%zu,%.17g,%.17g,", diagram.speeds[i], k + 1, mode.frequency(), mode.damping_ratio()) +
+              (mode.frequency() > 0.0 ? formatted("%.17g", mode.logarithmic_decrement()) : "") +
+              formatted(",%.17g,%s\n", mode.direction, sense_of(mode, diagram.speeds[i]));
+    }
+  return text;
+}
+
+bool draw(const Campbell& diagram, const record::ResultFolder& folder) {
+  std::string data;
+  for (const bool forward : {true, false}) {
+    for (std::size_t i = 0; i < diagram.speeds.size(); ++i)
+      for (const dynamics::WhirlMode& mode : diagram.modes[i])
+        if ((mode.direction * diagram.speeds[i] >= 0.0) == forward && mode.frequency() > 0.0)
+          data += formatted("%.9g %.9g\n", diagram.speeds[i], mode.frequency());
+    data += "\n\n";
+  }
+  for (const dynamics::CriticalSpeed& critical : diagram.critical)
+    data += formatted("%.9g %.9g\n", critical.speed, diagram.order * std::abs(critical.speed));
+  folder.write("campbell.dat", data);
+  const std::string line = formatted("%.9g*abs(x)", diagram.order);
+  const std::string plot =
+      "plot 'campbell.dat' index 0 w p pt 7 ps 0.4 lc rgb '#1f77b4' title 'forward', "
+      "'campbell.dat' index 1 w p pt 6 ps 0.4 lc rgb '#d62728' title 'backward', " +
+      line + " w l lc rgb '#808080' title 'order " + to_short_text(diagram.order) + "'" +
+      (diagram.critical.empty() ? ""
+                                : ", 'campbell.dat' index 2 w p pt 4 ps 1.2 lc rgb 'black' title 'critical speeds'");
+  std::string script = "set xlabel 'speed of rotation / (rad/s)'\nset ylabel 'angular frequency / (rad/s)'\n"
+                       "set key left top\nset grid lc rgb '#e0e0e0'\nset yrange [0:]\n" +
+                       formatted("set xrange [%.9g:%.9g]\n", diagram.speeds.front(), diagram.speeds.back());
+  for (const auto& [terminal, suffix] : {std::pair{"pngcairo size 1000,700 font 'sans,13'", std::string("png")},
+                                         std::pair{"svg size 800,560 font 'sans,13'", std::string("svg")}})
+    script += "set terminal " + std::string(terminal) + "\nset output 'campbell." + suffix + "'\n" + plot + "\n";
+  folder.write("campbell.gp", script + "set output\n");
+  std::string path;
+  for (const char c : folder.path()) path += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return std::system(("cd -- '" + path + "' && gnuplot campbell.gp > /dev/null 2>&1").c_str()) == 0;
+}
+
+}  // namespace butee::app::modes

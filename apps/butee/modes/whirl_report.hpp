@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <butee/dynamics/whirl.hpp>
+
+#include "../session.hpp"
+
+namespace butee::app::modes {
+
+/// The damped modes of a structure at one speed of rotation.
+struct WhirlAnalysis {
+  std::string title;
+  Index dofs = 0;
+  double speed = 0.0;  ///< rad/s
+  std::vector<dynamics::WhirlMode> modes;
+};
+
+/// The damped modes over a range of speeds, and the critical speeds in it.
+struct Campbell {
+  std::string title;
+  double order = 1.0;
+  std::vector<double> speeds;  ///< rad/s
+  std::vector<std::vector<dynamics::WhirlMode>> modes;
+  std::vector<dynamics::CriticalSpeed> critical;
+};
+
+/// Modes that oscillate, at a speed, rad/s.
+WhirlAnalysis whirl_at(const dynamics::Whirl& whirl, const std::string& title, double speed, Index count);
+/// At `steps` + 1 speeds from `from` to `to`, rad/s.
+Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double from, double to, Index steps,
+                  double order, Index count);
+
+void print(const WhirlAnalysis& analysis);
+void print(const Campbell& diagram);
+Json to_json(const WhirlAnalysis& analysis);
+Json to_json(const Campbell& diagram);
+/// A row for each speed and mode.
+std::string campbell_csv(const Campbell& diagram);
+/// Writes campbell.gp and draws campbell.png and .svg by gnuplot; false where gnuplot did not.
+bool draw(const Campbell& diagram, const record::ResultFolder& folder);
+
+}  // namespace butee::app::modes

@@ -1,0 +1,234 @@
+#include "butee/dynamics/whirl.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+#include <Spectra/GenEigsSolver.h>
+
+#include "butee/core/error.hpp"
+#include "butee/linalg/dense_pairs.hpp"
+#include "butee/linalg/general_factor.hpp"
+#include "butee/dynamics/modal_damping.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Orbits flatter than this are lines.
+constexpr double kFlat = 1e-9;
+/// Parts of the highest frequency below which a mode at rest counts as rigid motion: rounding of dense eigenvalues.
+constexpr double kRigid = 1e-7;
+/// Speeds agree to this part of them.
+constexpr double kSameSpeed = 1e-13;
+
+/// y = (A - sigma)^-1 x of the first-order form of the pencil in (x, v).
+class ShiftInverted {
+ public:
+  using Scalar = double;
+
+  ShiftInverted(const SparseMatrix& mass, SparseMatrix damping, const SparseMatrix& stiffness, double shift)
+      : mass_(mass), damping_(std::move(damping)), shift_(shift), factor_(shifted(stiffness), counters_) {
+    if (!factor_.factorize(shifted(stiffness)))
+      throw RunError("the modes could not be computed: the matrices are singular to rounding");
+  }
+
+  Index rows() const { return 2 * mass_.rows(); }
+  Index cols() const { return rows(); }
+  void perform_op(const double* in, double* out) const {
+    const Index n = mass_.rows();
+    const Eigen::Map<const Vector> p(in, n), q(in + n, n);
+    Vector x = -(mass_ * (q + shift_ * p)) - damping_ * p;
+    factor_.solve(x);
+    Eigen::Map<Vector>(out, n) = x;
+    Eigen::Map<Vector>(out + n, n) = p + shift_ * x;
+  }
+
+ private:
+  SparseMatrix shifted(const SparseMatrix& stiffness) const {
+    SparseMatrix sum = stiffness + shift_ * damping_ + shift_ * shift_ * mass_;
+    sum.makeCompressed();
+    return sum;
+  }
+
+  const SparseMatrix& mass_;
+  SparseMatrix damping_;
+  double shift_;
+  linalg::Counters counters_;
+  mutable linalg::GeneralFactor factor_;
+};
+
+/// Modes without oscillation first, then by frequency.
+void sort(std::vector<WhirlMode>& modes) {
+  std::stable_sort(modes.begin(), modes.end(), [](const WhirlMode& a, const WhirlMode& b) {
+    return std::pair(a.lambda.imag(), std::abs(a.lambda)) < std::pair(b.lambda.imag(), std::abs(b.lambda));
+  });
+}
+
+SparseMatrix or_zero(const SparseMatrix& matrix, Index n) {
+  return matrix.size() > 0 ? matrix : SparseMatrix(n, n);
+}
+
+}  // namespace
+
+double WhirlMode::damping_ratio() const {
+  const double size = std::abs(lambda);
+  return size > 0.0 ? -lambda.real() / size : 0.0;
+}
+
+double WhirlMode::logarithmic_decrement() const {
+  return 2.0 * std::numbers::pi * -lambda.real() / lambda.imag();
+}
+
+Whirl::Whirl(const model::Model& model) : system_(assemble(model, model::TurningParts::apart)) {
+  const Index n = size();
+  const SparseMatrix transposed = system_.stiffness.transpose();
+  stiffness_ = 0.5 * (system_.stiffness + transposed);
+  skew_ = 0.5 * (system_.stiffness - transposed);
+  damping_ = system_.damping.mass_proportional * system_.mass +
+             system_.damping.stiffness_proportional * system_.stiffness + or_zero(system_.dashpots, n);
+  if (!is_dense()) {
+    if (system_.damping.is_modal())
+      throw InputError("whirling modes of " + std::to_string(n) + " DOFs go without modal damping, whose matrix is full");
+    return;
+  }
+  const auto pairs = linalg::dense_pairs(stiffness_, system_.mass);
+  if (!pairs) throw RunError("the modes at rest could not be computed");
+  shapes_ = pairs->vectors;
+  frequencies_ = pairs->values.cwiseMax(0.0).cwiseSqrt();
+  const auto in_modes = [&](const SparseMatrix& matrix) {
+    return Eigen::MatrixXd(shapes_.transpose() * (or_zero(matrix, n) * shapes_));
+  };
+  modal_damping_ = in_modes(damping_);
+  if (const auto modal = ModalDamping::of(system_)) {
+    Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
+    modal->add_to(full, 1.0);
+    modal_damping_ += shapes_.transpose() * full * shapes_;
+  }
+  modal_skew_ = in_modes(skew_);
+  modal_gyroscopic_ = in_modes(system_.gyroscopic);
+  modal_circulatory_ = in_modes(system_.circulatory);
+}
+
+WhirlMode Whirl::finished(Complex lambda, Eigen::VectorXcd shape) const {
+  WhirlMode mode;
+  mode.lambda = lambda;
+  Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  mode.shape = shape / shape[largest];
+  double area = 0.0, square = 0.0, most = 0.0, least = 0.0;
+  const auto& free = system_.dofs.free();
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (free[i].kind != DofKind::uy) continue;
+    const Index z = system_.dofs.index({free[i].node, DofKind::uz});
+    if (z < 0) continue;
+    const Complex along_y = mode.shape[static_cast<Index>(i)], along_z = mode.shape[z];
+    const double turn = -2.0 * (std::conj(along_y) * along_z).imag();
+    area += turn;
+    square += std::norm(along_y) + std::norm(along_z);
+    most = std::max(most, turn);
+    least = std::min(least, turn);
+  }
+  if (square > 0.0 && lambda.imag() > 0.0) mode.direction = area / square;
+  if (std::abs(mode.direction) < kFlat) mode.direction = 0.0;
+  mode.is_mixed = std::min(most, -least) > 1e-3 * std::max(most, -least);
+  return mode;
+}
+
+std::vector<WhirlMode> Whirl::modes(double speed, Index count) const {
+  return is_dense() ? dense_modes(speed, count) : lowest_modes(speed, count);
+}
+
+std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
+  const Index n = size();
+  const Vector scale = frequencies_.cwiseMax(kRigid * std::max(frequencies_[n - 1], 1e-300));
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  motion.topRightCorner(n, n) = scale.asDiagonal();
+  Eigen::MatrixXd stiffness = modal_skew_ + speed * modal_circulatory_;
+  stiffness.diagonal() += frequencies_.cwiseAbs2();
+  motion.bottomLeftCorner(n, n) = -(scale.cwiseInverse().asDiagonal() * stiffness);
+  motion.bottomRightCorner(n, n) =
+      -(scale.cwiseInverse().asDiagonal() * (modal_damping_ + speed * modal_gyroscopic_) * scale.asDiagonal());
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(motion);
+  if (solver.info() != Eigen::Success) throw RunError("the whirling modes could not be computed");
+  std::vector<Index> places;
+  for (Index i = 0; i < 2 * n; ++i)
+    if (solver.eigenvalues()[i].imag() >= 0.0) places.push_back(i);
+  std::stable_sort(places.begin(), places.end(), [&](Index a, Index b) {
+    return std::abs(solver.eigenvalues()[a]) < std::abs(solver.eigenvalues()[b]);
+  });
+  places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
+  std::vector<WhirlMode> modes;
+  for (const Index i : places)
+    modes.push_back(finished(solver.eigenvalues()[i], shapes_ * solver.eigenvectors().col(i).head(n)));
+  sort(modes);
+  return modes;
+}
+
+std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
+  const Index n = size();
+  SparseMatrix damping = damping_ + speed * or_zero(system_.gyroscopic, n);
+  const SparseMatrix stiffness = system_.stiffness + speed * or_zero(system_.circulatory, n);
+  // A small shift, so that rigid motion is no obstacle: a thousandth of a frequency that the diagonals give.
+  const double shift = 1e-3 * std::sqrt(system_.stiffness.diagonal().cwiseAbs().minCoeff() /
+                                        system_.mass.diagonal().maxCoeff());
+  ShiftInverted operation(system_.mass, std::move(damping), stiffness, shift);
+  const Index wanted = std::min(2 * count + 4, 2 * n - 2);
+  Spectra::GenEigsSolver<ShiftInverted> solver(operation, wanted, std::min(2 * wanted + 20, 2 * n));
+  solver.init();
+  if (solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-12) < wanted / 2)
+    throw RunError("the whirling modes could not be computed: Arnoldi's method did not converge");
+  std::vector<WhirlMode> modes;
+  for (Index i = 0; i < solver.eigenvalues().size(); ++i) {
+    const Complex lambda = shift + 1.0 / solver.eigenvalues()[i];
+    if (lambda.imag() >= 0.0) modes.push_back(finished(lambda, solver.eigenvectors().col(i).head(n)));
+  }
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a.lambda) < std::abs(b.lambda); });
+  modes.resize(std::min(modes.size(), static_cast<std::size_t>(count)));
+  sort(modes);
+  return modes;
+}
+
+Index Whirl::modes_below(double speed, double order, Index count) const {
+  const auto found = modes(speed, count);
+  return std::count_if(found.begin(), found.end(), [&](const WhirlMode& mode) {
+    return mode.frequency() > 0.0 && mode.frequency() < order * std::abs(speed);
+  });
+}
+
+std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index steps, double order,
+                                                  Index count) const {
+  std::vector<CriticalSpeed> found;
+  struct End {
+    double speed;
+    Index below;
+  };
+  const auto end_at = [&](double speed) { return End{speed, modes_below(speed, order, count)}; };
+  const auto search = [&](auto& self, End a, End b) -> void {
+    if (a.below == b.below) return;
+    const double middle = 0.5 * (a.speed + b.speed);
+    if (b.speed - a.speed > kSameSpeed * std::abs(b.speed) && middle > a.speed && middle < b.speed) {
+      const End between = end_at(middle);
+      self(self, a, between);
+      self(self, between, b);
+      return;
+    }
+    const auto near = modes(b.speed, count);
+    const auto closest = std::min_element(near.begin(), near.end(), [&](const auto& p, const auto& q) {
+      return std::abs(p.frequency() - order * b.speed) < std::abs(q.frequency() - order * b.speed);
+    });
+    for (Index i = 0; i < std::abs(b.below - a.below); ++i) found.push_back({middle, closest->direction});
+  };
+  End before = end_at(from);
+  for (Index i = 1; i <= steps; ++i) {
+    const End next = end_at(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
+    search(search, before, next);
+    before = next;
+  }
+  return found;
+}
+
+}  // namespace butee::dynamics

@@ -1,0 +1,111 @@
+#include <algorithm>
+
+#include "butee/core/text.hpp"
+#include "butee/model/scene_reader.hpp"
+
+namespace butee::model {
+
+using config::Parameters;
+using config::Value;
+using Turning = Element::Turning;
+
+void SceneReader::read_rotation() {
+  const Value* given = root_.table()->find("rotation");
+  model_.turns.assign(model_.elements.size(), false);
+  if (given == nullptr) {
+    for (std::size_t i = 0; i < model_.elements.size(); ++i)
+      if (model_.elements[i]->turning() == Turning::always)
+        diagnostics_.error(element_places_[i].first, element_places_[i].second,
+                           "has rotating damping, but nothing turns: give [rotation] with a speed");
+    return;
+  }
+  const auto p =
+      read_parameters(*given, "rotation",
+                      {config::texts("parts", "the beams and discs that turn; all that can where absent").optional()},
+                      diagnostics_, {"speed"});
+  if (!p) return;
+  model_.rotation = read_speed(*given);
+  choose_turning(*p);
+}
+
+std::unique_ptr<Rotation> SceneReader::read_speed(const Value& rotation) {
+  const Value* given = rotation.table()->find("speed");
+  if (given == nullptr) {
+    diagnostics_.error("rotation.speed", rotation.at,
+                       "missing; give the speed about x (number, rad/s), or a table such as { type = \"ramp\", from = "
+                       "0.0, to = 300.0, end = 10.0 }");
+    return nullptr;
+  }
+  if (const auto speed = config::as_number(*given)) {
+    if (std::isfinite(*speed)) return std::make_unique<Rotation>(std::vector{0.0}, std::vector{*speed});
+    diagnostics_.error("rotation.speed", *given, "must be a finite number (rad/s)");
+    return nullptr;
+  }
+  if (given->table() == nullptr) {
+    diagnostics_.error(
+        "rotation.speed", *given,
+        std::string("must be a number (rad/s) or a table with type = \"ramp\" or \"table\", not ") + given->kind());
+    return nullptr;
+  }
+  const auto type = type_of(*given, "rotation.speed", "type", {"constant", "ramp", "table"});
+  auto in_time = type ? read_in_time(*given, "rotation.speed", {}) : nullptr;
+  if (in_time == nullptr) return nullptr;
+  std::vector<double> times = in_time->kinks(), speeds;
+  if (times.empty()) times = {0.0};
+  for (const double t : times) speeds.push_back(in_time->value(t));
+  return std::make_unique<Rotation>(std::move(times), std::move(speeds));
+}
+
+void SceneReader::choose_turning(const Parameters& p) {
+  const std::vector<std::string> parts = p.has("parts") ? p.texts("parts") : std::vector<std::string>{};
+  std::vector<std::string> able;
+  bool any = false;
+  for (std::size_t i = 0; i < model_.elements.size(); ++i) {
+    const Element& element = *model_.elements[i];
+    const std::string& name = model_.element_names[i];
+    if (element.turning() == Turning::never) continue;
+    if (!name.empty() && element.turning() == Turning::possible) able.push_back(name);
+    const bool is_meant = !p.has("parts") || std::find(parts.begin(), parts.end(), name) != parts.end();
+    if (element.turning() != Turning::always && !is_meant) continue;
+    any = true;
+    model_.turns[i] = true;
+    if (const std::string problem = element.turning_problem(); !problem.empty())
+      diagnostics_.error(element_places_[i].first, element_places_[i].second,
+                         "turns with [rotation], but " + problem +
+                             (p.has("parts") ? "" : "; if it stands still, name what turns in rotation.parts"));
+  }
+  for (const std::string& part : parts)
+    if (std::find(able.begin(), able.end(), part) == able.end() && !lacks_elements_)
+      p.complain(diagnostics_, "parts",
+                 "\"" + part + "\" is no beam along x with motion = \"lateral\" or \"spatial\", and no disc" +
+                     suggestion(part, able) + (able.empty() ? "" : "; these can turn: " + join(able)));
+  if (!any && !lacks_elements_ && parts.empty())
+    diagnostics_.error("rotation", p.at(),
+                       "turns nothing: the scene has no disc and no beam along x with motion = \"lateral\" or "
+                       "\"spatial\"");
+}
+
+void SceneReader::read_gravity() {
+  const Value* given = root_.table()->find("gravity");
+  if (given == nullptr) return;
+  const auto p = read_parameters(
+      *given, "gravity",
+      {config::numbers("acceleration", "m/s2", "the acceleration of free fall along x, y and z").of_length(3),
+       config::boolean("static", "starts at rest in the static position").or_else(false)},
+      diagnostics_);
+  if (!p || lacks_elements_) return;
+  const auto g = p->numbers("acceleration");
+  auto pattern = inertia_pattern(model_, Eigen::Vector3d(g[0], g[1], g[2]));
+  if (pattern.empty()) {
+    p->complain(diagnostics_, "acceleration", "acts along no displacement that the scene has");
+    return;
+  }
+  config::Table unity;
+  unity["value"] = Value(1.0);
+  const LoadType& constant = *find_type(types_.loads, "constant");
+  model_.loads.push_back({std::move(pattern),
+                          constant.make(config::make_parameters(constant.parameters, unity), diagnostics_), nullptr,
+                          0.0});
+}
+
+}  // namespace butee::model
