@@ -104,7 +104,7 @@ Whirl::Whirl(const model::Model& model) : system_(assemble(model, model::Turning
   modal_damping_ = in_modes(damping_);
   if (const auto modal = ModalDamping::of(system_)) {
     Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
-    modal->add_to(full, 1.0);
+    modal->matrix().add_to(full, 1.0);
     modal_damping_ += shapes_.transpose() * full * shapes_;
   }
   modal_skew_ = in_modes(skew_);

@@ -1,4 +1,4 @@
-// The kernels of framework/solve on every instruction set that this processor has, against plain loops; modules for one
+// The kernels of framework/linalg and framework/dynamics on every instruction set that this processor has, against plain loops; modules for one
 // set.
 #include <cmath>
 #include <filesystem>
