@@ -38,7 +38,7 @@ void write_picture(const check::Layout& layout, const std::string& path) {
 }
 
 int check_command(const CheckArguments& arguments) {
-  Session session = open_session(arguments.model);
+  scene::Scene session = open_session(arguments.model);
   const double reading_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   const model::System system = assemble(session.model);
   check::Facts facts;

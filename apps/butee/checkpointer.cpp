@@ -18,7 +18,7 @@ double seconds_since(Clock::time_point begin) {
 
 }  // namespace
 
-void check_checkpoints(Session& session) {
+void check_checkpoints(scene::Scene& session) {
   if (session.output.checkpoint == 0) return;
   const time::IntegratorType& type = session.catalogue.load(session.integrator.name);
   const config::Value& given = *session.document.root.table()->find("output")->table()->find("checkpoint");
@@ -33,7 +33,7 @@ void check_checkpoints(Session& session) {
       "last bit; leave checkpoint out, or take another method");
 }
 
-Checkpointer::Checkpointer(const Session& session, Assembly& assembly, const record::ResultFolder& folder,
+Checkpointer::Checkpointer(const scene::Scene& session, scene::Assembly& assembly, const record::ResultFolder& folder,
                            record::CsvWriter& history)
     : assembly_(assembly), folder_(folder), history_(history), every_(session.output.checkpoint) {
   next_.method = session.integrator.name;

@@ -4,19 +4,18 @@
 
 #include <butee/record/checkpoint.hpp>
 #include <butee/record/csv_writer.hpp>
-
-#include "assembly.hpp"
+#include <butee/scene/assembly.hpp>
 
 namespace butee::app {
 
 /// Throws InputError where [output] asks for checkpoints of a method that cannot go on from them bit for bit.
-void check_checkpoints(Session& session);
+void check_checkpoints(scene::Scene& session);
 
 /// Keeps a run on disk after every so manyth step.
 class Checkpointer final : public time::Observer {
  public:
   /// All must outlive it.
-  Checkpointer(const Session& session, Assembly& assembly, const record::ResultFolder& folder,
+  Checkpointer(const scene::Scene& session, scene::Assembly& assembly, const record::ResultFolder& folder,
                record::CsvWriter& history);
 
   /// Another file that has to be on the device before a checkpoint counts on it; it must outlive this.
@@ -37,7 +36,7 @@ class Checkpointer final : public time::Observer {
   void clear() const { folder_.clear(); }
 
  private:
-  Assembly& assembly_;
+  scene::Assembly& assembly_;
   record::CheckpointFolder folder_;
   record::CsvWriter& history_;
   record::CsvWriter* other_ = nullptr;

@@ -78,7 +78,7 @@ class Comparison {
  private:
   struct Prepared {
     config::Document document;
-    Session session;
+    scene::Scene session;
     Question question;
     std::vector<Sweep> sweeps;
   };
@@ -89,7 +89,7 @@ class Comparison {
     if (study_.end_time) config::apply_override(document, "integrator.end_time=" + to_text(*study_.end_time));
     if (!study_.end_times.empty())
       config::apply_override(document, "integrator.end_time=" + to_text(study_.end_times[scene]));
-    Session session = read_session(document, plugin::Catalogue::with_plugins(arguments_.model.plugins));
+    scene::Scene session = scene::read_scene(document, plugin::Catalogue::with_plugins(arguments_.model.plugins));
     for (const std::string& warning : session.warnings) log::warning(warning);
     document = session.document;
     Question question = question_of(session, study_.quantities);
@@ -146,7 +146,7 @@ class Comparison {
       return other.fingerprint == row.fingerprint && other.scene == row.scene;
     });
     if (known != kept_.end()) return *known;
-    Session session = read_session(std::move(document), scene.session.catalogue);
+    scene::Scene session = scene::read_scene(std::move(document), scene.session.catalogue);
     const Answer answer = measure(session, scene.question, study_.time_limit);
     if (!answer.completed) row.outcome = answer.message;
     row.error = error_of(answer.values, result.reference);

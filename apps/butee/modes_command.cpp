@@ -41,8 +41,8 @@ void let_turn(model::Model& model) {
     model.rotation = std::make_unique<model::Rotation>(std::vector{0.0}, std::vector{0.0});
     model.turns.assign(model.elements.size(), false);
     for (std::size_t i = 0; i < model.elements.size(); ++i)
-      model.turns[i] =
-          model.elements[i]->turning() != model::Element::Turning::never && model.elements[i]->turning_problem().empty();
+      model.turns[i] = model.elements[i]->turning() != model::Element::Turning::never &&
+                       model.elements[i]->turning_problem().empty();
   }
   if (std::find(model.turns.begin(), model.turns.end(), true) == model.turns.end())
     throw InputError(
@@ -51,7 +51,7 @@ void let_turn(model::Model& model) {
 }
 
 int whirl_command(const ModesArguments& arguments) {
-  Session session = open_session(arguments.model);
+  scene::Scene session = open_session(arguments.model);
   if (!arguments.closed.empty()) throw InputError("--closed goes without --speed and --campbell");
   let_turn(session.model);
   const dynamics::Whirl whirl(session.model);
@@ -94,7 +94,7 @@ int whirl_command(const ModesArguments& arguments) {
   return kDone;
 }
 
-void write(const modes::Analysis& analysis, const Session& session, const model::System& system,
+void write(const modes::Analysis& analysis, const scene::Scene& session, const model::System& system,
            const ModesArguments& arguments, const record::ResultFolder& folder) {
   const record::FolderLock lock = folder.lock();
   folder.prepare(config::write_toml(config::with_files_found_from(session.document, folder.path())));
@@ -107,7 +107,7 @@ void write(const modes::Analysis& analysis, const Session& session, const model:
 
 int modes_command(const ModesArguments& arguments) {
   if (arguments.speed || !arguments.campbell.empty()) return whirl_command(arguments);
-  const Session session = open_session(arguments.model);
+  const scene::Scene session = open_session(arguments.model);
   const model::System system = assemble(session.model);
   const auto closed = modes::closed_stops(session.model, arguments.closed);
   const bool writes = arguments.plot || !arguments.folder.empty();

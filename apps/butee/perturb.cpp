@@ -12,4 +12,9 @@ void perturb(Vector& x, double size) {
   }
 }
 
+std::function<void(model::System&)> perturbed_by(double size) {
+  if (size == 0.0) return {};
+  return [size](model::System& system) { perturb(system.initial_displacement, size); };
+}
+
 }  // namespace butee::app

@@ -6,9 +6,9 @@
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
+#include <butee/model/quantity.hpp>
 #include <butee/plugin/catalogue.hpp>
 #include <butee/plugin/module.hpp>
-#include <butee/record/quantity.hpp>
 
 #include "commands.hpp"
 #include "json.hpp"
@@ -57,11 +57,10 @@ std::vector<Row> rows_of(const plugin::Catalogue& catalogue) {
   add("load", types.loads);
   add("format", types.formats);
   static const std::vector<Parameter> none;
-  for (const std::string& name : record::probe_quantities()) {
-    const record::Quantity quantity = record::quantity_of(name);
-    const std::string unit = record::unit_of(quantity);
-    rows.push_back(
-        {"quantity", name, "", std::string(record::summary_of(quantity)) + " (" + unit + ")", &none, "", {}});
+  for (const std::string& name : model::probe_quantities()) {
+    const model::Quantity quantity = model::quantity_of(name);
+    const std::string unit = model::unit_of(quantity);
+    rows.push_back({"quantity", name, "", std::string(model::summary_of(quantity)) + " (" + unit + ")", &none, "", {}});
   }
   return rows;
 }

@@ -31,9 +31,9 @@ double largest_pull(const dynamics::Contact& contact) {
 
 }  // namespace
 
-Run::Run(Session& session, bool with_progress) : Run(session, with_progress, Clock::now()) {}
+Run::Run(scene::Scene& session, bool with_progress) : Run(session, with_progress, Clock::now()) {}
 
-Run::Run(Session& session, bool with_progress, Clock::time_point begin)
+Run::Run(scene::Scene& session, bool with_progress, Clock::time_point begin)
     : session_(session), with_progress_(with_progress), assembly_(session) {
   assembly_.simulation.start();
   summary_.setup_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -64,7 +64,7 @@ void Run::guarded(Work work) {
 }
 
 void Run::attach_observers(const record::ResultFolder* folder, const record::Checkpoint* from) {
-  const record::OutputRequest& output = session_.output;
+  const model::OutputRequest& output = session_.output;
   const double end_time = session_.integrator.options.end_time;
   const auto open = [&](std::optional<record::CsvWriter>& writer, const char* name, std::vector<std::string> columns) {
     if (from != nullptr)
@@ -99,7 +99,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
 }
 
 void Run::add_fields(const record::ResultFolder& folder) {
-  const record::OutputRequest& output = session_.output;
+  const model::OutputRequest& output = session_.output;
   model::FieldLayout layout = record::make_layout(session_.model, assembly_.system, output.fields);
   layout.columns = record::HistoryRecorder::columns_with_units(output);
   std::vector<std::unique_ptr<model::FieldWriter>> writers;
@@ -141,7 +141,7 @@ void Run::summarize() {
 }
 
 void Run::look_at_rows() {
-  const record::OutputRequest& output = session_.output;
+  const model::OutputRequest& output = session_.output;
   const double frequency = dynamics::contact_frequency(assembly_.system, assembly_.dynamics.contact());
   if (!output.interval || output.impacts || !(frequency > 0.0)) return;
   const double contact = std::numbers::pi / frequency;

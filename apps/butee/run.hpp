@@ -11,8 +11,8 @@
 #include <butee/record/progress.hpp>
 #include <butee/record/state_keeper.hpp>
 #include <butee/record/summary.hpp>
+#include <butee/scene/assembly.hpp>
 
-#include "assembly.hpp"
 #include "checkpointer.hpp"
 
 namespace butee::app {
@@ -22,20 +22,20 @@ class Run {
  public:
   /// Assembles and takes the first factorization; nothing is written yet. Throws InputError where the scene cannot be
   /// run.
-  Run(Session& session, bool with_progress);
+  Run(scene::Scene& session, bool with_progress);
 
   /// Watches the integration too; must outlive it. Before perform().
   void add(time::Observer& observer) { assembly_.simulation.add(observer); }
   /// Asked after every step whether to leave the run as it stands, neither completed nor failed.
   void stop_when(std::function<bool()> is_enough) { is_enough_ = std::move(is_enough); }
-  Assembly& assembly() { return assembly_; }
+  scene::Assembly& assembly() { return assembly_; }
 
   /// Integrates; the files go to `folder` where one is given. Goes on from a checkpoint of the folder where one is
   /// given. Whatever ends the integration early is told by the summary's report.
   record::Summary perform(const record::ResultFolder* folder, const record::Checkpoint* from = nullptr);
 
  private:
-  Run(Session& session, bool with_progress, std::chrono::steady_clock::time_point begin);
+  Run(scene::Scene& session, bool with_progress, std::chrono::steady_clock::time_point begin);
   void attach_observers(const record::ResultFolder* folder, const record::Checkpoint* from);
   void add_fields(const record::ResultFolder& folder);
   void integrate();
@@ -48,9 +48,9 @@ class Run {
   template <class Work>
   void guarded(Work work);
 
-  Session& session_;
+  scene::Scene& session_;
   bool with_progress_;
-  Assembly assembly_;
+  scene::Assembly assembly_;
   std::function<bool()> is_enough_;
   record::Summary summary_;
   std::optional<record::CsvWriter> writer_, energy_writer_;

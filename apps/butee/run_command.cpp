@@ -29,7 +29,7 @@ struct RunArguments {
   std::string progress = "auto";
 };
 
-void print(const record::Summary& summary, const Session& session, const std::string& folder) {
+void print(const record::Summary& summary, const scene::Scene& session, const std::string& folder) {
   const auto& report = summary.report;
   if (!session.model.title.empty()) std::printf("%s\n", printable(session.model.title).c_str());
   if (!summary.choice.empty()) std::printf("  chosen: %s\n", summary.choice.c_str());
@@ -49,7 +49,7 @@ void print(const record::Summary& summary, const Session& session, const std::st
 }
 
 /// Integrates again for the time alone, and keeps the fastest.
-void repeat(Session& session, int times, bool with_progress, record::Summary& best) {
+void repeat(scene::Scene& session, int times, bool with_progress, record::Summary& best) {
   for (int i = 1; i < times && best.report.completed; ++i) {
     const record::Summary next = Run(session, with_progress).perform(nullptr);
     if (!next.report.completed) return log::warning("repetition " + std::to_string(i + 1) + ": " + next.report.message);
@@ -59,7 +59,7 @@ void repeat(Session& session, int times, bool with_progress, record::Summary& be
 }
 
 /// Refuses a run that would replace what it starts from, and what knows only runs from t = 0.
-void check_start(const Session& session, const record::ResultFolder& folder) {
+void check_start(const scene::Scene& session, const record::ResultFolder& folder) {
   const config::Value* initial = session.document.root.table()->find("initial");
   const config::Value* from = initial != nullptr ? initial->table()->find("from") : nullptr;
   if (from == nullptr) return;
@@ -71,7 +71,7 @@ void check_start(const Session& session, const record::ResultFolder& folder) {
     throw InputError(key + "runs that begin at t = 0 alone can be asked how far they are trusted; leave keep_time out");
 }
 
-int run(Session& session, const RunArguments& arguments, const record::ResultFolder& folder) {
+int run(scene::Scene& session, const RunArguments& arguments, const record::ResultFolder& folder) {
   plot::Request pictures;
   if (arguments.plot) plot::require_gnuplot(pictures.formats);
   for (const std::string& warning : session.warnings) log::warning(warning);
@@ -122,7 +122,7 @@ int run_command(const RunArguments& arguments) {
       log::info(folder.path() + ": the run is complete, nothing is left to do");
       return kDone;
     }
-    Session session = open_session({folder.file("model.toml"), {}, arguments.model.plugins});
+    scene::Scene session = open_session({folder.file("model.toml"), {}, arguments.model.plugins});
     if (session.output.checkpoint == 0)
       throw InputError(folder.path() +
                        ": the run kept no checkpoints ([output] checkpoint), so nothing can go on from "
@@ -132,7 +132,7 @@ int run_command(const RunArguments& arguments) {
   }
   if (arguments.model.model.empty())
     throw InputError("butee run: name a model file, or a folder of results with --resume");
-  Session session = open_session(arguments.model);
+  scene::Scene session = open_session(arguments.model);
   const record::ResultFolder folder(!arguments.folder.empty()
                                         ? arguments.folder
                                         : std::filesystem::path(arguments.model.model).stem().string() + "-results");

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include <butee/plugin/scene.hpp>
-#include <butee/record/output_request.hpp>
+#include <butee/scene/read_scene.hpp>
 
 namespace butee::app {
 
@@ -16,20 +14,9 @@ struct ModelArguments {
   std::vector<std::string> plugins;
 };
 
-/// A scene read, checked and ready to be assembled.
-struct Session {
-  config::Document document;
-  plugin::Catalogue catalogue;
-  model::Model model;
-  plugin::IntegratorChoice integrator;
-  record::OutputRequest output;
-  std::vector<std::string> warnings;
-};
-
-/// Reads the scene, and loads the one module that it names. Throws InputError with every mistake.
-Session read_session(config::Document document, plugin::Catalogue catalogue);
-
-/// The same from files and overrides.
-Session open_session(const ModelArguments& arguments);
+/// Reads the scene. Throws InputError with every mistake.
+inline scene::Scene open_session(const ModelArguments& arguments) {
+  return scene::load_scene(arguments.model, arguments.overrides, arguments.plugins);
+}
 
 }  // namespace butee::app

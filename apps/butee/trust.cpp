@@ -34,7 +34,7 @@ constexpr Wanted kNumbers = {.states = false, .numbers = true, .impacts = true};
 
 /// The scene with half the step, a tenth of the tolerance, or what the method has instead; nothing where it has
 /// nothing.
-std::optional<Session> tighten(const Session& session, std::string& what) {
+std::optional<scene::Scene> tighten(const scene::Scene& session, std::string& what) {
   plugin::Catalogue catalogue = session.catalogue;
   const time::IntegratorType& type = catalogue.load(session.integrator.name);
   const double step = session.integrator.options.time_step;
@@ -54,18 +54,18 @@ std::optional<Session> tighten(const Session& session, std::string& what) {
   config::Document document = session.document;
   (*(*document.root.table())["integrator"].table())[key] = config::Value(after);
   try {
-    return read_session(std::move(document), std::move(catalogue));
+    return scene::read_scene(std::move(document), std::move(catalogue));
   } catch (const InputError&) {
     return std::nullopt;  // it is as tight as it can be
   }
 }
 
 /// The method that integrates: what `auto` chose, or the scene's.
-std::string method_of(const Session& session, const FollowedRun& run) {
+std::string method_of(const scene::Scene& session, const FollowedRun& run) {
   return run.choice.empty() ? session.integrator.name : run.choice.substr(0, run.choice.find_first_of(" :"));
 }
 
-double tolerance_of(const Session& session, const std::string& method) {
+double tolerance_of(const scene::Scene& session, const std::string& method) {
   const config::Parameters& parameters = session.integrator.parameters;
   return session.integrator.options.limits.keeps_tolerance && method != "exact" && parameters.has("tolerance")
              ? parameters.number("tolerance")
@@ -86,7 +86,7 @@ double largest_perturbation(Index size) {
   return x.lpNorm<Eigen::Infinity>();
 }
 
-FollowedRun follow_or_throw(Session& session, double disturbance, Wanted wanted) {
+FollowedRun follow_or_throw(scene::Scene& session, double disturbance, Wanted wanted) {
   FollowedRun run = follow(session, disturbance, kInfinite, wanted);
   if (!run.completed) throw RunError("a run that was to tell how far to trust the first one failed: " + run.message);
   return run;
@@ -95,7 +95,7 @@ FollowedRun follow_or_throw(Session& session, double disturbance, Wanted wanted)
 /// The runs of a scene, one after the other, and what they come to.
 class Judgement {
  public:
-  explicit Judgement(Session& session)
+  explicit Judgement(scene::Scene& session)
       : session_(session),
         run_(follow_or_throw(session, 0.0, {.states = true, .numbers = true, .impacts = true})),
         method_(method_of(session, run_)) {}
@@ -146,7 +146,7 @@ class Judgement {
     const double other_size = other_ ? disturbance(other_->noise) : own_size;
     // The finer disturbance tells more; of two that are alike the cheaper run.
     const bool by_other = other_ && method_ != "exact" && (other_size < own_size || other_->run.work <= run_.work);
-    Session& by = by_other ? other_->session : session_;
+    scene::Scene& by = by_other ? other_->session : session_;
     const FollowedRun& run = by_other ? other_->run : run_;
     const double size = by_other ? other_size : own_size;
     record::Growth growth = follow_disturbance(by, run, size);
@@ -176,7 +176,7 @@ class Judgement {
                                                  rounding * std::abs(values_[i].front())));
   }
 
-  Session& session_;
+  scene::Scene& session_;
   FollowedRun run_;
   std::string method_;
   std::optional<OtherRun> other_;
@@ -186,7 +186,7 @@ class Judgement {
 
 }  // namespace
 
-record::Trust find_trust(Session& session) {
+record::Trust find_trust(scene::Scene& session) {
   log::info("running the scene again, some times, to see how far to trust it");
   return Judgement(session).pronounce();
 }

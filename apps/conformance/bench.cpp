@@ -9,34 +9,31 @@
 
 namespace butee::conformance {
 
-Bench::Bench(const plugin::Catalogue& catalogue, const std::string& scene, const std::vector<std::string>& overrides)
-    : catalogue_(catalogue) {
+namespace {
+
+scene::Scene read(const plugin::Catalogue& catalogue, const std::string& scene,
+                  const std::vector<std::string>& overrides) {
   config::Document document = config::parse_toml(scene, "the suite's scene");
   for (const std::string& assignment : overrides) config::apply_override(document, assignment);
-  config::Diagnostics diagnostics(document);
-  scene_ = plugin::read_scene(document, catalogue_, diagnostics);
-  diagnostics.throw_if_any();
-  const auto& type = catalogue_.load(scene_.integrator->name);
-  if (type.check) type.check(scene_.integrator->parameters, diagnostics);
-  diagnostics.throw_if_any();
-  system_ = std::make_unique<model::System>(assemble(scene_.model));
-  dynamics_ = std::make_unique<dynamics::Dynamics>(*system_);
-  integrator_ = type.make(scene_.integrator->parameters, *dynamics_);
-  require(integrator_ != nullptr, "the maker of an integrator returns one");
-  simulation_ = std::make_unique<time::Simulation>(*dynamics_, *integrator_, scene_.integrator->options);
+  return scene::read_scene(std::move(document), catalogue, scene::Output::ignored);
 }
+
+}  // namespace
+
+Bench::Bench(const plugin::Catalogue& catalogue, const std::string& scene, const std::vector<std::string>& overrides)
+    : scene_(read(catalogue, scene, overrides)), assembly_(scene_) {}
 
 Index Bench::dof(const std::string& selector) const {
   const auto selection = scene_.model.nodes.select(selector);
   require(selection.nodes.size() == 1, "a selector of one node");
-  return system_->dofs.index({selection.nodes.front(), DofKind::u});
+  return system().dofs.index({selection.nodes.front(), DofKind::u});
 }
 
 time::State Bench::initial_state() {
   time::State state;
-  state.x = system_->initial_displacement;
-  state.v = system_->initial_velocity;
-  integrator_->start(state);
+  state.x = system().initial_displacement;
+  state.v = system().initial_velocity;
+  integrator().start(state);
   return state;
 }
 

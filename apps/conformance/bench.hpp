@@ -1,10 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include <butee/plugin/scene.hpp>
+#include <butee/scene/assembly.hpp>
 
 #include "apps/conformance/check.hpp"
 
@@ -16,22 +15,18 @@ class Bench {
   /// Reads `scene`; with `overrides` such as "integrator.tolerance=1e-8". Throws InputError where it is refused.
   Bench(const plugin::Catalogue& catalogue, const std::string& scene, const std::vector<std::string>& overrides = {});
 
-  const model::System& system() const { return *system_; }
-  dynamics::Dynamics& dynamics() { return *dynamics_; }
-  time::Integrator& integrator() { return *integrator_; }
-  time::Simulation& simulation() { return *simulation_; }
+  const model::System& system() const { return assembly_.system; }
+  dynamics::Dynamics& dynamics() { return assembly_.dynamics; }
+  time::Integrator& integrator() { return *assembly_.integrator; }
+  time::Simulation& simulation() { return assembly_.simulation; }
   /// The free DOF u of a selector that names one node.
   Index dof(const std::string& selector) const;
   /// The scene's initial state, completed by the method.
   time::State initial_state();
 
  private:
-  plugin::Catalogue catalogue_;
-  plugin::Scene scene_;
-  std::unique_ptr<model::System> system_;
-  std::unique_ptr<dynamics::Dynamics> dynamics_;
-  std::unique_ptr<time::Integrator> integrator_;
-  std::unique_ptr<time::Simulation> simulation_;
+  scene::Scene scene_;
+  scene::Assembly assembly_;
 };
 
 /// "[integrator]" for the subject.

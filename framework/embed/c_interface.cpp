@@ -53,11 +53,11 @@ void need(const Pointers*... pointers) {
   butee::require((... && (pointers != nullptr)), "a pointer is null");
 }
 
-butee::record::Quantity checked_quantity(const std::string& name) {
-  const auto known = butee::record::probe_quantities();
+butee::model::Quantity checked_quantity(const std::string& name) {
+  const auto known = butee::model::probe_quantities();
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw butee::InputError(name + ": no quantity of a node; " + butee::join(known, ", ") + " are");
-  return butee::record::quantity_of(name);
+  return butee::model::quantity_of(name);
 }
 
 StructureOptions options_of(const char* forced) {

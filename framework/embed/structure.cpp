@@ -11,9 +11,9 @@
 #include "butee/core/error.hpp"
 #include "butee/core/log.hpp"
 #include "butee/core/text.hpp"
-#include "butee/plugin/scene.hpp"
-#include "butee/record/element_choice.hpp"
+#include "butee/model/element_choice.hpp"
 #include "butee/record/probes.hpp"
+#include "butee/scene/assembly.hpp"
 
 namespace butee::embed {
 namespace {
@@ -50,15 +50,11 @@ void check_dof(Index dof, Index size) {
 
 /// Everything a structure owns, in the order in which the parts refer to each other.
 struct Structure::Parts {
-  plugin::Catalogue catalogue;
-  plugin::Scene scene;
-  std::map<Index, NodalForce*> forces;  ///< by DOF; owned by the model's loads
-  std::optional<model::System> system;
-  std::optional<dynamics::Dynamics> dynamics;
-  std::unique_ptr<time::Integrator> integrator;
-  std::optional<time::Simulation> simulation;
-  std::uint64_t origin = 0;  ///< of snapshots
-  std::vector<std::unique_ptr<record::Peaks>> peaks;
+  scene::Scene scene;
+  std::uint64_t origin;                   ///< of snapshots
+  std::map<Index, NodalForce*> forces{};  ///< by DOF; owned by the model's loads
+  std::optional<scene::Assembly> assembly{};
+  std::vector<std::unique_ptr<record::Peaks>> peaks{};
 
   std::vector<model::NodalDof> select(const std::string& selector, DofKind kind) const;
   void add_forces(const std::string& selector, std::vector<std::pair<model::NodalDof, NodalForce*>>& made);
@@ -92,8 +88,9 @@ void Structure::Parts::add_forces(const std::string& selector,
 NodalForce& Structure::Parts::force_on(Index dof) {
   const auto found = forces.find(dof);
   if (found != forces.end()) return *found->second;
-  throw InputError((dof >= 0 && dof < system->size() ? dynamics->dof_name(dof) : "DOF " + std::to_string(dof)) +
-                   ": no forces were announced for it; name its node in StructureOptions::forced");
+  throw InputError(
+      (dof >= 0 && dof < assembly->system.size() ? assembly->dynamics.dof_name(dof) : "DOF " + std::to_string(dof)) +
+      ": no forces were announced for it; name its node in StructureOptions::forced");
 }
 
 Structure::Structure(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -116,43 +113,32 @@ Structure Structure::from_document(config::Document document, const StructureOpt
   if (config::Table* table = integrator.table(); table != nullptr && table->find("end_time") == nullptr)
     (*table)["end_time"] = config::Value(1.0);
 
-  auto parts = std::make_unique<Parts>();
   const std::string identity = config::write_toml(*document.root.table()) + join(options.forced, "\n");
-  parts->origin = checksum(std::as_bytes(std::span(identity)));
-  parts->catalogue = plugin::Catalogue::with_plugins(options.plugins);
-  if (const std::string line = plugin::set_aside_keys(document, parts->catalogue); !line.empty()) log::warning(line);
-  config::Diagnostics diagnostics(document);
-  parts->scene = plugin::read_scene(document, parts->catalogue, diagnostics);
-  diagnostics.throw_if_any();
-  const plugin::IntegratorChoice& choice = *parts->scene.integrator;
-  const time::IntegratorType& type = parts->catalogue.load(choice.name);
-  if (type.check) type.check(choice.parameters, diagnostics);
-  diagnostics.throw_if_any();
-
+  auto parts = std::unique_ptr<Parts>(new Parts{
+      scene::read_scene(std::move(document), plugin::Catalogue::with_plugins(options.plugins), scene::Output::ignored),
+      checksum(std::as_bytes(std::span(identity)))});
+  for (const std::string& line : parts->scene.warnings) log::warning(line);
   std::vector<std::pair<model::NodalDof, NodalForce*>> made;
   for (const std::string& selector : options.forced) parts->add_forces(selector, made);
-  parts->system.emplace(assemble(parts->scene.model));
-  for (const auto& [dof, force] : made) parts->forces[parts->system->dofs.index(dof)] = force;
-  parts->dynamics.emplace(*parts->system);
-  parts->integrator = type.make(choice.parameters, *parts->dynamics);
-  parts->simulation.emplace(*parts->dynamics, *parts->integrator, choice.options);
+  parts->assembly.emplace(parts->scene);
+  for (const auto& [dof, force] : made) parts->forces[parts->assembly->system.dofs.index(dof)] = force;
   return Structure(std::move(parts));
 }
 
 Index Structure::size() const {
-  return parts_->system->size();
+  return parts_->assembly->system.size();
 }
 
 std::string Structure::dof_name(Index dof) const {
   check_dof(dof, size());
-  return parts_->dynamics->dof_name(dof);
+  return parts_->assembly->dynamics.dof_name(dof);
 }
 
 Index Structure::dof(const std::string& selector, DofKind kind) const {
   const auto dofs = parts_->select(selector, kind);
   if (dofs.size() != 1)
     throw InputError(selector + ": names " + std::to_string(dofs.size()) + " nodes; dofs() takes several");
-  const Index index = parts_->system->dofs.index(dofs.front());
+  const Index index = parts_->assembly->system.dofs.index(dofs.front());
   if (index >= 0) return index;
   throw InputError(selector + ": " + name_of(kind) +
                    (index == model::DofTable::kFixed ? " is fixed by a support there" : " does not exist there"));
@@ -161,12 +147,12 @@ Index Structure::dof(const std::string& selector, DofKind kind) const {
 std::vector<Index> Structure::dofs(const std::string& selector, DofKind kind) const {
   std::vector<Index> free;
   for (const model::NodalDof dof : parts_->select(selector, kind))
-    if (const Index index = parts_->system->dofs.index(dof); index >= 0) free.push_back(index);
+    if (const Index index = parts_->assembly->system.dofs.index(dof); index >= 0) free.push_back(index);
   return free;
 }
 
 void Structure::advance_to(double t) {
-  time::Simulation& simulation = *parts_->simulation;
+  time::Simulation& simulation = parts_->assembly->simulation;
   simulation.start();
   check_time(t, time(), true, "advance_to");
   if (t == time() && !simulation.report().message.empty()) throw RunError(simulation.report().message);
@@ -178,7 +164,7 @@ void Structure::advance_to(double t) {
 }
 
 double Structure::advance_step(double limit) {
-  time::Simulation& simulation = *parts_->simulation;
+  time::Simulation& simulation = parts_->assembly->simulation;
   simulation.start();
   check_time(limit, time(), false, "advance_step");
   if (simulation.report().message.empty()) simulation.set_end_time(limit);
@@ -188,8 +174,8 @@ double Structure::advance_step(double limit) {
 }
 
 const time::State& Structure::state() const {
-  parts_->simulation->start();
-  return parts_->simulation->state();
+  parts_->assembly->simulation.start();
+  return parts_->assembly->simulation.state();
 }
 
 double Structure::displacement(Index dof) const {
@@ -210,7 +196,7 @@ double Structure::acceleration(Index dof) const {
 void Structure::set_motion(ConstVectorRef displacements, ConstVectorRef velocities) {
   check_numbers(displacements, "a displacement", size());
   check_numbers(velocities, "a velocity", size());
-  parts_->simulation->set_motion(displacements, velocities);
+  parts_->assembly->simulation.set_motion(displacements, velocities);
 }
 
 void Structure::set_displacement(Index dof, double value) {
@@ -244,7 +230,7 @@ void Structure::set_line(Index dof, const NodalForce::Line& line) {
   NodalForce& force = parts_->force_on(dof);
   const bool jump = force.value(time()) != line.value;
   force.line = line;
-  parts_->simulation->loads_changed(jump);
+  parts_->assembly->simulation.loads_changed(jump);
 }
 
 double Structure::force(Index dof) const {
@@ -254,28 +240,28 @@ double Structure::force(Index dof) const {
 double Structure::contact_force(Index dof) const {
   check_dof(dof, size());
   Vector force = Vector::Zero(size());
-  parts_->dynamics->add_contact_force(state().x, force);
+  parts_->assembly->dynamics.add_contact_force(state().x, force);
   return force[dof];
 }
 
 double Structure::quantity(const std::string& name, const std::string& node, const std::string& element) const {
-  const auto known = record::probe_quantities();
+  const auto known = model::probe_quantities();
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw InputError("there is no quantity \"" + name + "\"" + suggestion(name, known) + "; known: " + join(known));
   const auto nodes = parts_->select(node, DofKind::u);
   if (nodes.size() != 1) throw InputError(node + ": names " + std::to_string(nodes.size()) + " nodes; one is wanted");
-  const record::Quantity quantity = record::quantity_of(name);
+  const model::Quantity quantity = model::quantity_of(name);
   const std::string problem =
-      record::why_not(quantity, parts_->scene.model, parts_->system->dofs, nodes.front().node, element);
+      model::why_not(quantity, parts_->scene.model, parts_->assembly->system.dofs, nodes.front().node, element);
   if (!problem.empty()) throw InputError(node + ": " + problem);
-  record::Probes probe({{"", nodes.front().node, {quantity}, element}}, *parts_->dynamics);
+  record::Probes probe({{"", nodes.front().node, {quantity}, element}}, parts_->assembly->dynamics);
   double value = 0.0;
   probe.evaluate(state(), {&value, 1});
   return value;
 }
 
 Structure::Snapshot Structure::snapshot() const {
-  Snapshot snapshot{parts_->simulation->snapshot(), {}, parts_->origin};
+  Snapshot snapshot{parts_->assembly->simulation.snapshot(), {}, parts_->origin};
   for (const auto& [dof, force] : parts_->forces) snapshot.forces.push_back(force->line);
   return snapshot;
 }
@@ -283,60 +269,60 @@ Structure::Snapshot Structure::snapshot() const {
 void Structure::restore(const Snapshot& snapshot) {
   if (snapshot.origin != parts_->origin)
     throw LogicError("the snapshot is of another structure: its scene, options or observers differ");
-  parts_->simulation->restore(snapshot.run);
+  parts_->assembly->simulation.restore(snapshot.run);
   auto line = snapshot.forces.begin();
   for (const auto& [dof, force] : parts_->forces) force->line = *line++;
-  parts_->dynamics->loads_changed();
+  parts_->assembly->dynamics.loads_changed();
 }
 
 void Structure::observe(time::Observer& observer) {
-  parts_->simulation->add(observer);
+  parts_->assembly->simulation.add(observer);
   ++parts_->origin;
 }
 
-void Structure::follow_peaks(const std::string& selector, const std::vector<record::Quantity>& quantities) {
-  for (const record::Quantity quantity : quantities)
-    if (record::is_element_force(quantity))
-      throw InputError(selector + ": peaks of " + record::name_of(quantity) +
+void Structure::follow_peaks(const std::string& selector, const std::vector<model::Quantity>& quantities) {
+  for (const model::Quantity quantity : quantities)
+    if (model::is_element_force(quantity))
+      throw InputError(selector + ": peaks of " + model::name_of(quantity) +
                        " are not followed; quantity() gives it at an instant");
-  std::vector<record::ProbeRequest> requests;
+  std::vector<model::ProbeRequest> requests;
   for (const model::NodalDof dof : parts_->select(selector, DofKind::u))
     requests.push_back({parts_->scene.model.nodes.name(dof.node), dof.node, quantities});
-  parts_->peaks.push_back(std::make_unique<record::Peaks>(requests, *parts_->dynamics));
-  parts_->simulation->add(*parts_->peaks.back());
+  parts_->peaks.push_back(std::make_unique<record::Peaks>(requests, parts_->assembly->dynamics));
+  parts_->assembly->simulation.add(*parts_->peaks.back());
   ++parts_->origin;
 }
 
 std::map<std::string, double> Structure::peaks() const {
-  parts_->simulation->start();
+  parts_->assembly->simulation.start();
   std::map<std::string, double> all;
   for (const auto& peaks : parts_->peaks) all.merge(peaks->largest());
   return all;
 }
 
-double Structure::peak(const std::string& node, record::Quantity quantity) const {
+double Structure::peak(const std::string& node, model::Quantity quantity) const {
   const auto dofs = parts_->select(node, DofKind::u);
   const auto all = peaks();
   const auto found =
-      all.find(parts_->scene.model.nodes.name(dofs.front().node) + "." + std::string(record::name_of(quantity)));
+      all.find(parts_->scene.model.nodes.name(dofs.front().node) + "." + std::string(model::name_of(quantity)));
   if (dofs.size() == 1 && found != all.end()) return found->second;
-  throw InputError(node + ": no peaks of its " + record::name_of(quantity) + " are followed");
+  throw InputError(node + ": no peaks of its " + model::name_of(quantity) + " are followed");
 }
 
 record::Energy Structure::energy() const {
-  return record::energy_of(state(), *parts_->dynamics);
+  return record::energy_of(state(), parts_->assembly->dynamics);
 }
 
 const std::string& Structure::method() const {
-  return parts_->scene.integrator->name;
+  return parts_->scene.integrator.name;
 }
 
 const linalg::Counters& Structure::counters() const {
-  return parts_->dynamics->counters();
+  return parts_->assembly->dynamics.counters();
 }
 
 const time::RunReport& Structure::report() const {
-  return parts_->simulation->report();
+  return parts_->assembly->simulation.report();
 }
 
 }  // namespace butee::embed

@@ -97,11 +97,11 @@ class BUTEE_EXPORT Structure {
   /// Follows the largest |value| of quantities of each node of a selector over the whole motion from now on, on the
   /// method's dense output; before the first step. Throws InputError where the selector names no node,
   /// and of forces of elements.
-  void follow_peaks(const std::string& selector, const std::vector<record::Quantity>& quantities);
+  void follow_peaks(const std::string& selector, const std::vector<model::Quantity>& quantities);
   /// By node and quantity, "string:17.u".
   std::map<std::string, double> peaks() const;
   /// Of one node that is followed; else throws InputError.
-  double peak(const std::string& node, record::Quantity quantity) const;
+  double peak(const std::string& node, model::Quantity quantity) const;
   record::Energy energy() const;
   /// The method's name, what has been counted, and what it came to so far.
   const std::string& method() const;

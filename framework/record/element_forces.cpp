@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "butee/core/error.hpp"
-#include "butee/record/element_choice.hpp"
-#include "butee/record/parts_at.hpp"
+#include "butee/model/element_choice.hpp"
+#include "butee/model/parts_at.hpp"
 
 namespace butee::record {
 namespace {
@@ -27,38 +27,39 @@ const model::Model& model_of(const dynamics::Dynamics& dynamics) {
 ElementForces::ElementForces(dynamics::Dynamics& dynamics)
     : dynamics_(dynamics), model_(model_of(dynamics)), a_(Vector::Zero(dynamics.size())) {}
 
-void ElementForces::add(Quantity quantity, model::NodeId node, const std::string& element) {
+void ElementForces::add(model::Quantity quantity, model::NodeId node, const std::string& element) {
   Column column;
   switch (source_of(quantity)) {
-    case Source::section:
+    case model::Source::section:
       add_section_force(quantity, node, element, column);
       break;
-    case Source::springs:
+    case model::Source::springs:
       add_springs({node, kind_of(quantity)}, element, column);
       break;
-    case Source::support:
+    case model::Source::support:
       add_reaction({node, kind_of(quantity)}, column);
       break;
-    case Source::motion:
-    case Source::stops:
+    case model::Source::motion:
+    case model::Source::stops:
       throw LogicError("no force of an element");
   }
   columns_.push_back(std::move(column));
 }
 
-void ElementForces::add_section_force(Quantity quantity, model::NodeId node, const std::string& element,
+void ElementForces::add_section_force(model::Quantity quantity, model::NodeId node, const std::string& element,
                                       Column& column) {
-  const CutChoice choice = choose_cut(model_, node, element);
+  const model::CutChoice choice = choose_cut(model_, node, element);
   require(choice.beam != nullptr, "section forces of a beam");
   const model::SectionCut cut = choice.beam->cut(choice.part, choice.at_end).value();
-  const bool is_stress = quantity == Quantity::bending_stress || quantity == Quantity::von_mises;
+  const bool is_stress = quantity == model::Quantity::bending_stress || quantity == model::Quantity::von_mises;
   if (is_stress) column.factor = 1.0 / cut.modulus.value();
-  column.is_magnitude = quantity == Quantity::von_mises;
-  const Eigen::VectorXd weights = cut.resultants.row(quantity == Quantity::shear_force ? kVy : kMz);
+  column.is_magnitude = quantity == model::Quantity::von_mises;
+  const Eigen::VectorXd weights = cut.resultants.row(quantity == model::Quantity::shear_force ? kVy : kMz);
   column.shares.push_back({add_piece(cut.dofs, cut.matrices), weights});
   for (const model::Load& load : model_.loads)
     if (load.line == choice.beam)
-      column.loads.push_back({load.in_time.get(), -load.per_length * weights.dot(cut.line_loads.col(axis_of(load.along)))});
+      column.loads.push_back(
+          {load.in_time.get(), -load.per_length * weights.dot(cut.line_loads.col(axis_of(load.along)))});
 }
 
 void ElementForces::add_springs(NodalDof dof, const std::string& element, Column& column) {
@@ -93,12 +94,12 @@ void ElementForces::add_stops(model::NodeId node, Column& column) {
 }
 
 void ElementForces::add_pieces_at(const model::Element& element, NodalDof dof, double sign, Column& column) {
-  PartsAt parts(model_.nodes, dof,
-                [&](std::span<const NodalDof> dofs, const model::ElementMatrices& matrices, Index row) {
-                  Eigen::VectorXd weights = Eigen::VectorXd::Zero(std::ssize(dofs));
-                  weights[row] = sign;
-                  column.shares.push_back({add_piece(dofs, matrices), weights});
-                });
+  model::PartsAt parts(model_.nodes, dof,
+                       [&](std::span<const NodalDof> dofs, const model::ElementMatrices& matrices, Index row) {
+                         Eigen::VectorXd weights = Eigen::VectorXd::Zero(std::ssize(dofs));
+                         weights[row] = sign;
+                         column.shares.push_back({add_piece(dofs, matrices), weights});
+                       });
   element.assemble(parts);
 }
 

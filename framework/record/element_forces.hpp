@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "butee/dynamics/dynamics.hpp"
-#include "butee/record/output_request.hpp"
+#include "butee/model/output_request.hpp"
 
 namespace butee::record {
 
@@ -21,7 +21,7 @@ class BUTEE_EXPORT ElementForces {
   explicit ElementForces(dynamics::Dynamics& dynamics);
 
   /// Adds a column; its number counts from 0.
-  void add(Quantity quantity, model::NodeId node, const std::string& element);
+  void add(model::Quantity quantity, model::NodeId node, const std::string& element);
 
   std::size_t size() const { return columns_.size(); }
 
@@ -57,7 +57,7 @@ class BUTEE_EXPORT ElementForces {
     bool is_magnitude = false;
   };
 
-  void add_section_force(Quantity quantity, model::NodeId node, const std::string& element, Column& column);
+  void add_section_force(model::Quantity quantity, model::NodeId node, const std::string& element, Column& column);
   void add_springs(model::NodalDof dof, const std::string& element, Column& column);
   void add_reaction(model::NodalDof dof, Column& column);
   void add_stops(model::NodeId node, Column& column);

@@ -103,7 +103,8 @@ class Placement {
 
 }  // namespace
 
-model::FieldLayout make_layout(const model::Model& model, const model::System& system, const FieldRequest& request) {
+model::FieldLayout make_layout(const model::Model& model, const model::System& system,
+                               const model::FieldRequest& request) {
   const Placement placement(model, system);
   model::FieldLayout layout;
   layout.title = model.title;
@@ -120,8 +121,8 @@ model::FieldLayout make_layout(const model::Model& model, const model::System& s
     layout.positions.push_back(placement.position(node, group));
   }
   std::erase_if(layout.lines, [](const model::FieldLine& line) { return line.nodes.size() < 2; });
-  for (const Quantity quantity : request.quantities)
-    layout.fields.push_back({name_of(quantity), unit_of(quantity), quantity == Quantity::stop_state});
+  for (const model::Quantity quantity : request.quantities)
+    layout.fields.push_back({name_of(quantity), unit_of(quantity), quantity == model::Quantity::stop_state});
   return layout;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "butee/model/field_format.hpp"
+#include "butee/model/output_request.hpp"
 #include "butee/model/system.hpp"
-#include "butee/record/field_request.hpp"
 
 namespace butee::record {
 
@@ -12,6 +13,6 @@ namespace butee::record {
 /// the same line where that is free. A lone node stands beside the beams, at the x of the node that a spring or a stop
 /// ties it to; without beams lone nodes stand 1 m apart along x. A joined node has one name for each of its beams.
 BUTEE_EXPORT model::FieldLayout make_layout(const model::Model& model, const model::System& system,
-                                            const FieldRequest& request);
+                                            const model::FieldRequest& request);
 
 }  // namespace butee::record

@@ -26,18 +26,18 @@ double at(std::span<const double> samples, std::int32_t place) {
 
 }  // namespace
 
-FieldRecorder::FieldRecorder(const OutputRequest& output, double end_time, dynamics::Dynamics& dynamics,
+FieldRecorder::FieldRecorder(const model::OutputRequest& output, double end_time, dynamics::Dynamics& dynamics,
                              std::vector<std::unique_ptr<model::FieldWriter>> writers)
     : dynamics_(dynamics),
       times_(output.fields.interval ? output.fields.interval : output.interval, output.every, end_time),
       quantities_(output.fields.quantities),
       writers_(std::move(writers)) {
-  const auto wants = [this](std::initializer_list<Quantity> any) {
+  const auto wants = [this](std::initializer_list<model::Quantity> any) {
     return std::find_first_of(quantities_.begin(), quantities_.end(), any.begin(), any.end()) != quantities_.end();
   };
-  needs_v_ = wants({Quantity::v, Quantity::theta_v});
-  needs_a_ = wants({Quantity::a, Quantity::theta_a});
-  needs_stops_ = dynamics.stop_count() > 0 && wants({Quantity::contact_force, Quantity::stop_state});
+  needs_v_ = wants({model::Quantity::v, model::Quantity::theta_v});
+  needs_a_ = wants({model::Quantity::a, model::Quantity::theta_a});
+  needs_stops_ = dynamics.stop_count() > 0 && wants({model::Quantity::contact_force, model::Quantity::stop_state});
   find_dofs(output.fields.nodes);
   if (needs_stops_) find_stops();
   x_.resize(dofs_.size());
@@ -48,7 +48,7 @@ FieldRecorder::FieldRecorder(const OutputRequest& output, double end_time, dynam
 
 void FieldRecorder::find_dofs(const std::vector<model::NodeId>& nodes) {
   const model::DofTable& table = dynamics_.system().dofs;
-  const auto turns = [](Quantity quantity) { return kind_of(quantity) == DofKind::theta; };
+  const auto turns = [](model::Quantity quantity) { return kind_of(quantity) == DofKind::theta; };
   const bool needs_theta = std::any_of(quantities_.begin(), quantities_.end(), turns);
   std::vector<std::int32_t> places(static_cast<std::size_t>(dynamics_.size()), -1);
   const auto place = [&](model::NodeId node, DofKind kind) {
@@ -106,7 +106,7 @@ void FieldRecorder::evaluate_stops(std::span<const double> x) {
 void FieldRecorder::fill(const time::Interpolated& samples) {
   if (needs_stops_) evaluate_stops(samples.x);
   auto out = record_.begin();
-  for (const Quantity quantity : quantities_) {
+  for (const model::Quantity quantity : quantities_) {
     const auto take = [&](std::span<const double> from, const std::vector<std::int32_t>& places) {
       if (from.empty())
         out = std::fill_n(out, places.size(), 0.0);
@@ -114,28 +114,28 @@ void FieldRecorder::fill(const time::Interpolated& samples) {
         out = std::transform(places.begin(), places.end(), out, [&](std::int32_t place) { return at(from, place); });
     };
     switch (quantity) {
-      case Quantity::u:
+      case model::Quantity::u:
         take(samples.x, u_);
         break;
-      case Quantity::v:
+      case model::Quantity::v:
         take(samples.v, u_);
         break;
-      case Quantity::a:
+      case model::Quantity::a:
         take(samples.a, u_);
         break;
-      case Quantity::theta:
+      case model::Quantity::theta:
         take(samples.x, theta_);
         break;
-      case Quantity::theta_v:
+      case model::Quantity::theta_v:
         take(samples.v, theta_);
         break;
-      case Quantity::theta_a:
+      case model::Quantity::theta_a:
         take(samples.a, theta_);
         break;
-      case Quantity::contact_force:
+      case model::Quantity::contact_force:
         take(force_, u_);
         break;
-      case Quantity::stop_state:
+      case model::Quantity::stop_state:
         take(state_, u_);
         break;
       default:

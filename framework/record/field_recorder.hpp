@@ -2,7 +2,8 @@
 
 #include <memory>
 
-#include "butee/record/output_request.hpp"
+#include "butee/model/field_format.hpp"
+#include "butee/model/output_request.hpp"
 #include "butee/record/output_times.hpp"
 
 namespace butee::record {
@@ -14,7 +15,7 @@ namespace butee::record {
 class BUTEE_EXPORT FieldRecorder final : public time::Observer {
  public:
   /// `output.fields` says what; `dynamics` must outlive it.
-  FieldRecorder(const OutputRequest& output, double end_time, dynamics::Dynamics& dynamics,
+  FieldRecorder(const model::OutputRequest& output, double end_time, dynamics::Dynamics& dynamics,
                 std::vector<std::unique_ptr<model::FieldWriter>> writers);
 
   void start(const time::State& state) override;
@@ -43,7 +44,7 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
 
   dynamics::Dynamics& dynamics_;
   OutputTimes times_;
-  std::vector<Quantity> quantities_;
+  std::vector<model::Quantity> quantities_;
   std::vector<std::unique_ptr<model::FieldWriter>> writers_;
   std::vector<Index> dofs_;              ///< that are sampled
   std::vector<std::int32_t> u_, theta_;  ///< by kept node: the place in dofs_, or -1

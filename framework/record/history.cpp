@@ -15,19 +15,19 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMostAtOnce = 64;
 
 /// The requested quantities that Peaks follows, and u of every probe.
-std::vector<ProbeRequest> peak_requests(std::vector<ProbeRequest> requests, const model::DofTable& dofs) {
-  for (ProbeRequest& request : requests) {
+std::vector<model::ProbeRequest> peak_requests(std::vector<model::ProbeRequest> requests, const model::DofTable& dofs) {
+  for (model::ProbeRequest& request : requests) {
     auto& list = request.quantities;
-    std::erase_if(list, is_element_force);
-    const bool has_u = std::find(list.begin(), list.end(), Quantity::u) != list.end();
-    if (!has_u && dofs.exists({request.node, DofKind::u})) list.push_back(Quantity::u);
+    std::erase_if(list, model::is_element_force);
+    const bool has_u = std::find(list.begin(), list.end(), model::Quantity::u) != list.end();
+    if (!has_u && dofs.exists({request.node, DofKind::u})) list.push_back(model::Quantity::u);
   }
   return requests;
 }
 
 }  // namespace
 
-HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, dynamics::Dynamics& dynamics,
+HistoryRecorder::HistoryRecorder(const model::OutputRequest& request, double end_time, dynamics::Dynamics& dynamics,
                                  CsvWriter* writer)
     : times_(request.interval, request.every, end_time),
       probes_(request.probes, dynamics),
@@ -38,16 +38,16 @@ HistoryRecorder::HistoryRecorder(const OutputRequest& request, double end_time, 
   due_.reserve(kMostAtOnce);
 }
 
-std::vector<std::string> HistoryRecorder::columns(const OutputRequest& request) {
+std::vector<std::string> HistoryRecorder::columns(const model::OutputRequest& request) {
   std::vector<std::string> names;
   for (const model::Field& column : columns_with_units(request)) names.push_back(column.name);
   return names;
 }
 
-std::vector<model::Field> HistoryRecorder::columns_with_units(const OutputRequest& request) {
+std::vector<model::Field> HistoryRecorder::columns_with_units(const model::OutputRequest& request) {
   std::vector<model::Field> all = {{"t", "s"}};
-  for (const ProbeRequest& probe : request.probes)
-    for (const Quantity quantity : probe.quantities)
+  for (const model::ProbeRequest& probe : request.probes)
+    for (const model::Quantity quantity : probe.quantities)
       all.push_back({probe.label + "." + name_of(quantity), unit_of(quantity)});
   all.push_back({"h", "s"});
   return all;

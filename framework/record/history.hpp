@@ -16,7 +16,8 @@ namespace butee::record {
 class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
  public:
   /// Rows go to `writer`, or nowhere where it is nullptr. Everything given must outlive the recorder.
-  HistoryRecorder(const OutputRequest& request, double end_time, dynamics::Dynamics& dynamics, CsvWriter* writer);
+  HistoryRecorder(const model::OutputRequest& request, double end_time, dynamics::Dynamics& dynamics,
+                  CsvWriter* writer);
 
   /// Rows go to `writer` as well, which must outlive the recorder's last row. Before the first step.
   void also_to(model::FieldWriter& writer) { writers_.push_back(&writer); }
@@ -31,9 +32,9 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   double file_seconds() const override { return seconds_ + (writer_ != nullptr ? writer_->seconds() : 0.0); }
 
   /// "t", the probes' columns, "h"
-  static std::vector<std::string> columns(const OutputRequest& request);
+  static std::vector<std::string> columns(const model::OutputRequest& request);
   /// The same with their units.
-  static std::vector<model::Field> columns_with_units(const OutputRequest& request);
+  static std::vector<model::Field> columns_with_units(const model::OutputRequest& request);
 
   /// Largest |value| by column over the whole motion (Peaks) and the rows, of forces of elements over the rows alone; u
   /// of every probe is always among them.

@@ -6,13 +6,13 @@ namespace {
 /// Of one piece, for the sum of several stops.
 constexpr int kMostHalvingsOfSum = 4000;
 
-std::size_t order_of(Quantity quantity) {
+std::size_t order_of(model::Quantity quantity) {
   switch (quantity) {
-    case Quantity::v:
-    case Quantity::theta_v:
+    case model::Quantity::v:
+    case model::Quantity::theta_v:
       return 1;
-    case Quantity::a:
-    case Quantity::theta_a:
+    case model::Quantity::a:
+    case model::Quantity::theta_a:
       return 2;
     default:
       return 0;
@@ -32,13 +32,13 @@ double largest_force(dynamics::Contact& contact, Index stop, double least, doubl
 
 }  // namespace
 
-Peaks::Peaks(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
+Peaks::Peaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
   const model::DofTable& table = dynamics.system().dofs;
-  for (const ProbeRequest& request : requests)
-    for (const Quantity quantity : request.quantities) {
+  for (const model::ProbeRequest& request : requests)
+    for (const model::Quantity quantity : request.quantities) {
       const Index dof = table.index({request.node, kind_of(quantity)});
       Column column{request.label + "." + name_of(quantity), kNone, order_of(quantity), {}, 0.0};
-      if (dof >= 0 && quantity == Quantity::contact_force)
+      if (dof >= 0 && quantity == model::Quantity::contact_force)
         column.stops = stops_on(dof);
       else if (dof >= 0)
         column.track = follow(dof, model::DofTable::kFixed, column.order);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "butee/record/output_request.hpp"
+#include "butee/model/output_request.hpp"
 #include "butee/record/tracks.hpp"
 
 namespace butee::record {
@@ -21,7 +21,7 @@ class BUTEE_EXPORT Peaks final : public time::Observer {
   static constexpr double kGoodSum = 1e-6;
 
   /// `dynamics` must outlive it.
-  Peaks(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dynamics);
+  Peaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics);
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;

@@ -13,10 +13,10 @@ constexpr std::size_t kLargestSample = 1U << 14U;
 
 }  // namespace
 
-Probes::Probes(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
+Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
   const model::DofTable& table = dynamics.system().dofs;
-  for (const ProbeRequest& request : requests)
-    for (const Quantity quantity : request.quantities) {
+  for (const model::ProbeRequest& request : requests)
+    for (const model::Quantity quantity : request.quantities) {
       columns_.push_back(request.label + "." + name_of(quantity));
       if (is_element_force(quantity)) {
         sources_.push_back(element_force(quantity, request));
@@ -24,10 +24,10 @@ Probes::Probes(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dy
       }
       const Index dof = table.index({request.node, kind_of(quantity)});
       Column column{samples_of(quantity), slot(dof), stops_.size(), stops_.size()};
-      if (quantity == Quantity::contact_force && dof >= 0) add_stops(dof);
+      if (quantity == model::Quantity::contact_force && dof >= 0) add_stops(dof);
       column.last_stop = stops_.size();
-      needs_v_ = needs_v_ || quantity == Quantity::v || quantity == Quantity::theta_v;
-      needs_a_ = needs_a_ || quantity == Quantity::a || quantity == Quantity::theta_a;
+      needs_v_ = needs_v_ || quantity == model::Quantity::v || quantity == model::Quantity::theta_v;
+      needs_a_ = needs_a_ || quantity == model::Quantity::a || quantity == model::Quantity::theta_a;
       sources_.push_back(column);
     }
   if (element_forces_ == nullptr) return;
@@ -36,24 +36,24 @@ Probes::Probes(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dy
   all_x_ = all_v_ = Vector::Zero(dynamics.size());
 }
 
-Probes::Column Probes::element_force(Quantity quantity, const ProbeRequest& request) {
+Probes::Column Probes::element_force(model::Quantity quantity, const model::ProbeRequest& request) {
   if (element_forces_ == nullptr) element_forces_ = std::make_unique<ElementForces>(dynamics_);
   element_forces_->add(quantity, request.node, request.element);
   return {&forces_, element_forces_->size() - 1, 0, 0, true};
 }
 
-const std::vector<double>* Probes::samples_of(Quantity quantity) const {
+const std::vector<double>* Probes::samples_of(model::Quantity quantity) const {
   switch (quantity) {
-    case Quantity::u:
-    case Quantity::theta:
+    case model::Quantity::u:
+    case model::Quantity::theta:
       return &x_;
-    case Quantity::v:
-    case Quantity::theta_v:
+    case model::Quantity::v:
+    case model::Quantity::theta_v:
       return &v_;
-    case Quantity::a:
-    case Quantity::theta_a:
+    case model::Quantity::a:
+    case model::Quantity::theta_a:
       return &a_;
-    case Quantity::contact_force:
+    case model::Quantity::contact_force:
       return nullptr;
     default:
       throw LogicError("not a quantity of probes");

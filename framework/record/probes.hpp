@@ -14,7 +14,7 @@ namespace butee::record {
 class BUTEE_EXPORT Probes {
  public:
   /// `dynamics` must outlive it.
-  Probes(const std::vector<ProbeRequest>& requests, dynamics::Dynamics& dynamics);
+  Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics);
   Probes(const Probes&) = delete;
   Probes& operator=(const Probes&) = delete;
 
@@ -51,10 +51,10 @@ class BUTEE_EXPORT Probes {
 
   static constexpr std::size_t kFixed = static_cast<std::size_t>(-1);
 
-  Column element_force(Quantity quantity, const ProbeRequest& request);
+  Column element_force(model::Quantity quantity, const model::ProbeRequest& request);
   std::size_t slot(Index dof);
   void add_stops(Index dof);
-  const std::vector<double>* samples_of(Quantity quantity) const;
+  const std::vector<double>* samples_of(model::Quantity quantity) const;
   double contact_force(const Column& column, const double* x);
   void make_room(std::size_t instants);
   void copy(const time::State& state, std::size_t instant);

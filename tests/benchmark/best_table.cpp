@@ -66,14 +66,11 @@ Outcome run_plain(const plain::Problem& problem, plain::Method method, const pla
           result.seconds};
 }
 
-Outcome run_butee(app::Session& session, const Reference& reference) {
+Outcome run_butee(scene::Scene& session, const Reference& reference) {
   const auto begin = Clock::now();
-  const model::System system = assemble(session.model);
-  dynamics::Dynamics dynamics(system);
-  const auto& choice = session.integrator;
-  const auto integrator = session.catalogue.load(choice.name).make(choice.parameters, dynamics);
-  time::Simulation simulation(dynamics, *integrator, choice.options);
-  test::Sampler sampler(system.loads.front().dofs.front(), reference.times);
+  scene::Assembly assembly(session);
+  time::Simulation& simulation = assembly.simulation;
+  test::Sampler sampler(assembly.system.loads.front().dofs.front(), reference.times);
   simulation.add(sampler);
   const bool completed = simulation.run().completed;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -122,11 +119,11 @@ std::vector<Candidate> own_candidates(const Chosen& chosen, const Reference& ref
   sweep(all, "exponential", 1e-1, 0.8, [&](double value) -> std::function<Outcome()> {
     char tolerance[32];
     std::snprintf(tolerance, sizeof tolerance, "%.6e", value);
-    auto session = std::make_unique<app::Session>(
+    auto session = std::make_unique<scene::Scene>(
         test::read_scene(test::with_linear_law(chosen.scene),
                          {"integrator.type=exponential", "integrator.end_time=" + std::to_string(chosen.end_time),
                           std::string("integrator.tolerance=") + tolerance}));
-    return [own = std::shared_ptr<app::Session>(std::move(session)), &reference] { return run_butee(*own, reference); };
+    return [own = std::shared_ptr<scene::Scene>(std::move(session)), &reference] { return run_butee(*own, reference); };
   });
   return all;
 }

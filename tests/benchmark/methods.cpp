@@ -47,13 +47,10 @@ class Peaks final : public time::Observer {
   Index dof_;
 };
 
-time::RunReport run_once(app::Session& session) {
-  const plugin::IntegratorChoice& choice = session.integrator;
-  const model::System system = assemble(session.model);
-  dynamics::Dynamics dynamics(system);
-  const auto integrator = session.catalogue.load(choice.name).make(choice.parameters, dynamics);
-  time::Simulation simulation(dynamics, *integrator, choice.options);
-  Peaks peaks(system.loads.front().dofs.front());
+time::RunReport run_once(scene::Scene& session) {
+  scene::Assembly assembly(session);
+  time::Simulation& simulation = assembly.simulation;
+  Peaks peaks(assembly.system.loads.front().dofs.front());
   simulation.add(peaks);
   const time::RunReport report = simulation.run();
   benchmark::DoNotOptimize(peaks.u + peaks.v);
@@ -67,7 +64,7 @@ void show_steps(benchmark::State& state, double steps, double rejected, double n
 }
 
 void time_butee(benchmark::State& state, const Chosen& chosen, const std::string& method) {
-  app::Session session =
+  scene::Scene session =
       test::read_scene(test::read_file(test::model_path(chosen.its.name)),
                        {"integrator.type=" + method, "integrator.end_time=" + std::to_string(chosen.its.end_time)});
   time::RunReport report;

@@ -34,7 +34,7 @@ double most_memory() {
 
 /// Reads, assembles, factorizes and takes some steps; each part is timed once.
 void measure(benchmark::State& state, const std::string& scene, const std::string& method) {
-  std::optional<app::Session> session;
+  std::optional<scene::Scene> session;
   std::optional<model::System> system;
   const double read = seconds_of([&] { session.emplace(test::read_scene(scene, {"integrator.type=" + method})); });
   const double assembly = seconds_of([&] { system.emplace(assemble(session->model)); });

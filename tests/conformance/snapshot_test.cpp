@@ -37,7 +37,7 @@ struct Watched {
   }
 
   SceneRun run;
-  record::OutputRequest request;
+  model::OutputRequest request;
   record::HistoryRecorder history;
   record::EnergyRecorder energy;
   record::ImpactRecorder impacts;

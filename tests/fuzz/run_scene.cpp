@@ -5,6 +5,7 @@
 #include <butee/record/energy.hpp>
 #include <butee/record/history.hpp>
 #include <butee/record/impacts.hpp>
+#include <butee/scene/assembly.hpp>
 
 #include "scene_input.hpp"
 
@@ -17,20 +18,19 @@ constexpr int kMostSteps = 12;
 /// Rows of the history; more would fall into one long step.
 constexpr double kMostRows = 2000.0;
 
-void run(fuzz::SceneInput& input) {
-  const plugin::IntegratorChoice& choice = *input.scene.integrator;
-  const model::System system = assemble(input.scene.model);
-  if (system.size() > kMostDofs) return;
-  dynamics::Dynamics dynamics(system);
-  const auto method = fuzz::catalogue().load(choice.name).make(choice.parameters, dynamics);
-  time::Simulation simulation(dynamics, *method, choice.options);
-  const bool has_history = !input.output.interval || choice.options.end_time / *input.output.interval < kMostRows;
-  record::HistoryRecorder history(input.output, choice.options.end_time, dynamics, nullptr);
+void run(scene::Scene& scene) {
+  if (number_dofs(scene.model).free_count() > kMostDofs) return;
+  scene::Assembly assembly(scene);
+  dynamics::Dynamics& dynamics = assembly.dynamics;
+  time::Simulation& simulation = assembly.simulation;
+  const double end_time = scene.integrator.options.end_time;
+  const bool has_history = !scene.output.interval || end_time / *scene.output.interval < kMostRows;
+  record::HistoryRecorder history(scene.output, end_time, dynamics, nullptr);
   record::EnergyRecorder energy(dynamics);
   record::ImpactRecorder impacts(dynamics);
   if (has_history) simulation.add(history);
-  if (input.output.energy) simulation.add(energy);
-  if (input.output.impacts) simulation.add(impacts);
+  if (scene.output.energy) simulation.add(energy);
+  if (scene.output.impacts) simulation.add(impacts);
   for (int i = 0; i < kMostSteps && simulation.advance(); ++i)
     if (!simulation.state().x.allFinite() || !simulation.state().v.allFinite()) std::abort();
 }

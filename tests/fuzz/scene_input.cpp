@@ -62,21 +62,13 @@ plugin::Catalogue& catalogue() {
   return instance;
 }
 
-std::optional<SceneInput> read_scene_input(const std::uint8_t* data, std::size_t size) {
+std::optional<scene::Scene> read_scene_input(const std::uint8_t* data, std::size_t size) {
   try {
     config::Document document = config::parse_toml(std::string(reinterpret_cast<const char*>(data), size), "input");
     shrink(document.root);
     // What is written as the model as run has to be readable.
     config::parse_toml(config::write_toml(*document.root.table()), "written");
-    config::Diagnostics diagnostics(document);
-    plugin::Scene scene = plugin::read_scene(document, catalogue(), diagnostics);
-    const double end_time = scene.integrator ? scene.integrator->options.end_time : 1.0;
-    record::OutputRequest output = record::read_output(document.root, scene.model, end_time, diagnostics);
-    if (scene.integrator)
-      if (const auto& check = catalogue().load(scene.integrator->name).check)
-        check(scene.integrator->parameters, diagnostics);
-    diagnostics.throw_if_any();
-    return SceneInput{std::move(scene), std::move(output)};
+    return scene::read_scene(std::move(document), catalogue());
   } catch (const InputError&) {
     return std::nullopt;
   }

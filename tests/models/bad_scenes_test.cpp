@@ -118,7 +118,7 @@ std::vector<std::string> messages_of(const std::string& toml, const std::vector<
   try {
     config::Document document = config::parse_toml(toml, kFile);
     for (const std::string& assignment : overrides) config::apply_override(document, assignment);
-    app::read_session(std::move(document), catalogue);
+    scene::read_scene(std::move(document), catalogue);
   } catch (const InputError& error) {
     return lines_of(error.what());
   }

@@ -268,7 +268,7 @@ class Trust : public testing::TestWithParam<Scene> {};
 
 TEST_P(Trust, BoundsTheErrorHoldsThePeaksAndKnowsChaos) {
   const Scene& scene = GetParam();
-  app::Session session = read_scene(scene.toml());
+  scene::Scene session = read_scene(scene.toml());
   const std::vector<double> times = app::trust::compared_times(session);
   const app::trust::FollowedRun run = app::trust::follow(session, 0.0, std::numeric_limits<double>::infinity(), {});
   const record::Trust trust = app::find_trust(session);

@@ -12,11 +12,11 @@ namespace butee::test::field_layout_test {
 namespace {
 
 model::FieldLayout layout_of(const std::string& toml) {
-  const app::Session session = read_scene(toml);
+  const scene::Scene session = read_scene(toml);
   const model::System system = assemble(session.model);
-  record::FieldRequest request;
+  model::FieldRequest request;
   for (model::NodeId i = 0; i < session.model.nodes.size(); ++i) request.nodes.push_back(i);
-  return make_layout(session.model, system, request);
+  return record::make_layout(session.model, system, request);
 }
 
 std::array<double, 3> place(const model::FieldLayout& layout, const std::string& node) {

@@ -57,21 +57,14 @@ std::string read_file(const std::string& path) {
   return text.str();
 }
 
-app::Session read_scene(const std::string& toml, const std::vector<std::string>& overrides) {
+scene::Scene read_scene(const std::string& toml, const std::vector<std::string>& overrides) {
   config::Document document = config::parse_toml(toml, "scene.toml");
   for (const std::string& assignment : overrides) config::apply_override(document, assignment);
-  return app::read_session(std::move(document), catalogue());
+  return scene::read_scene(std::move(document), catalogue());
 }
 
-SceneRun::SceneRun(const std::string& toml, const std::vector<std::string>& overrides) {
-  parts_.reset(new Parts{read_scene(toml, overrides), {}, {}, {}, {}});
-  app::Session& session = parts_->session;
-  const auto& choice = session.integrator;
-  parts_->system = std::make_unique<model::System>(assemble(session.model));
-  parts_->dynamics = std::make_unique<dynamics::Dynamics>(*parts_->system);
-  parts_->integrator = session.catalogue.load(choice.name).make(choice.parameters, *parts_->dynamics);
-  parts_->simulation = std::make_unique<time::Simulation>(*parts_->dynamics, *parts_->integrator, choice.options);
-}
+SceneRun::SceneRun(const std::string& toml, const std::vector<std::string>& overrides)
+    : parts_(new Parts{read_scene(toml, overrides)}) {}
 
 SceneRun SceneRun::of_model(const std::string& stem, const std::vector<std::string>& overrides) {
   return SceneRun(read_file(model_path(stem)), overrides);

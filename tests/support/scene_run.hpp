@@ -6,9 +6,7 @@
 
 #include <butee/record/energy.hpp>
 #include <butee/record/impacts.hpp>
-#include <butee/time/simulation.hpp>
-
-#include "apps/butee/session.hpp"
+#include <butee/scene/assembly.hpp>
 
 namespace butee::test {
 
@@ -20,7 +18,7 @@ std::string with_linear_law(const std::string& stem);
 
 /// Reads a scene from TOML text with overrides ("integrator.type=NM1"), modules from the build tree. Throws InputError
 /// where the program would refuse the scene.
-app::Session read_scene(const std::string& toml, const std::vector<std::string>& overrides = {});
+scene::Scene read_scene(const std::string& toml, const std::vector<std::string>& overrides = {});
 
 /// A scene ready to run inside the test: read as by read_scene(), and assembled.
 class SceneRun {
@@ -28,24 +26,21 @@ class SceneRun {
   explicit SceneRun(const std::string& toml, const std::vector<std::string>& overrides = {});
   static SceneRun of_model(const std::string& stem, const std::vector<std::string>& overrides = {});
 
-  dynamics::Dynamics& dynamics() { return *parts_->dynamics; }
-  const model::System& system() const { return *parts_->system; }
-  const model::Model& model() const { return parts_->session.model; }
-  time::Integrator& integrator() { return *parts_->integrator; }
-  time::Simulation& simulation() { return *parts_->simulation; }
+  dynamics::Dynamics& dynamics() { return parts_->assembly.dynamics; }
+  const model::System& system() const { return parts_->assembly.system; }
+  const model::Model& model() const { return parts_->scene.model; }
+  time::Integrator& integrator() { return *parts_->assembly.integrator; }
+  time::Simulation& simulation() { return parts_->assembly.simulation; }
   /// The free DOF of a selector that names one node.
   Index dof(const std::string& selector, DofKind kind = DofKind::u) const;
 
   /// Runs to the end.
-  const time::RunReport& run() { return parts_->simulation->run(); }
+  const time::RunReport& run() { return parts_->assembly.simulation.run(); }
 
  private:
   struct Parts {
-    app::Session session;
-    std::unique_ptr<model::System> system;
-    std::unique_ptr<dynamics::Dynamics> dynamics;
-    std::unique_ptr<time::Integrator> integrator;
-    std::unique_ptr<time::Simulation> simulation;
+    scene::Scene scene;
+    scene::Assembly assembly{scene};
   };
   std::unique_ptr<Parts> parts_;
 };

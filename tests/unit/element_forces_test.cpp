@@ -32,7 +32,7 @@ using Values = std::map<std::string, double>;
 /// What the probes of a scene show of a motion.
 class Shown {
  public:
-  explicit Shown(const std::string& toml) : session_(std::make_unique<app::Session>(read_scene(toml))) {
+  explicit Shown(const std::string& toml) : session_(std::make_unique<scene::Scene>(read_scene(toml))) {
     system_ = std::make_unique<model::System>(assemble(session_->model));
     dynamics_ = std::make_unique<dynamics::Dynamics>(*system_);
     probes_ = std::make_unique<record::Probes>(session_->output.probes, *dynamics_);
@@ -59,7 +59,7 @@ class Shown {
   }
 
  private:
-  std::unique_ptr<app::Session> session_;
+  std::unique_ptr<scene::Scene> session_;
   std::unique_ptr<model::System> system_;
   std::unique_ptr<dynamics::Dynamics> dynamics_;
   std::unique_ptr<record::Probes> probes_;

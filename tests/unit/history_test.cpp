@@ -4,6 +4,7 @@
 
 #include <butee/config/toml.hpp>
 #include <butee/record/history.hpp>
+#include <butee/scene/read_output.hpp>
 #include <gtest/gtest.h>
 
 #include "support/program.hpp"
@@ -33,7 +34,7 @@ class Recorded {
     const auto document = config::parse_toml(toml, "scene.toml");
     config::Diagnostics diagnostics(document);
     const double end_time = as_number(*document.root.table()->find("integrator")->table()->find("end_time")).value();
-    const auto request = record::read_output(document.root, run_.model(), end_time, diagnostics);
+    const auto request = scene::read_output(document.root, run_.model(), end_time, diagnostics);
     diagnostics.throw_if_any();
     record::CsvWriter writer(folder_.file("history.csv"), record::HistoryRecorder::columns(request));
     record::HistoryRecorder history(request, end_time, run_.dynamics(), &writer);

@@ -168,7 +168,7 @@ class WholeSum final : public model::MatrixSink {
 /// Looks at the balances at the end of every step, and at the jumps at instants within.
 class Balances final : public time::Observer {
  public:
-  Balances(SceneRun& run, const record::OutputRequest& output)
+  Balances(SceneRun& run, const model::OutputRequest& output)
       : run_(run), probes_(output.probes, run.dynamics()), values_(probes_.columns().size()) {}
 
   void step(const time::AcceptedStep& step) override {

@@ -107,7 +107,7 @@ double largest(const std::vector<double>& values) {
 /// Follows the peaks in a structure that is embedded, as a program that uses it would.
 std::map<std::string, double> embedded_peaks(const std::string& scene, double end) {
   auto structure = embed::Structure::from_toml(scene, {{}, {BUTEE_TEST_PLUGINS}, {}});
-  using record::Quantity;
+  using model::Quantity;
   structure.follow_peaks("ball", {Quantity::u, Quantity::v, Quantity::a, Quantity::contact_force});
   structure.advance_to(end);
   return structure.peaks();

@@ -22,7 +22,7 @@ constexpr double kStepsInPeriod = 20.0, kElementsInWave = 8.0;
 
 class Adviser {
  public:
-  Adviser(const Session& session, const model::System& system, const Facts& facts)
+  Adviser(const scene::Scene& session, const model::System& system, const Facts& facts)
       : session_(session), system_(system), facts_(facts) {}
 
   std::vector<Advice> all() {
@@ -42,7 +42,7 @@ class Adviser {
   void add(const char* about, std::string words) { advice_.push_back({about, std::move(words)}); }
 
   void judge_step() {
-    const plugin::IntegratorChoice& choice = session_.integrator;
+    const scene::IntegratorChoice& choice = session_.integrator;
     const time::IntegratorType& type = session_.catalogue.find(choice.name)->declaration;
     const double h = choice.options.time_step;
     if (h > 0.0 && facts_.open && facts_.closed && h > type.stability_limit / facts_.closed->highest)
@@ -174,7 +174,7 @@ class Adviser {
             config::describe(session_.document, value.at) + ": [" + kind + "." + name + "] is used by no element");
   }
 
-  const Session& session_;
+  const scene::Scene& session_;
   const model::System& system_;
   const Facts& facts_;
   std::vector<Advice> advice_;
@@ -182,7 +182,7 @@ class Adviser {
 
 }  // namespace
 
-std::vector<Advice> advise(const Session& session, const model::System& system, const Facts& facts) {
+std::vector<Advice> advise(const scene::Scene& session, const model::System& system, const Facts& facts) {
   return Adviser(session, system, facts).all();
 }
 

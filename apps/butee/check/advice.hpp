@@ -30,6 +30,6 @@ struct Facts {
   Estimate cost;
 };
 
-std::vector<Advice> advise(const Session& session, const model::System& system, const Facts& facts);
+std::vector<Advice> advise(const scene::Scene& session, const model::System& system, const Facts& facts);
 
 }  // namespace butee::app::check

@@ -95,13 +95,13 @@ class Watcher final : public time::Observer {
   double count_ = 0.0;
 };
 
-std::optional<double> rows_of(const record::OutputRequest& output, double span, std::optional<double> steps) {
+std::optional<double> rows_of(const model::OutputRequest& output, double span, std::optional<double> steps) {
   if (output.interval) return std::ceil(span / *output.interval - 1e-9) + 1.0;
   if (steps) return *steps / static_cast<double>(output.every) + 1.0;
   return std::nullopt;
 }
 
-void try_out(Session& session, double reading_seconds, Estimate& result) {
+void try_out(scene::Scene& session, double reading_seconds, Estimate& result) {
   const time::IntegratorType& type = session.catalogue.load(session.integrator.name);
   const double end_time = session.integrator.options.end_time;
   const auto begin = Clock::now();
@@ -152,7 +152,7 @@ void try_out(Session& session, double reading_seconds, Estimate& result) {
 
 }  // namespace
 
-Estimate estimate(Session& session, double reading_seconds) {
+Estimate estimate(scene::Scene& session, double reading_seconds) {
   Estimate result;
   try {
     check_checkpoints(session);

@@ -25,6 +25,6 @@ struct Estimate {
 };
 
 /// `reading_seconds`: from the start of the process to the session. Throws RunError on an interruption.
-Estimate estimate(Session& session, double reading_seconds);
+Estimate estimate(scene::Scene& session, double reading_seconds);
 
 }  // namespace butee::app::check

@@ -58,7 +58,7 @@ void print_modal_damping(const model::System& system) {
 }
 
 /// What the system does without, whatever the scene names, and what a run of it does not follow and does not load.
-std::vector<std::string> skipped(const Session& session, const model::System& system) {
+std::vector<std::string> skipped(const scene::Scene& session, const model::System& system) {
   std::vector<std::string> lines;
   if (system.skipped_stops > 0)
     lines.push_back(std::to_string(system.skipped_stops) + " stops whose ends are all fixed: they can never act");
@@ -98,8 +98,8 @@ void print_range(const char* label, const std::optional<dynamics::FrequencyRange
               span(range->lowest / kTwoPi, range->highest / kTwoPi).c_str());
 }
 
-void print_step(const Session& session, double open, double closed) {
-  const plugin::IntegratorChoice& choice = session.integrator;
+void print_step(const scene::Scene& session, double open, double closed) {
+  const scene::IntegratorChoice& choice = session.integrator;
   const double limit = session.catalogue.find(choice.name)->declaration.stability_limit, h = choice.options.time_step;
   std::printf(
       "critical   step of classical Runge-Kutta %s s (stops open), %s s (all closed); of central differences %s s, %s "
@@ -179,7 +179,7 @@ Json json_of(const Mechanics& mechanics) {
 
 }  // namespace
 
-void print(const Session& session, const model::System& system, const Facts& facts, const std::string& picture) {
+void print(const scene::Scene& session, const model::System& system, const Facts& facts, const std::string& picture) {
   print_contents(session.model, system, facts.survey);
   print_modal_damping(system);
   if (!picture.empty()) std::printf("\n%s\n", picture.c_str());
@@ -200,7 +200,7 @@ void print(const Session& session, const model::System& system, const Facts& fac
   std::fflush(stdout);
 }
 
-Json to_json(const Session& session, const model::System& system, const Facts& facts,
+Json to_json(const scene::Scene& session, const model::System& system, const Facts& facts,
              const std::vector<Advice>& advice) {
   Json json;
   json["title"] = session.model.title;

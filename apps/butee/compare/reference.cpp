@@ -39,7 +39,7 @@ Values compute(const config::Document& scene, const plugin::Catalogue& catalogue
   const time::IntegratorType& type = own.load(method);
   const Sweep sweep{method, "", true, {}, std::move(settings)};
   config::Document document = with_method(scene, type, sweep, 0.0);
-  Session session = read_session(std::move(document), own);
+  scene::Scene session = scene::read_scene(std::move(document), own);
   Answer answer = run_once(session, question, kTimeLimit, perturbation);
   if (interrupted != 0) throw RunError("interrupted in the reference; what was compared before is kept");
   if (!answer.completed)
@@ -130,7 +130,7 @@ Reference find_reference(const Study& study, const config::Document& scene, plug
     compare_both(by("exact", "order", config::Value(std::int64_t{22}), perturbation()), question, reference);
   } catch (const InputError&) {
     // Without all modes exponential would agree with itself alone.
-    const auto dofs = assemble(read_session(scene, catalogue).model).size();
+    const auto dofs = assemble(scene::read_scene(scene, catalogue).model).size();
     if (!reference.values.empty() || catalogue.find("exponential") == nullptr ||
         dofs > dynamics::ModalSystem::kAllModes)
       throw;

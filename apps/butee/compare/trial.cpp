@@ -6,8 +6,9 @@
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
+#include <butee/scene/assembly.hpp>
 
-#include "../assembly.hpp"
+#include "../perturb.hpp"
 
 namespace butee::app::compare {
 
@@ -73,11 +74,11 @@ class Sampler final : public time::Observer {
 
 }  // namespace
 
-Question question_of(const Session& session, const std::vector<std::string>& columns) {
+Question question_of(const scene::Scene& session, const std::vector<std::string>& columns) {
   std::vector<std::string> known;
-  std::vector<record::ProbeRequest> single;
-  for (const record::ProbeRequest& probe : session.output.probes)
-    for (const record::Quantity quantity : probe.quantities) {
+  std::vector<model::ProbeRequest> single;
+  for (const model::ProbeRequest& probe : session.output.probes)
+    for (const model::Quantity quantity : probe.quantities) {
       known.push_back(probe.label + "." + name_of(quantity));
       single.push_back({probe.label, probe.node, {quantity}, probe.element});
     }
@@ -101,11 +102,11 @@ Question question_of(const Session& session, const std::vector<std::string>& col
   return question;
 }
 
-Answer run_once(Session& session, const Question& question, double time_limit, double perturbation) {
+Answer run_once(scene::Scene& session, const Question& question, double time_limit, double perturbation) {
   Answer answer;
   const log::WithoutWarnings quiet;  // The table says which methods are slow, or fail.
   const auto begin = Clock::now();
-  Assembly assembly(session, perturbation);
+  scene::Assembly assembly(session, perturbed_by(perturbation));
   dynamics::Dynamics& dynamics = assembly.dynamics;
   time::Simulation& simulation = assembly.simulation;
   Sampler sampler(question, dynamics);
@@ -123,7 +124,7 @@ Answer run_once(Session& session, const Question& question, double time_limit, d
   return answer;
 }
 
-Answer measure(Session& session, const Question& question, double time_limit) {
+Answer measure(scene::Scene& session, const Question& question, double time_limit) {
   Answer best = run_once(session, question, time_limit);
   double sum = best.seconds;
   for (int i = 1; best.completed && i < kMostRuns && interrupted == 0; ++i) {

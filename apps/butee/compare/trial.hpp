@@ -16,13 +16,13 @@ extern volatile std::sig_atomic_t interrupted;
 
 /// What is compared, and when.
 struct Question {
-  std::vector<record::ProbeRequest> probes;  ///< one quantity of one node each
-  std::vector<std::string> columns;          ///< "mid.u", one for each
-  std::vector<double> times;                 ///< s, ascending
+  std::vector<model::ProbeRequest> probes;  ///< one quantity of one node each
+  std::vector<std::string> columns;         ///< "mid.u", one for each
+  std::vector<double> times;                ///< s, ascending
 };
 
 /// The question of a scene: these columns of its history, or the first one where none are named. Throws InputError.
-Question question_of(const Session& session, const std::vector<std::string>& columns);
+Question question_of(const scene::Scene& session, const std::vector<std::string>& columns);
 
 /// Courses of the columns at the times of a question: values[column][instant].
 using Values = std::vector<std::vector<double>>;
@@ -39,9 +39,9 @@ struct Answer {
 
 /// Runs once, without files. Ends with "too slow" where it takes more than `time_limit` seconds. `perturbation` (m or
 /// rad) is added to the initial displacements, with a fixed pattern of signs and sizes.
-Answer run_once(Session& session, const Question& question, double time_limit, double perturbation = 0.0);
+Answer run_once(scene::Scene& session, const Question& question, double time_limit, double perturbation = 0.0);
 
 /// Runs again until the fastest time can be relied on; the fastest.
-Answer measure(Session& session, const Question& question, double time_limit);
+Answer measure(scene::Scene& session, const Question& question, double time_limit);
 
 }  // namespace butee::app::compare

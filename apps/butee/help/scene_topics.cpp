@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <butee/core/text.hpp>
-#include <butee/record/quantity.hpp>
+#include <butee/model/quantity.hpp>
 
 #include "../parameter_table.hpp"
 #include "topics.hpp"
@@ -161,11 +161,11 @@ std::string output_text(const plugin::Catalogue&) {
   quantities   any of these:
 
 )";
-  for (const std::string& name : record::probe_quantities()) {
-    const record::Quantity quantity = record::quantity_of(name);
-    const std::string unit = record::unit_of(quantity);
+  for (const std::string& name : model::probe_quantities()) {
+    const model::Quantity quantity = model::quantity_of(name);
+    const std::string unit = model::unit_of(quantity);
     text += "  " + name + std::string(17 - name.size(), ' ') + unit + std::string(8 - unit.size(), ' ') +
-            record::summary_of(quantity) + "\n";
+            model::summary_of(quantity) + "\n";
   }
   return text + R"(
 Section forces are what the part of the beam at larger x exerts on the part at smaller x, along u and about theta:

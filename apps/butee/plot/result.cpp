@@ -8,7 +8,8 @@
 #include <butee/config/file_reference.hpp>
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
-#include <butee/plugin/scene.hpp>
+#include <butee/scene/read_output.hpp>
+#include <butee/scene/read_scene.hpp>
 
 namespace butee::app::plot {
 namespace {
@@ -89,12 +90,12 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
   // Pictures need no course of a load, and results may have been taken elsewhere without its file.
   const config::Document document = config::without_files(config::load_toml(model_path));
   config::Diagnostics diagnostics(document);
-  const plugin::Scene scene = plugin::read_scene(document, catalogue, diagnostics);
+  const scene::Draft scene = scene::read_draft(document, catalogue, diagnostics);
   diagnostics.throw_if_any();
   // What is wrong with [output] here, such as a format whose module is not installed, is no matter for pictures.
   config::Diagnostics of_output(document);
-  const auto output = record::read_output(document.root, scene.model, scene.integrator->options.end_time, of_output,
-                                          catalogue.types().formats);
+  const auto output = scene::read_output(document.root, scene.model, scene.integrator->options.end_time, of_output,
+                                         catalogue.types().formats);
   Result result;
   result.folder = folder;
   result.label = label_of(folder);
@@ -106,7 +107,7 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
     throw InputError(folder + ": holds no results of `butee run`: history.csv is missing");
   if (const auto energy = fs::path(folder) / "energy.csv"; fs::exists(energy))
     result.energy = read_table(energy.string(), window);
-  for (const record::ProbeRequest& probe : output.probes)
+  for (const model::ProbeRequest& probe : output.probes)
     result.probes.push_back({probe.label, gaps_of(scene.model, probe.node)});
   result.frequencies = frequencies_of(document);
   return result;

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include <butee/model/output_request.hpp>
 #include <butee/plugin/catalogue.hpp>
-#include <butee/record/output_request.hpp>
 
 #include "table.hpp"
 

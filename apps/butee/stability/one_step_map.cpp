@@ -60,19 +60,17 @@ OneStepMap::OneStepMap(const plugin::Catalogue& catalogue, const std::string& me
   if (!(rate_ > 0.0)) rate_ = 1.0;
   config::Document document = document_of(type_, settings, oscillator);
   parameters_ = parameters_of(document);
-  session_ = std::make_unique<Session>(read_session(std::move(document), catalogue_));
-  system_ = std::make_unique<model::System>(assemble(session_->model));
-  dynamics_ = std::make_unique<dynamics::Dynamics>(*system_);
-  integrator_ = type_.make(session_->integrator.parameters, *dynamics_);
+  session_ = std::make_unique<scene::Scene>(scene::read_scene(std::move(document), catalogue_));
+  assembly_ = std::make_unique<scene::Assembly>(*session_);
 }
 
 std::optional<Eigen::Vector3d> OneStepMap::step(const Eigen::Vector3d& from, double h) {
   time::State begin, end;
   begin.x = Vector::Constant(1, from[0]);
   begin.v = Vector::Constant(1, from[1] * rate_);
-  integrator_->start(begin);
+  assembly_->integrator->start(begin);
   begin.a[0] = from[2] * rate_ * rate_;
-  const time::StepReport report = integrator_->step(begin, {h, h, true}, end);
+  const time::StepReport report = assembly_->integrator->step(begin, {h, h, true}, end);
   if (report.status != time::StepStatus::ok) {
     refusal_ = "a step of h = " + to_short_text(h) + " s fails";
     return std::nullopt;
@@ -82,9 +80,9 @@ std::optional<Eigen::Vector3d> OneStepMap::step(const Eigen::Vector3d& from, dou
     return std::nullopt;
   }
   // What would be rejected may come without its acceleration, which is then still the old one.
-  const time::StepController* controller = integrator_->controller();
+  const time::StepController* controller = assembly_->integrator->controller();
   if (controller != nullptr && end.a == begin.a && !controller->decide(h, report).accept)
-    dynamics_->acceleration(end.t, end.x, end.v, end.a);
+    assembly_->dynamics.acceleration(end.t, end.x, end.v, end.a);
   return Eigen::Vector3d(end.x[0], end.v[0] / rate_, end.a[0] / (rate_ * rate_));
 }
 

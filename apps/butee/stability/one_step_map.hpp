@@ -6,8 +6,7 @@
 #include <vector>
 
 #include <Eigen/Dense>
-
-#include "../session.hpp"
+#include <butee/scene/assembly.hpp>
 
 namespace butee::app::stability {
 
@@ -39,7 +38,7 @@ class OneStepMap {
   /// The parameters as TOML: "beta = 0.25, gamma = 0.5"
   const std::string& parameters() const { return parameters_; }
   /// What the method says of its own choice, of `auto`; else empty.
-  const std::string& choice() const { return integrator_->choice(); }
+  const std::string& choice() const { return assembly_->integrator->choice(); }
 
  private:
   std::optional<Eigen::Vector3d> step(const Eigen::Vector3d& from, double h);
@@ -47,10 +46,8 @@ class OneStepMap {
   plugin::Catalogue catalogue_;
   time::IntegratorType type_;
   double rate_;  ///< by which velocities are scaled, 1/s
-  std::unique_ptr<Session> session_;
-  std::unique_ptr<model::System> system_;
-  std::unique_ptr<dynamics::Dynamics> dynamics_;
-  std::unique_ptr<time::Integrator> integrator_;
+  std::unique_ptr<scene::Scene> session_;
+  std::unique_ptr<scene::Assembly> assembly_;
   std::string parameters_, refusal_;
 };
 

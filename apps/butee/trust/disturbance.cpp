@@ -5,8 +5,8 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+#include <butee/scene/assembly.hpp>
 
-#include "../assembly.hpp"
 #include "../interruption.hpp"
 #include "../perturb.hpp"
 
@@ -56,9 +56,9 @@ class Size {
 
 }  // namespace
 
-record::Growth follow_disturbance(Session& session, const FollowedRun& run, double size) {
+record::Growth follow_disturbance(scene::Scene& session, const FollowedRun& run, double size) {
   const log::WithoutWarnings quiet;
-  Assembly assembly(session);
+  scene::Assembly assembly(session);
   time::Simulation& simulation = assembly.simulation;
   Size measure(assembly.dynamics, run);
   record::Growth growth;

@@ -12,6 +12,6 @@ namespace butee::app::trust {
 ///
 /// Sizes are |d|^2 = d_v^T M d_v + max(d_x^T K d_x, omega^2 d_x^T M d_x), omega^2 = max v^T M v/max x^T M x. Nothing
 /// for a run at rest, and where a piece cannot be computed.
-record::Growth follow_disturbance(Session& session, const FollowedRun& run, double size);
+record::Growth follow_disturbance(scene::Scene& session, const FollowedRun& run, double size);
 
 }  // namespace butee::app::trust

@@ -10,9 +10,10 @@
 #include <butee/core/text.hpp>
 #include <butee/record/impacts.hpp>
 #include <butee/record/probes.hpp>
+#include <butee/scene/assembly.hpp>
 
-#include "../assembly.hpp"
 #include "../interruption.hpp"
+#include "../perturb.hpp"
 #include "turning_points.hpp"
 
 namespace butee::app::trust {
@@ -26,17 +27,17 @@ constexpr double kFewestRows = 1000.0;
 /// States kept, and numbers in all of them.
 constexpr double kMostStates = 1000.0, kFewestStates = 100.0, kMostNumbers = 1e6;
 
-std::vector<record::ProbeRequest> displacement_probes(const Session& session) {
-  std::vector<record::ProbeRequest> probes;
-  for (const record::ProbeRequest& probe : session.output.probes)
-    probes.push_back({probe.label, probe.node, {record::Quantity::u}});
+std::vector<model::ProbeRequest> displacement_probes(const scene::Scene& session) {
+  std::vector<model::ProbeRequest> probes;
+  for (const model::ProbeRequest& probe : session.output.probes)
+    probes.push_back({probe.label, probe.node, {model::Quantity::u}});
   return probes;
 }
 
 /// Takes the probes at the compared times, and whole states.
 class Follower final : public time::Observer {
  public:
-  Follower(const Session& session, dynamics::Dynamics& dynamics, FollowedRun& to, bool with_states)
+  Follower(const scene::Scene& session, dynamics::Dynamics& dynamics, FollowedRun& to, bool with_states)
       : probes_(displacement_probes(session), dynamics), to_(to), row_(probes_.columns().size()) {
     to_.courses.values.resize(row_.size());
     to_.courses.times = compared_times(session);
@@ -88,11 +89,11 @@ class Follower final : public time::Observer {
 };
 
 /// The displacements of the probes, then those of the stops.
-std::vector<TurningPoints::Path> paths_of(const Session& session, dynamics::Dynamics& dynamics) {
+std::vector<TurningPoints::Path> paths_of(const scene::Scene& session, dynamics::Dynamics& dynamics) {
   std::vector<TurningPoints::Path> paths;
   const auto& table = dynamics.system().dofs;
-  for (const record::ProbeRequest& probe : session.output.probes)
-    paths.push_back({table.index({probe.node, record::kind_of(record::Quantity::u)}), -1});
+  for (const model::ProbeRequest& probe : session.output.probes)
+    paths.push_back({table.index({probe.node, model::kind_of(model::Quantity::u)}), -1});
   const dynamics::Contact& contact = dynamics.contact();
   for (Index i = 0; i < contact.size(); ++i) paths.push_back({contact.dof_a(i), contact.dof_b(i)});
   return paths;
@@ -110,7 +111,7 @@ double highest_frequency(dynamics::Dynamics& dynamics) {
   return std::isfinite(square) ? std::sqrt(std::max(0.0, square)) : 0.0;
 }
 
-void sum_up(const Session& session, dynamics::Dynamics& dynamics, const std::vector<TurningPoints::Path>& paths,
+void sum_up(const scene::Scene& session, dynamics::Dynamics& dynamics, const std::vector<TurningPoints::Path>& paths,
             FollowedRun& run) {
   for (std::size_t i = 0; i < session.output.probes.size(); ++i) {
     double squares = 0.0;
@@ -132,7 +133,7 @@ void sum_up(const Session& session, dynamics::Dynamics& dynamics, const std::vec
 
 }  // namespace
 
-std::vector<double> compared_times(const Session& session) {
+std::vector<double> compared_times(const scene::Scene& session) {
   const double end = session.integrator.options.end_time, rows = session.output.interval.value_or(end / kFewestRows);
   const double interval = rows / std::max(1.0, std::ceil(kFewestRows * rows / end - kSameInstant));
   std::vector<double> times;
@@ -142,7 +143,7 @@ std::vector<double> compared_times(const Session& session) {
   return times;
 }
 
-std::vector<double> state_times(const Session& session, Index size) {
+std::vector<double> state_times(const scene::Scene& session, Index size) {
   const double count =
       std::floor(std::clamp(kMostNumbers / static_cast<double>(std::max<Index>(size, 1)), kFewestStates, kMostStates));
   std::vector<double> times;
@@ -151,10 +152,10 @@ std::vector<double> state_times(const Session& session, Index size) {
   return times;
 }
 
-FollowedRun follow(Session& session, double disturbance, double most, Wanted wanted) {
+FollowedRun follow(scene::Scene& session, double disturbance, double most, Wanted wanted) {
   const log::WithoutWarnings quiet;
   FollowedRun run;
-  Assembly assembly(session, disturbance);
+  scene::Assembly assembly(session, perturbed_by(disturbance));
   dynamics::Dynamics& dynamics = assembly.dynamics;
   run.size = dynamics.size();
   run.choice = assembly.integrator->choice();

@@ -15,10 +15,10 @@ inline constexpr Index kLargeSystem = 1000;
 
 /// The instants at which runs are compared (s, ascending, 0 and end_time among them): the output times, and between
 /// them where those are few.
-std::vector<double> compared_times(const Session& session);
+std::vector<double> compared_times(const scene::Scene& session);
 
 /// Instants that part the run into equal pieces, fewer for a large system, 0 and end_time among them.
-std::vector<double> state_times(const Session& session, Index size);
+std::vector<double> state_times(const scene::Scene& session, Index size);
 
 /// A number that stands for a whole run, such as a peak.
 struct WholeNumber {
@@ -49,6 +49,6 @@ struct Wanted {
 
 /// Runs the scene from a start that is displaced by `disturbance` (m or rad). Gives up where its work exceeds `most`.
 /// Throws RunError on an interruption, InputError where the method refuses the scene.
-FollowedRun follow(Session& session, double disturbance, double most, Wanted wanted);
+FollowedRun follow(scene::Scene& session, double disturbance, double most, Wanted wanted);
 
 }  // namespace butee::app::trust

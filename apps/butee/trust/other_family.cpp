@@ -43,7 +43,7 @@ constexpr double kTighterOfLarge = 0.1, kUsualTolerance = 1e-4;
 /// The rounding error of a piece between two states, relative to the motion.
 constexpr double kRounding = 1e-13;
 
-Session session_with(const Session& session, const Candidate& candidate, double tolerance, bool again) {
+scene::Scene session_with(const scene::Scene& session, const Candidate& candidate, double tolerance, bool again) {
   plugin::Catalogue catalogue = session.catalogue;
   const time::IntegratorType& type = catalogue.load(candidate.name);
   config::Table settings;
@@ -52,12 +52,12 @@ Session session_with(const Session& session, const Candidate& candidate, double 
   else if (again)
     settings["order"] = config::Value(kOtherOrder);
   const compare::Sweep sweep{candidate.name, "", true, {}, std::move(settings)};
-  return read_session(compare::with_method(session.document, type, sweep, 0.0), std::move(catalogue));
+  return scene::read_scene(compare::with_method(session.document, type, sweep, 0.0), std::move(catalogue));
 }
 
 }  // namespace
 
-std::optional<OtherRun> run_other_family(const Session& session, const std::string& method, double tolerance,
+std::optional<OtherRun> run_other_family(const scene::Scene& session, const std::string& method, double tolerance,
                                          Index size, double work) {
   for (const Candidate& candidate : kCandidates) {
     if (method == candidate.name || session.catalogue.find(candidate.name) == nullptr) continue;

@@ -1,12 +1,12 @@
-#include "butee/record/field_request.hpp"
+#include "butee/scene/read_fields.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 #include "butee/core/text.hpp"
-#include "butee/model/read_model.hpp"
+#include "butee/scene/read_model.hpp"
 
-namespace butee::record {
+namespace butee::scene {
 
 using config::Diagnostics;
 using config::Parameters;
@@ -36,7 +36,7 @@ std::vector<config::Parameter> field_keys() {
   for (const char* name : {"u", "theta", "v", "contact_force", "stop_state"}) usual.emplace_back(std::string(name));
   return {
       config::texts("nodes", "the nodes that are kept: selectors; all where absent").optional(),
-      config::texts("quantities", "what is kept of them").one_of(field_quantities()).or_else(usual),
+      config::texts("quantities", "what is kept of them").one_of(model::field_quantities()).or_else(usual),
       config::number("interval", "s", "the time between two records; as the rows where absent").above(0).optional()};
 }
 
@@ -62,9 +62,9 @@ FormatRequest read_formats(const Parameters& output, const std::vector<std::stri
   return request;
 }
 
-FieldRequest read_fields(const Parameters& output, std::vector<std::string> formats, const model::Model* model,
-                         Diagnostics& diagnostics) {
-  FieldRequest request;
+model::FieldRequest read_fields(const Parameters& output, std::vector<std::string> formats, const model::Model* model,
+                                Diagnostics& diagnostics) {
+  model::FieldRequest request;
   request.formats = std::move(formats);
   const bool wanted = !request.formats.empty();
   if (output.has("fields") && !wanted)
@@ -78,7 +78,7 @@ FieldRequest read_fields(const Parameters& output, std::vector<std::string> form
   if (!p) return request;
   if (p->texts("quantities").empty()) p->complain(diagnostics, "quantities", "must name at least one quantity");
   refuse_doubles(*p, "quantities", diagnostics);
-  for (const std::string& name : p->texts("quantities")) request.quantities.push_back(quantity_of(name));
+  for (const std::string& name : p->texts("quantities")) request.quantities.push_back(model::quantity_of(name));
   if (p->has("interval")) request.interval = p->number("interval");
   if (!wanted || model == nullptr) return request;
   if (p->has("nodes")) {
@@ -91,4 +91,4 @@ FieldRequest read_fields(const Parameters& output, std::vector<std::string> form
   return request;
 }
 
-}  // namespace butee::record
+}  // namespace butee::scene

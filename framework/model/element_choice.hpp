@@ -3,13 +3,13 @@
 #include <string>
 
 #include "butee/model/model.hpp"
-#include "butee/record/quantity.hpp"
+#include "butee/model/quantity.hpp"
 
-namespace butee::record {
+namespace butee::model {
 
 /// The end of a beam's part of which a probe takes the section forces, or the reason why there is none.
 struct CutChoice {
-  const model::Element* beam = nullptr;
+  const Element* beam = nullptr;
   Index part = 0;
   bool at_end = true;
   std::string problem;
@@ -18,17 +18,16 @@ struct CutChoice {
 /// The part that ends at the node; at the first node of a beam the part that begins there. `element` is "" or names a
 /// beam ("string") or one of its parts ("string:17", between the nodes 17 and 18). Without it the beam is the one by
 /// which the node is named, or the only one that it belongs to.
-BUTEE_EXPORT CutChoice choose_cut(const model::Model& model, model::NodeId node, const std::string& element);
+BUTEE_EXPORT CutChoice choose_cut(const Model& model, NodeId node, const std::string& element);
 
 /// The reason why `quantity` cannot be recorded at the node, or "". `dofs` are those of the model.
-BUTEE_EXPORT std::string why_not(Quantity quantity, const model::Model& model, const model::DofTable& dofs,
-                                 model::NodeId node, const std::string& element);
+BUTEE_EXPORT std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,
+                                 const std::string& element);
 
 /// The name of an element; "" for one without.
-BUTEE_EXPORT const std::string& element_name(const model::Model& model, std::size_t element);
+BUTEE_EXPORT const std::string& element_name(const Model& model, std::size_t element);
 
 /// True for a spring of that name, or of any where it is "", that acts on the DOF.
-BUTEE_EXPORT bool is_spring_on(const model::Model& model, std::size_t element, model::NodalDof dof,
-                               const std::string& name);
+BUTEE_EXPORT bool is_spring_on(const Model& model, std::size_t element, NodalDof dof, const std::string& name);
 
-}  // namespace butee::record
+}  // namespace butee::model

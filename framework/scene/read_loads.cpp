@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "butee/core/text.hpp"
-#include "butee/model/scene_reader.hpp"
+#include "butee/scene/scene_reader.hpp"
 
-namespace butee::model {
+namespace butee::scene {
 
 using config::Parameters;
 using config::Value;
@@ -51,9 +51,10 @@ void SceneReader::read_turning_unbalance(const Value& entry, const std::string& 
   if (!p) return;
   const auto node = select_one(*p, "node");
   if (root_.table()->find("rotation") == nullptr)
-    return diagnostics_.error(path + ".speed", entry.at,
-                              "missing; give the speed of rotation (number, rad/s), or [rotation] with the speed of the "
-                              "shaft that carries the unbalance");
+    return diagnostics_.error(
+        path + ".speed", entry.at,
+        "missing; give the speed of rotation (number, rad/s), or [rotation] with the speed of the "
+        "shaft that carries the unbalance");
   if (const Value* dof = entry.table()->find("dof"))
     return diagnostics_.error(path + ".dof", *dof,
                               "belongs to an unbalance with speed; one that turns with [rotation] acts along y and z");
@@ -126,4 +127,4 @@ std::unique_ptr<TimeFunction> SceneReader::read_in_time(const Value& entry, cons
   return p ? type.make(*p, diagnostics_) : nullptr;
 }
 
-}  // namespace butee::model
+}  // namespace butee::scene

@@ -7,7 +7,7 @@
 
 #include "butee/core/types.hpp"
 
-namespace butee::record {
+namespace butee::model {
 
 /// Everything that can be recorded. stop_state, of fields alone: +1 where a stop on it is closed on the side of u > 0,
 /// -1 on the other side, 0 where all are open. From shear_force on: of probes alone, see ElementForces.
@@ -71,4 +71,4 @@ constexpr DofKind kind_of(Quantity quantity) {
   }
 }
 
-}  // namespace butee::record
+}  // namespace butee::model

@@ -1,11 +1,11 @@
-#include "butee/model/read_model.hpp"
+#include "butee/scene/read_model.hpp"
 
 #include <algorithm>
 
 #include "butee/core/text.hpp"
-#include "butee/model/scene_reader.hpp"
+#include "butee/scene/scene_reader.hpp"
 
-namespace butee::model {
+namespace butee::scene {
 
 using config::Diagnostics;
 using config::number;
@@ -13,8 +13,8 @@ using config::Parameters;
 using config::Value;
 
 std::vector<std::string> model_keys() {
-  return {"schema", "title", "material", "section", "element", "support", "contact", "load", "damping", "initial",
-          "rotation", "gravity"};
+  return {"schema",  "title", "material", "section", "element",  "support",
+          "contact", "load",  "damping",  "initial", "rotation", "gravity"};
 }
 
 Model read_model(const Value& root, const ModelTypes& types, Diagnostics& diagnostics) {
@@ -137,12 +137,13 @@ void SceneReader::read_sections() {
 void SceneReader::read_supports() {
   const DofTable dofs = number_dofs(model_);
   for (const auto& [entry, path] : entries("support")) {
-    const auto p = read_table(*entry, path,
-                              {config::texts("nodes", "the nodes held"),
-                               config::texts("fix", "the displacements held").one_of(dof_names())});
+    const auto p = read_table(
+        *entry, path,
+        {config::texts("nodes", "the nodes held"), config::texts("fix", "the displacements held").one_of(dof_names())});
     if (!p) continue;
     const auto nodes = select(*p, "nodes");
-    if (p->texts("fix").empty()) p->complain(diagnostics_, "fix", "holds nothing; name \"u\", \"theta\" or others of ux ... rz");
+    if (p->texts("fix").empty())
+      p->complain(diagnostics_, "fix", "holds nothing; name \"u\", \"theta\" or others of ux ... rz");
     if (!nodes) continue;
     for (const std::string& kind : p->texts("fix"))
       for (const NodeId node : *nodes) {
@@ -162,10 +163,10 @@ void SceneReader::check_dofs() {
       DofTable claims(model_.nodes);
       model_.elements[i]->claim(claims);
       if (!claims.exists(dof)) continue;
-      diagnostics_.error(
-          element_places_[i].first, element_places_[i].second,
-          "the free " + dofs_->name(dof) + " has no mass, so its motion is undetermined: give the node a mass" +
-              (is_rotation(dof.kind) ? " with rotary_inertia" : "") + ", or fix it with a [[support]]");
+      diagnostics_.error(element_places_[i].first, element_places_[i].second,
+                         "the free " + dofs_->name(dof) +
+                             " has no mass, so its motion is undetermined: give the node a mass" +
+                             (is_rotation(dof.kind) ? " with rotary_inertia" : "") + ", or fix it with a [[support]]");
       break;
     }
   }
@@ -245,4 +246,4 @@ std::optional<NodeId> SceneReader::select_one(const Parameters& parameters, cons
   return read_node(model_.nodes, parameters, key, diagnostics_);
 }
 
-}  // namespace butee::model
+}  // namespace butee::scene

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "butee/core/text.hpp"
-#include "butee/model/scene_reader.hpp"
+#include "butee/scene/scene_reader.hpp"
 
-namespace butee::model {
+namespace butee::scene {
 
 using config::Parameters;
 using config::Value;
@@ -108,4 +108,4 @@ void SceneReader::read_gravity() {
                           0.0});
 }
 
-}  // namespace butee::model
+}  // namespace butee::scene

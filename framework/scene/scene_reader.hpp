@@ -2,9 +2,11 @@
 
 #include <map>
 
-#include "butee/model/read_model.hpp"
+#include "butee/scene/read_model.hpp"
 
-namespace butee::model {
+namespace butee::scene {
+
+using namespace model;  // The readers fill the model, whose names they use throughout.
 
 /// The state shared by the readers of a scene's tables. Private to the framework.
 class SceneReader {
@@ -80,4 +82,4 @@ class SceneReader {
   std::vector<std::pair<std::string, config::Location>> element_places_;
 };
 
-}  // namespace butee::model
+}  // namespace butee::scene

@@ -6,9 +6,9 @@
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/model/saved_motion.hpp"
-#include "butee/model/scene_reader.hpp"
+#include "butee/scene/scene_reader.hpp"
 
-namespace butee::model {
+namespace butee::scene {
 
 using config::Parameters;
 using config::Value;
@@ -125,8 +125,7 @@ void SceneReader::read_initial_entry(const Value& entry, const std::string& path
   if (rotates)
     values = rigid_rotation(*p, *nodes);
   else
-    for (const NodeId node : *nodes)
-      values.push_back({{node, *dof_named(p->text("dof"))}, p->number("value")});
+    for (const NodeId node : *nodes) values.push_back({{node, *dof_named(p->text("dof"))}, p->number("value")});
   std::vector<NodalValue>& target = moves ? model_.initial_velocity : model_.initial_displacement;
   for (const NodalValue& value : values) {
     check_free(*p, "nodes", value.dof, "an initial value");
@@ -163,4 +162,4 @@ std::vector<NodalValue> SceneReader::rigid_rotation(const Parameters& p, const s
   return values;
 }
 
-}  // namespace butee::model
+}  // namespace butee::scene

@@ -2,9 +2,9 @@
 
 #include "butee/core/memory.hpp"
 #include "butee/core/text.hpp"
-#include "butee/model/scene_reader.hpp"
+#include "butee/scene/scene_reader.hpp"
 
-namespace butee::model {
+namespace butee::scene {
 
 using config::Parameters;
 using config::Value;
@@ -140,4 +140,4 @@ void SceneReader::check_size(const std::vector<double>& coordinates, const std::
                            complaint + "; take fewer elements");
 }
 
-}  // namespace butee::model
+}  // namespace butee::scene

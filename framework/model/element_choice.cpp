@@ -1,18 +1,14 @@
-#include "butee/record/element_choice.hpp"
+#include "butee/model/element_choice.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
 #include "butee/core/text.hpp"
-#include "butee/record/parts_at.hpp"
+#include "butee/model/parts_at.hpp"
 
-namespace butee::record {
+namespace butee::model {
 namespace {
-
-using model::Model;
-using model::NodalDof;
-using model::NodeId;
 
 /// "string:17" as "string" and 17; the number is -1 where there is none.
 struct PartName {
@@ -109,7 +105,7 @@ CutChoice choose_cut(const Model& model, NodeId node, const std::string& element
 }
 
 bool is_spring_on(const Model& model, std::size_t element, NodalDof dof, const std::string& name) {
-  const model::Element& one = *model.elements[element];
+  const Element& one = *model.elements[element];
   if (!one.is_spring() || (!name.empty() && element_name(model, element) != name)) return false;
   bool found = false;
   PartsAt parts(model.nodes, dof, [&](const auto&, const auto&, Index) { found = true; });
@@ -117,7 +113,7 @@ bool is_spring_on(const Model& model, std::size_t element, NodalDof dof, const s
   return found;
 }
 
-std::string why_not(Quantity quantity, const Model& model, const model::DofTable& dofs, NodeId node,
+std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,
                     const std::string& element) {
   const NodalDof dof{node, kind_of(quantity)};
   const std::string none = std::string("there is no ") + name_of(quantity) + ": ";
@@ -149,4 +145,4 @@ std::string why_not(Quantity quantity, const Model& model, const model::DofTable
   return dofs.exists(dof) ? "" : none + dofs.name(dof) + " does not exist";
 }
 
-}  // namespace butee::record
+}  // namespace butee::model

@@ -1,6 +1,6 @@
-#include "butee/model/scene_reader.hpp"
+#include "butee/scene/scene_reader.hpp"
 
-namespace butee::model {
+namespace butee::scene {
 
 using config::number;
 using config::Parameters;
@@ -91,4 +91,4 @@ void SceneReader::read_pairs(const Parameters& parameters, StopGroup& group) {
   group.b = b.nodes;
 }
 
-}  // namespace butee::model
+}  // namespace butee::scene

@@ -1,4 +1,4 @@
-#include "butee/record/output_request.hpp"
+#include "butee/scene/read_output.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,11 @@
 
 #include "butee/config/parameters.hpp"
 #include "butee/core/text.hpp"
-#include "butee/model/read_model.hpp"
-#include "butee/record/element_choice.hpp"
+#include "butee/model/element_choice.hpp"
+#include "butee/scene/read_fields.hpp"
+#include "butee/scene/read_model.hpp"
 
-namespace butee::record {
+namespace butee::scene {
 namespace {
 
 using config::Diagnostics;
@@ -27,12 +28,12 @@ std::string label_of(const std::string& node_name) {
   return label;
 }
 
-bool takes_element(Quantity quantity) {
-  return source_of(quantity) == Source::section || source_of(quantity) == Source::springs;
+bool takes_element(model::Quantity quantity) {
+  return source_of(quantity) == model::Source::section || source_of(quantity) == model::Source::springs;
 }
 
 /// A probe on every node with a single load, else on every node that starts in motion.
-std::vector<ProbeRequest> default_probes(const Model& model) {
+std::vector<model::ProbeRequest> default_probes(const Model& model) {
   std::set<model::NodeId> nodes;
   for (const model::Load& load : model.loads)
     if (load.pattern.size() == 1) nodes.insert(load.pattern.front().dof.node);
@@ -40,9 +41,10 @@ std::vector<ProbeRequest> default_probes(const Model& model) {
     for (const auto* values : {&model.initial_displacement, &model.initial_velocity})
       for (const model::NodalValue& value : *values) nodes.insert(value.dof.node);
   const model::DofTable dofs = number_dofs(model);
-  std::vector<ProbeRequest> probes;
+  std::vector<model::ProbeRequest> probes;
   for (const model::NodeId node : nodes)
-    if (dofs.exists({node, DofKind::u})) probes.push_back({label_of(model.nodes.name(node)), node, {Quantity::u}, {}});
+    if (dofs.exists({node, DofKind::u}))
+      probes.push_back({label_of(model.nodes.name(node)), node, {model::Quantity::u}, {}});
   return probes;
 }
 
@@ -62,8 +64,8 @@ class OutputReader {
     for (const model::FieldFormat& format : formats) formats_.push_back(format.name);
   }
 
-  OutputRequest read(const Value& table) {
-    OutputRequest request;
+  model::OutputRequest read(const Value& table) {
+    model::OutputRequest request;
     const auto p = read_parameters(
         table, "output",
         {config::number("interval", "s", "the time between two rows").above(0).optional(),
@@ -113,7 +115,7 @@ class OutputReader {
   }
 
  private:
-  void read_states(const Parameters& p, OutputRequest& request) {
+  void read_states(const Parameters& p, model::OutputRequest& request) {
     if (!p.has("states")) return;
     request.states = p.numbers("states");
     std::sort(request.states.begin(), request.states.end());
@@ -124,7 +126,7 @@ class OutputReader {
                               to_text(end_time_) + " s");
   }
 
-  void read_probes(const Value& list, OutputRequest& request) {
+  void read_probes(const Value& list, model::OutputRequest& request) {
     if (list.table() != nullptr)
       return diagnostics_.error("output.probe", list, "must be an array of tables: write [[output.probe]]");
     if (!config::table("probe", "").complaint(list).empty()) return;
@@ -132,7 +134,7 @@ class OutputReader {
       const auto p = read_parameters(
           (*list.array())[i], "output.probe[" + std::to_string(i) + "]",
           {config::text("label", "the name of its columns"), config::text("node", "the node"),
-           config::texts("quantities", "what is recorded").one_of(probe_quantities()),
+           config::texts("quantities", "what is recorded").one_of(model::probe_quantities()),
            config::text("element", "the beam or spring whose forces are recorded, where there are several").optional()},
           diagnostics_);
       if (!p) continue;
@@ -145,13 +147,13 @@ class OutputReader {
     }
   }
 
-  void read_probe_node(const Parameters& p, OutputRequest& request) {
+  void read_probe_node(const Parameters& p, model::OutputRequest& request) {
     const auto node = read_node(model_.nodes, p, "node", diagnostics_);
     if (!node) return;
-    ProbeRequest probe{p.text("label"), *node, {}, p.has("element") ? p.text("element") : ""};
+    model::ProbeRequest probe{p.text("label"), *node, {}, p.has("element") ? p.text("element") : ""};
     if (complete_ && !dofs_) dofs_ = number_dofs(model_);
     for (const std::string& name : p.texts("quantities")) {
-      const Quantity quantity = quantity_of(name);
+      const model::Quantity quantity = model::quantity_of(name);
       if (std::find(probe.quantities.begin(), probe.quantities.end(), quantity) != probe.quantities.end())
         p.complain(diagnostics_, "quantities", "names " + name + " twice");
       const std::string problem = dofs_ ? why_not(quantity, model_, *dofs_, *node, probe.element) : "";
@@ -175,11 +177,11 @@ class OutputReader {
 
 }  // namespace
 
-OutputRequest read_output(const Value& root, const Model& model, double end_time, Diagnostics& diagnostics,
-                          const std::vector<model::FieldFormat>& formats) {
+model::OutputRequest read_output(const Value& root, const Model& model, double end_time, Diagnostics& diagnostics,
+                                 const std::vector<model::FieldFormat>& formats) {
   const Value* table = root.table()->find("output");
   const Value empty;
   return OutputReader(model, end_time, diagnostics, formats).read(table != nullptr ? *table : empty);
 }
 
-}  // namespace butee::record
+}  // namespace butee::scene

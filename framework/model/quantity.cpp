@@ -1,11 +1,11 @@
-#include "butee/record/quantity.hpp"
+#include "butee/model/quantity.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "butee/core/error.hpp"
 
-namespace butee::record {
+namespace butee::model {
 namespace {
 
 struct Description {
@@ -77,4 +77,4 @@ std::vector<std::string> probe_quantities() {
   return names_where([](Quantity quantity) { return quantity != Quantity::stop_state; });
 }
 
-}  // namespace butee::record
+}  // namespace butee::model

@@ -2,26 +2,26 @@
 
 #include "butee/model/element.hpp"
 
-namespace butee::record {
+namespace butee::model {
 
 /// Calls take(dofs, matrices, place) for each part of an element that holds one DOF; `place` is that of the DOF in it.
 template <class Take>
-class PartsAt final : public model::MatrixSink {
+class PartsAt final : public MatrixSink {
  public:
-  PartsAt(const model::NodeTable& nodes, model::NodalDof dof, Take take)
+  PartsAt(const NodeTable& nodes, NodalDof dof, Take take)
       : nodes_(nodes), node_(nodes.canonical(dof.node)), kind_(dof.kind), take_(std::move(take)) {}
 
-  void add(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices) override {
+  void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) override {
     for (std::size_t i = 0; i < dofs.size(); ++i)
       if (dofs[i].kind == kind_ && nodes_.canonical(dofs[i].node) == node_)
         take_(dofs, matrices, static_cast<Index>(i));
   }
 
  private:
-  const model::NodeTable& nodes_;
-  model::NodeId node_;
+  const NodeTable& nodes_;
+  NodeId node_;
   DofKind kind_;
   Take take_;
 };
 
-}  // namespace butee::record
+}  // namespace butee::model

@@ -1,18 +1,28 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "butee/record/field_request.hpp"
+#include "butee/model/nodes.hpp"
+#include "butee/model/quantity.hpp"
 
-namespace butee::record {
+namespace butee::model {
 
 struct ProbeRequest {
   std::string label;
-  model::NodeId node = 0;
+  NodeId node = 0;
   std::vector<Quantity> quantities;
   std::string element{};  ///< "", or the beam or spring whose forces are recorded: see element_choice.hpp
+};
+
+/// Fields: quantities of many nodes, for the formats that keep them.
+struct FieldRequest {
+  std::vector<std::string> formats;  ///< none: no fields
+  std::vector<NodeId> nodes;         ///< ascending
+  std::vector<Quantity> quantities;
+  std::optional<double> interval;  ///< s; as the rows where it is absent
 };
 
 /// What [output] asks for.
@@ -30,10 +40,4 @@ struct OutputRequest {
   FieldRequest fields;
 };
 
-/// Reads [output]; without it 1000 equal intervals and a probe of u on every loaded node. Mistakes go to `diagnostics`.
-/// `model` need not be complete where there were mistakes before. `formats` are those known beside csv.
-BUTEE_EXPORT OutputRequest read_output(const config::Value& root, const model::Model& model, double end_time,
-                                       config::Diagnostics& diagnostics,
-                                       const std::vector<model::FieldFormat>& formats = {});
-
-}  // namespace butee::record
+}  // namespace butee::model

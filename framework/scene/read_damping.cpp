@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "butee/core/text.hpp"
-#include "butee/model/scene_reader.hpp"
+#include "butee/scene/scene_reader.hpp"
 
-namespace butee::model {
+namespace butee::scene {
 
 using config::number;
 using config::Value;
@@ -86,4 +86,4 @@ void SceneReader::read_modal_damping(const Value& given) {
     model_.damping.lowest_modes = std::move(ratios);
 }
 
-}  // namespace butee::model
+}  // namespace butee::scene

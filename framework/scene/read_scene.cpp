@@ -1,17 +1,20 @@
-#include "butee/plugin/scene.hpp"
+#include "butee/scene/read_scene.hpp"
 
 #include <algorithm>
 
+#include "butee/config/override.hpp"
+#include "butee/config/toml.hpp"
 #include "butee/core/text.hpp"
-#include "butee/model/read_model.hpp"
+#include "butee/scene/read_model.hpp"
+#include "butee/scene/read_output.hpp"
 
-namespace butee::plugin {
+namespace butee::scene {
 namespace {
 
 /// Names that a scene uses may be those of modules that were left out: says so where one of them is unknown.
 class LeftOut {
  public:
-  LeftOut(const Catalogue& catalogue, config::Diagnostics& diagnostics)
+  LeftOut(const plugin::Catalogue& catalogue, config::Diagnostics& diagnostics)
       : catalogue_(catalogue), diagnostics_(diagnostics) {}
 
   void look_at(const config::Table& root) {
@@ -51,25 +54,50 @@ class LeftOut {
     diagnostics_.error(key, name, "may be of a module that could not be read. " + join(catalogue_.left_out(), "; "));
   }
 
-  const Catalogue& catalogue_;
+  const plugin::Catalogue& catalogue_;
   config::Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-Scene read_scene(const config::Document& document, const Catalogue& catalogue, config::Diagnostics& diagnostics,
+Draft read_draft(const config::Document& document, const plugin::Catalogue& catalogue, config::Diagnostics& diagnostics,
                  const std::vector<std::string>& others) {
-  std::vector<std::string> known = model::model_keys();
+  std::vector<std::string> known = model_keys();
   known.emplace_back("integrator");
   known.insert(known.end(), others.begin(), others.end());
   for (const auto& [key, value] : document.root.table()->entries)
     if (std::find(known.begin(), known.end(), key) == known.end())
       diagnostics.error(key, value, "unknown key" + suggestion(key, known) + "; known here: " + join(known));
 
-  model::Model model = model::read_model(document.root, catalogue.types(), diagnostics);
+  model::Model model = read_model(document.root, catalogue.types(), diagnostics);
   auto integrator = read_integrator(document.root, catalogue, diagnostics);
   LeftOut(catalogue, diagnostics).look_at(*document.root.table());
   return {std::move(model), std::move(integrator)};
 }
 
-}  // namespace butee::plugin
+Scene read_scene(config::Document document, plugin::Catalogue catalogue, Output output) {
+  const std::string set_aside = set_aside_keys(document, catalogue);
+  config::Diagnostics diagnostics(document);
+  Draft draft = read_draft(document, catalogue, diagnostics);
+  const double end_time = draft.integrator ? draft.integrator->options.end_time : 1.0;
+  model::OutputRequest request;
+  if (output == Output::read)
+    request = read_output(document.root, draft.model, end_time, diagnostics, catalogue.types().formats);
+  if (draft.integrator)
+    if (const auto& check = catalogue.load(draft.integrator->name).check)
+      check(draft.integrator->parameters, diagnostics);
+  diagnostics.throw_if_any();
+  std::vector<std::string> warnings = diagnostics.warnings();
+  if (!set_aside.empty()) warnings.insert(warnings.begin(), set_aside);
+  return {std::move(document),          std::move(catalogue), std::move(draft.model),
+          std::move(*draft.integrator), std::move(request),   std::move(warnings)};
+}
+
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides,
+                 const std::vector<std::string>& plugins) {
+  config::Document document = config::load_toml(path);
+  for (const std::string& assignment : overrides) config::apply_override(document, assignment);
+  return read_scene(std::move(document), plugin::Catalogue::with_plugins(plugins));
+}
+
+}  // namespace butee::scene

@@ -1,11 +1,11 @@
-#include "butee/plugin/integrator_choice.hpp"
+#include "butee/scene/integrator_choice.hpp"
 
 #include <algorithm>
 #include <map>
 
 #include "butee/core/text.hpp"
 
-namespace butee::plugin {
+namespace butee::scene {
 namespace {
 
 using config::Diagnostics;
@@ -22,7 +22,7 @@ std::vector<Parameter> common_parameters() {
           number("end_time", "s", "the end of the run, which starts at t = 0").above(0)};
 }
 
-std::vector<Parameter> parameters_of(const IntegratorEntry& entry) {
+std::vector<Parameter> parameters_of(const plugin::IntegratorEntry& entry) {
   std::vector<Parameter> all = common_parameters();
   if (entry.declaration.finds_first_step) all.front() = all.front().optional();
   const auto& own = entry.declaration.parameters;
@@ -35,7 +35,7 @@ time::MethodLimits limits_of(const time::IntegratorType& type) {
 }
 
 /// The methods that have a parameter of this name.
-std::vector<std::string> owners_of(const std::string& key, const Catalogue& catalogue) {
+std::vector<std::string> owners_of(const std::string& key, const plugin::Catalogue& catalogue) {
   std::vector<std::string> owners;
   for (const auto& entry : catalogue.integrators())
     if (const auto names = names_of(entry.declaration.parameters);
@@ -46,12 +46,12 @@ std::vector<std::string> owners_of(const std::string& key, const Catalogue& cata
 
 class ChoiceReader {
  public:
-  ChoiceReader(const Table& table, config::Location at, const Catalogue& catalogue, Diagnostics& diagnostics)
+  ChoiceReader(const Table& table, config::Location at, const plugin::Catalogue& catalogue, Diagnostics& diagnostics)
       : table_(table), at_(at), catalogue_(catalogue), diagnostics_(diagnostics) {}
 
   std::optional<IntegratorChoice> read() {
     const std::size_t errors_before = diagnostics_.error_count();
-    const IntegratorEntry* chosen = chosen_entry();
+    const plugin::IntegratorEntry* chosen = chosen_entry();
     read_method_tables();
     check_direct_keys(chosen);
     auto parameters = read_merged(chosen);
@@ -75,18 +75,18 @@ class ChoiceReader {
   }
 
  private:
-  const IntegratorEntry* chosen_entry() {
+  const plugin::IntegratorEntry* chosen_entry() {
     const Value* type = table_.find("type");
     const auto known = catalogue_.integrator_names();
     const std::string choices = "known: " + join(known);
     if (type == nullptr) {
-      const IntegratorEntry* automatic = catalogue_.find(kDefault);
+      const plugin::IntegratorEntry* automatic = catalogue_.find(kDefault);
       if (automatic == nullptr)
         diagnostics_.error("integrator.type", at_, "missing; give the name of a method; " + choices);
       return automatic;
     }
     const std::string* name = type->text();
-    const IntegratorEntry* entry = name != nullptr ? catalogue_.find(*name) : nullptr;
+    const plugin::IntegratorEntry* entry = name != nullptr ? catalogue_.find(*name) : nullptr;
     if (entry == nullptr)
       diagnostics_.error("integrator.type", *type,
                          (name != nullptr ? "there is no such integrator" + suggestion(*name, known)
@@ -109,7 +109,7 @@ class ChoiceReader {
       if (!is_method_table(item)) continue;
       const auto& [key, value] = item;
       const std::string path = "integrator." + key;
-      const IntegratorEntry* entry = catalogue_.find(key);
+      const plugin::IntegratorEntry* entry = catalogue_.find(key);
       if (entry == nullptr) {
         const auto known = catalogue_.integrator_names();
         diagnostics_.error(path, value.at,
@@ -130,7 +130,7 @@ class ChoiceReader {
     }
   }
 
-  void check_direct_keys(const IntegratorEntry* chosen) {
+  void check_direct_keys(const plugin::IntegratorEntry* chosen) {
     const auto known = names_of(chosen != nullptr ? parameters_of(*chosen) : common_parameters());
     for (const Table::Entry& item : table_.entries) {
       const auto& [key, value] = item;
@@ -147,7 +147,7 @@ class ChoiceReader {
 
   /// The chosen method's parameters, or those that all methods have: direct keys win over its table's, whose mistakes
   /// were reported already.
-  std::optional<config::Parameters> read_merged(const IntegratorEntry* chosen) {
+  std::optional<config::Parameters> read_merged(const plugin::IntegratorEntry* chosen) {
     const auto found = method_tables_.find(chosen);
     const Table* own = found != method_tables_.end() ? found->second->table() : nullptr;
     std::vector<Parameter> declared;
@@ -166,9 +166,9 @@ class ChoiceReader {
 
   const Table& table_;
   config::Location at_;
-  const Catalogue& catalogue_;
+  const plugin::Catalogue& catalogue_;
   Diagnostics& diagnostics_;
-  std::map<const IntegratorEntry*, const Value*> method_tables_;
+  std::map<const plugin::IntegratorEntry*, const Value*> method_tables_;
 };
 
 /// Overrides are the sources behind the file.
@@ -178,13 +178,13 @@ bool is_override(const Value& value) {
 
 }  // namespace
 
-std::string set_aside_keys(config::Document& document, const Catalogue& catalogue) {
+std::string set_aside_keys(config::Document& document, const plugin::Catalogue& catalogue) {
   Table* root = document.root.table();
   Value* integrator = root != nullptr ? root->find("integrator") : nullptr;
   Table* table = integrator != nullptr ? integrator->table() : nullptr;
   const Value* type = table != nullptr ? table->find("type") : nullptr;
   if (type == nullptr || !is_override(*type) || type->text() == nullptr) return "";
-  const IntegratorEntry* chosen = catalogue.find(*type->text());
+  const plugin::IntegratorEntry* chosen = catalogue.find(*type->text());
   if (chosen == nullptr) return "";
   const auto own = names_of(parameters_of(*chosen));
   std::vector<std::string> aside;
@@ -202,7 +202,7 @@ std::string set_aside_keys(config::Document& document, const Catalogue& catalogu
   return line;
 }
 
-std::optional<IntegratorChoice> read_integrator(const Value& root, const Catalogue& catalogue,
+std::optional<IntegratorChoice> read_integrator(const Value& root, const plugin::Catalogue& catalogue,
                                                 Diagnostics& diagnostics) {
   const Value* integrator = root.table()->find("integrator");
   if (integrator == nullptr) {
@@ -219,4 +219,4 @@ std::optional<IntegratorChoice> read_integrator(const Value& root, const Catalog
   return ChoiceReader(*integrator->table(), integrator->at, catalogue, diagnostics).read();
 }
 
-}  // namespace butee::plugin
+}  // namespace butee::scene

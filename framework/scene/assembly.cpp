@@ -1,0 +1,30 @@
+#include "butee/scene/assembly.hpp"
+
+#include "butee/core/error.hpp"
+
+namespace butee::scene {
+namespace {
+
+model::System assemble_changed(const model::Model& model, const std::function<void(model::System&)>& change) {
+  model::System system = assemble(model);
+  if (change) change(system);
+  return system;
+}
+
+std::unique_ptr<time::Integrator> make(Scene& scene, dynamics::Dynamics& dynamics) {
+  const IntegratorChoice& choice = scene.integrator;
+  auto made = scene.catalogue.load(choice.name).make(choice.parameters, dynamics);
+  if (made == nullptr)
+    throw RunError(scene.catalogue.find(choice.name)->module + ": made no method for \"" + choice.name + "\"");
+  return made;
+}
+
+}  // namespace
+
+Assembly::Assembly(Scene& scene, const std::function<void(model::System&)>& change)
+    : system(assemble_changed(scene.model, change)),
+      dynamics(system),
+      integrator(make(scene, dynamics)),
+      simulation(dynamics, *integrator, scene.integrator.options) {}
+
+}  // namespace butee::scene

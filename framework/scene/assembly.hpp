@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "butee/scene/read_scene.hpp"
+
+namespace butee::scene {
+
+/// A scene assembled, with its method and a simulation that nobody watches yet.
+struct BUTEE_EXPORT Assembly {
+  /// `change` may alter the system, such as its initial values, before anything looks at it. Throws InputError where
+  /// the scene cannot be run, and RunError where its module does not keep what it promised. `scene` must outlive it.
+  explicit Assembly(Scene& scene, const std::function<void(model::System&)>& change = {});
+
+  model::System system;
+  dynamics::Dynamics dynamics;
+  std::unique_ptr<time::Integrator> integrator;
+  time::Simulation simulation;
+};
+
+}  // namespace butee::scene
