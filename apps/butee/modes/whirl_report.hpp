@@ -4,8 +4,9 @@
 #include <vector>
 
 #include <butee/dynamics/whirl.hpp>
+#include <butee/record/result_folder.hpp>
 
-#include "../session.hpp"
+#include "../json.hpp"
 
 namespace butee::app::modes {
 
