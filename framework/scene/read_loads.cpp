@@ -98,10 +98,11 @@ void SceneReader::read_distributed(const Value& entry, const std::string& path) 
   std::vector<NodalValue> pattern;
   const bool is_read = named != named_elements_.end();
   const DofKind along = *dof_named(p->text("dof"));
-  if (is_read && !named->second->axis().empty() && !named->second->add_line_load(pattern, along))
+  const bool is_loaded = is_read && named->second->add_line_load(pattern, along);
+  if (is_read && !named->second->axis().empty() && !is_loaded)
     return p->complain(diagnostics_, "dof",
                        std::string("\"") + name_of(along) + "\" is no displacement that " + name + " has");
-  if (!is_read || !named->second->add_line_load(pattern, along)) {
+  if (!is_loaded) {
     const bool was_reported = !is_read && (model_.nodes.find(name) != nullptr || model_.nodes.select(name).excused);
     if (was_reported) return;
     std::vector<std::string> beams;
