@@ -1,0 +1,125 @@
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <butee/core/bytes.hpp>
+#include <butee/plugin/entry.hpp>
+#include <butee/time/simulation.hpp>
+#include <butee/version.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::interface_layout_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The digest of layout() for each BUTEE_INTERFACE_VERSION since the test exists, of 64-bit libstdc++.
+const std::map<int, std::uint64_t> kDigests = {
+    {9, 0xb814edc1da0e120a},
+};
+
+/// The rooms whose types modules derive from, hold or pass; what scenes, records and embedding have stays on one side.
+constexpr const char* kRooms[] = {"core", "config", "model", "linalg", "dynamics", "time", "plugin"};
+
+template <class Type>
+std::string line_of(const char* name) {
+  return std::string(name) + " " + std::to_string(sizeof(Type)) + " " + std::to_string(alignof(Type)) + "\n";
+}
+
+/// How far a member lies behind the beginning of its struct.
+template <class Struct, class Member>
+std::string place_of(const char* name, Member Struct::*member) {
+  const Struct whole{};
+  const auto* begin = reinterpret_cast<const char*>(&whole);
+  return std::string(name) + " at " + std::to_string(reinterpret_cast<const char*>(&(whole.*member)) - begin) + "\n";
+}
+
+/// Every virtual function of the installed headers in its order, which is that of the table of functions.
+std::string virtual_functions() {
+  const std::regex declaration(R"(\n\s*virtual\s[^;{]*)"), space(R"(\s+)");
+  std::string all;
+  for (const char* room : kRooms) {
+    std::set<fs::path> headers;
+    for (const auto& entry : fs::directory_iterator(fs::path(BUTEE_TEST_SOURCE) / "framework" / room))
+      if (entry.path().extension() == ".hpp") headers.insert(entry.path());
+    for (const fs::path& header : headers) {
+      const std::string text = read_file(header.string());
+      for (std::sregex_iterator found(text.begin(), text.end(), declaration), end; found != end; ++found)
+        all += header.filename().string() + ":" + std::regex_replace(found->str(), space, " ") + "\n";
+    }
+  }
+  return all;
+}
+
+std::string layout() {
+  using namespace time;
+  std::string text;
+  text += line_of<State>("State") + place_of("t", &State::t) + place_of("x", &State::x) + place_of("v", &State::v) +
+          place_of("a", &State::a) + place_of("memory", &State::memory);
+  text += line_of<Step>("Step") + place_of("h", &Step::h) + place_of("t_end", &Step::t_end) +
+          place_of("single", &Step::single);
+  text += line_of<StepReport>("StepReport") + place_of("status", &StepReport::status) +
+          place_of("error", &StepReport::error) + place_of("proposal", &StepReport::proposal) +
+          place_of("newton_iterations", &StepReport::newton_iterations) +
+          place_of("kept_failure", &StepReport::kept_failure) + place_of("inner_steps", &StepReport::inner_steps) +
+          place_of("inner_rejected", &StepReport::inner_rejected) + place_of("worst_dof", &StepReport::worst_dof);
+  text += line_of<StepDecision>("StepDecision") + line_of<Interpolated>("Interpolated") +
+          line_of<EnergyAt>("EnergyAt") + line_of<AcceptedStep>("AcceptedStep");
+  text += line_of<Integrator>("Integrator") + line_of<IntegratorType>("IntegratorType") +
+          line_of<StepController>("StepController") + line_of<MethodLimits>("MethodLimits");
+  text += line_of<dynamics::Dynamics>("Dynamics") + line_of<dynamics::Contact>("Contact") +
+          line_of<dynamics::EffectiveSolver>("EffectiveSolver") + line_of<dynamics::ModalSystem>("ModalSystem") +
+          line_of<dynamics::ModalFlow>("ModalFlow") + line_of<dynamics::StepFlow>("StepFlow") +
+          line_of<dynamics::StopShapes>("StopShapes");
+  text += line_of<linalg::Counters>("Counters") + line_of<linalg::ForceBalance>("ForceBalance") +
+          line_of<linalg::DenseProduct>("DenseProduct") + line_of<linalg::SymmetricProduct>("SymmetricProduct");
+  text += line_of<model::System>("System") + line_of<model::Model>("Model") + line_of<model::Damping>("Damping") +
+          line_of<model::Load>("Load") + line_of<model::StopGroup>("StopGroup") + line_of<model::DofTable>("DofTable") +
+          line_of<model::NodeTable>("NodeTable") + line_of<model::NodalDof>("NodalDof");
+  text += line_of<model::Element>("Element") + line_of<model::ElementMatrices>("ElementMatrices") +
+          line_of<model::SectionCut>("SectionCut") + line_of<model::ElementContext>("ElementContext") +
+          line_of<model::Section>("Section") + line_of<model::Material>("Material");
+  text += line_of<model::ContactLaw>("ContactLaw") + line_of<model::ForceSeries>("ForceSeries") +
+          line_of<model::TimeFunction>("TimeFunction") + line_of<model::Harmonic>("Harmonic");
+  text += line_of<model::FieldLayout>("FieldLayout") + line_of<model::FieldWriter>("FieldWriter") +
+          line_of<model::FieldReader>("FieldReader");
+  text += line_of<model::ElementType>("ElementType") + line_of<model::LawType>("LawType") +
+          line_of<model::LoadType>("LoadType") + line_of<model::FieldFormat>("FieldFormat");
+  text += line_of<config::Parameter>("Parameter") + line_of<config::Parameters>("Parameters");
+  text += line_of<plugin::ModuleTypes>("ModuleTypes") + line_of<plugin::Registrar>("Registrar") +
+          line_of<butee_abi_tag>("butee_abi_tag");
+  return text + virtual_functions();
+}
+
+TEST(InterfaceLayout, ChangesOnlyWithTheVersionOfTheInterface) {
+#if !defined(__GLIBCXX__) || defined(_GLIBCXX_DEBUG)
+  GTEST_SKIP() << "the digests are those of libstdc++ without its debug mode";
+#endif
+  if (sizeof(void*) != 8) GTEST_SKIP() << "the digests are those of 64 bits";
+  const std::string text = layout();
+  const std::uint64_t digest = checksum(std::as_bytes(std::span(text)));
+  std::ostringstream advice;
+  advice << "The layout of what modules share with the library is not that of interface version "
+         << BUTEE_INTERFACE_VERSION
+         << ". Count BUTEE_INTERFACE_VERSION up in framework/CMakeLists.txt, unless only the "
+         << "name of a parameter of a virtual function changed, and add {version, 0x" << std::hex << digest
+         << "} here. The layout is:\n"
+         << text;
+  const auto known = kDigests.find(BUTEE_INTERFACE_VERSION);
+  ASSERT_NE(known, kDigests.end()) << advice.str();
+  EXPECT_EQ(known->second, digest) << advice.str();
+}
+
+TEST(InterfaceLayout, EveryVersionHasItsOwn) {
+  std::set<std::uint64_t> digests;
+  for (const auto& [version, digest] : kDigests) EXPECT_TRUE(digests.insert(digest).second) << version;
+  EXPECT_EQ(kDigests.rbegin()->first, BUTEE_INTERFACE_VERSION);
+}
+
+}  // namespace
+}  // namespace butee::test::interface_layout_test
