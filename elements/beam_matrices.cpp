@@ -34,8 +34,7 @@ BendingMatrices::BendingMatrices(const BendingProperties& of) {
   rotary.setZero();
   if (of.rotary_inertia == 0.0) return;
   rotary = of.rotary_inertia * f * f / (30.0 * l) *
-           even(36.0, (3.0 - 15.0 * s) * l, (4.0 + 5.0 * s + 10.0 * s2) * l * l,
-                (-1.0 - 5.0 * s + 5.0 * s2) * l * l);
+           even(36.0, (3.0 - 15.0 * s) * l, (4.0 + 5.0 * s + 10.0 * s2) * l * l, (-1.0 - 5.0 * s + 5.0 * s2) * l * l);
   mass += rotary;
 }
 

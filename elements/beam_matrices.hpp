@@ -7,9 +7,9 @@
 namespace butee::elements {
 
 enum class BeamTheory {
-  euler,     ///< Euler-Bernoulli
-  rayleigh,  ///< with the rotary inertia of the section
-  timoshenko ///< with that and shear
+  euler,      ///< Euler-Bernoulli
+  rayleigh,   ///< with the rotary inertia of the section
+  timoshenko  ///< with that and shear
 };
 
 /// What one element of a beam is made of, of bending in one plane.

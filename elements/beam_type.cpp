@@ -43,7 +43,8 @@ model::ElementType::Nodes read_coordinates(const Parameters& p, Diagnostics& dia
   }
   if (p.has("points")) {
     if (p.has("length")) p.complain(diagnostics, "points", "stands in place of length; remove one of the two");
-    if (!p.has("elements")) p.complain(diagnostics, "elements", "missing; give the number of elements between the points");
+    if (!p.has("elements"))
+      p.complain(diagnostics, "elements", "missing; give the number of elements between the points");
     if (!(along(p).norm() > 0.0)) p.complain(diagnostics, "points", "are one point; a beam has two ends");
     return p.has("elements") ? even_coordinates(along(p).norm(), p.integer("elements")) : std::vector<double>{};
   }
@@ -120,8 +121,7 @@ std::unique_ptr<model::Element> make_beam(const Parameters& p, model::ElementCon
   if (axes && axes->isIdentity(kParallel)) options.axes.setIdentity();
   std::vector<NodeId> nodes(x.size());
   std::iota(nodes.begin(), nodes.end(), context.own_node());
-  if (p.has("points") && axes)
-    context.place(nodes.front(), p.matrix("points").row(0).transpose(), options.axes.col(0));
+  if (p.has("points") && axes) context.place(nodes.front(), p.matrix("points").row(0).transpose(), options.axes.col(0));
   for (const auto& [key, own] : {std::pair("start_node", nodes.front()), std::pair("end_node", nodes.back())}) {
     if (!p.has(key)) continue;
     const auto shared = context.node(p, key);
@@ -142,7 +142,8 @@ std::unique_ptr<model::Element> make_beam(const Parameters& p, model::ElementCon
 model::ElementType beam_type() {
   using config::integer, config::matrix, config::number, config::numbers, config::text;
   return {"beam",
-          "straight beam: cubic shape functions, consistent mass; in the plane (DOFs u and theta), in two planes or in space",
+          "straight beam: cubic shape functions, consistent mass; in the plane (DOFs u and theta), in two planes or in "
+          "space",
           {text("material", "the [material.NAME]"), text("section", "the [section.NAME]"),
            text("motion", "planar: uy rz; lateral: both planes; spatial: all six DOFs")
                .one_of({"planar", "lateral", "spatial"})

@@ -43,8 +43,7 @@ std::unique_ptr<model::Element> make_bearing(const Parameters& p, model::Element
   const Eigen::Matrix2d damping = read_matrix(p, "damping");
   const bool rotating = p.flag("rotating");
   if (rotating && (damping(0, 0) != damping(1, 1) || damping(0, 1) != 0.0 || damping(1, 0) != 0.0)) {
-    p.complain(context.diagnostics(), "damping",
-               "that rotates must be the same in both directions: [[c, 0], [0, c]]");
+    p.complain(context.diagnostics(), "damping", "that rotates must be the same in both directions: [[c, 0], [0, c]]");
     return nullptr;
   }
   std::vector<NodeId> ends;

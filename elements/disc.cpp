@@ -70,7 +70,8 @@ model::ElementType disc_type() {
                 p.number("diametral_inertia") > 0.0)
               p.complain(diagnostics, "polar_inertia", "is more than twice diametral_inertia, which no body has");
             if (p.number("polar_inertia") > 0.0 && p.number("diametral_inertia") == 0.0)
-              p.complain(diagnostics, "diametral_inertia", "missing; a disc with polar_inertia has one of at least half of it");
+              p.complain(diagnostics, "diametral_inertia",
+                         "missing; a disc with polar_inertia has one of at least half of it");
             if (p.has("node")) return std::nullopt;
             return std::vector<double>{};
           },

@@ -102,6 +102,9 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     return {Method::rodas4, "shafts turn or bearings have cross terms, so that the matrices are not symmetric"};
   if (n > most) return {Method::rodas4, size + " are too many to take all their modes"};
   if (n > 1 && dynamics.system().dashpots.size() > 0) return {Method::rodas4, "dashpots couple the modes"};
+  for (const model::FreeLoad& load : dynamics.system().loads)
+    if (!load.in_time->harmonic() && !load.in_time->is_piecewise_parabolic())
+      return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
   if (suits_exact(dynamics, tolerance, end_time))
     return {Method::exact, "one DOF, whose stops are so stiff that series from impact to impact are faster than steps"};

@@ -6,11 +6,11 @@
 
 #include "butee/dynamics/contact.hpp"
 #include "butee/dynamics/effective_solver.hpp"
-#include "butee/linalg/force_balance.hpp"
 #include "butee/dynamics/modal_damping.hpp"
 #include "butee/dynamics/modal_system.hpp"
-#include "butee/linalg/symmetric_product.hpp"
 #include "butee/dynamics/turning.hpp"
+#include "butee/linalg/force_balance.hpp"
+#include "butee/linalg/symmetric_product.hpp"
 
 namespace butee::dynamics {
 
@@ -125,7 +125,7 @@ class BUTEE_EXPORT Dynamics {
   std::unique_ptr<const ModalDamping> modal_;  ///< null without modal damping
   bool has_damping_;
   std::unique_ptr<Turning> turning_;  ///< null unless the speed of rotation varies
-  double single_damping_ = 0.0;  ///< C of a system of one DOF
+  double single_damping_ = 0.0;       ///< C of a system of one DOF
   linalg::SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
   std::optional<linalg::LinearSolver> mass_solver_;
   std::optional<EffectiveSolver> effective_;

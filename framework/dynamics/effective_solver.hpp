@@ -31,8 +31,8 @@ class BUTEE_EXPORT EffectiveSolver {
     factorized  ///< a new factorization for every kappa
   };
 
-  /// All arguments must outlive it; `modal` is null without modal damping, `turning` unless the speed of rotation varies. The way to treat contacts is chosen by their
-  /// number.
+  /// All arguments must outlive it; `modal` is null without modal damping, `turning` unless the speed of rotation
+  /// varies. The way to treat contacts is chosen by their number.
   EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
                   const ModalDamping* modal = nullptr, const Turning* turning = nullptr);
   /// With a way of one's own, for comparisons.
@@ -80,7 +80,7 @@ class BUTEE_EXPORT EffectiveSolver {
   SparseMatrix effective_;
   std::optional<linalg::SymmetricFactor> factor_;
   std::optional<linalg::LinearSolver> general_factor_;  ///< instead, of matrices that are not symmetric
-  std::optional<linalg::LinearSolver> modal_factor_;  ///< instead, with modal damping
+  std::optional<linalg::LinearSolver> modal_factor_;    ///< instead, with modal damping
   /// Places of stop i in the value array: (a,a), (b,b), (a,b), (b,a), -1 where an end is fixed.
   std::vector<std::array<Index, 4>> places_;
 };

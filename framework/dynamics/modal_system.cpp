@@ -98,6 +98,11 @@ void ModalSystem::project_loads(const Dynamics& dynamics) {
     Eigen::ArrayXd shape = Eigen::ArrayXd::Zero(size());
     for (std::size_t i = 0; i < load.dofs.size(); ++i) shape += load.weights[i] * rows_.col(load.dofs[i]).array();
     const auto harmonic = load.in_time->harmonic();
+    if (!harmonic && !load.in_time->is_piecewise_parabolic())
+      throw InputError(
+          "integrator.type: a load of this scene is neither harmonic nor made of straight lines or parabolas in time, "
+          "such as the unbalance of a run-up, so that its response is not known in closed form; take rodas4, dopri5, "
+          "extrapolation8 or exact, or auto, which chooses among them");
     if (!harmonic) {
       other_loads_.push_back({load.in_time, std::move(shape)});
       continue;

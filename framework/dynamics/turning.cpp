@@ -13,8 +13,7 @@ void add_product(const SparseMatrix& matrix, double factor, const double* x, Vec
 
 }  // namespace
 
-Turning::Turning(const model::System& system)
-    : system_(system), time_(std::numeric_limits<double>::quiet_NaN()) {}
+Turning::Turning(const model::System& system) : system_(system), time_(std::numeric_limits<double>::quiet_NaN()) {}
 
 void Turning::set_time(double t) {
   if (t == time_) return;

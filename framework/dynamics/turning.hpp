@@ -8,7 +8,8 @@ namespace butee::dynamics {
 ///
 ///     K: Omega W + Omega' G,    D: Omega G - c_k (Omega W + Omega' G)
 ///
-/// so that C = c_m M + c_k K + D holds no more of it than Omega G, Rayleigh damping being proportional to the K of rest.
+/// so that C = c_m M + c_k K + D holds no more of it than Omega G, Rayleigh damping being proportional to the K of
+/// rest.
 class Turning {
  public:
   /// `system`, whose rotation is set, must outlive it.

@@ -1,16 +1,16 @@
 #include "butee/dynamics/whirl.hpp"
 
+#include <Spectra/GenEigsSolver.h>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
-#include <Spectra/GenEigsSolver.h>
 
 #include "butee/core/error.hpp"
+#include "butee/dynamics/modal_damping.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/general_factor.hpp"
-#include "butee/dynamics/modal_damping.hpp"
 
 namespace butee::dynamics {
 namespace {
@@ -91,7 +91,8 @@ Whirl::Whirl(const model::Model& model) : system_(assemble(model, model::Turning
              system_.damping.stiffness_proportional * system_.stiffness + or_zero(system_.dashpots, n);
   if (!is_dense()) {
     if (system_.damping.is_modal())
-      throw InputError("whirling modes of " + std::to_string(n) + " DOFs go without modal damping, whose matrix is full");
+      throw InputError("whirling modes of " + std::to_string(n) +
+                       " DOFs go without modal damping, whose matrix is full");
     return;
   }
   const auto pairs = linalg::dense_pairs(stiffness_, system_.mass);
@@ -172,8 +173,8 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
   SparseMatrix damping = damping_ + speed * or_zero(system_.gyroscopic, n);
   const SparseMatrix stiffness = system_.stiffness + speed * or_zero(system_.circulatory, n);
   // A small shift, so that rigid motion is no obstacle: a thousandth of a frequency that the diagonals give.
-  const double shift = 1e-3 * std::sqrt(system_.stiffness.diagonal().cwiseAbs().minCoeff() /
-                                        system_.mass.diagonal().maxCoeff());
+  const double shift =
+      1e-3 * std::sqrt(system_.stiffness.diagonal().cwiseAbs().minCoeff() / system_.mass.diagonal().maxCoeff());
   ShiftInverted operation(system_.mass, std::move(damping), stiffness, shift);
   const Index wanted = std::min(2 * count + 4, 2 * n - 2);
   Spectra::GenEigsSolver<ShiftInverted> solver(operation, wanted, std::min(2 * wanted + 20, 2 * n));

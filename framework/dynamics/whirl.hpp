@@ -10,7 +10,7 @@
 namespace butee::dynamics {
 
 /// A damped mode of a structure whose parts turn: x(t) = Re(shape e^(lambda t)).
-struct WhirlMode {
+struct BUTEE_EXPORT WhirlMode {
   std::complex<double> lambda;  ///< 1/s, rad/s; Im >= 0
   Eigen::VectorXcd shape;       ///< of the free DOFs, largest entry 1
   /// From +1 (circular orbits in the sense of +x) over 0 (motion along a line) to -1 (against it); 0 without orbits.

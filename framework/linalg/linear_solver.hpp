@@ -11,9 +11,10 @@
 
 namespace butee::linalg {
 
-/// Solves A x = b for a symmetric positive definite A, or a general one of symmetric pattern: tiny and small ones without a narrow band by their inverse,
-/// which costs one dense product, narrow bands from both ends, all others by sparse Cholesky (CHOLMOD); general ones
-/// that are not small by sparse LU (KLU). The choice depends on the pattern and the symmetry alone. Allocates nothing after the first solve.
+/// Solves A x = b for a symmetric positive definite A, or a general one of symmetric pattern: tiny and small ones
+/// without a narrow band by their inverse, which costs one dense product, narrow bands from both ends, all others by
+/// sparse Cholesky (CHOLMOD); general ones that are not small by sparse LU (KLU). The choice depends on the pattern and
+/// the symmetry alone. Allocates nothing after the first solve.
 ///
 /// With a term of low rank, as of modal damping, A = sparse part + c C: small systems and terms of many columns are
 /// solved densely, terms of few columns by the sparse factor and Woodbury's formula.

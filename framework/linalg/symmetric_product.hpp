@@ -13,9 +13,9 @@ struct BandMatrix;
 struct Rows;
 }  // namespace kernel
 
-/// y = A x for a sparse A of symmetric pattern. Narrow bands, those of chains of beams, are kept by diagonals, which needs no
-/// indices and vectorises; everything else by rows. Of large ones equal rows are stored once. Allocates nothing after
-/// construction.
+/// y = A x for a sparse A of symmetric pattern. Narrow bands, those of chains of beams, are kept by diagonals, which
+/// needs no indices and vectorises; everything else by rows. Of large ones equal rows are stored once. Allocates
+/// nothing after construction.
 class BUTEE_EXPORT SymmetricProduct {
  public:
   SymmetricProduct() = default;

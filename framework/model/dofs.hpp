@@ -59,7 +59,9 @@ class BUTEE_EXPORT DofTable {
     std::int32_t first = 0;
   };
 
-  static constexpr std::uint8_t bit(DofKind kind) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(kind)); }
+  static constexpr std::uint8_t bit(DofKind kind) {
+    return static_cast<std::uint8_t>(1U << static_cast<unsigned>(kind));
+  }
   const NodeEntry& at(NodeId node) const { return entries_[static_cast<std::size_t>(nodes_->canonical(node))]; }
   NodeEntry& at(NodeId node) { return entries_[static_cast<std::size_t>(nodes_->canonical(node))]; }
 

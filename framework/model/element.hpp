@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -45,8 +44,8 @@ struct SectionCut {
         line_loads(Eigen::Matrix<double, Eigen::Dynamic, 3>::Zero(matrices.mass.rows(), 3)),
         resultants(decltype(resultants)::Zero(6, matrices.mass.rows())) {}
 
-  std::vector<NodalDof> dofs;  ///< of the part
-  ElementMatrices matrices;    ///< of the part
+  std::vector<NodalDof> dofs;                           ///< of the part
+  ElementMatrices matrices;                             ///< of the part
   Eigen::Matrix<double, Eigen::Dynamic, 3> line_loads;  ///< f of line loads of 1 N/m along x, y and z
   /// Rows N, Vy, Vz, T, My, Mz from p; zero where the beam has no such force.
   Eigen::Matrix<double, 6, Eigen::Dynamic> resultants;

@@ -71,7 +71,8 @@ struct Model {
   Damping damping;
   std::unique_ptr<Rotation> rotation;  ///< null where nothing turns
   std::vector<bool> turns;             ///< of `elements`, those that turn with it; may be shorter
-  double rotating_damping = 0.0;       ///< s: of the parts that turn, stiffness-proportional damping that turns with them
+  bool starts_static = false;          ///< from rest in the static position under the loads of the start
+  double rotating_damping = 0.0;  ///< s: of the parts that turn, stiffness-proportional damping that turns with them
   std::optional<InitialMotion> initial_motion;  ///< of an earlier run; the values below replace parts of it
   std::vector<NodalValue> initial_displacement;
   std::vector<NodalValue> initial_velocity;

@@ -11,26 +11,52 @@ namespace {
 struct Description {
   const char *name, *unit, *summary;
   Source source;
+  DofKind kind = DofKind::uy;
+  int order = 0;
 };
 
 /// In the order of Quantity.
-constexpr std::array<Description, 16> kAll = {{
-    {"u", "m", "displacement", Source::motion},
-    {"v", "m/s", "velocity", Source::motion},
-    {"a", "m/s2", "acceleration", Source::motion},
-    {"theta", "rad", "rotation, du/dx on a beam", Source::motion},
-    {"theta_v", "rad/s", "its velocity", Source::motion},
-    {"theta_a", "rad/s2", "its acceleration", Source::motion},
-    {"contact_force", "N", "the force of all stops on the node", Source::stops},
-    {"stop_state", "1", "the side on which a stop on the node is closed: +1, -1, or 0", Source::stops},
-    {"V", "N", "shear force of a beam: what larger x exerts on smaller x, along u", Source::section},
-    {"M", "N m", "bending moment of a beam, E I d2u/dx2: positive stretches the side of -u", Source::section},
-    {"bending_stress", "Pa", "M over the section modulus: of the outer fibre on the side of -u", Source::section},
-    {"von_mises", "Pa", "von Mises stress of the outer fibre", Source::section},
-    {"spring_force", "N", "the force of springs and their dashpots on u of the node", Source::springs},
-    {"spring_moment", "N m", "the moment of springs on theta and their dashpots on the node", Source::springs},
-    {"reaction", "N", "the force of a support that fixes u of the node", Source::support},
-    {"reaction_moment", "N m", "the moment of a support that fixes theta of the node", Source::support},
+constexpr std::array<Description, 37> kAll = {{
+    {"u", "m", "displacement", Source::motion, DofKind::uy, 0},
+    {"v", "m/s", "velocity", Source::motion, DofKind::uy, 1},
+    {"a", "m/s2", "acceleration", Source::motion, DofKind::uy, 2},
+    {"theta", "rad", "rotation, du/dx on a beam", Source::motion, DofKind::rz, 0},
+    {"theta_v", "rad/s", "its velocity", Source::motion, DofKind::rz, 1},
+    {"theta_a", "rad/s2", "its acceleration", Source::motion, DofKind::rz, 2},
+    {"contact_force", "N", "the force of all stops on the node", Source::stops, DofKind::uy, 0},
+    {"stop_state", "1", "the side on which a stop on the node is closed: +1, -1, or 0", Source::stops, DofKind::uy, 0},
+    {"V", "N", "shear force of a beam: what larger x exerts on smaller x, along u", Source::section, DofKind::uy, 0},
+    {"M", "N m", "bending moment of a beam, E I d2u/dx2: positive stretches the side of -u", Source::section,
+     DofKind::rz, 0},
+    {"bending_stress", "Pa", "M over the section modulus: of the outer fibre on the side of -u", Source::section,
+     DofKind::rz, 0},
+    {"von_mises", "Pa", "von Mises stress of the outer fibre", Source::section, DofKind::rz, 0},
+    {"spring_force", "N", "the force of springs and their dashpots on u of the node", Source::springs, DofKind::uy, 0},
+    {"spring_moment", "N m", "the moment of springs on theta and their dashpots on the node", Source::springs,
+     DofKind::rz, 0},
+    {"reaction", "N", "the force of a support that fixes u of the node", Source::support, DofKind::uy, 0},
+    {"reaction_moment", "N m", "the moment of a support that fixes theta of the node", Source::support, DofKind::rz, 0},
+    {"ux", "m", "displacement along x", Source::motion, DofKind::ux, 0},
+    {"ux_v", "m/s", "its velocity", Source::motion, DofKind::ux, 1},
+    {"ux_a", "m/s2", "its acceleration", Source::motion, DofKind::ux, 2},
+    {"uy", "m", "displacement along y, another name of u", Source::motion, DofKind::uy, 0},
+    {"uy_v", "m/s", "its velocity", Source::motion, DofKind::uy, 1},
+    {"uy_a", "m/s2", "its acceleration", Source::motion, DofKind::uy, 2},
+    {"uz", "m", "displacement along z", Source::motion, DofKind::uz, 0},
+    {"uz_v", "m/s", "its velocity", Source::motion, DofKind::uz, 1},
+    {"uz_a", "m/s2", "its acceleration", Source::motion, DofKind::uz, 2},
+    {"w", "m", "displacement along z, another name of uz", Source::motion, DofKind::uz, 0},
+    {"w_v", "m/s", "its velocity", Source::motion, DofKind::uz, 1},
+    {"w_a", "m/s2", "its acceleration", Source::motion, DofKind::uz, 2},
+    {"rx", "rad", "rotation about x", Source::motion, DofKind::rx, 0},
+    {"rx_v", "rad/s", "its velocity", Source::motion, DofKind::rx, 1},
+    {"rx_a", "rad/s2", "its acceleration", Source::motion, DofKind::rx, 2},
+    {"ry", "rad", "rotation about y", Source::motion, DofKind::ry, 0},
+    {"ry_v", "rad/s", "its velocity", Source::motion, DofKind::ry, 1},
+    {"ry_a", "rad/s2", "its acceleration", Source::motion, DofKind::ry, 2},
+    {"rz", "rad", "rotation about z, another name of theta", Source::motion, DofKind::rz, 0},
+    {"rz_v", "rad/s", "its velocity", Source::motion, DofKind::rz, 1},
+    {"rz_a", "rad/s2", "its acceleration", Source::motion, DofKind::rz, 2},
 }};
 
 const Description& description_of(Quantity quantity) {
@@ -69,8 +95,16 @@ Quantity quantity_of(const std::string& name) {
   return static_cast<Quantity>(found - kAll.begin());
 }
 
+DofKind kind_of(Quantity quantity) {
+  return description_of(quantity).kind;
+}
+
+int order_of(Quantity quantity) {
+  return description_of(quantity).order;
+}
+
 std::vector<std::string> field_quantities() {
-  return names_where([](Quantity quantity) { return !is_element_force(quantity); });
+  return names_where([](Quantity quantity) { return quantity <= Quantity::stop_state; });
 }
 
 std::vector<std::string> probe_quantities() {

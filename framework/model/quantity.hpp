@@ -27,7 +27,29 @@ enum class Quantity {
   spring_force,
   spring_moment,
   reaction,
-  reaction_moment
+  reaction_moment,
+  // Displacements along and rotations about x, y and z, their velocities and accelerations: of probes alone.
+  ux,
+  ux_v,
+  ux_a,
+  uy,
+  uy_v,
+  uy_a,
+  uz,
+  uz_v,
+  uz_a,
+  w,
+  w_v,
+  w_a,
+  rx,
+  rx_v,
+  rx_a,
+  ry,
+  ry_v,
+  ry_a,
+  rz,
+  rz_v,
+  rz_a
 };
 
 /// "u", "M" ...
@@ -55,20 +77,8 @@ inline bool is_element_force(Quantity quantity) {
 }
 
 /// The DOF of the node that a quantity belongs to.
-constexpr DofKind kind_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::theta:
-    case Quantity::theta_v:
-    case Quantity::theta_a:
-    case Quantity::bending_moment:
-    case Quantity::bending_stress:
-    case Quantity::von_mises:
-    case Quantity::spring_moment:
-    case Quantity::reaction_moment:
-      return DofKind::theta;
-    default:
-      return DofKind::u;
-  }
-}
+BUTEE_EXPORT DofKind kind_of(Quantity quantity);
+/// Of Source::motion, 0, 1 or 2: a displacement, a velocity or an acceleration; 0 of all others.
+BUTEE_EXPORT int order_of(Quantity quantity);
 
 }  // namespace butee::model

@@ -21,14 +21,14 @@ struct ShearFactor {
 
 /// The cross-section of a beam. Its axes y and z are principal ones; bending in the plane (x, y) is about z.
 struct Section {
-  double area;                        ///< m2
-  double second_moment;               ///< m4, about z: of bending in the plane (x, y), along u
-  double outer_fibre = 0.0;           ///< m, from the neutral axis along y; 0: not known
-  double second_moment_y = 0.0;       ///< m4, about y: of bending in the plane (x, z); 0: not known
-  double outer_fibre_z = 0.0;         ///< m, from the neutral axis along z; 0: not known
-  double torsion_constant = 0.0;      ///< m4; 0: not known
-  ShearFactor shear_factor_y{0.0};    ///< of shear along y; 0: not known
-  ShearFactor shear_factor_z{0.0};    ///< of shear along z; 0: not known
+  double area;                      ///< m2
+  double second_moment;             ///< m4, about z: of bending in the plane (x, y), along u
+  double outer_fibre = 0.0;         ///< m, from the neutral axis along y; 0: not known
+  double second_moment_y = 0.0;     ///< m4, about y: of bending in the plane (x, z); 0: not known
+  double outer_fibre_z = 0.0;       ///< m, from the neutral axis along z; 0: not known
+  double torsion_constant = 0.0;    ///< m4; 0: not known
+  ShearFactor shear_factor_y{0.0};  ///< of shear along y; 0: not known
+  ShearFactor shear_factor_z{0.0};  ///< of shear along z; 0: not known
 };
 
 }  // namespace butee::model

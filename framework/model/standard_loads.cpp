@@ -63,6 +63,7 @@ class PiecewiseLinear final : public TimeFunction {
   bool vanishes() const override {
     return std::all_of(values_.begin(), values_.end(), [](double v) { return v == 0.0; });
   }
+  bool is_piecewise_parabolic() const override { return true; }
   std::vector<double> kinks() const override { return times_.size() > 1 ? times_ : std::vector<double>{}; }
 
  private:

@@ -81,9 +81,7 @@ class TripletSink final : public MatrixSink {
     });
   }
 
-  void add_place(Index row, Index column) {
-    add_entry(static_cast<int>(row), static_cast<int>(column), 0.0, 0.0, 0.0);
-  }
+  void add_place(Index row, Index column) { add_entry(static_cast<int>(row), static_cast<int>(column), 0.0, 0.0, 0.0); }
 
   void build(System& system) {
     const Index n = dofs_.free_count();

@@ -33,10 +33,9 @@ struct FreeLoad {
 /// M, K (and D where there are dashpots, else 0 x 0) are stored in full, with one common, symmetric pattern that holds
 /// the diagonal and the places of stops between nodes. M is symmetric; K and D are where is_symmetric says so.
 ///
-/// Parts that turn at the speed Omega add Omega G (gyroscopic, skew) to D and, where damping turns with them, Omega W to
-/// K. At a constant speed D and K hold these; otherwise `rotation` is set and
-/// C(t) = C + Omega(t) G, K(t) = K + Omega(t) W + Omega'(t) G.
-/// Rayleigh damping is proportional to K without W and G: D makes up for it.
+/// Parts that turn at the speed Omega add Omega G (gyroscopic, skew) to D and, where damping turns with them, Omega W
+/// to K. At a constant speed D and K hold these; otherwise `rotation` is set and C(t) = C + Omega(t) G, K(t) = K +
+/// Omega(t) W + Omega'(t) G. Rayleigh damping is proportional to K without W and G: D makes up for it.
 ///
 /// The Model must outlive its System and stay where it is.
 struct System {
@@ -46,8 +45,8 @@ struct System {
 
   DofTable dofs;
   SparseMatrix mass, stiffness, dashpots;
-  bool is_symmetric = true;            ///< K and D
-  bool stiffness_is_symmetric = true;  ///< K
+  bool is_symmetric = true;              ///< K and D
+  bool stiffness_is_symmetric = true;    ///< K
   SparseMatrix gyroscopic, circulatory;  ///< G, kg m2 ..., and W, N s/m ...; 0 x 0 where none or the speed is constant
   const Rotation* rotation = nullptr;    ///< set where its speed varies and G or W is there
   Damping damping;

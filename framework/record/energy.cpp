@@ -34,20 +34,29 @@ Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics) {
 EnergyRecorder::EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer, std::optional<OutputTimes> times)
     : dynamics_(dynamics),
       all_(static_cast<std::size_t>(dynamics.size())),
+      has_drive_(!dynamics.system().stiffness_is_symmetric || dynamics.system().rotation != nullptr),
       middle_(dynamics.size()),
+      middle_x_(has_drive_ ? dynamics.size() : 0),
       force_(middle_),
       writer_(writer),
       times_(std::move(times)) {
   std::iota(all_.begin(), all_.end(), Index{0});
 }
 
-EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& v) {
+EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& x, const Vector& v) {
   Power power{};
   dynamics_.external_force(t, force_);
   power.of_loads = v.dot(force_);
   if (dynamics_.has_damping()) {
     dynamics_.damping_force(v, force_);
     power.of_damping = v.dot(force_);
+  }
+  if (has_drive_) {
+    // The part of K that is not symmetric, (K - K^T)/2: what the drive of turning parts and cross terms of bearings do.
+    dynamics_.elastic_force(x, force_);
+    const double forward = v.dot(force_);
+    dynamics_.elastic_force(v, force_);
+    power.of_loads -= 0.5 * (forward - x.dot(force_));
   }
   return power;
 }
@@ -56,7 +65,7 @@ void EnergyRecorder::start(const time::State& state) {
   now_ = energy_of(state, dynamics_);
   first_total_ = largest_ = now_.total();
   work_ = dissipated_ = 0.0;
-  last_ = power(state.t, state.v);
+  last_ = power(state.t, state.x, state.v);
 }
 
 void EnergyRecorder::find_due(const time::AcceptedStep& step) {
@@ -109,10 +118,11 @@ void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
 }
 
 EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& step, double t) {
-  if (t == step.to.t) return power(t, step.to.v);
+  if (t == step.to.t) return power(t, step.to.x, step.to.v);
+  const auto span = [](Vector& vector) { return std::span(vector.data(), static_cast<std::size_t>(vector.size())); };
   step.integrator.interpolate(step.from, step.to, t, all_,
-                              {{}, {middle_.data(), static_cast<std::size_t>(middle_.size())}, {}});
-  return power(t, middle_);
+                              {has_drive_ ? span(middle_x_) : std::span<double>{}, span(middle_), {}});
+  return power(t, middle_x_, middle_);
 }
 
 EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, double begin, double end) {

@@ -61,7 +61,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
       return {factor * power.of_loads, factor * power.of_damping};
     }
   };
-  Power power(double t, const Vector& v);
+  Power power(double t, const Vector& x, const Vector& v);
   Power power_within(const time::AcceptedStep& step, double t);
   Power gauss(const time::AcceptedStep& step, double begin, double end);
   /// `whole`: what gauss() gives for it.
@@ -74,7 +74,8 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
 
   dynamics::Dynamics& dynamics_;
   std::vector<Index> all_;
-  Vector middle_, force_;
+  bool has_drive_;  ///< K is not symmetric
+  Vector middle_, middle_x_, force_;
   std::vector<double> due_;  ///< instants that a row is still to be written for
   Power last_{};
   CsvWriter* writer_;

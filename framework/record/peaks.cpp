@@ -6,19 +6,6 @@ namespace {
 /// Of one piece, for the sum of several stops.
 constexpr int kMostHalvingsOfSum = 4000;
 
-std::size_t order_of(model::Quantity quantity) {
-  switch (quantity) {
-    case model::Quantity::v:
-    case model::Quantity::theta_v:
-      return 1;
-    case model::Quantity::a:
-    case model::Quantity::theta_a:
-      return 2;
-    default:
-      return 0;
-  }
-}
-
 /// The largest |force| of a stop whose displacement goes from `least` to `greatest`. With two sides it also jumps where
 /// that passes the middle, if the law pulls at open stops.
 double largest_force(dynamics::Contact& contact, Index stop, double least, double greatest) {
@@ -37,7 +24,8 @@ Peaks::Peaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamic
   for (const model::ProbeRequest& request : requests)
     for (const model::Quantity quantity : request.quantities) {
       const Index dof = table.index({request.node, kind_of(quantity)});
-      Column column{request.label + "." + name_of(quantity), kNone, order_of(quantity), {}, 0.0};
+      Column column{
+          request.label + "." + name_of(quantity), kNone, static_cast<std::size_t>(order_of(quantity)), {}, 0.0};
       if (dof >= 0 && quantity == model::Quantity::contact_force)
         column.stops = stops_on(dof);
       else if (dof >= 0)

@@ -26,8 +26,8 @@ Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynam
       Column column{samples_of(quantity), slot(dof), stops_.size(), stops_.size()};
       if (quantity == model::Quantity::contact_force && dof >= 0) add_stops(dof);
       column.last_stop = stops_.size();
-      needs_v_ = needs_v_ || quantity == model::Quantity::v || quantity == model::Quantity::theta_v;
-      needs_a_ = needs_a_ || quantity == model::Quantity::a || quantity == model::Quantity::theta_a;
+      needs_v_ = needs_v_ || order_of(quantity) == 1;
+      needs_a_ = needs_a_ || order_of(quantity) == 2;
       sources_.push_back(column);
     }
   if (element_forces_ == nullptr) return;
@@ -43,21 +43,9 @@ Probes::Column Probes::element_force(model::Quantity quantity, const model::Prob
 }
 
 const std::vector<double>* Probes::samples_of(model::Quantity quantity) const {
-  switch (quantity) {
-    case model::Quantity::u:
-    case model::Quantity::theta:
-      return &x_;
-    case model::Quantity::v:
-    case model::Quantity::theta_v:
-      return &v_;
-    case model::Quantity::a:
-    case model::Quantity::theta_a:
-      return &a_;
-    case model::Quantity::contact_force:
-      return nullptr;
-    default:
-      throw LogicError("not a quantity of probes");
-  }
+  if (source_of(quantity) == model::Source::stops) return nullptr;
+  const std::array<const std::vector<double>*, 3> samples = {&x_, &v_, &a_};
+  return samples.at(static_cast<std::size_t>(order_of(quantity)));
 }
 
 std::size_t Probes::slot(Index dof) {

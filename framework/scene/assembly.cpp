@@ -1,6 +1,7 @@
 #include "butee/scene/assembly.hpp"
 
 #include "butee/core/error.hpp"
+#include "butee/dynamics/static_position.hpp"
 
 namespace butee::scene {
 namespace {
@@ -8,6 +9,10 @@ namespace {
 model::System assemble_changed(const model::Model& model, const std::function<void(model::System&)>& change) {
   model::System system = assemble(model);
   if (change) change(system);
+  if (model.starts_static) {
+    dynamics::Dynamics dynamics(system);
+    system.initial_displacement = static_position(dynamics, system.initial_time, system.initial_displacement);
+  }
   return system;
 }
 

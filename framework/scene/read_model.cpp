@@ -13,8 +13,8 @@ using config::Parameters;
 using config::Value;
 
 std::vector<std::string> model_keys() {
-  return {"schema",  "title", "material", "section", "element",  "support",
-          "contact", "load",  "damping",  "initial", "rotation", "gravity"};
+  return {"schema", "title",   "material", "section",  "element", "support", "contact",
+          "load",   "damping", "initial",  "rotation", "gravity", "base"};
 }
 
 Model read_model(const Value& root, const ModelTypes& types, Diagnostics& diagnostics) {
@@ -75,6 +75,7 @@ Model SceneReader::read() {
   read_contacts();
   read_loads();
   read_gravity();
+  read_base();
   read_damping();
   read_initial();
   return std::move(model_);

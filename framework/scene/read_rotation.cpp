@@ -85,27 +85,4 @@ void SceneReader::choose_turning(const Parameters& p) {
                        "\"spatial\"");
 }
 
-void SceneReader::read_gravity() {
-  const Value* given = root_.table()->find("gravity");
-  if (given == nullptr) return;
-  const auto p = read_parameters(
-      *given, "gravity",
-      {config::numbers("acceleration", "m/s2", "the acceleration of free fall along x, y and z").of_length(3),
-       config::boolean("static", "starts at rest in the static position").or_else(false)},
-      diagnostics_);
-  if (!p || lacks_elements_) return;
-  const auto g = p->numbers("acceleration");
-  auto pattern = inertia_pattern(model_, Eigen::Vector3d(g[0], g[1], g[2]));
-  if (pattern.empty()) {
-    p->complain(diagnostics_, "acceleration", "acts along no displacement that the scene has");
-    return;
-  }
-  config::Table unity;
-  unity["value"] = Value(1.0);
-  const LoadType& constant = *find_type(types_.loads, "constant");
-  model_.loads.push_back({std::move(pattern),
-                          constant.make(config::make_parameters(constant.parameters, unity), diagnostics_), nullptr,
-                          0.0});
-}
-
 }  // namespace butee::scene

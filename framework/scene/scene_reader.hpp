@@ -36,6 +36,7 @@ class SceneReader {
   std::unique_ptr<Rotation> read_speed(const config::Value& rotation);
   void choose_turning(const config::Parameters& parameters);
   void read_gravity();
+  void read_base();
   void read_supports();
   void read_contacts();
   void read_contact(const config::Value& entry, const std::string& path);

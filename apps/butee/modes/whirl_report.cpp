@@ -65,8 +65,7 @@ void print(const WhirlAnalysis& analysis) {
     std::printf("  %4zu  %12s  %12s  %10.4g  %15s  %s%s\n", i + 1, formatted("%.9g", mode.frequency()).c_str(),
                 formatted("%.9g", mode.frequency() / kTwoPi).c_str(), mode.damping_ratio(),
                 oscillates ? formatted("%.4g", mode.logarithmic_decrement()).c_str() : "-",
-                sense_of(mode, analysis.speed),
-                mode.lambda.real() > 1e-9 * std::abs(mode.lambda) ? ", unstable" : "");
+                sense_of(mode, analysis.speed), mode.lambda.real() > 1e-9 * std::abs(mode.lambda) ? ", unstable" : "");
   }
 }
 
@@ -78,7 +77,7 @@ void print(const Campbell& diagram) {
   for (const dynamics::CriticalSpeed& critical : diagram.critical)
     std::printf("  %14s rad/s  %16s rev/min  %s\n", formatted("%.10g", critical.speed).c_str(),
                 rpm(critical.speed).c_str(),
-                std::abs(critical.direction) < kPlanar         ? "planar"
+                std::abs(critical.direction) < kPlanar      ? "planar"
                 : critical.direction * critical.speed > 0.0 ? "forward"
                                                             : "backward");
 }
@@ -142,9 +141,10 @@ bool draw(const Campbell& diagram, const record::ResultFolder& folder) {
       line + " w l lc rgb '#808080' title 'order " + to_short_text(diagram.order) + "'" +
       (diagram.critical.empty() ? ""
                                 : ", 'campbell.dat' index 2 w p pt 4 ps 1.2 lc rgb 'black' title 'critical speeds'");
-  std::string script = "set xlabel 'speed of rotation / (rad/s)'\nset ylabel 'angular frequency / (rad/s)'\n"
-                       "set key left top\nset grid lc rgb '#e0e0e0'\nset yrange [0:]\n" +
-                       formatted("set xrange [%.9g:%.9g]\n", diagram.speeds.front(), diagram.speeds.back());
+  std::string script =
+      "set xlabel 'speed of rotation / (rad/s)'\nset ylabel 'angular frequency / (rad/s)'\n"
+      "set key left top\nset grid lc rgb '#e0e0e0'\nset yrange [0:]\n" +
+      formatted("set xrange [%.9g:%.9g]\n", diagram.speeds.front(), diagram.speeds.back());
   for (const auto& [terminal, suffix] : {std::pair{"pngcairo size 1000,700 font 'sans,13'", std::string("png")},
                                          std::pair{"svg size 800,560 font 'sans,13'", std::string("svg")}})
     script += "set terminal " + std::string(terminal) + "\nset output 'campbell." + suffix + "'\n" + plot + "\n";

@@ -1,0 +1,104 @@
+#include "butee/dynamics/static_position.hpp"
+
+#include <vector>
+
+#include "butee/core/error.hpp"
+#include "butee/dynamics/free_motion.hpp"
+#include "butee/linalg/linear_solver.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+constexpr int kMostIterations = 200, kMostHalvings = 40;
+constexpr double kConverged = 1e-12;
+
+/// K + S^T diag(k) S
+SparseMatrix with_stops(const Dynamics& dynamics, const Contact& contact, const Vector& stiffness) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](Index i, Index j, double value) {
+    if (i >= 0 && j >= 0) entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+  };
+  for (Index i = 0; i < stiffness.size(); ++i) {
+    const Index a = contact.dof_a(i), b = contact.dof_b(i);
+    add(a, a, stiffness[i]);
+    add(b, b, stiffness[i]);
+    add(a, b, -stiffness[i]);
+    add(b, a, -stiffness[i]);
+  }
+  SparseMatrix stops(dynamics.size(), dynamics.size());
+  stops.setFromTriplets(entries.begin(), entries.end());
+  SparseMatrix sum = dynamics.system().stiffness + stops;
+  sum.makeCompressed();
+  return sum;
+}
+
+class Equilibrium {
+ public:
+  Equilibrium(Dynamics& dynamics, double t)
+      : dynamics_(dynamics), load_(dynamics.size()), elastic_(load_), w_(dynamics.stop_count()) {
+    dynamics.external_force(t, load_);
+  }
+
+  /// r := F + F_c(x) - K x; returns |r| over |F| + |F_c| + |K x|, or 0 without any force.
+  double residual(const Vector& x, Vector& r) {
+    r.setZero();
+    dynamics_.add_contact_force(x, r);
+    dynamics_.elastic_force(x, elastic_);
+    const double scale = load_.norm() + r.norm() + elastic_.norm();
+    r += load_ - elastic_;
+    return scale > 0.0 ? r.norm() / scale : 0.0;
+  }
+
+  /// The tangent stiffness with the stops as they are at x.
+  SparseMatrix tangent(const Vector& x) {
+    Vector force(w_.size()), stiffness(w_.size());
+    if (w_.size() > 0) {
+      dynamics_.contact().displacement(x, w_);
+      dynamics_.contact().tangent(w_, force, stiffness);
+    }
+    return with_stops(dynamics_, dynamics_.contact(), stiffness.cwiseMax(0.0));
+  }
+
+ private:
+  Dynamics& dynamics_;
+  Vector load_, elastic_, w_;
+};
+
+}  // namespace
+
+Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
+  Equilibrium equilibrium(dynamics, t);
+  const model::System& system = dynamics.system();
+  Vector x = start, r(x.size()), next_r(x.size());
+  double size = equilibrium.residual(x, r);
+  for (int i = 0; i < kMostIterations && size > kConverged; ++i) {
+    const SparseMatrix tangent = equilibrium.tangent(x);
+    linalg::LinearSolver solver(tangent, dynamics.counters(), nullptr, system.stiffness_is_symmetric);
+    Vector step = r;
+    const bool solved = solver.factorize(tangent);
+    if (solved) solver.solve(step);
+    if (!solved || !step.allFinite())
+      throw InputError("gravity.static: the scene has no static position: nothing holds " +
+                       describe_softest_motion(tangent, system.dofs) +
+                       ", or a preload buckles it; add a support or a spring there, or start without static = true");
+    double part = 1.0, next = size;
+    Vector moved = x;
+    for (int k = 0; k < kMostHalvings; ++k, part *= 0.5) {
+      moved = x + part * step;
+      next = equilibrium.residual(moved, next_r);
+      if (next < size) break;
+    }
+    if (!(next < size)) {
+      if (size < 1e3 * kConverged) break;
+      throw InputError(
+          "gravity.static: the static position was not found: Newton's iteration stopped at a residual of " +
+          std::to_string(size) + " of the forces; give a start near it by [initial] displacement");
+    }
+    x = moved;
+    r = next_r;
+    size = next;
+  }
+  return x;
+}
+
+}  // namespace butee::dynamics

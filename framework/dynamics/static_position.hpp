@@ -1,0 +1,12 @@
+#pragma once
+
+#include "butee/dynamics/dynamics.hpp"
+
+namespace butee::dynamics {
+
+/// The position at rest under the loads of an instant, K x = F(t) + F_c(x), by Newton's iteration with the stops that
+/// are closed there, from `start` (n) on; residual below 1e-12 of the forces. Throws InputError where nothing holds the
+/// structure, with what would drift, or where the iteration did not converge.
+BUTEE_EXPORT Vector static_position(Dynamics& dynamics, double t, const Vector& start);
+
+}  // namespace butee::dynamics

@@ -1,0 +1,281 @@
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <sstream>
+
+#include <butee/dynamics/whirl.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::rotor_test {
+namespace {
+
+using std::numbers::pi;
+
+/// The references are printed with 8 to 10 digits.
+constexpr double kPrinted = 2e-8;
+constexpr double kRpm = pi / 30.0;
+
+std::string steel(const std::string& theory, int elements, double length, double radius, const std::string& material) {
+  return R"(
+schema = 1
+[material.steel]
+)" + material +
+         R"(
+[section.round]
+shape  = "circle"
+radius = )" +
+         std::to_string(radius) + R"(
+[[element]]
+type     = "beam"
+name     = "shaft"
+motion   = "lateral"
+theory   = ")" +
+         theory + R"("
+material = "steel"
+section  = "round"
+length   = )" +
+         std::to_string(length) + R"(
+elements = )" +
+         std::to_string(elements) + "\n";
+}
+
+std::string disc(const std::string& at, double mass, double diametral, double polar) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "[[element]]\ntype = \"disc\"\nnode = \"shaft" << at << "\"\nmass = " << mass
+       << "\ndiametral_inertia = " << diametral << "\npolar_inertia = " << polar << "\n";
+  return text.str();
+}
+
+std::string bearing(const std::string& at, double kyy, double kzz, double cyy = 0.0, double czz = 0.0) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "[[element]]\ntype = \"bearing\"\nnode = \"shaft" << at << "\"\nstiffness = [[" << kyy << ", 0], [0, " << kzz
+       << "]]\ndamping = [[" << cyy << ", 0], [0, " << czz << "]]\n";
+  return text.str();
+}
+
+std::string turning(double speed) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "[rotation]\nspeed = " << speed << "\n[integrator]\ntype = \"rk4\"\ntime_step = 1e-6\nend_time = 1e-3\n";
+  return text.str();
+}
+
+std::vector<double> frequencies(const std::vector<dynamics::WhirlMode>& modes) {
+  std::vector<double> list;
+  for (const auto& mode : modes) list.push_back(mode.frequency());
+  return list;
+}
+
+void expect_all(const std::vector<double>& found, const std::vector<double>& wanted, double unit, double tolerance) {
+  ASSERT_GE(found.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_NEAR(found[i], wanted[i] * unit, tolerance * wanted[i] * unit) << "mode " << i + 1;
+}
+
+/// M. I. Friswell, J. E. T. Penny, S. D. Garvey, A. W. Lees, Dynamics of Rotating Machines, 2010, examples 5.9.1 to
+/// 5.9.9; the digits beyond those printed there are of an independent program with the same elements.
+class Friswell : public testing::Test {
+ protected:
+  static std::string scene(const std::string& theory, const std::string& rest) {
+    return steel(theory, 6, 1.5, 0.025, "young_modulus = 211e9\ndensity = 7810.0\nshear_modulus = 81.2e9") + rest +
+           turning(1.0);
+  }
+  static std::string two_discs(double kzz, double c = 0.0) {
+    return disc("@0.5", 32.58972765, 0.1780892826, 0.3295636209) +
+           disc("@1.0", 51.52526111, 0.4235805841, 0.8050822049) + bearing(":first", 1e6, kzz, c, c) +
+           bearing(":last", 1e6, kzz, c, c);
+  }
+  static std::vector<double> at(const std::string& toml, double rpm, Index count) {
+    SceneRun run(toml);
+    return frequencies(dynamics::Whirl(run.model()).modes(rpm * kRpm, count));
+  }
+};
+
+TEST_F(Friswell, isotropic_bearings) {
+  const std::string timoshenko = scene("timoshenko", two_discs(1e6)), euler = scene("euler", two_discs(1e6));
+  expect_all(at(timoshenko, 0, 6), {86.658114, 86.658114, 274.312854, 274.312854, 716.786312, 716.786312}, 1, kPrinted);
+  // A wrong sense of the shaft's gyroscopic matrix beside the discs' is 3e-4 off.
+  expect_all(at(timoshenko, 4000, 6), {85.389467, 87.795864, 251.784604, 294.713331, 600.179362, 827.075362}, 1,
+             kPrinted);
+  expect_all(at(euler, 4000, 6), {85.460304, 87.840900, 252.215047, 295.237007, 601.248663, 827.702816}, 1, kPrinted);
+}
+
+TEST_F(Friswell, orthotropic_and_damped_bearings) {
+  expect_all(at(scene("timoshenko", two_discs(8e5)), 4000, 5),
+             {82.325474, 86.863699, 239.642284, 287.249581, 583.487829}, 1, kPrinted);
+  expect_all(at(scene("timoshenko", two_discs(2e5)), 4000, 6),
+             {8.545405, 13.770864, 22.354504, 44.064246, 78.754834, 120.380032}, 2 * pi, 1e-7);
+  SceneRun damped(scene("timoshenko", two_discs(1e6, 3e3)));
+  const auto modes = dynamics::Whirl(damped.model()).modes(4000 * kRpm, 5);
+  expect_all(frequencies(modes), {13.681884, 14.071637, 41.982902, 50.648679, 104.248404}, 2 * pi, 5e-8);
+  const double ratios[] = {.047443, .053554, .270447, .240387, .523632};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(modes[i].damping_ratio(), ratios[i], 6e-7);
+}
+
+TEST_F(Friswell, overhung_disc) {
+  const std::string rest =
+      disc("@1.5", 51.52526111, 0.4235805841, 0.8050822049) + bearing("@0.0", 1e7, 1e7) + bearing("@1.0", 1e7, 1e7);
+  expect_all(at(scene("timoshenko", rest), 4000, 6),
+             {76.190065, 103.908548, 565.990745, 634.234109, 647.748553, 1174.197399}, 1, kPrinted);
+  expect_all(at(scene("euler", rest), 0, 5), {90.250349, 90.250349, 632.456179, 632.456179, 832.184374}, 1, kPrinted);
+}
+
+TEST_F(Friswell, critical_speeds) {
+  SceneRun run(scene("timoshenko", two_discs(1e6)));
+  const auto found = dynamics::Whirl(run.model()).critical_speeds(0.0, 350.0, 10, 1.0, 10);
+  std::vector<double> speeds;
+  for (const auto& critical : found) speeds.push_back(critical.speed);
+  ASSERT_EQ(speeds.size(), 4U);
+  expect_all(speeds, {825.133813, 829.874457, 2487.758843, 2756.087555}, kRpm, 1e-9);
+  EXPECT_NEAR(found[0].direction, -1.0, 1e-6);
+  EXPECT_NEAR(found[1].direction, 1.0, 1e-6);
+}
+
+/// M. Lalanne, G. Ferraris, Rotordynamics Prediction in Engineering, 1998: the rotor with three discs, code_aster's
+/// SDLL124. Digits of an independent program with the same elements.
+TEST(LalanneFerraris, modes_at_speed) {
+  const std::string scene =
+      steel("timoshenko", 13, 1.3, 0.05, "young_modulus = 2e11\ndensity = 7800.0\npoisson_ratio = 0.3") +
+      disc("@0.2", 14.58013, .06463858, .1232021) + disc("@0.5", 45.94579, .4977461, .9763481) +
+      disc("@1.0", 55.13495, .6023493, 1.171618) + bearing(":first", 5e7, 7e7, 500, 700) +
+      bearing(":last", 5e7, 7e7, 500, 700) + turning(1.0);
+  SceneRun run(scene);
+  const dynamics::Whirl whirl(run.model());
+  expect_all(frequencies(whirl.modes(25000 * kRpm, 7)),
+             {55.410836, 67.196515, 157.897579, 193.639057, 249.850980, 407.462948, 446.713071}, 2 * pi, 2e-8);
+  expect_all(frequencies(whirl.modes(30000 * kRpm, 4)), {54.083145, 68.094495, 154.311300, 195.740073}, 2 * pi, 2e-8);
+}
+
+/// A spinning pinned shaft with rotary inertia: (rho A + rho I b^2) w^2 -+ 2 rho I b^2 W w - E I b^4 = 0, b = n pi/L.
+TEST(PinnedShaft, converges_with_order_4_to_the_rayleigh_beam) {
+  constexpr double kSpeed = 30000 * kRpm, kLength = 1.0, kRadius = 0.05, kE = 2.1e11, kRho = 7800.0;
+  constexpr double kArea = pi * kRadius * kRadius, kMoment = kArea * kRadius * kRadius / 4, b = pi / kLength;
+  constexpr double m = kRho * kArea + kRho * kMoment * b * b, g = kRho * kMoment * b * b * kSpeed;
+  const double forward = (g + std::sqrt(g * g + m * kE * kMoment * b * b * b * b)) / m;
+  double errors[2];
+  for (int i = 0; i < 2; ++i) {
+    SceneRun run(steel("rayleigh", 10 * (i + 1), kLength, kRadius, "young_modulus = 2.1e11\ndensity = 7800.0") +
+                 "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
+    const auto modes = dynamics::Whirl(run.model()).modes(kSpeed, 2);
+    EXPECT_NEAR(modes[1].direction, 1.0, 1e-9);
+    EXPECT_NEAR(modes[0].direction, -1.0, 1e-9);
+    errors[i] = modes[1].frequency() / forward - 1.0;
+  }
+  EXPECT_LT(errors[0], 1e-5);
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 4.0, 0.1);
+}
+
+/// An overhung disc on a cantilever without mass: (K11 - m w^2)(K22 - I_d w^2 + I_p W w) = K12^2; one element is exact.
+TEST(OverhungDisc, one_element_is_exact) {
+  SceneRun run(steel("euler", 1, 0.5, 0.01, "young_modulus = 2e11\ndensity = 1e-9") + disc(":last", 10, 0.05, 0.1) +
+               "[[support]]\nnodes = \"shaft:first\"\nfix = [\"uy\", \"uz\", \"ry\", \"rz\"]\n" + turning(1.0));
+  const dynamics::Whirl whirl(run.model());
+  expect_all(frequencies(whirl.modes(100.0, 4)), {55.6056042, 64.4184727, 427.5202515, 618.7073830}, 1, 2e-9);
+  expect_all(frequencies(whirl.modes(600.0, 4)), {36.2601702, 82.4925200, 229.0641891, 1382.8318392}, 1, 2e-9);
+}
+
+/// A mass on springs with damping at rest c_e and turning c_i: unstable from W = w0 (1 + c_e/c_i) on.
+TEST(InternalDamping, is_unstable_from_its_threshold_on) {
+  constexpr const char* kScene = R"(
+schema = 1
+[[element]]
+type = "disc"
+name = "rotor"
+mass = 1.0
+[[element]]
+type      = "bearing"
+node      = "rotor"
+stiffness = [[1e4, 0], [0, 1e4]]
+damping   = [[4.0, 0], [0, 4.0]]
+[[element]]
+type      = "bearing"
+node      = "rotor"
+stiffness = [[0, 0], [0, 0]]
+damping   = [[6.0, 0], [0, 6.0]]
+rotating  = true
+[rotation]
+speed = 170.0
+[initial]
+velocity = [{ nodes = "rotor", dof = "uy", value = 0.1 }]
+[integrator]
+type     = "exact"
+end_time = 1.0
+)";
+  SceneRun run(kScene);
+  const dynamics::Whirl whirl(run.model());
+  const double threshold = 100.0 * (1.0 + 4.0 / 6.0);
+  const auto growth = [&](double speed) { return whirl.modes(speed, 4).back().lambda.real(); };
+  EXPECT_LT(std::abs(growth(threshold)), 1e-12 * 100.0);
+  EXPECT_GT(growth(1.001 * threshold), 0.0);
+  EXPECT_LT(growth(0.999 * threshold), 0.0);
+  // The drive feeds the motion: the balance holds with its work.
+  record::EnergyRecorder energy(run.dynamics());
+  run.simulation().add(energy);
+  EXPECT_TRUE(run.run().completed);
+  EXPECT_GT(energy.work(), 1e-4);
+  EXPECT_LT(std::abs(energy.balance_error()), 1e-9);
+}
+
+/// The run-up of a Jeffcott rotor: r'' + 2 z w0 r' + w0^2 r = e (W^2 - i W') exp(i phi), phi = a t^2/2, from rest.
+class RunUp : public testing::TestWithParam<const char*> {};
+
+TEST_P(RunUp, passes_the_resonance) {
+  constexpr double kW0 = 20.0 * pi;
+  std::ostringstream scene;
+  scene.precision(17);
+  scene << "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"rotor\"\nmass = 1.0\n"
+        << "[[element]]\ntype = \"bearing\"\nnode = \"rotor\"\nstiffness = [[" << kW0 * kW0 << ", 0], [0, " << kW0 * kW0
+        << "]]\ndamping = [[" << 0.04 * kW0 << ", 0], [0, " << 0.04 * kW0 << "]]\n"
+        << "[rotation]\nspeed = { type = \"ramp\", to = " << 100.0 * pi << ", end = 10.0 }\n"
+        << "[[load]]\ntype = \"unbalance\"\nnode = \"rotor\"\nmoment = 1e-4\n"
+        << "[integrator]\ntype = \"" << GetParam() << "\"\nend_time = 3.0\n[integrator.rodas4]\ntolerance = 1e-8\n"
+        << "[integrator.dopri5]\ntolerance = 1e-8\n[integrator.extrapolation8]\ntolerance = 1e-8\n[integrator.auto]\n"
+           "tolerance = 1e-8\n";
+  SceneRun run(scene.str());
+  const std::vector<double> times = {1.0, 2.0, 2.2, 2.5, 3.0};
+  Sampler y(run.dof("rotor", DofKind::uy), times), z(run.dof("rotor", DofKind::uz), times);
+  run.simulation().add(y);
+  run.simulation().add(z);
+  ASSERT_TRUE(run.run().completed);
+  // By the Faddeeva function.
+  const double radius[] = {3.3051780460e-5, 5.7474092598e-4, 1.0184387964e-3, 8.1198775103e-4, 5.4410342818e-4};
+  constexpr double kPeak = 12.1674717e-4;
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(std::hypot(y.x[i], z.x[i]), radius[i], 1e-7 * kPeak);
+}
+
+INSTANTIATE_TEST_SUITE_P(methods, RunUp, testing::Values("rodas4", "dopri5", "extrapolation8", "exact", "auto"));
+
+/// With gyroscopic moments a run-up adds Omega' G to K, and rotating damping Omega W: methods of different families
+/// agree, and the energy balance holds with the work of the drive.
+TEST(RunUp, of_a_gyroscopic_shaft_agrees_between_methods) {
+  const std::string scene =
+      steel("rayleigh", 3, 1.0, 0.02, "young_modulus = 2.1e11\ndensity = 7800.0") + disc(":2", 10.0, 0.2, 0.39) +
+      "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"u\", \"w\"]\n"
+      "[damping]\nmass_proportional = 1.0\nstiffness_proportional = 1e-5\nrotating_stiffness_proportional = 2e-5\n"
+      "[rotation]\nspeed = { type = \"ramp\", from = 50.0, to = 500.0, end = 0.05 }\n"
+      "[[load]]\ntype = \"unbalance\"\nnode = \"shaft:1\"\nmoment = 1e-2\nphase = 0.3\n"
+      "[integrator]\nend_time = 0.08\n";
+  std::vector<std::vector<double>> ends;
+  for (const char* method : {"rodas4", "dopri5", "extrapolation8"}) {
+    SceneRun run(scene, {std::string("integrator.type=") + method, "integrator.tolerance=1e-8"});
+    record::EnergyRecorder energy(run.dynamics());
+    run.simulation().add(energy);
+    ASSERT_TRUE(run.run().completed) << method;
+    EXPECT_LT(std::abs(energy.balance_error()), 1e-6) << method;
+    const Vector& x = run.simulation().state().x;
+    ends.emplace_back(x.begin(), x.end());
+  }
+  SceneRun newmark(scene, {"integrator.type=newmark", "integrator.time_step=1e-5"});
+  ASSERT_TRUE(newmark.run().completed);
+  const Vector& x = newmark.simulation().state().x;
+  EXPECT_LT(relative_rms(ends[1], ends[0]), 1e-6);
+  EXPECT_LT(relative_rms(ends[2], ends[0]), 1e-6);
+  EXPECT_LT(relative_rms({x.begin(), x.end()}, ends[0]), 1e-3);
+}
+
+}  // namespace
+}  // namespace butee::test::rotor_test
