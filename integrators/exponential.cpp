@@ -31,6 +31,9 @@ constexpr int kRungsToStop = 3;
 /// What outputs between two quiet steps may be wrong by, in tolerances; the steps themselves go on from the exact
 /// state.
 constexpr double kOutputs = 2.0;
+/// Steps so many rungs below the first one may be so short because the motion has just begun: its scales are then
+/// those of the first step.
+constexpr int kRungsToRest = 10;
 /// So many rungs below the first step no step is worth trying.
 constexpr int kMostRungsDown = 80;
 
@@ -176,12 +179,17 @@ bool Exponential<Step>::advance(double end, StepReport& report) {
   int rungs = level_ + (is_quiet_ ? quiet_rungs_ : 0);
   // A flight ends before the stop that it leads to: a step beyond it would be tried in vain.
   if (rungs > level_) rungs = std::clamp(rung_below(step_.time_to_stop()), level_, rungs);
+  bool expects_motion = false;
   while (true) {
     const double h = ModalSystem::ladder_step(rungs);
+    if (!(t + h > t)) {
+      report.status = StepStatus::not_finite;
+      return false;
+    }
     const bool fits = step_.has_stops() && t + h <= last;
     // What is left of a block is shorter than a step: the next block takes it with whole ones.
     if (!fits && kink >= end && report.inner_steps > 0) return false;
-    const Trial trial = fits ? step_.attempt_rung(rungs) : step_.attempt_length(limit);
+    const Trial trial = fits ? step_.attempt_rung(rungs) : step_.attempt_until(last);
     if (trial == Trial::accepted) {
       step_.accept(fits ? t + h : last);
       ++report.inner_steps;
@@ -207,6 +215,10 @@ bool Exponential<Step>::advance(double end, StepReport& report) {
     } else {
       rungs = (fits ? rungs : static_cast<int>(std::ceil(2.0 * std::log2(limit)))) - rungs_down(step_.error_ratio());
       level_ = std::min(level_, rungs);
+      if (!expects_motion && rungs < first_level_ - kRungsToRest) {
+        step_.expect_motion(first_level_);
+        expects_motion = true;
+      }
     }
   }
 }

@@ -12,19 +12,20 @@ namespace {
 using dynamics::StepFlow;
 using Eigen::ArrayXd;
 
-/// A step between outputs is rounded to so many digits, so that equal intervals are equal.
-constexpr double kSameDigits = 1e10;
+/// A step between outputs is rounded to so many bits of the time, so that equal intervals are equal: the last three.
+constexpr int kSameBits = 50;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-double rounded(double h) {
-  const double unit = std::pow(10.0, std::floor(std::log10(h))) / kSameDigits;
-  return std::round(h / unit) * unit;
+double rounded(double h, double t_end) {
+  const double unit = std::ldexp(1.0, std::ilogb(t_end) - kSameBits);
+  return h > unit ? std::round(h / unit) * unit : h;
 }
 
 }  // namespace
 
-Trial ExponentialStep::attempt_length(double h) {
-  return attempt(modal_.odd(has_stops() ? h : rounded(h)));
+Trial ExponentialStep::attempt_until(double t) {
+  const double h = t - knots_.last();
+  return attempt(modal_.odd(has_stops() ? h : rounded(h, t)), t);
 }
 
 double ExponentialStep::time_to_stop() const {
@@ -43,7 +44,7 @@ bool ExponentialStep::is_smooth(const StepFlow& flow) {
       load_swing_ + ((flow.swing_q * q_.abs() + flow.swing_v * v_.abs()) * (square * squares_).min(1.0)).sum();
   unsmooth_ = bound > 0.0 ? bound / allowed : 0.0;
   if (unsmooth_ <= 1.0 && !is_strongly_damped_) return true;
-  propagate(flow.half, knots_.steps(), q_half_, &v_half_);
+  propagate(flow.half, knots_.steps(), 0.5 * (knots_.last() + end_), q_half_, &v_half_);
   modal_.stop_shapes().displacement(q_half_.data(), v_half_.data(), path_.middle.data(), path_.speed.data());
   const double h = flow.h(), t = knots_.last();
   find_accelerations(t, q_, v_, a_);
@@ -86,7 +87,7 @@ void ExponentialStep::evaluate_exactly(double t, std::span<const Index> dofs, st
   ArrayXd &q = q_new_, &v = v_new_, &a = q_half_;
   q = Eigen::Map<const ArrayXd>(knots_.q(knot), q.size());
   v = Eigen::Map<const ArrayXd>(knots_.v(knot), v.size());
-  if (t > knots_.time(knot)) propagate(modal_.odd(rounded(t - knots_.time(knot))).whole, knot, q, &v);
+  if (t > knots_.time(knot)) propagate(modal_.odd(rounded(t - knots_.time(knot), t)).whole, knot, t, q, &v);
   a = -modal_.frequencies().square() * q - 2.0 * modal_.decay() * v;
   modal_.add_load(t, a);
   for (const Index dof : dofs) {

@@ -63,7 +63,20 @@ ExponentialStep::ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSy
       off_lower_[i] = kNever;
     has_far_forces_ = has_far_forces_ || contact.law_of(i).far_force() > 0.0;
   }
+  for (Index i = 0; i < contact.size(); ++i) {
+    pair_of_.push_back(-1);
+    const Index a = contact.dof_a(i), b = contact.dof_b(i);
+    if (a < 0 || b < 0) continue;
+    pair_of_.back() = static_cast<Index>(pairs_.size());
+    const auto shape = modal_.stop_shapes().of(i);
+    const auto share_of = [&](Index dof) {
+      return std::abs(modal_.shape_rows().col(dof).dot(shape)) / shape.squaredNorm();
+    };
+    pairs_.push_back({i, modal_.shape_rows().col(a), share_of(a), share_of(b)});
+  }
+  pair_scales_.resize(pairs_.size());
   pull_sizes_.setZero(padded);
+  shares_.setOnes(padded);
   bends_.setZero(padded);
   for (Index i = 0; i < contact.size() && has_far_forces_; ++i) {
     pull_sizes_[i] = contact.law_of(i).far_force();
@@ -84,6 +97,24 @@ void ExponentialStep::complete(double* memory) const {
   double* stops = memory + 2 * n;
   modal_.stop_shapes().displacement(memory, memory + n, stops, stops + m);
   Eigen::Map<ArrayXd>(stops + 2 * m, 2 * m) = Eigen::Map<const ArrayXd>(stops, 2 * m).abs();
+  double* to = stops + 4 * m;
+  for (const Pair& pair : pairs_) {
+    const double x = pair.shape_a.dot(Eigen::Map<const Vector>(memory, n)),
+                 v = pair.shape_a.dot(Eigen::Map<const Vector>(memory + n, n));
+    for (const double value : {x, x - stops[pair.stop], v, v - stops[m + pair.stop]}) *to++ = std::abs(value);
+  }
+}
+
+void ExponentialStep::raise_pairs() {
+  for (std::size_t j = 0; j < pairs_.size(); ++j) {
+    const Pair& pair = pairs_[j];
+    PairScale& scale = pair_scales_[j];
+    const double x = pair.shape_a.dot(q_.matrix()), v = pair.shape_a.dot(v_.matrix());
+    scale.x_a = std::max(scale.x_a, std::abs(x));
+    scale.x_b = std::max(scale.x_b, std::abs(x - w_[pair.stop]));
+    scale.v_a = std::max(scale.v_a, std::abs(v));
+    scale.v_b = std::max(scale.v_b, std::abs(v - wv_[pair.stop]));
+  }
 }
 
 void ExponentialStep::begin(double t, const double* memory, StopScale scale) {
@@ -94,11 +125,18 @@ void ExponentialStep::begin(double t, const double* memory, StopScale scale) {
   wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + m, m);
   largest_w_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + 2 * m, m);
   largest_wv_.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + 3 * m, m);
+  const double* from = memory + 2 * n + 4 * m;
+  for (PairScale& of : pair_scales_) {
+    of = {from[0], from[1], from[2], from[3]};
+    from += 4;
+  }
   scale_ = scale;
   if (has_far_forces_)
-    for (std::size_t i = 0; i < stops_.size(); ++i)
-      stops_[i].allow(kLasting * goal_.tolerance / goal_.run_time * scale.speed /
-                      modal_.stop_shapes().of(static_cast<Index>(i)).squaredNorm());
+    for (std::size_t i = 0; i < stops_.size(); ++i) {
+      const auto stop = static_cast<Index>(i);
+      const double impulse = kLasting * goal_.tolerance / modal_.stop_shapes().of(stop).squaredNorm();
+      stops_[i].allow(impulse * scale.speed / goal_.run_time, impulse * scale.speed / scale.own_time());
+    }
   knots_.begin(t, q_.data(), v_.data(), w_.data());
   modal_bounds_.knot = static_cast<std::size_t>(-1);
   pull_.setZero();
@@ -113,6 +151,9 @@ void ExponentialStep::save(double* memory) const {
   Eigen::Map<ArrayXd>(memory + 2 * n + m, m) = wv_.head(m);
   Eigen::Map<ArrayXd>(memory + 2 * n + 2 * m, m) = largest_w_.head(m);
   Eigen::Map<ArrayXd>(memory + 2 * n + 3 * m, m) = largest_wv_.head(m);
+  double* to = memory + 2 * n + 4 * m;
+  for (const PairScale& scale : pair_scales_)
+    for (const double value : {scale.x_a, scale.x_b, scale.v_a, scale.v_b}) *to++ = value;
 }
 
 void ExponentialStep::accept(double t) {
@@ -124,6 +165,7 @@ void ExponentialStep::accept(double t) {
   wv_.swap(wv_new_);
   largest_w_ = largest_w_.max(w_.abs());
   largest_wv_ = largest_wv_.max(wv_.abs());
+  raise_pairs();
   knots_.add(t, q_.data(), v_.data(), w_.data());
 }
 
@@ -139,13 +181,18 @@ void ExponentialStep::record_forces(std::size_t knot) {
     if (orders_ == 3) forces.paths.col(StepForces::kBulge) = bulge_;
     for (std::size_t k = 0; k < 3; ++k) forces.paths.col(StepForces::kMoments + static_cast<Index>(k)) = force_[k];
   }
-  forces.felt_speed = output_tolerance_ * scale_.speed;
+  const auto felt_speed = [&](Index i) {
+    const StopScale reached = {std::abs(w_new_[i]), std::max(std::abs(wv_[i]), std::abs(wv_new_[i]))};
+    return output_tolerance_ * scale_of(i, reached, scale_.displacement).speed;
+  };
+  for (const Index i : forces.touched) forces.paths(i, StepForces::kFeltSpeed) = felt_speed(i);
   for (std::size_t j = 0; j < jumping_.size(); ++j) {
     const Index i = jumping_[j];
     forces.touched.push_back(i);
     forces.paths(i, StepForces::kStartSpeed) = tried_h_ * wv_[i];
     forces.paths(i, StepForces::kEndSpeed) = tried_h_ * wv_new_[i];
     forces.paths(i, StepForces::kBulge) = 0.0;
+    forces.paths(i, StepForces::kFeltSpeed) = felt_speed(i);
     for (std::size_t k = 0; k < 3; ++k) forces.paths(i, StepForces::kMoments + static_cast<Index>(k)) = jumps_[j][k];
   }
   if (has_far_forces_) forces.standing = pull_;
@@ -162,7 +209,7 @@ void ExponentialStep::record_forces(std::size_t knot) {
   if (middle_knot_ > 0.0) forces.divide(0.5, knots_.forces(knot + 1));
 }
 
-void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd& q, ArrayXd* v) {
+void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, double t_end, ArrayXd& q, ArrayXd* v) {
   const std::span<const Phase> phases = knots_.phases(knot);
   const double t = knots_.time(knot);
   const Eigen::Map<const ArrayXd> q0(knots_.q(knot), modal_.size()), v0(knots_.v(knot), modal_.size());
@@ -178,8 +225,8 @@ void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd
     if (v != nullptr) *v += c * flow.harmonic_v(j, 0) - s * flow.harmonic_v(j, 1);
   }
   for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads()) {
-    const double h = flow.h(), f0 = load.in_time->value(t), f1 = load.in_time->value(t + 0.5 * h),
-                 f2 = load.in_time->value(t + h);
+    const double f0 = load.in_time->value(t), f1 = load.in_time->value(0.5 * (t + t_end)),
+                 f2 = load.in_time->value(t_end);
     // The parabola through three values, in P_0, P_1 and P_2.
     const double p0 = (f0 + 4.0 * f1 + f2) / 6.0, p1 = 0.5 * (f2 - f0), p2 = (f0 - 2.0 * f1 + f2) / 3.0;
     q += load.shape * (p0 * flow.force_q(0) + p1 * flow.force_q(1) + p2 * flow.force_q(2));
@@ -187,9 +234,10 @@ void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, ArrayXd
   }
 }
 
-Trial ExponentialStep::attempt(StepFlow& flow) {
+Trial ExponentialStep::attempt(StepFlow& flow, double t_end) {
   tried_h_ = flow.h();
-  propagate(flow.whole, knots_.steps(), q_new_, &v_new_);
+  end_ = t_end;
+  propagate(flow.whole, knots_.steps(), end_, q_new_, &v_new_);
   reachable_.clear();
   is_near_ = false;
   error_ = middle_knot_ = 0.0;
@@ -197,12 +245,17 @@ Trial ExponentialStep::attempt(StepFlow& flow) {
   find_stops();
   if (!std::isfinite(w_new_.sum() + wv_new_.sum())) return Trial::not_finite;
   reached_ = {std::max(scale_.displacement, w_new_.abs().maxCoeff()), std::max(scale_.speed, wv_new_.abs().maxCoeff())};
+  if (has_far_forces_) find_shares();
   find_reachable(flow);
+  if (has_far_forces_)
+    while (place_pull(flow) && add_reachable(flow)) {
+    }
   if (is_near_ && flow.h() > longest_near_) return Trial::too_long;
-  if (has_far_forces_) place_pull(flow);
-  if (!reachable_.empty()) propagate(flow.half, knots_.steps(), q_half_, nullptr);
+  if (!reachable_.empty()) propagate(flow.half, knots_.steps(), 0.5 * (knots_.last() + end_), q_half_, nullptr);
   if (is_quiet() && !is_smooth(flow)) return Trial::too_long;
   if (has_far_forces_) add_jumps(flow);
+  // A knot in the middle divides standing forces alone.
+  if (middle_knot_ > 0.0 && !(reachable_.empty() && jumping_.empty())) return Trial::too_long;
   if (!reachable_.empty()) {
     const Trial trial = iterate(flow);
     if (trial != Trial::accepted) return trial;
@@ -212,6 +265,15 @@ Trial ExponentialStep::attempt(StepFlow& flow) {
   scale_.displacement = std::max(scale_.displacement, w_new_.abs().maxCoeff());
   scale_.speed = std::max(scale_.speed, wv_new_.abs().maxCoeff());
   return Trial::accepted;
+}
+
+void ExponentialStep::expect_motion(int level) {
+  const ModalFlow& flow = modal_.ladder(level).whole;
+  propagate(flow, knots_.steps(), knots_.last() + flow.h(), q_new_, &v_new_);
+  find_stops();
+  if (!std::isfinite(w_new_.sum() + wv_new_.sum())) return;
+  scale_.displacement = std::max(scale_.displacement, w_new_.abs().maxCoeff());
+  scale_.speed = std::max(scale_.speed, wv_new_.abs().maxCoeff());
 }
 
 void ExponentialStep::find_stops() {
@@ -225,10 +287,8 @@ void ExponentialStep::find_reachable(StepFlow& flow) {
   for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads())
     load_swing_ += std::max(std::abs(load.in_time->value(t)), std::abs(load.in_time->value(t + flow.h()))) *
                    (flow.swing_force * load.shape.abs()).sum();
-  const double swing = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + load_swing_;
-  // A stop on one side is near on that side alone.
-  reach_ = (w_.max(w_new_) - off_upper_).max(-w_.min(w_new_) - off_lower_) +
-           (kBump * flow.h()) * (wv_.abs() + wv_new_.abs()) + swing;
+  swing_ = (flow.swing_q * q_.abs() + flow.swing_v * v_.abs()).sum() + load_swing_;
+  find_reach(flow.h());
   far_.clear();
   if (has_far_forces_) find_steady(flow);
   for (Index i = 0; i < static_cast<Index>(stops_.size()); ++i) {
@@ -238,6 +298,25 @@ void ExponentialStep::find_reachable(StepFlow& flow) {
     else if (has_far_forces_)
       far_.push_back(i);
   }
+}
+
+void ExponentialStep::find_reach(double h) {
+  // A stop on one side is near on that side alone.
+  reach_ = (w_.max(w_new_) - off_upper_).max(-w_.min(w_new_) - off_lower_) + (kBump * h) * (wv_.abs() + wv_new_.abs()) +
+           swing_;
+}
+
+bool ExponentialStep::add_reachable(StepFlow& flow) {
+  const std::size_t before = reachable_.size();
+  find_reach(flow.h());
+  for (const Index i : far_) {
+    is_near_ = is_near_ || is_near(i);
+    if (is_near(i) || !is_steady(flow, i)) reachable_.push_back(i);
+  }
+  if (reachable_.size() == before) return false;
+  std::sort(reachable_.begin(), reachable_.end());
+  std::erase_if(far_, [&](Index i) { return std::binary_search(reachable_.begin(), reachable_.end(), i); });
+  return true;
 }
 
 void ExponentialStep::apply_forces(StepFlow& flow) {

@@ -25,6 +25,9 @@ inline constexpr double kConverged = 0.02;
 inline constexpr double kRounding = 1e-15;
 /// Or where the next sweep would change them, if it contracts as the last did, by less than this part of that.
 inline constexpr double kExpected = 0.1;
+/// The speed of a stop counts with this part of stiffness times displacement at least, so that a stop at rest may
+/// converge.
+inline constexpr double kLeastPart = 1e-4;
 /// After the first sweep a stop whose path others have changed by less than this part of the tolerance keeps its force.
 inline constexpr double kSettled = 0.2;
 /// Sweeps; where they do not suffice the step is too long for the stiffness of the stops.
@@ -44,7 +47,15 @@ struct StepGoal {
 /// The largest displacement and speed of a stop so far, which errors are relative to.
 struct StopScale {
   double displacement = 0.0, speed = 0.0;
+
+  /// s; infinite at rest
+  double own_time() const { return speed > 0.0 ? displacement / speed : std::numeric_limits<double>::infinity(); }
 };
+
+/// The scale of a stop is at least this part of the largest one: the floor of the promise (error-control.md).
+inline constexpr double kScaleFloor = 1e-3;
+/// m, where nothing moves
+inline constexpr double kTiny = 1e-300;
 
 /// The motion's own time, in steps of h.
 inline double steps_of(StopScale scale, double h) {
@@ -121,16 +132,23 @@ class ExponentialStep {
   ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, int order, const StepGoal& goal,
                   std::size_t most);
 
-  /// A state holds q, v, displacements and speeds of the stops, and the largest so far of each. complete() fills in all
+  /// A state holds q, v, displacements and speeds of the stops, and the largest so far of each, and of the two bodies
+  /// of stops between two. complete() fills in all
   /// after q and v.
-  Index memory_size() const { return 2 * modal_.size() + 4 * modal_.stop_count(); }
+  Index memory_size() const {
+    return 2 * modal_.size() + 4 * modal_.stop_count() + 4 * static_cast<Index>(pairs_.size());
+  }
   void complete(double* memory) const;
   /// Begins a block with the state at t.
   void begin(double t, const double* memory, StopScale scale);
   void save(double* memory) const;
-  /// Tries a step of the ladder, or of any other length; accept() takes it, to end at t.
-  Trial attempt_rung(int level) { return attempt(modal_.ladder(level)); }
-  Trial attempt_length(double h);
+  /// Tries a step of the ladder, or one until t; accept() takes it, to end at t.
+  Trial attempt_rung(int level) {
+    return attempt(modal_.ladder(level), knots_.last() + dynamics::ModalSystem::ladder_step(level));
+  }
+  Trial attempt_until(double t);
+  /// Raises the scales to what the stops would move by in a step of the ladder without their forces.
+  void expect_motion(int level);
   void accept(double t);
 
   double t() const { return knots_.last(); }
@@ -159,6 +177,19 @@ class ExponentialStep {
   void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out);
 
  private:
+  /// A stop between two bodies. Its forces move body b by the part share_b of what they move the stop by.
+  struct Pair {
+    Index stop;
+    Vector shape_a;
+    double share_a, share_b;
+  };
+  /// The largest so far of a pair: displacements and speeds of both bodies.
+  struct PairScale {
+    double x_a = 0.0, x_b = 0.0, v_a = 0.0, v_b = 0.0;
+  };
+  /// To what moves now.
+  void raise_pairs();
+
   /// Bounds of q and its first six derivatives, mode by mode, from one knot to the next.
   struct ModalBounds {
     std::size_t knot = static_cast<std::size_t>(-1);
@@ -166,11 +197,14 @@ class ExponentialStep {
   };
   void find_bounds_from(std::size_t knot);
 
-  Trial attempt(dynamics::StepFlow& flow);
-  /// From a knot; `v` only where it is given.
-  void propagate(const dynamics::ModalFlow& flow, std::size_t knot, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
+  Trial attempt(dynamics::StepFlow& flow, double t_end);
+  /// From a knot to t_end; `v` only where it is given.
+  void propagate(const dynamics::ModalFlow& flow, std::size_t knot, double t_end, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
   void find_stops();
   void find_reachable(dynamics::StepFlow& flow);
+  void find_reach(double h);
+  /// Moves stops that the pull brought near their gaps from far_ to reachable_; false if there is none.
+  bool add_reachable(dynamics::StepFlow& flow);
   /// Whether a stop may come so near its gap that its force changes.
   bool is_near(Index stop) const { return reach_[stop] > borders_[stop]; }
   /// Whether the pull of an open stop is a constant, as far as the tolerance can tell.
@@ -179,6 +213,10 @@ class ExponentialStep {
   double felt(double h) const {
     const double steps = steps_of(reached_, h);
     return kUnfeltPull * output_tolerance_ * reached_.displacement * share_of_run(h, steps, goal_.run_time);
+  }
+  /// Fills shares_.
+  void find_shares() {
+    shares_ = (largest_w_.max(w_new_.abs()) / std::max(reached_.displacement, kTiny)).max(kScaleFloor);
   }
   /// Fills is_steady_, by FarPull::unfelt() for stops that stay on a side, and largest_shift_.
   void find_steady(dynamics::StepFlow& flow);
@@ -189,8 +227,8 @@ class ExponentialStep {
   bool is_smooth(const dynamics::StepFlow& flow);
   /// Of the stops, without their forces but for standing pulls.
   void find_accelerations(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v, Eigen::ArrayXd& a);
-  /// Sees that pull_ is what stops far from their gaps exert, as far as the tolerance can tell.
-  void place_pull(dynamics::StepFlow& flow);
+  /// Sees that pull_ is what stops far from their gaps exert, as far as the tolerance can tell; whether it changed.
+  bool place_pull(dynamics::StepFlow& flow);
   /// Of those that pass the middle of their gap, where their pull changes its side.
   void add_jumps(dynamics::StepFlow& flow);
   /// What the moments of order k of the forces of some stops do.
@@ -202,9 +240,12 @@ class ExponentialStep {
   void choose_registers();
   /// Fills bulge_ and excess_ for the paths as they are.
   void find_bounds();
-  /// Takes the stops in turn, each with the forces of all others as they are; the largest change of a path. A stop
-  /// whose path is within `settled` of the one that its force was found for is passed over.
-  double sweep(dynamics::StepFlow& flow, double settled);
+  /// Takes the stops in turn, each with the forces of all others as they are; the largest change of a path over
+  /// allowed_change(). If `may_skip`, stops whose path moved by less than kSettled of that since their force was found
+  /// are passed over.
+  double sweep(dynamics::StepFlow& flow, double displacement, bool may_skip);
+  /// Error of a stop's path that the displacement and the speed of the stop allow, m.
+  double allowed_change(dynamics::StepFlow& flow, Index stop, double displacement) const;
   StopPath path_of(Index stop) const {
     const double bulge =
         path_.middle[stop] - (0.5 * (w_[stop] + path_.end[stop]) + 0.125 * (hv_[stop] - path_.speed[stop]));
@@ -227,8 +268,13 @@ class ExponentialStep {
   double error_of_missed(double push, double h, StopScale scale) const {
     return push / (h * scale.speed) * tolerance_ / goal_.tolerance;
   }
-  /// Error scales of a stop: its largest displacement and speed so far, at least a thousandth of those of all stops.
-  StopScale scale_of(Index stop, double h, double displacement) const;
+  /// Error scales of a stop: its largest displacement and speed so far, at least a thousandth of those of all stops; of
+  /// a stop between two bodies those of the body that its force moves most for its scale.
+  /// `reached`: in the step tried.
+  StopScale scale_of(Index stop, StopScale reached, double displacement) const;
+  StopScale reached_on_path(Index stop, double h) const {
+    return {std::abs(path_.end[stop]), std::max(std::abs(hv_[stop]), std::abs(path_.speed[stop])) / h};
+  }
   /// Of the displacement, by a pull that jumps where the path is said to pass the middle of the gap.
   double error_of_pull(dynamics::StepFlow& flow, Index stop) const;
   /// Whether a stop is in contact at both ends of the step.
@@ -269,13 +315,19 @@ class ExponentialStep {
   Eigen::ArrayXd off_upper_, off_lower_;  ///< 0 where it acts on that side, else further off than any path
   Eigen::ArrayXd borders_;                ///< up to where the force of an open stop hardly changes
   Eigen::ArrayXd w_, wv_, w_new_, wv_new_, reach_;
-  Eigen::ArrayXd largest_w_, largest_wv_;            ///< so far
+  Eigen::ArrayXd largest_w_, largest_wv_;  ///< so far
+  std::vector<Pair> pairs_;
+  std::vector<PairScale> pair_scales_;
+  std::vector<Index> pair_of_;                       ///< of each stop; -1: none
   Eigen::ArrayXd a_;                                 ///< accelerations at the start, where they were asked for
   Eigen::ArrayXd pull_sizes_, bends_;                ///< FarPull::largest(), and the width of the law's bend
   Eigen::Array<bool, Eigen::Dynamic, 1> is_steady_;  ///< surely; of the others is_steady() knows
   double largest_shift_ = 0.0;                       ///< of a stop in the step, by a pull
+  Eigen::ArrayXd shares_;                            ///< displacement scale of a stop over the largest one
+  double largest_felt_shift_ = 0.0;                  ///< of a stop by a pull, over its share
   double unsmooth_ = 0.0;                            ///< the error of outputs, in parts of what it may be
   double load_swing_ = 0.0;                          ///< how far loads can carry a stop away from the cubic
+  double swing_ = 0.0;                               ///< and modes too
   Eigen::ArrayXd hv_;                                ///< speed times h at the start
   dynamics::StopMotion path_;  ///< with all forces found so far; outside near_registers_ once they are complete
   dynamics::StopMotion seen_;  ///< what the path of a stop was when its force was found
@@ -288,9 +340,9 @@ class ExponentialStep {
   std::vector<Index> jumping_;       ///< of those far away, the ones whose pull changes its sign
   std::vector<ForceMoments> jumps_;  ///< their forces
   std::vector<bool> is_touched_;
-  double longest_near_;   ///< longest_near_stops(), s
-  double tried_h_ = 0.0;  ///< of the last attempt
-  bool is_near_ = false;  ///< any stop
+  double longest_near_;               ///< longest_near_stops(), s
+  double tried_h_ = 0.0, end_ = 0.0;  ///< of the last attempt: its length and when it ends
+  bool is_near_ = false;              ///< any stop
   double error_ = 0.0;
 };
 

@@ -19,16 +19,16 @@ Trial ExponentialStep::iterate(StepFlow& flow) {
   touched_.clear();
   choose_registers();
   guess(flow);
-  double last = 0.0, settled = -1.0;
+  double last = 0.0;
   for (int i = 0; i < kMostSweeps; ++i) {
-    const double change = sweep(flow, settled);
+    const double scale_before = std::max(scale_.displacement, path_.end.abs().maxCoeff());
+    const double change = sweep(flow, scale_before, i > 0);
     if (!std::isfinite(change)) return Trial::too_long;
     const double scale = std::max(scale_.displacement, path_.end.abs().maxCoeff());
-    const double next = change * (change / last), enough = std::max(kConverged * tolerance_, kRounding) * scale;
-    const bool is_expected = i > 0 && change < last && next <= kExpected * enough;
+    const double next = change * (change / last);
+    const bool is_expected = i > 0 && change < last && next <= kExpected * kConverged;
     last = change;
-    settled = kSettled * tolerance_ * scale;
-    if (change > enough && !is_expected) continue;
+    if (change > kConverged && !is_expected) continue;
     find_error(flow, scale);
     return error_ <= tolerance_ * scale ? Trial::accepted : Trial::too_long;
   }
@@ -91,14 +91,25 @@ double ExponentialStep::moved_since(StepFlow& flow, Index stop) const {
   return path * (1.0 + std::abs(stiff));
 }
 
-double ExponentialStep::sweep(StepFlow& flow, double settled) {
+double ExponentialStep::allowed_change(StepFlow& flow, Index stop, double displacement) const {
+  const double h = flow.h();
+  const StopScale scale = scale_of(stop, reached_on_path(stop, h), displacement);
+  const double stiff =
+      std::abs(stops_[static_cast<std::size_t>(stop)].stiffness() * derived(flow, stop).coupling[1][0]);
+  const double of_speed = std::max(h * scale.speed, kLeastPart * stiff * scale.displacement);
+  const double least = std::max(scale.displacement * stiff > of_speed ? of_speed / stiff : scale.displacement, 0.0);
+  return std::max(tolerance_ * least, kRounding / kConverged * displacement);
+}
+
+double ExponentialStep::sweep(StepFlow& flow, double displacement, bool may_skip) {
   find_bounds();
   double change = 0.0;
   for (const Index i : reachable_) {
     const auto place = static_cast<std::size_t>(i);
     StopForce& stop = stops_[place];
     if (stop.is_linear() && !is_touched_[place] && excess_[i] <= 0.0) continue;
-    if (settled > 0.0 && is_touched_[place] && moved_since(flow, i) <= settled) continue;
+    const double allowed = allowed_change(flow, i, displacement);
+    if (may_skip && is_touched_[place] && moved_since(flow, i) <= kSettled * allowed) continue;
     const StopPath path = path_of(i);
     const StopForce::Course course = stop.course(path);
     const ForceMoments old = {force_[0][i], force_[1][i], force_[2][i]};
@@ -122,7 +133,7 @@ double ExponentialStep::sweep(StepFlow& flow, double settled) {
     if (!std::isfinite(moved)) return moved;
     // The force of a spring was found for where it has led; of all others for where they were.
     if (was_spring && is_spring(i)) see(i);
-    change = std::max(change, moved);
+    if (moved > 0.0) change = std::max(change, moved / allowed);
   }
   return change;
 }
@@ -149,20 +160,25 @@ void ExponentialStep::guess(StepFlow& flow) {
   flow.add_forces(touched_, force_, near_registers_, path_);
 }
 
-StopScale ExponentialStep::scale_of(Index stop, double h, double displacement) const {
-  constexpr double kFloor = 1e-3;  // that of the promise (error-control.md)
-  const double speed = std::max(std::abs(hv_[stop]), std::abs(path_.speed[stop])) / h;
-  return {std::max({largest_w_[stop], std::abs(path_.end[stop]), kFloor * displacement}),
-          std::max({largest_wv_[stop], speed, kFloor * scale_.speed})};
+StopScale ExponentialStep::scale_of(Index stop, StopScale reached, double displacement) const {
+  const double x_floor = kScaleFloor * displacement, v_floor = kScaleFloor * scale_.speed;
+  if (const Index place = pair_of_[static_cast<std::size_t>(stop)]; place >= 0) {
+    const Pair& pair = pairs_[static_cast<std::size_t>(place)];
+    const PairScale& of = pair_scales_[static_cast<std::size_t>(place)];
+    return {std::min(std::max(of.x_a, x_floor) / pair.share_a, std::max(of.x_b, x_floor) / pair.share_b),
+            std::min(std::max(of.v_a, v_floor) / pair.share_a, std::max(of.v_b, v_floor) / pair.share_b)};
+  }
+  return {std::max({largest_w_[stop], reached.displacement, x_floor}),
+          std::max({largest_wv_[stop], reached.speed, v_floor})};
 }
 
 void ExponentialStep::find_error(StepFlow& flow, double displacement) {
   const double h = flow.h();
   for (const Index i : reachable_) {
     const auto place = static_cast<std::size_t>(i);
-    double error = is_near(i) ? std::abs(bulge_[i]) : error_of_pull(flow, i);
+    double error = is_near(i) ? std::abs(bulge_[i]) : error_of_pull(flow, i) / shares_[i];
     if (is_near(i) && is_touched_[place]) {
-      const StopScale scale = scale_of(i, h, displacement);
+      const StopScale scale = scale_of(i, reached_on_path(i, h), displacement);
       const double stiffness = stops_[place].stiffness(), stiff = stiffness * flow.derived(i).coupling[1][0];
       error = error_of_path(error, stiff, h, scale, stays_closed(i));
       if (!stays_closed(i)) {
@@ -173,7 +189,8 @@ void ExponentialStep::find_error(StepFlow& flow, double displacement) {
       error *= displacement / scale.displacement;
     } else if (const double depth = excess_[i] + kPathError * std::abs(bulge_[i]); is_near(i) && depth > 0.0) {
       const double stiff = stops_[place].stiffness() * derived(flow, i).coupling[1][0];
-      error = std::max(error, error_of_missed(stiff * depth, h, scale_of(i, h, displacement)) * displacement);
+      error = std::max(
+          error, error_of_missed(stiff * depth, h, scale_of(i, reached_on_path(i, h), displacement)) * displacement);
     }
     if (orders_ == 1) error += std::abs(flow.own_coupling(i)[0][1] * force_[1][i]);
     error_ = std::max(error_, error);

@@ -159,10 +159,10 @@ void ModalKnots::find_contacts(std::size_t knot) {
     const Contact contact = {i,
                              {w_(i, k), hv0, w_(i, k + 1), hv1, at(StepForces::kBulge)},
                              {at(StepForces::kMoments), at(StepForces::kMoments + 1), at(StepForces::kMoments + 2)}};
+    const double felt = at(StepForces::kFeltSpeed);
     const double kink = kKink * stop.stiffness() * h * std::max(std::abs(hv0), std::abs(hv1));
-    const bool is_felt =
-        (compliances_[i] * kink > forces.felt_speed && stop.course(contact.path) == Course::changing) ||
-        (compliances_[i] * kJump * h * stop.jump(contact.path) > forces.felt_speed);
+    const bool is_felt = (compliances_[i] * kink > felt && stop.course(contact.path) == Course::changing) ||
+                         (compliances_[i] * kJump * h * stop.jump(contact.path) > felt);
     (is_felt ? changing_ : closed_).push_back(contact);
   }
 }

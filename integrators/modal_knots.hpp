@@ -21,11 +21,9 @@ struct StepForces {
   std::array<Vector, 3> moments;  ///< modal, of P_0, P_1 and P_2, as dynamics::ModalMotion takes them
   Vector standing;                ///< the pulls of stops out of contact, N
   std::vector<Index> touched;     ///< stops in contact, and of each stop:
-  /// speed times h at both ends, bulge and force moments, which tell its path
+  /// speed times h at both ends, bulge, what its speed may be wrong by (m/s), and force moments, which tell its path
   Eigen::ArrayXXd paths;
-  double felt_speed = 0.0;  ///< what the speed of a stop may be wrong by, m/s
-
-  enum Column : Index { kStartSpeed, kEndSpeed, kBulge, kMoments, kColumns = kMoments + 3 };
+  enum Column : Index { kStartSpeed, kEndSpeed, kBulge, kFeltSpeed, kMoments, kColumns = kMoments + 3 };
 
   /// Divides them at a place of the step, the second part going to another. Not with stops in contact.
   void divide(double place, StepForces& second);

@@ -10,7 +10,17 @@
 namespace butee::integrators {
 namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Moves the end, speed and middle of a path by a force, and returns by how much.
+std::array<double, 3> move(std::array<double, 3>& path, const PathCoupling& coupling, const ForceMoments& force) {
+  std::array<double, 3> moved{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    moved[row] = coupling[row][0] * force[0] + coupling[row][1] * force[1] + coupling[row][2] * force[2];
+    path[row] += moved[row];
+  }
+  return moved;
 }
+}  // namespace
 
 bool SingleStep::can_take(const dynamics::Dynamics& dynamics) {
   const auto& loads = dynamics.system().loads;
@@ -78,7 +88,8 @@ void SingleStep::begin(double t, const double* memory, StopScale scale) {
   now_ = {memory[0], memory[1]};
   scale_ = scale;
   if (!stop_.is_linear())
-    stop_.allow(kLasting * goal_.tolerance / goal_.run_time * scale.speed / (stop_shape_ * stop_shape_));
+    stop_.allow(kLasting * goal_.tolerance / goal_.run_time * scale.speed / (stop_shape_ * stop_shape_),
+                kLasting * goal_.tolerance / scale.own_time() * scale.speed / (stop_shape_ * stop_shape_));
   knots_.assign(1, {t, now_});
   times_.assign(1, t);
   turns_ = static_cast<int>(memory[2]);
@@ -156,8 +167,8 @@ Trial SingleStep::attempt_rung(int level) {
   return attempt(flow);
 }
 
-Trial SingleStep::attempt_length(double h) {
-  fill(modal_.odd(h), odd_);
+Trial SingleStep::attempt_until(double t) {
+  fill(modal_.odd(t - knots_.back().t), odd_);
   return attempt(odd_);
 }
 
@@ -179,9 +190,16 @@ Trial SingleStep::attempt(const Flow& flow) {
   error_ = 0.0;
   force_ = {};
   const double swing = flow.swing_q * std::abs(q) + flow.swing_v * std::abs(v);
-  const double nearest = std::max(upper_ < kInfinite ? std::max(w, path_[0]) : -kInfinite,
-                                  lower_ > -kInfinite ? -std::min(w, path_[0]) : -kInfinite);
-  const double reach = nearest + kBump * (std::abs(hv) + std::abs(path_[1])) + swing + flow.swing_harmonics;
+  std::array<double, 3> pulled = path_;
+  if (!stop_.is_linear()) {
+    force_ = stop_.far_force(StopPath(w, hv, path_[0], path_[1], 0.0));
+    move(pulled, flow.coupling, force_);
+  }
+  const double highest = std::max({w, path_[0], pulled[0]}), lowest = std::min({w, path_[0], pulled[0]});
+  const double nearest =
+      std::max(upper_ < kInfinite ? highest : -kInfinite, lower_ > -kInfinite ? -lowest : -kInfinite);
+  const double reach = nearest + kBump * (std::abs(hv) + std::max(std::abs(path_[1]), std::abs(pulled[1]))) + swing +
+                       flow.swing_harmonics;
   is_quiet_ = reach <= calm_border_ && is_steady(flow, w, reach);
   if (is_quiet_) {
     // Of the slower and the faster of two decaying motions too, whose rates are within 2 delta + omega. What a load
@@ -196,10 +214,9 @@ Trial SingleStep::attempt(const Flow& flow) {
   }
   if (!is_quiet_) {
     if (h > longest_near_) return Trial::too_long;
+    force_ = {};
     const Trial trial = iterate(flow, w, hv);
     if (trial != Trial::accepted) return trial;
-  } else if (!stop_.is_linear()) {
-    force_ = stop_.far_force(StopPath(w, hv, path_[0], path_[1], 0.0));
   }
   for (std::size_t k = 0; k < orders_; ++k) {
     q1 += force_[k] * flow.force_q[k];
@@ -238,12 +255,8 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
       const ForceMoments more =
           own_.correction(course == Course::closed ? flow.closed_inverse : own_.inverse(projection.closed, coupling),
                           projection.force, force_);
-      std::array<double, 3> moved{};
-      for (std::size_t row = 0; row < 3; ++row) {
-        moved[row] = coupling[row][0] * more[0] + coupling[row][1] * more[1] + coupling[row][2] * more[2];
-        path_[row] += moved[row];
-        force_[row] += more[row];
-      }
+      const std::array<double, 3> moved = move(path_, coupling, more);
+      for (std::size_t k = 0; k < 3; ++k) force_[k] += more[k];
       if (orders_ == 1) force_[1] = projection.force[1];  // for the estimate alone
       change = std::abs(moved[0]) + kBump * std::abs(moved[1]) + std::abs(moved[2]);
       if (!std::isfinite(change)) return Trial::too_long;

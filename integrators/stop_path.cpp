@@ -26,6 +26,9 @@ constexpr double kBesideBend = 0.5;
 /// Panels beside a bend that is not sharp: each is shorter than the last by this factor.
 constexpr double kGrading = 0.15, kPreciseGrading = 0.25;
 constexpr int kPanels = 4, kPrecisePanels = 12;
+/// The finest grading goes on until a panel spans this part of the bend's width, or is the last of kMostPanels.
+constexpr double kFinestGrading = 0.5, kInnermost = 0.5;
+constexpr int kMostPanels = 48;
 
 constexpr std::array<double, 7> kReciprocals = {1.0, 1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7};
 /// Four points: a path of degree 4 times s^2 is of degree 6.
@@ -209,10 +212,13 @@ ForceMoments StopForce::of_constant_rest(const StopPath& path, double begin, dou
 ForceMoments StopForce::of_graded_rest(const StopPath& path, double graded, double other, double side) {
   ForceMoments sum{};
   double outer = other;
-  const int panels = is_precise_ ? kPrecisePanels : kPanels;
-  const double grading = is_precise_ ? kPreciseGrading : kGrading;
-  for (int panel = 1; panel <= panels; ++panel) {
-    const double inner = panel == panels ? graded : graded + grading * (outer - graded);
+  const int panels = is_finest_ ? kMostPanels : is_precise_ ? kPrecisePanels : kPanels;
+  const double grading = is_finest_ ? kFinestGrading : is_precise_ ? kPreciseGrading : kGrading;
+  const double bend = path.value(graded);
+  for (int panel = 1; panel <= panels && outer != graded; ++panel) {
+    const bool is_last =
+        panel == panels || (is_finest_ && std::abs(path.value(outer) - bend) <= kInnermost * bend_width_);
+    const double inner = is_last ? graded : graded + grading * (outer - graded);
     add(sum, of_rest(path, std::min(inner, outer), std::max(inner, outer), side));
     outer = inner;
   }

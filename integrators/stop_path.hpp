@@ -120,9 +120,14 @@ class StopForce {
     return Course::changing;
   }
   Projection project(const StopPath& path, Course course);
-  /// The error of the force that may last a whole run, N. Where the shortcuts for narrow and far bends exceed it, they
-  /// are not taken and integrals near bends take more panels. Of stops on both sides they err to both sides alike.
-  void allow(double error) { is_precise_ = on_upper_ != on_lower_ && kShortcuts * far_force_ > error; }
+  /// The error of the force that may last a whole run and one that may last for the motion's own time, N. Where the
+  /// shortcuts for narrow and far bends exceed it, they are not taken, and integrals near bends take as many panels as
+  /// it asks for. The first counts for stops on one side, which err in the same sense all run long.
+  void allow(double for_run, double for_own_time) {
+    const double error = on_upper_ != on_lower_ ? for_run : for_own_time;
+    is_precise_ = kShortcuts * far_force_ > error;
+    is_finest_ = kPreciseError * far_force_ > error;
+  }
   /// Whether the force is that of a spring and a constant throughout.
   bool is_spring(const StopPath& path, Course course) const {
     return course == Course::closed && (is_linear_ || is_constant_beside_bends(path));
@@ -179,9 +184,11 @@ class StopForce {
   Index stop_;
   /// The error of the shortcuts, in parts of the law's pull: the part of it that is left at kFarOff and beside kSharp.
   static constexpr double kShortcuts = 3e-3;
+  /// That of kPrecisePanels, with the same reserve.
+  static constexpr double kPreciseError = 2e-4;
 
   double gap_, stiffness_, bend_width_, far_force_;
-  bool is_precise_ = false;
+  bool is_precise_ = false, is_finest_ = false;
   bool is_linear_, on_upper_, on_lower_;
   struct FarRest {
     double open, closed;
