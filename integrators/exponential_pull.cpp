@@ -12,8 +12,7 @@ using Eigen::ArrayXd;
 bool ExponentialStep::is_steady(StepFlow& flow, Index stop) const {
   const FarPull& pull = pulls_[static_cast<std::size_t>(stop)];
   const double mobility = std::abs(flow.mobilities()[stop]);
-  return pull.unfelt(w_[stop], w_new_[stop], reach_[stop], mobility, steps_of(reached_, flow.h())) <=
-         felt(flow.h()) * shares_[stop];
+  return pull.unfelt(w_[stop], w_new_[stop], reach_[stop], mobility, steps_of(reached_, flow.h())) <= felt(flow.h());
 }
 
 void ExponentialStep::find_steady(StepFlow& flow) {
@@ -26,8 +25,8 @@ void ExponentialStep::find_steady(StepFlow& flow) {
   const double steps = steps_of(reached_, flow.h()), most = felt(flow.h());
   const auto w0 = w_.head(m), w1 = w_new_.head(m);
   const auto part = bends_.head(m) / (gaps_.head(m) - reach_.head(m));
-  is_steady_.head(m) = w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > shift &&
-                       shift * part.square() * (steps * steps / 3.0) <= most * shares_.head(m);
+  is_steady_.head(m) =
+      w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > shift && shift * part.square() * (steps * steps / 3.0) <= most;
 }
 
 double ExponentialStep::error_of_pull(StepFlow& flow, Index stop) const {
@@ -61,12 +60,12 @@ void ExponentialStep::add_jumps(StepFlow& flow) {
   const double h = flow.h(), steps = steps_of(reached_, h), most = felt(h);
   jumping_.clear();
   jumps_.clear();
-  if (largest_felt_shift_ * steps <= most) return;
+  if (largest_shift_ * steps <= most) return;
   for (const Index i : far_) {
     const double aside = kBump * h * (std::abs(wv_[i]) + std::abs(wv_new_[i]));
     if (std::min(w_[i], w_new_[i]) > aside || std::max(w_[i], w_new_[i]) < -aside) continue;
     const auto place = static_cast<std::size_t>(i);
-    if (pulls_[place].largest() * std::abs(flow.mobilities()[i]) * steps <= most * shares_[i]) continue;
+    if (pulls_[place].largest() * std::abs(flow.mobilities()[i]) * steps <= most) continue;
     if (jumping_.empty())
       for (ArrayXd& force : force_) force.setZero();
     const ForceMoments pull = stops_[place].far_force({w_[i], h * wv_[i], w_new_[i], h * wv_new_[i], 0.0});

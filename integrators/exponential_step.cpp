@@ -14,6 +14,8 @@ using dynamics::StepFlow;
 using Eigen::ArrayXd;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+/// Of the time: a step whose middle is wrong by 1e-9 of it.
+constexpr double kShortest = 2e-7;
 /// Added to the distance of a side on which a stop does not act, m.
 constexpr double kNever = 1e100;
 
@@ -225,8 +227,9 @@ void ExponentialStep::propagate(const ModalFlow& flow, std::size_t knot, double 
     if (v != nullptr) *v += c * flow.harmonic_v(j, 0) - s * flow.harmonic_v(j, 1);
   }
   for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads()) {
-    const double f0 = load.in_time->value(t), f1 = load.in_time->value(0.5 * (t + t_end)),
-                 f2 = load.in_time->value(t_end);
+    // The middle of a step near the rounding of the time is not where it should be; a load is straight there.
+    const double f0 = load.in_time->value(t), f2 = load.in_time->value(t_end),
+                 f1 = t_end - t < kShortest * t_end ? 0.5 * (f0 + f2) : load.in_time->value(0.5 * (t + t_end));
     // The parabola through three values, in P_0, P_1 and P_2.
     const double p0 = (f0 + 4.0 * f1 + f2) / 6.0, p1 = 0.5 * (f2 - f0), p2 = (f0 - 2.0 * f1 + f2) / 3.0;
     q += load.shape * (p0 * flow.force_q(0) + p1 * flow.force_q(1) + p2 * flow.force_q(2));
@@ -254,8 +257,7 @@ Trial ExponentialStep::attempt(StepFlow& flow, double t_end) {
   if (!reachable_.empty()) propagate(flow.half, knots_.steps(), 0.5 * (knots_.last() + end_), q_half_, nullptr);
   if (is_quiet() && !is_smooth(flow)) return Trial::too_long;
   if (has_far_forces_) add_jumps(flow);
-  // A knot in the middle divides standing forces alone.
-  if (middle_knot_ > 0.0 && !(reachable_.empty() && jumping_.empty())) return Trial::too_long;
+  if (middle_knot_ > 0.0 && shows_jump(flow.h())) return Trial::too_long;
   if (!reachable_.empty()) {
     const Trial trial = iterate(flow);
     if (trial != Trial::accepted) return trial;
@@ -308,6 +310,8 @@ void ExponentialStep::find_reach(double h) {
 
 bool ExponentialStep::add_reachable(StepFlow& flow) {
   const std::size_t before = reachable_.size();
+  reached_.displacement = std::max(reached_.displacement, w_new_.abs().maxCoeff());
+  find_shares();
   find_reach(flow.h());
   for (const Index i : far_) {
     is_near_ = is_near_ || is_near(i);
@@ -317,6 +321,16 @@ bool ExponentialStep::add_reachable(StepFlow& flow) {
   std::sort(reachable_.begin(), reachable_.end());
   std::erase_if(far_, [&](Index i) { return std::binary_search(reachable_.begin(), reachable_.end(), i); });
   return true;
+}
+
+bool ExponentialStep::shows_jump(double h) const {
+  const auto shows = [&](Index i) {
+    if (w_[i] * w_new_[i] > 0.0) return false;
+    const double jump = 2.0 * pulls_[static_cast<std::size_t>(i)].largest();
+    return ModalKnots::kJump * h * modal_.stop_shapes().of(i).squaredNorm() * jump > output_tolerance_ * reached_.speed;
+  };
+  return std::any_of(reachable_.begin(), reachable_.end(), shows) ||
+         std::any_of(jumping_.begin(), jumping_.end(), shows);
 }
 
 void ExponentialStep::apply_forces(StepFlow& flow) {

@@ -89,6 +89,14 @@ inline double error_of_path(double bulge, double stiff, double h, StopScale scal
   return bulge * (of_speed * scale.displacement > speed ? of_speed * scale.displacement / speed : 1.0);
 }
 
+/// The change of a stop's path, m, whose displacement and whose change of speed, times h, by the stop's force are
+/// within the tolerance.
+inline double allowed_change(double tolerance, double stiff, double h, StopScale scale) {
+  const double of_displacement = std::abs(stiff) * scale.displacement;
+  const double of_speed = std::max(h * scale.speed, kLeastPart * of_displacement);
+  return tolerance * (of_displacement > of_speed ? of_speed / std::abs(stiff) : scale.displacement);
+}
+
 /// Between the ends of a step that no force of a stop bends, outputs lie on a quintic. Its error is that of the cubic,
 /// (omega h)^4/384 of the amplitude, times (omega h)^2/120.
 inline constexpr double kQuintic = 1.0 / 120.0;
@@ -229,6 +237,9 @@ class ExponentialStep {
   void find_accelerations(double t, const Eigen::ArrayXd& q, const Eigen::ArrayXd& v, Eigen::ArrayXd& a);
   /// Sees that pull_ is what stops far from their gaps exert, as far as the tolerance can tell; whether it changed.
   bool place_pull(dynamics::StepFlow& flow);
+  /// Whether outputs show the jump of a pull that changes its side, which a knot in the middle of the step, where
+  /// forces are divided as the polynomials that they are, would pass over.
+  bool shows_jump(double h) const;
   /// Of those that pass the middle of their gap, where their pull changes its side.
   void add_jumps(dynamics::StepFlow& flow);
   /// What the moments of order k of the forces of some stops do.

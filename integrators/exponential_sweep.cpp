@@ -94,11 +94,8 @@ double ExponentialStep::moved_since(StepFlow& flow, Index stop) const {
 double ExponentialStep::allowed_change(StepFlow& flow, Index stop, double displacement) const {
   const double h = flow.h();
   const StopScale scale = scale_of(stop, reached_on_path(stop, h), displacement);
-  const double stiff =
-      std::abs(stops_[static_cast<std::size_t>(stop)].stiffness() * derived(flow, stop).coupling[1][0]);
-  const double of_speed = std::max(h * scale.speed, kLeastPart * stiff * scale.displacement);
-  const double least = std::max(scale.displacement * stiff > of_speed ? of_speed / stiff : scale.displacement, 0.0);
-  return std::max(tolerance_ * least, kRounding / kConverged * displacement);
+  const double stiff = stops_[static_cast<std::size_t>(stop)].stiffness() * derived(flow, stop).coupling[1][0];
+  return std::max(integrators::allowed_change(tolerance_, stiff, h, scale), kRounding / kConverged * displacement);
 }
 
 double ExponentialStep::sweep(StepFlow& flow, double displacement, bool may_skip) {
@@ -108,8 +105,8 @@ double ExponentialStep::sweep(StepFlow& flow, double displacement, bool may_skip
     const auto place = static_cast<std::size_t>(i);
     StopForce& stop = stops_[place];
     if (stop.is_linear() && !is_touched_[place] && excess_[i] <= 0.0) continue;
-    const double allowed = allowed_change(flow, i, displacement);
-    if (may_skip && is_touched_[place] && moved_since(flow, i) <= kSettled * allowed) continue;
+    if (may_skip && is_touched_[place] && moved_since(flow, i) <= kSettled * allowed_change(flow, i, displacement))
+      continue;
     const StopPath path = path_of(i);
     const StopForce::Course course = stop.course(path);
     const ForceMoments old = {force_[0][i], force_[1][i], force_[2][i]};
@@ -133,7 +130,9 @@ double ExponentialStep::sweep(StepFlow& flow, double displacement, bool may_skip
     if (!std::isfinite(moved)) return moved;
     // The force of a spring was found for where it has led; of all others for where they were.
     if (was_spring && is_spring(i)) see(i);
-    if (moved > 0.0) change = std::max(change, moved / allowed);
+    // At a start from rest the force itself makes the scale.
+    if (moved > 0.0)
+      change = std::max(change, moved / allowed_change(flow, i, std::max(displacement, std::abs(path_.end[i]))));
   }
   return change;
 }
@@ -176,7 +175,7 @@ void ExponentialStep::find_error(StepFlow& flow, double displacement) {
   const double h = flow.h();
   for (const Index i : reachable_) {
     const auto place = static_cast<std::size_t>(i);
-    double error = is_near(i) ? std::abs(bulge_[i]) : error_of_pull(flow, i) / shares_[i];
+    double error = is_near(i) ? std::abs(bulge_[i]) : error_of_pull(flow, i);
     if (is_near(i) && is_touched_[place]) {
       const StopScale scale = scale_of(i, reached_on_path(i, h), displacement);
       const double stiffness = stops_[place].stiffness(), stiff = stiffness * flow.derived(i).coupling[1][0];

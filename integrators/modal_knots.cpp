@@ -10,8 +10,6 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 /// The largest |int_0^s (F - P F) ds| of a force F that rises by 1 a step from somewhere within it on, with its
 /// projection P F onto P_0, P_1 and P_2.
 constexpr double kKink = 4.73e-3;
-/// The same of a force that jumps by 1.
-constexpr double kJump = 0.0625;
 
 }  // namespace
 

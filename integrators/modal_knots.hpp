@@ -33,6 +33,9 @@ struct StepForces {
 /// of the modes under the loads and the forces found in the step, as at its end.
 class ModalKnots {
  public:
+  /// The largest |int_0^s (F - P F) ds| of a force F that jumps by 1 within a step.
+  static constexpr double kJump = 0.0625;
+
   /// For up to `most` steps. All must outlive it.
   ModalKnots(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal, std::vector<StopForce>& stops,
              std::size_t most);

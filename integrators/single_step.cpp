@@ -262,18 +262,19 @@ Trial SingleStep::iterate(const Flow& flow, double w, double hv) {
       if (!std::isfinite(change)) return Trial::too_long;
     }
     before = course;
-    const double next = change * (change / last), enough = std::max(kConverged * tolerance_, kRounding) * scale;
+    const double stiff = stop_.stiffness() * coupling[1][0];
+    const StopScale reached = {scale, std::max(scale_.speed, std::max(std::abs(hv), std::abs(path_[1])) / flow.h)};
+    const double next = change * (change / last);
+    const double enough = std::max(kConverged * allowed_change(tolerance_, stiff, flow.h, reached), kRounding * scale);
     const bool is_expected = i > 0 && change < last && next <= kExpected * enough;
     last = change;
     if (change > enough && !is_expected) continue;
     error_ = std::abs(bulge);
     if (force_[0] != 0.0) {
-      const double stiff = stop_.stiffness() * coupling[1][0],
-                   speed = std::max(std::abs(hv), std::abs(path_[1])) / flow.h;
-      error_ = error_of_path(error_, stiff, flow.h, {scale, std::max(scale_.speed, speed)}, course == Course::closed);
+      error_ = error_of_path(error_, stiff, flow.h, reached, course == Course::closed);
     } else if (const double depth = beyond(path) + kPathError * std::abs(bulge); depth > 0.0) {
       // The path passes the stop by, but might have changed its speed.
-      const double push = stop_.stiffness() * coupling[1][0] * depth;
+      const double push = stiff * depth;
       error_ = std::max(error_, push / (flow.h * scale_.speed) * tolerance_ / goal_.tolerance * scale);
     }
     if (orders_ == 1) error_ += std::abs(coupling[0][1] * force_[1]);

@@ -367,6 +367,13 @@ def residual_force():
             exact = integrate([0.0] + [0.3 ** j for j in range(24, -1, -1)], *gauss(0.0, 1.0, 30))
             worst = max(worst, np.abs(integrate(borders, nodes, weights) - exact).max())
         note(f"   {grading} = {constant(grading):g}, {panels} = {n}", worst)
+    compare("kPreciseError: that of kPrecisePanels", constant("kPreciseError"), worst, ">=", 2.0)
+    # rho^-8 of a panel [a, a/grading] with a pole at its beginning's distance, and of the innermost one with a pole a
+    # bend away: the sum of the semi-axes of the Bernstein ellipse through the pole.
+    rho = lambda pole: abs(pole + np.sqrt(pole - 1 + 0j) * np.sqrt(pole + 1 + 0j))
+    ratio, inner = constant("kFinestGrading"), constant("kInnermost")
+    note("   kFinestGrading, rho^-8", rho(-(1 + ratio) / (1 - ratio)) ** -8.0)
+    note("   kInnermost, rho^-8", rho(complex(-1.0, 2.0 / inner)) ** -8.0)
     compare("kLasting: kUnfeltPull kOutputs kTimes", constant("kLasting"),
             constant("kUnfeltPull") * constant("kOutputs") * constant("kTimes"), "=", 1 + 1e-12)
 
