@@ -117,6 +117,8 @@ std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs,
                     const std::string& element) {
   const NodalDof dof{node, kind_of(quantity)};
   const std::string none = std::string("there is no ") + name_of(quantity) + ": ";
+  if (is_element_force(quantity) && model.rotation != nullptr)
+    return none + "forces of elements leave out the gyroscopic forces of parts that turn";
   switch (source_of(quantity)) {
     case Source::section: {
       const CutChoice choice = choose_cut(model, node, element);
@@ -125,6 +127,9 @@ std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs,
       if (needs_modulus && !choice.beam->cut(choice.part, choice.at_end)->modulus)
         return none +
                "the section of the beam does not know its outer fibre; give outer_fibre (m) beside second_moment";
+      constexpr std::size_t kPlanarDofs = 4;
+      if (quantity == Quantity::von_mises && choice.beam->cut(choice.part, choice.at_end)->dofs.size() > kPlanarDofs)
+        return none + "it is that of beams with motion = \"planar\"; bending_stress is that of bending along u alone";
       return "";
     }
     case Source::springs: {

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <butee/core/error.hpp>
 #include <butee/dynamics/modes.hpp>
+#include <butee/model/element_choice.hpp>
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
@@ -225,6 +226,20 @@ TEST(Planes, are_alike) {
   const auto y = run("planar", "u", DofKind::uy), z = run("lateral", "uz", DofKind::uz);
   // Steps differ by rounding alone.
   EXPECT_LT(relative_rms(z, y), 1e-9);
+}
+
+TEST(Planes, forces_that_would_be_incomplete_are_refused) {
+  const auto why = [](const std::string& toml, model::Quantity quantity, const std::string& node) {
+    SceneRun run(toml);
+    const model::NodeId id = run.model().nodes.select(node).nodes.front();
+    return model::why_not(quantity, run.model(), run.system().dofs, id, "");
+  };
+  const std::string arm = cantilever("[[0, 0, 0], [1, 0, 0]]", "");
+  EXPECT_NE(why(arm, model::Quantity::von_mises, "arm:first").find("planar"), std::string::npos);
+  EXPECT_EQ(why(arm, model::Quantity::bending_moment, "arm:first"), "");
+  std::string turning = arm + "[rotation]\nspeed = 1.0\n";
+  turning.replace(turning.find("width  = 0.03"), 13, "width  = 0.06");
+  EXPECT_NE(why(turning, model::Quantity::bending_moment, "arm:first").find("gyroscopic"), std::string::npos);
 }
 
 struct Mistake {

@@ -7,6 +7,7 @@ const std::vector<Topic>& topics() {
       {"model", "what a scene file holds", model_text},
       {"selectors", "how nodes are named", selectors_text},
       {"elements", "beams, masses, springs, cross-sections and their keys", elements_text},
+      {"space", "two planes and space, rotation, gravity, base motion", space_text},
       {"contact", "stops and their laws", contact_text},
       {"loads", "forces and moments over time", loads_text},
       {"damping", "Rayleigh and modal damping", damping_text},
@@ -87,17 +88,16 @@ the modal mass is 1 kg.
 }
 
 std::string limits_text(const plugin::Catalogue&) {
-  return R"(butee solves small motions of linear structures whose only nonlinearity is elastic stops. It does not have:
+  return R"(butee solves small motions of linear structures, in the plane or in space, whose only nonlinearity is elastic stops. It does not have:
 
-  Structures   motion in space: beams bend in one plane, without stretching or twisting; shear deformation and rotary
-               inertia of beams (Euler-Bernoulli); plates, shells, solids; rotating shafts with gyroscopic moments;
-               gravity (a distributed load of -9.81 times the mass per length stands for it) and preload
-  Large motion large rotations, stress stiffening, buckling
-  Materials    plasticity, creep, fatigue; damping beyond Rayleigh's, modal damping and dashpots
-  Contact      friction; dissipation or restitution in a stop (a dashpot beside it stands for it); contact at places
-               that move along a beam, or between surfaces that are meshed
-  Loads        forces that depend on the motion, moving loads, given motion of a support
-  Results      shear stresses, fatigue; optimal parameters; static solutions without a run
+  Structures   plates, shells, solids; shafts that turn about another axis than x, or whose section has two stiffnesses;
+               axial forces that change with the motion (a preload is a constant)
+  Large motion large rotations, stress stiffening, motion after buckling
+  Materials    plasticity, creep, fatigue; damping beyond Rayleigh's, modal damping, bearings and dashpots
+  Contact      circular clearances and contact along other displacements than u; friction; dissipation or restitution in a
+               stop (a dashpot beside it stands for it); contact at places that move along a beam, or between surfaces
+  Loads        forces that depend on the motion, moving loads, different motions of several supports
+  Results      shear stresses, fatigue; section forces beyond V and M; optimal parameters; static solutions without a run
 
 A motion that strikes stops may be chaotic: then no method can give its course for long (butee help trust). Scenes are
 limited by memory: butee check says how much one takes. New elements, laws and loads come as modules (butee help plugins).

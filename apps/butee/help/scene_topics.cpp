@@ -24,10 +24,11 @@ std::string model_text(const plugin::Catalogue&) {
   return R"(A scene is a TOML file in SI units. Its first key is schema = 1; the rest are these tables.
 
   title          one line for people
-  [material.X]   young_modulus (Pa), density (kg/m3)
+  [material.X]   young_modulus (Pa), density (kg/m3), poisson_ratio or shear_modulus (Pa) where shear or torsion count
   [section.X]    a cross-section: shape and its lengths                          butee help elements
-  [[element]]    beams, masses, springs; beams and masses make nodes             butee help elements
-  [[support]]    nodes (selectors) and fix = ["u", "theta"]                      butee help selectors
+  [[element]]    beams, masses, springs, discs, bearings                         butee help elements
+  [[support]]    nodes (selectors) and fix = ["u", "theta"], or of ux ... rz     butee help selectors
+  [rotation] [gravity] [base]  what turns, weight, motion of the supports       butee help space
   [[contact]]    stops with a gap, to ground or between two bodies               butee help contact
   [[load]]       forces and moments over time                                    butee help loads
   [damping]      Rayleigh's or modal; dashpots belong to springs                 butee help damping
@@ -71,6 +72,38 @@ std::string elements_text(const plugin::Catalogue& catalogue) {
          listed(catalogue.types().sections);
 }
 
+std::string space_text(const plugin::Catalogue&) {
+  return R"(A node has up to six degrees of freedom, right-handed: displacements ux, uy, uz (m) and rotations rx, ry, rz (rad). u is
+another name of uy, w of uz, theta of rz; on a beam along x, rz = duy/dx and ry = -duz/dx. A node has only those that an
+element uses. Supports, loads, springs, initial values and probes take any of them; stops act on u.
+
+  [[element]] type = "beam"
+  motion     "planar" (uy, rz), "lateral" (both planes: uy, rz, uz, ry) or "spatial" (all six)
+  theory     "euler", "rayleigh" (with rotary inertia) or "timoshenko" (with shear too)
+  points     [[0, 0, 0], [1, 2, 0]]: a beam between two points in place of `length` along x; `up` orients its section
+  preload    N, tension positive: stiffens the beam, or softens it (compression)
+
+  [rotation]
+  speed      rad/s about x: a number, { type = "ramp", from = 0.0, to = 300.0, end = 10.0 } or { type = "table", ... }
+  parts      the beams and discs that turn; all along x where not given. They have gyroscopic moments (beams with rotary
+             inertia), and a run-up adds the moments of its acceleration.
+  [[load]] type = "unbalance" without `speed` turns with [rotation]: moment (kg m), phase (rad, from y)
+  [damping] rotating_stiffness_proportional (s), or rotating = true on a bearing or a spring: damping that turns with the
+             shaft, which makes it unstable above a threshold
+
+  [gravity] acceleration = [0.0, -9.81, 0.0]; static = true starts at rest in the static position, stops included
+  [base] acceleration = { direction = [0, 1, 0], type = "table", file = "quake.csv" }: all supports move so (m/s2); u is
+             then relative to the base, and stops to ground move with it
+
+`butee modes SCENE --speed OMEGA` prints damped, whirling modes at a speed (rad/s), `--campbell FROM TO N` the critical
+speeds, with -o and --plot the Campbell diagram.
+Section forces are V and M of the plane (x, y) (of a beam in space, of its own axes x and y); where something turns there
+are none.
+Where shafts turn or bearings have cross terms the matrices are not symmetric. rodas4, dopri5, extrapolation8, exact (at a
+constant speed) and all methods with fixed steps take them, auto chooses among them, exponential refuses them.
+)";
+}
+
 std::string contact_text(const plugin::Catalogue& catalogue) {
   return R"([[contact]]: elastic stops with a gap on the displacement u of nodes, or on u_a - u_b of two bodies.
 
@@ -90,7 +123,7 @@ With the penetration g (negative while open) and one side s: g = s u - gap, F = 
 
 std::string loads_text(const plugin::Catalogue& catalogue) {
   return R"([[load]]: `node` (a selector of one node), `dof` ("u", where not given: a force, N; or "theta": a moment, N m,
-positive as theta = du/dx is), and `type`, the course in time.
+positive as theta = du/dx is; or any of ux ... rz), and `type`, the course in time.
 )" + listed(catalogue.types().loads) +
          R"(
 The file of a table holds columns of numbers, parted by commas, tabs or spaces, or by semicolons; lines that begin with # or %
@@ -100,6 +133,7 @@ long arrays in the scene are copied to model.toml.
 distributed: a line load on a whole beam, as consistent nodal loads
   beam      its name
   value     N/m
+  dof       "u" where not given; or "w", "ux" of a beam that has it
   in_time   a factor in time: { type = "ramp", from = 0.0, to = 1.0, start = 0.0, end = 0.1 }
 )";
 }

@@ -19,6 +19,7 @@ const std::vector<Topic>& topics();
 std::string model_text(const plugin::Catalogue& catalogue);
 std::string selectors_text(const plugin::Catalogue& catalogue);
 std::string elements_text(const plugin::Catalogue& catalogue);
+std::string space_text(const plugin::Catalogue& catalogue);
 std::string contact_text(const plugin::Catalogue& catalogue);
 std::string loads_text(const plugin::Catalogue& catalogue);
 std::string damping_text(const plugin::Catalogue& catalogue);
