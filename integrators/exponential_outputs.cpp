@@ -77,26 +77,7 @@ void ExponentialStep::find_accelerations(double t, const ArrayXd& q, const Array
 }
 
 void ExponentialStep::interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
-  if (has_stops()) return knots_.interpolate(times, dofs, out);
-  for (std::size_t i = 0; i < times.size(); ++i) evaluate_exactly(times[i], dofs, i * dofs.size(), out);
-}
-
-void ExponentialStep::evaluate_exactly(double t, std::span<const Index> dofs, std::size_t place,
-                                       time::Interpolated out) {
-  const std::size_t knot = knots_.before(t);
-  ArrayXd &q = q_new_, &v = v_new_, &a = q_half_;
-  q = Eigen::Map<const ArrayXd>(knots_.q(knot), q.size());
-  v = Eigen::Map<const ArrayXd>(knots_.v(knot), v.size());
-  if (t > knots_.time(knot)) propagate(modal_.odd(rounded(t - knots_.time(knot), t)).whole, knot, t, q, &v);
-  a = -modal_.frequencies().square() * q - 2.0 * modal_.decay() * v;
-  modal_.add_load(t, a);
-  for (const Index dof : dofs) {
-    const auto shape = modal_.shape_rows().col(dof).array();
-    if (!out.x.empty()) out.x[place] = (shape * q).sum();
-    if (!out.v.empty()) out.v[place] = (shape * v).sum();
-    if (!out.a.empty()) out.a[place] = (shape * a).sum();
-    ++place;
-  }
+  return knots_.interpolate(times, dofs, out);
 }
 
 std::span<const time::EnergyAt> ExponentialStep::energies(std::span<const double> instants) {

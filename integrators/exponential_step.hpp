@@ -293,8 +293,6 @@ class ExponentialStep {
   void apply_forces(dynamics::StepFlow& flow);
   /// Keeps the forces of the step from a knot, which may be parted by a knot in its middle.
   void record_forces(std::size_t knot);
-  /// Without stops: the flow from a knot to t.
-  void evaluate_exactly(double t, std::span<const Index> dofs, std::size_t place, time::Interpolated out);
 
   dynamics::ModalSystem& modal_;
   std::size_t orders_;  ///< polynomials that the force is projected onto

@@ -10,7 +10,7 @@ namespace butee::dynamics {
 ///
 /// so that C = c_m M + c_k K + D holds no more of it than Omega G, Rayleigh damping being proportional to the K of
 /// rest.
-class Turning {
+class BUTEE_EXPORT Turning {
  public:
   /// `system`, whose rotation is set, must outlive it.
   explicit Turning(const model::System& system);

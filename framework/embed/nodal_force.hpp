@@ -21,6 +21,8 @@ class NodalForce final : public model::TimeFunction {
     return true;
   }
 
+  bool is_piecewise_parabolic() const override { return true; }
+
   Line line;
 };
 

@@ -50,6 +50,11 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
       {"unbalance", "moment = 0.1\nspeed = 11.0\n"},
       {"beam", "name = \"more\"\nmaterial = \"steel\"\nsection = \"pipe\"\nlength = 3.0\nelements = 5\n"},
       {"mass", "node = \"string:1\"\nmass = 2.0\nrotary_inertia = 0.1\n"},
+      {"disc", "node = \"string:1\"\nmass = 2.0\ndiametral_inertia = 0.1\npolar_inertia = 0.15\n"},
+      {"bearing",
+       "node = \"string:1\"\nstiffness = [[1e4, 2e3], [0, 3e4]]\n"
+       // A planar beam has no mass along uz.
+       "[[element]]\ntype = \"disc\"\nnode = \"string:1\"\nmass = 1.0\n"},
       {"spring", "nodes = [\"a\", \"string:2\"]\nstiffness = 1e4\ndamping = 3.0\n"}};
   int count = 0;
   const auto test = [&](const std::string& kind, const std::vector<std::string>& names) {
@@ -65,7 +70,7 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
   test("law", model::type_names(catalogue.types().laws));
   test("load", model::type_names(catalogue.types().loads));
   test("element", model::type_names(catalogue.types().elements));
-  EXPECT_EQ(count, 3 * 5 + 5 * 5 + 3 * 2);
+  EXPECT_EQ(count, 3 * 5 + 5 * 5 + 5 * 2);
 }
 
 #ifndef __SANITIZE_ADDRESS__

@@ -41,8 +41,8 @@ std::vector<BadScene> bad_output_scenes() {
        {"output.probe[0].quantities = [\"u\", \"contact_forces\"]: entry 1 (counted from 0): must be one of \"u\", "
         "\"v\", "
         "\"a\", \"theta\", \"theta_v\", \"theta_a\", \"contact_force\", \"V\", \"M\", \"bending_stress\", "
-        "\"von_mises\", \"spring_force\", \"spring_moment\", \"reaction\", \"reaction_moment\" (did you mean "
-        "\"contact_force\"?)"}},
+        "\"von_mises\", \"spring_force\", \"spring_moment\", \"reaction\", \"reaction_moment\", \"ux\", \"ux_v\"",
+        "(did you mean \"contact_force\"?)"}},
       {"moment of a lone mass",
        {{"node = \"string:middle\"", "node = \"rotor\""}, {quantities, "quantities = [\"u\", \"M\"] #!"}},
        {"output.probe[0].quantities = [\"u\", \"M\"]: there is no M: rotor belongs to no beam"}},
@@ -112,8 +112,8 @@ std::vector<BadScene> bad_output_scenes() {
        {"output.probe[0].quantites = \"u\": unknown key (did you mean \"quantities\"?); known here: label, node, "
         "quantities"}},
       {"interval and probe wrong",
-       {{interval, "interval = -1 #!"}, {quantities, "quantities = \"w\" #!"}},
-       {"output.interval = -1: must be > 0 (s)", "output.probe[0].quantities = \"w\": must be one of \"u\""}},
+       {{interval, "interval = -1 #!"}, {quantities, "quantities = \"q\" #!"}},
+       {"output.interval = -1: must be > 0 (s)", "output.probe[0].quantities = \"q\": must be one of \"u\""}},
       {"--set of a wrong value", {}, {"contact[0].gap = -1: must be >= 0 (m)"}, {"contact[0].gap=-1"}},
       {"--set of no elements", {}, {"element: missing; a scene has at least one [[element]]"}, {"element=[]"}},
       {"--set of an unknown key",

@@ -58,7 +58,7 @@ std::vector<BadScene> bad_syntax_scenes() {
         {"mass_proportional = 0.03", "mass_proportional = true #!"},
         {"time_step = 1.0e-5", "time_step = -1 #!"},
         {"interval = 1.0e-3", "intervl = 1 #!"},
-        {"quantities = [\"u\", \"v\"]", "quantities = [\"u\", \"w\"] #!"}},
+        {"quantities = [\"u\", \"v\"]", "quantities = [\"u\", \"q\"] #!"}},
        {"schema = 3", "density = 0", "inner_radius = 1", "element[1].mas = 100.0", "element[1].mass: missing",
         "\"string:lst\"", "contact[0].gap = -1", "\"string:7\"", "damping.mass_proportional = true",
         "integrator.time_step = -1", "output.intervl = 1", "output.probe[0].quantities"}},

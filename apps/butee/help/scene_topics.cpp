@@ -145,6 +145,7 @@ std::string damping_text(const plugin::Catalogue&) {
   stiffness_proportional   s,   ... + stiffness_proportional K; K holds the springs, never the stops
   modal                    0.02: this ratio of critical damping in every mode with open stops;
                            [0.02, 0.01]: in the lowest modes, none in the others
+  rotating_stiffness_proportional   s, of parts that turn, damping that turns with them (butee help space)
 
 Rayleigh damping gives a mode of angular frequency w the ratio (mass_proportional/w + stiffness_proportional w)/2.
 `butee modes` prints the ratio of each mode.
