@@ -210,8 +210,8 @@ TEST(Init, every_kind_is_checked_and_runs) {
     EXPECT_EQ(run.status, 0) << kind << run.errors;
     const Json summary = Json::parse(read_file(folder.file(kind + "-results/summary.json")));
     EXPECT_EQ(summary["status"], "completed");
-    const bool has_contact = holds(read_file(folder.file(file)), "[[contact]]");
-    if (has_contact) EXPECT_GT(CsvTable(folder.file(kind + "-results/impacts.csv")).rows(), 0U) << kind;
+    if (!holds(read_file(folder.file(file)), "[[contact]]")) continue;
+    EXPECT_GT(CsvTable(folder.file(kind + "-results/impacts.csv")).rows(), 0U) << kind;
   }
   EXPECT_GE(count, 8);
 }

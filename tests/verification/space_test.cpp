@@ -296,7 +296,7 @@ INSTANTIATE_TEST_SUITE_P(
             "1.0\nelements "
             "= 1\ntheory = \"timoshenko\"\n[integrator]\ntype = \"rk4\"\ntime_step = 1.0\nend_time = 1.0\n",
             "neither poisson_ratio nor shear_modulus"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& one) { return one.param.name; });
 
 }  // namespace
 }  // namespace butee::test::space_test
