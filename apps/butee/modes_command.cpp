@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include <butee/config/file_reference.hpp>
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+#include <butee/core/text.hpp>
 
 #include "commands.hpp"
 #include "modes/report.hpp"
@@ -50,6 +52,24 @@ void let_turn(model::Model& model) {
         "\"spatial\"");
 }
 
+/// Warns where rounding of the stiffness, eps sum |K_ii| |x_i|^2, is more than a small part of x^H K x of the lowest
+/// mode.
+void warn_of_rounding(const dynamics::Whirl& whirl, const std::vector<dynamics::WhirlMode>& modes) {
+  constexpr double kSeen = 1e-4;
+  const model::System& system = whirl.system();
+  for (const auto& mode : modes) {
+    if (mode.frequency() == 0.0) continue;
+    const double elastic = mode.shape.cwiseAbs2().dot(system.stiffness.diagonal().cwiseAbs());
+    const double kinetic = std::abs(mode.shape.dot(system.mass * mode.shape)) * std::norm(mode.lambda);
+    const double part = 0.5 * std::numeric_limits<double>::epsilon() * elastic / kinetic;
+    if (part > kSeen)
+      log::warning("rounding in the matrices of " + std::to_string(whirl.size()) +
+                   " DOFs may move the lowest frequency by up to " + to_short_text(part) +
+                   " of it; take fewer elements");
+    return;
+  }
+}
+
 int whirl_command(const ModesArguments& arguments) {
   scene::Scene session = open_session(arguments.model);
   if (!arguments.closed.empty()) throw InputError("--closed goes without --speed and --campbell");
@@ -60,6 +80,7 @@ int whirl_command(const ModesArguments& arguments) {
     if (arguments.plot || !arguments.folder.empty())
       throw InputError("--speed writes nothing; with -o and --plot take --campbell FROM TO N");
     const auto analysis = modes::whirl_at(whirl, session.model.title, *arguments.speed, count);
+    warn_of_rounding(whirl, analysis.modes);
     if (arguments.json)
       print_json(modes::to_json(analysis));
     else

@@ -169,6 +169,17 @@ TEST(PinnedShaft, converges_with_order_4_to_the_rayleigh_beam) {
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 4.0, 0.1);
 }
 
+/// Beyond Whirl::kDense DOFs Arnoldi's method finds the same modes.
+TEST(PinnedShaft, has_the_same_modes_by_arnoldi) {
+  SceneRun run(steel("rayleigh", 120, 1.0, 0.05, "young_modulus = 2.1e11\ndensity = 7800.0") +
+               "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
+  const dynamics::Whirl whirl(run.model());
+  ASSERT_FALSE(whirl.is_dense());
+  // Sums of 120 elements in double precision; the exact frequencies are printed with 10 digits.
+  expect_all(frequencies(whirl.modes(30000 * kRpm, 6)),
+             {200.0937730, 206.2244586, 793.2233760, 817.3032401, 1758.8707928, 1811.4673400}, 2 * pi, 1e-7);
+}
+
 /// An overhung disc on a cantilever without mass: (K11 - m w^2)(K22 - I_d w^2 + I_p W w) = K12^2; one element is exact.
 TEST(OverhungDisc, one_element_is_exact) {
   SceneRun run(steel("euler", 1, 0.5, 0.01, "young_modulus = 2e11\ndensity = 1e-9") + disc(":last", 10, 0.05, 0.1) +
