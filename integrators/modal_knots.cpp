@@ -102,7 +102,7 @@ std::size_t ModalKnots::view_of(Index dof) {
   view.of_loads.resize(static_cast<Index>(modal_.other_loads().size()));
   for (std::size_t j = 0; j < modal_.other_loads().size(); ++j)
     view.of_loads[static_cast<Index>(j)] = shape.dot(modal_.other_loads()[j].shape.matrix());
-  view.of_stops = modal_.stop_shapes().matrix().transpose() * shape;
+  if (modal_.stop_count() > 0) view.of_stops = modal_.stop_shapes().matrix().transpose() * shape;
   view.motions.resize(has_forces_.size());
   view.is_known.assign(has_forces_.size(), false);
   return views_.size() - 1;
