@@ -17,7 +17,7 @@ using config::Value;
 
 constexpr std::int64_t kManifestSchema = 7;
 constexpr std::array<const char*, 8> kKinds = {"number",  "integer", "boolean", "text",
-                                                "numbers", "texts",   "table",   "matrix"};
+                                               "numbers", "texts",   "table",   "matrix"};
 
 Value text_array(const std::vector<std::string>& texts) {
   Array array;

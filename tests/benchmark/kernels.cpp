@@ -1,4 +1,5 @@
-// The kernels of framework/linalg and framework/dynamics beside the plain ones, on beam1 (68 DOFs, band 3, 33 arctan stops).
+// The kernels of framework/linalg and framework/dynamics beside the plain ones, on beam1 (68 DOFs, band 3, 33 arctan
+// stops).
 #include <cmath>
 #include <functional>
 #include <memory>

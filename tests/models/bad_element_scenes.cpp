@@ -49,7 +49,8 @@ std::vector<BadScene> bad_element_scenes() {
        {"element[0].material = 5: must be a string, not an integer"}},
       {"unknown element",
        {{"type = \"beam\"", "type = \"bean\" #!"}},
-       {"element[0].type = \"bean\": must be one of \"beam\", \"mass\", \"spring\", \"disc\", \"bearing\" (did you mean \"beam\"?)"}},
+       {"element[0].type = \"bean\": must be one of \"beam\", \"mass\", \"spring\", \"disc\", \"bearing\" (did you "
+        "mean \"beam\"?)"}},
       {"type missing",
        {{"[[element]]\ntype = \"mass\"", "[[element]] #!"}},
        {"element[1].type: missing; give one of \"beam\", \"mass\", \"spring\""}},
@@ -129,7 +130,8 @@ std::vector<BadScene> bad_element_scenes() {
       {"fix of nothing", {{"fix = [\"u\"]", "fix = [] #!"}}, {"support[0].fix = []: holds nothing; name \"u\""}},
       {"fix missing",
        {{"[[support]]", "[[support]] #!"}, {"fix = [\"u\"]\n", ""}},
-       {"support[0].fix: missing; give the displacements held (list of \"u\", \"theta\", \"ux\", \"uy\", \"uz\", \"rx\", \"ry\", \"rz\", \"w\")"}},
+       {"support[0].fix: missing; give the displacements held (list of \"u\", \"theta\", \"ux\", \"uy\", \"uz\", "
+        "\"rx\", \"ry\", \"rz\", \"w\")"}},
       {"support of a turning that is not there",
        {{"[\"string:first\", \"string:last\"]\nfix = [\"u\"]", "[\"string:first\", \"rotor\"]\nfix = [\"theta\"] #!"}},
        {"support[0].fix = [\"theta\"]: rotor has no theta: no element there uses it"}},

@@ -1,5 +1,5 @@
-// The kernels of framework/linalg and framework/dynamics on every instruction set that this processor has, against plain loops; modules for one
-// set.
+// The kernels of framework/linalg and framework/dynamics on every instruction set that this processor has, against
+// plain loops; modules for one set.
 #include <cmath>
 #include <filesystem>
 
