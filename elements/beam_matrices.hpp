@@ -12,7 +12,7 @@ enum class BeamTheory {
   timoshenko  ///< with that and shear
 };
 
-/// What one element of a beam is made of, of bending in one plane.
+/// The properties of one beam element for bending in one plane.
 struct BendingProperties {
   double length;          ///< l, m
   double stiffness;       ///< E I, N m2

@@ -14,7 +14,7 @@ using dynamics::StepFlow;
 using Eigen::ArrayXd;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// Of the time: a step whose middle is wrong by 1e-9 of it.
+/// A step is this part of the time or longer where the middle of a step is used: rounding then moves it by 1e-9 of h.
 constexpr double kShortest = 2e-7;
 /// Added to the distance of a side on which a stop does not act, m.
 constexpr double kNever = 1e100;

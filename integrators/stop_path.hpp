@@ -184,7 +184,7 @@ class StopForce {
   Index stop_;
   /// The error of the shortcuts, in parts of the law's pull: the part of it that is left at kFarOff and beside kSharp.
   static constexpr double kShortcuts = 3e-3;
-  /// That of kPrecisePanels, with the same reserve.
+  /// The same error where kPrecisePanels are used.
   static constexpr double kPreciseError = 2e-4;
 
   double gap_, stiffness_, bend_width_, far_force_;

@@ -37,7 +37,7 @@ std::string folder_of(const ModesArguments& arguments) {
                                    : std::filesystem::path(arguments.model.model).stem().string() + "-modes";
 }
 
-/// What turns, where the scene itself does not say a speed.
+/// Lets every part turn that can, in a scene without [rotation]. Throws InputError where there is none.
 void let_turn(model::Model& model) {
   if (model.rotation == nullptr) {
     model.rotation = std::make_unique<model::Rotation>(std::vector{0.0}, std::vector{0.0});
@@ -130,6 +130,12 @@ int modes_command(const ModesArguments& arguments) {
   if (arguments.speed || !arguments.campbell.empty()) return whirl_command(arguments);
   const scene::Scene session = open_session(arguments.model);
   const model::System system = assemble(session.model);
+  if (!system.stiffness_is_symmetric)
+    throw InputError(
+        "the stiffness matrix is not symmetric, because of cross terms of bearings or damping that turns, so that the "
+        "scene has no undamped modes; take --speed, which gives damped modes");
+  if (session.model.rotation != nullptr)
+    log::info("modes at rest; --speed OMEGA and --campbell FROM TO N give those of turning shafts");
   const auto closed = modes::closed_stops(session.model, arguments.closed);
   const bool writes = arguments.plot || !arguments.folder.empty();
   const record::ResultFolder folder(folder_of(arguments));

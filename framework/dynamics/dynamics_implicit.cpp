@@ -81,7 +81,7 @@ linalg::ForceBalance Dynamics::residual(ConstVectorRef load, ConstVectorRef stop
   }
   if (modal_) damping_force(v, modal_force_);
   if (turning_) {
-    // Of these small systems the forces are kept whole.
+    // The turning part is a product over all rows, so the forces are summed whole, not block by block.
     damping_force(v, turning_damping_);
     elastic_force(x, other_vector_);
     inertia_force(a, turning_inertia_);

@@ -125,7 +125,9 @@ SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) 
 }
 
 std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops) {
-  const SparseMatrix stiffness = stiffness_with_stops(system, stops);
+  SparseMatrix stiffness = stiffness_with_stops(system, stops);
+  // Frequencies are those of the symmetric part: the solvers read one half of the matrix alone.
+  if (!system.stiffness_is_symmetric) stiffness = 0.5 * (stiffness + SparseMatrix(stiffness.transpose()));
   if (system.size() <= linalg::kDense) {
     const auto values = linalg::dense_values(Eigen::MatrixXd(stiffness), Eigen::MatrixXd(system.mass));
     if (!values) return std::nullopt;

@@ -4,7 +4,7 @@
 
 namespace butee::dynamics {
 
-/// What parts that turn at a varying speed Omega(t) add to K and D of a system at an instant:
+/// Parts that turn at a varying speed Omega(t) add to K and D, at an instant,
 ///
 ///     K: Omega W + Omega' G,    D: Omega G - c_k (Omega W + Omega' G)
 ///

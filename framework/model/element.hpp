@@ -16,9 +16,9 @@ struct ElementMatrices {
   explicit ElementMatrices(Index size) : mass(Eigen::MatrixXd::Zero(size, size)), damping(mass), stiffness(mass) {}
 
   Eigen::MatrixXd mass, damping, stiffness;
-  /// Of parts that turn at Omega rad/s, which a sink asks for with turns(); 0 x 0 where there is none. The forces on
-  /// the element are -Omega gyroscopic v (kg m2, skew-symmetric) and, of damping that turns with the part,
-  /// -rotating_damping (v - Omega e_x x u) with the cross product taken of displacements and of rotations.
+  /// The matrices of a part that turns at Omega rad/s; a sink asks for them with turns(). They are 0 x 0 where there is
+  /// none. The forces on the element are -Omega gyroscopic v (kg m2, skew-symmetric) and, of damping that turns with
+  /// the part, -rotating_damping (v - Omega e_x x u) with the cross product taken of displacements and of rotations.
   Eigen::MatrixXd gyroscopic{}, rotating_damping{};
 };
 

@@ -14,6 +14,12 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 /// Orbits flatter than this are called planar.
 constexpr double kPlanar = 1e-6;
 
+/// The sign of forward whirl at a speed; 0 where whirl has no sense, since modes of both senses are alike.
+double sense_at(const dynamics::Whirl& whirl, double speed) {
+  if (speed != 0.0) return speed;
+  return whirl.system().stiffness_is_symmetric ? 0.0 : 1.0;
+}
+
 const char* sense_of(const dynamics::WhirlMode& mode, double speed) {
   if (mode.frequency() == 0.0) return "no oscillation";
   if (mode.is_mixed) return "mixed";
@@ -40,7 +46,7 @@ Json to_json(const dynamics::WhirlMode& mode, double speed) {
 }  // namespace
 
 WhirlAnalysis whirl_at(const dynamics::Whirl& whirl, const std::string& title, double speed, Index count) {
-  return {title, whirl.size(), speed, whirl.modes(speed, count)};
+  return {title, whirl.size(), speed, sense_at(whirl, speed), whirl.modes(speed, count)};
 }
 
 Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double from, double to, Index steps,
@@ -65,7 +71,7 @@ void print(const WhirlAnalysis& analysis) {
     std::printf("  %4zu  %12s  %12s  %10.4g  %15s  %s%s\n", i + 1, formatted("%.9g", mode.frequency()).c_str(),
                 formatted("%.9g", mode.frequency() / kTwoPi).c_str(), mode.damping_ratio(),
                 oscillates ? formatted("%.4g", mode.logarithmic_decrement()).c_str() : "-",
-                sense_of(mode, analysis.speed), mode.lambda.real() > 1e-9 * std::abs(mode.lambda) ? ", unstable" : "");
+                sense_of(mode, analysis.sense), mode.lambda.real() > 1e-9 * std::abs(mode.lambda) ? ", unstable" : "");
   }
 }
 
@@ -88,7 +94,7 @@ Json to_json(const WhirlAnalysis& analysis) {
   json["dofs"] = analysis.dofs;
   json["speed"] = analysis.speed;
   json["modes"] = Json::array();
-  for (const dynamics::WhirlMode& mode : analysis.modes) json["modes"].push_back(to_json(mode, analysis.speed));
+  for (const dynamics::WhirlMode& mode : analysis.modes) json["modes"].push_back(to_json(mode, analysis.sense));
   return json;
 }
 

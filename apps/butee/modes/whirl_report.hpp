@@ -15,6 +15,7 @@ struct WhirlAnalysis {
   std::string title;
   Index dofs = 0;
   double speed = 0.0;  ///< rad/s
+  double sense = 0.0;  ///< the sign that forward whirl has: that of the speed; at rest +1 with cross terms, else 0
   std::vector<dynamics::WhirlMode> modes;
 };
 
