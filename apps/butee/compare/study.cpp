@@ -111,7 +111,7 @@ const Parameter* knob_of(const time::IntegratorType& type) {
 std::vector<double> tolerance_values(const Parameter& knob) {
   std::vector<double> values;
   for (double value = knob.swept->first; value > knob.swept->second * 0.99; value /= kToleranceRatio)
-    values.push_back(value);
+    values.push_back(std::max(value, knob.swept->second));  // repeated division may end a bit below the bound
   return values;
 }
 
