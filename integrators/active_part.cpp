@@ -64,7 +64,7 @@ bool is_small(const std::vector<Index>& dofs, Index all) {
 }  // namespace
 
 bool ActivePart::can_take(dynamics::Dynamics& dynamics, double tolerance) {
-  if (dynamics.system().damping.is_modal()) return false;
+  if (dynamics.system().damping.is_modal() || dynamics.obstacles() != nullptr) return false;
   return is_small(within(distances_of(dynamics, tolerance), kFirstRadius), dynamics.size());
 }
 

@@ -7,6 +7,7 @@
 #include "butee/core/log.hpp"
 #include "butee/core/text.hpp"
 #include "integrators/active_part.hpp"
+#include "integrators/dormand_prince.hpp"
 #include "integrators/exact.hpp"
 #include "integrators/exponential.hpp"
 #include "integrators/methods.hpp"
@@ -98,6 +99,10 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   using Method = Choice::Method;
   const Index n = dynamics.size(), most = dynamics::ModalSystem::kAllModes;
   const std::string size = std::to_string(n) + " DOFs";
+  if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
+    return {Method::dopri5, "contacts stick rigidly, which it locates and implicit methods cannot treat"};
+  if (dynamics.obstacles() != nullptr)
+    return {Method::rodas4, "contacts act in the plane, dissipate or rub, and it ends its steps where they change"};
   if (!dynamics.system().is_symmetric)
     return {Method::rodas4, "shafts turn or bearings have cross terms, so that the matrices are not symmetric"};
   if (n > most) return {Method::rodas4, size + " are too many to take all their modes"};
@@ -127,6 +132,9 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
   } else if (choice.method == Choice::Method::exact) {
     what = "exact";
     integrator = std::make_unique<Exact>(dynamics, Exact::kOrder, Exact::kSeriesTolerance);
+  } else if (choice.method == Choice::Method::dopri5) {
+    what = "dopri5" + with;
+    integrator = std::make_unique<DormandPrince>(dynamics, Goal{tolerance, end_time});
   } else if (ActivePart::can_take(dynamics, tolerance)) {
     what = "rodas4" + with + " on the part that moves";
     integrator = std::make_unique<ActivePart>(dynamics, Goal{tolerance, end_time}, make_rodas4);
@@ -144,6 +152,7 @@ time::IntegratorType auto_type() {
           .summary = "looks at the scene and takes the method that suits it; the default",
           .parameters = {LocalErrorControl::parameter(1e-4, 1e-10)},
           .finds_first_step = true,
+          .contacts = time::ContactSupport::all,
           .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return make_automatic(dynamics, p.number("tolerance"), p.number("end_time"));
           }};

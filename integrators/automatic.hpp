@@ -9,7 +9,7 @@ namespace butee::integrators {
 
 /// What `auto` would take for a scene.
 struct Choice {
-  enum class Method { exponential, rodas4, exact };
+  enum class Method { exponential, rodas4, exact, dopri5 };
   Method method;
   std::string why;
 };

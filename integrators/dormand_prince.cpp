@@ -82,6 +82,7 @@ time::IntegratorType dopri5_type() {
           .stability_limit = kStabilityLimit,
           .damping_limit = kDampingLimit,
           .finds_first_step = true,
+          .contacts = time::ContactSupport::all,
           .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<DormandPrince>(dynamics, Goal::read(p));
           }};

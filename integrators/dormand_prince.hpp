@@ -21,6 +21,7 @@ class DormandPrince final : public time::Integrator {
   const time::StepController* controller() const override { return &control_.controller(); }
   time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
   double first_step(const time::State&) const override { return control_.first_step(); }
+  bool follows_contact_phases() const override { return true; }
 
  private:
   static constexpr std::size_t kStages = 7;

@@ -90,6 +90,7 @@ time::IntegratorType extrapolation8_type() {
           .stability_limit = kLimit,
           .damping_limit = kDampingLimit,
           .finds_first_step = true,
+          .contacts = time::ContactSupport::all,
           .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Extrapolation>(dynamics, Goal::read(p));
           }};

@@ -23,6 +23,7 @@ class Extrapolation final : public time::Integrator {
   const time::StepController* controller() const override { return &control_.controller(); }
   time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
   double first_step(const time::State&) const override { return control_.first_step(); }
+  bool follows_contact_phases() const override { return true; }
   /// Interpolation within its long steps is of a lower order than the steps.
   bool lands_on_outputs() const override { return true; }
 

@@ -17,7 +17,9 @@ constexpr double kConstant = 0.57, kKink = 10.0;
 }  // namespace
 
 Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
-    : Integrator(dynamics), control_(dynamics, goal, {4.0, 4.0, kConstant, kKink}, LocalErrorControl::Steps::ladder) {
+    : Integrator(dynamics),
+      control_(dynamics, goal, {4.0, 4.0, kConstant, kKink}, LocalErrorControl::Steps::ladder),
+      solver_(dynamics.effective(), dynamics.obstacles()) {
   for (std::size_t i = 0; i < kStages; ++i) p_[i] = q_[i] = Vector::Zero(dynamics.size());
   work_ = other_ = residual_v_ = rate_ = Vector::Zero(dynamics.size());
   stop_displacement_ = stop_force_ = tangent_ = stop_work_ = Vector::Zero(dynamics.stop_count());
@@ -30,6 +32,10 @@ void Rodas4::do_start(time::State& state) {
 
 void Rodas4::tangent_force(ConstVectorRef y) {
   dynamics().elastic_force(y, work_);
+  for (const dynamics::Obstacles::Tangent& tangent : obstacles_) {
+    const dynamics::Obstacles& all = *dynamics().obstacles();
+    all.scatter(tangent.contact, tangent.stiffness * all.gather(tangent.contact, y), work_);
+  }
   if (dynamics().stop_count() == 0) return;
   dynamics().contact().displacement(y, stop_work_);
   stop_work_.array() *= tangent_.array();
@@ -38,16 +44,22 @@ void Rodas4::tangent_force(ConstVectorRef y) {
 
 time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step, time::State& to) {
   const double h = step.h, d = kGamma * h;
-  dynamics::EffectiveSolver& effective = dynamics().effective();
   dynamics().set_time(from.t);
-  effective.set_factors(d, d * d);
   if (dynamics().stop_count() > 0) {
     dynamics().contact().displacement(from.x, stop_displacement_);
     dynamics().contact().tangent(stop_displacement_, stop_force_, tangent_);
   }
   dynamics().external_force_rate(from.t, 1e-3 * h, rate_);
   dynamics().subtract_matrix_rate(from.x, from.v, rate_);
+  if (dynamics::Obstacles* all = dynamics().obstacles()) {
+    obstacles_ = all->tangents(from.t, from.x, from.v);
+    for (const dynamics::Obstacles::Tangent& tangent : obstacles_) all->scatter(tangent.contact, tangent.rate, rate_);
+  }
   time::StepReport report;
+  if (!solver_.set(d, d * d, tangent_, obstacles_)) {
+    report.status = time::StepStatus::singular;
+    return report;
+  }
   for (std::size_t i = 0; i < kStages; ++i) {
     x_ = from.x;
     v_ = from.v;
@@ -70,7 +82,7 @@ time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step
     if (kRates[i] != 0.0) residual_v_ += (kRates[i] * h) * rate_;
     tangent_force(residual_x_);
     q_[i] = d * (residual_v_ - d * work_);
-    if (!effective.solve(tangent_, q_[i])) {
+    if (!solver_.solve(q_[i])) {
       report.status = std::isfinite(q_[i].sum()) ? time::StepStatus::singular : time::StepStatus::not_finite;
       return report;
     }
@@ -97,6 +109,7 @@ time::IntegratorType rodas4_type() {
           .parameters = {LocalErrorControl::parameter(1e-4, 1e-10)},
           .order = 4.0,
           .finds_first_step = true,
+          .contacts = time::ContactSupport::without_rigid,
           .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<Rodas4>(dynamics, Goal::read(p));
           }};

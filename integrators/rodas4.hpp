@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "butee/dynamics/tangent_solver.hpp"
 #include "integrators/local_error.hpp"
 
 namespace butee::integrators {
@@ -23,6 +24,7 @@ class Rodas4 final : public time::Integrator {
 
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State&) const override { return control_.first_step(); }
+  bool follows_contact_phases() const override { return true; }
   time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
 
  private:
@@ -39,6 +41,8 @@ class Rodas4 final : public time::Integrator {
   std::array<Vector, kStages> p_, q_;
   Vector x_, v_, rate_, residual_x_, residual_v_, work_, other_;
   Vector stop_displacement_, stop_force_, tangent_, stop_work_;
+  dynamics::TangentSolver solver_;
+  std::span<const dynamics::Obstacles::Tangent> obstacles_;  ///< those that exert a force at the start of the step
 };
 
 }  // namespace butee::integrators

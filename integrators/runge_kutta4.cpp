@@ -51,6 +51,7 @@ time::IntegratorType rk4_type() {
           .stability_limit = kRungeKutta4Limit,
           .damping_limit = kRungeKutta4DampingLimit,
           .fixed_step = true,
+          .contacts = time::ContactSupport::without_memory,
           .make = [](const config::Parameters&, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<RungeKutta4>(dynamics);
           }};

@@ -68,6 +68,7 @@ IntegratorType rk4_fixed_factors_type() {
           .order = 4.0,
           .stability_limit = 2.0 * kRungeKutta4Limit,
           .damping_limit = 2.0 * kRungeKutta4DampingLimit,
+          .contacts = time::ContactSupport::without_memory,
           .make = [](const Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return std::make_unique<StepDoublingRungeKutta4>(
                 dynamics, std::make_unique<FixedFactors>(p.number("tolerance"), p.number("shrink"), p.number("grow")));
@@ -84,6 +85,7 @@ IntegratorType rk4_error_scaled_type() {
       .order = 4.0,
       .stability_limit = 2.0 * kRungeKutta4Limit,
       .damping_limit = 2.0 * kRungeKutta4DampingLimit,
+      .contacts = time::ContactSupport::without_memory,
       .make = [](const Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         return std::make_unique<StepDoublingRungeKutta4>(
             dynamics, std::make_unique<ErrorScaled>(p.number("tolerance"), p.number("safety")));

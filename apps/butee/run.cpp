@@ -82,6 +82,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
     simulation.add(energy_.emplace(assembly_.dynamics, energy_writer_ ? &*energy_writer_ : nullptr, times));
   }
   if (output.impacts) simulation.add(impacts_.emplace(assembly_.dynamics));
+  if (assembly_.dynamics.obstacles() != nullptr) simulation.add(contacts_.emplace(assembly_.dynamics));
   if (with_progress_) simulation.add(progress_.emplace(assembly_.dynamics, end_time));
   if (folder != nullptr && !output.fields.formats.empty()) add_fields(*folder);
   states_.emplace(output.states, assembly_.dynamics.size());
@@ -134,6 +135,7 @@ void Run::summarize() {
   summary_.counters = checkpointer_ ? checkpointer_->counters() : assembly_.dynamics.counters();
   summary_.dofs = assembly_.dynamics.size();
   summary_.contacts = assembly_.dynamics.stop_count();
+  if (dynamics::Obstacles* obstacles = assembly_.dynamics.obstacles()) summary_.contacts += obstacles->size();
   if (history_) summary_.peaks = history_->peaks();
   summary_.energy = record::energy_of(assembly_.simulation.state(), assembly_.dynamics);
   if (energy_) summary_.followed = {energy_->work(), energy_->dissipated(), energy_->balance_error()};
@@ -163,9 +165,20 @@ void Run::write_files(const record::ResultFolder& folder) {
   if (energy_writer_) energy_writer_->close();
   if (summary_.report.completed)
     states_->write(folder.file(model::SavedMotions::kFile), assembly_.system, assembly_.simulation.state());
+  if (contacts_) {
+    record::CsvWriter writer(folder.file("wear.csv"), record::ContactRecorder::wear_columns());
+    for (const record::ContactWear& wear : contacts_->wear()) writer.line(contacts_->wear_line(wear));
+    writer.close();
+  }
   if (!impacts_) return;
+  std::vector<record::Impact> impacts = impacts_->impacts();
+  if (contacts_) {
+    const std::vector<record::Impact> more = contacts_->impacts();
+    impacts.insert(impacts.end(), more.begin(), more.end());
+    std::stable_sort(impacts.begin(), impacts.end(), [](const auto& a, const auto& b) { return a.t_in < b.t_in; });
+  }
   record::CsvWriter writer(folder.file("impacts.csv"), record::ImpactRecorder::columns());
-  for (const record::Impact& impact : impacts_->impacts()) writer.line(record::ImpactRecorder::csv_line(impact));
+  for (const record::Impact& impact : impacts) writer.line(record::ImpactRecorder::csv_line(impact));
   writer.close();
 }
 

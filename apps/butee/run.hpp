@@ -7,6 +7,7 @@
 #include <butee/record/checkpoint.hpp>
 #include <butee/record/field_recorder.hpp>
 #include <butee/record/history.hpp>
+#include <butee/record/contact_recorder.hpp>
 #include <butee/record/impacts.hpp>
 #include <butee/record/progress.hpp>
 #include <butee/record/state_keeper.hpp>
@@ -57,6 +58,7 @@ class Run {
   std::optional<record::HistoryRecorder> history_;
   std::optional<record::EnergyRecorder> energy_;
   std::optional<record::ImpactRecorder> impacts_;
+  std::optional<record::ContactRecorder> contacts_;  ///< where the scene has obstacles
   std::optional<record::Progress> progress_;
   std::optional<record::FieldRecorder> fields_;
   std::optional<record::StateKeeper> states_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
 #include "butee/core/blocks.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/zeros.hpp"
@@ -23,6 +25,7 @@ void clear(VectorRef y) {
 Dynamics::Dynamics(const model::System& system)
     : system_(system),
       contact_(system, counters_),
+      obstacles_(system.obstacles.empty() ? nullptr : std::make_unique<Obstacles>(system, counters_)),
       modal_(ModalDamping::of(system)),
       has_damping_(system.damping.is_rayleigh() || system.dashpots.size() > 0 || modal_ != nullptr),
       turning_(system.rotation != nullptr ? std::make_unique<Turning>(system) : nullptr),
@@ -183,6 +186,7 @@ void Dynamics::total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorR
   ++counters_.force_evaluations;
   external_force(t, r);
   add_contact_force(x, r);
+  add_obstacle_force(t, x, v, r);
   subtract_internal_force(x, v, r);
 }
 
@@ -191,7 +195,73 @@ void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, Vector
   subtract_from(From::nothing, x, v, a);
   add_external_force(t, a);
   add_contact_force(x, a);
+  add_obstacle_force(t, x, v, a);
   solve_mass(v, a);
+  if (obstacles_ && obstacles_->has_rigid_friction()) hold_sticks(t, a);
+}
+
+bool Dynamics::prepare_sticks() {
+  std::vector<Index> sticks = obstacles_->rigid_sticks();
+  if (sticks.empty() || sticks == sticks_) return !sticks.empty();
+  const auto count = static_cast<Index>(sticks.size());
+  sticks_ = std::move(sticks);
+  stick_motion_ = Eigen::MatrixXd::Zero(size(), count);
+  stick_compliance_.resize(count, count);
+  for (Index j = 0; j < count; ++j) {
+    const Index contact = sticks_[static_cast<std::size_t>(j)];
+    obstacles_->scatter(contact, obstacles_->tangent_of(contact), stick_motion_.col(j));
+    mass_solver().solve(stick_motion_.col(j));
+  }
+  for (Index i = 0; i < count; ++i) {
+    const Index contact = sticks_[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < count; ++j)
+      stick_compliance_(i, j) = obstacles_->tangent_of(contact).dot(obstacles_->gather(contact, stick_motion_.col(j)));
+  }
+  return true;
+}
+
+void Dynamics::solve_sticks(VectorRef y) {
+  stick_force_ = Eigen::LLT<Eigen::MatrixXd>(stick_compliance_).solve(stick_force_).eval();
+  y += stick_motion_ * stick_force_;
+}
+
+void Dynamics::hold_sticks(double t, VectorRef a) {
+  if (!prepare_sticks()) return;
+  stick_force_.resize(static_cast<Index>(sticks_.size()));
+  for (Index i = 0; i < stick_force_.size(); ++i) {
+    const Index contact = sticks_[static_cast<std::size_t>(i)];
+    stick_force_[i] = -obstacles_->surface_acceleration(contact, t) -
+                      obstacles_->tangent_of(contact).dot(obstacles_->gather(contact, a));
+  }
+  solve_sticks(a);
+}
+
+void Dynamics::contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std::vector<ContactForces>& all) {
+  all.resize(static_cast<std::size_t>(obstacles_->size()));
+  for (Index i = 0; i < obstacles_->size(); ++i) all[static_cast<std::size_t>(i)] = obstacles_->forces(i, t, x, v);
+  const std::vector<Index> sticks = obstacles_->rigid_sticks();
+  if (sticks.empty()) return;
+  const Vector& held = stick_forces(t, x, v);
+  for (std::size_t k = 0; k < sticks.size(); ++k) {
+    ContactForces& forces = all[static_cast<std::size_t>(sticks[k])];
+    forces.friction = -held[static_cast<Index>(k)];
+    forces.force -= forces.friction * obstacles_->tangent_of(sticks[k]);
+  }
+}
+
+void Dynamics::stop_sliding(double t, VectorRef v) {
+  if (!obstacles_ || !prepare_sticks()) return;
+  stick_force_.resize(static_cast<Index>(sticks_.size()));
+  for (Index i = 0; i < stick_force_.size(); ++i)
+    stick_force_[i] = -obstacles_->forces(sticks_[static_cast<std::size_t>(i)], t, v, v).slip_speed;
+  solve_sticks(v);
+}
+
+const Vector& Dynamics::stick_forces(double t, ConstVectorRef x, ConstVectorRef v) {
+  stick_force_.resize(0);
+  stick_acceleration_.resize(size());
+  acceleration(t, x, v, stick_acceleration_);
+  return stick_force_;
 }
 
 void Dynamics::respond(ConstVectorRef x, ConstVectorRef v, VectorRef a) {

@@ -8,6 +8,7 @@
 #include "butee/dynamics/effective_solver.hpp"
 #include "butee/dynamics/modal_damping.hpp"
 #include "butee/dynamics/modal_system.hpp"
+#include "butee/dynamics/obstacles.hpp"
 #include "butee/dynamics/turning.hpp"
 #include "butee/linalg/force_balance.hpp"
 #include "butee/linalg/symmetric_product.hpp"
@@ -31,6 +32,14 @@ class BUTEE_EXPORT Dynamics {
   Index stop_count() const { return contact_.size(); }
   bool has_damping() const { return has_damping_; }
   Contact& contact() { return contact_; }
+  /// Contacts in the plane, with dissipation or friction; null where the scene has none.
+  Obstacles* obstacles() { return obstacles_.get(); }
+  /// The forces that hold the contacts that stick rigidly at a motion, as Obstacles::rigid_sticks() lists them, N.
+  const Vector& stick_forces(double t, ConstVectorRef x, ConstVectorRef v);
+  /// What every contact of obstacles() does at a motion, rigid sticking included.
+  void contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std::vector<ContactForces>& all);
+  /// v := the velocity after an impulse that stops the contacts that stick rigidly
+  void stop_sliding(double t, VectorRef v);
   linalg::Counters& counters() { return counters_; }
   const linalg::Counters& counters() const { return counters_; }
 
@@ -48,8 +57,12 @@ class BUTEE_EXPORT Dynamics {
   void subtract_matrix_rate(ConstVectorRef x, ConstVectorRef v, VectorRef rate) const {
     if (turning_) turning_->subtract_rate(x, v, rate);
   }
-  /// F += F_c(x)
+  /// F += F_c(x) of the stops
   void add_contact_force(ConstVectorRef x, VectorRef force);
+  /// F += the forces of the other contacts
+  void add_obstacle_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef force) {
+    if (obstacles_) obstacles_->add_force(t, x, v, force);
+  }
   /// y := K x
   void elastic_force(ConstVectorRef x, VectorRef y) const;
   /// y := C v
@@ -98,6 +111,11 @@ class BUTEE_EXPORT Dynamics {
   };
 
   linalg::LinearSolver& mass_solver();
+  /// a += M^-1 T^T of the forces that hold the contacts that stick rigidly
+  void hold_sticks(double t, VectorRef a);
+  /// Sees that the matrices are those of the contacts that stick now; false where none does.
+  bool prepare_sticks();
+  void solve_sticks(VectorRef y);
   enum class From { given, nothing };
 
   /// F += F(t)
@@ -122,6 +140,7 @@ class BUTEE_EXPORT Dynamics {
   const model::System& system_;
   linalg::Counters counters_;
   Contact contact_;
+  std::unique_ptr<Obstacles> obstacles_;       ///< null where there are none
   std::unique_ptr<const ModalDamping> modal_;  ///< null without modal damping
   bool has_damping_;
   std::unique_ptr<Turning> turning_;  ///< null unless the speed of rotation varies
@@ -139,6 +158,10 @@ class BUTEE_EXPORT Dynamics {
   Vector other_vector_, turning_damping_, turning_inertia_;  ///< of systems whose speed of rotation varies
   Vector shifted_, modal_force_;             ///< x + s v and C v, of systems with Rayleigh and with modal damping
   Vector work_, other_, inertia_, damping_;  ///< of a block of rows
+  // Of contacts that stick rigidly: which, M^-1 T^T (n x their number), T M^-1 T^T, and the forces that hold them.
+  std::vector<Index> sticks_;
+  Eigen::MatrixXd stick_motion_, stick_compliance_;
+  Vector stick_force_, stick_acceleration_;
 };
 
 }  // namespace butee::dynamics

@@ -35,7 +35,13 @@ SparseMatrix with_stops(const Dynamics& dynamics, const Contact& contact, const 
 class Equilibrium {
  public:
   Equilibrium(Dynamics& dynamics, double t)
-      : dynamics_(dynamics), load_(dynamics.size()), elastic_(load_), w_(dynamics.stop_count()) {
+      : dynamics_(dynamics),
+        load_(dynamics.size()),
+        elastic_(load_),
+        rest_(Vector::Zero(dynamics.size())),
+        t_(t),
+        w_(dynamics.stop_count()) {
+    if (dynamics.obstacles() != nullptr) dynamics.obstacles()->follow_live();
     dynamics.external_force(t, load_);
   }
 
@@ -43,6 +49,7 @@ class Equilibrium {
   double residual(const Vector& x, Vector& r) {
     r.setZero();
     dynamics_.add_contact_force(x, r);
+    dynamics_.add_obstacle_force(t_, x, rest_, r);
     dynamics_.elastic_force(x, elastic_);
     const double scale = load_.norm() + r.norm() + elastic_.norm();
     r += load_ - elastic_;
@@ -56,12 +63,26 @@ class Equilibrium {
       dynamics_.contact().displacement(x, w_);
       dynamics_.contact().tangent(w_, force, stiffness);
     }
-    return with_stops(dynamics_, dynamics_.contact(), stiffness.cwiseMax(0.0));
+    SparseMatrix sum = with_stops(dynamics_, dynamics_.contact(), stiffness.cwiseMax(0.0));
+    Obstacles* obstacles = dynamics_.obstacles();
+    if (obstacles == nullptr) return sum;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const Obstacles::Tangent& tangent : obstacles->tangents(t_, x, rest_))
+      obstacles->visit(tangent.contact, tangent.stiffness, [&](Index i, Index j, double value) {
+        entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+      });
+    SparseMatrix pressed(sum.rows(), sum.cols());
+    pressed.setFromTriplets(entries.begin(), entries.end());
+    sum += pressed;
+    sum.makeCompressed();
+    return sum;
   }
 
  private:
   Dynamics& dynamics_;
-  Vector load_, elastic_, w_;
+  Vector load_, elastic_, rest_;
+  double t_;
+  Vector w_;
 };
 
 }  // namespace
@@ -73,7 +94,8 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
   double size = equilibrium.residual(x, r);
   for (int i = 0; i < kMostIterations && size > kConverged; ++i) {
     const SparseMatrix tangent = equilibrium.tangent(x);
-    linalg::LinearSolver solver(tangent, dynamics.counters(), nullptr, system.stiffness_is_symmetric);
+    linalg::LinearSolver solver(tangent, dynamics.counters(), nullptr,
+                                system.stiffness_is_symmetric && dynamics.obstacles() == nullptr);
     Vector step = r;
     const bool solved = solver.factorize(tangent);
     if (solved) solver.solve(step);

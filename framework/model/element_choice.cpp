@@ -117,7 +117,7 @@ std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs,
                     const std::string& element) {
   const NodalDof dof{node, kind_of(quantity)};
   const std::string none = std::string("there is no ") + name_of(quantity) + ": ";
-  if (is_element_force(quantity) && model.rotation != nullptr)
+  if (is_element_force(quantity) && source_of(quantity) != Source::contacts && model.rotation != nullptr)
     return none + "forces of elements leave out the gyroscopic forces of parts that turn";
   switch (source_of(quantity)) {
     case Source::section: {
@@ -143,6 +143,16 @@ std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs,
     case Source::support:
       if (!dofs.exists(dof)) return none + dofs.name(dof) + " does not exist";
       return dofs.is_fixed(dof) ? "" : none + dofs.name(dof) + " is free, held by no [[support]]";
+    case Source::contacts: {
+      const auto has = [&](const std::vector<NodeId>& ends) {
+        return std::any_of(ends.begin(), ends.end(),
+                           [&](NodeId end) { return model.nodes.canonical(end) == model.nodes.canonical(node); });
+      };
+      for (const ObstacleGroup& group : model.obstacles)
+        if (has(group.a) || has(group.b)) return "";
+      return none + "no contact in the plane, with dissipation or friction, is on " + model.nodes.name(node) +
+             "; contact_force is that of elastic stops";
+    }
     case Source::motion:
     case Source::stops:
       break;

@@ -9,6 +9,7 @@
 #include "butee/model/dofs.hpp"
 #include "butee/model/element.hpp"
 #include "butee/model/nodes.hpp"
+#include "butee/model/obstacle.hpp"
 #include "butee/model/rotation.hpp"
 #include "butee/model/time_function.hpp"
 
@@ -21,8 +22,9 @@ enum class Sides { both, positive, negative };
 /// both sides: g = |w| - gap, F = -sign(w) K_c(g) g with sign(0) = 0.
 struct StopGroup {
   std::unique_ptr<ContactLaw> law;
-  double gap = 0.0;  ///< m, free play on each side
+  double gap = 0.0;  ///< m (rad), free play on each side
   Sides sides = Sides::both;
+  DofKind dof = DofKind::uy;
   std::vector<NodeId> a;
   std::vector<NodeId> b;  ///< empty: stops to ground; else as long as `a`
 };
@@ -67,6 +69,7 @@ struct Model {
   std::vector<std::string> element_names;  ///< of `elements`, "" for one without a name; may be shorter
   std::vector<NodalDof> fixed;
   std::vector<StopGroup> stops;
+  std::vector<ObstacleGroup> obstacles;
   std::vector<Load> loads;
   Damping damping;
   std::unique_ptr<Rotation> rotation;  ///< null where nothing turns

@@ -16,7 +16,7 @@ struct Description {
 };
 
 /// In the order of Quantity.
-constexpr std::array<Description, 37> kAll = {{
+constexpr std::array<Description, 41> kAll = {{
     {"u", "m", "displacement", Source::motion, DofKind::uy, 0},
     {"v", "m/s", "velocity", Source::motion, DofKind::uy, 1},
     {"a", "m/s2", "acceleration", Source::motion, DofKind::uy, 2},
@@ -57,6 +57,12 @@ constexpr std::array<Description, 37> kAll = {{
     {"rz", "rad", "rotation about z, another name of theta", Source::motion, DofKind::rz, 0},
     {"rz_v", "rad/s", "its velocity", Source::motion, DofKind::rz, 1},
     {"rz_a", "rad/s2", "its acceleration", Source::motion, DofKind::rz, 2},
+    {"normal_force", "N", "normal force of the contacts on the node, with dissipation", Source::contacts, DofKind::uy,
+     0},
+    {"friction_force", "N", "their friction force, positive against a positive slip", Source::contacts, DofKind::uy, 0},
+    {"slip", "m/s", "their slip speed", Source::contacts, DofKind::uy, 0},
+    {"wear_power", "W", "normal force times slip speed (Archard), of the closed contacts", Source::contacts,
+     DofKind::uy, 0},
 }};
 
 const Description& description_of(Quantity quantity) {

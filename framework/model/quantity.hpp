@@ -49,7 +49,12 @@ enum class Quantity {
   ry_a,
   rz,
   rz_v,
-  rz_a
+  rz_a,
+  // Of contacts in the plane, with dissipation or friction, at a node: of probes alone.
+  normal_force,
+  friction_force,
+  slip,
+  wear_power
 };
 
 /// "u", "M" ...
@@ -67,7 +72,7 @@ BUTEE_EXPORT std::vector<std::string> field_quantities();
 BUTEE_EXPORT std::vector<std::string> probe_quantities();
 
 /// Where the value of a quantity comes from.
-enum class Source { motion, stops, section, springs, support };
+enum class Source { motion, stops, section, springs, support, contacts };
 
 BUTEE_EXPORT Source source_of(Quantity quantity);
 

@@ -171,8 +171,8 @@ FreeStops reduce(const StopGroup& group, const DofTable& dofs, Index& skipped) {
   stops.gap = group.gap;
   stops.sides = group.sides;
   for (std::size_t i = 0; i < group.a.size(); ++i) {
-    const Index a = dofs.index({group.a[i], DofKind::u});
-    const Index b = group.b.empty() ? FreeStops::kGround : dofs.index({group.b[i], DofKind::u});
+    const Index a = dofs.index({group.a[i], group.dof});
+    const Index b = group.b.empty() ? FreeStops::kGround : dofs.index({group.b[i], group.dof});
     if (a < 0 && b < 0) {
       ++skipped;
       continue;
@@ -181,6 +181,27 @@ FreeStops reduce(const StopGroup& group, const DofTable& dofs, Index& skipped) {
     stops.b.push_back(std::max(b, FreeStops::kGround));
   }
   return stops;
+}
+
+FreeObstacles reduce(const ObstacleGroup& group, const DofTable& dofs, const NodeTable& nodes, Index& skipped) {
+  FreeObstacles free;
+  free.group = &group;
+  for (std::size_t i = 0; i < group.a.size(); ++i) {
+    FreeObstacles::Ends ends{{FreeStops::kGround, FreeStops::kGround}, {FreeStops::kGround, FreeStops::kGround}};
+    bool moves = false;
+    for (std::size_t k = 0; k < group.directions.size(); ++k) {
+      ends.a[k] = std::max(dofs.index({group.a[i], group.directions[k]}), FreeStops::kGround);
+      if (!group.b.empty()) ends.b[k] = std::max(dofs.index({group.b[i], group.directions[k]}), FreeStops::kGround);
+      moves = moves || ends.a[k] >= 0 || ends.b[k] >= 0;
+    }
+    if (!moves) {
+      ++skipped;
+      continue;
+    }
+    free.ends.push_back(ends);
+    free.names.push_back(nodes.name(group.a[i]) + (group.b.empty() ? "" : "|" + nodes.name(group.b[i])));
+  }
+  return free;
 }
 
 FreeLoad reduce(const Load& load, const DofTable& dofs) {
@@ -263,6 +284,10 @@ System assemble(const Model& model, TurningParts turning) {
   for (const StopGroup& group : model.stops) {
     FreeStops stops = reduce(group, dofs, system.skipped_stops);
     if (stops.size() > 0) system.stops.push_back(std::move(stops));
+  }
+  for (const ObstacleGroup& group : model.obstacles) {
+    FreeObstacles free = reduce(group, dofs, model.nodes, system.skipped_stops);
+    if (!free.ends.empty()) system.obstacles.push_back(std::move(free));
   }
   TripletSink sink(dofs, model.rotating_damping);
   for (std::size_t i = 0; i < model.elements.size(); ++i) {

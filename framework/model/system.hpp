@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,18 @@ struct FreeStops {
   std::vector<Index> b;  ///< likewise
 
   std::size_t size() const { return a.size(); }
+};
+
+/// Obstacles of one group on free DOFs.
+struct FreeObstacles {
+  /// Free DOFs of a contact along its directions, or FreeStops::kGround.
+  struct Ends {
+    std::array<Index, 2> a, b;
+  };
+
+  const ObstacleGroup* group = nullptr;
+  std::vector<Ends> ends;
+  std::vector<std::string> names;  ///< "rotor" or "rotor|casing", as long as `ends`
 };
 
 /// A load on free DOFs: F[dof_i] += weight_i * in_time(t).
@@ -52,6 +65,7 @@ struct System {
   Damping damping;
   std::vector<FreeLoad> loads;
   std::vector<FreeStops> stops;
+  std::vector<FreeObstacles> obstacles;
   Vector initial_displacement, initial_velocity;
   double initial_time = 0.0;     ///< s
   const Model* model = nullptr;  ///< that it was assembled from; null for a part of a system

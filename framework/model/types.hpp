@@ -60,6 +60,14 @@ struct LawType {
   std::function<std::unique_ptr<ContactLaw>(const config::Parameters&, config::Diagnostics&)> make;
 };
 
+/// A kind of [[contact]] in the plane of two displacements.
+struct ContactType {
+  std::string name, summary;
+  std::vector<config::Parameter> parameters;
+  /// The shape with this gap (m); nothing where it reported a mistake.
+  std::function<std::unique_ptr<ContactShape>(const config::Parameters&, double gap, config::Diagnostics&)> make;
+};
+
 /// A course in time: a type of [[load]] and of `in_time`.
 struct LoadType {
   std::string name, summary;
@@ -72,6 +80,7 @@ struct ModelTypes {
   std::vector<ElementType> elements;
   std::vector<SectionType> sections;
   std::vector<LawType> laws;
+  std::vector<ContactType> contacts;
   std::vector<LoadType> loads;
   std::vector<FieldFormat> formats;
 };

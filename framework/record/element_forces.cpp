@@ -39,8 +39,11 @@ void ElementForces::add(model::Quantity quantity, model::NodeId node, const std:
     case model::Source::support:
       add_reaction({node, kind_of(quantity)}, column);
       break;
-    case model::Source::motion:
+    case model::Source::contacts:
     case model::Source::stops:
+      add_obstacles(quantity, node, column);
+      break;
+    case model::Source::motion:
       throw LogicError("no force of an element");
   }
   columns_.push_back(std::move(column));
@@ -60,6 +63,51 @@ void ElementForces::add_section_force(model::Quantity quantity, model::NodeId no
     if (load.line == choice.beam)
       column.loads.push_back(
           {load.in_time.get(), -load.per_length * weights.dot(cut.line_loads.col(axis_of(load.along)))});
+}
+
+void ElementForces::add_obstacles(model::Quantity quantity, model::NodeId node, Column& column) {
+  column.quantity = quantity;
+  const model::DofTable& dofs = dynamics_.system().dofs;
+  if (quantity == model::Quantity::contact_force) {
+    column.dof = dofs.index({node, kind_of(quantity)});
+    const dynamics::Contact& contact = dynamics_.contact();
+    for (Index i = 0; i < contact.size(); ++i) {
+      if (column.dof >= 0 && contact.dof_a(i) == column.dof) column.stops.push_back({i, 1.0});
+      if (column.dof >= 0 && contact.dof_b(i) == column.dof) column.stops.push_back({i, -1.0});
+    }
+  }
+  if (dynamics_.obstacles() == nullptr) return;
+  for (Index i = 0; i < dynamics_.obstacles()->size(); ++i)
+    if (dynamics_.obstacles()->touches_node(i, dofs, model_.nodes.canonical(node))) column.obstacles.push_back(i);
+  has_obstacles_ = has_obstacles_ || !column.obstacles.empty();
+}
+
+double ElementForces::sum_of_obstacles(const Column& column) const {
+  double sum = 0.0;
+  for (const Index i : column.obstacles) {
+    const dynamics::ContactForces& now = contacts_[static_cast<std::size_t>(i)];
+    const model::FreeObstacles::Ends& ends = dynamics_.obstacles()->ends_of(i);
+    switch (column.quantity) {
+      case model::Quantity::normal_force:
+        sum += now.normal;
+        break;
+      case model::Quantity::friction_force:
+        sum += now.friction;
+        break;
+      case model::Quantity::slip:
+        sum += now.slip_speed;
+        break;
+      case model::Quantity::wear_power:
+        sum += std::abs(now.normal * now.slip_speed);
+        break;
+      default:
+        for (std::size_t k = 0; k < 2; ++k) {
+          if (column.dof >= 0 && ends.a[k] == column.dof) sum += now.force[static_cast<Index>(k)];
+          if (column.dof >= 0 && ends.b[k] == column.dof) sum -= now.force[static_cast<Index>(k)];
+        }
+    }
+  }
+  return sum;
 }
 
 void ElementForces::add_springs(NodalDof dof, const std::string& element, Column& column) {
@@ -134,12 +182,14 @@ void ElementForces::evaluate(double t, ConstVectorRef x, ConstVectorRef v, std::
     gather(piece.dofs, a_, piece.a);
     piece.p.noalias() += piece.mass * piece.a;
   }
+  if (has_obstacles_) dynamics_.contact_forces(t, x, v, contacts_);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const Column& column = columns_[i];
     double sum = 0.0;
     for (const Share& share : column.shares) sum += share.weights.dot(pieces_[share.piece].p);
     for (const LoadShare& load : column.loads) sum += load.weight * load.in_time->value(t);
     for (const StopShare& stop : column.stops) sum += stop.sign * force_of_stop(stop.stop, x);
+    sum += sum_of_obstacles(column);
     values[i] = column.factor * (column.is_magnitude ? std::abs(sum) : sum);
   }
 }

@@ -53,11 +53,17 @@ class BUTEE_EXPORT ElementForces {
     std::vector<Share> shares;
     std::vector<LoadShare> loads;
     std::vector<StopShare> stops;
+    std::vector<Index> obstacles;
+    model::Quantity quantity = model::Quantity::contact_force;  ///< of obstacles
+    Index dof = model::DofTable::kFixed;                        ///< that contact_force acts on
     double factor = 1.0;
     bool is_magnitude = false;
   };
 
   void add_section_force(model::Quantity quantity, model::NodeId node, const std::string& element, Column& column);
+  /// The contacts in the plane, with dissipation or friction, at a node; its stops beside them for contact_force.
+  void add_obstacles(model::Quantity quantity, model::NodeId node, Column& column);
+  double sum_of_obstacles(const Column& column) const;
   void add_springs(model::NodalDof dof, const std::string& element, Column& column);
   void add_reaction(model::NodalDof dof, Column& column);
   void add_stops(model::NodeId node, Column& column);
@@ -71,6 +77,8 @@ class BUTEE_EXPORT ElementForces {
   std::vector<Piece> pieces_;
   std::vector<Column> columns_;
   bool has_mass_ = false;  ///< of any piece
+  bool has_obstacles_ = false;
+  std::vector<dynamics::ContactForces> contacts_;
   Vector a_;
 };
 

@@ -28,6 +28,10 @@ Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics) {
     dynamics.contact().displacement(state.x, w);
     energy.contact = dynamics.contact().energy(w);
   }
+  if (dynamics.obstacles() != nullptr) {
+    energy.in_obstacles = dynamics.obstacles()->energy(state.t, state.x, state.v);
+    energy.contact += energy.in_obstacles;
+  }
   return energy;
 }
 
@@ -35,8 +39,9 @@ EnergyRecorder::EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer, 
     : dynamics_(dynamics),
       all_(static_cast<std::size_t>(dynamics.size())),
       has_drive_(!dynamics.system().stiffness_is_symmetric || dynamics.system().rotation != nullptr),
+      needs_x_(has_drive_ || dynamics.obstacles() != nullptr),
       middle_(dynamics.size()),
-      middle_x_(has_drive_ ? dynamics.size() : 0),
+      middle_x_(needs_x_ ? dynamics.size() : 0),
       force_(middle_),
       writer_(writer),
       times_(std::move(times)) {
@@ -58,13 +63,21 @@ EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& x, const Vec
     dynamics_.elastic_force(v, force_);
     power.of_loads -= 0.5 * (forward - x.dot(force_));
   }
+  if (dynamics_.obstacles() != nullptr) {
+    dynamics_.contact_forces(t, x, v, contacts_);
+    for (const dynamics::ContactForces& now : contacts_) {
+      power.of_contacts += now.normal * now.rate + now.friction * now.slip_speed;
+      power.of_loads += now.friction * now.surface;  // by what turns the body or moves the surface
+    }
+  }
   return power;
 }
 
 void EnergyRecorder::start(const time::State& state) {
   now_ = energy_of(state, dynamics_);
   first_total_ = largest_ = now_.total();
-  work_ = dissipated_ = 0.0;
+  first_stored_ = now_.in_obstacles;
+  work_ = dissipated_ = into_obstacles_ = 0.0;
   last_ = power(state.t, state.x, state.v);
 }
 
@@ -114,14 +127,18 @@ void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
   Vector x(dynamics_.size()), v(dynamics_.size());
   const auto span = [](Vector& vector) { return std::span(vector.data(), static_cast<std::size_t>(vector.size())); };
   step.integrator.interpolate(step.from, step.to, t, all_, {span(x), span(v), {}});
-  now_ = energy_of({t, x, v, {}, {}}, dynamics_);
+  time::State state;
+  state.t = t;
+  state.x = std::move(x);
+  state.v = std::move(v);
+  now_ = energy_of(state, dynamics_);
 }
 
 EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& step, double t) {
   if (t == step.to.t) return power(t, step.to.x, step.to.v);
   const auto span = [](Vector& vector) { return std::span(vector.data(), static_cast<std::size_t>(vector.size())); };
   step.integrator.interpolate(step.from, step.to, t, all_,
-                              {has_drive_ ? span(middle_x_) : std::span<double>{}, span(middle_), {}});
+                              {needs_x_ ? span(middle_x_) : std::span<double>{}, span(middle_), {}});
   return power(t, middle_x_, middle_);
 }
 
@@ -143,16 +160,20 @@ void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, do
   }
   work_ += first.of_loads + second.of_loads;
   dissipated_ += first.of_damping + second.of_damping;
+  into_obstacles_ += first.of_contacts + second.of_contacts;
 }
 
 void EnergyRecorder::add_piece(const time::AcceptedStep& step, double begin, double end) {
   if (step.integrator.dense_output() == time::DenseOutput::other)
     return add_halved(step, begin, end, gauss(step, begin, end), 0);
   const double h = end - begin;
+  // Forces of contacts may jump where a step ends.
+  if (dynamics_.obstacles() != nullptr && begin == step.from.t) last_ = power(begin, step.from.x, step.from.v);
   const Power middle = power_within(step, 0.5 * (begin + end)), last = power_within(step, end);
   const Power done = (h / 6.0) * last_ + (4.0 / 6.0 * h) * middle + (h / 6.0) * last;
   work_ += done.of_loads;
   dissipated_ += done.of_damping;
+  into_obstacles_ += done.of_contacts;
   last_ = last;
 }
 
@@ -161,7 +182,7 @@ std::vector<std::string> EnergyRecorder::columns() {
 }
 
 void EnergyRecorder::write_row(double t) {
-  const std::array<double, 6> row = {t, now_.kinetic, now_.strain, now_.contact, work_, dissipated_};
+  const std::array<double, 6> row = {t, now_.kinetic, now_.strain, now_.contact, work_, dissipated()};
   writer_->row(row);
 }
 
@@ -171,7 +192,7 @@ void EnergyRecorder::finish() {
 
 void EnergyRecorder::save(ByteWriter& to) const {
   for (const double number : {last_.of_loads, last_.of_damping, now_.kinetic, now_.strain, now_.contact, first_total_,
-                              largest_, work_, dissipated_})
+                              largest_, work_, dissipated_, into_obstacles_, first_stored_, now_.in_obstacles})
     to.put(number);
   if (times_) times_->save(to);
   to.put(writer_ != nullptr ? writer_->position() : std::uint64_t{0});
@@ -179,7 +200,7 @@ void EnergyRecorder::save(ByteWriter& to) const {
 
 void EnergyRecorder::restore(ByteReader& from) {
   for (double* number : {&last_.of_loads, &last_.of_damping, &now_.kinetic, &now_.strain, &now_.contact, &first_total_,
-                         &largest_, &work_, &dissipated_})
+                         &largest_, &work_, &dissipated_, &into_obstacles_, &first_stored_, &now_.in_obstacles})
     from.take(*number);
   if (times_) times_->restore(from);
   const auto position = from.take<std::uint64_t>();
@@ -187,7 +208,7 @@ void EnergyRecorder::restore(ByteReader& from) {
 }
 
 double EnergyRecorder::balance_error() const {
-  return largest_ > 0.0 ? (now_.total() - first_total_ + dissipated_ - work_) / largest_ : 0.0;
+  return largest_ > 0.0 ? (now_.total() - first_total_ + dissipated() - work_) / largest_ : 0.0;
 }
 
 }  // namespace butee::record

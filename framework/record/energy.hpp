@@ -8,9 +8,10 @@ namespace butee::record {
 
 /// The mechanical energy of a state, J.
 struct Energy {
-  double kinetic = 0.0;  ///< v.M v / 2
-  double strain = 0.0;   ///< x.K x / 2
-  double contact = 0.0;  ///< sum of U(w), zero at w = 0
+  double kinetic = 0.0;       ///< v.M v / 2
+  double strain = 0.0;        ///< x.K x / 2
+  double contact = 0.0;       ///< sum of U(w), zero at w = 0
+  double in_obstacles = 0.0;  ///< the part of `contact` that is not in elastic stops
 
   double total() const { return kinetic + strain + contact; }
 };
@@ -43,22 +44,24 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   void restore(ByteReader& from) override;
 
   double work() const { return work_; }
-  double dissipated() const { return dissipated_; }
+  double dissipated() const { return dissipated_ + into_obstacles_ - (now_.in_obstacles - first_stored_); }
   /// Zero where there never was any energy.
   double balance_error() const;
 
  private:
   struct Power {
     double of_loads, of_damping;
+    double of_contacts = 0.0;  ///< what obstacles() take
 
     Power& operator+=(const Power& other) {
       of_loads += other.of_loads;
       of_damping += other.of_damping;
+      of_contacts += other.of_contacts;
       return *this;
     }
     friend Power operator+(Power a, const Power& b) { return a += b; }
     friend Power operator*(double factor, const Power& power) {
-      return {factor * power.of_loads, factor * power.of_damping};
+      return {factor * power.of_loads, factor * power.of_damping, factor * power.of_contacts};
     }
   };
   Power power(double t, const Vector& x, const Vector& v);
@@ -75,14 +78,17 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   dynamics::Dynamics& dynamics_;
   std::vector<Index> all_;
   bool has_drive_;  ///< K is not symmetric
+  bool needs_x_;
   Vector middle_, middle_x_, force_;
   std::vector<double> due_;  ///< instants that a row is still to be written for
   Power last_{};
+  std::vector<dynamics::ContactForces> contacts_;
   CsvWriter* writer_;
   std::optional<OutputTimes> times_;
   Energy now_;
-  double first_total_ = 0.0, largest_ = 0.0;
-  double work_ = 0.0, dissipated_ = 0.0;
+  double first_total_ = 0.0, largest_ = 0.0, first_stored_ = 0.0;
+  double work_ = 0.0, dissipated_ = 0.0;  ///< J; by damping
+  double into_obstacles_ = 0.0;           ///< J, of which they store a part and dissipate the rest
 };
 
 }  // namespace butee::record

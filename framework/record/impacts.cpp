@@ -12,24 +12,28 @@ namespace {
 /// Halvings of an interval that take it below the spacing of doubles.
 constexpr int kBisections = 60;
 /// Of an impact as bytes, its name empty.
-constexpr std::size_t kLeastBytes = 53;
+constexpr std::size_t kLeastBytes = 77;
 
-void put(const Impact& impact, ByteWriter& to) {
+}  // namespace
+
+void put_impact(const Impact& impact, ByteWriter& to) {
   to.put(impact.t_in);
   to.put(impact.t_out.has_value());
   to.put(impact.t_out.value_or(0.0));
-  for (const double number : {impact.peak_force, impact.impulse, impact.impact_speed}) to.put(number);
+  for (const double number : {impact.peak_force, impact.impulse, impact.impact_speed, impact.tangential_impulse,
+                              impact.slip, impact.dissipated})
+    to.put(number);
 }
 
-void take(Impact& impact, ByteReader& from) {
+void take_impact(Impact& impact, ByteReader& from) {
   from.take(impact.t_in);
   const bool is_over = from.take<bool>();
   const auto t_out = from.take<double>();
   impact.t_out = is_over ? std::optional(t_out) : std::nullopt;
-  for (double* number : {&impact.peak_force, &impact.impulse, &impact.impact_speed}) from.take(*number);
+  for (double* number : {&impact.peak_force, &impact.impulse, &impact.impact_speed, &impact.tangential_impulse,
+                         &impact.slip, &impact.dissipated})
+    from.take(*number);
 }
-
-}  // namespace
 
 ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
   const dynamics::Contact& contact = dynamics.contact();
@@ -138,26 +142,26 @@ void ImpactRecorder::accumulate(Watch& watch, const Course& course, const Point&
 void ImpactRecorder::save(ByteWriter& to) const {
   for (const Watch& watch : watches_) {
     to.put(watch.closed);
-    put(watch.current, to);
+    put_impact(watch.current, to);
   }
   to.put(std::uint64_t{done_.size()});
   for (const Impact& impact : done_) {
     to.put(impact.node);
     to.put(impact.side);
-    put(impact, to);
+    put_impact(impact, to);
   }
 }
 
 void ImpactRecorder::restore(ByteReader& from) {
   for (Watch& watch : watches_) {
     from.take(watch.closed);
-    take(watch.current, from);
+    take_impact(watch.current, from);
   }
   done_.assign(from.count(kLeastBytes), {});
   for (Impact& impact : done_) {
     from.take(impact.node);
     from.take(impact.side);
-    take(impact, from);
+    take_impact(impact, from);
   }
 }
 
@@ -170,7 +174,8 @@ std::vector<Impact> ImpactRecorder::impacts() const {
 }
 
 std::vector<std::string> ImpactRecorder::columns() {
-  return {"node", "side", "t_in", "t_out", "peak_force", "impulse", "impact_speed"};
+  return {"node", "side",      "t_in", "t_out", "peak_force", "impulse", "impact_speed", "tangential_impulse",
+          "slip", "dissipated"};
 }
 
 std::string ImpactRecorder::csv_line(const Impact& impact) {
@@ -178,7 +183,8 @@ std::string ImpactRecorder::csv_line(const Impact& impact) {
   append_number(line, impact.t_in);
   line += ',';
   if (impact.t_out) append_number(line, *impact.t_out);
-  for (const double value : {impact.peak_force, impact.impulse, impact.impact_speed}) {
+  for (const double value : {impact.peak_force, impact.impulse, impact.impact_speed, impact.tangential_impulse,
+                             impact.slip, impact.dissipated}) {
     line += ',';
     append_number(line, value);
   }

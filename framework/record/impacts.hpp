@@ -10,14 +10,21 @@ namespace butee::record {
 
 /// One closing of a stop.
 struct Impact {
-  std::string node;             ///< "a" or, of a stop between two nodes, "a|b"
-  int side = 1;                 ///< +1 or -1
-  double t_in = 0.0;            ///< s
-  std::optional<double> t_out;  ///< s; absent while still closed
-  double peak_force = 0.0;      ///< N
-  double impulse = 0.0;         ///< N s
-  double impact_speed = 0.0;    ///< m/s, at t_in
+  std::string node;                 ///< "a" or, of a stop between two nodes, "a|b"
+  int side = 1;                     ///< +1 or -1
+  double t_in = 0.0;                ///< s
+  std::optional<double> t_out;      ///< s; absent while still closed
+  double peak_force = 0.0;          ///< N
+  double impulse = 0.0;             ///< N s
+  double impact_speed = 0.0;        ///< m/s, at t_in
+  double tangential_impulse = 0.0;  ///< N s, of friction, against the slip
+  double slip = 0.0;                ///< m, the way that the contact slid
+  double dissipated = 0.0;          ///< J
 };
+
+/// An impact but for its name and side.
+void put_impact(const Impact& impact, ByteWriter& to);
+void take_impact(Impact& impact, ByteReader& from);
 
 /// Finds every closing of a stop on the method's dense output: instants by root finding, the largest force at the
 /// largest penetration (Course), the impulse by Gauss' rule with five points between such instants.

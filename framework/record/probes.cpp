@@ -18,7 +18,8 @@ Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynam
   for (const model::ProbeRequest& request : requests)
     for (const model::Quantity quantity : request.quantities) {
       columns_.push_back(request.label + "." + name_of(quantity));
-      if (is_element_force(quantity)) {
+      if (is_element_force(quantity) ||
+          (quantity == model::Quantity::contact_force && dynamics.obstacles() != nullptr)) {
         sources_.push_back(element_force(quantity, request));
         continue;
       }

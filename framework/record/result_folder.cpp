@@ -18,12 +18,19 @@ namespace {
 
 constexpr const char* kMark = "# butee: the model as run";
 constexpr const char* kDraft = "model.toml.part";
-constexpr const char* kOurFiles[] = {"history.csv",         "impacts.csv",
-                                     "energy.csv",          "fields.h5",
-                                     "fields.xdmf",         "summary.json",
-                                     "checkpoint.bin",      "checkpoint-before.bin",
-                                     "checkpoint-next.bin", "checkpoint-next.bin.part",
-                                     "summary.json.part",   "states.bin"};
+constexpr const char* kOurFiles[] = {"history.csv",
+                                     "impacts.csv",
+                                     "wear.csv",
+                                     "energy.csv",
+                                     "fields.h5",
+                                     "fields.xdmf",
+                                     "summary.json",
+                                     "checkpoint.bin",
+                                     "checkpoint-before.bin",
+                                     "checkpoint-next.bin",
+                                     "checkpoint-next.bin.part",
+                                     "summary.json.part",
+                                     "states.bin"};
 
 bool is_ours(const fs::path& folder) {
   std::ifstream model(folder / "model.toml");

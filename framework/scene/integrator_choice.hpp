@@ -21,6 +21,11 @@ BUTEE_EXPORT std::optional<IntegratorChoice> read_integrator(const config::Value
                                                              const plugin::Catalogue& catalogue,
                                                              config::Diagnostics& diagnostics);
 
+/// Reports contacts of the model that the chosen method cannot treat, and names the methods that can.
+BUTEE_EXPORT void check_contacts(const model::Model& model, const IntegratorChoice& choice,
+                                 plugin::Catalogue& catalogue, const config::Value& root,
+                                 config::Diagnostics& diagnostics);
+
 /// Where an override (`--set integrator.type=NAME`) chose the method: takes out of [integrator] the file's direct keys
 /// that belong to other methods alone, and says so in one line. Other keys, and overrides, stay for read_integrator()
 /// to judge. Empty where there was nothing to do.

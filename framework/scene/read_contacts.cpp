@@ -1,3 +1,7 @@
+#include <algorithm>
+
+#include "butee/config/number_file.hpp"
+#include "butee/scene/contact_tables.hpp"
 #include "butee/scene/scene_reader.hpp"
 
 namespace butee::scene {
@@ -9,9 +13,46 @@ using config::Value;
 
 namespace {
 
+constexpr const char* kStop = "stop";
+constexpr const char* kFriction = "friction";
+
 Sides sides_of(const std::string& name) {
   if (name == "positive") return Sides::positive;
   return name == "negative" ? Sides::negative : Sides::both;
+}
+
+/// A pair of stops, or one, in a single direction.
+class StopShape final : public ContactShape {
+ public:
+  StopShape(double gap, Sides sides) : gap_(gap), sides_(sides) {}
+  Approach at(const Eigen::Vector2d& d) const override {
+    const double side = sides_ == Sides::both ? (d[0] < 0.0 ? -1.0 : 1.0) : sides_ == Sides::positive ? 1.0 : -1.0;
+    return {side * d[0] - gap_, {side, 0.0}, 0.0};
+  }
+  Form form() const override {
+    if (sides_ == Sides::both) return {Form::Kind::circle, {0.0, 0.0}, gap_, 1.0};
+    return {Form::Kind::line, {sides_ == Sides::positive ? 1.0 : -1.0, 0.0}, gap_, 1.0};
+  }
+
+ private:
+  double gap_;
+  Sides sides_;
+};
+
+/// The keys that name the nodes of a contact.
+std::vector<config::Parameter> end_parameters() {
+  return {config::texts("nodes", "the nodes that meet the obstacle").optional(),
+          config::texts("between", "two selectors: contacts on u_a - u_b, pair by pair").optional()};
+}
+
+std::vector<config::Parameter> gap_parameters() {
+  return {number("gap", "m", "the free play; of stops on each side").at_least(0).optional(),
+          config::numbers("gaps", "m", "the free play of each contact, in place of gap").optional(),
+          config::table("gaps_from", "a file with a column of gaps, in place of gap").optional()};
+}
+
+std::vector<std::string> dof_names() {
+  return {"u", "w", "theta", "ux", "uy", "uz", "rx", "ry", "rz"};
 }
 
 }  // namespace
@@ -21,74 +62,217 @@ void SceneReader::read_contacts() {
 }
 
 void SceneReader::read_contact(const Value& entry, const std::string& path) {
-  const bool is_stop = type_of(entry, path, "type", {"stop"}).has_value();
+  std::vector<std::string> kinds = type_names(types_.contacts);
+  kinds.insert(kinds.begin(), kStop);
+  kinds.emplace_back(kFriction);
+  const auto kind = type_of(entry, path, "type", kinds);
   if (entry.table() == nullptr) return;
-  const auto law_name = type_of(entry, path, "law", type_names(types_.laws), "linear");
+  const bool is_support = kind == kFriction;
+  const bool is_stop = !kind || *kind == kStop;
+  const auto law_name = is_support ? std::nullopt : type_of(entry, path, "law", type_names(types_.laws), "linear");
   const LawType* law = law_name ? find_type(types_.laws, *law_name) : nullptr;
+  const ContactType* shape = kind ? find_type(types_.contacts, *kind) : nullptr;
 
-  std::vector<config::Parameter> declared = {
-      config::texts("nodes", "the nodes that meet a fixed stop").optional(),
-      config::texts("between", "two selectors: stops on u_a - u_b, pair by pair").optional(),
-      number("gap", "m", "the free play on each side").at_least(0),
-      text("sides", "the sides that have a stop").one_of({"both", "positive", "negative"}).or_else("both")};
-  std::vector<std::string> ignored = {"type", "law"};
+  std::vector<config::Parameter> declared = end_parameters();
+  const auto declare = [&](const std::vector<config::Parameter>& more) {
+    declared.insert(declared.end(), more.begin(), more.end());
+  };
+  declare({config::table("friction", "Coulomb friction").optional()});
+  std::vector<std::string> ignored = {"type"};
+  if (!is_support) {
+    declare(gap_parameters());
+    declare({config::table("damping", "dissipation of the closed contact").optional()});
+    ignored.emplace_back("law");
+  }
+  if (is_stop)
+    declare({text("sides", "the sides that have a stop").one_of({"both", "positive", "negative"}).or_else("both")});
+  if (is_stop || is_support)
+    declare({text("dof", "the displacement or rotation it acts on").one_of(dof_names()).or_else("u")});
+  if (is_support) declare({number("normal_force", "N", "that presses the support on").above(0)});
+  if (shape != nullptr) {
+    declare(shape->parameters);
+    declare({config::texts("dofs", "the two displacements of its plane")
+                 .of_length(2)
+                 .or_else(config::Array{Value(std::string("uy")), Value(std::string("uz"))})});
+  }
+  declare({number("radius", "m", "of the turning body where it touches").at_least(0).optional()});
   if (law != nullptr) {
-    declared.insert(declared.end(), law->parameters.begin(), law->parameters.end());
-  } else {
+    declare(law->parameters);
+  } else if (!is_support) {
     for (const LawType& any : types_.laws)
       for (const std::string& name : names_of(any.parameters)) ignored.push_back(name);
   }
   const auto p = read_table(entry, path, declared, ignored);
-  if (!p) return;
+  if (!p || !kind) return;
   if (p->has("nodes") == p->has("between")) {
     diagnostics_.error(path, entry.at,
                        p->has("nodes") ? "has both nodes and between; give one of them"
                                        : "give nodes (stops to ground) or between (stops between two bodies)");
     return;
   }
-  StopGroup group;
-  if (law != nullptr) group.law = law->make(*p, diagnostics_);
-  group.gap = p->number("gap");
-  group.sides = sides_of(p->text("sides"));
-  if (p->has("between")) {
-    read_pairs(*p, group);
-  } else if (const auto nodes = select(*p, "nodes")) {
-    group.a = *nodes;
-    for (const NodeId node : group.a)
-      if (!dofs_->exists({node, DofKind::u}) && !lacks_elements_)
-        p->complain(diagnostics_, "nodes",
-                    dofs_->name({node, DofKind::u}) + " does not exist: no element there uses it");
+  ContactTables tables{*p, path, law_name.value_or(""), diagnostics_};
+  const auto damping = tables.damping(law);
+  const auto friction = tables.friction();
+  std::vector<DofKind> directions;
+  if (shape != nullptr) {
+    for (const std::string& name : p->texts("dofs")) {
+      const auto dof = dof_named(name);
+      if (dof && !is_rotation(*dof)) directions.push_back(*dof);
+    }
+    if (directions.size() != 2 || directions[0] == directions[1])
+      return p->complain(diagnostics_, "dofs", "must name two of the displacements ux, uy and uz");
+  } else {
+    directions = {*dof_named(p->text("dof"))};
   }
-  if (is_stop && group.law != nullptr) model_.stops.push_back(std::move(group));
+  std::vector<NodeId> a, b;
+  if (!read_ends(*p, directions, a, b)) return;
+  const auto gaps = is_support ? std::optional(std::vector<double>{0.0}) : read_gaps(*p, a.size());
+  if (!gaps || !damping || !friction) return;
+  if (is_support && friction->rule == Friction::Rule::none)
+    return diagnostics_.error(path + ".friction", entry.at, "missing; a friction support is nothing without it");
+  if (is_stop && friction->rule != Friction::Rule::none)
+    return p->complain(diagnostics_, "friction",
+                       "has no direction to slip in on a stop, which knows one displacement; take type = \"plane\"");
+  if (!check_radius(*p, friction->rule != Friction::Rule::none, a, b)) return;
+
+  const auto ends_of = [&](auto& group, std::size_t i) {
+    const bool all = gaps->size() == 1;
+    group.a = all ? a : std::vector{a[i]};
+    if (!b.empty()) group.b = all ? b : std::vector{b[i]};
+  };
+  for (std::size_t i = 0; i < gaps->size(); ++i) {
+    auto made_law = law != nullptr ? law->make(*p, diagnostics_) : nullptr;
+    if (!is_support && made_law == nullptr) return;
+    if (is_stop && damping->kind == ImpactDamping::Kind::none) {
+      StopGroup group;
+      group.law = std::move(made_law);
+      group.gap = (*gaps)[i];
+      group.sides = sides_of(p->text("sides"));
+      group.dof = directions.front();
+      ends_of(group, i);
+      model_.stops.push_back(std::move(group));
+      continue;
+    }
+    ObstacleGroup group;
+    group.kind = *kind;
+    group.law = std::move(made_law);
+    if (is_stop) group.shape = std::make_unique<StopShape>((*gaps)[i], sides_of(p->text("sides")));
+    if (shape != nullptr && (group.shape = shape->make(*p, (*gaps)[i], diagnostics_)) == nullptr) return;
+    if (is_support) group.normal_force = p->number("normal_force");
+    group.directions = directions;
+    group.damping = *damping;
+    group.friction = *friction;
+    if (p->has("radius")) group.radius = p->number("radius");
+    ends_of(group, i);
+    model_.obstacles.push_back(std::move(group));
+  }
 }
 
-void SceneReader::read_pairs(const Parameters& parameters, StopGroup& group) {
+std::optional<std::vector<double>> SceneReader::read_gaps(const Parameters& p, std::size_t count) {
+  const int given = int(p.has("gap")) + int(p.has("gaps")) + int(p.has("gaps_from"));
+  if (given != 1) {
+    diagnostics_.error(p.path() + ".gap", p.at(),
+                       given == 0 ? "missing; give gap (number >= 0, m), or gaps, one for each contact"
+                                  : "give one of gap, gaps and gaps_from");
+    return std::nullopt;
+  }
+  if (p.has("gap")) return std::vector{p.number("gap")};
+  std::vector<double> gaps;
+  const char* const key = p.has("gaps") ? "gaps" : "gaps_from";
+  if (p.has("gaps")) {
+    gaps = p.numbers("gaps");
+  } else {
+    const auto file =
+        read_parameters(p.value("gaps_from"), p.key("gaps_from"), config::number_file_parameters(), diagnostics_);
+    const auto table = file ? read_number_file(*file, diagnostics_) : std::nullopt;
+    if (!table) return std::nullopt;
+    gaps = table->values;
+  }
+  if (gaps.size() != count) {
+    p.complain(diagnostics_, key,
+               "holds " + std::to_string(gaps.size()) + " gaps for " + std::to_string(count) + " contacts");
+    return std::nullopt;
+  }
+  if (std::any_of(gaps.begin(), gaps.end(), [](double gap) { return !(gap >= 0.0); })) {
+    p.complain(diagnostics_, key, "must hold numbers >= 0");
+    return std::nullopt;
+  }
+  return gaps;
+}
+
+bool SceneReader::check_radius(const Parameters& p, bool has_friction, const std::vector<NodeId>& a,
+                               const std::vector<NodeId>& b) {
+  if (!has_friction || p.has("radius")) return true;
+  for (std::size_t i = 0; i < model_.elements.size(); ++i) {
+    if (i >= model_.turns.size() || !model_.turns[i]) continue;
+    DofTable turning(model_.nodes);
+    model_.elements[i]->claim(turning);
+    for (const auto* ends : {&a, &b})
+      for (const NodeId node : *ends) {
+        const bool turns = std::any_of(kAllDofKinds.begin(), kAllDofKinds.end(), [&](DofKind kind) {
+          return turning.exists({node, kind});
+        });
+        if (!turns) continue;
+        p.complain(diagnostics_, "radius",
+                   "missing; " + model_.nodes.name(node) +
+                       " turns, and friction needs the radius (m) at which it touches, 0 for a part that stands still");
+        return false;
+      }
+  }
+  return true;
+}
+
+bool SceneReader::read_ends(const Parameters& p, const std::vector<DofKind>& directions, std::vector<NodeId>& a,
+                            std::vector<NodeId>& b) {
+  if (p.has("between")) return read_pairs(p, directions, a, b);
+  const auto nodes = select(p, "nodes");
+  if (!nodes) return false;
+  a = *nodes;
+  bool ok = true;
+  for (const NodeId node : a) ok = check_directions(p, "nodes", node, directions) && ok;
+  return ok;
+}
+
+bool SceneReader::check_directions(const Parameters& p, const char* key, NodeId node,
+                                   const std::vector<DofKind>& directions) {
+  for (const DofKind kind : directions)
+    if (!dofs_->exists({node, kind}) && !lacks_elements_) {
+      const bool lacks_plane = directions.size() == 2;
+      p.complain(diagnostics_, key,
+                 dofs_->name({node, kind}) + " does not exist: no element there uses it" +
+                     (lacks_plane ? "; contact in a plane needs both displacements (beams with motion = \"lateral\" or "
+                                    "\"spatial\", or springs along both)"
+                                  : ""));
+      return false;
+    }
+  return true;
+}
+
+bool SceneReader::read_pairs(const Parameters& parameters, const std::vector<DofKind>& directions,
+                             std::vector<NodeId>& first, std::vector<NodeId>& second) {
+  const auto complain = [&](const std::string& complaint) {
+    parameters.complain(diagnostics_, "between", complaint);
+    return false;
+  };
   const auto selectors = parameters.texts("between");
-  if (selectors.size() != 2)
-    return parameters.complain(diagnostics_, "between",
-                               "must hold two selectors, such as [\"rotor:3..9\", \"casing:3..9\"]");
+  if (selectors.size() != 2) return complain("must hold two selectors, such as [\"rotor:3..9\", \"casing:3..9\"]");
   const Selection a = model_.nodes.select(selectors[0]), b = model_.nodes.select(selectors[1]);
   for (const auto& [selection, selector] : {std::pair(&a, &selectors[0]), std::pair(&b, &selectors[1])})
-    if (!selection->problem.empty())
-      parameters.complain(diagnostics_, "between", "\"" + *selector + "\": " + selection->problem);
-  if (a.nodes.empty() || b.nodes.empty()) return;
+    if (!selection->problem.empty()) complain("\"" + *selector + "\": " + selection->problem);
+  if (a.nodes.empty() || b.nodes.empty()) return false;
   if (a.nodes.size() != b.nodes.size())
-    return parameters.complain(diagnostics_, "between",
-                               "pairs nodes one by one, but the first selector names " +
-                                   std::to_string(a.nodes.size()) + " and the second " +
-                                   std::to_string(b.nodes.size()));
+    return complain("pairs nodes one by one, but the first selector names " + std::to_string(a.nodes.size()) +
+                    " and the second " + std::to_string(b.nodes.size()));
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
     if (model_.nodes.canonical(a.nodes[i]) == model_.nodes.canonical(b.nodes[i]))
-      return parameters.complain(diagnostics_, "between",
-                                 model_.nodes.name(a.nodes[i]) + " and " + model_.nodes.name(b.nodes[i]) +
-                                     " are one node, which has no motion against itself");
+      return complain(model_.nodes.name(a.nodes[i]) + " and " + model_.nodes.name(b.nodes[i]) +
+                      " are one node, which has no motion against itself");
     for (const NodeId node : {a.nodes[i], b.nodes[i]})
-      if (!dofs_->exists({node, DofKind::u}) && !lacks_elements_)
-        return parameters.complain(diagnostics_, "between",
-                                   dofs_->name({node, DofKind::u}) + " does not exist: no element there uses it");
+      if (!check_directions(parameters, "between", node, directions)) return false;
   }
-  group.a = a.nodes;
-  group.b = b.nodes;
+  first = a.nodes;
+  second = b.nodes;
+  return true;
 }
 
 }  // namespace butee::scene

@@ -79,6 +79,18 @@ void SceneReader::choose_turning(const Parameters& p) {
       p.complain(diagnostics_, "parts",
                  "\"" + part + "\" is no beam along x with motion = \"lateral\" or \"spatial\", and no disc" +
                      suggestion(part, able) + (able.empty() ? "" : "; these can turn: " + join(able)));
+  const auto has_entry = [this](const char* list, const auto& is_meant) {
+    const Value* all = root_.table()->find(list);
+    return all != nullptr && all->array() != nullptr &&
+           std::any_of(all->array()->begin(), all->array()->end(),
+                       [&](const Value& one) { return one.table() != nullptr && is_meant(*one.table()); });
+  };
+  // A lone mass may stand for a shaft whose unbalance turns, or which rubs.
+  any = any || has_entry("contact", [](const config::Table& one) { return one.find("radius") != nullptr; }) ||
+        has_entry("load", [](const config::Table& one) {
+          const Value* type = one.find("type");
+          return type != nullptr && type->text() != nullptr && *type->text() == "unbalance" && !one.find("speed");
+        });
   if (!any && !lacks_elements_ && parts.empty())
     diagnostics_.error("rotation", p.at(),
                        "turns nothing: the scene has no disc and no beam along x with motion = \"lateral\" or "

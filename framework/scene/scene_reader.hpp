@@ -40,7 +40,17 @@ class SceneReader {
   void read_supports();
   void read_contacts();
   void read_contact(const config::Value& entry, const std::string& path);
-  void read_pairs(const config::Parameters& parameters, StopGroup& group);
+  /// The free play of each contact, or one for all.
+  std::optional<std::vector<double>> read_gaps(const config::Parameters& parameters, std::size_t count);
+  /// False after a complaint that friction on a turning part lacks its radius.
+  bool check_radius(const config::Parameters& parameters, bool has_friction, const std::vector<NodeId>& a,
+                    const std::vector<NodeId>& b);
+  bool read_ends(const config::Parameters& parameters, const std::vector<DofKind>& directions, std::vector<NodeId>& a,
+                 std::vector<NodeId>& b);
+  bool read_pairs(const config::Parameters& parameters, const std::vector<DofKind>& directions, std::vector<NodeId>& a,
+                  std::vector<NodeId>& b);
+  bool check_directions(const config::Parameters& parameters, const char* key, NodeId node,
+                        const std::vector<DofKind>& directions);
   void read_loads();
   void read_load(const config::Value& entry, const std::string& path);
   void read_turning_unbalance(const config::Value& entry, const std::string& path);

@@ -36,6 +36,13 @@ double excess_over(double explained, double energy) {
   return explained > 0.0 ? std::log(energy / explained) : 0.0;
 }
 
+/// Friction on a moving surface puts energy into the motion, as much as it wants.
+bool is_driven(const dynamics::Dynamics& dynamics) {
+  for (const model::FreeObstacles& obstacles : dynamics.system().obstacles)
+    if (obstacles.group->friction.rule != model::Friction::Rule::none) return true;
+  return false;
+}
+
 }  // namespace
 
 GrowthWatch::GrowthWatch(dynamics::Dynamics& dynamics, const MethodLimits& limits, const Integrator& integrator)
@@ -43,7 +50,7 @@ GrowthWatch::GrowthWatch(dynamics::Dynamics& dynamics, const MethodLimits& limit
       limits_(limits),
       has_fixed_steps_(integrator.controller() == nullptr),
       may_be_coarse_(has_fixed_steps_ || (!limits.keeps_tolerance && !integrator.minds_load_kinks())),
-      is_watching_(limits.is_bounded() || dynamics.stop_count() > 0),
+      is_watching_((limits.is_bounded() || dynamics.stop_count() > 0) && !is_driven(dynamics)),
       too_much_(!has_fixed_steps_ && !limits.keeps_tolerance && limits.is_bounded() ? kTooMuchUnseen : kTooMuch) {}
 
 void GrowthWatch::start(const State& state) {

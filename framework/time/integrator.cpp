@@ -25,8 +25,18 @@ bool is_finite(const State& state) {
 void Integrator::start(State& state) {
   require(state.x.size() == dynamics_.size() && state.v.size() == dynamics_.size(), "a state of another size");
   state.a.resize(state.x.size());
-  dynamics_.acceleration(state.t, state.x, state.v, state.a);
+  if (dynamics_.obstacles() != nullptr && follows_contact_phases()) {
+    if (!events_) events_ = std::make_unique<ContactEvents>(dynamics_);
+    events_->start(state);
+  } else {
+    if (dynamics_.obstacles() != nullptr) dynamics_.obstacles()->follow_live();
+    dynamics_.acceleration(state.t, state.x, state.v, state.a);
+  }
   do_start(state);
+}
+
+void Integrator::settle(State& state, double h) {
+  if (events_) events_->settle(state, h);
 }
 
 StepReport Integrator::step(const State& from, const Step& step, State& to) {
@@ -37,11 +47,53 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
   to.a.resize(from.a.size());
   to.memory.resize(from.memory.size());
   to.t = step.t_end;
+  if (events_) {
+    to.contact = from.contact;
+    events_->follow(from);
+  }
   StepReport report = do_step(from, step, to);
+  if (events_ && report.status == StepStatus::ok && is_finite(to)) end_at_event(from, step, to, report);
   require(to.t > from.t && to.t <= step.t_end, "a step ends where it was to end, or earlier");
   if (report.status == StepStatus::ok && !is_finite(to)) report.status = StepStatus::not_finite;
   return report;
 }
+
+void Integrator::end_at_event(const State& from, const Step& step, State& to, StepReport& report) {
+  constexpr int kMostTrials = 6;
+  constexpr double kGood = 1e-12, kLeast = 1e-10;
+  const auto is_accepted = [&] { return controller() == nullptr || controller()->decide(step.h, report).accept; };
+  const double wanted = report.proposal;
+  const auto redo = [&](double t_end) {
+    to.t = t_end;
+    StepReport next = do_step(from, {t_end - from.t, t_end, step.single}, to);
+    ++next.inner_rejected;
+    next.inner_rejected += report.inner_rejected;
+    next.newton_iterations += report.newton_iterations;
+    next.proposal = std::max(next.proposal, wanted);
+    report = next;
+    return report.status == StepStatus::ok && is_finite(to);
+  };
+  for (int trial = 0; trial < kMostTrials && is_accepted(); ++trial) {
+    auto event = events_->first(*this, from, to);
+    if (!event) return;
+    const double h = to.t - from.t;
+    if (!redo(std::min(std::max(event->t, from.t + kLeast * h), to.t))) return;
+    for (int k = 0; k < 3 && is_accepted(); ++k) {
+      const double miss = events_->miss(*this, *event, from, to);
+      if (std::abs(miss) <= kGood * h || std::abs(miss) > 0.1 * (to.t - from.t)) break;
+      const double t_end = to.t - miss;
+      if (t_end <= from.t || t_end > step.t_end || t_end == to.t) break;
+      if (!redo(t_end)) return;
+    }
+    events_->mark(*event, to);
+    // Another contact may change before; beside this one the end of the step is no event.
+    const auto before = events_->first(*this, from, to);
+    if (!before || to.t - before->t <= 1e-6 * h) return;
+    to.contact = from.contact;
+  }
+}
+
+Integrator::~Integrator() = default;
 
 void Integrator::interpolate(const State& from, const State& to, std::span<const double> times,
                              std::span<const Index> dofs, Interpolated out) const {

@@ -9,6 +9,7 @@
 
 #include "butee/config/parameters.hpp"
 #include "butee/dynamics/dynamics.hpp"
+#include "butee/time/contact_events.hpp"
 #include "butee/time/state.hpp"
 #include "butee/time/step_controller.hpp"
 
@@ -43,12 +44,16 @@ class BUTEE_EXPORT Integrator {
  public:
   /// `dynamics` must outlive it.
   explicit Integrator(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {}
-  virtual ~Integrator() = default;
+  virtual ~Integrator();
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
 
   /// Completes a state of which t, x and v are given: a = M^-1 (F + F_c - C v - K x), and the method's memory.
   void start(State& state);
+
+  /// Takes contacts whose phase is over at a state to the next one; its acceleration follows. `h` is the length of the
+  /// step to come. A state must be settled before a step from it.
+  void settle(State& state, double h);
 
   /// Computes the state at the end of the step. `to` is of no use where the report's status is not ok.
   StepReport step(const State& from, const Step& step, State& to);
@@ -90,6 +95,10 @@ class BUTEE_EXPORT Integrator {
   /// adaptive methods end there: a load that lasts shorter than a step could pass unseen.
   virtual bool minds_load_kinks() const { return false; }
 
+  /// True where steps that the method takes may end at changes of phase of contacts (ContactEvents), between which it
+  /// integrates; else contacts act by the motion of the instant alone, and laws with memory are refused.
+  virtual bool follows_contact_phases() const { return false; }
+
   /// True where steps best end at the instants that observers ask for, since any length is as good.
   virtual bool lands_on_outputs() const { return false; }
 
@@ -123,8 +132,20 @@ class BUTEE_EXPORT Integrator {
   virtual void do_interpolate_all(const State& from, const State& to, std::span<const double> times,
                                   std::span<const Index> dofs, Interpolated out) const;
 
+  /// Cuts an accepted step at the first change of phase within it.
+  void end_at_event(const State& from, const Step& step, State& to, StepReport& report);
+
   dynamics::Dynamics& dynamics_;
+  std::unique_ptr<ContactEvents> events_;  ///< null unless it follows phases of contacts
   std::string choice_;
+};
+
+/// The contacts that a method can treat beside elastic stops.
+enum class ContactSupport {
+  elastic_stops,   ///< none
+  without_memory,  ///< rings, planes, dissipation, regularised friction
+  without_rigid,   ///< and friction with a stick spring
+  all              ///< and rigid stick
 };
 
 /// A registered method: its names, parameters and maker. `time_step` and `end_time` are read for it.
@@ -148,6 +169,7 @@ struct IntegratorType {
   /// False where a method remembers more than the State holds, so that a run taken up again from a checkpoint would not
   /// be the unbroken one to the last bit; checkpoints are then refused.
   bool restarts_exactly = true;
+  ContactSupport contacts = ContactSupport::elastic_stops;
   std::function<std::unique_ptr<Integrator>(const config::Parameters&, dynamics::Dynamics&)> make{};
   /// Reports values that are each allowed but do not go together. May be empty.
   std::function<void(const config::Parameters&, config::Diagnostics&)> check{};

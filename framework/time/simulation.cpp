@@ -149,6 +149,7 @@ bool Simulation::advance() {
   if (state_.x.size() > kLarge) flushed.emplace();
   for (int rejections = 0; rejections <= kMostRejections; ++rejections) {
     const Step step = propose();
+    if (rejections == 0) integrator_.settle(state_, step.h);
     if (!(step.t_end > state_.t)) {
       fail(step, "the step is lost in the rounding of t; it moves fastest in " + fastest_dof(dynamics_, state_) +
                      ", where the scene is too stiff or a law too sharp for this method");

@@ -42,7 +42,8 @@ void Simulation::restore(const Snapshot& snapshot) {
 
 void write_snapshot(const Snapshot& snapshot, ByteWriter& to) {
   to.put(snapshot.state.t);
-  for (const Vector* vector : {&snapshot.state.x, &snapshot.state.v, &snapshot.state.a, &snapshot.state.memory})
+  for (const Vector* vector :
+       {&snapshot.state.x, &snapshot.state.v, &snapshot.state.a, &snapshot.state.memory, &snapshot.state.contact})
     to.put(*vector);
   to.put(snapshot.next_h);
   to.put(snapshot.origin);
@@ -61,7 +62,8 @@ void write_snapshot(const Snapshot& snapshot, ByteWriter& to) {
 Snapshot read_snapshot(ByteReader& from) {
   Snapshot snapshot;
   from.take(snapshot.state.t);
-  for (Vector* vector : {&snapshot.state.x, &snapshot.state.v, &snapshot.state.a, &snapshot.state.memory})
+  for (Vector* vector :
+       {&snapshot.state.x, &snapshot.state.v, &snapshot.state.a, &snapshot.state.memory, &snapshot.state.contact})
     from.take(*vector);
   from.take(snapshot.next_h);
   from.take(snapshot.origin);

@@ -11,6 +11,7 @@ struct State {
   Vector v;        ///< velocities
   Vector a;        ///< accelerations; of Newmark methods the algorithmic ones
   Vector memory;   ///< what a method carries beyond that, if anything
+  Vector contact;  ///< phases and memory of contacts with friction or dissipation (ContactEvents), if any
 };
 
 /// A step to take: its length and the instant it ends at (a fixed step counts n h, so t_end is not t + h to the last

@@ -1,0 +1,186 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "butee/linalg/counters.hpp"
+#include "butee/model/system.hpp"
+
+namespace butee::dynamics {
+
+/// Within a phase the force of a contact is a smooth function of the motion.
+struct ContactPhase {
+  enum class Normal : std::uint8_t {
+    apart,     ///< g < 0
+    released,  ///< g > 0, but the dissipative law would pull
+    pressed,   ///< a force acts
+    receding   ///< a force acts, g' < 0, where the law tells approach from rebound
+  };
+  enum class Slip : std::uint8_t {
+    smooth,   ///< no friction, or one that is smooth in the slip speed
+    stick,    ///< or, of a clipped law, the linear part
+    forward,  ///< slip with w > 0
+    backward
+  };
+  Normal normal = Normal::apart;
+  Slip slip = Slip::smooth;
+  double anchor = 0.0;  ///< m: the path at which a stick spring is unstressed
+
+  bool touches() const { return normal == Normal::pressed || normal == Normal::receding; }
+  friend bool operator==(const ContactPhase&, const ContactPhase&) = default;
+};
+
+/// What a contact does at an instant.
+struct ContactForces {
+  double penetration = 0.0;            ///< g, m; infinitely negative never: of a friction support 0
+  double rate = 0.0;                   ///< g', m/s
+  double normal = 0.0;                 ///< F_n, N
+  double friction = 0.0;               ///< F_t = mu F_n s, N, against the slip
+  double slip_speed = 0.0;             ///< w, m/s
+  double surface = 0.0;                ///< the part of w that is not the motion of the nodes, m/s
+  double stored = 0.0;                 ///< J, elastic, in the normal law and a stick spring
+  Eigen::Vector2d force = {0.0, 0.0};  ///< on node a along its directions, N
+};
+
+/// The contacts of a system that have two directions, dissipation or friction, one after the other.
+///
+/// Each is evaluated in its phase: in those that follow() was given, which the force then continues beyond their ends,
+/// or, live, in the phase that the instant itself tells. Laws with memory need given phases. Checked against closed
+/// forms in tests/models/obstacle_test.cpp and by differences in tests/unit/obstacles_test.cpp.
+class BUTEE_EXPORT Obstacles {
+ public:
+  /// Entries of State::contact for each contact.
+  static constexpr Index kStateSize = 3;
+  /// The most switching functions of a contact.
+  static constexpr std::size_t kMostSwitches = 4;
+
+  /// `system` and `counters` must outlive it.
+  Obstacles(const model::System& system, linalg::Counters& counters);
+
+  Index size() const { return static_cast<Index>(contacts_.size()); }
+  /// n, the free DOFs of the system.
+  Index system_size() const { return system_->size(); }
+  const model::ObstacleGroup& group_of(Index i) const { return *at(i).group; }
+  const std::string& name_of(Index i) const { return *at(i).name; }
+  const model::FreeObstacles::Ends& ends_of(Index i) const { return *at(i).ends; }
+  /// Whether contact i has a free DOF of a node, by its canonical number.
+  bool touches_node(Index i, const model::DofTable& dofs, model::NodeId node) const;
+  /// The free DOFs of all contacts, each once, ascending.
+  const std::vector<Index>& dofs() const { return dofs_; }
+  /// True where a contact sticks rigidly in some phase, so that its force follows from the motion of the structure.
+  bool has_rigid_friction() const { return has_rigid_friction_; }
+
+  /// Takes the phases of all contacts, kStateSize numbers each.
+  void follow(ConstVectorRef phases);
+  void follow_live() { is_live_ = true; }
+  /// The phases that are followed, as State::contact.
+  void write_phases(VectorRef phases) const;
+  ContactPhase phase(Index i) const { return phases_[static_cast<std::size_t>(i)]; }
+  void set_phase(Index i, const ContactPhase& phase) { phases_[static_cast<std::size_t>(i)] = phase; }
+  bool is_live() const { return is_live_; }
+
+  /// force += those of all contacts at the motion (x, v); rigid sticking apart.
+  void add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef force);
+  ContactForces forces(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
+  /// The sum of ContactForces::stored, J.
+  double energy(double t, ConstVectorRef x, ConstVectorRef v) const;
+
+  /// The phase of a contact that an instant tells by itself. Where the path is at its anchor a stick spring is
+  /// unstressed.
+  ContactPhase phase_at(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
+  /// The switching functions of the phase of contact i, positive within it, and the phases they lead to. `held` is the
+  /// tangential force that holds a rigid stick, N. Returns their number.
+  struct Switch {
+    double value;
+    ContactPhase to;
+  };
+  std::size_t switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, double held,
+                       std::array<Switch, kMostSwitches>& out) const;
+  /// d_i and its velocity.
+  struct Motion {
+    Eigen::Vector2d d, v;
+  };
+  Motion motion(Index i, ConstVectorRef x, ConstVectorRef v) const;
+
+  /// -dF/dd, -dF/dd' and dF/dt of a contact, N/m, N s/m, N/s.
+  struct Tangent {
+    Index contact;
+    Eigen::Matrix2d stiffness, damping;
+    Eigen::Vector2d rate;
+  };
+  /// Of the contacts that exert a force, in their phases.
+  const std::vector<Tangent>& tangents(double t, ConstVectorRef x, ConstVectorRef v);
+
+  /// Contacts that stick rigidly now, and the row T of the constraint T v = b(t) of each: t along its directions.
+  std::vector<Index> rigid_sticks() const;
+  /// The tangent of a line or a friction support.
+  Eigen::Vector2d tangent_of(Index i) const;
+  /// db/dt, m/s2
+  double surface_acceleration(Index i, double t) const;
+  /// force += value T^T
+  void scatter(Index i, const Eigen::Vector2d& value, VectorRef force) const;
+  Eigen::Vector2d gather(Index i, ConstVectorRef y) const;
+  /// Calls entry(i, j, value) for the places of S^T block S on the free DOFs.
+  template <class Entry>
+  void visit(Index contact, const Eigen::Matrix2d& block, Entry entry) const {
+    const model::FreeObstacles::Ends& ends = ends_of(contact);
+    for (std::size_t p = 0; p < 4; ++p)
+      for (std::size_t q = 0; q < 4; ++q) {
+        const Index i = p < 2 ? ends.a[p] : ends.b[p - 2], j = q < 2 ? ends.a[q] : ends.b[q - 2];
+        const double sign = (p < 2) == (q < 2) ? 1.0 : -1.0;
+        const double value = sign * block(static_cast<Index>(p % 2), static_cast<Index>(q % 2));
+        if (i >= 0 && j >= 0 && value != 0.0) entry(i, j, value);
+      }
+  }
+  /// The largest stiffness of a closed contact, N/m, along its first direction.
+  double closed_stiffness(Index i) const;
+
+ private:
+  struct Contact {
+    const model::ObstacleGroup* group;
+    const model::FreeObstacles::Ends* ends;
+    const std::string* name;
+    model::ContactShape::Form form;
+    double rest_energy;  ///< of the law at d = 0, J
+  };
+  /// Where a contact is, and its slip.
+  struct Kinematics {
+    Motion motion;
+    model::Approach approach;
+    Eigen::Vector2d tangent;
+    double rate, slip, surface;
+  };
+  struct Normal {
+    double force, elastic, by_penetration, by_rate;
+  };
+  /// s(w) of a smooth or clipped rule and its derivative, or of a slip phase.
+  struct Slide {
+    double share, slope;
+  };
+
+  const Contact& at(Index i) const { return contacts_[static_cast<std::size_t>(i)]; }
+  Kinematics kinematics(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
+  Normal normal(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;
+  ContactPhase live_phase(const Contact& contact, const Kinematics& at) const;
+  static Slide slide(const model::Friction& friction, ContactPhase::Slip phase, double w);
+  /// The path of the slip since some origin: a function of the motion, of which w is the rate (of a ring, at its gap).
+  double path(Index i, double t, const Kinematics& at) const;
+  /// How far a stick spring is stretched, m.
+  double stretch(Index i, double t, const Kinematics& at, double anchor) const;
+  double friction_force(Index i, double t, const Kinematics& at, const ContactPhase& phase, double normal) const;
+  ContactPhase& used(Index i) { return phases_[static_cast<std::size_t>(i)]; }
+
+  const model::System* system_;
+  linalg::Counters* counters_;
+  const model::Rotation* rotation_;
+  std::vector<Contact> contacts_;
+  std::vector<ContactPhase> phases_;
+  std::vector<Tangent> tangents_;
+  std::vector<Index> dofs_;
+  bool is_live_ = true, has_rigid_friction_ = false;
+};
+
+}  // namespace butee::dynamics

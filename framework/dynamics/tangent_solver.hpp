@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "butee/dynamics/effective_solver.hpp"
+#include "butee/dynamics/obstacles.hpp"
+
+namespace butee::dynamics {
+
+/// Solves effective equations with the tangents of obstacles beside the stops,
+///
+///     (A + sum_i S_i^T B_i S_i) x = b,    B_i = on_v C_i + on_x K_i,    x = y - Z (1 + B G)^-1 B S y,
+///     A y = b,    Z = A^-1 S^T,    G = S Z
+///
+/// where A is what an EffectiveSolver solves and the sum goes over the obstacles that exert a force: two solves for
+/// each in set(). B need not be symmetric. Checked against a full factorization in tests/unit/obstacles_test.cpp.
+class BUTEE_EXPORT TangentSolver {
+ public:
+  /// Both must outlive it; `obstacles` is null where there are none.
+  TangentSolver(EffectiveSolver& effective, const Obstacles* obstacles)
+      : effective_(effective), obstacles_(obstacles) {}
+
+  /// Takes A, by the factors and stops given, and the tangents. False where A is not positive definite or the sum is
+  /// singular.
+  [[nodiscard]] bool set(double on_v, double on_x, ConstVectorRef kappa, std::span<const Obstacles::Tangent> tangents);
+  /// b := x
+  [[nodiscard]] bool solve(VectorRef b);
+
+ private:
+  EffectiveSolver& effective_;
+  const Obstacles* obstacles_;
+  Vector kappa_;
+  std::vector<Index> contacts_;
+  std::vector<Eigen::Matrix2d> blocks_;
+  Eigen::MatrixXd motion_;  ///< Z
+  Eigen::PartialPivLU<Eigen::MatrixXd> small_;
+  Vector right_;
+};
+
+}  // namespace butee::dynamics

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "butee/model/contact_law.hpp"
+#include "butee/model/dofs.hpp"
+
+namespace butee::model {
+
+/// How a body at the displacement d = (d_1, d_2) lies to an obstacle.
+struct Approach {
+  double penetration;      ///< g(d), m; negative while apart
+  Eigen::Vector2d normal;  ///< dg/dd, of length 1: into the obstacle
+  double curvature;        ///< 1/m: d2g/dd2 = curvature t t^T with the tangent t = (-normal_2, normal_1)
+};
+
+/// The shape of an obstacle in the plane of one or two displacements of a node (or of their difference between two).
+class BUTEE_EXPORT ContactShape {
+ public:
+  virtual ~ContactShape() = default;
+  virtual Approach at(const Eigen::Vector2d& d) const = 0;
+
+  /// What methods that expand the motion in series must know of it.
+  struct Form {
+    enum class Kind { line, circle, other } kind = Kind::other;
+    Eigen::Vector2d place = {0.0, 0.0};  ///< the normal of a line, the centre of a circle (m)
+    double distance = 0.0;               ///< g = normal . d - distance, or sense (|d - centre| - distance), m
+    double sense = 1.0;                  ///< +1: the body is within the circle, -1: it is outside
+  };
+  virtual Form form() const { return {}; }
+};
+
+/// Dissipation of a closed contact, with g' the rate of penetration.
+struct ImpactDamping {
+  enum class Kind {
+    none,
+    kelvin_voigt,   ///< F = K_c(g) g + c g', c in N s/m
+    hunt_crossley,  ///< F = K_c(g) g (1 + a g'), a in s/m
+    jankowski       ///< F = K_c(g) g + 2 xi sqrt(K_c(g) m) g' while g' > 0; xi = c
+  };
+  Kind kind = Kind::none;
+  double coefficient = 0.0;  ///< c, a or xi
+  double mass = 0.0;         ///< m of jankowski, kg
+  bool pulls = false;        ///< kelvin_voigt: the contact ends at g = 0; else already at F = 0
+};
+
+/// Coulomb friction: the tangential force on the body is -mu F_n s with the slip speed w.
+struct Friction {
+  enum class Rule {
+    none,
+    sqrt,    ///< s = w/sqrt(w^2 + slip_speed^2)
+    tanh,    ///< s = tanh(w/slip_speed)
+    clip,    ///< s = w/slip_speed within [-1, 1]
+    spring,  ///< stick: spring and dashpot from where it began, up to static_coefficient F_n; then slip
+    rigid    ///< stick: w = 0 up to static_coefficient F_n; then slip
+  };
+  Rule rule = Rule::none;
+  double coefficient = 0.0, static_coefficient = 0.0;  ///< mu of slip and of stick
+  double slip_speed = 0.0;                             ///< m/s
+  double stick_stiffness = 0.0, stick_damping = 0.0;   ///< N/m, N s/m
+  double surface_speed = 0.0;                          ///< m/s, of the obstacle along the tangent
+
+  bool has_memory() const { return rule == Rule::spring || rule == Rule::rigid; }
+};
+
+/// Contacts of one kind in one or two directions, with dissipation and friction; elastic stops are StopGroups instead.
+///
+/// On node a (against ground, or against node b: d = d_a - d_b) acts
+///
+///     F = -F_n n - F_t t,    F_t = mu F_n s(w),    w = t . d' + radius Omega - surface_speed
+///
+/// with the normal n and the tangent t = (-n_2, n_1) of the shape. A friction support has no shape: F_n is
+/// `normal_force` and t its one direction.
+struct ObstacleGroup {
+  std::string kind;                     ///< as the scene names it, "ring"
+  std::unique_ptr<ContactLaw> law;      ///< null without a shape
+  std::unique_ptr<ContactShape> shape;  ///< null: a friction support
+  double normal_force = 0.0;            ///< N, of a friction support
+  std::vector<DofKind> directions;      ///< one or two displacements
+  ImpactDamping damping;
+  Friction friction;
+  double radius = 0.0;  ///< m, of the body where it touches; 0 where it does not turn
+  std::vector<NodeId> a;
+  std::vector<NodeId> b;  ///< empty: against ground; else as long as `a`
+};
+
+}  // namespace butee::model

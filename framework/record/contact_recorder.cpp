@@ -1,0 +1,221 @@
+#include "butee/record/contact_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "butee/record/csv_writer.hpp"
+#include "butee/record/quadrature.hpp"
+
+namespace butee::record {
+namespace {
+
+constexpr int kBisections = 60;
+constexpr std::size_t kLeastBytes = 77;
+
+double closeness(const dynamics::ContactForces& forces) {
+  return forces.penetration;
+}
+
+}  // namespace
+
+ContactRecorder::ContactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
+  const dynamics::Obstacles& obstacles = *dynamics.obstacles();
+  dofs_ = obstacles.dofs();
+  if (obstacles.has_rigid_friction()) {
+    dofs_.resize(static_cast<std::size_t>(dynamics.size()));
+    std::iota(dofs_.begin(), dofs_.end(), Index{0});
+  }
+  x_values_.resize(dofs_.size());
+  v_values_ = x_values_;
+  x_ = v_ = Vector::Zero(dynamics.size());
+  for (Index i = 0; i < obstacles.size(); ++i) {
+    Watch watch;
+    watch.is_support = obstacles.group_of(i).shape == nullptr;
+    watch.current.node = obstacles.name_of(i);
+    watches_.push_back(std::move(watch));
+    ContactWear wear;
+    wear.node = obstacles.name_of(i);
+    wear.kind = obstacles.group_of(i).kind;
+    wear_.push_back(std::move(wear));
+  }
+}
+
+void ContactRecorder::start(const time::State& state) {
+  done_.clear();
+  duration_ = 0.0;
+  dynamics_.contact_forces(state.t, state.x, state.v, forces_);
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    Watch& watch = watches_[i];
+    watch.touches = watch.is_support || closeness(forces_[i]) > 0.0;
+    watch.stored = forces_[i].stored;
+    watch.current.t_in = state.t;
+    watch.current.impact_speed = forces_[i].rate;
+    watch.current.peak_force = watch.touches ? forces_[i].normal : 0.0;
+    watch.current.impulse = watch.current.tangential_impulse = watch.current.slip = watch.current.dissipated = 0.0;
+    const ContactWear& named = wear_[i];
+    wear_[i] = {named.node, named.kind};
+    wear_[i].peak_force = watch.current.peak_force;
+  }
+}
+
+const ContactRecorder::Forces& ContactRecorder::at(const time::AcceptedStep& step, double t) {
+  if (t >= step.to.t) {
+    dynamics_.contact_forces(step.to.t, step.to.x, step.to.v, forces_);
+    return forces_;
+  }
+  step.integrator.interpolate(step.from, step.to, t, dofs_, {x_values_, v_values_, {}});
+  for (std::size_t k = 0; k < dofs_.size(); ++k) {
+    x_[dofs_[k]] = x_values_[k];
+    v_[dofs_[k]] = v_values_[k];
+  }
+  dynamics_.contact_forces(t, x_, v_, forces_);
+  return forces_;
+}
+
+void ContactRecorder::step(const time::AcceptedStep& step) {
+  const double h = step.to.t - step.from.t;
+  double begin = step.from.t;
+  for (int part = 1; part <= kParts; ++part) {
+    const double end = part == kParts ? step.to.t : step.from.t + h * part / kParts;
+    integrate(step, begin, end);
+    begin = end;
+  }
+  duration_ += h;
+}
+
+void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, double end) {
+  for (const auto& [t, weight] : gauss_points(begin, end)) {
+    const Forces& forces = at(step, t);
+    for (std::size_t i = 0; i < watches_.size(); ++i) {
+      const dynamics::ContactForces& now = forces[i];
+      Watch& watch = watches_[i];
+      if (!watch.is_support && !(now.penetration > 0.0)) continue;
+      ContactWear& wear = wear_[i];
+      const double slip = std::abs(now.slip_speed);
+      wear.work += weight * std::abs(now.normal) * slip;
+      wear.touching += weight;
+      wear.slip += weight * slip;
+      wear.square += weight * now.normal * now.normal;
+      const double taken = weight * (now.normal * now.rate + now.friction * now.slip_speed);
+      wear.dissipated += taken;
+      Impact& impact = watch.current;
+      impact.impulse += weight * now.normal;
+      impact.tangential_impulse += weight * now.friction;
+      impact.slip += weight * slip;
+      impact.dissipated += taken;
+      impact.peak_force = std::max(impact.peak_force, now.normal);
+      wear.peak_force = std::max(wear.peak_force, now.normal);
+    }
+  }
+  const Forces& last = at(step, end);
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    const dynamics::ContactForces now = last[i];
+    Watch& watch = watches_[i];
+    if (watch.is_support) {
+      wear_[i].dissipated -= now.stored - watch.stored;
+      watch.stored = now.stored;
+      continue;
+    }
+    const bool touches = now.penetration > 0.0;
+    if (touches || watch.touches) {
+      watch.current.peak_force = std::max(watch.current.peak_force, now.normal);
+      wear_[i].peak_force = std::max(wear_[i].peak_force, now.normal);
+    }
+    const double gained = now.stored - watch.stored;
+    wear_[i].dissipated -= gained;
+    watch.current.dissipated -= gained;
+    watch.stored = now.stored;
+    if (touches != watch.touches) change(step, i, begin, end);
+  }
+}
+
+void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact, double begin, double end) {
+  Watch& watch = watches_[contact];
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = 0.5 * (begin + end);
+    if (middle <= begin || middle >= end) break;
+    ((at(step, middle)[contact].penetration > 0.0) == watch.touches ? begin : end) = middle;
+  }
+  watch.touches = !watch.touches;
+  Impact& impact = watch.current;
+  if (watch.touches) {
+    impact.t_in = end;
+    impact.t_out.reset();
+    impact.impact_speed = at(step, end)[contact].rate;
+    return;
+  }
+  impact.t_out = end;
+  done_.push_back(impact);
+  impact.peak_force = impact.impulse = impact.tangential_impulse = impact.slip = impact.dissipated = 0.0;
+}
+
+std::vector<Impact> ContactRecorder::impacts() const {
+  std::vector<Impact> all = done_;
+  for (const Watch& watch : watches_) {
+    if (watch.is_support || !watch.touches) continue;
+    all.push_back(watch.current);
+    all.back().t_out.reset();
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Impact& a, const Impact& b) { return a.t_in < b.t_in; });
+  return all;
+}
+
+std::vector<std::string> ContactRecorder::wear_columns() {
+  return {"node",
+          "kind",
+          "work",
+          "mean_power",
+          "contact_share",
+          "slip",
+          "dissipated",
+          "peak_normal_force",
+          "rms_normal_force"};
+}
+
+std::string ContactRecorder::wear_line(const ContactWear& wear) const {
+  const double duration = duration_ > 0.0 ? duration_ : 1.0;
+  std::string line = wear.node + "," + wear.kind;
+  for (const double value : {wear.work, wear.work / duration, wear.touching / duration, wear.slip, wear.dissipated,
+                             wear.peak_force, std::sqrt(wear.square / duration)}) {
+    line += ',';
+    append_number(line, value);
+  }
+  return line;
+}
+
+void ContactRecorder::save(ByteWriter& to) const {
+  to.put(duration_);
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    to.put(watches_[i].touches);
+    to.put(watches_[i].stored);
+    put_impact(watches_[i].current, to);
+    const ContactWear& wear = wear_[i];
+    for (const double number : {wear.work, wear.touching, wear.slip, wear.dissipated, wear.peak_force, wear.square})
+      to.put(number);
+  }
+  to.put(std::uint64_t{done_.size()});
+  for (const Impact& impact : done_) {
+    to.put(impact.node);
+    put_impact(impact, to);
+  }
+}
+
+void ContactRecorder::restore(ByteReader& from) {
+  from.take(duration_);
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    from.take(watches_[i].touches);
+    from.take(watches_[i].stored);
+    take_impact(watches_[i].current, from);
+    ContactWear& wear = wear_[i];
+    for (double* number : {&wear.work, &wear.touching, &wear.slip, &wear.dissipated, &wear.peak_force, &wear.square})
+      from.take(*number);
+  }
+  done_.assign(from.count(kLeastBytes), {});
+  for (Impact& impact : done_) {
+    from.take(impact.node);
+    take_impact(impact, from);
+  }
+}
+
+}  // namespace butee::record

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "butee/record/impacts.hpp"
+
+namespace butee::record {
+
+/// What a contact did over a run.
+struct ContactWear {
+  std::string node, kind;
+  double work = 0.0;        ///< J: the integral of |F_n w| (Archard)
+  double touching = 0.0;    ///< s in contact
+  double slip = 0.0;        ///< m: the integral of |w| in contact
+  double dissipated = 0.0;  ///< J
+  double peak_force = 0.0;  ///< N, normal
+  double square = 0.0;      ///< N2 s: the integral of F_n^2
+};
+
+/// Follows contacts in the plane, with dissipation or friction, on the method's dense output: their impacts and their
+/// wear. Integrals by Gauss' rule with five points between kParts parts of a step; largest forces at these instants and
+/// refined by parabolas.
+class BUTEE_EXPORT ContactRecorder final : public time::Observer {
+ public:
+  /// `dynamics` must outlive it and has obstacles.
+  explicit ContactRecorder(dynamics::Dynamics& dynamics);
+
+  void start(const time::State& state) override;
+  void step(const time::AcceptedStep& step) override;
+  void save(ByteWriter& to) const override;
+  void restore(ByteReader& from) override;
+
+  /// In the order of t_in, those still closed included.
+  std::vector<Impact> impacts() const;
+  const std::vector<ContactWear>& wear() const { return wear_; }
+  /// The time watched so far, s.
+  double duration() const { return duration_; }
+  static std::vector<std::string> wear_columns();
+  std::string wear_line(const ContactWear& wear) const;
+
+ private:
+  static constexpr int kParts = 2;
+
+  struct Watch {
+    bool is_support = false, touches = false;
+    Impact current{};
+    double stored = 0.0;  ///< J, at the last instant
+  };
+  using Forces = std::vector<dynamics::ContactForces>;
+
+  const Forces& at(const time::AcceptedStep& step, double t);
+  void integrate(const time::AcceptedStep& step, double begin, double end);
+  void change(const time::AcceptedStep& step, std::size_t contact, double begin, double end);
+
+  dynamics::Dynamics& dynamics_;
+  std::vector<Index> dofs_;
+  std::vector<double> x_values_, v_values_;
+  Vector x_, v_;
+  Forces forces_;
+  std::vector<Watch> watches_;
+  std::vector<ContactWear> wear_;
+  std::vector<Impact> done_;
+  double duration_ = 0.0;
+};
+
+}  // namespace butee::record

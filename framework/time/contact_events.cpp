@@ -1,0 +1,195 @@
+#include "butee/time/contact_events.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "butee/time/integrator.hpp"
+
+namespace butee::time {
+namespace {
+
+using dynamics::ContactPhase;
+using dynamics::Obstacles;
+
+/// The first look into a step, as a part of it.
+constexpr double kAhead = 1e-4;
+/// A switching function is at its end where it is this small beside its change until then.
+constexpr double kAtEnd = 1e-6;
+/// Changes of phase at one instant; more are no motion.
+constexpr int kMostAtOnce = 50;
+constexpr int kBisections = 60;
+/// A contact is near where it is within so many times the way that its ends' speeds cover.
+constexpr double kReach = 1.0;
+
+}  // namespace
+
+ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
+    : dynamics_(dynamics), obstacles_(*dynamics.obstacles()), all_(static_cast<std::size_t>(dynamics.size())) {
+  std::iota(all_.begin(), all_.end(), Index{0});
+  for (Sample* sample : {&now_, &work_}) sample->x = sample->v = Vector::Zero(dynamics.size());
+  values_x_.resize(all_.size());
+  values_v_ = values_x_;
+}
+
+void ContactEvents::start(State& state) {
+  state.contact = Vector::Zero(kEntries * obstacles_.size());
+  follow(state);
+  for (Index i = 0; i < obstacles_.size(); ++i) enter(i, obstacles_.phase_at(i, state.t, state.x, state.v), state);
+  dynamics_.acceleration(state.t, state.x, state.v, state.a);
+}
+
+void ContactEvents::follow(const State& state) {
+  Vector phases(Obstacles::kStateSize * obstacles_.size());
+  for (Index i = 0; i < obstacles_.size(); ++i)
+    phases.segment<Obstacles::kStateSize>(Obstacles::kStateSize * i) =
+        state.contact.segment<Obstacles::kStateSize>(kEntries * i);
+  obstacles_.follow(phases);
+}
+
+void ContactEvents::enter(Index contact, const ContactPhase& next, State& state) {
+  obstacles_.set_phase(contact, next);
+  state.contact.segment<kEntries>(kEntries * contact) << static_cast<double>(next.normal),
+      static_cast<double>(next.slip), next.anchor, 0.0;
+}
+
+void ContactEvents::hold(Sample& at) {
+  sticks_ = obstacles_.rigid_sticks();
+  if (!sticks_.empty()) at.held = dynamics_.stick_forces(at.t, at.x, at.v);
+}
+
+std::size_t ContactEvents::switches(Index contact, const Sample& at) {
+  double held = 0.0;
+  if (const auto place = std::find(sticks_.begin(), sticks_.end(), contact); place != sticks_.end())
+    held = -at.held[place - sticks_.begin()];
+  return obstacles_.switches(contact, at.t, at.x, at.v, held, found_);
+}
+
+double ContactEvents::value(Index contact, std::size_t which, const Sample& at) {
+  switches(contact, at);
+  return found_[which].value;
+}
+
+void ContactEvents::settle(State& state, double h) {
+  follow(state);
+  bool changed = false;
+  for (int round = 0; round < kMostAtOnce; ++round) {
+    bool again = false;
+    if (changed) dynamics_.acceleration(state.t, state.x, state.v, state.a);
+    const double ahead = kAhead * h;
+    now_ = {state.t, state.x, state.v, {}};
+    work_ = {state.t + ahead, state.x + ahead * (state.v + 0.5 * ahead * state.a), state.v + ahead * state.a, {}};
+    hold(now_);
+    hold(work_);
+    for (Index i = 0; i < obstacles_.size(); ++i) {
+      double& mark = state.contact[kEntries * i + kEntries - 1];
+      const std::size_t count = switches(i, now_);
+      const auto present = found_;
+      std::optional<std::size_t> over;
+      if (mark > 0.0 && static_cast<std::size_t>(mark) <= count) {
+        over = static_cast<std::size_t>(mark) - 1;
+      } else {
+        switches(i, work_);
+        for (std::size_t k = 0; k < count && !over; ++k)
+          if (found_[k].value < 0.0 && present[k].value <= kAtEnd * -found_[k].value) over = k;
+      }
+      mark = 0.0;
+      if (!over) continue;
+      const ContactPhase before = obstacles_.phase(i);
+      ContactPhase next = present[*over].to;
+      if (next.touches() && !before.touches()) {
+        const auto normal = next.normal;
+        obstacles_.set_phase(i, next);
+        next = obstacles_.phase_at(i, state.t, state.x, state.v);
+        next.normal = normal;
+      }
+      enter(i, next, state);
+      if (next.slip == ContactPhase::Slip::stick) dynamics_.stop_sliding(state.t, state.v);
+      again = changed = true;
+    }
+    if (!again) break;
+  }
+  if (changed) dynamics_.acceleration(state.t, state.x, state.v, state.a);
+}
+
+void ContactEvents::sample(const Integrator& integrator, const State& from, const State& to, double t, Sample& at) {
+  at.t = t;
+  if (t >= to.t) {
+    at.x = to.x;
+    at.v = to.v;
+  } else {
+    const std::vector<Index>& dofs = sticks_.empty() ? obstacles_.dofs() : all_;
+    const std::span<double> x(values_x_.data(), dofs.size()), v(values_v_.data(), dofs.size());
+    integrator.interpolate(from, to, t, dofs, {x, v, {}});
+    for (std::size_t k = 0; k < dofs.size(); ++k) {
+      at.x[dofs[k]] = x[k];
+      at.v[dofs[k]] = v[k];
+    }
+  }
+  if (!sticks_.empty()) hold(at);
+}
+
+bool ContactEvents::is_near(Index contact, const State& from, const State& to) const {
+  const ContactPhase phase = obstacles_.phase(contact);
+  if (phase.normal != ContactPhase::Normal::apart || obstacles_.group_of(contact).shape == nullptr) return true;
+  const auto first = obstacles_.motion(contact, from.x, from.v), last = obstacles_.motion(contact, to.x, to.v);
+  const model::ContactShape& shape = *obstacles_.group_of(contact).shape;
+  const double way = kReach * (to.t - from.t) * (first.v.norm() + last.v.norm()) + (first.d - last.d).norm();
+  return shape.at(first.d).penetration + way >= 0.0 || shape.at(last.d).penetration + way >= 0.0;
+}
+
+std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integrator, const State& from,
+                                                         const State& to) {
+  sticks_ = obstacles_.rigid_sticks();
+  std::vector<Index> watched;
+  for (Index i = 0; i < obstacles_.size(); ++i)
+    if (is_near(i, from, to)) watched.push_back(i);
+  if (watched.empty()) return std::nullopt;
+  const double h = to.t - from.t;
+  double last = from.t;
+  for (int k = 0; k <= kSamples; ++k) {
+    const double t = k == 0 ? from.t + kAhead * h : k == kSamples ? to.t : from.t + h * k / kSamples;
+    sample(integrator, from, to, t, now_);
+    std::optional<Event> earliest;
+    for (const Index i : watched) {
+      const std::size_t count = switches(i, now_);
+      const auto present = found_;
+      for (std::size_t which = 0; which < count; ++which) {
+        if (present[which].value >= 0.0) continue;
+        const Event event = refine(integrator, from, to, {t, i, which}, last);
+        if (!earliest || event.t < earliest->t) earliest = event;
+      }
+    }
+    if (earliest) return earliest;
+    last = t;
+  }
+  return std::nullopt;
+}
+
+ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const State& from, const State& to,
+                                           Event event, double begin) {
+  double end = event.t;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (begin + end);
+    if (middle <= begin || middle >= end) break;
+    sample(integrator, from, to, middle, work_);
+    (value(event.contact, event.which, work_) < 0.0 ? end : begin) = middle;
+  }
+  event.t = end;
+  return event;
+}
+
+double ContactEvents::miss(const Integrator& integrator, const Event& event, const State& from, const State& to) {
+  const double ahead = 1e-3 * (to.t - from.t);
+  sample(integrator, from, to, to.t, now_);
+  sample(integrator, from, to, to.t - ahead, work_);
+  const double at_end = value(event.contact, event.which, now_), before = value(event.contact, event.which, work_);
+  const double slope = (before - at_end) / ahead;
+  return slope != 0.0 ? -at_end / slope : 0.0;
+}
+
+void ContactEvents::mark(const Event& event, State& to) {
+  to.contact[kEntries * event.contact + kEntries - 1] = static_cast<double>(event.which + 1);
+}
+
+}  // namespace butee::time

@@ -1,0 +1,170 @@
+// Coulomb friction against closed forms of blocks that slide, stick and hit walls at an angle.
+#include <cmath>
+#include <numbers>
+
+#include <butee/record/contact_recorder.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::friction_test {
+namespace {
+
+using std::numbers::pi;
+
+std::string block(double mass, double stiffness, const std::string& friction, double end_time,
+                  const std::string& rest) {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"block\"\nmass = " + std::to_string(mass) +
+         "\n[[element]]\ntype = \"spring\"\nnode = \"block\"\nstiffness = " + std::to_string(stiffness) +
+         "\n[[contact]]\ntype = \"friction\"\nnodes = \"block\"\nnormal_force = 10.0\nfriction = { " + friction +
+         " }\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-9\nend_time = " + std::to_string(end_time) + "\n" + rest;
+}
+
+/// The turning points of x over a run: where the sign of v changes.
+class Turns final : public time::Observer {
+ public:
+  void step(const time::AcceptedStep& step) override {
+    const double before = step.from.v[0], after = step.to.v[0];
+    if (before * after < 0.0 || (after == 0.0 && before != 0.0)) at.push_back(step.to.x[0]);
+  }
+  std::vector<double> at;
+};
+
+class Methods : public testing::TestWithParam<const char*> {};
+
+constexpr const char* kSliding = "[initial]\ndisplacement = [{ nodes = \"block\", value = 0.85e-3 }]\n";
+
+/// SDND100: turning points 0.85 - 0.2 n mm, stopped for good at the fourth; each turn takes 0.2 mm off.
+TEST_P(Methods, a_sliding_block_stops_where_friction_holds_it) {
+  SceneRun run(block(1.0, 1e4, "coefficient = 0.1, stick = \"rigid\"", 0.2, kSliding), {GetParam()});
+  Sampler sampler(0, {pi / 100, 2 * pi / 100, 3 * pi / 100, 4 * pi / 100, 0.2});
+  record::EnergyRecorder energy(run.dynamics());
+  run.simulation().add(sampler);
+  run.simulation().add(energy);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  const std::vector<double> wanted = {-0.65e-3, 0.45e-3, -0.25e-3, 0.05e-3, 0.05e-3};
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(sampler.x[i], wanted[i], 1e-9 * 0.85e-3) << i;
+  EXPECT_NEAR(energy.dissipated(), 3.6e-3, 1e-8 * 3.6e-3);
+  EXPECT_NEAR(energy.balance_error(), 0.0, 1e-8);
+}
+
+/// F3: the stick-slip oscillator on a belt, period 2 D/v + (2/w)(pi - atan(D w/v)) with D = (mu_s - mu_d) N/k.
+TEST_P(Methods, a_block_on_a_belt_sticks_and_slips_with_its_period) {
+  const std::string friction = "coefficient = 0.3, static_coefficient = 0.4, stick = \"rigid\", surface_speed = 0.1";
+  const double w = 10.0, d = 0.01, v = 0.1, slip = 2 / w * (pi - std::atan(d * w / v)), period = 2 * d / v + slip;
+  EXPECT_NEAR(period, 0.6712388980, 1e-10);
+  SceneRun run(block(1.0, 100.0, friction, 3.5, "[initial]\nvelocity = [{ nodes = \"block\", value = 0.1 }]\n"),
+               {GetParam()});
+  // First slip at 0.4 s; stuck again after each slip; half-way through the stick x is at the mean of its ends.
+  std::vector<double> times;
+  for (int i = 0; i < 4; ++i) times.push_back(0.4 + slip + i * period + 0.1);
+  Sampler sampler(0, times);
+  run.simulation().add(sampler);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  for (const double x : sampler.x) EXPECT_NEAR(x, 0.02 + 0.1 * 0.1, 1e-8);
+  for (const double speed : sampler.v) EXPECT_NEAR(speed, 0.1, 1e-10);
+}
+
+/// F2 (SDND104): mean of N |v| over 4 ... 12 s of a block on a shaken floor, friction power over mu.
+TEST_P(Methods, a_shaken_block_has_the_wear_power_of_the_event_solution) {
+  for (const auto& [amplitude, power] :
+       {std::pair(15.0, 15.267099589), {1.5, 0.40906245102}, {1.01, 2.261641213e-4}, {0.99, 0.0}}) {
+    const std::string toml =
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"block\"\nmass = 1.0\n[[contact]]\ntype = \"friction\"\n"
+        "nodes = \"block\"\nnormal_force = 10.0\nfriction = { coefficient = 0.1, stick = \"rigid\" }\n"
+        "[[load]]\ntype = \"harmonic\"\nnode = \"block\"\namplitude = " +
+        std::to_string(-amplitude) +
+        "\nangular_frequency = 6.283185307179586\nphase = -1.5707963267948966\n[integrator]\ntype = \"dopri5\"\n"
+        "tolerance = 1e-8\nend_time = 12.0\n";
+    SceneRun run(toml, {GetParam()});
+    record::ContactRecorder recorder(run.dynamics());
+    double before = 0.0;
+    run.simulation().add(recorder);
+    run.simulation().set_end_time(4.0);
+    run.run();
+    before = recorder.wear()[0].work;
+    run.simulation().set_end_time(12.0);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_NEAR((recorder.wear()[0].work - before) / 8.0, power, 1e-6 * power + 1e-12) << amplitude;
+  }
+}
+
+/// F4: Den Hartog's amplitude of forced motion without stops, f = 0.3.
+TEST_P(Methods, forced_motion_has_den_hartogs_amplitude) {
+  for (const auto& [ratio, amplitude] : {std::pair(0.7, 1.8856998504), {1.3, 1.3153481967}}) {
+    const std::string toml =
+        block(1.0, 1.0, "coefficient = 0.03, stick = \"rigid\"", 60 * 2 * pi / ratio,
+              "[[load]]\ntype = \"harmonic\"\nnode = \"block\"\namplitude = 1.0\nangular_frequency = " +
+                  std::to_string(ratio) + "\nphase = 1.5707963267948966\n");
+    SceneRun run(toml, {GetParam()});
+    Turns turns;
+    run.simulation().add(turns);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    ASSERT_GT(turns.at.size(), 80U);
+    EXPECT_NEAR(std::abs(turns.at.back()), amplitude, 1e-7 * amplitude) << ratio;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Exact, Methods, testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8"));
+
+/// F1 with regularised friction: the published bias of the turning points, of order 2 in slip_speed for tanh.
+TEST(RegularisedFriction, has_the_bias_of_its_smoothing) {
+  for (const auto& [smoothing, bias] : {std::pair("tanh", 6.0e-4), {"clip", 2.6e-4}}) {
+    SceneRun run(block(1.0, 1e4, "coefficient = 0.1, slip_speed = 1e-3, smoothing = \"" + std::string(smoothing) + "\"",
+                       0.13, kSliding));
+    Turns turns;
+    run.simulation().add(turns);
+    ASSERT_TRUE(run.run().completed);
+    ASSERT_GE(turns.at.size(), 3U);
+    EXPECT_NEAR((turns.at[2] + 0.25e-3) / 0.85e-3, smoothing == std::string("tanh") ? -1.3e-4 : -5.3e-5, 1e-5) << bias;
+  }
+}
+
+/// Jenkins: a spring k_t in series with a slider dissipates 4 mu N (A - mu N/k_t) in a cycle of amplitude A.
+TEST(StickSpring, dissipates_what_jenkins_element_does) {
+  // A heavy mass on a stiff spring is moved with a given amplitude by its initial motion, friction hardly slows it.
+  const double stiffness = 1e8, amplitude = 1e-3, limit = 1.0, stick = 5e3;
+  const std::string toml = block(1.0, stiffness, "coefficient = 0.1, stick_stiffness = 5e3", 4 * pi / 1e4,
+                                 "[initial]\ndisplacement = [{ nodes = \"block\", value = 1e-3 }]\n");
+  SceneRun run(toml);
+  record::ContactRecorder recorder(run.dynamics());
+  run.simulation().add(recorder);
+  run.simulation().set_end_time(2 * pi / 1e4);
+  run.run();
+  const double before = recorder.wear()[0].dissipated;
+  run.simulation().set_end_time(4 * pi / 1e4);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  const double cycle = recorder.wear()[0].dissipated - before, wanted = 4 * limit * (amplitude - limit / stick);
+  // The amplitude falls by 4e-5 of itself a cycle.
+  EXPECT_NEAR(cycle, wanted, 1e-4 * wanted);
+}
+
+/// F5: an oblique impact with slip throughout: v_n' = -e v_n, v_t' = v_t - mu (1 + e) v_n.
+TEST(ObliqueImpact, takes_the_tangential_impulse_of_slip) {
+  const auto after = [](double mu, double slide, const std::string& damping) {
+    const std::string toml =
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\n"
+        "node = \"ball\"\ndof = \"uz\"\nstiffness = 1e-9\n[[contact]]\ntype = \"plane\"\nnodes = \"ball\"\n"
+        "normal = [0, 1]\ngap = 1e-3\nstiffness = 1e6\nfriction = { coefficient = " +
+        std::to_string(mu) + ", stick = \"rigid\" }\n" + damping +
+        "[initial]\nvelocity = [{ nodes = \"ball\", dof = \"uy\", value = " + std::to_string(slide) +
+        " }, { nodes = \"ball\", dof = \"uz\", value = 0.5 }]\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-10\n"
+        "end_time = 0.02\n";
+    SceneRun run(toml);
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    const auto& v = run.simulation().state().v;
+    return std::pair(v[run.dof("ball", DofKind::uy)], v[run.dof("ball", DofKind::uz)]);
+  };
+  const std::string damped = "damping = { type = \"kelvin_voigt\", coefficient = 200.0 }\n";  // zeta 0.1
+  const auto elastic = after(0.2, 1.0, "");
+  EXPECT_NEAR(elastic.first, 0.8, 1e-9);
+  EXPECT_NEAR(elastic.second, -0.5, 1e-9);
+  const auto lossy = after(0.2, 1.0, damped);
+  EXPECT_NEAR(lossy.first, 0.8255920602, 1e-9);
+  EXPECT_NEAR(lossy.second, -0.3720396989, 1e-9);
+  const auto stuck = after(0.3, 0.2, damped);
+  EXPECT_NEAR(stuck.first, 0.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace butee::test::friction_test

@@ -1,0 +1,104 @@
+// Impacts with dissipation against closed forms of the restitution and of the largest penetration.
+#include <cmath>
+
+#include <butee/core/error.hpp>
+#include <butee/record/contact_recorder.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::impact_damping_test {
+namespace {
+
+struct Outcome {
+  double restitution, impulse_time, peak_force, dissipated;
+};
+
+/// A mass flies at `speed` against a stop on its positive side.
+Outcome bounce(double mass, double speed, const std::string& contact, double end_time, const std::string& method) {
+  char start[400];
+  std::snprintf(
+      start, sizeof start,
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = %.17g\n[initial]\nvelocity = [{ nodes = "
+      "\"ball\", value = %.17g }]\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-11\nend_time = %.17g\n",
+      mass, speed, end_time);
+  SceneRun run(start + ("[[contact]]\ntype = \"stop\"\nsides = \"positive\"\nnodes = \"ball\"\n" + contact), {method});
+  record::ContactRecorder recorder(run.dynamics());
+  run.simulation().add(recorder);
+  EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+  const auto impacts = recorder.impacts();
+  EXPECT_EQ(impacts.size(), 1U);
+  if (impacts.empty() || !impacts[0].t_out) return {};
+  return {-run.simulation().state().v[0] / speed, *impacts[0].t_out - impacts[0].t_in, impacts[0].peak_force,
+          impacts[0].dissipated};
+}
+
+class Methods : public testing::TestWithParam<const char*> {};
+
+/// C1: m = 1, k = 1e4: the contact ends at F = 0 or, where it may pull, at g = 0.
+TEST_P(Methods, kelvin_and_voigts_dashpot_gives_its_restitution) {
+  struct Row {
+    double zeta, pulls, released;
+  };
+  for (const Row row : {Row{0.05, 0.8544678930, 0.8587581018},
+                        {0.1, 0.7292476143, 0.7440793977},
+                        {0.2, 0.5266205993, 0.5717400276},
+                        {0.5, 0.1630335348, 0.2984360592}}) {
+    const std::string law = "gap = 1e-3\nstiffness = 1e4\ndamping = { type = \"kelvin_voigt\", coefficient = " +
+                            std::to_string(200.0 * row.zeta);
+    EXPECT_NEAR(bounce(1.0, 1.0, law + ", pull = true }\n", 0.3, GetParam()).restitution, row.pulls, 1e-9);
+    const Outcome released = bounce(1.0, 1.0, law + " }\n", 0.3, GetParam());
+    EXPECT_NEAR(released.restitution, row.released, 1e-9);
+    EXPECT_NEAR(released.dissipated, 0.5 * (1.0 - row.released * row.released), 1e-8);
+  }
+}
+
+TEST_P(Methods, a_wanted_restitution_comes_out) {
+  for (const double e : {0.4, 0.8, 0.95}) {
+    const std::string number = "restitution = " + std::to_string(e);
+    const std::string law = "gap = 1e-3\nstiffness = 1e4\ndamping = { type = \"kelvin_voigt\", mass = 2.0, " + number;
+    EXPECT_NEAR(bounce(2.0, 1.0, law + ", pull = true }\n", 0.5, GetParam()).restitution, e, 1e-9);
+    EXPECT_NEAR(bounce(2.0, 1.0, law + " }\n", 0.5, GetParam()).restitution, e, 1e-9);
+  }
+}
+
+/// C2: s (1 + e) = ln((1 + s)/(1 - s e)) with s = a v_i, for any n, k and m.
+TEST_P(Methods, hunt_and_crossleys_law_gives_its_restitution) {
+  for (const auto& [s, e] : {std::pair(0.1, 0.937475579950), {0.5, 0.748434931597}, {2.0, 0.410719686061}})
+    for (const char* law : {"law = \"hertz\"\nstiffness = 1e8\n", "stiffness = 1e5\n"}) {
+      const std::string contact = std::string("gap = 1e-3\n") + law +
+                                  "damping = { type = \"hunt_crossley\", factor = " + std::to_string(s / 0.5) + " }\n";
+      EXPECT_NEAR(bounce(2.0, 0.5, contact, 0.1, GetParam()).restitution, e, 1e-9) << s << " " << law;
+    }
+  const std::string wanted =
+      "gap = 1e-3\nlaw = \"hertz\"\nstiffness = 1e8\ndamping = { type = \"hunt_crossley\", restitution = 0.65, "
+      "impact_speed = 0.5 }\n";
+  EXPECT_NEAR(bounce(2.0, 0.5, wanted, 0.1, GetParam()).restitution, 0.65, 1e-9);
+}
+
+/// C3: a steel ball of 10 mm on steel at 1 m/s.
+TEST_P(Methods, hertz_law_has_the_duration_and_force_of_its_closed_form) {
+  const Outcome ball = bounce(0.0326725636, 1.0,
+                              "gap = 1e-5\nlaw = \"hertz\"\nstiffness = 1.5384615385e10\n"
+                              "damping = { type = \"hunt_crossley\", factor = 0.0 }\n",
+                              1e-4, GetParam());
+  EXPECT_NEAR(ball.restitution, 1.0, 1e-9);
+  EXPECT_NEAR(ball.impulse_time, 6.8934003430e-5, 1e-8 * 6.9e-5);
+  EXPECT_NEAR(ball.peak_force, 1743.7755835, 1e-6 * 1743.8);
+}
+
+/// C4: what Jankowski's approximate formula really gives.
+TEST_P(Methods, jankowskis_law_gives_the_restitution_that_the_message_states) {
+  for (const auto& [wanted, real] : {std::pair(0.5, 0.4945878), {0.65, 0.6470290}, {0.8, 0.7989438}}) {
+    const std::string contact =
+        "gap = 1e-3\nlaw = \"hertz\"\nstiffness = 1e8\ndamping = { type = \"jankowski\", mass = 2.0, restitution = " +
+        std::to_string(wanted) + " }\n";
+    EXPECT_NEAR(bounce(2.0, 0.5, contact, 0.1, GetParam()).restitution, real, 1e-7);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Adaptive, Methods,
+                         testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8"));
+
+}  // namespace
+}  // namespace butee::test::impact_damping_test

@@ -1,0 +1,130 @@
+// Rubbing and whirling within rings against closed forms of Jiang and Ulbrich's rotor, and between two bodies.
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <butee/record/energy.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::ring_test {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+std::string text(double value) {
+  char buffer[40];
+  std::snprintf(buffer, sizeof buffer, "%.17g", value);
+  return buffer;
+}
+
+std::string body(const std::string& name, double mass, double stiffness, double damping) {
+  std::string toml = "[[element]]\ntype = \"mass\"\nname = \"" + name + "\"\nmass = " + text(mass) + "\n";
+  for (const char* dof : {"uy", "uz"})
+    toml += "[[element]]\ntype = \"spring\"\nnode = \"" + name + "\"\ndof = \"" + dof +
+            "\"\nstiffness = " + text(stiffness) + "\ndamping = " + text(damping) + "\n";
+  return toml;
+}
+
+std::string start_of(const std::string& name, Complex r, Complex v) {
+  return "{ nodes = \"" + name + "\", dof = \"uy\", value = " + text(r.real()) + " }, { nodes = \"" + name +
+         "\", dof = \"uz\", value = " + text(r.imag()) + " }" + (v == Complex() ? "" : "");
+}
+
+/// The rotor of S1: m = 1, c = 2 z, k = b, k_c = 1 beyond R0.
+std::string rotor(double speed, double radius, const std::string& friction, double moment, Complex r, Complex v,
+                  double end_time) {
+  return "schema = 1\n" + body("rotor", 1.0, 0.04, 0.1) + "[rotation]\nspeed = " + text(speed) +
+         "\n[[contact]]\ntype = \"ring\"\nnodes = \"rotor\"\ngap = 1.05\nstiffness = 1.0\nradius = " + text(radius) +
+         "\n" + friction +
+         (moment > 0.0 ? "[[load]]\ntype = \"unbalance\"\nnode = \"rotor\"\nmoment = " + text(moment) + "\n" : "") +
+         "[initial]\ndisplacement = [" + start_of("rotor", r, {}) + "]\nvelocity = [" + start_of("rotor", v, {}) +
+         "]\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-9\nend_time = " + text(end_time) + "\n";
+}
+
+Complex position(SceneRun& run, const std::string& node) {
+  const auto& x = run.simulation().state().x;
+  return {x[run.dof(node, DofKind::uy)], x[run.dof(node, DofKind::uz)]};
+}
+
+class Methods : public testing::TestWithParam<const char*> {};
+
+/// S1: a forward rub of constant amplitude A, stable: it stays for 100 units of time.
+TEST_P(Methods, a_synchronous_rub_keeps_its_amplitude) {
+  struct Row {
+    double mu, speed, amplitude;
+  };
+  for (const Row row :
+       {Row{0.05, 0.3, 1.1887167725}, {0.05, 0.6, 2.0117317966}, {0.1, 0.6, 1.9733447704}, {0.1, 0.9, 4.8058279852}}) {
+    const double w = row.speed;
+    const Complex stiffness = Complex(0.04 - w * w, 0.1 * w) + (1.0 - 1.05 / row.amplitude) * Complex(1.0, row.mu);
+    const Complex r = w * w / stiffness;
+    EXPECT_NEAR(std::abs(r), row.amplitude, 1e-9 * row.amplitude);
+    SceneRun run(rotor(w, 20.0, "friction = { coefficient = " + text(row.mu) + ", slip_speed = 1e-5 }\n", 1.0, r,
+                       Complex(0, w) * r, 100.0),
+                 {GetParam()});
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_NEAR(std::abs(position(run, "rotor")), row.amplitude, 1e-8 * row.amplitude) << row.mu << " " << w;
+  }
+}
+
+/// S3: without unbalance, a start above the threshold of backward whirl ends in it, one below comes to rest. A wrong
+/// sense of friction lets both grow without bound.
+TEST_P(Methods, dry_whirl_has_its_threshold_and_its_end_state) {
+  const double w = 0.5701562119, a = 1.4686919071;
+  for (const double factor : {1.05, 0.95}) {
+    const Complex r = factor * a, v = Complex(0, -w) * r;
+    SceneRun run(rotor(0.3, 20.0, "friction = { coefficient = 0.2, slip_speed = 0.01, smoothing = \"tanh\" }\n", 0.0, r,
+                       v, 500.0),
+                 {GetParam(), "integrator.tolerance=1e-7"});
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    if (factor < 1.0) {
+      EXPECT_LT(std::abs(position(run, "rotor")), 1e-3);
+      continue;
+    }
+    const auto& state = run.simulation().state();
+    const Complex end = position(run, "rotor"),
+                  speed(state.v[run.dof("rotor", DofKind::uy)], state.v[run.dof("rotor", DofKind::uz)]);
+    EXPECT_NEAR(std::abs(end), 6.4037291140, 1e-5);
+    EXPECT_NEAR((speed / end).imag(), -0.9359663665, 1e-5);
+  }
+}
+
+/// S2: a rotor that rubs on an elastic stator, both bodies free to move.
+TEST_P(Methods, a_rotor_and_its_stator_whirl_together) {
+  const double m = 10, k = 986960.4401, c = 125.6637061, ms = 5, ks = 2842446.0675, cs = 376.9911184, kc = 2e6,
+               gap = 2e-4, mu = 0.1, e = 1e-4, w = 2 * pi * 60;
+  const Complex zr(k - m * w * w, c * w), zs(ks - ms * w * w, cs * w);
+  const Complex b = kc * Complex(1, mu) * (1.0 / zr + 1.0 / zs), free = m * e * w * w / zr;
+  // |rho (1 + B) - gap B| = |free|
+  const double rho = 3.8606870161e-4, normal = kc * (rho - gap);
+  EXPECT_NEAR(std::abs(rho * (1.0 + b) - gap * b), std::abs(free), 1e-8 * std::abs(free));
+  const Complex turn = free / (rho * (1.0 + b) - gap * b);  // e^(i psi)
+  const Complex force = normal * Complex(1, mu) * turn, s = force / zs, r = rho * turn + s;
+  EXPECT_NEAR(std::abs(r), 5.6104685594e-4, 1e-10 * 5.6);
+  const Complex iw(0, w);
+  const std::string toml =
+      "schema = 1\n" + body("rotor", m, k, c) + body("stator", ms, ks, cs) + "[rotation]\nspeed = " + text(w) +
+      "\n[[contact]]\ntype = \"ring\"\nbetween = [\"rotor\", \"stator\"]\ngap = 2e-4\nstiffness = 2e6\nradius = 1.0\n"
+      "friction = { coefficient = 0.1, slip_speed = 1e-3 }\n[[load]]\ntype = \"unbalance\"\nnode = \"rotor\"\nmoment "
+      "= " +
+      text(m * e) + "\n[initial]\ndisplacement = [" + start_of("rotor", r, {}) + ", " + start_of("stator", s, {}) +
+      "]\nvelocity = [" + start_of("rotor", iw * r, {}) + ", " + start_of("stator", iw * s, {}) +
+      "]\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-9\nend_time = " + text(20 * 2 * pi / w) + "\n";
+  SceneRun run(toml, {GetParam()});
+  record::EnergyRecorder energy(run.dynamics());
+  run.simulation().add(energy);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  EXPECT_NEAR(std::abs(position(run, "rotor")), std::abs(r), 1e-7 * std::abs(r));
+  EXPECT_NEAR(std::abs(position(run, "stator")), std::abs(s), 1e-6 * std::abs(s));
+  EXPECT_NEAR(energy.balance_error(), 0.0, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Adaptive, Methods,
+                         testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
+                                         "integrator.type=rodas4"));
+
+}  // namespace
+}  // namespace butee::test::ring_test
