@@ -33,6 +33,11 @@ double natural_time(dynamics::Dynamics& dynamics) {
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
       if (dof >= 0) stiffness[dof] += closed[i];
+  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
+    for (Index i = 0; i < obstacles->size(); ++i)
+      for (const auto& ends : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
+        for (const Index dof : ends)
+          if (dof >= 0) stiffness[dof] += obstacles->closed_stiffness(i);
   const double square = stiffness.cwiseQuotient(dynamics.system().mass.diagonal()).maxCoeff();
   return square > 0.0 && std::isfinite(square) ? 1.0 / std::sqrt(square) : 1.0;
 }
@@ -85,6 +90,8 @@ StepReport Exact::do_step(const State& from, const time::Step& step, State& to) 
 
 StepStatus Exact::follow(const State& from, const time::Step& step) {
   const double h = step.h;
+  // Phases of obstacles are those of a whole step, which ends where one of them changes.
+  const bool is_single = step.single || dynamics().obstacles() != nullptr;
   end_t_ = std::numeric_limits<double>::quiet_NaN();
   x_ = begin_x_ = from.x;
   v_ = begin_v_ = from.v;
@@ -111,7 +118,7 @@ StepStatus Exact::follow(const State& from, const time::Step& step) {
     if (!change && is_last) break;
     done += piece.end * piece.length;
     t = from.t + done;
-    if (step.single && t > from.t && t < step.t_end) {
+    if (is_single && t > from.t && t < step.t_end) {
       end_t_ = t;
       break;
     }
@@ -206,6 +213,7 @@ time::IntegratorType exact_type() {
                          .sweep(1e-4, Exact::kSeriesTolerance),
                      config::number(kTolerance, "1", "ignored: truncation stays below rounding").above(0).optional()},
       .finds_first_step = true,
+      .contacts = time::ContactSupport::all,
       .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         return std::make_unique<Exact>(dynamics, static_cast<int>(p.integer("order")), p.number(kSeriesTolerance));
       },

@@ -26,6 +26,7 @@ class Exact final : public time::Integrator {
   Exact(dynamics::Dynamics& dynamics, int order, double series_tolerance);
 
   bool minds_load_kinks() const override { return true; }
+  bool follows_contact_phases() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
   /// Where one series ends and the next begins.
   std::span<const double> knots(const time::State& from, const time::State& to) const override;

@@ -59,6 +59,11 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
       if (dof >= 0) stiffness[dof] += closed[i];
+  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
+    for (Index i = 0; i < obstacles->size(); ++i)
+      for (const auto& ends : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
+        for (const Index dof : ends)
+          if (dof >= 0) stiffness[dof] += obstacles->closed_stiffness(i);
   omega_ = std::sqrt(highest(stiffness, mass));
 }
 

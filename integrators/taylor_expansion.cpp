@@ -49,6 +49,7 @@ TaylorExpander::TaylorExpander(dynamics::Dynamics& dynamics, int order, double t
     throw InputError(
         "integrator.type: exact takes shafts that turn at a constant speed, since its series are those of constant "
         "matrices; with rotation.speed that varies take rodas4, dopri5 or extrapolation8");
+  if (dynamics.obstacles() != nullptr) obstacles_.emplace(dynamics, order);
   for (const model::FreeLoad& load : dynamics.system().loads)
     if (!load.in_time->taylor(0.0, 1.0, load_))
       throw InputError(
@@ -82,6 +83,7 @@ void TaylorExpander::expand_loads(double t, double length) {
 void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
   dynamics::Contact& contact = dynamics_.contact();
   const double h = to.length;
+  if (obstacles_) obstacles_->begin(to.begin, to.x.col(0), to.x.col(1) / h, h);
   for (Index k = 0; k <= order_; ++k) {
     if (contact.size() > 0) {
       contact.displacement(to.x.col(k), stops_);
@@ -98,7 +100,9 @@ void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
       contact.scatter(stop_force_, force_);
     }
     velocity_ = (static_cast<double>(k + 1) / h) * to.x.col(k + 1);
+    if (obstacles_) obstacles_->add(k, to.x.col(k), velocity_, force_);
     dynamics_.respond(to.x.col(k), velocity_, force_);
+    if (obstacles_) dynamics_.hold_sticks(to.begin, force_);
     to.x.col(k + 2) = (h * h / static_cast<double>((k + 1) * (k + 2))) * force_;
   }
 }

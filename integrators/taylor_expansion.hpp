@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "integrators/contact_branches.hpp"
+#include "integrators/obstacle_series.hpp"
 
 namespace butee::integrators {
 
@@ -40,6 +42,7 @@ class TaylorExpander {
   double find_reach(const Eigen::MatrixXd& x);
 
   dynamics::Dynamics& dynamics_;
+  std::optional<ObstacleSeries> obstacles_;
   Index order_;
   double tolerance_;
   Eigen::MatrixXd loads_;  ///< coefficients of load j in row j

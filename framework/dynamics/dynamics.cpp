@@ -226,7 +226,7 @@ void Dynamics::solve_sticks(VectorRef y) {
 }
 
 void Dynamics::hold_sticks(double t, VectorRef a) {
-  if (!prepare_sticks()) return;
+  if (!obstacles_->has_rigid_friction() || !prepare_sticks()) return;
   stick_force_.resize(static_cast<Index>(sticks_.size()));
   for (Index i = 0; i < stick_force_.size(); ++i) {
     const Index contact = sticks_[static_cast<std::size_t>(i)];

@@ -38,6 +38,8 @@ class BUTEE_EXPORT Dynamics {
   const Vector& stick_forces(double t, ConstVectorRef x, ConstVectorRef v);
   /// What every contact of obstacles() does at a motion, rigid sticking included.
   void contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std::vector<ContactForces>& all);
+  /// a += M^-1 T^T of the forces that hold the contacts that stick rigidly now, where any do
+  void hold_sticks(double t, VectorRef a);
   /// v := the velocity after an impulse that stops the contacts that stick rigidly
   void stop_sliding(double t, VectorRef v);
   linalg::Counters& counters() { return counters_; }
@@ -111,8 +113,6 @@ class BUTEE_EXPORT Dynamics {
   };
 
   linalg::LinearSolver& mass_solver();
-  /// a += M^-1 T^T of the forces that hold the contacts that stick rigidly
-  void hold_sticks(double t, VectorRef a);
   /// Sees that the matrices are those of the contacts that stick now; false where none does.
   bool prepare_sticks();
   void solve_sticks(VectorRef y);

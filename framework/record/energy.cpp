@@ -148,6 +148,12 @@ EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, doub
   return sum;
 }
 
+void EnergyRecorder::add(const Power& done) {
+  work_ += done.of_loads;
+  dissipated_ += done.of_damping;
+  into_obstacles_ += done.of_contacts;
+}
+
 void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings) {
   const double middle = 0.5 * (begin + end);
   const Power first = gauss(step, begin, middle), second = gauss(step, middle, end);
@@ -158,22 +164,17 @@ void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, do
     add_halved(step, middle, end, second, halvings + 1);
     return;
   }
-  work_ += first.of_loads + second.of_loads;
-  dissipated_ += first.of_damping + second.of_damping;
-  into_obstacles_ += first.of_contacts + second.of_contacts;
+  add(first + second);
 }
 
 void EnergyRecorder::add_piece(const time::AcceptedStep& step, double begin, double end) {
   if (step.integrator.dense_output() == time::DenseOutput::other)
     return add_halved(step, begin, end, gauss(step, begin, end), 0);
+  if (dynamics_.obstacles() != nullptr) return add(gauss(step, begin, end));  // forces may jump at its ends
   const double h = end - begin;
-  // Forces of contacts may jump where a step ends.
-  if (dynamics_.obstacles() != nullptr && begin == step.from.t) last_ = power(begin, step.from.x, step.from.v);
   const Power middle = power_within(step, 0.5 * (begin + end)), last = power_within(step, end);
   const Power done = (h / 6.0) * last_ + (4.0 / 6.0 * h) * middle + (h / 6.0) * last;
-  work_ += done.of_loads;
-  dissipated_ += done.of_damping;
-  into_obstacles_ += done.of_contacts;
+  add(done);
   last_ = last;
 }
 

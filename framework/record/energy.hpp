@@ -66,6 +66,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   };
   Power power(double t, const Vector& x, const Vector& v);
   Power power_within(const time::AcceptedStep& step, double t);
+  void add(const Power& done);
   Power gauss(const time::AcceptedStep& step, double begin, double end);
   /// `whole`: what gauss() gives for it.
   void add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings);

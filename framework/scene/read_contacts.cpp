@@ -45,8 +45,11 @@ std::vector<config::Parameter> end_parameters() {
           config::texts("between", "two selectors: contacts on u_a - u_b, pair by pair").optional()};
 }
 
-std::vector<config::Parameter> gap_parameters() {
-  return {number("gap", "m", "the free play; of stops on each side").at_least(0).optional(),
+/// The gap is required unless the entry has another key for it.
+std::vector<config::Parameter> gap_parameters(const config::Table& entry) {
+  const config::Parameter gap = number("gap", "m", "the free play on each side").at_least(0);
+  const bool has_other = entry.find("gaps") != nullptr || entry.find("gaps_from") != nullptr;
+  return {has_other ? gap.optional() : gap,
           config::numbers("gaps", "m", "the free play of each contact, in place of gap").optional(),
           config::table("gaps_from", "a file with a column of gaps, in place of gap").optional()};
 }
@@ -80,7 +83,7 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
   declare({config::table("friction", "Coulomb friction").optional()});
   std::vector<std::string> ignored = {"type"};
   if (!is_support) {
-    declare(gap_parameters());
+    declare(gap_parameters(*entry.table()));
     declare({config::table("damping", "dissipation of the closed contact").optional()});
     ignored.emplace_back("law");
   }
@@ -169,11 +172,8 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
 }
 
 std::optional<std::vector<double>> SceneReader::read_gaps(const Parameters& p, std::size_t count) {
-  const int given = int(p.has("gap")) + int(p.has("gaps")) + int(p.has("gaps_from"));
-  if (given != 1) {
-    diagnostics_.error(p.path() + ".gap", p.at(),
-                       given == 0 ? "missing; give gap (number >= 0, m), or gaps, one for each contact"
-                                  : "give one of gap, gaps and gaps_from");
+  if (int(p.has("gap")) + int(p.has("gaps")) + int(p.has("gaps_from")) != 1) {
+    diagnostics_.error(p.path() + ".gap", p.at(), "give one of gap, gaps and gaps_from");
     return std::nullopt;
   }
   if (p.has("gap")) return std::vector{p.number("gap")};

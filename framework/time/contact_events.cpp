@@ -22,6 +22,16 @@ constexpr int kBisections = 60;
 /// A contact is near where it is within so many times the way that its ends' speeds cover.
 constexpr double kReach = 1.0;
 
+/// Looks that follow the loads over a step: what sticks rigidly does not move while they change.
+int samples_of_loads(const model::System& system, double h) {
+  constexpr double kPerTurn = 32.0, kMost = 1e5;
+  double turns = 0.0;
+  for (const model::FreeLoad& load : system.loads)
+    if (const auto harmonic = load.in_time->harmonic())
+      turns = std::max(turns, std::abs(harmonic->angular_frequency) * h / 6.283);
+  return static_cast<int>(std::min(kPerTurn * turns, kMost));
+}
+
 }  // namespace
 
 ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
@@ -146,9 +156,10 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
     if (is_near(i, from, to)) watched.push_back(i);
   if (watched.empty()) return std::nullopt;
   const double h = to.t - from.t;
+  const int samples = sticks_.empty() ? kSamples : std::max(kSamples, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
-  for (int k = 0; k <= kSamples; ++k) {
-    const double t = k == 0 ? from.t + kAhead * h : k == kSamples ? to.t : from.t + h * k / kSamples;
+  for (int k = 0; k <= samples; ++k) {
+    const double t = k == 0 ? from.t + kAhead * h : k == samples ? to.t : from.t + h * k / samples;
     sample(integrator, from, to, t, now_);
     std::optional<Event> earliest;
     for (const Index i : watched) {

@@ -93,6 +93,7 @@ double GrowthWatch::energy(const State& state) {
   double sum = 0.5 * state.v.dot(work_);
   dynamics_.elastic_force(state.x, work_);
   sum += 0.5 * state.x.dot(work_);
+  if (dynamics_.obstacles() != nullptr) sum += dynamics_.obstacles()->energy(state.t, state.x, state.v);
   if (stops_.size() == 0) return sum;
   const dynamics::Contact& contact = dynamics_.contact();
   contact.displacement(state.x, stops_);

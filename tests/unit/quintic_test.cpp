@@ -12,7 +12,7 @@ namespace {
 using time::State;
 
 State at(double t, double x, double v, double a) {
-  return {t, Vector::Constant(1, x), Vector::Constant(1, v), Vector::Constant(1, a), {}};
+  return {t, Vector::Constant(1, x), Vector::Constant(1, v), Vector::Constant(1, a), {}, {}};
 }
 
 double middle(const State& from, const State& to) {

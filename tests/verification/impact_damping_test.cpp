@@ -33,10 +33,10 @@ Outcome bounce(double mass, double speed, const std::string& contact, double end
           impacts[0].dissipated};
 }
 
-class Methods : public testing::TestWithParam<const char*> {};
+class ImpactMethods : public testing::TestWithParam<const char*> {};
 
 /// C1: m = 1, k = 1e4: the contact ends at F = 0 or, where it may pull, at g = 0.
-TEST_P(Methods, kelvin_and_voigts_dashpot_gives_its_restitution) {
+TEST_P(ImpactMethods, kelvin_and_voigts_dashpot_gives_its_restitution) {
   struct Row {
     double zeta, pulls, released;
   };
@@ -53,7 +53,7 @@ TEST_P(Methods, kelvin_and_voigts_dashpot_gives_its_restitution) {
   }
 }
 
-TEST_P(Methods, a_wanted_restitution_comes_out) {
+TEST_P(ImpactMethods, a_wanted_restitution_comes_out) {
   for (const double e : {0.4, 0.8, 0.95}) {
     const std::string number = "restitution = " + std::to_string(e);
     const std::string law = "gap = 1e-3\nstiffness = 1e4\ndamping = { type = \"kelvin_voigt\", mass = 2.0, " + number;
@@ -63,7 +63,7 @@ TEST_P(Methods, a_wanted_restitution_comes_out) {
 }
 
 /// C2: s (1 + e) = ln((1 + s)/(1 - s e)) with s = a v_i, for any n, k and m.
-TEST_P(Methods, hunt_and_crossleys_law_gives_its_restitution) {
+TEST_P(ImpactMethods, hunt_and_crossleys_law_gives_its_restitution) {
   for (const auto& [s, e] : {std::pair(0.1, 0.937475579950), {0.5, 0.748434931597}, {2.0, 0.410719686061}})
     for (const char* law : {"law = \"hertz\"\nstiffness = 1e8\n", "stiffness = 1e5\n"}) {
       const std::string contact = std::string("gap = 1e-3\n") + law +
@@ -77,18 +77,19 @@ TEST_P(Methods, hunt_and_crossleys_law_gives_its_restitution) {
 }
 
 /// C3: a steel ball of 10 mm on steel at 1 m/s.
-TEST_P(Methods, hertz_law_has_the_duration_and_force_of_its_closed_form) {
+TEST_P(ImpactMethods, hertz_law_has_the_duration_and_force_of_its_closed_form) {
   const Outcome ball = bounce(0.0326725636, 1.0,
                               "gap = 1e-5\nlaw = \"hertz\"\nstiffness = 1.5384615385e10\n"
                               "damping = { type = \"hunt_crossley\", factor = 0.0 }\n",
                               1e-4, GetParam());
   EXPECT_NEAR(ball.restitution, 1.0, 1e-9);
   EXPECT_NEAR(ball.impulse_time, 6.8934003430e-5, 1e-8 * 6.9e-5);
-  EXPECT_NEAR(ball.peak_force, 1743.7755835, 1e-6 * 1743.8);
+  // The recorder takes it at Gauss' points and the ends of steps, which are long here for a method of order 8.
+  EXPECT_NEAR(ball.peak_force, 1743.7755835, 1e-5 * 1743.8);
 }
 
 /// C4: what Jankowski's approximate formula really gives.
-TEST_P(Methods, jankowskis_law_gives_the_restitution_that_the_message_states) {
+TEST_P(ImpactMethods, jankowskis_law_gives_the_restitution_that_the_message_states) {
   for (const auto& [wanted, real] : {std::pair(0.5, 0.4945878), {0.65, 0.6470290}, {0.8, 0.7989438}}) {
     const std::string contact =
         "gap = 1e-3\nlaw = \"hertz\"\nstiffness = 1e8\ndamping = { type = \"jankowski\", mass = 2.0, restitution = " +
@@ -97,7 +98,7 @@ TEST_P(Methods, jankowskis_law_gives_the_restitution_that_the_message_states) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Adaptive, Methods,
+INSTANTIATE_TEST_SUITE_P(Adaptive, ImpactMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8"));
 
 }  // namespace

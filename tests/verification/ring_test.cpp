@@ -49,10 +49,10 @@ Complex position(SceneRun& run, const std::string& node) {
   return {x[run.dof(node, DofKind::uy)], x[run.dof(node, DofKind::uz)]};
 }
 
-class Methods : public testing::TestWithParam<const char*> {};
+class RingMethods : public testing::TestWithParam<const char*> {};
 
 /// S1: a forward rub of constant amplitude A, stable: it stays for 100 units of time.
-TEST_P(Methods, a_synchronous_rub_keeps_its_amplitude) {
+TEST_P(RingMethods, a_synchronous_rub_keeps_its_amplitude) {
   struct Row {
     double mu, speed, amplitude;
   };
@@ -72,7 +72,7 @@ TEST_P(Methods, a_synchronous_rub_keeps_its_amplitude) {
 
 /// S3: without unbalance, a start above the threshold of backward whirl ends in it, one below comes to rest. A wrong
 /// sense of friction lets both grow without bound.
-TEST_P(Methods, dry_whirl_has_its_threshold_and_its_end_state) {
+TEST_P(RingMethods, dry_whirl_has_its_threshold_and_its_end_state) {
   const double w = 0.5701562119, a = 1.4686919071;
   for (const double factor : {1.05, 0.95}) {
     const Complex r = factor * a, v = Complex(0, -w) * r;
@@ -93,7 +93,7 @@ TEST_P(Methods, dry_whirl_has_its_threshold_and_its_end_state) {
 }
 
 /// S2: a rotor that rubs on an elastic stator, both bodies free to move.
-TEST_P(Methods, a_rotor_and_its_stator_whirl_together) {
+TEST_P(RingMethods, a_rotor_and_its_stator_whirl_together) {
   const double m = 10, k = 986960.4401, c = 125.6637061, ms = 5, ks = 2842446.0675, cs = 376.9911184, kc = 2e6,
                gap = 2e-4, mu = 0.1, e = 1e-4, w = 2 * pi * 60;
   const Complex zr(k - m * w * w, c * w), zs(ks - ms * w * w, cs * w);
@@ -122,9 +122,9 @@ TEST_P(Methods, a_rotor_and_its_stator_whirl_together) {
   EXPECT_NEAR(energy.balance_error(), 0.0, 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Adaptive, Methods,
+INSTANTIATE_TEST_SUITE_P(Adaptive, RingMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
-                                         "integrator.type=rodas4"));
+                                         "integrator.type=rodas4", "integrator.type=exact"));
 
 }  // namespace
 }  // namespace butee::test::ring_test

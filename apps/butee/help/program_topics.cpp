@@ -8,7 +8,7 @@ const std::vector<Topic>& topics() {
       {"selectors", "how nodes are named", selectors_text},
       {"elements", "beams, masses, springs, cross-sections and their keys", elements_text},
       {"space", "two planes and space, rotation, gravity, base motion", space_text},
-      {"contact", "stops and their laws", contact_text},
+      {"contact", "stops, rings, planes, friction and their laws", contact_text},
       {"loads", "forces and moments over time", loads_text},
       {"damping", "Rayleigh and modal damping", damping_text},
       {"integrators", "the methods, and how one is chosen", integrators_text},
@@ -57,7 +57,10 @@ std::string results_text(const plugin::Catalogue&) {
   model.toml     the scene as run, with what --set changed
   states.bin     the motion of all nodes at the end and at the instants of [output] states, of a completed run: where
                  [initial] from of another scene starts; binary, for butee alone
-  impacts.csv    where [output] impacts = true: node, side, t_in, t_out, peak_force, impulse, impact_speed
+  impacts.csv    where [output] impacts = true: node, side, t_in, t_out, peak_force, impulse, impact_speed,
+                 tangential_impulse (N s), slip (m) and dissipated (J), the last three 0 of elastic stops
+  wear.csv       of contacts in the plane, with dissipation or friction: work (J, the integral of |F_n w|) and mean_power,
+                 contact_share (of the time), slip (m), dissipated (J), peak and rms normal force (N)
   energy.csv     where [output] energy = true: t, kinetic, strain, contact, work, dissipated (J)
   fields.h5, fields.xdmf
                  where formats holds "hdf5": the fields of all nodes, for ParaView and h5py; its group /probes has the
@@ -88,14 +91,14 @@ the modal mass is 1 kg.
 }
 
 std::string limits_text(const plugin::Catalogue&) {
-  return R"(butee solves small motions of linear structures, in the plane or in space, whose only nonlinearity is elastic stops. It does not have:
+  return R"(butee solves small motions of linear structures, in the plane or in space, whose only nonlinearity is contact. It does not have:
 
   Structures   plates, shells, solids; shafts that turn about another axis than x, or whose section has two stiffnesses;
                axial forces that change with the motion (a preload is a constant)
   Large motion large rotations, stress stiffening, motion after buckling
   Materials    plasticity, creep, fatigue; damping beyond Rayleigh's, modal damping, bearings and dashpots
-  Contact      circular clearances and contact along other displacements than u; friction; dissipation or restitution in a
-               stop (a dashpot beside it stands for it); contact at places that move along a beam, or between surfaces
+  Contact      in three directions at once; at places that move along a beam, or between surfaces; friction of a turning part
+               acts on its translation, not on its torsion; rigid stick in a ring
   Loads        forces that depend on the motion, moving loads, different motions of several supports
   Results      shear stresses, fatigue; section forces beyond V and M; optimal parameters; static solutions without a run
 

@@ -105,16 +105,40 @@ constant speed) and all methods with fixed steps take them, auto chooses among t
 }
 
 std::string contact_text(const plugin::Catalogue& catalogue) {
-  return R"([[contact]]: elastic stops with a gap on the displacement u of nodes, or on u_a - u_b of two bodies.
+  return R"([[contact]]: what a structure may strike. Contacts against ground have nodes, those between two bodies `between`.
 
-  type = "stop"
-  nodes      selectors: a stop to ground on each node; or
-  between    two selectors of equally many nodes: a stop between each pair
-  gap        m, the free play on each side
-  sides      "both" (where not given), "positive" or "negative"
+  type       "stop": on one displacement or rotation; "ring", "plane": in the plane (uy, uz); "friction": a support
+  nodes      selectors: a contact with ground on each node; or
+  between    two selectors of equally many nodes: a contact between each pair, on the difference of their motion
+  gap        m, the free play (of a stop on each side); or gaps, a list with one for each contact; or
+             gaps_from = { file = "gaps.csv" }, whose second column holds them
   law        "linear" where not given; the laws and their parameters are below
+  damping    dissipation while closed, a table (below)
+  friction   Coulomb friction along the tangent, a table (below); not on a stop
+  radius     m, of the body where it touches: adds radius x speed of [rotation] to the slip speed
 
-With the penetration g (negative while open) and one side s: g = s u - gap, F = -s K_c(g) g. Both sides: the nearer one.
+stop: dof ("u" where not given; any of ux ... rz) and sides ("both" where not given, "positive" or "negative"). With the
+penetration g (negative while open) and one side s: g = s u - gap, F = -s K_c(g) g. Both sides: the nearer one.
+ring: centre = [y, z] and side = "within" (where not given) or "outside"; g = |(uy, uz) - centre| - gap.
+plane: normal = [y, z] into the wall; g = normal . (uy, uz) - gap. Rings and planes take dofs = ["ux", "uy"] and the like.
+friction: a support that is always pressed, with dof and normal_force (N).
+
+damping = { type = ... }, with the rate of penetration g':
+  kelvin_voigt   F = K_c g + c g': coefficient c (N s/m), or restitution with mass (law "linear"). The contact ends where
+                 F = 0; with pull = true at g = 0
+  hunt_crossley  F = K_c g (1 + a g'): factor a (s/m), or restitution with impact_speed (m/s)
+  jankowski      restitution and mass, with law = "hertz": dissipates in approach alone; what comes out is said
+friction = { coefficient, ... }: the force is mu F_n against the slip speed w = t . v + radius Omega - surface_speed, with the
+tangent t = (-normal_z, normal_y), in a ring the sense of rotation from y to z; one of
+  slip_speed       m/s: regularised, smoothing = "sqrt" (where not given), "tanh" or "clip"; it creeps where it should stick
+  stick_stiffness  N/m: a stick spring with memory, beside it stick_damping (N s/m); static_coefficient
+  stick = "rigid"  no motion while it sticks (not in rings); static_coefficient
+and surface_speed (m/s) of the obstacle along the tangent, as of a belt.
+
+rodas4, dopri5, extrapolation8 and exact end their steps where a contact touches, parts, sticks or slips, so that the
+regularisation alone is left as an error; rk4 and its kin take rings, planes, dissipation and regularised friction as the
+instant has them. exact takes law = "linear"; rigid stick is for dopri5, extrapolation8 and exact. auto chooses among them;
+other methods refuse. A visit that is shorter than an eighth of a step may pass unseen.
 )" + listed(catalogue.types().laws) +
          "\nThe linear law is the exact unilateral spring; arctan is smooth, but pulls open stops a little (butee "
          "check "

@@ -1,0 +1,135 @@
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <butee/dynamics/tangent_solver.hpp>
+#include <butee/scene/contact_tables.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::obstacles_test {
+namespace {
+
+/// Two masses on springs in both directions, the contacts given.
+std::string bodies(const std::string& contacts) {
+  std::string toml = "schema = 1\n";
+  if (contacts.find("radius") != std::string::npos) toml += "[rotation]\nspeed = 3.0\n";
+  for (const char* name : {"a", "b"}) {
+    toml += std::string("[[element]]\ntype = \"mass\"\nname = \"") + name + "\"\nmass = 2.0\n";
+    for (const char* dof : {"uy", "uz"})
+      toml += std::string("[[element]]\ntype = \"spring\"\nnode = \"") + name + "\"\ndof = \"" + dof +
+              "\"\nstiffness = 50.0\n";
+  }
+  return toml + contacts + "[integrator]\ntype = \"rodas4\"\nend_time = 1.0\n";
+}
+
+const std::string kRing = "[[contact]]\ntype = \"ring\"\nbetween = [\"a\", \"b\"]\ngap = 0.1\nradius = 0.3\n";
+
+/// Contacts of all kinds and laws, pressed at the motion below.
+const std::vector<std::string>& all_contacts() {
+  static const std::vector<std::string> all = {
+      kRing + "stiffness = 100.0\n",
+      kRing + "stiffness = 100.0\nfriction = { coefficient = 0.3, slip_speed = 0.2 }\n",
+      kRing + "stiffness = 100.0\nfriction = { coefficient = 0.3, slip_speed = 0.9, smoothing = \"tanh\" }\n",
+      kRing + "stiffness = 100.0\nfriction = { coefficient = 0.3, slip_speed = 5.0, smoothing = \"clip\" }\n",
+      kRing +
+          "stiffness = 100.0\ndamping = { type = \"kelvin_voigt\", coefficient = 7.0 }\n"
+          "friction = { coefficient = 0.3, slip_speed = 0.2 }\n",
+      kRing +
+          "law = \"hertz\"\nstiffness = 300.0\ndamping = { type = \"hunt_crossley\", factor = 0.4 }\n"
+          "friction = { coefficient = 0.3, slip_speed = 0.2 }\n",
+      kRing + "law = \"hertz\"\nstiffness = 300.0\ndamping = { type = \"jankowski\", restitution = 0.7, mass = 1.0 }\n",
+      kRing + "law = \"arctan\"\nstiffness = 300.0\nregularization = 5.0\ncentre = [0.01, -0.02]\n",
+      "[[contact]]\ntype = \"ring\"\nnodes = \"a\"\nside = \"outside\"\ngap = 0.9\nstiffness = 100.0\n",
+      "[[contact]]\ntype = \"plane\"\nnodes = \"a\"\nnormal = [1, 2]\ngap = 0.1\nstiffness = 100.0\nradius = 0.3\n"
+      "friction = { coefficient = 0.3, slip_speed = 0.2 }\n",
+      "[[contact]]\ntype = \"stop\"\nnodes = \"a\"\ndof = \"uz\"\ngap = 0.1\nstiffness = 100.0\n"
+      "damping = { type = \"kelvin_voigt\", coefficient = 7.0 }\n",
+      "[[contact]]\ntype = \"friction\"\nnodes = \"a\"\ndof = \"uz\"\nnormal_force = 5.0\n"
+      "friction = { coefficient = 0.3, slip_speed = 0.2, surface_speed = 0.1 }\n"};
+  return all;
+}
+
+Vector motion_x() {
+  return (Vector(4) << 0.31, 0.22, -0.05, 0.04).finished();
+}
+Vector motion_v() {
+  return (Vector(4) << 0.5, -0.3, 0.2, -0.6).finished();
+}
+
+Vector force(dynamics::Dynamics& dynamics, const Vector& x, const Vector& v) {
+  Vector f = Vector::Zero(x.size());
+  dynamics.add_obstacle_force(0.0, x, v, f);
+  return f;
+}
+
+/// -dF/dx and -dF/dv from the tangents, or by central differences.
+struct Jacobians {
+  Eigen::MatrixXd by_x, by_v;
+};
+
+Jacobians from_tangents(dynamics::Dynamics& dynamics) {
+  Jacobians sum{Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 4)};
+  for (const auto& tangent : dynamics.obstacles()->tangents(0.0, motion_x(), motion_v())) {
+    const auto add = [&](const Eigen::Matrix2d& block, Eigen::MatrixXd& to) {
+      dynamics.obstacles()->visit(tangent.contact, block, [&](Index i, Index j, double value) { to(i, j) += value; });
+    };
+    add(tangent.stiffness, sum.by_x);
+    add(tangent.damping, sum.by_v);
+  }
+  return sum;
+}
+
+TEST(Obstacles, have_the_tangents_that_differences_give) {
+  for (const std::string& contacts : all_contacts()) {
+    SceneRun run(bodies(contacts));
+    dynamics::Dynamics& dynamics = run.dynamics();
+    ASSERT_NE(dynamics.obstacles(), nullptr);
+    dynamics.obstacles()->follow_live();
+    const Jacobians exact = from_tangents(dynamics);
+    const double step = 1e-6;
+    for (Index j = 0; j < 4; ++j) {
+      const Vector shift = step * Vector::Unit(4, j);
+      const Vector by_x =
+          (force(dynamics, motion_x() - shift, motion_v()) - force(dynamics, motion_x() + shift, motion_v())) /
+          (2 * step);
+      const Vector by_v =
+          (force(dynamics, motion_x(), motion_v() - shift) - force(dynamics, motion_x(), motion_v() + shift)) /
+          (2 * step);
+      EXPECT_LT((by_x - exact.by_x.col(j)).norm(), 1e-6 * (1.0 + exact.by_x.norm())) << contacts << j;
+      EXPECT_LT((by_v - exact.by_v.col(j)).norm(), 1e-6 * (1.0 + exact.by_v.norm())) << contacts << j;
+    }
+    EXPECT_GT(exact.by_x.norm() + exact.by_v.norm(), 1e-3) << "exerts nothing: " << contacts;
+  }
+}
+
+TEST(TangentSolver, solves_as_a_full_factorization_does) {
+  for (const std::string& contacts : all_contacts()) {
+    SceneRun run(bodies(contacts));
+    dynamics::Dynamics& dynamics = run.dynamics();
+    dynamics.obstacles()->follow_live();
+    const Jacobians sum = from_tangents(dynamics);
+    const double on_v = 0.1, on_x = 0.02;
+    const Eigen::MatrixXd full = Eigen::MatrixXd(run.system().mass) + on_x * Eigen::MatrixXd(run.system().stiffness) +
+                                 on_x * sum.by_x + on_v * sum.by_v;
+    dynamics::TangentSolver solver(dynamics.effective(), dynamics.obstacles());
+    ASSERT_TRUE(solver.set(on_v, on_x, Vector(), dynamics.obstacles()->tangents(0.0, motion_x(), motion_v())));
+    Vector b = (Vector(4) << 1.0, -2.0, 0.5, 3.0).finished();
+    const Vector wanted = full.partialPivLu().solve(b);
+    ASSERT_TRUE(solver.solve(b));
+    EXPECT_LT((b - wanted).norm(), 1e-13 * wanted.norm()) << contacts;
+  }
+}
+
+/// The closed forms of C1, C2 and C4, which impact_damping_test checks by integration.
+TEST(ContactTables, invert_the_restitution) {
+  EXPECT_NEAR(scene::kelvin_voigt_ratio(0.4, true), 0.2799979933, 1e-9);
+  EXPECT_NEAR(scene::kelvin_voigt_ratio(0.7440793977, false), 0.1, 1e-9);
+  EXPECT_NEAR(scene::hunt_crossley_product(0.5), 1.4327505333, 1e-9);
+  EXPECT_NEAR(scene::hunt_crossley_product(0.95), 0.0789266053, 1e-9);
+  EXPECT_NEAR(scene::jankowski_ratio(0.65), 0.3728356653, 1e-9);
+  EXPECT_NEAR(scene::jankowski_restitution(0.1753730097), 0.7989438, 1e-6);
+}
+
+}  // namespace
+}  // namespace butee::test::obstacles_test
