@@ -1,68 +1,17 @@
 #pragma once
 
-#include <chrono>
-#include <functional>
-#include <optional>
+#include <butee/run/run.hpp>
 
-#include <butee/record/checkpoint.hpp>
-#include <butee/record/field_recorder.hpp>
-#include <butee/record/history.hpp>
-#include <butee/record/contact_recorder.hpp>
-#include <butee/record/impacts.hpp>
-#include <butee/record/progress.hpp>
-#include <butee/record/state_keeper.hpp>
-#include <butee/record/summary.hpp>
-#include <butee/scene/assembly.hpp>
-
-#include "checkpointer.hpp"
+#include "interruption.hpp"
 
 namespace butee::app {
 
-/// One integration from assembly to the end, with its files.
-class Run {
+using run::check_checkpoints;
+
+/// A run that SIGINT and SIGTERM end after a step.
+class Run : public run::Run {
  public:
-  /// Assembles and takes the first factorization; nothing is written yet. Throws InputError where the scene cannot be
-  /// run.
-  Run(scene::Scene& session, bool with_progress);
-
-  /// Watches the integration too; must outlive it. Before perform().
-  void add(time::Observer& observer) { assembly_.simulation.add(observer); }
-  /// Asked after every step whether to leave the run as it stands, neither completed nor failed.
-  void stop_when(std::function<bool()> is_enough) { is_enough_ = std::move(is_enough); }
-  scene::Assembly& assembly() { return assembly_; }
-
-  /// Integrates; the files go to `folder` where one is given. Goes on from a checkpoint of the folder where one is
-  /// given. Whatever ends the integration early is told by the summary's report.
-  record::Summary perform(const record::ResultFolder* folder, const record::Checkpoint* from = nullptr);
-
- private:
-  Run(scene::Scene& session, bool with_progress, std::chrono::steady_clock::time_point begin);
-  void attach_observers(const record::ResultFolder* folder, const record::Checkpoint* from);
-  void add_fields(const record::ResultFolder& folder);
-  void integrate();
-  void summarize();
-  /// Warns where a force was asked for and rows are too far apart to show it.
-  void look_at_rows();
-  void write_files(const record::ResultFolder& folder);
-  void fail(const std::string& reason);
-  /// Does the work; what it throws becomes the report of a failed run.
-  template <class Work>
-  void guarded(Work work);
-
-  scene::Scene& session_;
-  bool with_progress_;
-  scene::Assembly assembly_;
-  std::function<bool()> is_enough_;
-  record::Summary summary_;
-  std::optional<record::CsvWriter> writer_, energy_writer_;
-  std::optional<record::HistoryRecorder> history_;
-  std::optional<record::EnergyRecorder> energy_;
-  std::optional<record::ImpactRecorder> impacts_;
-  std::optional<record::ContactRecorder> contacts_;  ///< where the scene has obstacles
-  std::optional<record::Progress> progress_;
-  std::optional<record::FieldRecorder> fields_;
-  std::optional<record::StateKeeper> states_;
-  std::optional<Checkpointer> checkpointer_;
+  Run(scene::Scene& session, bool with_progress) : run::Run(session, with_progress) { interrupt_by(interruption); }
 };
 
 }  // namespace butee::app

@@ -9,6 +9,7 @@
 #include <butee/core/log.hpp>
 #include <butee/core/terminal.hpp>
 #include <butee/core/text.hpp>
+#include <butee/run/check_start.hpp>
 
 #include "commands.hpp"
 #include "interruption.hpp"
@@ -58,26 +59,13 @@ void repeat(scene::Scene& session, int times, bool with_progress, record::Summar
   }
 }
 
-/// Refuses a run that would replace what it starts from, and what knows only runs from t = 0.
-void check_start(const scene::Scene& session, const record::ResultFolder& folder) {
-  const config::Value* initial = session.document.root.table()->find("initial");
-  const config::Value* from = initial != nullptr ? initial->table()->find("from") : nullptr;
-  if (from == nullptr) return;
-  const std::string key = describe(session.document, from->at) + ": initial.from: ";
-  std::error_code error;
-  if (std::filesystem::equivalent(config::path_beside(session.document, *from->text()), folder.path(), error))
-    throw InputError(key + "is the folder that the results of this run would replace; choose another with -o");
-  if (session.output.trust && session.model.initial_motion->time != 0.0)
-    throw InputError(key + "runs that begin at t = 0 alone can be asked how far they are trusted; leave keep_time out");
-}
-
 int run(scene::Scene& session, const RunArguments& arguments, const record::ResultFolder& folder) {
   plot::Request pictures;
   if (arguments.plot) plot::require_gnuplot(pictures.formats);
   for (const std::string& warning : session.warnings) log::warning(warning);
   session.output.trust = session.output.trust || arguments.trust;
   check_checkpoints(session);
-  check_start(session, folder);
+  run::check_start(session, folder);
   const bool goes_on = !arguments.resume.empty();
   std::optional<record::FolderLock> lock;
   if (goes_on) lock.emplace(folder.lock());

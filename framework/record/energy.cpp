@@ -83,7 +83,7 @@ void EnergyRecorder::start(const time::State& state) {
 
 void EnergyRecorder::find_due(const time::AcceptedStep& step) {
   due_.clear();
-  if (writer_ == nullptr || !times_) return;
+  if ((writer_ == nullptr && other_ == nullptr) || !times_) return;
   times_->visit(step, [&](double t) {
     if (t == step.from.t)
       write_row(t);
@@ -184,7 +184,8 @@ std::vector<std::string> EnergyRecorder::columns() {
 
 void EnergyRecorder::write_row(double t) {
   const std::array<double, 6> row = {t, now_.kinetic, now_.strain, now_.contact, work_, dissipated()};
-  writer_->row(row);
+  if (writer_ != nullptr) writer_->row(row);
+  if (other_ != nullptr) other_->append_row(row);
 }
 
 void EnergyRecorder::finish() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "butee/model/field_format.hpp"
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/output_times.hpp"
 #include "butee/time/simulation.hpp"
@@ -32,6 +33,9 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   /// step at or after each of `times`, and at the last step.
   explicit EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer = nullptr,
                           std::optional<OutputTimes> times = std::nullopt);
+
+  /// Rows go to `rows` as well, which must outlive the last one. Before the first step.
+  void also_to(model::FieldWriter& rows) { other_ = &rows; }
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
@@ -85,6 +89,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   Power last_{};
   std::vector<dynamics::ContactForces> contacts_;
   CsvWriter* writer_;
+  model::FieldWriter* other_ = nullptr;
   std::optional<OutputTimes> times_;
   Energy now_;
   double first_total_ = 0.0, largest_ = 0.0, first_stored_ = 0.0;

@@ -20,7 +20,8 @@ Names with(Names names, const Names& others) {
   return names;
 }
 
-const Names kAllRooms = {"core", "config", "model", "linalg", "dynamics", "time", "plugin", "scene", "record", "embed"};
+const Names kAllRooms = {"core",   "config", "model",  "linalg", "dynamics", "time",
+                         "plugin", "scene",  "record", "run",    "embed"};
 
 /// The rooms of the framework that a folder may include.
 Names allowed_rooms(const std::string& folder) {
@@ -36,6 +37,7 @@ Names allowed_rooms(const std::string& folder) {
       {"framework/plugin", with(to_time, {"plugin"})},
       {"framework/scene", with(to_time, {"plugin", "scene"})},
       {"framework/record", with(to_time, {"record"})},
+      {"framework/run", with(to_time, {"plugin", "scene", "record", "run"})},
       {"framework/embed", kAllRooms},
       {"elements", to_model},
       {"contact", to_model},

@@ -7,6 +7,7 @@
 #include <set>
 
 #include <butee/core/text.hpp>
+#include <butee/run/run.hpp>
 
 namespace butee::app::check {
 namespace {
@@ -126,11 +127,12 @@ class Adviser {
   void judge_output() {
     const auto interval = session_.output.interval;
     const double contact = facts_.mechanics.shortest_contact;
-    if (!interval || session_.output.impacts || system_.stops.empty() || *interval * kRowsInContact <= contact) return;
+    if (!interval || session_.output.impacts || system_.stops.empty() || *interval * run::kRowsInContact <= contact)
+      return;
     add("output-interval", "a row every " + to_short_text(*interval) + " s, and an impact can be as short as " +
                                to_short_text(contact) +
                                " s: history.csv will miss most of its course. Take interval = " +
-                               to_short_text(contact / (2.5 * kRowsInContact)) +
+                               to_short_text(contact / (2.5 * run::kRowsInContact)) +
                                " or less, or [output] impacts = true, which lists every impact with its peak force");
   }
 

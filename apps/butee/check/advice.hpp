@@ -13,9 +13,6 @@
 
 namespace butee::app::check {
 
-/// Rows of a history within the shortest contact that show its course.
-inline constexpr double kRowsInContact = 4.0;
-
 /// A likely mistake, and what to do about it.
 struct Advice {
   std::string about;  ///< a short name for scripts: "critical-step", "output-interval", ...

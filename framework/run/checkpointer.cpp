@@ -1,13 +1,13 @@
-#include "checkpointer.hpp"
+#include "butee/run/checkpointer.hpp"
 
 #include <algorithm>
 #include <chrono>
 
-#include <butee/core/error.hpp>
-#include <butee/core/log.hpp>
-#include <butee/core/text.hpp>
+#include "butee/core/error.hpp"
+#include "butee/core/log.hpp"
+#include "butee/core/text.hpp"
 
-namespace butee::app {
+namespace butee::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -18,13 +18,13 @@ double seconds_since(Clock::time_point begin) {
 
 }  // namespace
 
-void check_checkpoints(scene::Scene& session) {
-  if (session.output.checkpoint == 0) return;
-  const time::IntegratorType& type = session.catalogue.load(session.integrator.name);
-  const config::Value& given = *session.document.root.table()->find("output")->table()->find("checkpoint");
-  const std::string key = describe(session.document, given.at) + ": output.checkpoint: ";
-  if (!session.output.fields.formats.empty())
-    throw InputError(key + "a run that keeps fields (output.formats: " + join(session.output.fields.formats) +
+void check_checkpoints(scene::Scene& scene) {
+  if (scene.output.checkpoint == 0) return;
+  const time::IntegratorType& type = scene.catalogue.load(scene.integrator.name);
+  const config::Value& given = *scene.document.root.table()->find("output")->table()->find("checkpoint");
+  const std::string key = describe(scene.document, given.at) + ": output.checkpoint: ";
+  if (!scene.output.fields.formats.empty())
+    throw InputError(key + "a run that keeps fields (output.formats: " + join(scene.output.fields.formats) +
                      ") cannot go on from a checkpoint; leave one of the two out");
   if (type.restarts_exactly) return;
   throw InputError(
@@ -33,10 +33,10 @@ void check_checkpoints(scene::Scene& session) {
       "last bit; leave checkpoint out, or take another method");
 }
 
-Checkpointer::Checkpointer(const scene::Scene& session, scene::Assembly& assembly, const record::ResultFolder& folder,
+Checkpointer::Checkpointer(const scene::Scene& scene, scene::Assembly& assembly, const record::ResultFolder& folder,
                            record::CsvWriter& history)
-    : assembly_(assembly), folder_(folder), history_(history), every_(session.output.checkpoint) {
-  next_.method = session.integrator.name;
+    : assembly_(assembly), folder_(folder), history_(history), every_(scene.output.checkpoint) {
+  next_.method = scene.integrator.name;
   next_.model = folder.checksum_of("model.toml");
 }
 
@@ -67,4 +67,4 @@ void Checkpointer::write() {
   seconds_ += seconds_since(begin) - (history_.seconds() - history_seconds);
 }
 
-}  // namespace butee::app
+}  // namespace butee::run

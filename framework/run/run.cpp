@@ -1,4 +1,4 @@
-#include "run.hpp"
+#include "butee/run/run.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -6,15 +6,12 @@
 #include <new>
 #include <numbers>
 
-#include <butee/core/error.hpp>
-#include <butee/core/text.hpp>
-#include <butee/dynamics/frequencies.hpp>
-#include <butee/record/field_layout.hpp>
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+#include "butee/dynamics/frequencies.hpp"
+#include "butee/record/field_layout.hpp"
 
-#include "check/advice.hpp"
-#include "interruption.hpp"
-
-namespace butee::app {
+namespace butee::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -31,10 +28,10 @@ double largest_pull(const dynamics::Contact& contact) {
 
 }  // namespace
 
-Run::Run(scene::Scene& session, bool with_progress) : Run(session, with_progress, Clock::now()) {}
+Run::Run(scene::Scene& scene, bool with_progress) : Run(scene, with_progress, Clock::now()) {}
 
-Run::Run(scene::Scene& session, bool with_progress, Clock::time_point begin)
-    : session_(session), with_progress_(with_progress), assembly_(session) {
+Run::Run(scene::Scene& scene, bool with_progress, Clock::time_point begin)
+    : scene_(scene), with_progress_(with_progress), assembly_(scene) {
   assembly_.simulation.start();
   summary_.setup_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
 }
@@ -64,8 +61,8 @@ void Run::guarded(Work work) {
 }
 
 void Run::attach_observers(const record::ResultFolder* folder, const record::Checkpoint* from) {
-  const model::OutputRequest& output = session_.output;
-  const double end_time = session_.integrator.options.end_time;
+  const model::OutputRequest& output = scene_.output;
+  const double end_time = scene_.integrator.options.end_time;
   const auto open = [&](std::optional<record::CsvWriter>& writer, const char* name, std::vector<std::string> columns) {
     if (from != nullptr)
       writer.emplace(folder->file(name));
@@ -75,11 +72,14 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
   if (folder != nullptr && output.csv) open(writer_, "history.csv", record::HistoryRecorder::columns(output));
   time::Simulation& simulation = assembly_.simulation;
   history_.emplace(output, end_time, assembly_.dynamics, writer_ ? &*writer_ : nullptr);
+  if (other_history_ != nullptr) history_->also_to(*other_history_);
   simulation.add(*history_);
   if (output.energy) {
     if (folder != nullptr) open(energy_writer_, "energy.csv", record::EnergyRecorder::columns());
     const record::OutputTimes times(output.interval, output.every, end_time);
-    simulation.add(energy_.emplace(assembly_.dynamics, energy_writer_ ? &*energy_writer_ : nullptr, times));
+    energy_.emplace(assembly_.dynamics, energy_writer_ ? &*energy_writer_ : nullptr, times);
+    if (other_energy_ != nullptr) energy_->also_to(*other_energy_);
+    simulation.add(*energy_);
   }
   if (output.impacts) simulation.add(impacts_.emplace(assembly_.dynamics));
   if (assembly_.dynamics.obstacles() != nullptr) simulation.add(contacts_.emplace(assembly_.dynamics));
@@ -88,7 +88,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
   states_.emplace(output.states, assembly_.dynamics.size());
   if (!output.states.empty()) simulation.add(*states_);
   if (folder != nullptr && output.checkpoint > 0)
-    simulation.add(checkpointer_.emplace(session_, assembly_, *folder, *writer_));
+    simulation.add(checkpointer_.emplace(scene_, assembly_, *folder, *writer_));
   if (checkpointer_ && energy_writer_) checkpointer_->also_sync(*energy_writer_);
   if (from != nullptr) simulation.restore(from->snapshot);
   if (!checkpointer_) return;
@@ -100,21 +100,25 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
 }
 
 void Run::add_fields(const record::ResultFolder& folder) {
-  const model::OutputRequest& output = session_.output;
-  model::FieldLayout layout = record::make_layout(session_.model, assembly_.system, output.fields);
+  const model::OutputRequest& output = scene_.output;
+  model::FieldLayout layout = record::make_layout(scene_.model, assembly_.system, output.fields);
   layout.columns = record::HistoryRecorder::columns_with_units(output);
   std::vector<std::unique_ptr<model::FieldWriter>> writers;
   for (const std::string& name : output.fields.formats)
-    writers.push_back(find_type(session_.catalogue.types().formats, name)->make(folder.path(), layout));
+    writers.push_back(find_type(scene_.catalogue.types().formats, name)->make(folder.path(), layout));
   for (const auto& writer : writers) history_->also_to(*writer);
   assembly_.simulation.add(
-      fields_.emplace(output, session_.integrator.options.end_time, assembly_.dynamics, std::move(writers)));
+      fields_.emplace(output, scene_.integrator.options.end_time, assembly_.dynamics, std::move(writers)));
+}
+
+std::vector<record::Impact> Run::impacts() const {
+  return impacts_ ? impacts_->impacts() : std::vector<record::Impact>{};
 }
 
 void Run::integrate() {
   const char* signal = nullptr;
   summary_.report = assembly_.simulation.run([&] {
-    signal = interruption();
+    signal = interruption_ ? interruption_() : nullptr;
     if (checkpointer_ && (signal != nullptr || checkpointer_->is_due())) checkpointer_->write();
     return signal == nullptr && !(is_enough_ && is_enough_());
   });
@@ -130,7 +134,7 @@ void Run::fail(const std::string& reason) {
 }
 
 void Run::summarize() {
-  summary_.integrator = session_.integrator.name;
+  summary_.integrator = scene_.integrator.name;
   summary_.choice = assembly_.integrator->choice();
   summary_.counters = checkpointer_ ? checkpointer_->counters() : assembly_.dynamics.counters();
   summary_.dofs = assembly_.dynamics.size();
@@ -143,11 +147,11 @@ void Run::summarize() {
 }
 
 void Run::look_at_rows() {
-  const model::OutputRequest& output = session_.output;
+  const model::OutputRequest& output = scene_.output;
   const double frequency = dynamics::contact_frequency(assembly_.system, assembly_.dynamics.contact());
   if (!output.interval || output.impacts || !(frequency > 0.0)) return;
   const double contact = std::numbers::pi / frequency;
-  if (*output.interval * check::kRowsInContact <= contact) return;
+  if (*output.interval * kRowsInContact <= contact) return;
   const double pull = largest_pull(assembly_.dynamics.contact());
   const bool has_struck = std::any_of(summary_.peaks.begin(), summary_.peaks.end(), [&](const auto& peak) {
     return peak.first.ends_with(".contact_force") && peak.second > kMoreThanPull * pull;
@@ -156,7 +160,7 @@ void Run::look_at_rows() {
   summary_.report.warnings.push_back("an impact lasts about " + to_short_text(contact) +
                                      " s and history.csv has a row every " + to_short_text(*output.interval) +
                                      " s, which do not show the course of its force. Take interval = " +
-                                     to_short_text(contact / (2.5 * check::kRowsInContact)) + ", or impacts = true");
+                                     to_short_text(contact / (2.5 * kRowsInContact)) + ", or impacts = true");
 }
 
 void Run::write_files(const record::ResultFolder& folder) {
@@ -182,4 +186,4 @@ void Run::write_files(const record::ResultFolder& folder) {
   writer.close();
 }
 
-}  // namespace butee::app
+}  // namespace butee::run

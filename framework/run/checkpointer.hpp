@@ -2,20 +2,20 @@
 
 #include <chrono>
 
-#include <butee/record/checkpoint.hpp>
-#include <butee/record/csv_writer.hpp>
-#include <butee/scene/assembly.hpp>
+#include "butee/record/checkpoint.hpp"
+#include "butee/record/csv_writer.hpp"
+#include "butee/scene/assembly.hpp"
 
-namespace butee::app {
+namespace butee::run {
 
 /// Throws InputError where [output] asks for checkpoints of a method that cannot go on from them bit for bit.
-void check_checkpoints(scene::Scene& session);
+BUTEE_EXPORT void check_checkpoints(scene::Scene& scene);
 
 /// Keeps a run on disk after every so manyth step.
-class Checkpointer final : public time::Observer {
+class BUTEE_EXPORT Checkpointer final : public time::Observer {
  public:
   /// All must outlive it.
-  Checkpointer(const scene::Scene& session, scene::Assembly& assembly, const record::ResultFolder& folder,
+  Checkpointer(const scene::Scene& scene, scene::Assembly& assembly, const record::ResultFolder& folder,
                record::CsvWriter& history);
 
   /// Another file that has to be on the device before a checkpoint counts on it; it must outlive this.
@@ -47,4 +47,4 @@ class Checkpointer final : public time::Observer {
   double seconds_ = 0.0;  ///< spent here
 };
 
-}  // namespace butee::app
+}  // namespace butee::run

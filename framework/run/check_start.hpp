@@ -1,0 +1,12 @@
+#pragma once
+
+#include "butee/record/result_folder.hpp"
+#include "butee/scene/read_scene.hpp"
+
+namespace butee::run {
+
+/// Throws InputError for a run that would replace what it starts from ([initial] from), and for one that starts later
+/// than t = 0 and asks for trust, which knows only runs from t = 0.
+BUTEE_EXPORT void check_start(const scene::Scene& scene, const record::ResultFolder& folder);
+
+}  // namespace butee::run
