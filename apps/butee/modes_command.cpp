@@ -136,14 +136,14 @@ int modes_command(const ModesArguments& arguments) {
         "scene has no undamped modes; take --speed, which gives damped modes");
   if (session.model.rotation != nullptr)
     log::info("modes at rest; --speed OMEGA and --campbell FROM TO N give those of turning shafts");
-  const auto closed = modes::closed_stops(session.model, arguments.closed);
+  const auto closed = dynamics::closed_stops(session.model, arguments.closed);
   const bool writes = arguments.plot || !arguments.folder.empty();
   const record::ResultFolder folder(folder_of(arguments));
   if (writes) folder.check();
   if (writes && std::filesystem::exists(folder.file("history.csv")))
     throw InputError(folder.path() + ": holds the results of a run; choose another folder with -o");
   const Index count = arguments.count > 0 ? arguments.count : std::min(kDefaultCount, system.size());
-  const modes::Analysis analysis = modes::analyse(session.model, system, closed, count);
+  const modes::Analysis analysis = dynamics::analyse_modes(session.model, system, closed, count);
   if (arguments.json)
     print_json(modes::to_json(analysis));
   else

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <butee/dynamics/mode_analysis.hpp>
 #include <butee/record/result_folder.hpp>
 
 #include "../json.hpp"
-#include "analysis.hpp"
 
 namespace butee::app::modes {
+
+using Analysis = dynamics::ModeAnalysis;
+using dynamics::Mode;
 
 /// The table for people.
 void print(const Analysis& analysis);

@@ -1,13 +1,13 @@
-#include "analysis.hpp"
+#include "butee/dynamics/mode_analysis.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <set>
 
-#include <butee/core/error.hpp>
-#include <butee/dynamics/modal_damping.hpp>
+#include "butee/core/error.hpp"
+#include "butee/dynamics/modal_damping.hpp"
 
-namespace butee::app::modes {
+namespace butee::dynamics {
 namespace {
 
 using model::NodeId;
@@ -36,7 +36,7 @@ std::set<NodeId> selected(const model::Model& model, const std::string& selector
 class Ratios {
  public:
   Ratios(const model::System& system, bool all_open) : system_(system), all_open_(all_open) {
-    if (system.damping.is_modal() && !all_open) modal_ = dynamics::ModalDamping::of(system);
+    if (system.damping.is_modal() && !all_open) modal_ = ModalDamping::of(system);
   }
 
   double of(Index mode, double omega, const Vector& shape) const {
@@ -58,12 +58,12 @@ class Ratios {
 
   const model::System& system_;
   bool all_open_;
-  std::unique_ptr<const dynamics::ModalDamping> modal_;
+  std::unique_ptr<const ModalDamping> modal_;
 };
 
 }  // namespace
 
-std::vector<dynamics::ClosedStop> closed_stops(const model::Model& model, const std::vector<std::string>& selectors) {
+std::vector<ClosedStop> closed_stops(const model::Model& model, const std::vector<std::string>& selectors) {
   std::set<std::pair<std::size_t, std::size_t>> places;
   for (const std::string& selector : selectors) {
     const bool all = selector == "all";
@@ -73,24 +73,23 @@ std::vector<dynamics::ClosedStop> closed_stops(const model::Model& model, const 
       throw InputError("--closed " + selector + (all ? ": the scene has no stops" : ": no stop acts there"));
     places.merge(found);
   }
-  std::vector<dynamics::ClosedStop> stops;
+  std::vector<ClosedStop> stops;
   for (const auto& [g, i] : places) {
     const model::StopGroup& group = model.stops[g];
-    stops.push_back(
-        {group.a[i], group.b.empty() ? dynamics::ClosedStop::kGround : group.b[i], group.law->closed_stiffness()});
+    stops.push_back({group.a[i], group.b.empty() ? ClosedStop::kGround : group.b[i], group.law->closed_stiffness()});
   }
   return stops;
 }
 
-Analysis analyse(const model::Model& model, const model::System& system,
-                 const std::vector<dynamics::ClosedStop>& closed, Index count) {
+ModeAnalysis analyse_modes(const model::Model& model, const model::System& system,
+                           const std::vector<ClosedStop>& closed, Index count) {
   if (count > system.size())
     throw InputError("-n " + std::to_string(count) +
                      ": the scene has no more modes than free DOFs: " + std::to_string(system.size()));
-  const dynamics::Structure structure(model, system.dofs, closed);
-  dynamics::NaturalModes found = dynamics::find_modes(structure, count);
+  const Structure structure(model, system.dofs, closed);
+  NaturalModes found = find_modes(structure, count);
   if (!found.problem.empty()) throw RunError("the modes could not be computed: " + found.problem);
-  Analysis analysis;
+  ModeAnalysis analysis;
   analysis.title = model.title;
   analysis.dofs = system.size();
   for (const model::FreeStops& stops : system.stops) analysis.stops += static_cast<Index>(stops.size());
@@ -116,4 +115,4 @@ Analysis analyse(const model::Model& model, const model::System& system,
   return analysis;
 }
 
-}  // namespace butee::app::modes
+}  // namespace butee::dynamics

@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <butee/dynamics/modes.hpp>
+#include "butee/dynamics/modes.hpp"
 
-#include "../session.hpp"
-
-namespace butee::app::modes {
+namespace butee::dynamics {
 
 /// What one natural mode is worth.
 struct Mode {
@@ -22,7 +20,7 @@ struct Mode {
 };
 
 /// The modes of a scene, its stops open or some of them closed.
-struct Analysis {
+struct ModeAnalysis {
   std::string title;
   Index dofs = 0, stops = 0, closed = 0;
   double total_mass = 0.0;  ///< kg
@@ -31,11 +29,11 @@ struct Analysis {
   Eigen::MatrixXd shapes;  ///< dofs x modes, Phi^T M Phi = 1
 };
 
-/// The stops that a selector of --closed names: "all", or those that act on the nodes it selects. Throws InputError.
-std::vector<dynamics::ClosedStop> closed_stops(const model::Model& model, const std::vector<std::string>& selectors);
+/// The stops that a selector (`--closed`) names: "all", or those that act on the nodes it selects. Throws InputError.
+BUTEE_EXPORT std::vector<ClosedStop> closed_stops(const model::Model& model, const std::vector<std::string>& selectors);
 
 /// `count` modes. Throws InputError where the scene has not so many, RunError where they could not be computed.
-Analysis analyse(const model::Model& model, const model::System& system,
-                 const std::vector<dynamics::ClosedStop>& closed, Index count);
+BUTEE_EXPORT ModeAnalysis analyse_modes(const model::Model& model, const model::System& system,
+                                        const std::vector<ClosedStop>& closed, Index count);
 
-}  // namespace butee::app::modes
+}  // namespace butee::dynamics
