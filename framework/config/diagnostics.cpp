@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "butee/config/scene_error.hpp"
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
@@ -14,6 +15,13 @@ std::string abbreviated(const Value& value) {
   constexpr std::size_t kLongest = 60;
   const std::string text = to_toml(value);
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+/// The parts of a message that error() put together, where `place` is where the mistake is.
+Mistake parts_of(const std::string& text, const std::string& place, const std::string& file, int line) {
+  const std::string rest = text.substr(place.size() + 2);
+  const std::size_t end = std::min(rest.find(" = "), rest.find(": "));
+  return {file, line, rest.substr(0, end), rest.substr(end + (rest.compare(end, 3, " = ") == 0 ? 3 : 2))};
 }
 
 }  // namespace
@@ -40,8 +48,14 @@ void Diagnostics::throw_if_any() const {
     return p.source != q.source ? p.source < q.source : p.line < q.line;
   });
   std::vector<std::string> sorted;
-  for (const std::size_t i : order) sorted.push_back(errors_[i]);
-  throw InputError(join(sorted, "\n"));
+  std::vector<Mistake> mistakes;
+  for (const std::size_t i : order) {
+    const Location at = places_[i];
+    const std::string& file = document_->sources[static_cast<std::size_t>(at.source)];
+    mistakes.push_back(parts_of(errors_[i], describe(*document_, at), file, at.line));
+    sorted.push_back(errors_[i]);
+  }
+  throw SceneError(join(sorted, "\n"), std::move(mistakes));
 }
 
 }  // namespace butee::config

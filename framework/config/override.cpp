@@ -10,6 +10,9 @@
 namespace butee::config {
 namespace {
 
+/// Of the text of a value in a message.
+constexpr std::size_t kLongest = 60;
+
 struct Step {
   std::string key;
   std::vector<std::size_t> indices;
@@ -75,6 +78,17 @@ void remove(Value& root, std::vector<Step> path, const std::string& assignment) 
   std::erase_if(table->entries, [&](const Table::Entry& entry) { return entry.first == last.key; });
 }
 
+const Value* follow(const Value& from, const Step& step) {
+  const Table* table = from.table();
+  const Value* value = table != nullptr ? table->find(step.key) : nullptr;
+  for (const std::size_t index : step.indices) {
+    const Array* array = value != nullptr ? value->array() : nullptr;
+    if (array == nullptr || index >= array->size()) return nullptr;
+    value = &(*array)[index];
+  }
+  return value;
+}
+
 void relocate(Value& value, Location at) {
   value.at = at;
   if (Array* array = value.array())
@@ -83,26 +97,42 @@ void relocate(Value& value, Location at) {
     for (auto& entry : table->entries) relocate(entry.second, at);
 }
 
-}  // namespace
-
-void apply_override(Document& document, const std::string& assignment) {
-  const auto equals = assignment.find('=');
-  if (equals == std::string::npos) refuse(assignment, "write KEY=VALUE, such as integrator.time_step=1e-6");
-  const std::vector<Step> path = parse_path(assignment.substr(0, equals), assignment);
-  const std::string text = assignment.substr(equals + 1);
-
-  if (text.empty()) return remove(document.root, path, assignment);
+void set(Document& document, const std::string& key, const std::string& assignment, Value given) {
+  const std::vector<Step> path = parse_path(key, assignment);
   document.sources.push_back("--set " + assignment);
   const Location at{static_cast<std::int32_t>(document.sources.size() - 1), 0};
-  Value given = parse_toml_value(text).value_or(Value(text));
   relocate(given, at);
-
   Value* target = &document.root;
   for (const Step& step : path) {
     target = &descend(*target, step, assignment);
     if (const Table* table = target->table(); table != nullptr && table->entries.empty()) target->at = at;
   }
   *target = std::move(given);
+}
+
+}  // namespace
+
+void apply_override(Document& document, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos) refuse(assignment, "write KEY=VALUE, such as integrator.time_step=1e-6");
+  const std::string key = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+  if (text.empty()) return remove(document.root, parse_path(key, assignment), assignment);
+  set(document, key, assignment, parse_toml_value(text).value_or(Value(text)));
+}
+
+void apply_override(Document& document, const std::string& key, Value value) {
+  std::string text = to_toml(value);
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  set(document, key, key + "=" + text, std::move(value));
+}
+
+const Value* find_value(const Document& document, const std::string& key) {
+  const Value* value = &document.root;
+  for (const Step& step : parse_path(key, key + "=")) {
+    value = follow(*value, step);
+    if (value == nullptr) return nullptr;
+  }
+  return value;
 }
 
 }  // namespace butee::config
