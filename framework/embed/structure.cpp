@@ -152,15 +152,20 @@ std::vector<Index> Structure::dofs(const std::string& selector, DofKind kind) co
 }
 
 void Structure::advance_to(double t) {
+  advance_to(t, nullptr);
+}
+
+bool Structure::advance_to(double t, const std::function<bool()>& goes_on) {
   time::Simulation& simulation = parts_->assembly->simulation;
   simulation.start();
   check_time(t, time(), true, "advance_to");
   if (t == time() && !simulation.report().message.empty()) throw RunError(simulation.report().message);
-  if (t == time()) return;
+  if (t == time()) return true;
   if (simulation.report().message.empty()) simulation.set_end_time(t);
-  while (simulation.advance()) {
-  }
+  while (simulation.advance())
+    if (goes_on && !goes_on()) return false;
   if (!simulation.report().completed) throw RunError(simulation.report().message);
+  return true;
 }
 
 double Structure::advance_step(double limit) {

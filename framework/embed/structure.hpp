@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -56,6 +57,9 @@ class BUTEE_EXPORT Structure {
   /// Goes on to `t` exactly, s. Throws RunError where a step fails; the state is then that of the last good step, and
   /// the same error comes again until another force, another motion or restore() gives a way to go on.
   void advance_to(double t);
+  /// The same, asking after every step whether to go on; true where it came to `t`. Another call takes it on from where
+  /// it was stopped.
+  bool advance_to(double t, const std::function<bool()>& goes_on);
   /// Takes one step of the method's own length, not beyond `limit`, and returns the new time.
   double advance_step(double limit);
 
