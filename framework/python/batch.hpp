@@ -1,0 +1,57 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "butee/python/outcome.hpp"
+#include "butee/python/session.hpp"
+
+namespace butee::python {
+
+/// Runs of one scene with other values, point by point, on threads that know nothing of Python.
+///
+/// Few results wait to be taken at a time, so that memory does not grow with the number of points.
+class Batch {
+ public:
+  /// One point's outcome, or why there is none.
+  struct Done {
+    std::size_t point = 0;
+    std::shared_ptr<Outcome> outcome;
+    std::exception_ptr error;
+  };
+
+  /// `points[i][k]` is the value of `keys[k]` at point i.
+  Batch(const Session& session, std::vector<std::string> keys, std::vector<std::vector<config::Value>> points,
+        std::size_t threads);
+  ~Batch();
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+
+  std::size_t size() const { return points_.size(); }
+  std::size_t taken() const { return taken_; }
+  /// Waits for the next result, in whatever order they come; nothing where it took longer than `patience`.
+  std::optional<Done> next(std::chrono::milliseconds patience);
+
+ private:
+  void work();
+  Done done_of(std::size_t point, plugin::Catalogue& catalogue);
+
+  config::Document document_;
+  std::shared_ptr<scene::Scene> scene_;  ///< whose catalogue each thread copies
+  std::vector<std::string> keys_;
+  std::vector<std::vector<config::Value>> points_;
+  std::size_t most_waiting_;
+  std::atomic<bool> stop_ = false;
+  std::mutex mutex_;
+  std::condition_variable came_, left_;
+  std::deque<Done> waiting_;
+  std::size_t next_ = 0;
+  std::atomic<std::size_t> taken_ = 0;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace butee::python

@@ -1,0 +1,63 @@
+#include <pybind11/stl.h>
+
+#include "butee/core/error.hpp"
+#include "butee/python/batch.hpp"
+#include "butee/python/bindings.hpp"
+#include "butee/python/values.hpp"
+
+namespace py = pybind11;
+
+namespace butee::python {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Between two looks after Ctrl-C.
+constexpr auto kPatience = 50ms;
+
+std::unique_ptr<Batch> start(const Session& session, std::vector<std::string> keys, const py::list& points,
+                             std::size_t threads) {
+  std::vector<std::vector<config::Value>> values;
+  for (const py::handle point : points) {
+    auto& row = values.emplace_back();
+    for (const py::handle value : point) row.push_back(to_value(value));
+    if (row.size() != keys.size()) throw py::value_error("a point has not one value for each key");
+  }
+  return std::make_unique<Batch>(session, std::move(keys), std::move(values), threads);
+}
+
+/// (point, outcome), or (point, exception) of bad input; None at the end.
+py::object next(Batch& batch) {
+  std::optional<Batch::Done> done;
+  while (!done) {
+    if (batch.taken() == batch.size()) return py::none();
+    {
+      const py::gil_scoped_release unlocked;
+      done = batch.next(kPatience);
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  if (done->error == nullptr) return py::make_tuple(done->point, done->outcome);
+  std::rethrow_exception(done->error);
+}
+
+/// Joins the threads without the interpreter's lock.
+struct Joined {
+  void operator()(Batch* batch) const {
+    const py::gil_scoped_release unlocked;
+    delete batch;
+  }
+};
+
+}  // namespace
+
+void bind_batch(py::module_& module) {
+  py::class_<Batch, std::unique_ptr<Batch, Joined>>(module, "Batch")
+      .def(py::init(
+          [](const Session& session, std::vector<std::string> keys, const py::list& points, std::size_t threads) {
+            return std::unique_ptr<Batch, Joined>(start(session, std::move(keys), points, threads).release());
+          }))
+      .def("next", &next);
+}
+
+}  // namespace butee::python

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "butee/python/outcome.hpp"
+
+/// The parts of the extension module butee._butee. What users see, with its documentation, is in butee/*.py.
+namespace butee::python {
+
+void bind_errors(pybind11::module_& module);
+void bind_scene(pybind11::module_& module);
+void bind_outcome(pybind11::module_& module);
+void bind_batch(pybind11::module_& module);
+void bind_equations(pybind11::module_& module);
+void bind_structure(pybind11::module_& module);
+
+/// An array that shows `values` without a copy, read-only; `owner` keeps them alive.
+inline pybind11::array view(const std::vector<double>& values, pybind11::handle owner) {
+  pybind11::array_t<double> array(static_cast<pybind11::ssize_t>(values.size()), values.data(), owner);
+  pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+}  // namespace butee::python

@@ -1,0 +1,16 @@
+#include "butee/plugin/module.hpp"
+
+#include "butee/python/bindings.hpp"
+#include "butee/version.hpp"
+
+PYBIND11_MODULE(_butee, module) {
+  using namespace butee::python;
+  module.doc() = "What the package butee is made of; import butee instead.";
+  module.attr("version") = BUTEE_VERSION;
+  module.attr("plugin_folder") = butee::plugin::standard_plugin_folder();
+  module.attr("lib_to_program") = BUTEE_LIB_TO_PROGRAM;
+  bind_errors(module);
+  bind_scene(module);
+  bind_outcome(module);
+  bind_batch(module);
+}

@@ -1,0 +1,72 @@
+#include "butee/python/outcome.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "butee/config/file_reference.hpp"
+#include "butee/config/toml.hpp"
+#include "butee/record/result_folder.hpp"
+#include "butee/run/check_start.hpp"
+#include "butee/run/run.hpp"
+
+namespace butee::python {
+namespace {
+
+/// Rows for which there is room at once.
+constexpr double kMostReserved = 1e6;
+
+void reserve(Columns& columns, const scene::Scene& scene) {
+  if (!scene.output.interval) return;
+  const double rows = scene.integrator.options.end_time / *scene.output.interval + 2.0;
+  if (!(rows < kMostReserved)) return;
+  for (auto& column : columns.values) column.reserve(static_cast<std::size_t>(rows));
+}
+
+/// The folder of a run, locked and with its model.toml.
+class Files {
+ public:
+  Files(const scene::Scene& scene, const std::string& path) : folder_(path), lock_(folder_.lock()) {
+    folder_.prepare(config::write_toml(config::with_files_found_from(scene.document, folder_.path())));
+  }
+
+  const record::ResultFolder& folder() const { return folder_; }
+
+  void finish(const Outcome& outcome) const {
+    folder_.write("summary.json", outcome.summary);
+    if (outcome.completed) record::CheckpointFolder(folder_).clear();
+  }
+
+ private:
+  record::ResultFolder folder_;
+  record::FolderLock lock_;
+};
+
+}  // namespace
+
+std::shared_ptr<Outcome> perform(scene::Scene& scene, const RunOptions& options, Watch& watch) {
+  auto outcome = std::make_shared<Outcome>();
+  outcome->title = scene.model.title;
+  outcome->history = Columns(record::HistoryRecorder::columns(scene.output));
+  outcome->energy = Columns(record::EnergyRecorder::columns());
+  reserve(outcome->history, scene);
+  if (!options.folder.empty()) {
+    run::check_checkpoints(scene);
+    run::check_start(scene, record::ResultFolder(options.folder));
+  }
+  run::Run run(scene, options.progress_bar);
+  run.also_to(outcome->history, outcome->energy);
+  const time::Simulation& simulation = run.assembly().simulation;
+  run.interrupt_by([&] { return watch.look(simulation.state().t); });
+  std::optional<Files> files;
+  if (!options.folder.empty()) files.emplace(scene, options.folder);
+  const record::Summary summary = run.perform(files ? &files->folder() : nullptr);
+  outcome->completed = summary.report.completed;
+  outcome->message = summary.report.message;
+  outcome->warnings = summary.report.warnings;
+  outcome->impacts = run.impacts();
+  outcome->summary = record::to_json(summary);
+  if (files) files->finish(*outcome);
+  return outcome;
+}
+
+}  // namespace butee::python

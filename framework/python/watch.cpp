@@ -1,0 +1,50 @@
+#include "butee/python/watch.hpp"
+
+#include <algorithm>
+
+namespace py = pybind11;
+
+namespace butee::python {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Between two calls into the interpreter.
+constexpr auto kBetweenCalls = 50ms;
+/// The clock is read after so many steps at most, and fewer where these take longer than kQuick.
+constexpr int kMostStride = 256;
+constexpr auto kQuick = 1ms, kSlow = 5ms;
+
+}  // namespace
+
+const char* PythonWatch::look(double t) {
+  if (--until_look_ > 0) return nullptr;
+  const auto now = Clock::now();
+  if (now - looked_ < kQuick) stride_ = std::min(2 * stride_, kMostStride);
+  if (now - looked_ > kSlow) stride_ = 1;
+  until_look_ = stride_;
+  looked_ = now;
+  if (now - called_ < kBetweenCalls) return nullptr;
+  called_ = now;
+  return has_raised(t) ? "Python" : nullptr;
+}
+
+bool PythonWatch::has_raised(double t) {
+  const py::gil_scoped_acquire lock;
+  try {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress_.is_none()) progress_(t);
+  } catch (py::error_already_set& error) {
+    error_.emplace(error);
+  }
+  return error_.has_value();
+}
+
+void PythonWatch::rethrow() {
+  if (!error_) return;
+  py::error_already_set error = *error_;
+  error_.reset();
+  throw error;
+}
+
+}  // namespace butee::python

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <pybind11/pybind11.h>
+
+#include "butee/python/outcome.hpp"
+
+namespace butee::python {
+
+/// Looks after Ctrl-C and calls `progress(t)` now and then, while a run goes on without the interpreter's lock.
+class PythonWatch final : public Watch {
+ public:
+  /// `progress` may be None. Made and destroyed with the lock.
+  explicit PythonWatch(pybind11::object progress) : progress_(std::move(progress)) {}
+
+  /// Without the lock.
+  const char* look(double t) override;
+  /// With the lock: throws what Ctrl-C or `progress` raised.
+  void rethrow();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool has_raised(double t);
+
+  pybind11::object progress_;
+  std::optional<pybind11::error_already_set> error_;
+  Clock::time_point looked_ = Clock::now(), called_ = looked_;
+  int stride_ = 1, until_look_ = 1;
+};
+
+}  // namespace butee::python
