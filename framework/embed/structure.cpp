@@ -115,7 +115,9 @@ Structure Structure::from_document(config::Document document, const StructureOpt
 
   const std::string identity = config::write_toml(*document.root.table()) + join(options.forced, "\n");
   auto parts = std::unique_ptr<Parts>(new Parts{
-      scene::read_scene(std::move(document), plugin::Catalogue::with_plugins(options.plugins), scene::Output::ignored),
+      scene::read_scene(std::move(document),
+                        options.catalogue ? *options.catalogue : plugin::Catalogue::with_plugins(options.plugins),
+                        scene::Output::ignored),
       checksum(std::as_bytes(std::span(identity)))});
   for (const std::string& line : parts->scene.warnings) log::warning(line);
   std::vector<std::pair<model::NodalDof, NodalForce*>> made;

@@ -3,11 +3,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "butee/config/value.hpp"
 #include "butee/embed/nodal_force.hpp"
+#include "butee/plugin/catalogue.hpp"
 #include "butee/record/energy.hpp"
 #include "butee/record/peaks.hpp"
 #include "butee/time/simulation.hpp"
@@ -20,6 +22,7 @@ struct StructureOptions {
   std::vector<std::string> plugins{};    ///< modules or folders of modules, as --plugin
   /// Selectors of the nodes on which forces will be set: "string:middle", or "string:all.theta" for moments.
   std::vector<std::string> forced{};
+  std::optional<plugin::Catalogue> catalogue{};  ///< the types that the scene may name, instead of `plugins`
 };
 
 /// The structure of a scene as a part of another program: it is advanced as far as that wants, read, pushed and set

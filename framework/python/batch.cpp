@@ -16,8 +16,7 @@ class StopWatch final : public Watch {
 
 }  // namespace
 
-Batch::Batch(const Session& session, std::vector<std::string> keys, std::vector<std::vector<config::Value>> points,
-             std::size_t threads)
+Batch::Batch(const Session& session, std::vector<std::string> keys, std::vector<Values> points, std::size_t threads)
     : document_(session.document()),
       scene_(session.shared()),
       keys_(std::move(keys)),

@@ -5,6 +5,7 @@
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "butee/python/outcome.hpp"
@@ -24,9 +25,10 @@ class Batch {
     std::exception_ptr error;
   };
 
-  /// `points[i][k]` is the value of `keys[k]` at point i.
-  Batch(const Session& session, std::vector<std::string> keys, std::vector<std::vector<config::Value>> points,
-        std::size_t threads);
+  /// Of a point, one for each key; nothing: the key is taken out.
+  using Values = std::vector<std::optional<config::Value>>;
+
+  Batch(const Session& session, std::vector<std::string> keys, std::vector<Values> points, std::size_t threads);
   ~Batch();
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
@@ -43,7 +45,7 @@ class Batch {
   config::Document document_;
   std::shared_ptr<scene::Scene> scene_;  ///< whose catalogue each thread copies
   std::vector<std::string> keys_;
-  std::vector<std::vector<config::Value>> points_;
+  std::vector<Values> points_;
   std::size_t most_waiting_;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;

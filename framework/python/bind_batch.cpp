@@ -15,15 +15,23 @@ using namespace std::chrono_literals;
 /// Between two looks after Ctrl-C.
 constexpr auto kPatience = 50ms;
 
-std::unique_ptr<Batch> start(const Session& session, std::vector<std::string> keys, const py::list& points,
-                             std::size_t threads) {
-  std::vector<std::vector<config::Value>> values;
+/// Joins the threads without the interpreter's lock.
+struct Joined {
+  void operator()(Batch* batch) const {
+    const py::gil_scoped_release unlocked;
+    delete batch;
+  }
+};
+
+std::unique_ptr<Batch, Joined> start(const Session& session, std::vector<std::string> keys, const py::list& points,
+                                     std::size_t threads) {
+  std::vector<Batch::Values> values;
   for (const py::handle point : points) {
     auto& row = values.emplace_back();
-    for (const py::handle value : point) row.push_back(to_value(value));
+    for (const py::handle value : point) row.push_back(value.is_none() ? std::nullopt : std::optional(to_value(value)));
     if (row.size() != keys.size()) throw py::value_error("a point has not one value for each key");
   }
-  return std::make_unique<Batch>(session, std::move(keys), std::move(values), threads);
+  return std::unique_ptr<Batch, Joined>(new Batch(session, std::move(keys), std::move(values), threads));
 }
 
 /// (point, outcome), or (point, exception) of bad input; None at the end.
@@ -41,23 +49,15 @@ py::object next(Batch& batch) {
   std::rethrow_exception(done->error);
 }
 
-/// Joins the threads without the interpreter's lock.
-struct Joined {
-  void operator()(Batch* batch) const {
-    const py::gil_scoped_release unlocked;
-    delete batch;
-  }
-};
-
 }  // namespace
 
 void bind_batch(py::module_& module) {
-  py::class_<Batch, std::unique_ptr<Batch, Joined>>(module, "Batch")
-      .def(py::init(
-          [](const Session& session, std::vector<std::string> keys, const py::list& points, std::size_t threads) {
-            return std::unique_ptr<Batch, Joined>(start(session, std::move(keys), points, threads).release());
-          }))
-      .def("next", &next);
+  using Pointer = std::unique_ptr<Batch, Joined>;
+  module.def("batch", [](const Session& session, std::vector<std::string> keys, const py::list& points,
+                         std::size_t threads) { return start(session, std::move(keys), points, threads); });
+  py::class_<Batch, Pointer> batch(module, "Batch");
+  batch.def("next", &next);
+  seal(batch);
 }
 
 }  // namespace butee::python

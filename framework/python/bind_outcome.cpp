@@ -73,8 +73,8 @@ std::shared_ptr<Outcome> made(const py::dict& history, const py::dict& energy, c
 
 void bind_outcome(py::module_& module) {
   module.def("outcome", &made);
-  py::class_<Outcome, std::shared_ptr<Outcome>>(module, "Outcome")
-      .def("column", &column)
+  py::class_<Outcome, std::shared_ptr<Outcome>> type(module, "Outcome");
+  type.def("column", &column)
       .def_property_readonly("columns", [](const Outcome& o) { return o.history.names; })
       .def("history", [](const Outcome& o, py::handle owner) { return views(o.history, owner); })
       .def("energy", [](const Outcome& o, py::handle owner) { return views(o.energy, owner); })
@@ -84,6 +84,7 @@ void bind_outcome(py::module_& module) {
       .def_readonly("completed", &Outcome::completed)
       .def_readonly("message", &Outcome::message)
       .def_readonly("warnings", &Outcome::warnings);
+  seal(type);
 }
 
 }  // namespace butee::python

@@ -6,6 +6,7 @@
 #include "butee/core/error.hpp"
 #include "butee/python/bindings.hpp"
 #include "butee/python/document_bytes.hpp"
+#include "butee/python/python_loads.hpp"
 #include "butee/python/session.hpp"
 #include "butee/python/values.hpp"
 #include "butee/python/watch.hpp"
@@ -18,29 +19,35 @@ namespace {
 using Strings = std::vector<std::string>;
 
 Session load(const std::string& path, const Strings& overrides, const Strings& plugins) {
+  const plugin::Catalogue catalogue = catalogue_with(plugins);
   const py::gil_scoped_release unlocked;
   config::Document document = config::load_toml(path);
   for (const std::string& assignment : overrides) config::apply_override(document, assignment);
-  return {std::move(document), plugins};
+  return {std::move(document), plugins, catalogue};
 }
 
 Session from_toml(const std::string& text, const std::string& name, const Strings& plugins) {
+  const plugin::Catalogue catalogue = catalogue_with(plugins);
   const py::gil_scoped_release unlocked;
-  return {config::parse_toml(text, name), plugins};
+  return {config::parse_toml(text, name), plugins, catalogue};
 }
 
 Session from_dict(py::handle dict, const std::string& name, const Strings& plugins) {
   config::Document document{{name}, to_value(dict)};
   if (document.root.table() == nullptr) throw py::type_error("a scene is a dict of its tables");
+  const plugin::Catalogue catalogue = catalogue_with(plugins);
   const py::gil_scoped_release unlocked;
-  return {std::move(document), plugins};
+  return {std::move(document), plugins, catalogue};
 }
 
 /// None takes a key out.
 std::vector<Assignment> to_assignments(const py::dict& values) {
   std::vector<Assignment> assignments;
-  for (const auto& [key, value] : values)
+  for (const auto& [key, value] : values) {
+    if (!py::isinstance<py::str>(key))
+      throw py::type_error("a key is a text, such as \"contact[0].gap\", not " + py::repr(key).cast<std::string>());
     assignments.emplace_back(key.cast<std::string>(), value.is_none() ? std::nullopt : std::optional(to_value(value)));
+  }
   return assignments;
 }
 
@@ -76,7 +83,7 @@ py::bytes state_of(const Session& session) {
 }
 
 Session from_state(const std::string& bytes, const Strings& plugins) {
-  return {to_document(std::as_bytes(std::span(bytes))), plugins};
+  return {to_document(std::as_bytes(std::span(bytes))), plugins, catalogue_with(plugins)};
 }
 
 std::string text_for(const Session& session, const std::string& folder) {
@@ -91,8 +98,9 @@ void bind_scene(py::module_& module) {
   module.def("from_toml", &from_toml);
   module.def("from_dict", &from_dict);
   module.def("from_state", &from_state);
-  py::class_<Session>(module, "Session")
-      .def("with_values", &with)
+  module.def("toml", [](const py::dict& tables) { return config::write_toml(*to_value(tables).table()); });
+  py::class_<Session> type(module, "Session");
+  type.def("with_values", &with)
       .def("find", &find)
       .def("contains",
            [](const Session& s, const std::string& key) { return config::find_value(s.document(), key) != nullptr; })
@@ -106,6 +114,7 @@ void bind_scene(py::module_& module) {
       .def_property_readonly("method", [](const Session& s) { return s.scene().integrator.name; })
       .def_property_readonly("end_time", [](const Session& s) { return s.scene().integrator.options.end_time; })
       .def_property_readonly("warnings", [](const Session& s) { return s.scene().warnings; });
+  seal(type);
 }
 
 }  // namespace butee::python

@@ -9,11 +9,17 @@
 namespace butee::python {
 
 void bind_errors(pybind11::module_& module);
+void bind_loads(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_outcome(pybind11::module_& module);
 void bind_batch(pybind11::module_& module);
 void bind_equations(pybind11::module_& module);
 void bind_structure(pybind11::module_& module);
+
+/// Objects come from functions of the module alone: pybind11 would take what __new__ gives, without __init__, for one.
+inline void seal(const pybind11::handle& type) {
+  reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new = nullptr;
+}
 
 /// An array that shows `values` without a copy, read-only; `owner` keeps them alive.
 inline pybind11::array view(const std::vector<double>& values, pybind11::handle owner) {

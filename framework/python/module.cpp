@@ -10,7 +10,10 @@ PYBIND11_MODULE(_butee, module) {
   module.attr("plugin_folder") = butee::plugin::standard_plugin_folder();
   module.attr("lib_to_program") = BUTEE_LIB_TO_PROGRAM;
   bind_errors(module);
+  bind_loads(module);
   bind_scene(module);
   bind_outcome(module);
   bind_batch(module);
+  bind_equations(module);
+  bind_structure(module);
 }

@@ -5,9 +5,6 @@
 
 namespace butee::python {
 
-Session::Session(config::Document document, std::vector<std::string> plugins)
-    : Session(std::move(document), plugins, plugin::Catalogue::with_plugins(plugins)) {}
-
 Session::Session(config::Document document, std::vector<std::string> plugins, const plugin::Catalogue& catalogue)
     : document_(std::move(document)),
       plugins_(std::move(plugins)),

@@ -17,8 +17,8 @@ using Assignment = std::pair<std::string, std::optional<config::Value>>;
 /// Not for several threads at once, but for scene(), whose result is only read.
 class Session {
  public:
-  /// `plugins`: modules or folders of modules. Throws InputError with every mistake.
-  Session(config::Document document, std::vector<std::string> plugins);
+  /// `plugins`: modules or folders of modules, which `catalogue` knows. Throws InputError with every mistake.
+  Session(config::Document document, std::vector<std::string> plugins, const plugin::Catalogue& catalogue);
 
   const scene::Scene& scene() const { return *scene_; }
   std::shared_ptr<scene::Scene> shared() const { return scene_; }
@@ -30,8 +30,6 @@ class Session {
   Session with(const std::vector<Assignment>& assignments) const;
 
  private:
-  Session(config::Document document, std::vector<std::string> plugins, const plugin::Catalogue& catalogue);
-
   config::Document document_;
   std::vector<std::string> plugins_;
   std::shared_ptr<scene::Scene> scene_;

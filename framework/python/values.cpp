@@ -70,11 +70,11 @@ py::object to_python(const config::Value& value) {
   if (const config::Array* array = value.array()) {
     py::list list;
     for (const config::Value& item : *array) list.append(to_python(item));
-    return std::move(list);
+    return list;
   }
   py::dict dict;
   for (const auto& [key, item] : value.table()->entries) dict[py::str(key)] = to_python(item);
-  return std::move(dict);
+  return dict;
 }
 
 }  // namespace butee::python

@@ -19,7 +19,7 @@ namespace {
 constexpr double kParted = 1e-3;
 /// A reference may take this long, s.
 constexpr double kTimeLimit = 600.0;
-constexpr double kSameInstant = 1e-9;
+constexpr double kSameRow = 1e-9;
 
 /// Of exponential, where exact refuses a scene.
 constexpr double kTight = 1e-9;
@@ -87,7 +87,7 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
     const auto cells = split_csv(line);
     try {
       const double at = question.times[values.size()];
-      if (std::abs(std::stod(cells.at(t)) - at) <= kSameInstant * question.times.back())
+      if (std::abs(std::stod(cells.at(t)) - at) <= kSameRow * question.times.back())
         values.push_back(std::stod(cells.at(value)));
     } catch (const std::exception&) {
       throw InputError(path + ": row " + std::to_string(number) + " is not a row of numbers");

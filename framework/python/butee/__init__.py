@@ -10,9 +10,18 @@
 Names, defaults and units are those of the program: ``butee help`` explains scenes, methods and results.
 """
 
+from ._batch import Batch
 from ._butee import version as __version__
+from ._equations import Equations, Modes
 from ._errors import Error, InputError, Mistake, RunError, SceneWarning
+from ._loads import load
 from ._result import Result
-from ._scene import Scene
+from ._scene import Scene, stability
+from ._structure import Snapshot, Structure
 
-__all__ = ["Error", "InputError", "Mistake", "Result", "RunError", "Scene", "SceneWarning", "__version__"]
+__all__ = ["Batch", "Equations", "Error", "InputError", "Mistake", "Modes", "Result", "RunError", "Scene", "SceneWarning",
+           "Snapshot", "Structure", "load", "stability", "__version__"]
+
+for _name in __all__:
+    if isinstance(globals()[_name], type):
+        globals()[_name].__module__ = __name__

@@ -35,7 +35,7 @@ class InputError(Error, ValueError):
     ...     butee.Scene({"schema": 1, "title": 5})
     ... except butee.InputError as error:
     ...     [mistake.key for mistake in error.mistakes]
-    ['title', 'integrator']
+    ['title', 'element', 'integrator']
     """
 
     mistakes: Tuple[Mistake, ...]

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import os
+import tempfile
 import warnings
-from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
-from . import _butee
+from . import _butee, _program
+from ._batch import Batch, run_batch
+from ._equations import Equations, Modes
 from ._errors import SceneWarning
 from ._result import Result
+from ._structure import Structure
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix
 
 Plugins = Sequence[Union[str, "os.PathLike[str]"]]
 #: Called some times a second with the present time and the end time, s; what it raises ends the run.
@@ -38,7 +46,7 @@ class Scene:
     >>> scene["contact[0].gap"] = 0.0005
     >>> scene["contact[0].gap"] = -1
     Traceback (most recent call last):
-    butee._errors.InputError: --set contact[0].gap=-1: contact[0].gap = -1: must be at least 0
+    butee.InputError: --set contact[0].gap=-1: contact[0].gap = -1: must be >= 0 (m)
     >>> scene["contact[0].gap"]
     0.0005
 
@@ -183,6 +191,96 @@ class Scene:
         if result._core.warnings:
             _warn(result._core.warnings)
         return result.check()
+
+    def batch(self, values: Mapping[str, Sequence[Any]], *, threads: Optional[int] = None, plan: str = "grid",
+              collect: Optional[Callable[[Result], Any]] = None, progress: Optional[Callable[[int, int], None]] = None,
+              **integrator: Any) -> Batch:
+        """Runs the scene once for each combination of ``values``, on threads without the interpreter's lock.
+
+        ``values`` is a dict of keys, each with a sequence of values. ``plan`` is ``"grid"``, every combination with the last key the
+        fastest, or ``"list"``, value by value. ``threads`` is the number of processors where it is None. ``collect`` makes what is
+        kept of each result, so that results need not all stay in memory; it and ``progress(done, runs)`` are called on this thread.
+        Keywords are keys of ``[integrator]`` for all runs. Results are the same bits as those of ``run``.
+
+        Bad input raises InputError. A run that fails does not end the others: see ``Batch.failed``.
+
+        >>> many = scene.batch({"load[0].amplitude": [1e5, 2e5]}, end_time=0.01)
+        >>> [result.completed for result in many]
+        [True, True]
+        """
+        return run_batch(self._with(None, integrator), values, plan, threads, collect, progress)
+
+    def equations(self) -> Equations:
+        """M, C, K, the forces of loads and stops, and the initial state, for other solvers."""
+        return Equations(_butee.equations(self._core))
+
+    def matrices(self) -> Tuple["csc_matrix", "csc_matrix", "csc_matrix"]:
+        """M, C and K on the free degrees of freedom, (n, n) each, as ``scipy.sparse.csc_matrix``; see ``Equations``.
+
+        >>> M, C, K = scene.matrices()
+        >>> M.toarray(), C.toarray(), K.toarray()
+        (array([[100.]]), array([[50.]]), array([[1.e+09]]))
+        """
+        equations = self.equations()
+        return equations.M, equations.C, equations.K
+
+    def modes(self, n: int = 0, *, closed: Union[str, Sequence[str]] = ()) -> Modes:
+        """The ``n`` lowest natural modes (10, or all of a smaller scene, where it is 0), as ``butee modes``.
+
+        ``closed`` are selectors of nodes whose stops count as closed, or ``"all"``.
+        """
+        if n < 0:
+            raise ValueError(f"n = {n}: a number of modes is wanted")
+        return Modes(**_butee.modes(self._core, n, [closed] if isinstance(closed, str) else list(closed)))
+
+    def whirl(self, speed: float, n: int = 0) -> Dict[str, Any]:
+        """Damped, whirling modes at a speed of rotation in rad/s, as ``butee modes --speed ... --json`` gives them."""
+        return _program.json_of(self, "modes", ["--speed", repr(float(speed)), *(["-n", str(n)] if n else [])])
+
+    def campbell(self, start: float, stop: float, steps: int, n: int = 0, order: float = 1.0) -> Dict[str, Any]:
+        """Whirling modes at ``steps`` + 1 speeds (rad/s) and critical speeds, as ``butee modes --campbell ... --json``."""
+        speeds = [repr(float(start)), repr(float(stop)), str(steps)]
+        return _program.json_of(self, "modes", ["--campbell", *speeds, "--order", repr(float(order)),
+                                                *(["-n", str(n)] if n else [])])
+
+    def structure(self, forced: Union[str, Sequence[str]] = ()) -> Structure:
+        """The scene as a part of another computation. ``forced`` are selectors of the nodes that forces will act on,
+        ``"string:middle"``, or ``"string:all.theta"`` for moments."""
+        return Structure(_butee.part(self._core, [forced] if isinstance(forced, str) else list(forced)))
+
+    def check(self) -> Dict[str, Any]:
+        """What the scene holds, its frequencies, likely mistakes and the cost of a run, as ``butee check --json``."""
+        return _program.json_of(self, "check")
+
+    def trust(self) -> Dict[str, Any]:
+        """How far the answer can be trusted, and whether the scene is chaotic, as ``butee run --trust``: several runs."""
+        return _program.trust_of(self)
+
+    def stability(self) -> Dict[str, Any]:
+        """How far the scene's method is stable, and what it does to period and amplitude; see ``butee.stability``."""
+        return stability(self.method)
+
+    def compare(self, methods: Sequence[Union[str, Mapping[str, Any]]] = (), *, targets: Sequence[float] = (),
+                time_limit: float = 2.0) -> List[Dict[str, Any]]:
+        """Run time against error of several methods, as ``butee compare``; a dict for each run, with ``method``, ``knob``,
+        ``value``, ``outcome``, ``error_rms``, ``seconds``, ``steps``, ...
+
+        ``methods`` are names, or dicts as of ``[[study.method]]`` (``type``, ``sweep``, ``values``, ``with``); all that are found where
+        there are none. ``targets`` are relative errors; a single run takes ``time_limit`` seconds at most.
+        """
+        study: Dict[str, Any] = {"scenes": ["scene.toml"], "time_limit": float(time_limit)}
+        if targets:
+            study["targets"] = [float(target) for target in targets]
+        if methods:
+            study["method"] = [{"type": entry} if isinstance(entry, str) else dict(entry) for entry in methods]
+        return _program.comparison_of(self, _butee.toml({"schema": 1, "study": study}))
+
+
+def stability(method: str, parameters: Optional[Mapping[str, Any]] = None) -> Dict[str, Any]:
+    """How far a method is stable, and what it does to period and amplitude, as ``butee stability METHOD --json``."""
+    settings = [word for key, value in (parameters or {}).items() for word in ("--set", f"{key}={value}")]
+    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
+        return json.loads(_program.call(["stability", method, *settings, "--json", "-o", "results"], folder))
 
 
 def _restored(cls, state: bytes, plugins: List[str]) -> Scene:

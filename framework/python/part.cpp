@@ -1,0 +1,68 @@
+#include "butee/python/part.hpp"
+
+#include "butee/core/error.hpp"
+#include "butee/time/snapshot.hpp"
+
+namespace butee::python {
+namespace {
+
+/// "string:all.theta" -> {"string:all", theta}; u without an ending.
+std::pair<std::string, DofKind> split(const std::string& selector) {
+  for (const auto& [ending, kind] : {std::pair{".theta", DofKind::theta}, std::pair{".u", DofKind::u}})
+    if (selector.ends_with(ending)) return {selector.substr(0, selector.rfind('.')), kind};
+  return {selector, DofKind::u};
+}
+
+}  // namespace
+
+Part::Part(const Session& session, std::vector<std::string> forced)
+    : session_(session),
+      forced_(std::move(forced)),
+      structure_(embed::Structure::from_document(session.document(),
+                                                 {.forced = forced_, .catalogue = session.scene().catalogue})) {
+  for (const std::string& selector : forced_) {
+    const auto [nodes, kind] = split(selector);
+    for (const Index dof : structure_.dofs(nodes, kind)) forced_dofs_.push_back(dof);
+  }
+}
+
+Part::Locked Part::use() {
+  std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock.owns_lock())
+    throw RunError("another thread is at work on this structure; each thread needs one of its own");
+  return {structure_, std::move(lock)};
+}
+
+std::vector<std::byte> to_bytes(const embed::Structure::Snapshot& snapshot) {
+  std::vector<std::byte> run, all;
+  ByteWriter to_run(run);
+  time::write_snapshot(snapshot.run, to_run);
+  ByteWriter to(all);
+  to.put(std::span<const std::byte>(run));
+  to.put(snapshot.origin);
+  to.put(static_cast<std::uint64_t>(snapshot.forces.size()));
+  for (const auto& line : snapshot.forces)
+    for (const double number : {line.value, line.slope, line.begin}) to.put(number);
+  to.put(checksum(all));
+  return all;
+}
+
+embed::Structure::Snapshot to_snapshot(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0;
+  if (bytes.size() < sizeof sum) throw RunError("the bytes are no snapshot");
+  const auto content = bytes.first(bytes.size() - sizeof sum);
+  ByteReader(bytes.last(sizeof sum)).take(sum);
+  if (sum != checksum(content)) throw RunError("the bytes are no snapshot");
+  ByteReader from(content);
+  std::vector<std::byte> run;
+  from.take(run);
+  ByteReader from_run(run);
+  embed::Structure::Snapshot snapshot{time::read_snapshot(from_run), {}, 0};
+  from.take(snapshot.origin);
+  snapshot.forces.resize(from.count(3 * sizeof(double)));
+  for (auto& line : snapshot.forces)
+    for (double* number : {&line.value, &line.slope, &line.begin}) from.take(*number);
+  return snapshot;
+}
+
+}  // namespace butee::python

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "butee/embed/structure.hpp"
+#include "butee/python/session.hpp"
+
+namespace butee::python {
+
+/// A structure for one thread at a time, with what is needed to make it again elsewhere.
+class Part {
+ public:
+  Part(const Session& session, std::vector<std::string> forced);
+
+  /// The structure, for as long as the lock lives. Throws RunError where another thread is at it.
+  struct Locked {
+    embed::Structure& structure;
+    std::unique_lock<std::mutex> lock;
+    embed::Structure* operator->() const { return &structure; }
+  };
+  Locked use();
+
+  const Session& session() const { return session_; }
+  const std::vector<std::string>& forced() const { return forced_; }
+  /// The free DOFs of `forced`, in its order.
+  const std::vector<Index>& forced_dofs() const { return forced_dofs_; }
+
+ private:
+  Session session_;
+  std::vector<std::string> forced_;
+  embed::Structure structure_;
+  std::vector<Index> forced_dofs_;
+  std::mutex mutex_;
+};
+
+/// A snapshot as bytes, and back; throws RunError where the bytes are damaged.
+std::vector<std::byte> to_bytes(const embed::Structure::Snapshot& snapshot);
+embed::Structure::Snapshot to_snapshot(std::span<const std::byte> bytes);
+
+}  // namespace butee::python

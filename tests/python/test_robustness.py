@@ -1,0 +1,192 @@
+"""Nothing that Python code does ends the interpreter, and Ctrl-C ends what is under way."""
+
+import gc
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import butee
+
+#: A run that takes longer than any test.
+LONG = """
+    import sys, time
+    sys.path[:0] = {path!r}
+    import butee
+    from conftest import ROTOR
+    scene = butee.Scene(ROTOR).with_values({{"output.interval": 1.0}}, type={method!r}, **{options!r})
+"""
+
+
+def interrupted(method, options, code, after=0.4):
+    """Runs `code` in another interpreter, sends SIGINT and gives what it printed."""
+    text = textwrap.dedent(LONG.format(path=[str(pathlib.Path(__file__).parent)], method=method, options={"end_time": 1.0e6, **options}))
+    text += textwrap.dedent(code)
+    process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(after)
+    process.send_signal(signal.SIGINT)
+    watchdog = threading.Timer(30.0, process.kill)
+    watchdog.start()
+    with process:
+        out = process.stdout.read()
+    watchdog.cancel()
+    return process.returncode, out
+
+
+@pytest.mark.parametrize("method, options", [("rk4", {"time_step": 1e-6, "tolerance": None}), ("exponential", {}), ("rodas4", {"end_time": 1.0e4}),
+                                             ("exact", {"tolerance": None})])
+def test_ctrl_c_ends_a_run(method, options):
+    code = """
+        try:
+            print("ready", flush=True)
+            scene.run()
+        except KeyboardInterrupt:
+            print("interrupted", scene.run(end_time=1e-3, time_step=1e-6).completed)
+    """
+    assert interrupted(method, options, code) == (0, "interrupted True\n")
+
+
+def test_ctrl_c_ends_a_batch_and_a_structure():
+    code = """
+        part = scene.structure()
+        for call in (lambda: scene.batch({"load[0].amplitude": [1e5, 2e5, 3e5]}, threads=2), lambda: part.advance_to(1e6)):
+            try:
+                print("ready", flush=True)
+                call()
+            except KeyboardInterrupt:
+                print("interrupted")
+                import os, signal, threading
+                threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """
+    status, out = interrupted("rk4", {"time_step": 1e-6, "tolerance": None}, code)
+    assert (status, out) == (0, "interrupted\nready\ninterrupted\n")
+
+
+def test_progress_is_called_and_may_raise(rotor):
+    slow = rotor.with_values({"integrator.tolerance": None, "output.interval": 0.01}, type="rk4", time_step=1e-7, end_time=0.3)
+    seen = []
+    slow.run(progress=lambda t, end: seen.append((t, end)))
+    assert seen and all(0.0 < t < end == 0.3 for t, end in seen) and seen == sorted(seen)
+
+    def refuse(t, end):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        slow.run(progress=refuse)
+    assert slow.run(end_time=0.001).completed
+
+
+def test_other_threads_go_on_meanwhile(rotor):
+    slow = rotor.with_values({"integrator.tolerance": None, "output.interval": 0.01}, type="rk4", time_step=1e-7, end_time=0.2)
+    running = threading.Thread(target=slow.run)
+    running.start()
+    count = 0
+    while running.is_alive():
+        count += 1
+        time.sleep(0.001)
+    # A run that kept the lock would let this loop through a few times, before and after it.
+    assert count > 20
+
+
+def test_one_scene_on_many_threads(rotor):
+    expected = rotor.run()["rotor.u"]
+    same = []
+
+    def work(i):
+        for k in range(10):
+            if i == 0:
+                rotor["contact[0].gap"] = 4.0e-4  # as before: what runs has the scene to itself
+            same.append(np.array_equal(rotor.run()["rotor.u"], expected))
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert same == [True] * 40
+
+
+def test_one_structure_on_two_threads_is_refused(rotor):
+    part = rotor.with_values({"integrator.tolerance": None}, type="rk4", time_step=1e-7).structure()
+
+    def work():
+        while True:
+            try:
+                return part.advance_to(0.2)
+            except butee.RunError:  # the other thread was first
+                pass
+
+    running = threading.Thread(target=work)
+    running.start()
+    refused = 0
+    while running.is_alive():
+        for call in (lambda: part.x, lambda: part.time, part.snapshot, lambda: part.forces):
+            try:
+                call()
+            except butee.RunError:
+                refused += 1
+    running.join()
+    assert refused > 0 and part.time == 0.2
+
+
+def test_equations_on_many_threads(rotor):
+    equations = rotor.equations()
+    expected = equations.acceleration(0.1, [5e-4], [1.0])
+    wrong = []
+
+    def work():
+        for _ in range(2000):
+            if not np.array_equal(equations.acceleration(0.1, [5e-4], [1.0]), expected):
+                wrong.append(1)
+
+    threads = [threading.Thread(target=work) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_owners_may_go_first(rotor):
+    part, equations, result = rotor.structure(forced=["rotor"]), rotor.equations(), rotor.run()
+    snapshot, K, u = part.snapshot(), equations.K, result["rotor.u"]
+    del rotor, result, equations
+    gc.collect()
+    part.advance_to(1e-3)
+    part.restore(snapshot)
+    del part
+    gc.collect()
+    assert snapshot.time == 0.0 and K[0, 0] == 1.0e9 and np.isfinite(u).all()
+
+
+@pytest.mark.parametrize("name", ["Session", "Outcome", "Batch", "Equations", "Part", "Snapshot"])
+def test_objects_without_content_are_not_made(name):
+    """What __new__ gives before __init__ would be no object yet."""
+    kind = getattr(butee._butee, name)
+    for make in (kind, lambda: kind.__new__(kind), lambda: object.__new__(kind), lambda: super(kind, kind).__new__(kind)):
+        with pytest.raises(TypeError):
+            make()
+
+
+def test_empty_python_objects_raise():
+    for kind in (butee.Scene, butee.Result, butee.Structure, butee.Equations):
+        empty = kind.__new__(kind)
+        with pytest.raises(AttributeError):
+            repr(empty)
+
+
+def test_an_interpreter_may_end_in_the_midst(tmp_path):
+    code = textwrap.dedent(LONG.format(path=[str(pathlib.Path(__file__).parent)], method="rk4",
+                                       options={"time_step": 1e-6, "tolerance": None, "end_time": 1.0e6}))
+    code += "import threading\nthreading.Thread(target=scene.run, daemon=True).start()\ntime.sleep(0.2)\nprint('bye')\n"
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (process.returncode, process.stdout, process.stderr) == (0, "bye\n", "")
