@@ -1,5 +1,6 @@
 """Doctests, the tutorial, and docstrings with annotations for everything public."""
 
+import ast
 import doctest
 import inspect
 import math
@@ -104,3 +105,21 @@ def test_example_run_up(tmp_path):
 def test_example_against_scipy(tmp_path):
     out = run_example("against_scipy.py", tmp_path)
     assert float(out.split()[2]) < 1e-5 and "stops closed" in out
+
+
+def test_the_stub_has_the_names_of_the_extension():
+    """What type checkers read of the extension module is what it holds."""
+    tree = ast.parse((SOURCE / "framework" / "python" / "butee" / "_butee.pyi").read_text())
+    stub = {}
+    for node in tree.body:
+        names = [part.target.id if isinstance(part, ast.AnnAssign) else part.name for part in getattr(node, "body", [])
+                 if isinstance(part, (ast.AnnAssign, ast.FunctionDef))]
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
+            stub[node.name] = sorted(names) if isinstance(node, ast.ClassDef) else None
+        elif isinstance(node, ast.AnnAssign):
+            stub[node.target.id] = None
+    module = {}
+    for name, value in vars(butee._butee).items():
+        if not name.startswith("_"):
+            module[name] = sorted(n for n in vars(value) if not n.startswith("_")) if inspect.isclass(value) else None
+    assert stub == module
