@@ -29,6 +29,7 @@ void add_log_options(CLI::App& command, bool with_verbose);
 Command add_run_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
+Command add_study_command(CLI::App& program);
 Command add_modes_command(CLI::App& program);
 Command add_plot_command(CLI::App& program);
 Command add_plugins_command(CLI::App& program);

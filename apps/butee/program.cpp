@@ -29,10 +29,11 @@ int parse_and_run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(kExamples);
   const std::vector<Command> commands = {
-      add_run_command(program),     add_check_command(program),      add_modes_command(program),
-      add_compare_command(program), add_plot_command(program),       add_stability_command(program),
-      add_plugins_command(program), add_new_plugin_command(program), add_test_plugin_command(program),
-      add_init_command(program),    add_help_command(program),       add_completion_command(program)};
+      add_run_command(program),         add_check_command(program),   add_modes_command(program),
+      add_compare_command(program),     add_study_command(program),   add_plot_command(program),
+      add_stability_command(program),   add_plugins_command(program), add_new_plugin_command(program),
+      add_test_plugin_command(program), add_init_command(program),    add_help_command(program),
+      add_completion_command(program)};
 
   std::vector<std::string> known;
   for (const Command& command : commands) known.push_back(command.app->get_name());

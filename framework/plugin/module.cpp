@@ -59,15 +59,11 @@ std::string for_target(const std::string& path) {
   return path;
 }
 
-}  // namespace
-
-Registrar load_module(const std::string& any_path) {
-  const std::string path = for_target(any_path);
-  const CrashWatch watch(path);
+/// Opens a module and checks that it fits. After a CrashWatch.
+void* open_module(const std::string& path) {
   void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
   if (handle == nullptr) throw RunError(path + ": cannot be loaded: " + last_error());
   const auto tag = symbol<const butee_abi_tag* (*)()>(handle, "butee_plugin_abi", path);
-  const auto enter = symbol<void (*)(Registrar*)>(handle, "butee_plugin_register", path);
   if (const std::string found = differences(*tag()); !found.empty())
     throw RunError(path + ": was built for another butee: " + found +
                    "; build it again with this version's headers and flags");
@@ -75,6 +71,16 @@ Registrar load_module(const std::string& any_path) {
   if (dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD) == nullptr)
     throw RunError(path + ": cannot be loaded: " + last_error() +
                    "; build it again with this version's headers and flags");
+  return handle;
+}
+
+}  // namespace
+
+Registrar load_module(const std::string& any_path) {
+  const std::string path = for_target(any_path);
+  const CrashWatch watch(path);
+  void* handle = open_module(path);
+  const auto enter = symbol<void (*)(Registrar*)>(handle, "butee_plugin_register", path);
   Registrar registrar;
   try {
     enter(&registrar);
@@ -86,12 +92,20 @@ Registrar load_module(const std::string& any_path) {
   return registrar;
 }
 
-std::string standard_plugin_folder() {
+void (*module_function(const std::string& path, const char* name))() {
+  const CrashWatch watch(path);
+  return symbol<void (*)()>(open_module(path), name, path);
+}
+
+std::string library_file() {
   Dl_info info{};
-  if (dladdr(reinterpret_cast<const void*>(&standard_plugin_folder), &info) == 0 || info.dli_fname == nullptr)
-    return "";
-  const std::filesystem::path library = std::filesystem::weakly_canonical(info.dli_fname);
-  return (library.parent_path() / "butee" / "plugins").string();
+  if (dladdr(reinterpret_cast<const void*>(&library_file), &info) == 0 || info.dli_fname == nullptr) return "";
+  return std::filesystem::weakly_canonical(info.dli_fname).string();
+}
+
+std::string standard_plugin_folder() {
+  const std::filesystem::path library = library_file();
+  return library.empty() ? "" : (library.parent_path() / "butee" / "plugins").string();
 }
 
 }  // namespace butee::plugin

@@ -13,6 +13,12 @@ namespace butee::plugin {
 /// file's name, what was expected and what was found.
 BUTEE_EXPORT Registrar load_module(const std::string& path);
 
+/// A C function of a shared object that is opened as by load_module(). Throws RunError likewise.
+BUTEE_EXPORT void (*module_function(const std::string& path, const char* name))();
+
+/// The file of the library of the framework; "" where the system does not say.
+BUTEE_EXPORT std::string library_file();
+
 /// The folder of the modules that come with butee, beside the library of the framework.
 BUTEE_EXPORT std::string standard_plugin_folder();
 

@@ -21,7 +21,7 @@ Names with(Names names, const Names& others) {
 }
 
 const Names kAllRooms = {"core",   "config", "model",  "linalg", "dynamics", "time",
-                         "plugin", "scene",  "record", "run",    "embed"};
+                         "plugin", "scene",  "record", "run",    "study",    "embed"};
 
 /// The rooms of the framework that a folder may include.
 Names allowed_rooms(const std::string& folder) {
@@ -38,12 +38,13 @@ Names allowed_rooms(const std::string& folder) {
       {"framework/scene", with(to_time, {"plugin", "scene"})},
       {"framework/record", with(to_time, {"record"})},
       {"framework/run", with(to_time, {"plugin", "scene", "record", "run"})},
+      {"framework/study", with(to_time, {"plugin", "scene", "record", "study"})},
       {"framework/embed", kAllRooms},
       {"framework/python", with(kAllRooms, {"python"})},
       {"elements", to_model},
       {"contact", to_model},
       {"integrators", to_time},
-      {"plugins", {"core", "model", "plugin"}},
+      {"plugins", {"core", "model", "plugin", "study"}},
       {"apps", kAllRooms}};
   return rules.at(folder);
 }

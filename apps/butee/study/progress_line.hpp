@@ -1,0 +1,26 @@
+#pragma once
+
+#include <chrono>
+
+#include <butee/study/perform.hpp>
+
+namespace butee::app {
+
+/// How far a study is, on standard error: on a terminal one line drawn in place, elsewhere a line every ten seconds.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool is_wanted);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void report(const study::Progress& progress);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_wanted_, is_terminal_, is_on_screen_ = false;
+  Clock::time_point begin_, drawn_;
+};
+
+}  // namespace butee::app

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "butee/scene/read_scene.hpp"
+#include "butee/study/table.hpp"
+
+namespace butee::study {
+
+/// A result that a study collects from each run: "peak rotor.u", "section rotor.u", "impacts".
+struct Item {
+  enum class Kind { peak, max, min, mean, rms, end, section, frequency, impacts, lyapunov };
+
+  Kind kind = Kind::peak;
+  std::string text;   ///< as written
+  std::string probe;  ///< label of a probe, or selector of one node; "" where the kind takes none
+  model::Quantity quantity = model::Quantity::u;
+
+  bool needs_period() const { return kind == Kind::section || kind == Kind::lyapunov; }
+};
+
+/// The kinds that `collect` takes, with what they are: "peak", "largest |value| over the motion that counts".
+struct ItemKind {
+  Item::Kind kind;
+  std::string name, summary;
+};
+BUTEE_EXPORT const std::vector<ItemKind>& item_kinds();
+
+/// Reads "KIND LABEL.QUANTITY" or "KIND". Throws InputError without the key.
+BUTEE_EXPORT Item read_item(const std::string& text);
+
+/// The column of an item; a section has `periods` entries.
+BUTEE_EXPORT Column column_of(const Item& item, std::int64_t periods);
+
+/// The probe of the scene that an item names, or one made for it on the node that it names. Throws InputError.
+BUTEE_EXPORT model::ProbeRequest probe_of(const Item& item, const scene::Scene& scene);
+
+/// The part of a run that counts.
+struct Counted {
+  double begin = 0.0, end = 0.0;  ///< s
+  double period = 0.0;            ///< s; 0 where there is none
+  std::int64_t periods = 0;       ///< in it
+};
+
+/// Observes the part of a run that counts, and gives the items but "lyapunov". Begins where open() says.
+class BUTEE_EXPORT Collector final : public time::Observer {
+ public:
+  /// `dynamics` must outlive it. Throws InputError where an item names nothing.
+  Collector(const std::vector<Item>& items, const scene::Scene& scene, dynamics::Dynamics& dynamics,
+            const Counted& counted);
+  ~Collector() override;
+
+  /// From this state on the motion counts; it is that at the beginning of the next step.
+  void open(const time::State& state);
+
+  void step(const time::AcceptedStep& step) override;
+  double next_instant(double t) const override;
+
+  /// The entries of an item, as many as its column has; none of "lyapunov".
+  std::vector<double> values(std::size_t item) const;
+
+ private:
+  class Part;
+  class PeakPart;
+  class RangePart;
+  class MeanPart;
+  class SectionPart;
+  class FrequencyPart;
+  class ImpactPart;
+
+  std::vector<std::unique_ptr<Part>> parts_;
+  /// Of each item, the part that observes it and its place there; null for "lyapunov".
+  std::vector<std::pair<const Part*, std::size_t>> places_;
+  bool is_open_ = false;
+};
+
+}  // namespace butee::study

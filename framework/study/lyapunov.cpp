@@ -1,0 +1,82 @@
+#include "butee/study/lyapunov.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "butee/scene/assembly.hpp"
+
+namespace butee::study {
+namespace {
+
+/// A disturbance is so many times the noise of a step, relative to the motion, and so large at least and at most.
+constexpr double kAboveNoise = 1e4, kSmallest = 1e-8, kLargest = 1e-3;
+/// Below this part of its first size a difference is lost in rounding.
+constexpr double kLost = 1e-6;
+
+double tolerance_of(const scene::Scene& scene) {
+  const config::Parameters& parameters = scene.integrator.parameters;
+  return scene.integrator.options.limits.keeps_tolerance && parameters.has("tolerance") ? parameters.number("tolerance")
+                                                                                        : 0.0;
+}
+
+class Size {
+ public:
+  Size(const SparseMatrix& mass, double omega) : mass_(mass), omega_(omega) {}
+  double of(const Vector& x, const Vector& v) const {
+    return std::sqrt(std::max(0.0, v.dot(mass_ * v) + omega_ * omega_ * x.dot(mass_ * x)));
+  }
+
+ private:
+  const SparseMatrix& mass_;
+  double omega_;
+};
+
+/// A run that is set to motions and goes on for a while.
+class Piece {
+ public:
+  explicit Piece(scene::Scene& scene) : assembly_(scene) {}
+  bool go(const Vector& x, const Vector& v, double until, const std::function<bool()>& goes_on) {
+    time::Simulation& simulation = assembly_.simulation;
+    simulation.set_motion(x, v);
+    simulation.set_end_time(until);
+    return simulation.run(goes_on).completed;
+  }
+  const time::State& state() const { return assembly_.simulation.state(); }
+  const model::System& system() const { return assembly_.system; }
+
+ private:
+  scene::Assembly assembly_;
+};
+
+}  // namespace
+
+std::optional<double> lyapunov_exponent(scene::Scene& scene, const Motion& start, const Counted& counted,
+                                        const std::function<bool()>& goes_on) {
+  // Time begins anew where the motion that counts does: whole periods of the loads lie between.
+  Piece run(scene), disturbed(scene);
+  const double omega = 2.0 * std::numbers::pi / counted.period;
+  const Size size(run.system().mass, omega);
+  Vector x = start.x, v = start.v;
+  const double wanted = std::clamp(kAboveNoise * tolerance_of(scene), kSmallest, kLargest) * size.of(x, v);
+  if (!(wanted > 0.0)) return std::nullopt;
+  Vector dx = Vector::Zero(x.size()), dv = dx;
+  for (Index i = 0; i < dv.size(); ++i) dv[i] = 1.0 / std::sqrt(run.system().mass.coeff(i, i));
+  double now = size.of(dx, dv), sum = 0.0;
+  const std::int64_t first = counted.periods / 4;
+  for (std::int64_t i = 0; i < counted.periods; ++i) {
+    const double until = static_cast<double>(i + 1) * counted.period;
+    dx *= wanted / now;
+    dv *= wanted / now;
+    if (!disturbed.go(x + dx, v + dv, until, goes_on) || !run.go(x, v, until, goes_on)) return std::nullopt;
+    x = run.state().x;
+    v = run.state().v;
+    dx = disturbed.state().x - x;
+    dv = disturbed.state().v - v;
+    now = std::max(size.of(dx, dv), kLost * wanted);
+    if (i >= first) sum += std::log(now / wanted);
+  }
+  return sum / (static_cast<double>(counted.periods - first) * counted.period);
+}
+
+}  // namespace butee::study

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <functional>
+
+#include "butee/scene/read_scene.hpp"
+#include "butee/study/collect.hpp"
+#include "butee/study/worker.hpp"
+
+namespace butee::study {
+
+/// The largest Lyapunov exponent of a motion, 1/s: the mean growth rate of a small disturbance (G. Benettin et al.,
+/// Meccanica 15 (1980) 9-20, doi:10.1007/BF02128236).
+///
+/// From `start` on two runs are integrated side by side, a period at a time; at its end their difference is made as
+/// small again. The size of a difference is sqrt(v.M v + (2 pi/T)^2 x.M x). The first quarter of the periods turns the
+/// difference into the direction that grows most and does not count. Nothing where a run fails or `goes_on` says no.
+std::optional<double> lyapunov_exponent(scene::Scene& scene, const Motion& start, const Counted& counted,
+                                        const std::function<bool()>& goes_on);
+
+}  // namespace butee::study

@@ -1,0 +1,142 @@
+#include "butee/study/perform.hpp"
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <sched.h>
+#include <thread>
+
+#include "butee/core/log.hpp"
+
+namespace butee::study {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kBetweenReports = 100ms;
+/// A sweep under way is kept on disk so often.
+constexpr auto kBetweenKeeps = 1s;
+
+/// What the threads of a study share.
+class Pool {
+ public:
+  Pool(const Study& study, const Layout& layout, Store& store, const PerformOptions& options)
+      : study_(study), layout_(layout), store_(store), options_(options), status_(layout.find(kStatusColumn)) {
+    progress_.done = store.done_count();
+    progress_.total = study.plan.run_count();
+    if (options.shard.count > 1) count_shard();
+  }
+
+  bool perform() {
+    const int count = options_.threads > 0 ? options_.threads : processor_count();
+    const log::WithoutWarnings quiet;
+    std::vector<std::jthread> threads;
+    running_ = count;
+    for (int i = 0; i < count; ++i) threads.emplace_back([this] { work(); });
+    wait();
+    threads.clear();
+    if (error_) std::rethrow_exception(error_);
+    store_.flush();
+    return goes_on_;
+  }
+
+ private:
+  void count_shard() {
+    progress_.total = progress_.done = 0;
+    for (std::int64_t c = options_.shard.index; c < study_.plan.chain_count(); c += options_.shard.count) {
+      const Plan::Chain chain = study_.plan.chain(c);
+      for (std::int64_t i = 0; i < chain.length; ++i) progress_.done += store_.is_done(chain.at(i)) ? 1 : 0;
+      progress_.total += chain.length;
+    }
+  }
+
+  void wait() {
+    std::unique_lock lock(mutex_);
+    while (running_ > 0) {
+      changed_.wait_for(lock, kBetweenReports);
+      const Progress now = progress_;
+      lock.unlock();
+      if (options_.report) options_.report(now);
+      if (options_.goes_on && !options_.goes_on()) goes_on_ = false;
+      lock.lock();
+    }
+  }
+
+  void work() {
+    try {
+      Worker worker(study_, layout_);
+      while (goes_on_) {
+        const std::int64_t chain = options_.shard.index + next_.fetch_add(1) * options_.shard.count;
+        if (chain >= study_.plan.chain_count()) break;
+        perform_chain(worker, chain);
+      }
+    } catch (...) {
+      const std::lock_guard guard(mutex_);
+      if (!error_) error_ = std::current_exception();
+      goes_on_ = false;
+    }
+    const std::lock_guard guard(mutex_);
+    --running_;
+    changed_.notify_all();
+  }
+
+  void perform_chain(Worker& worker, std::int64_t index) {
+    const Plan::Chain chain = study_.plan.chain(index);
+    const bool is_sweep = study_.plan.follow() != Follow::no;
+    std::int64_t left = 0;
+    for (std::int64_t i = 0; i < chain.length; ++i) left += store_.is_done(chain.at(i)) ? 0 : 1;
+    if (left == 0) return;
+    Motion motion;
+    std::int64_t i = 0;
+    if (is_sweep)
+      if (const std::int64_t kept = store_.kept(index, motion); kept >= 0) i = (kept - chain.first) * chain.step + 1;
+    auto kept_at = std::chrono::steady_clock::now();
+    for (; i < chain.length && goes_on_; ++i) {
+      const std::int64_t run = chain.at(i);
+      // A run of a sweep whose row is there already is done again for its motion alone.
+      const auto row = worker.perform(run, motion, [this] { return goes_on_.load(std::memory_order_relaxed); });
+      if (!row) return;
+      if (!store_.is_done(run)) add(*row);
+      if (!is_sweep || motion.is_empty() || std::chrono::steady_clock::now() - kept_at < kBetweenKeeps) continue;
+      store_.keep(index, run, motion);
+      kept_at = std::chrono::steady_clock::now();
+    }
+    if (is_sweep && i == chain.length) store_.forget(index);
+  }
+
+  void add(const Row& row) {
+    store_.append(row);
+    const std::lock_guard guard(mutex_);
+    ++progress_.done;
+    ++progress_.fresh;
+    if (row.text(status_) != "completed") ++progress_.failed;
+  }
+
+  const Study& study_;
+  const Layout& layout_;
+  Store& store_;
+  const PerformOptions& options_;
+  std::size_t status_;
+  std::atomic<std::int64_t> next_{0};
+  std::atomic<bool> goes_on_{true};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int running_ = 0;
+  Progress progress_;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+int processor_count() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+bool perform(const Study& study, const Layout& layout, Store& store, const PerformOptions& options) {
+  return Pool(study, layout, store, options).perform();
+}
+
+}  // namespace butee::study

@@ -1,0 +1,46 @@
+#include "butee/study/points.hpp"
+
+#include <sstream>
+
+#include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
+#include "butee/study/table.hpp"
+
+namespace butee::study {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t\r");
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+}  // namespace
+
+PointTable read_points(const std::string& text) {
+  PointTable table;
+  std::istringstream lines(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    line = trimmed(line);
+    if (line.empty() || line.front() == '#') continue;
+    std::vector<std::string> cells = cells_of(line);
+    for (std::string& cell : cells) cell = trimmed(cell);
+    if (table.names.empty()) {
+      table.names = std::move(cells);
+      continue;
+    }
+    if (cells.size() != table.names.size())
+      throw InputError("line " + std::to_string(number) + " has " + std::to_string(cells.size()) +
+                       " cells and the first line names " + std::to_string(table.names.size()) + " columns");
+    table.rows.push_back(std::move(cells));
+    table.lines.push_back(number);
+  }
+  return table;
+}
+
+config::Value value_of(const std::string& cell) {
+  return config::parse_toml_value(cell).value_or(config::Value(cell));
+}
+
+}  // namespace butee::study

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "butee/config/value.hpp"
+
+namespace butee::study {
+
+/// Points as CSV: a line of names, then a line for each point.
+struct PointTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::size_t> lines;  ///< of the file, an entry a row
+};
+
+/// Reads CSV; empty lines and those that begin with # are left out. Throws InputError, without the file's name, where a
+/// line has another number of cells than the first.
+BUTEE_EXPORT PointTable read_points(const std::string& text);
+
+/// A cell as `--set` would take it: a value in TOML syntax, or else a text.
+BUTEE_EXPORT config::Value value_of(const std::string& cell);
+
+}  // namespace butee::study

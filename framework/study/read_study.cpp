@@ -1,0 +1,380 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+
+#include "butee/config/file_reference.hpp"
+#include "butee/config/override.hpp"
+#include "butee/config/parameters.hpp"
+#include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+#include "butee/study/points.hpp"
+#include "butee/study/study.hpp"
+
+namespace butee::study {
+namespace {
+
+using config::Diagnostics;
+using config::Parameter;
+using config::Parameters;
+using config::Table;
+using config::Value;
+
+/// Two frequencies of loads that differ by this part are one.
+constexpr double kSameFrequency = 1e-12;
+
+const std::vector<std::string> kPlans = {"grid", "list", "sobol", "latin"};
+constexpr double kMostPeriods = 1e9;
+
+PlanKind kind_of(const std::string& name) {
+  return static_cast<PlanKind>(std::find(kPlans.begin(), kPlans.end(), name) - kPlans.begin());
+}
+
+/// Reads the tables of a study.
+class Reader {
+ public:
+  Reader(const config::Document& document, Diagnostics& diagnostics)
+      : document_(document), diagnostics_(diagnostics), root_(*document.root.table()) {}
+
+  void check_root() {
+    read_parameters(
+        document_.root, "",
+        {config::integer("schema", "the version of this format").at_least(1).at_most(1),
+         config::text("scene", "the model file, beside the study"), config::text("title", "of pictures").optional(),
+         config::table("vary", "[[vary]]: the keys that vary").optional(), config::table("study", "how").optional()},
+        diagnostics_);
+  }
+
+  std::optional<Parameters> settings() {
+    const Value empty;
+    const Value* table = root_.find("study");
+    for (const char* of_compare : {"scenes", "method", "targets"})
+      if (table != nullptr && table->table() != nullptr && table->table()->find(of_compare) != nullptr)
+        diagnostics_.error(std::string("study.") + of_compare, table->at,
+                           "belongs to a comparison of methods, which is `butee compare`; a study of `butee study` has "
+                           "scene and [[vary]]");
+    auto p = read_parameters(table != nullptr ? *table : empty, "study", study_parameters(), diagnostics_, {"follow"});
+    follow_ = read_follow(table);
+    return p;
+  }
+
+  Follow follow() const { return follow_; }
+
+  std::vector<Axis> axes(PlanKind kind) {
+    std::vector<Axis> axes;
+    const Value* list = root_.find("vary");
+    if (list == nullptr) return axes;
+    if (list->array() == nullptr) {
+      diagnostics_.error("vary", *list, "must be an array of tables: write [[vary]]");
+      return axes;
+    }
+    std::set<std::string> keys;
+    for (std::size_t i = 0; i < list->array()->size(); ++i) {
+      const std::string path = "vary[" + std::to_string(i) + "]";
+      const auto p = read_parameters((*list->array())[i], path, vary_parameters(), diagnostics_, {"values"});
+      if (!p) continue;
+      if (!keys.insert(p->text("key")).second) p->complain(diagnostics_, "key", "varies twice");
+      if (auto axis = read_axis(*p, (*list->array())[i], path, kind)) axes.push_back(std::move(*axis));
+    }
+    return axes;
+  }
+
+ private:
+  Follow read_follow(const Value* table) {
+    const Value* value = table != nullptr && table->table() != nullptr ? table->table()->find("follow") : nullptr;
+    if (value == nullptr) return Follow::no;
+    if (const bool* flag = std::get_if<bool>(&value->data)) return *flag ? Follow::both : Follow::no;
+    if (const std::string* text = value->text(); text != nullptr && (*text == "up" || *text == "down"))
+      return *text == "up" ? Follow::up : Follow::down;
+    diagnostics_.error("study.follow", *value, "must be true (sweeps up and down), false, \"up\" or \"down\"");
+    return Follow::no;
+  }
+
+  std::optional<Axis> read_axis(const Parameters& p, const Value& table, const std::string& path, PlanKind kind) {
+    Axis axis{p.text("key"), {}};
+    if (axis.key.empty() || axis.key.find('=') != std::string::npos) {
+      p.complain(diagnostics_, "key", "must be a key of the scene as --set takes it, such as load[0].amplitude");
+      return std::nullopt;
+    }
+    const Value* values = table.table()->find("values");
+    const int ways = (values != nullptr ? 1 : 0) + (p.has("file") ? 1 : 0) + (p.has("from") || p.has("to") ? 1 : 0);
+    if (ways != 1) {
+      diagnostics_.error(path, table.at,
+                         "give its values in one way: values = [...], or from, to and count, or file = \"points.csv\"");
+      return std::nullopt;
+    }
+    if (!p.has("file"))
+      if (p.has("column")) p.complain(diagnostics_, "column", "belongs to file, which is not given");
+    if (values != nullptr) return read_values(*values, path, std::move(axis));
+    if (p.has("file")) return read_file(p, std::move(axis));
+    return read_range(p, kind, std::move(axis));
+  }
+
+  std::optional<Axis> read_values(const Value& values, const std::string& path, Axis axis) {
+    if (values.array() == nullptr || values.array()->empty()) {
+      diagnostics_.error(path + ".values", values, "must be an array with at least one value");
+      return std::nullopt;
+    }
+    axis.values = *values.array();
+    return axis;
+  }
+
+  std::optional<Axis> read_range(const Parameters& p, PlanKind kind, Axis axis) {
+    for (const char* key : {"from", "to"})
+      if (!p.has(key)) {
+        p.complain(diagnostics_, key, "missing; a range needs both from and to");
+        return std::nullopt;
+      }
+    axis.range = Axis::Range{p.number("from"), p.number("to"), p.text("spacing") == "log"};
+    if (axis.range->is_logarithmic && !(axis.range->from > 0.0 && axis.range->to > 0.0)) {
+      p.complain(diagnostics_, "spacing", "log needs from and to above 0");
+      return std::nullopt;
+    }
+    if (!std::isfinite(axis.range->to - axis.range->from)) {
+      p.complain(diagnostics_, "to", "is too far from `from`");
+      return std::nullopt;
+    }
+    const bool is_random = kind == PlanKind::sobol || kind == PlanKind::latin;
+    if (is_random) {
+      if (p.has("count")) p.complain(diagnostics_, "count", "is that of the whole plan here: write it in [study]");
+      if (!(axis.range->to != axis.range->from)) p.complain(diagnostics_, "to", "the range is empty");
+      return axis;
+    }
+    if (!p.has("count")) {
+      p.complain(diagnostics_, "count", "missing; give the number of values from one end to the other (integer >= 1)");
+      return std::nullopt;
+    }
+    const std::int64_t count = p.integer("count");
+    if (count > Plan::kMostPoints) {
+      p.complain(diagnostics_, "count",
+                 "is more than the " + std::to_string(Plan::kMostPoints) + " points that a study may have");
+      return std::nullopt;
+    }
+    if (count > 1 && axis.range->to == axis.range->from) {
+      p.complain(diagnostics_, "to", "the range is empty, but is to hold " + std::to_string(count) + " values");
+      return std::nullopt;
+    }
+    if (count == 1 && axis.range->to != axis.range->from) {
+      p.complain(diagnostics_, "count", "a range with two ends needs at least 2 values");
+      return std::nullopt;
+    }
+    axis.count = count;
+    return axis;
+  }
+
+  std::optional<Axis> read_file(const Parameters& p, Axis axis) {
+    const std::string path = config::path_beside(document_, p.text("file"));
+    try {
+      const PointTable table = read_points(config::read_text(path));
+      if (table.rows.empty()) {
+        p.complain(diagnostics_, "file", path + " holds no points: a line of names and then a line for each point");
+        return std::nullopt;
+      }
+      const std::string wanted = p.has("column")           ? p.text("column")
+                                 : table.names.size() == 1 ? table.names.front()
+                                                           : axis.key;
+      const auto found = std::find(table.names.begin(), table.names.end(), wanted);
+      if (found == table.names.end()) {
+        p.complain(diagnostics_, p.has("column") ? "column" : "file",
+                   path + " has no column \"" + wanted + "\"" + suggestion(wanted, table.names) + "; it has " +
+                       join(table.names));
+        return std::nullopt;
+      }
+      const auto column = static_cast<std::size_t>(found - table.names.begin());
+      for (const auto& row : table.rows) axis.values.push_back(value_of(row[column]));
+    } catch (const InputError& error) {
+      p.complain(diagnostics_, "file", path + ": " + error.what());
+      return std::nullopt;
+    }
+    return axis;
+  }
+
+  const config::Document& document_;
+  Diagnostics& diagnostics_;
+  const Table& root_;
+  Follow follow_ = Follow::no;
+};
+
+std::vector<Axis> axes_of_points(const std::string& text) {
+  const PointTable table = read_points(text);
+  if (table.names.empty()) throw InputError("the points have no first line with the keys that vary");
+  std::vector<Axis> axes;
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    axes.push_back({table.names[i], {}});
+    for (const auto& row : table.rows) axes.back().values.push_back(value_of(row[i]));
+  }
+  return axes;
+}
+
+std::vector<Item> read_items(const Parameters& p, Diagnostics& diagnostics) {
+  std::vector<Item> items;
+  std::set<std::string> known;
+  for (const std::string& text : p.texts("collect")) {
+    try {
+      items.push_back(read_item(text));
+      if (!known.insert(text).second) p.complain(diagnostics, "collect", "names \"" + text + "\" twice");
+    } catch (const InputError& error) {
+      p.complain(diagnostics, "collect", error.what());
+    }
+  }
+  if (p.texts("collect").empty()) p.complain(diagnostics, "collect", "must name at least one result");
+  return items;
+}
+
+config::Document load_scene(const config::Document& study, const Parameters& p, const StudyOptions& options) {
+  const std::string path = config::path_beside(study, *study.root.table()->find("scene")->text());
+  config::Document scene = config::load_toml(path);
+  if (p.has("set"))
+    for (const std::string& assignment : p.texts("set")) config::apply_override(scene, assignment);
+  for (const std::string& assignment : options.overrides) config::apply_override(scene, assignment);
+  Value& integrator = (*scene.root.table())["integrator"];
+  // The study says when its runs end.
+  if (Table* table = integrator.table(); p.has("periods") && table != nullptr && table->find("end_time") == nullptr)
+    (*table)["end_time"] = Value(1.0);
+  return scene;
+}
+
+}  // namespace
+
+std::vector<Parameter> study_parameters() {
+  return {
+      config::text("plan", "how the values are combined").one_of(kPlans).or_else("grid"),
+      config::integer("count", "points of plan sobol or latin").at_least(1).optional(),
+      config::integer("seed", "of plan sobol (digital shift) or latin").at_least(0).optional(),
+      config::integer("settle", "periods before results count")
+          .at_least(0)
+          .at_most(kMostPeriods)
+          .or_else(std::int64_t{0}),
+      config::integer("periods", "periods that count; absent: to end_time of the scene")
+          .at_least(1)
+          .at_most(kMostPeriods)
+          .optional(),
+      config::number("period", "s", "of settle, periods and sections; absent: that of the loads").above(0).optional(),
+      config::texts("collect", "the results of each run"),
+      config::texts("set", "overrides of the scene for all runs: KEY=VALUE").optional()};
+}
+
+std::vector<Parameter> vary_parameters() {
+  return {config::text("key", "a key of the scene, as --set takes it: load[0].amplitude"),
+          config::number("from", "", "the first value of a range").optional(),
+          config::number("to", "", "the last").optional(),
+          config::integer("count", "values from one to the other").at_least(1).optional(),
+          config::text("spacing", "of the values of a range").one_of({"linear", "log"}).or_else("linear"),
+          config::text("file", "a CSV file with a line of names, beside the study").optional(),
+          config::text("column", "its column; absent: the only one, or that of the key's name").optional()};
+}
+
+bool is_study(const config::Document& document) {
+  return document.root.table() != nullptr &&
+         (document.root.table()->find("scene") != nullptr || document.root.table()->find("vary") != nullptr);
+}
+
+config::Document scene_at(const Study& study, const std::vector<Value>& values) {
+  config::Document scene = study.scene;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    config::apply_override(scene, study.plan.axes()[i].key + "=" + config::to_toml(values[i]));
+  return scene;
+}
+
+double period_of(const model::Model& model) {
+  double frequency = 0.0;
+  for (const model::Load& load : model.loads) {
+    const auto harmonic = load.in_time->harmonic();
+    if (!harmonic || harmonic->angular_frequency == 0.0) continue;
+    const double own = std::abs(harmonic->angular_frequency);
+    if (frequency != 0.0 && std::abs(own - frequency) > kSameFrequency * frequency)
+      throw InputError(
+          "the loads of the scene have several frequencies, so that no period follows from them; write "
+          "period = ... (s) in [study]");
+    if (frequency == 0.0) frequency = own;
+  }
+  if (frequency == 0.0)
+    throw InputError(
+        "no load of the scene is harmonic, so that no period follows from them; write period = ... (s) in "
+        "[study]");
+  return 2.0 * std::numbers::pi / frequency;
+}
+
+Study load_study(const std::string& path, const StudyOptions& options) {
+  config::Document document = config::load_toml(path);
+  Diagnostics diagnostics(document);
+  Reader reader(document, diagnostics);
+  reader.check_root();
+  const auto p = reader.settings();
+  diagnostics.throw_if_any();
+  PlanKind kind = kind_of(p->text("plan"));
+  std::vector<Axis> axes;
+  if (options.points.empty()) {
+    axes = reader.axes(kind);
+  } else {
+    kind = PlanKind::list;
+    axes = axes_of_points(options.points);
+  }
+  const bool is_random = kind == PlanKind::sobol || kind == PlanKind::latin;
+  if (is_random && !p->has("count"))
+    p->complain(diagnostics, "count", "missing; give the number of points of the plan (integer >= 1)");
+  for (const char* key : {"count", "seed"})
+    if (!is_random && options.points.empty() && p->given(key))
+      p->complain(diagnostics, key, "belongs to plan = \"sobol\" or \"latin\"");
+  if (reader.follow() != Follow::no && !p->has("periods"))
+    p->complain(
+        diagnostics, "periods",
+        "missing; with follow every run lasts whole periods: give those that count after settle (integer >= 1)");
+  std::vector<Item> items = read_items(*p, diagnostics);
+  for (const Item& item : items)
+    if (item.kind == Item::Kind::section && !p->has("periods")) {
+      p->complain(diagnostics, "periods",
+                  "missing; \"" + item.text + "\" needs the number of periods that count (integer >= 1)");
+      break;
+    }
+  diagnostics.throw_if_any();
+
+  const std::optional<std::uint64_t> seed =
+      p->has("seed") ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(p->integer("seed"))) : std::nullopt;
+  const auto make_plan = [&] {
+    try {
+      return Plan(std::move(axes), kind, p->has("count") ? p->integer("count") : 0, seed, reader.follow());
+    } catch (const InputError& error) {
+      throw InputError(path + ": " + error.what());
+    }
+  };
+  Study study{document, load_scene(document, *p, options), plugin::Catalogue::with_plugins(options.plugins),
+              make_plan()};
+  study.settle = p->integer("settle");
+  if (p->has("periods")) study.periods = p->integer("periods");
+  if (p->has("period")) study.period = p->number("period");
+  study.items = std::move(items);
+  study.stem = std::filesystem::path(path).stem().string();
+  if (const Value* title = document.root.table()->find("title"); title != nullptr) study.title = *title->text();
+  return study;
+}
+
+Layout layout_of(const Study& study) {
+  using Type = Column::Type;
+  constexpr std::size_t kStatusLength = 16, kReasonLength = 240, kHashLength = 16, kLongestValue = 120;
+  std::vector<Column> columns = {{kRunColumn, "1", Type::integer}, {kPointColumn, "1", Type::integer}};
+  if (study.plan.follow() != Follow::no) columns.push_back({kDirectionColumn, "1", Type::integer});
+  for (const Axis& axis : study.plan.axes()) {
+    if (axis.is_numeric()) {
+      columns.push_back({axis.key, ""});
+      continue;
+    }
+    std::size_t longest = 1;
+    for (const Value& value : axis.values)
+      longest = std::max(longest, value.text() != nullptr ? value.text()->size() : config::to_toml(value).size());
+    columns.push_back({axis.key, "", Type::text, std::min(longest, kLongestValue)});
+  }
+  columns.push_back({kStatusColumn, "", Type::text, kStatusLength});
+  columns.push_back({kReasonColumn, "", Type::text, kReasonLength});
+  for (const Item& item : study.items) columns.push_back(column_of(item, study.periods.value_or(0)));
+  columns.push_back({kSceneColumn, "", Type::text, kHashLength});
+  columns.push_back({kStepsColumn, "1", Type::integer});
+  for (const char* name : {kFactorizationsColumn, kSolvesColumn, kAssembliesColumn})
+    columns.push_back({name, "1", Type::integer, 1, true});
+  columns.push_back({kSecondsColumn, "s", Type::number, 1, true});
+  return Layout(std::move(columns));
+}
+
+}  // namespace butee::study

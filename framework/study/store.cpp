@@ -1,0 +1,330 @@
+#include "butee/study/store.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "butee/config/file_reference.hpp"
+#include "butee/config/toml.hpp"
+#include "butee/core/bytes.hpp"
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+#include "butee/record/file.hpp"
+
+namespace butee::study {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr const char *kMark = "# butee: the study as run", *kStudyFile = "study.toml", *kRows = "rows-",
+                     *kSweep = "sweep-", *kShard = "shard-", *kResult = "study";
+/// Rows wait so long for others, or until there are so many bytes of them.
+constexpr auto kPatience = 200ms;
+constexpr std::size_t kMostWaiting = std::size_t{1} << 20U;
+
+bool begins_with(const std::string& text, const std::string& begin) {
+  return text.rfind(begin, 0) == 0;
+}
+
+bool is_ours(const fs::path& folder) {
+  std::ifstream file(folder / kStudyFile);
+  std::string first;
+  return std::getline(file, first) && first == kMark;
+}
+
+std::vector<std::string> entries_of(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator(); entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  if (error) throw InputError(folder + ": cannot be read: " + error.message());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void refuse_foreign(const std::string& folder) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder))
+    throw InputError(folder + ": is a file, not a folder for results; choose another with -o");
+  if (is_ours(folder)) return;
+  for (const std::string& name : entries_of(folder))
+    if (name != record::FolderLock::kName && name != std::string(kStudyFile) + ".part" && !begins_with(name, kShard))
+      throw InputError(folder + ": is not empty and holds no study of butee (it has " + name +
+                       "), so it is left alone; choose another folder with -o");
+}
+
+std::vector<std::string> shards_in(const std::string& folder) {
+  std::vector<std::string> shards;
+  for (const std::string& name : entries_of(folder))
+    if (begins_with(name, kShard) && is_ours(fs::path(folder) / name))
+      shards.push_back((fs::path(folder) / name).string());
+  return shards;
+}
+
+std::string text_in(const config::Document& document, const char* key) {
+  const config::Value* identity = document.root.table()->find("identity");
+  const config::Value* value =
+      identity != nullptr && identity->table() != nullptr ? identity->table()->find(key) : nullptr;
+  return value != nullptr && value->text() != nullptr ? *value->text() : "";
+}
+
+}  // namespace
+
+Store::Store(std::string folder, const Study& study, const Layout& layout, RowFormat& format)
+    : folder_(std::move(folder)), study_(study), layout_(layout), format_(format), identity_(identity_of(study)) {}
+
+Store::~Store() = default;
+
+std::string Store::file(const std::string& name) const {
+  return (fs::path(folder_) / name).string();
+}
+
+std::string Store::result() const {
+  return file(kResult + format_.extension());
+}
+
+std::vector<std::string> Store::row_files(const std::string& folder) const {
+  std::vector<std::string> files;
+  for (const std::string& name : entries_of(folder)) {
+    const fs::path path = fs::path(folder) / name;
+    const bool is_row_file = begins_with(name, kRows);
+    if (path.extension() == format_.extension() && is_row_file) files.push_back(path.string());
+    if (path.extension() != format_.extension() && (is_row_file || path.stem() == kResult) && name != kStudyFile &&
+        path.extension() != ".part")
+      throw InputError(folder + ": the study there has its rows in " + name + ", and now they are to go into " +
+                       format_.extension() + " files; take the --format that it was begun with, or --fresh");
+  }
+  return files;
+}
+
+void Store::check_identity(const std::string& folder) const {
+  const config::Document known = config::load_toml((fs::path(folder) / kStudyFile).string());
+  const std::pair<const char*, std::pair<std::string, const char*>> parts[] = {
+      {"study", {identity_.study, "the study (what varies, how, and what is collected)"}},
+      {"scene", {identity_.scene, "the scene, or a file that it names"}},
+      {"build", {identity_.build, "butee itself"}}};
+  for (const auto& [key, part] : parts)
+    if (const std::string was = text_in(known, key); was != part.first)
+      throw InputError(folder + ": " + part.second + " has changed since the rows there were computed (" + was +
+                       ", now " + part.first +
+                       "), so that they do not belong together; choose another folder with -o, "
+                       "or --fresh to begin anew");
+}
+
+void Store::clear() const {
+  std::error_code error;
+  for (const std::string& name : entries_of(folder_))
+    if (begins_with(name, kRows) || begins_with(name, kSweep) || begins_with(name, kShard) ||
+        begins_with(name, std::string(kResult) + "."))
+      fs::remove_all(fs::path(folder_) / name, error);
+}
+
+void Store::open(bool fresh) {
+  refuse_foreign(folder_);
+  if (fs::exists(folder_)) record::FolderLock::check(folder_);
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw InputError(folder_ + ": cannot be made: " + error.message() + "; choose another folder with -o");
+  try {
+    lock_ = std::make_unique<record::FolderLock>(folder_);
+  } catch (const RunError& cause) {
+    throw InputError(std::string(cause.what()) + "; choose another folder with -o");
+  }
+  refuse_foreign(folder_);
+  for (const std::string& shard : shards_in(folder_)) record::FolderLock::check(shard);
+  if (fresh) clear();
+  if (!fresh && is_ours(folder_)) {
+    check_identity(folder_);
+  } else {
+    config::Table root, identity;
+    for (const auto& [key, text] :
+         {std::pair("study", identity_.study), {"scene", identity_.scene}, {"build", identity_.build}})
+      identity[key] = config::Value(text);
+    root["identity"] = config::Value(std::move(identity));
+    root["study"] = study_.document.root;
+    root["scene"] = study_.scene.root;
+    const std::string text = std::string(kMark) + "\n" + config::write_toml(root);
+    record::write_whole(file(kStudyFile), std::as_bytes(std::span(text)));
+  }
+  look();
+}
+
+void Store::look() {
+  done_.assign(static_cast<std::size_t>(study_.plan.run_count()), false);
+  done_count_ = 0;
+  is_complete_ = fs::exists(result());
+  next_session_ = 0;
+  read_done();
+}
+
+void Store::read_done() {
+  std::vector<std::string> files;
+  if (is_complete_) {
+    files = {result()};
+  } else {
+    files = row_files(folder_);
+    for (const std::string& name : files) {
+      const int session = std::atoi(fs::path(name).filename().c_str() + std::string(kRows).size());
+      next_session_ = std::max(next_session_, session + 1);
+    }
+    for (const std::string& shard : shards_in(folder_)) {
+      check_identity(shard);
+      const auto more = row_files(shard);
+      files.insert(files.end(), more.begin(), more.end());
+    }
+  }
+  std::vector<std::byte> bytes(layout_.row_bytes());
+  const std::size_t run_column = layout_.find(kRunColumn);
+  for (const std::string& path : files) {
+    const auto source = format_.open(path, layout_);
+    for (std::int64_t i = 0; i < source->size(); ++i) {
+      if (!source->read(i, bytes)) continue;
+      const std::int64_t run = Row(layout_, bytes).integer(run_column);
+      if (run < 0 || run >= std::ssize(done_)) throw RunError(path + ": holds a row of no run of this study");
+      if (done_[static_cast<std::size_t>(run)]) continue;
+      done_[static_cast<std::size_t>(run)] = true;
+      ++done_count_;
+    }
+  }
+  if (is_complete_ && done_count_ != std::ssize(done_))
+    throw RunError(result() + ": does not hold all rows; take --fresh to begin anew");
+}
+
+void Store::begin(int session, int process) {
+  sink_ = format_.create(file(kRows + std::to_string(session) + "-" + std::to_string(process) + format_.extension()),
+                         layout_, study_.title);
+  flushed_ = std::chrono::steady_clock::now();
+}
+
+void Store::append(const Row& row) {
+  const std::lock_guard guard(mutex_);
+  waiting_.insert(waiting_.end(), row.bytes().begin(), row.bytes().end());
+  const auto now = std::chrono::steady_clock::now();
+  if (now - flushed_ < kPatience && waiting_.size() < kMostWaiting) return;
+  sink_->append(waiting_);
+  waiting_.clear();
+  flushed_ = now;
+}
+
+void Store::flush() {
+  const std::lock_guard guard(mutex_);
+  if (!waiting_.empty()) sink_->append(waiting_);
+  waiting_.clear();
+  flushed_ = std::chrono::steady_clock::now();
+}
+
+void Store::keep(std::int64_t chain, std::int64_t run, const Motion& motion) {
+  flush();  // Rows first: a sweep that goes on behind a row that is missing would never do it.
+  std::vector<std::byte> body, whole;
+  ByteWriter to(body);
+  to.put(run);
+  to.put(motion.x);
+  to.put(motion.v);
+  ByteWriter sealed(whole);
+  sealed.put(checksum(body));
+  sealed.put(std::span<const std::byte>(body));
+  record::write_whole(file(kSweep + std::to_string(chain) + ".bin"), whole);
+}
+
+std::int64_t Store::kept(std::int64_t chain, Motion& motion) const {
+  const std::string path = file(kSweep + std::to_string(chain) + ".bin");
+  if (!fs::exists(path)) return -1;
+  const std::string text = config::read_text(path);
+  ByteReader from(std::as_bytes(std::span(text)));
+  const auto sum = from.take<std::uint64_t>();
+  std::vector<std::byte> body;
+  from.take(body);
+  if (checksum(body) != sum) throw RunError(path + ": is damaged; take it away, and its sweep begins anew");
+  ByteReader inner(body);
+  const auto run = inner.take<std::int64_t>();
+  inner.take(motion.x);
+  inner.take(motion.v);
+  return run;
+}
+
+void Store::forget(std::int64_t chain) {
+  flush();
+  std::error_code error;
+  fs::remove(file(kSweep + std::to_string(chain) + ".bin"), error);
+}
+
+bool Store::merge(std::int64_t& missing) {
+  if (sink_) {
+    flush();
+    sink_->close();
+    sink_.reset();
+  }
+  if (is_complete_) return true;
+  std::vector<std::string> files = row_files(folder_);
+  for (const std::string& shard : shards_in(folder_)) {
+    check_identity(shard);
+    const auto more = row_files(shard);
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  struct Place {
+    std::int32_t file = -1;
+    std::int64_t index = 0;
+  };
+  std::vector<Place> places(done_.size());
+  std::vector<std::unique_ptr<RowSource>> sources;
+  std::vector<std::byte> bytes(layout_.row_bytes());
+  const std::size_t run_column = layout_.find(kRunColumn);
+  for (const std::string& path : files) {
+    sources.push_back(format_.open(path, layout_));
+    for (std::int64_t i = 0; i < sources.back()->size(); ++i) {
+      if (!sources.back()->read(i, bytes)) continue;
+      Place& place = places[static_cast<std::size_t>(Row(layout_, bytes).integer(run_column))];
+      if (place.file < 0) place = {static_cast<std::int32_t>(sources.size() - 1), i};
+    }
+  }
+  for (std::size_t run = 0; run < places.size(); ++run)
+    if (places[run].file < 0) {
+      missing = static_cast<std::int64_t>(run);
+      return false;
+    }
+  const std::string draft = result() + ".part";
+  const auto sink = format_.create(draft, layout_, study_.title);
+  std::vector<std::byte> block;
+  for (const Place& place : places) {
+    sources[static_cast<std::size_t>(place.file)]->read(place.index, bytes);
+    block.insert(block.end(), bytes.begin(), bytes.end());
+    if (block.size() < kMostWaiting) continue;
+    sink->append(block);
+    block.clear();
+  }
+  if (!block.empty()) sink->append(block);
+  sink->close();
+  fs::rename(draft, result());
+  sources.clear();
+  std::error_code error;
+  for (const std::string& path : files) fs::remove(path, error);
+  for (const std::string& shard : shards_in(folder_)) fs::remove_all(shard, error);
+  for (const std::string& name : entries_of(folder_))
+    if (begins_with(name, kSweep)) fs::remove(file(name), error);
+  is_complete_ = true;
+  return true;
+}
+
+void Store::visit(const std::function<void(const Row&)>& look) const {
+  const auto source = format_.open(result(), layout_);
+  std::vector<std::byte> bytes(layout_.row_bytes());
+  for (std::int64_t i = 0; i < source->size(); ++i)
+    if (source->read(i, bytes)) look(Row(layout_, bytes));
+}
+
+Store::Count Store::count() const {
+  Count count;
+  const std::size_t status = layout_.find(kStatusColumn), reason = layout_.find(kReasonColumn);
+  visit([&](const Row& row) {
+    if (row.text(status) == "completed") {
+      ++count.completed;
+      return;
+    }
+    if (count.failed++ == 0) count.first_reason = row.text(reason);
+  });
+  return count;
+}
+
+}  // namespace butee::study

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "butee/record/folder_lock.hpp"
+#include "butee/study/row_file.hpp"
+#include "butee/study/study.hpp"
+#include "butee/study/worker.hpp"
+
+namespace butee::study {
+
+/// What a study is made of, as texts that are compared before it goes on: the scene with the files that it names, the
+/// plan and what is collected, and the build.
+struct Identity {
+  std::string study, scene, build;
+  bool operator==(const Identity&) const = default;
+};
+BUTEE_EXPORT Identity identity_of(const Study& study);
+
+/// One of several processes that share a study: those chains are its own whose number is `index` modulo `count`.
+struct Shard {
+  std::int64_t index = 0, count = 1;
+  bool owns(std::int64_t chain) const { return chain % count == index; }
+};
+
+/// The folder of a study.
+///
+///     study.toml             the study with its scene as run, and its identity
+///     rows-S-K.h5 (.csv)     rows in the order in which they were done: session S, process K
+///     sweep-C.bin            where sweep C stands, while it is under way
+///     study.h5 (.csv)        all rows in the order of the plan, once they are there; the files of rows are gone then
+///     shard-I-of-N/          the same of one shard
+class BUTEE_EXPORT Store {
+ public:
+  /// `study`, `layout` and `format` must outlive it. Touches nothing.
+  Store(std::string folder, const Study& study, const Layout& layout, RowFormat& format);
+  ~Store();
+
+  /// Makes the folder where it is missing, takes the right to write there and looks at what is done. With `fresh` what
+  /// is there of an earlier study is taken away. Throws InputError where the folder is not ours, another process
+  /// writes there, or what it holds is of another scene, study or build; RunError where it cannot be written.
+  void open(bool fresh);
+  /// Looks at what is done, for a process beside that which has opened it.
+  void look();
+
+  bool is_complete() const { return is_complete_; }
+  bool is_done(std::int64_t run) const { return done_[static_cast<std::size_t>(run)]; }
+  std::int64_t done_count() const { return done_count_; }
+
+  /// Begins a file for the rows of this process; no two give the same session and process.
+  void begin(int session, int process);
+  int next_session() const { return next_session_; }
+  /// Adds a row. For any thread. Rows wait for each other some tenths of a second at most.
+  void append(const Row& row);
+  void flush();
+
+  /// Where a sweep stands after its run `run`; kept beside the rows for going on.
+  void keep(std::int64_t chain, std::int64_t run, const Motion& motion);
+  /// The last run of a sweep that is kept, with its motion; -1 where there is none.
+  std::int64_t kept(std::int64_t chain, Motion& motion) const;
+  void forget(std::int64_t chain);
+
+  /// Sorts the rows of all files of this folder, and of those of its shards, into study.h5 or study.csv, and takes the
+  /// files of rows away. False where rows are missing, of which `missing` is the first.
+  bool merge(std::int64_t& missing);
+
+  /// Calls `look(row)` for all rows in the order of the plan, once it is complete.
+  void visit(const std::function<void(const Row&)>& look) const;
+
+  /// Rows by status, for what is said at the end: completed, failed and refused, and the first reason.
+  struct Count {
+    std::int64_t completed = 0, failed = 0;
+    std::string first_reason;
+  };
+  Count count() const;
+
+  const std::string& folder() const { return folder_; }
+  std::string file(const std::string& name) const;
+  /// study.h5 or study.csv
+  std::string result() const;
+
+ private:
+  std::vector<std::string> row_files(const std::string& folder) const;
+  void check_identity(const std::string& folder) const;
+  void read_done();
+  void clear() const;
+
+  std::string folder_;
+  const Study& study_;
+  const Layout& layout_;
+  RowFormat& format_;
+  Identity identity_;
+  std::unique_ptr<record::FolderLock> lock_;
+  std::vector<bool> done_;
+  std::int64_t done_count_ = 0;
+  int next_session_ = 0;
+  bool is_complete_ = false;
+
+  std::mutex mutex_;
+  std::unique_ptr<RowSink> sink_;
+  std::vector<std::byte> waiting_;
+  std::chrono::steady_clock::time_point flushed_;
+};
+
+}  // namespace butee::study

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "butee/study/collect.hpp"
+#include "butee/study/plan.hpp"
+
+namespace butee::study {
+
+/// A study, read and checked: one scene, what varies in it, and what is collected from each run.
+struct Study {
+  config::Document document;    ///< of the study
+  config::Document scene;       ///< with the overrides that hold for every run
+  plugin::Catalogue catalogue;  ///< its methods are loaded where the first point asks for them
+  Plan plan;
+  std::int64_t settle = 0;                ///< periods before results count
+  std::optional<std::int64_t> periods{};  ///< that count; to the scene's end_time where absent
+  std::optional<double> period{};         ///< s; that of the loads where absent
+  std::vector<Item> items{};
+  std::string title{};
+  std::string stem{};  ///< of its file
+};
+
+/// The keys of a study, for help and completion.
+BUTEE_EXPORT std::vector<config::Parameter> study_parameters();
+BUTEE_EXPORT std::vector<config::Parameter> vary_parameters();
+
+/// True for a document that `butee study` takes: it has `scene`.
+BUTEE_EXPORT bool is_study(const config::Document& document);
+
+struct StudyOptions {
+  std::vector<std::string> overrides{};  ///< of the scene, "KEY=VALUE"
+  std::vector<std::string> plugins{};
+  std::string points{};  ///< CSV text with a header of keys, in place of [[vary]]
+};
+
+/// Reads a study, its scene and the first of its points. Throws InputError with every mistake.
+BUTEE_EXPORT Study load_study(const std::string& path, const StudyOptions& options = {});
+
+/// The scene of a study at these values, an entry for each axis.
+BUTEE_EXPORT config::Document scene_at(const Study& study, const std::vector<config::Value>& values);
+
+/// The period of the loads of a scene, s: that of their one frequency. Throws InputError where they have none, or
+/// several.
+BUTEE_EXPORT double period_of(const model::Model& model);
+
+/// The columns of the rows: where the run stands in the plan, the values of the axes, status, results, cost.
+BUTEE_EXPORT Layout layout_of(const Study& study);
+
+/// Names of columns that every study has.
+inline constexpr const char *kRunColumn = "run", *kPointColumn = "point", *kDirectionColumn = "direction",
+                            *kStatusColumn = "status", *kReasonColumn = "reason", *kSceneColumn = "scene",
+                            *kStepsColumn = "steps", *kFactorizationsColumn = "factorizations",
+                            *kSolvesColumn = "solves", *kAssembliesColumn = "assemblies",
+                            *kSecondsColumn = "wall_seconds";
+
+}  // namespace butee::study

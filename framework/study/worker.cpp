@@ -1,0 +1,184 @@
+#include "butee/study/worker.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+
+#include "butee/config/file_reference.hpp"
+#include "butee/config/parameters.hpp"
+#include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+#include "butee/scene/assembly.hpp"
+#include "butee/study/lyapunov.hpp"
+
+namespace butee::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string in_one_line(const std::string& text) {
+  std::string line = printable(text, true);
+  std::replace(line.begin(), line.end(), '\n', ';');
+  return line;
+}
+
+/// What makes the scene of a point: what varies and how. Files that it names are in the identity of the study.
+std::string hash_of(const config::Document& scene) {
+  std::string text = config::write_toml(*scene.root.table());
+  return config::checksum_text(text);
+}
+
+void set_end(scene::Scene& scene, double end) {
+  scene.integrator.options.end_time = end;
+  scene.integrator.parameters.set("end_time", config::Value(end), true);
+}
+
+/// The part of a run that counts, and where the run ends.
+Counted counted_of(const Study& study, const scene::Scene& scene) {
+  Counted counted;
+  const bool needs_period =
+      study.settle > 0 || study.periods ||
+      std::any_of(study.items.begin(), study.items.end(), [](const Item& i) { return i.needs_period(); });
+  if (needs_period) counted.period = study.period ? *study.period : period_of(scene.model);
+  counted.begin = static_cast<double>(study.settle) * counted.period;
+  counted.end = study.periods ? static_cast<double>(study.settle + *study.periods) * counted.period
+                              : scene.integrator.options.end_time;
+  if (!(counted.begin < counted.end))
+    throw InputError("study.settle: " + std::to_string(study.settle) + " periods of " + to_short_text(counted.period) +
+                     " s are not over at the end of the run, " + to_short_text(counted.end) +
+                     " s; make end_time larger, or give `periods`, those that count after it");
+  if (study.periods)
+    counted.periods = *study.periods;
+  else if (counted.period > 0.0)
+    counted.periods =
+        static_cast<std::int64_t>(std::floor((counted.end - counted.begin) / counted.period * (1.0 + 1e-12)));
+  return counted;
+}
+
+}  // namespace
+
+Worker::Worker(const Study& study, const Layout& layout)
+    : study_(study),
+      layout_(layout),
+      catalogue_(study.catalogue),
+      first_value_(layout.find(kStatusColumn) - study.plan.axes().size()),
+      first_result_(layout.find(kReasonColumn) + 1) {}
+
+scene::Scene Worker::read(const std::vector<config::Value>& values, Counted& counted) {
+  scene::Scene scene = scene::read_scene(scene_at(study_, values), catalogue_);
+  if (scene.model.initial_motion && scene.model.initial_motion->time != 0.0)
+    throw InputError("initial.keep_time: runs of a study begin at t = 0; leave keep_time out");
+  counted = counted_of(study_, scene);
+  if (study_.periods) set_end(scene, counted.end);
+  return scene;
+}
+
+std::optional<Row> Worker::perform(std::int64_t run, Motion& motion, const std::function<bool()>& goes_on) {
+  return perform(run, study_.plan.values(study_.plan.run(run).point), motion, goes_on);
+}
+
+std::optional<Row> Worker::perform(std::int64_t run, const std::vector<config::Value>& values, Motion& motion,
+                                   const std::function<bool()>& goes_on) {
+  const auto begin = Clock::now();
+  Row row(layout_);
+  row.set_integer(layout_.find(kRunColumn), run);
+  row.set_integer(layout_.find(kPointColumn), study_.plan.run(run).point);
+  if (study_.plan.follow() != Follow::no)
+    row.set_integer(layout_.find(kDirectionColumn), study_.plan.run(run).direction);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (layout_.columns()[first_value_ + i].type == Column::Type::text)
+      row.set_text(first_value_ + i, values[i].text() != nullptr ? *values[i].text() : config::to_toml(values[i]));
+    else
+      row.set(first_value_ + i, config::as_number(values[i]).value_or(0.0));
+  }
+  std::string status = "failed", reason;
+  try {
+    Counted counted;
+    scene::Scene scene = read(values, counted);
+    row.set_text(layout_.find(kSceneColumn), hash_of(scene.document));
+    if (!integrate(scene, counted, motion, row, goes_on)) return std::nullopt;
+    status = "completed";
+  } catch (const InputError& error) {
+    status = "refused";
+    reason = error.what();
+  } catch (const std::bad_alloc&) {
+    reason = "out of memory";
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  row.set_text(layout_.find(kStatusColumn), status);
+  row.set_text(layout_.find(kReasonColumn), in_one_line(reason));
+  row.set(layout_.find(kSecondsColumn), std::chrono::duration<double>(Clock::now() - begin).count());
+  return row;
+}
+
+bool Worker::integrate(scene::Scene& scene, const Counted& counted, Motion& motion, Row& row,
+                       const std::function<bool()>& goes_on) {
+  if (!motion.is_empty()) {
+    scene.model.initial_motion = model::InitialMotion{motion.x, motion.v, 0.0};
+    scene.model.initial_displacement.clear();
+    scene.model.initial_velocity.clear();
+    scene.model.starts_static = false;
+    if (number_dofs(scene.model).free_count() != motion.x.size())
+      throw InputError("study.follow: the run before has other degrees of freedom than this one");
+  }
+  scene::Assembly assembly(scene);
+  time::Simulation& simulation = assembly.simulation;
+  Collector collector(study_.items, scene, assembly.dynamics, counted);
+  simulation.add(collector);
+  bool is_stopped = false;
+  const auto run = [&] {
+    const time::RunReport& report = simulation.run([&] {
+      is_stopped = !goes_on();
+      return !is_stopped;
+    });
+    if (!is_stopped && !report.completed) throw RunError(report.message);
+    return !is_stopped;
+  };
+  const auto finish = [&] {
+    row.set_integer(layout_.find(kStepsColumn), simulation.report().steps);
+    row.set_integer(layout_.find(kFactorizationsColumn), assembly.dynamics.counters().factorizations);
+    row.set_integer(layout_.find(kSolvesColumn), assembly.dynamics.counters().solves);
+    row.set_integer(layout_.find(kAssembliesColumn), 1);
+  };
+  Motion settled;
+  try {
+    simulation.start();
+    if (counted.begin > 0.0) {
+      simulation.set_end_time(counted.begin);
+      if (!run()) return false;
+    }
+    collector.open(simulation.state());
+    settled = {simulation.state().x, simulation.state().v};
+    simulation.set_end_time(counted.end);
+    if (!run()) return false;
+  } catch (...) {
+    finish();
+    throw;
+  }
+  finish();
+  for (std::size_t i = 0; i < study_.items.size(); ++i) {
+    std::vector<double> values = collector.values(i);
+    if (study_.items[i].kind == Item::Kind::lyapunov) {
+      const auto exponent = lyapunov_exponent(scene, settled, counted, goes_on);
+      if (!goes_on()) return false;
+      values = {exponent.value_or(std::nan(""))};
+    }
+    for (std::size_t k = 0; k < values.size(); ++k) row.set(first_result_ + i, values[k], k);
+  }
+  if (study_.plan.follow() != Follow::no) motion = {simulation.state().x, simulation.state().v};
+  return true;
+}
+
+void check_first_point(const Study& study) {
+  const Layout layout = layout_of(study);
+  const auto values = study.plan.values(0);
+  scene::Scene scene = scene::read_scene(scene_at(study, values), study.catalogue);
+  const Counted counted = counted_of(study, scene);
+  scene::Assembly assembly(scene);
+  const Collector collector(study.items, scene, assembly.dynamics, counted);
+}
+
+}  // namespace butee::study
