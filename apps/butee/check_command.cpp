@@ -8,6 +8,7 @@
 #include "check/picture.hpp"
 #include "check/report.hpp"
 #include "commands.hpp"
+#include "study/survey.hpp"
 
 namespace butee::app {
 namespace {
@@ -38,6 +39,10 @@ void write_picture(const check::Layout& layout, const std::string& path) {
 }
 
 int check_command(const CheckArguments& arguments) {
+  if (names_study(arguments.model.model)) {
+    print_study_survey(arguments.model, arguments.json);
+    return kDone;
+  }
   scene::Scene session = open_session(arguments.model);
   const double reading_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   const model::System system = assemble(session.model);

@@ -1,14 +1,23 @@
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <fstream>
+#include <iostream>
 
+#include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 #include <butee/core/terminal.hpp>
 #include <butee/core/text.hpp>
 #include <butee/study/perform.hpp>
+#include <butee/study/stream.hpp>
+#include <butee/study/team.hpp>
 
 #include "commands.hpp"
+#include "gnuplot.hpp"
 #include "interruption.hpp"
+#include "plot/draw.hpp"
+#include "study/pictures.hpp"
 #include "study/progress_line.hpp"
 
 namespace butee::app {
@@ -19,9 +28,12 @@ struct StudyArguments {
   std::string folder;    ///< empty: "<stem>-study"
   std::string format;    ///< of the rows; empty: hdf5 where it is there
   std::string shard;     ///< "I/N"
+  std::string points;    ///< a CSV file, or "-"; with results
+  std::string results;
   std::string progress = "auto";
+  std::vector<std::string> plot_formats = {"png"};
   int threads = 0;
-  bool fresh = false, merge = false;
+  bool fresh = false, merge = false, plot = false;
 };
 
 study::Shard shard_of(const std::string& text) {
@@ -38,56 +50,192 @@ study::Shard shard_of(const std::string& text) {
   return shard;
 }
 
-int finish(study::Store& store, const StudyArguments& arguments) {
-  const study::Store::Count count = store.count();
-  const std::int64_t all = count.completed + count.failed;
-  if (count.failed > 0)
-    log::warning(std::to_string(count.failed) + " of " + std::to_string(all) +
-                 " runs have no results; the rows say why, the first: " + count.first_reason);
-  if (!log::is_quiet()) std::printf("%lld runs, rows in %s\n", static_cast<long long>(all), store.result().c_str());
-  (void)arguments;
-  return count.completed > 0 ? kDone : kFailed;
+/// One study into its folder, by this process or, in a team, by several.
+class FolderStudy {
+ public:
+  FolderStudy(const StudyArguments& arguments, study::Team* team)
+      : arguments_(arguments),
+        team_(team),
+        shard_(shard_of(arguments.shard)),
+        study_(study::load_study(arguments.model.model, {arguments.model.overrides, arguments.model.plugins, {}})),
+        layout_(layout_of(study_)),
+        format_(study::row_format(arguments.format)),
+        store_(folder(), study_, layout_, *format_) {
+    if (team != nullptr && !arguments.shard.empty()) throw InputError("--shard: mpirun shares the study out already");
+    study::check_first_point(study_);
+    if (arguments.plot) plot::require_gnuplot(arguments.plot_formats);
+  }
+
+  bool is_first() const { return team_ == nullptr || team_->rank() == 0; }
+  void open() { store_.open(arguments_.fresh); }
+  void look() { store_.look(); }
+
+  /// Does what is left.
+  int perform() {
+    if (store_.is_complete() || arguments_.merge || store_.done_count() == study_.plan.run_count()) return kDone;
+    if (store_.done_count() > 0 && is_first() && !log::is_quiet())
+      log::info("going on: " + std::to_string(store_.done_count()) + " runs are there already");
+    store_.begin(store_.next_session(), team_ != nullptr ? team_->rank() : 0);
+    ProgressLine line(is_first() && (arguments_.progress == "always" ||
+                                     (arguments_.progress == "auto" && is_terminal(stderr) && !log::is_quiet())));
+    study::PerformOptions options{arguments_.threads, shard_};
+    if (team_ != nullptr) {
+      options.shard = {team_->rank(), team_->size()};
+      if (options.threads == 0) options.threads = 1;
+    }
+    options.goes_on = [] { return interruption() == nullptr; };
+    options.report = [&](const study::Progress& progress) { line.report(progress); };
+    if (study::perform(study_, layout_, store_, options)) return kDone;
+    if (is_first())
+      log::error(std::string("interrupted by ") + interruption() + "; the rows that are done are in " +
+                 store_.folder() + ", and the same command goes on from there");
+    return kFailed;
+  }
+
+  int finish() {
+    if (shard_.count > 1) {
+      store_.flush();
+      if (!log::is_quiet())
+        std::printf("shard %s is done, rows in %s\n", arguments_.shard.c_str(), store_.folder().c_str());
+      return kDone;
+    }
+    std::int64_t missing = 0;
+    if (!store_.merge(missing))
+      throw RunError(store_.folder() + ": run " + std::to_string(missing) +
+                     " is missing, and perhaps more: not all shards are done. Without --merge, `butee study` does what "
+                     "is left");
+    const study::Store::Count count = store_.count();
+    const std::int64_t all = count.completed + count.failed;
+    if (count.failed > 0)
+      log::warning(std::to_string(count.failed) + " of " + std::to_string(all) +
+                   " runs have no results; the rows say why, the first: " + count.first_reason);
+    if (!log::is_quiet()) std::printf("%lld runs, rows in %s\n", static_cast<long long>(all), store_.result().c_str());
+    if (arguments_.plot)
+      for (const std::string& file : draw_study(study_, layout_, store_, arguments_.plot_formats))
+        if (!log::is_quiet()) std::printf("  picture %s\n", file.c_str());
+    return count.completed > 0 ? kDone : kFailed;
+  }
+
+ private:
+  std::string folder() const {
+    std::string folder = arguments_.folder.empty() ? study_.stem + "-study" : arguments_.folder;
+    if (shard_.count > 1)
+      folder += "/shard-" + std::to_string(shard_.index + 1) + "-of-" + std::to_string(shard_.count);
+    return folder;
+  }
+
+  const StudyArguments& arguments_;
+  study::Team* team_;
+  study::Shard shard_;
+  study::Study study_;
+  study::Layout layout_;
+  std::unique_ptr<study::RowFormat> format_;
+  study::Store store_;
+};
+
+int study_alone(const StudyArguments& arguments) {
+  FolderStudy study(arguments, nullptr);
+  study.open();
+  watch_for_interruption();
+  const int status = study.perform();
+  return status == kDone ? study.finish() : status;
+}
+
+/// Every process reads the study; the first opens the folder, and all go on only where all are well.
+int study_in_team(const StudyArguments& arguments, study::Team& team) {
+  if (team.rank() > 0) log::set_level(log::Level::quiet);
+  std::optional<FolderStudy> study;
+  int status = kDone;
+  // What went wrong is said by the first process; another one says what the first does not know.
+  const auto step = [&](bool takes_part, auto work) {
+    if (status == kDone && takes_part) {
+      try {
+        status = work();
+      } catch (const InputError& error) {
+        status = kBadInput;
+        log::error(error.what());
+      } catch (const std::exception& error) {
+        status = kFailed;
+        log::error(error.what());
+      }
+    }
+    status = team.agree(status);
+  };
+  const bool is_first = team.rank() == 0;
+  const auto load = [&] {
+    study.emplace(arguments, &team);
+    return static_cast<int>(kDone);
+  };
+  step(is_first, load);
+  step(!is_first, load);
+  step(is_first, [&] {
+    study->open();
+    return static_cast<int>(kDone);
+  });
+  step(!is_first, [&] {
+    study->look();
+    return static_cast<int>(kDone);
+  });
+  watch_for_interruption();
+  step(true, [&] { return study->perform(); });
+  step(is_first, [&] { return study->finish(); });
+  return status;
+}
+
+/// Points from a file or standard input, rows to a file or standard output.
+int study_points(const StudyArguments& arguments) {
+  std::ifstream file;
+  std::ofstream to;
+  if (arguments.points != "-") {
+    file.open(arguments.points, std::ios::binary);
+    if (!file) throw InputError("--points " + arguments.points + ": cannot be read");
+  }
+  std::istream& from = arguments.points == "-" ? std::cin : file;
+  std::string header, first;
+  const auto next = [&](std::string& line) {
+    while (std::getline(from, line)) {
+      while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+      if (!line.empty() && line.front() != '#') return true;
+    }
+    return false;
+  };
+  if (!next(header) || !next(first))
+    throw InputError("--points " + arguments.points +
+                     ": holds no points: a line with the keys, then a line for each point");
+  study::Study study = study::load_study(
+      arguments.model.model, {arguments.model.overrides, arguments.model.plugins, header + "\n" + first + "\n"});
+  if (study.plan.follow() != study::Follow::no)
+    throw InputError("study.follow: points that are given one by one are no sweep; set it to false");
+  study::check_first_point(study);
+  const study::Layout layout = streamed_layout(study);
+  if (arguments.results != "-") {
+    to.open(arguments.results, std::ios::binary);
+    if (!to) throw InputError("--results " + arguments.results + ": cannot be written");
+  }
+  std::ostream& out = arguments.results == "-" ? std::cout : to;
+  watch_for_interruption();
+  bool has_first = true;
+  const auto next_point = [&](std::string& line) {
+    if (!has_first) return next(line);
+    has_first = false;
+    line = first;
+    return true;
+  };
+  const auto respond = [&](const std::string& line) {
+    out << line << '\n' << std::flush;
+    if (!out) throw RunError("--results " + arguments.results + ": cannot be written");
+  };
+  study::answer(study, layout, arguments.threads > 0 ? arguments.threads : study::processor_count(),
+                {next_point, respond, [] { return interruption() == nullptr; }});
+  return interruption() == nullptr ? kDone : kFailed;
 }
 
 int study_command(const StudyArguments& arguments) {
-  const study::Shard shard = shard_of(arguments.shard);
-  const study::Study study =
-      study::load_study(arguments.model.model, {arguments.model.overrides, arguments.model.plugins, {}});
-  study::check_first_point(study);
-  const study::Layout layout = layout_of(study);
-  const auto format = study::row_format(arguments.format);
-  std::string folder = arguments.folder.empty() ? study.stem + "-study" : arguments.folder;
-  if (shard.count > 1) folder += "/shard-" + std::to_string(shard.index + 1) + "-of-" + std::to_string(shard.count);
-  study::Store store(folder, study, layout, *format);
-  store.open(arguments.fresh);
-  watch_for_interruption();
-  bool is_over = true;
-  if (!store.is_complete() && !arguments.merge && store.done_count() < study.plan.run_count()) {
-    if (store.done_count() > 0 && !log::is_quiet())
-      log::info("going on: " + std::to_string(store.done_count()) + " runs are there already");
-    store.begin(store.next_session(), 0);
-    ProgressLine line(arguments.progress == "always" ||
-                      (arguments.progress == "auto" && is_terminal(stderr) && !log::is_quiet()));
-    study::PerformOptions options{arguments.threads, shard};
-    options.goes_on = [] { return interruption() == nullptr; };
-    options.report = [&](const study::Progress& progress) { line.report(progress); };
-    is_over = study::perform(study, layout, store, options);
-  }
-  if (!is_over) {
-    log::error(std::string("interrupted by ") + interruption() + "; the rows that are done are in " + folder +
-               ", and the same command goes on from there");
-    return kFailed;
-  }
-  if (shard.count > 1) {
-    if (!log::is_quiet()) std::printf("shard %s is done, rows in %s\n", arguments.shard.c_str(), folder.c_str());
-    return kDone;
-  }
-  std::int64_t missing = 0;
-  if (!store.merge(missing))
-    throw RunError(folder + ": run " + std::to_string(missing) +
-                   " is missing, and perhaps more: a shard is not done yet; do it, or "
-                   "`butee study` without --merge does what is left");
-  return finish(store, arguments);
+  if (arguments.points.empty() != arguments.results.empty())
+    throw InputError("--points and --results go together: points from a file or -, rows into a file or -");
+  if (!arguments.points.empty()) return study_points(arguments);
+  const auto team = study::join_team();
+  return team != nullptr ? study_in_team(arguments, *team) : study_alone(arguments);
 }
 
 }  // namespace
@@ -102,20 +250,36 @@ Command add_study_command(CLI::App& program) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   add_plugin_option(*app, arguments->model.plugins);
-  app->add_option("-o,--output", arguments->folder, "the folder for the rows; <stem>-study where not given")
-      ->type_name("DIR");
+  auto* output =
+      app->add_option("-o,--output", arguments->folder, "the folder for the rows; <stem>-study where not given")
+          ->type_name("DIR");
   app->add_option("-j,--threads", arguments->threads, "threads; as many as there are processors where not given")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  app->add_option("--format", arguments->format, "of the rows: hdf5 (default where it is installed) or csv")
-      ->check(CLI::IsMember({"hdf5", "csv"}));
+  auto* format =
+      app->add_option("--format", arguments->format, "of the rows: hdf5 (default where it is installed) or csv")
+          ->check(CLI::IsMember({"hdf5", "csv"}));
   auto* fresh = app->add_flag("--fresh", arguments->fresh, "do again what an earlier call left in the folder");
-  auto* shard =
-      app->add_option("--shard", arguments->shard, "do one of N parts, as of a job array; --merge puts them together")
-          ->type_name("I/N");
-  app->add_flag("--merge", arguments->merge, "do nothing but put the rows of all shards together")
-      ->excludes(shard)
-      ->excludes(fresh);
+  auto* shard = app->add_option("--shard", arguments->shard, "do one of N parts, as of a job array")->type_name("I/N");
+  auto* merge = app->add_flag("--merge", arguments->merge, "put the rows of all shards together, and do no more")
+                    ->excludes(shard)
+                    ->excludes(fresh);
+  auto* points = app->add_option("--points", arguments->points, "points from a CSV file or -, in place of [[vary]]")
+                     ->type_name("FILE|-")
+                     ->excludes(shard)
+                     ->excludes(merge)
+                     ->excludes(fresh)
+                     ->excludes(output)
+                     ->excludes(format);
+  app->add_option("--results", arguments->results, "with --points, rows as CSV into a file or to -, in their order")
+      ->type_name("FILE|-");
+  app->add_flag("--plot", arguments->plot, "draw what the rows allow: bifurcation, response, map, histogram")
+      ->excludes(points);
+  app->add_option("--plot-format", arguments->plot_formats, "of pictures: png (default), svg, pdf")
+      ->delimiter(',')
+      ->check(CLI::IsMember(gnuplot::formats()))
+      ->allow_extra_args(false)
+      ->type_name("FORMAT,...");
   app->add_option("--progress", arguments->progress, "a line of progress on a terminal; always: in a log too")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   add_log_options(*app, false);

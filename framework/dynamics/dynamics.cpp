@@ -69,6 +69,12 @@ Dynamics::Dynamics(const model::System& system)
   for (const LoadedDof& part : loaded_dofs_) mark(has_loads_, part.dof);
 }
 
+void Dynamics::loads_replaced() {
+  contact_ = Contact(system_, counters_);
+  loads_changed();
+  if (modal_system_) modal_system_->replace_loads(*this);
+}
+
 void Dynamics::external_force(double t, VectorRef force) {
   clear(force);
   add_external_force(t, force);

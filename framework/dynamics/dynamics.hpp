@@ -53,6 +53,9 @@ class BUTEE_EXPORT Dynamics {
   void external_force(double t, VectorRef force);
   /// Says that the loads' functions of time are others than before.
   void loads_changed() { load_time_ = std::numeric_limits<double>::quiet_NaN(); }
+  /// Says that the system has the stops and loads of another model (model::replace_loads()). Factorizations and modes
+  /// stay, so that everything is as if the dynamics were made anew.
+  void loads_replaced();
   /// F := dF/dt(t), from the loads' Taylor series or, where they have none, a difference over `h` s
   void external_force_rate(double t, double h, VectorRef rate);
   /// rate -= dC/dt v + dK/dt x, zero unless the speed of rotation varies; at the last instant that was asked for

@@ -119,6 +119,16 @@ void ModalSystem::project_loads(const Dynamics& dynamics) {
   }
 }
 
+void ModalSystem::replace_loads(const Dynamics& dynamics) {
+  harmonics_.clear();
+  other_loads_.clear();
+  project_loads(dynamics);
+  // Flows hold the harmonics, and what methods derived from the laws.
+  rungs_.clear();
+  odd_.clear();
+  oldest_ = 0;
+}
+
 void ModalSystem::project_stops(const Contact& contact) {
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(size(), contact.size());
   for (Index i = 0; i < contact.size(); ++i) {

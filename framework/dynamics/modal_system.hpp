@@ -60,6 +60,9 @@ class BUTEE_EXPORT ModalSystem {
   /// r += Phi^T F(t)
   void add_load(double t, Eigen::Ref<Eigen::ArrayXd> r) const;
 
+  /// Takes the loads and laws that the system of `dynamics` has now; the modes stay.
+  void replace_loads(const Dynamics& dynamics);
+
   static double ladder_step(int level);
   /// The flow over ladder_step(level).
   StepFlow& ladder(int level);

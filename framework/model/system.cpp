@@ -227,6 +227,37 @@ Vector initial_vector(Vector x, const std::vector<NodalValue>& values, const Dof
   return x;
 }
 
+std::vector<FreeStops> reduce_stops(const Model& model, const DofTable& dofs, Index& skipped) {
+  std::vector<FreeStops> all;
+  for (const StopGroup& group : model.stops) {
+    FreeStops stops = reduce(group, dofs, skipped);
+    if (stops.size() > 0) all.push_back(std::move(stops));
+  }
+  return all;
+}
+
+std::vector<FreeLoad> reduce_loads(const Model& model, const DofTable& dofs, Index& skipped) {
+  std::vector<FreeLoad> all;
+  for (const Load& load : model.loads) {
+    FreeLoad free = reduce(load, dofs);
+    if (free.dofs.empty() || free.in_time->vanishes())
+      ++skipped;
+    else
+      all.push_back(std::move(free));
+  }
+  return all;
+}
+
+void set_start(const Model& model, System& system) {
+  const Vector zero = Vector::Zero(system.dofs.free_count());
+  const InitialMotion start = model.initial_motion.value_or(InitialMotion{zero, zero, 0.0});
+  require(start.displacement.size() == zero.size() && start.velocity.size() == zero.size(),
+          "an initial motion of every free DOF");
+  system.initial_displacement = initial_vector(start.displacement, model.initial_displacement, system.dofs);
+  system.initial_velocity = initial_vector(start.velocity, model.initial_velocity, system.dofs);
+  system.initial_time = start.time;
+}
+
 }  // namespace
 
 DofTable number_dofs(const Model& model) {
@@ -281,10 +312,7 @@ System assemble(const Model& model, TurningParts turning) {
     if (!dofs.has_mass(dof))
       throw InputError("the free " + dofs.name(dof) + " has no mass: give it one, or fix it with a [[support]]");
 
-  for (const StopGroup& group : model.stops) {
-    FreeStops stops = reduce(group, dofs, system.skipped_stops);
-    if (stops.size() > 0) system.stops.push_back(std::move(stops));
-  }
+  system.stops = reduce_stops(model, dofs, system.skipped_stops);
   for (const ObstacleGroup& group : model.obstacles) {
     FreeObstacles free = reduce(group, dofs, model.nodes, system.skipped_stops);
     if (!free.ends.empty()) system.obstacles.push_back(std::move(free));
@@ -304,21 +332,28 @@ System assemble(const Model& model, TurningParts turning) {
   system.damping = model.damping;
   if (turning == TurningParts::included) apply_rotation(model, system);
 
-  for (const Load& load : model.loads) {
-    FreeLoad free = reduce(load, dofs);
-    if (free.dofs.empty() || free.in_time->vanishes())
-      ++system.skipped_loads;
-    else
-      system.loads.push_back(std::move(free));
-  }
-  const Vector zero = Vector::Zero(dofs.free_count());
-  const InitialMotion start = model.initial_motion.value_or(InitialMotion{zero, zero, 0.0});
-  require(start.displacement.size() == zero.size() && start.velocity.size() == zero.size(),
-          "an initial motion of every free DOF");
-  system.initial_displacement = initial_vector(start.displacement, model.initial_displacement, dofs);
-  system.initial_velocity = initial_vector(start.velocity, model.initial_velocity, dofs);
-  system.initial_time = start.time;
+  system.loads = reduce_loads(model, dofs, system.skipped_loads);
+  set_start(model, system);
   return system;
+}
+
+bool replace_loads(const Model& model, System& system) {
+  Index skipped_stops = 0, skipped_loads = 0;
+  std::vector<FreeStops> stops = reduce_stops(model, system.dofs, skipped_stops);
+  std::vector<FreeLoad> loads = reduce_loads(model, system.dofs, skipped_loads);
+  const bool same_stops = std::equal(stops.begin(), stops.end(), system.stops.begin(), system.stops.end(),
+                                     [](const FreeStops& a, const FreeStops& b) { return a.a == b.a && a.b == b.b; });
+  const bool same_loads =
+      std::equal(loads.begin(), loads.end(), system.loads.begin(), system.loads.end(),
+                 [](const FreeLoad& a, const FreeLoad& b) { return a.dofs == b.dofs && a.weights == b.weights; });
+  if (!same_stops || !same_loads) return false;
+  system.stops = std::move(stops);
+  system.loads = std::move(loads);
+  system.skipped_stops = skipped_stops;
+  system.skipped_loads = skipped_loads;
+  system.model = &model;
+  set_start(model, system);
+  return true;
 }
 
 }  // namespace butee::model

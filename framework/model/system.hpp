@@ -81,4 +81,9 @@ enum class TurningParts { included, apart };
 /// absent, or nothing is free to move.
 BUTEE_EXPORT System assemble(const Model& model, TurningParts turning = TurningParts::included);
 
+/// Takes the stops, loads and initial motion of another model with the same nodes, elements and supports, so that M, K
+/// and D stay. False, and nothing changed, where they act on other DOFs, or by other weights; then assemble() is due.
+/// The model that the system was assembled from must stay beside the new one.
+BUTEE_EXPORT bool replace_loads(const Model& model, System& system);
+
 }  // namespace butee::model

@@ -16,7 +16,9 @@ model::System assemble_changed(const model::Model& model, const std::function<vo
   return system;
 }
 
-std::unique_ptr<time::Integrator> make(Scene& scene, dynamics::Dynamics& dynamics) {
+}  // namespace
+
+std::unique_ptr<time::Integrator> make_integrator(Scene& scene, dynamics::Dynamics& dynamics) {
   const IntegratorChoice& choice = scene.integrator;
   auto made = scene.catalogue.load(choice.name).make(choice.parameters, dynamics);
   if (made == nullptr)
@@ -24,12 +26,10 @@ std::unique_ptr<time::Integrator> make(Scene& scene, dynamics::Dynamics& dynamic
   return made;
 }
 
-}  // namespace
-
 Assembly::Assembly(Scene& scene, const std::function<void(model::System&)>& change)
     : system(assemble_changed(scene.model, change)),
       dynamics(system),
-      integrator(make(scene, dynamics)),
+      integrator(make_integrator(scene, dynamics)),
       simulation(dynamics, *integrator, scene.integrator.options) {}
 
 }  // namespace butee::scene

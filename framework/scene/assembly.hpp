@@ -19,4 +19,7 @@ struct BUTEE_EXPORT Assembly {
   time::Simulation simulation;
 };
 
+/// The method of a scene for a system. Throws as Assembly does.
+BUTEE_EXPORT std::unique_ptr<time::Integrator> make_integrator(Scene& scene, dynamics::Dynamics& dynamics);
+
 }  // namespace butee::scene

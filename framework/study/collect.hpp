@@ -44,6 +44,8 @@ struct Counted {
   std::int64_t periods = 0;       ///< in it
 };
 
+class CollectorPart;
+
 /// Observes the part of a run that counts, and gives the items but "lyapunov". Begins where open() says.
 class BUTEE_EXPORT Collector final : public time::Observer {
  public:
@@ -62,17 +64,9 @@ class BUTEE_EXPORT Collector final : public time::Observer {
   std::vector<double> values(std::size_t item) const;
 
  private:
-  class Part;
-  class PeakPart;
-  class RangePart;
-  class MeanPart;
-  class SectionPart;
-  class FrequencyPart;
-  class ImpactPart;
-
-  std::vector<std::unique_ptr<Part>> parts_;
+  std::vector<std::unique_ptr<CollectorPart>> parts_;
   /// Of each item, the part that observes it and its place there; null for "lyapunov".
-  std::vector<std::pair<const Part*, std::size_t>> places_;
+  std::vector<std::pair<const CollectorPart*, std::size_t>> places_;
   bool is_open_ = false;
 };
 

@@ -35,33 +35,34 @@ class Size {
 /// A run that is set to motions and goes on for a while.
 class Piece {
  public:
-  explicit Piece(scene::Scene& scene) : assembly_(scene) {}
+  Piece(scene::Scene& scene, dynamics::Dynamics& dynamics)
+      : integrator_(make_integrator(scene, dynamics)), simulation_(dynamics, *integrator_, scene.integrator.options) {}
   bool go(const Vector& x, const Vector& v, double until, const std::function<bool()>& goes_on) {
-    time::Simulation& simulation = assembly_.simulation;
-    simulation.set_motion(x, v);
-    simulation.set_end_time(until);
-    return simulation.run(goes_on).completed;
+    simulation_.set_motion(x, v);
+    simulation_.set_end_time(until);
+    return simulation_.run(goes_on).completed;
   }
-  const time::State& state() const { return assembly_.simulation.state(); }
-  const model::System& system() const { return assembly_.system; }
+  const time::State& state() const { return simulation_.state(); }
 
  private:
-  scene::Assembly assembly_;
+  std::unique_ptr<time::Integrator> integrator_;
+  time::Simulation simulation_;
 };
 
 }  // namespace
 
-std::optional<double> lyapunov_exponent(scene::Scene& scene, const Motion& start, const Counted& counted,
-                                        const std::function<bool()>& goes_on) {
+std::optional<double> lyapunov_exponent(scene::Scene& scene, dynamics::Dynamics& dynamics, const Motion& start,
+                                        const Counted& counted, const std::function<bool()>& goes_on) {
   // Time begins anew where the motion that counts does: whole periods of the loads lie between.
-  Piece run(scene), disturbed(scene);
+  Piece run(scene, dynamics), disturbed(scene, dynamics);
+  const SparseMatrix& mass = dynamics.system().mass;
   const double omega = 2.0 * std::numbers::pi / counted.period;
-  const Size size(run.system().mass, omega);
+  const Size size(mass, omega);
   Vector x = start.x, v = start.v;
   const double wanted = std::clamp(kAboveNoise * tolerance_of(scene), kSmallest, kLargest) * size.of(x, v);
   if (!(wanted > 0.0)) return std::nullopt;
   Vector dx = Vector::Zero(x.size()), dv = dx;
-  for (Index i = 0; i < dv.size(); ++i) dv[i] = 1.0 / std::sqrt(run.system().mass.coeff(i, i));
+  for (Index i = 0; i < dv.size(); ++i) dv[i] = 1.0 / std::sqrt(mass.coeff(i, i));
   double now = size.of(dx, dv), sum = 0.0;
   const std::int64_t first = counted.periods / 4;
   for (std::int64_t i = 0; i < counted.periods; ++i) {

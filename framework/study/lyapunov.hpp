@@ -14,7 +14,7 @@ namespace butee::study {
 /// From `start` on two runs are integrated side by side, a period at a time; at its end their difference is made as
 /// small again. The size of a difference is sqrt(v.M v + (2 pi/T)^2 x.M x). The first quarter of the periods turns the
 /// difference into the direction that grows most and does not count. Nothing where a run fails or `goes_on` says no.
-std::optional<double> lyapunov_exponent(scene::Scene& scene, const Motion& start, const Counted& counted,
-                                        const std::function<bool()>& goes_on);
+std::optional<double> lyapunov_exponent(scene::Scene& scene, dynamics::Dynamics& dynamics, const Motion& start,
+                                        const Counted& counted, const std::function<bool()>& goes_on);
 
 }  // namespace butee::study

@@ -20,6 +20,7 @@ struct Axis {
   std::vector<config::Value> values;  ///< where there is no range
   std::optional<Range> range{};
   std::int64_t count = 0;  ///< of values from one end of the range to the other; 0 of random plans
+  std::string label{};     ///< for pictures; the key where empty
 
   /// True where all values are numbers.
   BUTEE_EXPORT bool is_numeric() const;

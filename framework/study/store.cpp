@@ -7,7 +7,6 @@
 
 #include "butee/config/file_reference.hpp"
 #include "butee/config/toml.hpp"
-#include "butee/core/bytes.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/record/file.hpp"
@@ -19,7 +18,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr const char *kMark = "# butee: the study as run", *kStudyFile = "study.toml", *kRows = "rows-",
-                     *kSweep = "sweep-", *kShard = "shard-", *kResult = "study";
+                     *kSweep = Store::kSweep, *kShard = "shard-", *kResult = "study";
 /// Rows wait so long for others, or until there are so many bytes of them.
 constexpr auto kPatience = 200ms;
 constexpr std::size_t kMostWaiting = std::size_t{1} << 20U;
@@ -213,41 +212,6 @@ void Store::flush() {
   if (!waiting_.empty()) sink_->append(waiting_);
   waiting_.clear();
   flushed_ = std::chrono::steady_clock::now();
-}
-
-void Store::keep(std::int64_t chain, std::int64_t run, const Motion& motion) {
-  flush();  // Rows first: a sweep that goes on behind a row that is missing would never do it.
-  std::vector<std::byte> body, whole;
-  ByteWriter to(body);
-  to.put(run);
-  to.put(motion.x);
-  to.put(motion.v);
-  ByteWriter sealed(whole);
-  sealed.put(checksum(body));
-  sealed.put(std::span<const std::byte>(body));
-  record::write_whole(file(kSweep + std::to_string(chain) + ".bin"), whole);
-}
-
-std::int64_t Store::kept(std::int64_t chain, Motion& motion) const {
-  const std::string path = file(kSweep + std::to_string(chain) + ".bin");
-  if (!fs::exists(path)) return -1;
-  const std::string text = config::read_text(path);
-  ByteReader from(std::as_bytes(std::span(text)));
-  const auto sum = from.take<std::uint64_t>();
-  std::vector<std::byte> body;
-  from.take(body);
-  if (checksum(body) != sum) throw RunError(path + ": is damaged; take it away, and its sweep begins anew");
-  ByteReader inner(body);
-  const auto run = inner.take<std::int64_t>();
-  inner.take(motion.x);
-  inner.take(motion.v);
-  return run;
-}
-
-void Store::forget(std::int64_t chain) {
-  flush();
-  std::error_code error;
-  fs::remove(file(kSweep + std::to_string(chain) + ".bin"), error);
 }
 
 bool Store::merge(std::int64_t& missing) {

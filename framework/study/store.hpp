@@ -79,6 +79,9 @@ class BUTEE_EXPORT Store {
   };
   Count count() const;
 
+  /// What the names of files of sweeps begin with.
+  static constexpr const char* kSweep = "sweep-";
+
   const std::string& folder() const { return folder_; }
   std::string file(const std::string& name) const;
   /// study.h5 or study.csv

@@ -63,6 +63,7 @@ Worker::Worker(const Study& study, const Layout& layout)
     : study_(study),
       layout_(layout),
       catalogue_(study.catalogue),
+      bench_(study),
       first_value_(layout.find(kStatusColumn) - study.plan.axes().size()),
       first_result_(layout.find(kReasonColumn) + 1) {}
 
@@ -96,9 +97,9 @@ std::optional<Row> Worker::perform(std::int64_t run, const std::vector<config::V
   std::string status = "failed", reason;
   try {
     Counted counted;
-    scene::Scene scene = read(values, counted);
-    row.set_text(layout_.find(kSceneColumn), hash_of(scene.document));
-    if (!integrate(scene, counted, motion, row, goes_on)) return std::nullopt;
+    auto scene = std::make_unique<scene::Scene>(read(values, counted));
+    row.set_text(layout_.find(kSceneColumn), hash_of(scene->document));
+    if (!integrate(std::move(scene), values, counted, motion, row, goes_on)) return std::nullopt;
     status = "completed";
   } catch (const InputError& error) {
     status = "refused";
@@ -114,8 +115,9 @@ std::optional<Row> Worker::perform(std::int64_t run, const std::vector<config::V
   return row;
 }
 
-bool Worker::integrate(scene::Scene& scene, const Counted& counted, Motion& motion, Row& row,
-                       const std::function<bool()>& goes_on) {
+bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<config::Value>& values,
+                       const Counted& counted, Motion& motion, Row& row, const std::function<bool()>& goes_on) {
+  scene::Scene& scene = *owned;
   if (!motion.is_empty()) {
     scene.model.initial_motion = model::InitialMotion{motion.x, motion.v, 0.0};
     scene.model.initial_displacement.clear();
@@ -124,9 +126,9 @@ bool Worker::integrate(scene::Scene& scene, const Counted& counted, Motion& moti
     if (number_dofs(scene.model).free_count() != motion.x.size())
       throw InputError("study.follow: the run before has other degrees of freedom than this one");
   }
-  scene::Assembly assembly(scene);
-  time::Simulation& simulation = assembly.simulation;
-  Collector collector(study_.items, scene, assembly.dynamics, counted);
+  bench_.take(std::move(owned), values);
+  time::Simulation& simulation = bench_.simulation();
+  Collector collector(study_.items, scene, bench_.dynamics(), counted);
   simulation.add(collector);
   bool is_stopped = false;
   const auto run = [&] {
@@ -139,13 +141,14 @@ bool Worker::integrate(scene::Scene& scene, const Counted& counted, Motion& moti
   };
   const auto finish = [&] {
     row.set_integer(layout_.find(kStepsColumn), simulation.report().steps);
-    row.set_integer(layout_.find(kFactorizationsColumn), assembly.dynamics.counters().factorizations);
-    row.set_integer(layout_.find(kSolvesColumn), assembly.dynamics.counters().solves);
-    row.set_integer(layout_.find(kAssembliesColumn), 1);
+    row.set_integer(layout_.find(kFactorizationsColumn), bench_.counters().factorizations);
+    row.set_integer(layout_.find(kSolvesColumn), bench_.counters().solves);
+    row.set_integer(layout_.find(kAssembliesColumn), bench_.assemblies());
   };
   Motion settled;
   try {
     simulation.start();
+    if (!simulation.report().message.empty()) throw RunError(simulation.report().message);
     if (counted.begin > 0.0) {
       simulation.set_end_time(counted.begin);
       if (!run()) return false;
@@ -160,13 +163,13 @@ bool Worker::integrate(scene::Scene& scene, const Counted& counted, Motion& moti
   }
   finish();
   for (std::size_t i = 0; i < study_.items.size(); ++i) {
-    std::vector<double> values = collector.values(i);
+    std::vector<double> entries = collector.values(i);
     if (study_.items[i].kind == Item::Kind::lyapunov) {
-      const auto exponent = lyapunov_exponent(scene, settled, counted, goes_on);
+      const auto exponent = lyapunov_exponent(scene, bench_.dynamics(), settled, counted, goes_on);
       if (!goes_on()) return false;
-      values = {exponent.value_or(std::nan(""))};
+      entries = {exponent.value_or(std::nan(""))};
     }
-    for (std::size_t k = 0; k < values.size(); ++k) row.set(first_result_ + i, values[k], k);
+    for (std::size_t k = 0; k < entries.size(); ++k) row.set(first_result_ + i, entries[k], k);
   }
   if (study_.plan.follow() != Follow::no) motion = {simulation.state().x, simulation.state().v};
   return true;

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "butee/study/study.hpp"
+#include "butee/study/bench.hpp"
 
 namespace butee::study {
 
@@ -31,12 +31,13 @@ class BUTEE_EXPORT Worker {
  private:
   scene::Scene read(const std::vector<config::Value>& values, Counted& counted);
   /// False where it was told not to go on.
-  bool integrate(scene::Scene& scene, const Counted& counted, Motion& motion, Row& row,
-                 const std::function<bool()>& goes_on);
+  bool integrate(std::unique_ptr<scene::Scene> owned, const std::vector<config::Value>& values, const Counted& counted,
+                 Motion& motion, Row& row, const std::function<bool()>& goes_on);
 
   const Study& study_;
   const Layout& layout_;
   plugin::Catalogue catalogue_;
+  Bench bench_;
   std::size_t first_value_, first_result_;
 };
 

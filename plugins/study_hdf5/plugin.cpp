@@ -133,7 +133,9 @@ class Source final : public study::RowSource {
     size_ = size.empty() ? 0 : static_cast<std::int64_t>(size.front());
   }
 
-  std::int64_t size() const override { return size_; }
+  std::int64_t size() const override {
+    return size_;
+  }
 
   bool read(std::int64_t index, std::span<std::byte> row) override {
     if (index < first_ || index >= first_ + count_) load(index);

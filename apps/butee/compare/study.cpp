@@ -9,6 +9,7 @@
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
+#include <butee/study/study.hpp>
 
 namespace butee::app::compare {
 namespace {
@@ -128,6 +129,10 @@ std::vector<double> step_values(double limit, double highest_frequency, double e
 Study read_study(const ModelArguments& arguments) {
   const config::Document document = config::load_toml(arguments.model);
   Study study;
+  if (study::is_study(document))
+    throw InputError(arguments.model +
+                     ": is a study of many runs, which is `butee study`; a comparison of methods has "
+                     "[study] with scenes");
   if (document.root.table()->find("study") != nullptr)
     study = read_study_file(document, arguments);
   else

@@ -16,6 +16,7 @@ const std::vector<Topic>& topics() {
       {"output", "rows, probes, energy, impacts", output_text},
       {"results", "the files that a run writes", results_text},
       {"limits", "kinds of problems that butee does not solve", limits_text},
+      {"study", "many runs of a scene whose keys vary", study_text},
       {"compare", "run time against error of several methods", compare_text},
       {"trust", "how far an answer can be trusted", trust_text},
       {"plugins", "modules: where they are found, how to write one", plugins_text},

@@ -31,6 +31,7 @@ std::string methods_text(const plugin::Catalogue& catalogue);
 std::string results_text(const plugin::Catalogue& catalogue);
 std::string limits_text(const plugin::Catalogue& catalogue);
 std::string compare_text(const plugin::Catalogue& catalogue);
+std::string study_text(const plugin::Catalogue& catalogue);  // in study_topic.cpp
 std::string trust_text(const plugin::Catalogue& catalogue);
 std::string plugins_text(const plugin::Catalogue& catalogue);
 std::string exit_codes_text(const plugin::Catalogue& catalogue);

@@ -1,0 +1,244 @@
+#include "pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include <butee/core/error.hpp>
+#include <butee/core/format.hpp>
+
+#include "../gnuplot.hpp"
+#include "../plot/scale.hpp"
+
+namespace butee::app {
+namespace {
+
+using plot::Picture;
+using plot::Scale;
+using study::Column;
+using study::Follow;
+using study::Item;
+using study::Row;
+
+constexpr const char *kUp = "#1f77b4", *kDown = "#d62728";
+constexpr std::size_t kMostBins = 60;
+
+std::string number(double value) {
+  return std::isfinite(value) ? formatted("%.9g", value) : "NaN";
+}
+
+std::string file_name(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '-');
+  return text;
+}
+
+/// The rows of a study in columns of numbers, as far as pictures need them.
+class Drawing {
+ public:
+  Drawing(const study::Study& study, const study::Layout& layout, const study::Store& store)
+      : study_(study),
+        layout_(layout),
+        store_(store),
+        first_axis_(layout.find(study::kStatusColumn) - axes()),
+        first_item_(layout.find(study::kReasonColumn) + 1) {}
+
+  std::vector<Picture> all() {
+    std::vector<Picture> pictures;
+    const study::PlanKind kind = study_.plan.kind();
+    const bool is_random = kind == study::PlanKind::sobol || kind == study::PlanKind::latin;
+    const bool is_numeric =
+        std::all_of(study_.plan.axes().begin(), study_.plan.axes().end(), [](const auto& a) { return a.is_numeric(); });
+    for (std::size_t i = 0; i < study_.items.size(); ++i) {
+      const bool is_section = study_.items[i].kind == Item::Kind::section;
+      if (is_random && !is_section) pictures.push_back(histogram(i));
+      if (is_numeric && axes() == 1 && !is_random) pictures.push_back(over_axis(i, is_section));
+      if (is_numeric && axes() == 2 && kind == study::PlanKind::grid && !is_section) pictures.push_back(map(i));
+      if (is_section && study_.items[i].quantity == model::Quantity::u)
+        if (const auto v = speed_of(study_.items[i])) pictures.push_back(poincare(i, *v));
+    }
+    return pictures;
+  }
+
+ private:
+  std::size_t axes() const { return study_.plan.axes().size(); }
+  std::string title() const { return study_.title.empty() ? study_.stem : study_.title; }
+
+  /// The section of v that goes with one of u.
+  std::optional<std::size_t> speed_of(const Item& item) const {
+    for (std::size_t i = 0; i < study_.items.size(); ++i) {
+      const Item& other = study_.items[i];
+      if (other.kind == Item::Kind::section && other.probe == item.probe && other.quantity == model::Quantity::v)
+        return i;
+    }
+    return std::nullopt;
+  }
+
+  const Column& column(std::size_t item) const { return layout_.columns()[first_item_ + item]; }
+
+  Scale scale_of(std::size_t item) const {
+    double largest = 0.0;
+    store_.visit([&](const Row& row) {
+      for (std::size_t k = 0; k < column(item).length; ++k)
+        if (const double value = std::abs(row.number(first_item_ + item, k)); value > largest) largest = value;
+    });
+    const std::string unit = column(item).unit == "1" ? "" : column(item).unit;
+    return plot::scale_for(largest, unit);
+  }
+
+  /// The name of an item's axis: "peak rotor.u / mm".
+  std::string label(std::size_t item, const Scale& scale) const {
+    return gnuplot::quoted(scale.axis(study_.items[item].text));
+  }
+
+  void begin(Picture& picture, const std::string& name) const {
+    picture.name = file_name(name);
+    picture.set = "set title \"" + plot::folded_title(title()) + "\" noenhanced\nunset key\n";
+  }
+
+  std::string is_logarithmic(std::size_t axis, const char* which) const {
+    const auto& range = study_.plan.axes()[axis].range;
+    return range && range->is_logarithmic ? std::string("set logscale ") + which + "\n" : "";
+  }
+
+  std::string axis_label(std::size_t axis) const {
+    const study::Axis& drawn = study_.plan.axes()[axis];
+    return gnuplot::quoted(drawn.label.empty() ? drawn.key : drawn.label) + " noenhanced";
+  }
+
+  Picture over_axis(std::size_t item, bool is_section) const {
+    Picture picture;
+    begin(picture, (is_section ? "bifurcation-" : "response-") + study_.items[item].text);
+    const Scale scale = scale_of(item);
+    std::map<int, std::string> blocks;
+    store_.visit([&](const Row& row) {
+      const int direction =
+          study_.plan.follow() == Follow::no ? 0 : static_cast<int>(row.integer(layout_.find(study::kDirectionColumn)));
+      for (std::size_t k = 0; k < column(item).length; ++k)
+        blocks[direction] +=
+            number(row.number(first_axis_)) + " " + number(row.number(first_item_ + item, k) * scale.factor) + "\n";
+    });
+    const auto style = [&](const char* colour) {
+      return is_section ? std::string(" with points pt 7 ps 0.15 lc rgb '") + colour + "'"
+                        : std::string(" with linespoints pt 7 ps 0.35 lw 1.2 lc rgb '") + colour + "'";
+    };
+    picture.plot = "plot ";
+    std::vector<std::string> entries;
+    // Up is drawn last, so that it is not hidden where both are the same.
+    for (const auto& [direction, block] : blocks) {
+      const std::string name = direction < 0 ? "$down" : direction > 0 ? "$up" : "$runs";
+      picture.data += name + " << EOD\n" + block + "EOD\n";
+      if (picture.plot != "plot ") picture.plot += ", \\\n     ";
+      picture.plot += name + style(direction < 0 ? kDown : kUp);
+      if (blocks.size() > 1 || direction != 0) {
+        entries.push_back(direction < 0 ? "down" : "up");
+        picture.plot += " title '" + entries.back() + "'";
+      } else {
+        picture.plot += " notitle";
+      }
+    }
+    if (!entries.empty()) picture.set += "set key noenhanced\n" + gnuplot::legend_below(entries);
+    picture.set += "set xlabel " + axis_label(0) + "\nset ylabel " + label(item, scale) + "\n" + is_logarithmic(0, "x");
+    return picture;
+  }
+
+  Picture map(std::size_t item) const {
+    Picture picture;
+    begin(picture, "map-" + study_.items[item].text);
+    const Scale scale = scale_of(item);
+    const std::int64_t length = study_.plan.axes()[1].size();
+    std::int64_t count = 0;
+    picture.data = "$map << EOD\n";
+    store_.visit([&](const Row& row) {
+      if (count >= study_.plan.point_count()) return;  // The way down of a sweep is not drawn.
+      if (count++ % length == 0 && count > 1) picture.data += "\n";
+      picture.data += number(row.number(first_axis_)) + " " + number(row.number(first_axis_ + 1)) + " " +
+                      number(row.number(first_item_ + item) * scale.factor) + "\n";
+    });
+    picture.data += "EOD\n";
+    picture.set += "set view map\nset pm3d map interpolate 1,1\nset palette viridis\nset xlabel " + axis_label(0) +
+                   "\nset ylabel " + axis_label(1) + "\nset cblabel " + label(item, scale) + "\n" +
+                   is_logarithmic(0, "x") + is_logarithmic(1, "y") + "set autoscale xfix\nset autoscale yfix\n";
+    picture.plot = "splot $map using 1:2:3 with pm3d notitle";
+    return picture;
+  }
+
+  Picture poincare(std::size_t u, std::size_t v) const {
+    Picture picture;
+    begin(picture, "poincare-" + study_.items[u].probe);
+    const Scale of_u = scale_of(u), of_v = scale_of(v);
+    const bool has_colour = axes() > 0 && study_.plan.axes().front().is_numeric() && study_.plan.point_count() > 1;
+    picture.data = "$section << EOD\n";
+    store_.visit([&](const Row& row) {
+      for (std::size_t k = 0; k < column(u).length; ++k)
+        picture.data += number(row.number(first_item_ + u, k) * of_u.factor) + " " +
+                        number(row.number(first_item_ + v, k) * of_v.factor) +
+                        (has_colour ? " " + number(row.number(first_axis_)) : "") + "\n";
+    });
+    picture.data += "EOD\n";
+    picture.set += "set xlabel " + label(u, of_u) + "\nset ylabel " + label(v, of_v) + "\n";
+    if (has_colour) picture.set += "set palette viridis\nset cblabel " + axis_label(0) + "\n";
+    picture.plot = std::string("plot $section with points pt 7 ps 0.2 lc ") +
+                   (has_colour ? "palette" : "rgb '#222222'") + " notitle";
+    return picture;
+  }
+
+  Picture histogram(std::size_t item) const {
+    Picture picture;
+    begin(picture, "histogram-" + study_.items[item].text);
+    const Scale scale = scale_of(item);
+    std::vector<double> values;
+    store_.visit([&](const Row& row) {
+      if (const double value = row.number(first_item_ + item); std::isfinite(value))
+        values.push_back(value * scale.factor);
+    });
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const double begin_at = values.empty() ? 0.0 : *least;
+    const double span = values.empty() || *most == *least ? 1.0 : *most - *least;
+    const auto wanted = static_cast<std::size_t>(std::sqrt(static_cast<double>(values.size())));
+    std::vector<std::size_t> bins(std::clamp<std::size_t>(wanted, 1, kMostBins));
+    const double width = span / static_cast<double>(bins.size());
+    for (const double value : values)
+      ++bins[std::min(bins.size() - 1, static_cast<std::size_t>((value - begin_at) / width))];
+    picture.data = "$bins << EOD\n";
+    for (std::size_t i = 0; i < bins.size(); ++i)
+      picture.data += number(begin_at + (static_cast<double>(i) + 0.5) * width) + " " + std::to_string(bins[i]) + "\n";
+    picture.data += "EOD\n";
+    picture.set += "set xlabel " + label(item, scale) + "\nset ylabel 'runs'\nset yrange [0:*]\nset boxwidth " +
+                   number(width) + "\nset style fill solid 0.6\n";
+    picture.plot = std::string("plot $bins with boxes lc rgb '") + kUp + "' notitle";
+    return picture;
+  }
+
+  const study::Study& study_;
+  const study::Layout& layout_;
+  const study::Store& store_;
+  std::size_t first_axis_, first_item_;
+};
+
+}  // namespace
+
+std::vector<Picture> study_pictures(const study::Study& study, const study::Layout& layout, const study::Store& store) {
+  return Drawing(study, layout, store).all();
+}
+
+std::vector<std::string> draw_study(const study::Study& study, const study::Layout& layout, const study::Store& store,
+                                    const std::vector<std::string>& formats) {
+  const std::string folder = store.file("plots");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw RunError(folder + ": cannot be made: " + error.message());
+  std::vector<std::string> made;
+  for (const Picture& picture : study_pictures(study, layout, store)) {
+    gnuplot::write_script(folder, picture.name, picture.script(formats));
+    const std::string complaint = gnuplot::run_script(folder, picture.name);
+    if (!complaint.empty())
+      throw RunError("gnuplot could not draw " + folder + "/" + picture.name + ".gp: " + complaint);
+    for (const std::string& format : formats) made.push_back(folder + "/" + picture.name + "." + format);
+  }
+  return made;
+}
+
+}  // namespace butee::app

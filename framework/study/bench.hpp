@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "butee/scene/assembly.hpp"
+#include "butee/study/study.hpp"
+
+namespace butee::study {
+
+/// The system that a thread works on, kept from one run of a study to the next where only loads, stops, gaps, laws or
+/// the start change: assembly, factorizations and modes are then made once. Results are the same to the bit as those of
+/// a system made anew.
+class Bench {
+ public:
+  /// `study` must outlive it.
+  explicit Bench(const Study& study);
+
+  /// Takes the scene of a run. Throws as scene::Assembly does.
+  void take(std::unique_ptr<scene::Scene> scene, const std::vector<config::Value>& values);
+
+  scene::Scene& scene() { return *scene_; }
+  dynamics::Dynamics& dynamics() { return parts_->dynamics; }
+  time::Simulation& simulation() { return *simulation_; }
+  /// Of this run alone: assemblies, 0 or 1, and what the dynamics counted.
+  int assemblies() const { return assemblies_; }
+  linalg::Counters counters() const;
+
+ private:
+  struct Parts {
+    explicit Parts(const scene::Scene& scene) : system(assemble(scene.model)), dynamics(system) {}
+    model::System system;
+    dynamics::Dynamics dynamics;
+  };
+
+  bool renew(const std::string& structure);
+
+  const Study& study_;
+  std::vector<bool> is_structural_;  ///< an entry an axis: its key is of another table than those of loads and stops
+  std::unique_ptr<scene::Scene> base_, scene_;  ///< base_: whose nodes the system refers to, where that is not scene_
+  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<time::Integrator> integrator_;
+  std::unique_ptr<time::Simulation> simulation_;
+  std::string structure_;
+  int assemblies_ = 0;
+  linalg::Counters before_;
+};
+
+}  // namespace butee::study

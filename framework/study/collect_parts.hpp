@@ -1,0 +1,186 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "butee/record/impacts.hpp"
+#include "butee/record/peaks.hpp"
+#include "butee/record/probes.hpp"
+#include "butee/study/collect.hpp"
+
+// Private to this folder: the observers of single kinds of results.
+namespace butee::study {
+
+/// Observes one kind of results, for all items that ask for it.
+class CollectorPart : public time::Observer {
+ public:
+  virtual std::vector<double> values(std::size_t item) const = 0;
+};
+
+class PeakPart final : public CollectorPart {
+ public:
+  PeakPart(const std::vector<model::ProbeRequest>& probes, dynamics::Dynamics& dynamics) : peaks_(probes, dynamics) {
+    for (const model::ProbeRequest& probe : probes) names_.push_back(probe.label + "." + name_of(probe.quantities[0]));
+  }
+  void start(const time::State& state) override { peaks_.start(state); }
+  void step(const time::AcceptedStep& step) override { peaks_.step(step); }
+  std::vector<double> values(std::size_t item) const override { return {peaks_.largest().at(names_[item])}; }
+
+ private:
+  record::Peaks peaks_;
+  std::vector<std::string> names_;
+};
+
+/// Largest and smallest values of motion.
+class RangePart final : public CollectorPart {
+ public:
+  RangePart(const std::vector<model::ProbeRequest>& probes, const std::vector<bool>& is_max,
+            dynamics::Dynamics& dynamics)
+      : is_max_(is_max), ranges_(probes.size()) {
+    for (const model::ProbeRequest& probe : probes) {
+      const Index dof = dynamics.system().dofs.index({probe.node, kind_of(probe.quantities[0])});
+      tracks_.push_back(all_.add(dof >= 0 ? dof : -1, -1));
+      orders_.push_back(static_cast<std::size_t>(order_of(probe.quantities[0])));
+    }
+  }
+  void start(const time::State& state) override {
+    for (std::size_t i = 0; i < ranges_.size(); ++i)
+      ranges_[i].take(state.t, all_.at(state, tracks_[i]).of[orders_[i]]);
+  }
+  void step(const time::AcceptedStep& step) override {
+    all_.visit(step, [&] {
+      for (std::size_t i = 0; i < ranges_.size(); ++i)
+        all_.course(step, tracks_[i]).extend(orders_[i], all_.from(tracks_[i]), all_.to(tracks_[i]), ranges_[i]);
+    });
+  }
+  std::vector<double> values(std::size_t item) const override {
+    return {is_max_[item] ? ranges_[item].greatest : ranges_[item].least};
+  }
+
+ private:
+  record::Tracks all_;
+  std::vector<bool> is_max_;
+  std::vector<std::size_t> tracks_, orders_;
+  std::vector<record::Range> ranges_;
+};
+
+/// Means, by Gauss' rule between the knots of each step, values at the end, and the largest values of forces of
+/// elements, at the same instants.
+class MeanPart final : public CollectorPart {
+ public:
+  MeanPart(const std::vector<model::ProbeRequest>& probes, const std::vector<Item::Kind>& kinds,
+           dynamics::Dynamics& dynamics, const Counted& counted)
+      : probes_(probes, dynamics), kinds_(kinds), span_(counted.end - counted.begin), row_(probes.size()) {
+    sums_ = squares_ = largest_ = last_ = std::vector<double>(probes.size(), 0.0);
+  }
+  void start(const time::State& state) override {
+    probes_.evaluate(state, row_);
+    last_ = row_;
+    for (std::size_t i = 0; i < row_.size(); ++i) largest_[i] = std::abs(row_[i]);
+  }
+  void step(const time::AcceptedStep& step) override;
+  std::vector<double> values(std::size_t item) const override {
+    switch (kinds_[item]) {
+      case Item::Kind::mean:
+        return {sums_[item] / span_};
+      case Item::Kind::rms:
+        return {std::sqrt(squares_[item] / span_)};
+      case Item::Kind::peak:
+        return {largest_[item]};
+      default:
+        return {last_[item]};
+    }
+  }
+
+ private:
+  record::Probes probes_;
+  std::vector<Item::Kind> kinds_;
+  double span_;
+  std::vector<double> row_, sums_, squares_, largest_, last_, times_, weights_;
+};
+
+class SectionPart final : public CollectorPart {
+  /// An instant of a section that a step misses by this part of a period is its end.
+  static constexpr double kSameInstant = 1e-12;
+
+ public:
+  SectionPart(const std::vector<model::ProbeRequest>& probes, dynamics::Dynamics& dynamics, const Counted& counted)
+      : probes_(probes, dynamics), counted_(counted), row_(probes.size()), values_(probes.size()) {}
+  void step(const time::AcceptedStep& step) override {
+    const double slack = kSameInstant * counted_.period;
+    while (taken_ < counted_.periods && instant(taken_) <= step.to.t + slack) {
+      probes_.evaluate(step, std::min(instant(taken_), step.to.t), row_);
+      for (std::size_t i = 0; i < row_.size(); ++i) values_[i].push_back(row_[i]);
+      ++taken_;
+    }
+  }
+  double next_instant(double) const override {
+    return taken_ < counted_.periods ? instant(taken_) : std::numeric_limits<double>::infinity();
+  }
+  std::vector<double> values(std::size_t item) const override {
+    std::vector<double> all = values_[item];
+    all.resize(static_cast<std::size_t>(counted_.periods), std::numeric_limits<double>::quiet_NaN());
+    return all;
+  }
+
+ private:
+  double instant(std::int64_t i) const {
+    return i + 1 == counted_.periods ? std::min(counted_.end, after(i)) : after(i);
+  }
+  double after(std::int64_t i) const { return counted_.begin + static_cast<double>(i + 1) * counted_.period; }
+
+  record::Probes probes_;
+  Counted counted_;
+  std::int64_t taken_ = 0;
+  std::vector<double> row_;
+  std::vector<std::vector<double>> values_;
+};
+
+class FrequencyPart final : public CollectorPart {
+ public:
+  FrequencyPart(const std::vector<model::ProbeRequest>& probes, dynamics::Dynamics& dynamics, const Counted& counted);
+  void step(const time::AcceptedStep& step) override {
+    times_.clear();
+    while (taken_ < count_ && instant() <= step.to.t) {
+      times_.push_back(instant());
+      ++taken_;
+    }
+    if (times_.empty()) return;
+    probes_.sample(step, times_);
+    for (std::size_t k = 0; k < times_.size(); ++k) {
+      probes_.take(k, row_);
+      for (std::size_t i = 0; i < row_.size(); ++i) values_[i].push_back(row_[i]);
+    }
+  }
+  std::vector<double> values(std::size_t item) const override;
+
+ private:
+  double instant() const { return counted_.begin + (static_cast<double>(taken_) + 0.5) * dt_; }
+
+  record::Probes probes_;
+  Counted counted_;
+  std::int64_t count_ = 0, taken_ = 0;
+  double dt_ = 0.0;
+  std::vector<double> row_, times_;
+  std::vector<std::vector<double>> values_;
+};
+
+class ImpactPart final : public CollectorPart {
+ public:
+  ImpactPart(dynamics::Dynamics& dynamics, const Counted& counted) : impacts_(dynamics), begin_(counted.begin) {}
+  void start(const time::State& state) override { impacts_.start(state); }
+  void step(const time::AcceptedStep& step) override { impacts_.step(step); }
+  std::vector<double> values(std::size_t) const override {
+    const auto all = impacts_.impacts();
+    return {static_cast<double>(
+        std::count_if(all.begin(), all.end(), [&](const record::Impact& impact) { return impact.t_in > begin_; }))};
+  }
+
+ private:
+  record::ImpactRecorder impacts_;
+  double begin_;
+};
+
+}  // namespace butee::study

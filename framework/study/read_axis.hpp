@@ -1,0 +1,15 @@
+#pragma once
+
+#include <optional>
+
+#include "butee/config/parameters.hpp"
+#include "butee/study/plan.hpp"
+
+namespace butee::study {
+
+/// Private to this folder: the axis of an entry of [[vary]], or nothing after a complaint. `parameters` are those of
+/// vary_parameters() in `table`, which holds `values` as well.
+std::optional<Axis> read_axis(const config::Parameters& parameters, const config::Value& table, PlanKind kind,
+                              config::Diagnostics& diagnostics);
+
+}  // namespace butee::study

@@ -1,0 +1,158 @@
+#include <cmath>
+#include <numbers>
+
+#include <butee/core/text.hpp>
+#include <butee/study/worker.hpp>
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+
+namespace butee::test::study_results_test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// x'' + 0.4 x' + 9 x = 2 cos(2 t), whose steady motion is known.
+constexpr const char* kOscillator = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 9.0
+damping = 0.4
+[[load]]
+type = "harmonic"
+node = "m"
+amplitude = 2.0
+angular_frequency = 2.0
+[integrator]
+type = "exponential"
+tolerance = 1e-9
+)";
+
+/// The entries of every item of the first run of a study.
+std::vector<std::vector<double>> results_of(const std::string& scene, const std::string& settings,
+                                            const std::vector<std::string>& items) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene);
+  std::string collect;
+  for (const std::string& item : items) collect += (collect.empty() ? "\"" : ", \"") + item + "\"";
+  folder.write("study.toml",
+               "schema = 1\nscene = \"scene.toml\"\n[study]\n" + settings + "\ncollect = [" + collect + "]\n");
+  const study::Study study = study::load_study(folder.file("study.toml"));
+  const study::Layout layout = layout_of(study);
+  study::Worker worker(study, layout);
+  study::Motion motion;
+  const study::Row row = *worker.perform(0, motion, [] { return true; });
+  EXPECT_EQ(row.text(layout.find(study::kStatusColumn)), "completed") << row.text(layout.find(study::kReasonColumn));
+  std::vector<std::vector<double>> all;
+  for (const std::string& item : items) {
+    const std::size_t column = layout.find(item);
+    all.emplace_back();
+    for (std::size_t k = 0; k < layout.columns()[column].length; ++k) all.back().push_back(row.number(column, k));
+  }
+  return all;
+}
+
+TEST(StudyResults, MeetTheSteadyMotionOfAnOscillator) {
+  constexpr double kOmega = 2.0, kStiff = 9.0 - kOmega * kOmega, kDamp = 0.4 * kOmega;
+  const double amplitude = 2.0 / std::hypot(kStiff, kDamp), phase = -std::atan2(kDamp, kStiff);
+  const auto r = results_of(kOscillator, "settle = 50\nperiods = 8",
+                            {"peak m.u", "max m.v", "min m.a", "rms m.u", "mean m.u", "end m.u", "section m.u",
+                             "section m.v", "frequency m.u", "impacts", "lyapunov"});
+  // After 50 periods e^(-0.2 t) has left 2e-14 of the start; the rest is the tolerance.
+  constexpr double kGood = 1e-7;
+  EXPECT_NEAR(r[0][0], amplitude, kGood);
+  EXPECT_NEAR(r[1][0], amplitude * kOmega, kGood);
+  EXPECT_NEAR(r[2][0], -amplitude * kOmega * kOmega, kGood * 10);
+  EXPECT_NEAR(r[3][0], amplitude / std::numbers::sqrt2, kGood);
+  EXPECT_NEAR(r[4][0], 0.0, kGood);
+  EXPECT_NEAR(r[5][0], amplitude * std::cos(phase), kGood);
+  ASSERT_EQ(r[6].size(), 8U);
+  for (const double u : r[6]) EXPECT_NEAR(u, amplitude * std::cos(phase), kGood);
+  for (const double v : r[7]) EXPECT_NEAR(v, -amplitude * kOmega * std::sin(phase), kGood);
+  // A line of 8 periods lies on a frequency of the transform; the parabola leaves 1e-3 of the distance of two lines.
+  EXPECT_NEAR(r[8][0], kOmega / (2.0 * kPi), 1e-3 * kOmega / (2.0 * kPi));
+  EXPECT_EQ(r[9][0], 0.0);
+  // The free motion decays like e^(-0.2 t) in every direction.
+  EXPECT_NEAR(r[10][0], -0.2, 0.05);
+}
+
+TEST(StudyResults, CountImpactsOfABouncingMass) {
+  // Free flight between two stops 2 mm apart each side, at 1 m/s: a round takes 8e-3 s and the times in the stops.
+  const double omega = std::sqrt(1e8), round = 8e-3 + 2.0 * kPi / omega;
+  const auto r = results_of(R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 2e-3
+law = "linear"
+stiffness = 1e8
+[initial]
+velocity = [{nodes = "m", value = 1.0}]
+[integrator]
+end_time = 1.0
+tolerance = 1e-8
+[output]
+interval = 1e-3
+)",
+                            "", {"impacts", "peak m.contact_force", "frequency m.u"});
+  EXPECT_EQ(r[0][0], std::floor((1.0 - 2e-3) / round * 2.0) + 1.0);
+  EXPECT_NEAR(r[1][0], omega, 1e-5 * omega);  // m v omega
+  EXPECT_NEAR(r[2][0], 1.0 / round, 0.02 / round);
+}
+
+TEST(StudyResults, LyapunovExponentIsZeroWhereADisturbanceStays) {
+  std::string scene = kOscillator;
+  scene.replace(scene.find("stiffness = 9.0"), 15, "stiffness = 1e-6");
+  // Almost no spring: a displacement stays but for e^(-2.5e-6 t).
+  const auto r = results_of(scene, "settle = 20\nperiods = 40", {"lyapunov"});
+  EXPECT_NEAR(r[0][0], 0.0, 1e-3);
+}
+
+TEST(StudyResults, AreRefusedWithTheirReason) {
+  const auto reason = [](const std::string& item) {
+    try {
+      (void)study::read_item(item);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(reason("peek m.u").find("did you mean \"peak\""), std::string::npos);
+  EXPECT_NE(reason("peak").find("peak LABEL.QUANTITY"), std::string::npos);
+  EXPECT_NE(reason("peak m.x").find("there is no quantity \"x\""), std::string::npos);
+  EXPECT_NE(reason("impacts m.u").find("stands alone"), std::string::npos);
+  EXPECT_NE(reason("max m.contact_force").find("take peak"), std::string::npos);
+  EXPECT_EQ(reason("section string:3.theta"), "");
+}
+
+TEST(StudyRows, GoToCsvAndBack) {
+  const study::Layout layout({{"run", "1", study::Column::Type::integer},
+                              {"x", "m", study::Column::Type::number, 3},
+                              {"text", "", study::Column::Type::text, 12}});
+  study::Row row(layout);
+  row.set_integer(0, -7);
+  row.set(1, 0.1, 0);
+  row.set(1, std::nan(""), 1);
+  row.set(1, -1e-300, 2);
+  row.set_text(2, "a,\"b\" is too long");
+  const std::string line = csv_line(layout, row);
+  const study::Row back = study::from_csv(layout, line);
+  EXPECT_TRUE(std::equal(row.bytes().begin(), row.bytes().end(), back.bytes().begin(), back.bytes().end())) << line;
+  EXPECT_EQ(back.text(2), "a,\"b\" is too");
+  EXPECT_THROW((void)study::from_csv(layout, "1,2,3"), std::exception);
+  EXPECT_THROW((void)study::from_csv(layout, "1,2,x,4,t"), std::exception);
+}
+
+}  // namespace
+}  // namespace butee::test::study_results_test
