@@ -39,8 +39,8 @@ void write_picture(const check::Layout& layout, const std::string& path) {
 }
 
 int check_command(const CheckArguments& arguments) {
-  if (names_study(arguments.model.model)) {
-    print_study_survey(arguments.model, arguments.json);
+  if (studies::names_study(arguments.model.model)) {
+    studies::print_study_survey(arguments.model, arguments.json);
     return kDone;
   }
   scene::Scene session = open_session(arguments.model);

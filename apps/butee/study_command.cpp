@@ -63,6 +63,7 @@ class FolderStudy {
         store_(folder(), study_, layout_, *format_) {
     if (team != nullptr && !arguments.shard.empty()) throw InputError("--shard: mpirun shares the study out already");
     study::check_first_point(study_);
+    if (shard_.count > 1) study::Store::refuse_foreign(main_folder());
     if (arguments.plot) plot::require_gnuplot(arguments.plot_formats);
   }
 
@@ -76,8 +77,9 @@ class FolderStudy {
     if (store_.done_count() > 0 && is_first() && !log::is_quiet())
       log::info("going on: " + std::to_string(store_.done_count()) + " runs are there already");
     store_.begin(store_.next_session(), team_ != nullptr ? team_->rank() : 0);
-    ProgressLine line(is_first() && (arguments_.progress == "always" ||
-                                     (arguments_.progress == "auto" && is_terminal(stderr) && !log::is_quiet())));
+    studies::ProgressLine line(is_first() &&
+                               (arguments_.progress == "always" ||
+                                (arguments_.progress == "auto" && is_terminal(stderr) && !log::is_quiet())));
     study::PerformOptions options{arguments_.threads, shard_};
     if (team_ != nullptr) {
       options.shard = {team_->rank(), team_->size()};
@@ -111,14 +113,15 @@ class FolderStudy {
                    " runs have no results; the rows say why, the first: " + count.first_reason);
     if (!log::is_quiet()) std::printf("%lld runs, rows in %s\n", static_cast<long long>(all), store_.result().c_str());
     if (arguments_.plot)
-      for (const std::string& file : draw_study(study_, layout_, store_, arguments_.plot_formats))
+      for (const std::string& file : studies::draw_study(study_, layout_, store_, arguments_.plot_formats))
         if (!log::is_quiet()) std::printf("  picture %s\n", file.c_str());
     return count.completed > 0 ? kDone : kFailed;
   }
 
  private:
+  std::string main_folder() const { return arguments_.folder.empty() ? study_.stem + "-study" : arguments_.folder; }
   std::string folder() const {
-    std::string folder = arguments_.folder.empty() ? study_.stem + "-study" : arguments_.folder;
+    std::string folder = main_folder();
     if (shard_.count > 1)
       folder += "/shard-" + std::to_string(shard_.index + 1) + "-of-" + std::to_string(shard_.count);
     return folder;

@@ -1,5 +1,6 @@
 #include "butee/study/collect_parts.hpp"
 
+#include <array>
 #include <complex>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
@@ -12,6 +13,10 @@ namespace {
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 /// Samples of a spectrum: for each period, at least and at most.
 constexpr double kSamplesPerPeriod = 64.0, kFewestSamples = 4096.0, kMostSamples = 262144.0;
+
+/// What halving an interval may change of an integral of squares, and how often it is halved at most.
+constexpr double kGoodMean = 1e-9;
+constexpr int kMostHalvings = 12;
 
 /// The frequency of the largest line, between lines by a parabola through the logarithms of three (Hann's window).
 double dominant_frequency(std::vector<double> signal, double dt) {
@@ -35,32 +40,67 @@ double dominant_frequency(std::vector<double> signal, double dt) {
 
 }  // namespace
 
+MeanPart::Integral MeanPart::integrate(const time::AcceptedStep& step, double begin, double end) {
+  const auto points = record::gauss_points(begin, end);
+  std::array<double, points.size()> times{};
+  for (std::size_t k = 0; k < points.size(); ++k) times[k] = points[k].t;
+  Integral result{std::vector<double>(row_.size()), std::vector<double>(row_.size())};
+  probes_.sample(step, times);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    probes_.take(k, row_);
+    for (std::size_t i = 0; i < row_.size(); ++i) {
+      result.sums[i] += points[k].weight * row_[i];
+      result.squares[i] += points[k].weight * row_[i] * row_[i];
+      largest_[i] = std::max(largest_[i], std::abs(row_[i]));
+    }
+  }
+  return result;
+}
+
+bool MeanPart::are_same(const Integral& a, const Integral& b, double length) const {
+  for (std::size_t i = 0; i < row_.size(); ++i) {
+    const double square = total_.squares[i] + b.squares[i];
+    if (std::abs(a.squares[i] - b.squares[i]) > kGoodMean * square) return false;
+    if (std::abs(a.sums[i] - b.sums[i]) > kGoodMean * std::sqrt(length * square)) return false;
+  }
+  return true;
+}
+
+void MeanPart::add(const time::AcceptedStep& step, double begin, double end, const Integral& whole, int halvings) {
+  const auto take = [&](const Integral& integral) {
+    for (std::size_t i = 0; i < row_.size(); ++i) {
+      total_.sums[i] += integral.sums[i];
+      total_.squares[i] += integral.squares[i];
+    }
+  };
+  if (step.integrator.dense_output() != time::DenseOutput::other || halvings == kMostHalvings) return take(whole);
+  const double middle = 0.5 * (begin + end);
+  const Integral first = integrate(step, begin, middle), second = integrate(step, middle, end);
+  Integral both = first;
+  for (std::size_t i = 0; i < row_.size(); ++i) {
+    both.sums[i] += second.sums[i];
+    both.squares[i] += second.squares[i];
+  }
+  if (are_same(whole, both, end - begin)) return take(both);
+  add(step, begin, middle, first, halvings + 1);
+  add(step, middle, end, second, halvings + 1);
+}
+
 void MeanPart::step(const time::AcceptedStep& step) {
-  times_.clear();
-  weights_.clear();
   double begin = step.from.t;
   const auto piece = [&](double end) {
-    for (const auto& [t, weight] : record::gauss_points(begin, end)) {
-      times_.push_back(t);
-      weights_.push_back(weight);
-    }
+    const double parts = std::max(1.0, std::ceil((end - begin) / longest_)), length = (end - begin) / parts;
+    for (double k = 0.0; k < parts; k += 1.0)
+      add(step, begin + k * length, begin + (k + 1.0) * length,
+          integrate(step, begin + k * length, begin + (k + 1.0) * length), 0);
     begin = end;
   };
   for (const double knot : step.integrator.knots(step.from, step.to)) piece(knot);
   piece(step.to.t);
-  times_.push_back(step.to.t);
-  weights_.push_back(0.0);
-  probes_.sample(step, times_);
-  for (std::size_t k = 0; k < times_.size(); ++k) {
-    probes_.take(k, row_);
-    for (std::size_t i = 0; i < row_.size(); ++i) {
-      sums_[i] += weights_[k] * row_[i];
-      squares_[i] += weights_[k] * row_[i] * row_[i];
-      largest_[i] = std::max(largest_[i], std::abs(row_[i]));
-    }
-  }
-  last_ = row_;
+  probes_.evaluate(step, step.to.t, last_);
+  for (std::size_t i = 0; i < row_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(last_[i]));
 }
+
 FrequencyPart::FrequencyPart(const std::vector<model::ProbeRequest>& probes, dynamics::Dynamics& dynamics,
                              const Counted& counted)
     : probes_(probes, dynamics), counted_(counted), row_(probes.size()), values_(probes.size()) {

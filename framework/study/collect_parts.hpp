@@ -66,14 +66,19 @@ class RangePart final : public CollectorPart {
   std::vector<record::Range> ranges_;
 };
 
-/// Means, by Gauss' rule between the knots of each step, values at the end, and the largest values of forces of
-/// elements, at the same instants.
+/// Means, by Gauss' rule with five points between the knots of each step, values at the end, and the largest values of
+/// forces of elements, at the same instants. Where the dense output is no polynomial, intervals are halved until the
+/// rule over both halves is that over the whole.
 class MeanPart final : public CollectorPart {
  public:
   MeanPart(const std::vector<model::ProbeRequest>& probes, const std::vector<Item::Kind>& kinds,
            dynamics::Dynamics& dynamics, const Counted& counted)
-      : probes_(probes, dynamics), kinds_(kinds), span_(counted.end - counted.begin), row_(probes.size()) {
-    sums_ = squares_ = largest_ = last_ = std::vector<double>(probes.size(), 0.0);
+      : probes_(probes, dynamics),
+        kinds_(kinds),
+        span_(counted.end - counted.begin),
+        longest_(counted.period > 0.0 ? 0.5 * counted.period : span_),
+        row_(probes.size()) {
+    total_.sums = total_.squares = largest_ = last_ = std::vector<double>(probes.size(), 0.0);
   }
   void start(const time::State& state) override {
     probes_.evaluate(state, row_);
@@ -84,9 +89,9 @@ class MeanPart final : public CollectorPart {
   std::vector<double> values(std::size_t item) const override {
     switch (kinds_[item]) {
       case Item::Kind::mean:
-        return {sums_[item] / span_};
+        return {total_.sums[item] / span_};
       case Item::Kind::rms:
-        return {std::sqrt(squares_[item] / span_)};
+        return {std::sqrt(total_.squares[item] / span_)};
       case Item::Kind::peak:
         return {largest_[item]};
       default:
@@ -95,10 +100,19 @@ class MeanPart final : public CollectorPart {
   }
 
  private:
+  /// Integrals of values and of their squares over an interval.
+  struct Integral {
+    std::vector<double> sums, squares;
+  };
+  Integral integrate(const time::AcceptedStep& step, double begin, double end);
+  void add(const time::AcceptedStep& step, double begin, double end, const Integral& whole, int halvings);
+  bool are_same(const Integral& a, const Integral& b, double length) const;
+
   record::Probes probes_;
   std::vector<Item::Kind> kinds_;
-  double span_;
-  std::vector<double> row_, sums_, squares_, largest_, last_, times_, weights_;
+  double span_, longest_;
+  Integral total_;
+  std::vector<double> row_, largest_, last_;
 };
 
 class SectionPart final : public CollectorPart {

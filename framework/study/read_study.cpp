@@ -26,6 +26,8 @@ using config::Value;
 /// Two frequencies of loads that differ by this part are one.
 constexpr double kSameFrequency = 1e-12;
 
+constexpr double kStepsUntilEnd = 1000.0;
+
 const std::vector<std::string> kPlans = {"grid", "list", "sobol", "latin"};
 constexpr double kMostPeriods = 1e9;
 
@@ -131,10 +133,6 @@ config::Document load_scene(const config::Document& study, const Parameters& p, 
   if (p.has("set"))
     for (const std::string& assignment : p.texts("set")) config::apply_override(scene, assignment);
   for (const std::string& assignment : options.overrides) config::apply_override(scene, assignment);
-  Value& integrator = (*scene.root.table())["integrator"];
-  // The study says when its runs end.
-  if (Table* table = integrator.table(); p.has("periods") && table != nullptr && table->find("end_time") == nullptr)
-    (*table)["end_time"] = Value(1.0);
   return scene;
 }
 
@@ -178,6 +176,13 @@ config::Document scene_at(const Study& study, const std::vector<Value>& values) 
   config::Document scene = study.scene;
   for (std::size_t i = 0; i < values.size(); ++i)
     config::apply_override(scene, study.plan.axes()[i].key + "=" + config::to_toml(values[i]));
+  // The study says when its runs end; until that is known any end does that is behind the first step.
+  Table* integrator = (*scene.root.table())["integrator"].table();
+  if (study.periods && integrator != nullptr && integrator->find("end_time") == nullptr) {
+    const Value* step = integrator->find("time_step");
+    (*integrator)["end_time"] =
+        Value(step != nullptr ? std::max(1.0, kStepsUntilEnd * config::as_number(*step).value_or(0.0)) : 1.0);
+  }
   return scene;
 }
 

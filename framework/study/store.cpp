@@ -43,17 +43,6 @@ std::vector<std::string> entries_of(const std::string& folder) {
   return names;
 }
 
-void refuse_foreign(const std::string& folder) {
-  if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder))
-    throw InputError(folder + ": is a file, not a folder for results; choose another with -o");
-  if (is_ours(folder)) return;
-  for (const std::string& name : entries_of(folder))
-    if (name != record::FolderLock::kName && name != std::string(kStudyFile) + ".part" && !begins_with(name, kShard))
-      throw InputError(folder + ": is not empty and holds no study of butee (it has " + name +
-                       "), so it is left alone; choose another folder with -o");
-}
-
 std::vector<std::string> shards_in(const std::string& folder) {
   std::vector<std::string> shards;
   for (const std::string& name : entries_of(folder))
@@ -96,6 +85,17 @@ std::vector<std::string> Store::row_files(const std::string& folder) const {
                        format_.extension() + " files; take the --format that it was begun with, or --fresh");
   }
   return files;
+}
+
+void Store::refuse_foreign(const std::string& folder) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder))
+    throw InputError(folder + ": is a file, not a folder for results; choose another with -o");
+  if (is_ours(folder)) return;
+  for (const std::string& name : entries_of(folder))
+    if (name != record::FolderLock::kName && name != std::string(kStudyFile) + ".part" && !begins_with(name, kShard))
+      throw InputError(folder + ": is not empty and holds no study of butee (it has " + name +
+                       "), so it is left alone; choose another folder with -o");
 }
 
 void Store::check_identity(const std::string& folder) const {

@@ -41,6 +41,9 @@ class BUTEE_EXPORT Store {
   Store(std::string folder, const Study& study, const Layout& layout, RowFormat& format);
   ~Store();
 
+  /// Throws InputError where a folder is neither empty nor one of a study or its shards.
+  static void refuse_foreign(const std::string& folder);
+
   /// Makes the folder where it is missing, takes the right to write there and looks at what is done. With `fresh` what
   /// is there of an earlier study is taken away. Throws InputError where the folder is not ours, another process
   /// writes there, or what it holds is of another scene, study or build; RunError where it cannot be written.

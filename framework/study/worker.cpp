@@ -49,6 +49,9 @@ Counted counted_of(const Study& study, const scene::Scene& scene) {
     throw InputError("study.settle: " + std::to_string(study.settle) + " periods of " + to_short_text(counted.period) +
                      " s are not over at the end of the run, " + to_short_text(counted.end) +
                      " s; make end_time larger, or give `periods`, those that count after it");
+  if (const double step = scene.integrator.options.time_step; step > counted.end)
+    throw InputError("integrator.time_step = " + to_text(step) + " s is longer than the run, which ends after " +
+                     to_short_text(counted.end) + " s");
   if (study.periods)
     counted.periods = *study.periods;
   else if (counted.period > 0.0)

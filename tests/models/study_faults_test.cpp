@@ -235,7 +235,7 @@ TEST(BadStudies, AreRefusedWithKeyAndRemedy) {
   expect_bad("schema = 1\nscene = \"nowhere.toml\"\n[study]\ncollect = [\"impacts\"]\n",
              "nowhere.toml: cannot be read");
   expect_bad(study_of(kVary, kCollect), "--shard 3/2", {"--shard", "3/2"});
-  expect_bad(study_of(kVary, kCollect), "go together", {"--points", "-"});
+  expect_bad(study_of(kVary, kCollect), "--points", {"--points", "-"});
   expect_bad(study_of(kVary, kCollect), "scene.toml: is a file, not a folder", {"-o", "scene.toml"});
   expect_bad(study_of(kVary, kCollect), "/proc/nowhere", {"-o", "/proc/nowhere"});
 }

@@ -12,7 +12,7 @@
 #include "../gnuplot.hpp"
 #include "../plot/scale.hpp"
 
-namespace butee::app {
+namespace butee::app::studies {
 namespace {
 
 using plot::Picture;
@@ -23,6 +23,9 @@ using study::Item;
 using study::Row;
 
 constexpr const char *kUp = "#1f77b4", *kDown = "#d62728";
+/// The colours of matplotlib's viridis, which older versions of gnuplot do not know by name.
+constexpr const char* kPalette =
+    "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n";
 constexpr std::size_t kMostBins = 60;
 
 std::string number(double value) {
@@ -158,8 +161,8 @@ class Drawing {
                       number(row.number(first_item_ + item) * scale.factor) + "\n";
     });
     picture.data += "EOD\n";
-    picture.set += "set view map\nset pm3d map interpolate 1,1\nset palette viridis\nset xlabel " + axis_label(0) +
-                   "\nset ylabel " + axis_label(1) + "\nset cblabel " + label(item, scale) + "\n" +
+    picture.set += "set view map\nset pm3d map interpolate 1,1\n" + std::string(kPalette) + "set xlabel " +
+                   axis_label(0) + "\nset ylabel " + axis_label(1) + "\nset cblabel " + label(item, scale) + "\n" +
                    is_logarithmic(0, "x") + is_logarithmic(1, "y") + "set autoscale xfix\nset autoscale yfix\n";
     picture.plot = "splot $map using 1:2:3 with pm3d notitle";
     return picture;
@@ -179,7 +182,7 @@ class Drawing {
     });
     picture.data += "EOD\n";
     picture.set += "set xlabel " + label(u, of_u) + "\nset ylabel " + label(v, of_v) + "\n";
-    if (has_colour) picture.set += "set palette viridis\nset cblabel " + axis_label(0) + "\n";
+    if (has_colour) picture.set += std::string(kPalette) + "set cblabel " + axis_label(0) + "\n";
     picture.plot = std::string("plot $section with points pt 7 ps 0.2 lc ") +
                    (has_colour ? "palette" : "rgb '#222222'") + " notitle";
     return picture;
@@ -241,4 +244,4 @@ std::vector<std::string> draw_study(const study::Study& study, const study::Layo
   return made;
 }
 
-}  // namespace butee::app
+}  // namespace butee::app::studies

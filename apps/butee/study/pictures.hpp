@@ -7,7 +7,7 @@
 
 #include "../plot/chart.hpp"
 
-namespace butee::app {
+namespace butee::app::studies {
 
 /// What the rows of a study can be drawn as: bifurcation diagrams and response curves over one key, maps over two,
 /// Poincare sections where sections of u and v of a probe were collected, histograms of plans that are spread at
@@ -19,4 +19,4 @@ std::vector<plot::Picture> study_pictures(const study::Study& study, const study
 std::vector<std::string> draw_study(const study::Study& study, const study::Layout& layout, const study::Store& store,
                                     const std::vector<std::string>& formats);
 
-}  // namespace butee::app
+}  // namespace butee::app::studies

@@ -6,19 +6,19 @@
 #include <butee/core/format.hpp>
 #include <butee/core/terminal.hpp>
 
-namespace butee::app {
+namespace butee::app::studies {
 namespace {
 
 using namespace std::chrono_literals;
 
 constexpr auto kBetweenLines = 10s;
 
-std::string span_of(double time) {
+}  // namespace
+
+std::string time_span(double time) {
   if (time < 99.5) return formatted("%.0f s", time);
   return time < 5940.0 ? formatted("%.0f min", time / 60.0) : formatted("%.1f h", time / 3600.0);
 }
-
-}  // namespace
 
 ProgressLine::ProgressLine(bool is_wanted)
     : is_wanted_(is_wanted), is_terminal_(is_terminal(stderr)), begin_(Clock::now()), drawn_(begin_) {}
@@ -39,7 +39,7 @@ void ProgressLine::report(const study::Progress& progress) {
   if (progress.failed > 0) text += formatted(", %lld without results", static_cast<long long>(progress.failed));
   if (progress.fresh > 0) {
     const double pace = static_cast<double>(progress.fresh) / past;
-    text += formatted("  %.3g runs/s  ", pace) + span_of(static_cast<double>(progress.total - progress.done) / pace) +
+    text += formatted("  %.3g runs/s  ", pace) + time_span(static_cast<double>(progress.total - progress.done) / pace) +
             " left";
   }
   std::fprintf(stderr, is_terminal_ ? "\r%s\033[K" : "%s\n", text.c_str());
@@ -47,4 +47,4 @@ void ProgressLine::report(const study::Progress& progress) {
   is_on_screen_ = is_terminal_;
 }
 
-}  // namespace butee::app
+}  // namespace butee::app::studies

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include <butee/study/perform.hpp>
 
-namespace butee::app {
+namespace butee::app::studies {
+
+/// "47 s", "12 min", "3.4 h"
+std::string time_span(double seconds);
 
 /// How far a study is, on standard error: on a terminal one line drawn in place, elsewhere a line every ten seconds.
 class ProgressLine {
@@ -23,4 +27,4 @@ class ProgressLine {
   Clock::time_point begin_, drawn_;
 };
 
-}  // namespace butee::app
+}  // namespace butee::app::studies

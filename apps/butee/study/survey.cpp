@@ -11,8 +11,9 @@
 #include <butee/study/perform.hpp>
 
 #include "../json.hpp"
+#include "progress_line.hpp"
 
-namespace butee::app {
+namespace butee::app::studies {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -51,12 +52,6 @@ Trials try_runs(const study::Study& study, const study::Layout& layout) {
 const char* name_of(study::PlanKind kind) {
   constexpr const char* kNames[] = {"grid", "list", "sobol", "latin"};
   return kNames[static_cast<std::size_t>(kind)];
-}
-
-std::string span_of(double seconds) {
-  if (seconds < 99.5) return to_short_text(std::round(seconds * 10.0) / 10.0) + " s";
-  if (seconds < 5940.0) return to_short_text(std::round(seconds / 60.0)) + " min";
-  return to_short_text(std::round(seconds / 360.0) / 10.0) + " h";
 }
 
 }  // namespace
@@ -101,9 +96,9 @@ void print_study_survey(const ModelArguments& arguments, bool as_json) {
   }
   std::printf("columns    %zu, %zu bytes a row\n", layout.columns().size(), layout.row_bytes());
   std::printf("estimate   %s%s with %d threads, %s MB (trial of %d runs)\n",
-              trials.unfinished > 0 ? "more than " : "about ", span_of(seconds).c_str(), threads,
+              trials.unfinished > 0 ? "more than " : "about ", time_span(seconds).c_str(), threads,
               to_short_text(std::round(bytes / 1e4) / 100.0).c_str(), trials.count);
   if (!trials.reason.empty()) log::warning("a run of the trial has no results: " + trials.reason);
 }
 
-}  // namespace butee::app
+}  // namespace butee::app::studies

@@ -2,7 +2,7 @@
 
 #include "../session.hpp"
 
-namespace butee::app {
+namespace butee::app::studies {
 
 /// True for the file of a study of `butee study`. Throws InputError where it cannot be read.
 bool names_study(const std::string& path);
@@ -11,4 +11,4 @@ bool names_study(const std::string& path);
 /// Throws InputError with what is wrong with the study.
 void print_study_survey(const ModelArguments& arguments, bool as_json);
 
-}  // namespace butee::app
+}  // namespace butee::app::studies
