@@ -31,8 +31,8 @@ class CsvSource final : public RowSource {
   CsvSource(const std::string& path, const Layout& layout)
       : path_(path), layout_(layout), file_(path, std::ios::binary) {
     std::string line;
-    if (!file_ || !std::getline(file_, line)) throw RunError(path + ": holds no rows of a study");
-    if (file_.eof()) return;  // Its writer was killed within the first line.
+    if (!file_) throw RunError(path + ": cannot be read");
+    if (!std::getline(file_, line) || file_.eof()) return;  // Its writer was killed within the first line.
     if (line != csv_header(layout)) throw RunError(path + ": holds other columns than this study has");
     for (auto begin = file_.tellg(); std::getline(file_, line) && !file_.eof(); begin = file_.tellg())
       begins_.push_back(begin);
@@ -46,8 +46,8 @@ class CsvSource final : public RowSource {
     try {
       const Row read = from_csv(layout_, line);
       std::memcpy(row.data(), read.bytes().data(), row.size());
-    } catch (const RunError& error) {
-      throw RunError(path_ + ": line " + std::to_string(index + 2) + ": " + error.what());
+    } catch (const RunError&) {
+      return false;
     }
     return true;
   }

@@ -2,6 +2,7 @@
 
 #include "butee/config/file_reference.hpp"
 #include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
 #include "butee/core/target.hpp"
 #include "butee/plugin/module.hpp"
 #include "butee/study/store.hpp"
@@ -33,6 +34,13 @@ std::string checksum_of_build(const plugin::Catalogue& catalogue) {
   return config::checksum_text(all);
 }
 
+std::string text_in(const config::Document& document, const char* key) {
+  const config::Value* identity = document.root.table()->find("identity");
+  const config::Value* value =
+      identity != nullptr && identity->table() != nullptr ? identity->table()->find(key) : nullptr;
+  return value != nullptr && value->text() != nullptr ? *value->text() : "";
+}
+
 }  // namespace
 
 Identity identity_of(const Study& study) {
@@ -42,6 +50,20 @@ Identity identity_of(const Study& study) {
   return {config::checksum_text(config::write_toml(*study.document.root.table()) + values_of_files(study.plan)),
           config::checksum_text(scene),
           "butee " BUTEE_VERSION ", " + target() + ", " + compiled_for() + ", " + checksum_of_build(study.catalogue)};
+}
+
+void Store::check_identity(const std::string& folder) const {
+  const config::Document known = config::load_toml((fs::path(folder) / kStudyFile).string());
+  const std::pair<const char*, std::pair<std::string, const char*>> parts[] = {
+      {"study", {identity_.study, "the study (what varies, how, and what is collected)"}},
+      {"scene", {identity_.scene, "the scene, or a file that it names"}},
+      {"build", {identity_.build, "butee itself"}}};
+  for (const auto& [key, part] : parts)
+    if (const std::string was = text_in(known, key); was != part.first)
+      throw InputError(folder + ": " + part.second + " has changed since the rows there were computed (" + was +
+                       ", now " + part.first +
+                       "), so that they do not belong together; choose another folder with -o, "
+                       "or --fresh to begin anew");
 }
 
 }  // namespace butee::study

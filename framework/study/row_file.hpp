@@ -23,7 +23,7 @@ class BUTEE_EXPORT RowSource {
  public:
   virtual ~RowSource() = default;
   virtual std::int64_t size() const = 0;
-  /// False where the row was not written as a whole.
+  /// False where the row is damaged, or was not written as a whole.
   virtual bool read(std::int64_t index, std::span<std::byte> row) = 0;
 };
 
@@ -35,7 +35,8 @@ class BUTEE_EXPORT RowFormat {
   virtual std::string extension() const = 0;  ///< ".csv"
   /// Throws RunError where the file cannot be made.
   virtual std::unique_ptr<RowSink> create(const std::string& path, const Layout& layout, const std::string& title) = 0;
-  /// Throws RunError where it cannot be read, or holds other columns.
+  /// Throws RunError where it cannot be opened, or holds other columns. Of a file that its writer was killed in the
+  /// beginning of it has no rows.
   virtual std::unique_ptr<RowSource> open(const std::string& path, const Layout& layout) = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "butee/config/file_reference.hpp"
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
+#include "butee/core/log.hpp"
 #include "butee/core/text.hpp"
 #include "butee/record/file.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr const char *kMark = "# butee: the study as run", *kStudyFile = "study.toml", *kRows = "rows-",
+constexpr const char *kMark = "# butee: the study as run", *kStudyFile = Store::kStudyFile, *kRows = "rows-",
                      *kSweep = Store::kSweep, *kShard = "shard-", *kResult = "study";
 /// Rows wait so long for others, or until there are so many bytes of them.
 constexpr auto kPatience = 200ms;
@@ -49,13 +50,6 @@ std::vector<std::string> shards_in(const std::string& folder) {
     if (begins_with(name, kShard) && is_ours(fs::path(folder) / name))
       shards.push_back((fs::path(folder) / name).string());
   return shards;
-}
-
-std::string text_in(const config::Document& document, const char* key) {
-  const config::Value* identity = document.root.table()->find("identity");
-  const config::Value* value =
-      identity != nullptr && identity->table() != nullptr ? identity->table()->find(key) : nullptr;
-  return value != nullptr && value->text() != nullptr ? *value->text() : "";
 }
 
 }  // namespace
@@ -96,20 +90,6 @@ void Store::refuse_foreign(const std::string& folder) {
     if (name != record::FolderLock::kName && name != std::string(kStudyFile) + ".part" && !begins_with(name, kShard))
       throw InputError(folder + ": is not empty and holds no study of butee (it has " + name +
                        "), so it is left alone; choose another folder with -o");
-}
-
-void Store::check_identity(const std::string& folder) const {
-  const config::Document known = config::load_toml((fs::path(folder) / kStudyFile).string());
-  const std::pair<const char*, std::pair<std::string, const char*>> parts[] = {
-      {"study", {identity_.study, "the study (what varies, how, and what is collected)"}},
-      {"scene", {identity_.scene, "the scene, or a file that it names"}},
-      {"build", {identity_.build, "butee itself"}}};
-  for (const auto& [key, part] : parts)
-    if (const std::string was = text_in(known, key); was != part.first)
-      throw InputError(folder + ": " + part.second + " has changed since the rows there were computed (" + was +
-                       ", now " + part.first +
-                       "), so that they do not belong together; choose another folder with -o, "
-                       "or --fresh to begin anew");
 }
 
 void Store::clear() const {
@@ -158,6 +138,15 @@ void Store::look() {
   read_done();
 }
 
+std::unique_ptr<RowSource> Store::open_rows(const std::string& path) const {
+  try {
+    return format_.open(path, layout_);
+  } catch (const RunError& error) {
+    log::warning(std::string(error.what()) + "; its rows are computed again");
+    return nullptr;
+  }
+}
+
 void Store::read_done() {
   std::vector<std::string> files;
   if (is_complete_) {
@@ -177,8 +166,8 @@ void Store::read_done() {
   std::vector<std::byte> bytes(layout_.row_bytes());
   const std::size_t run_column = layout_.find(kRunColumn);
   for (const std::string& path : files) {
-    const auto source = format_.open(path, layout_);
-    for (std::int64_t i = 0; i < source->size(); ++i) {
+    const auto source = is_complete_ ? format_.open(path, layout_) : open_rows(path);
+    for (std::int64_t i = 0; source != nullptr && i < source->size(); ++i) {
       if (!source->read(i, bytes)) continue;
       const std::int64_t run = Row(layout_, bytes).integer(run_column);
       if (run < 0 || run >= std::ssize(done_)) throw RunError(path + ": holds a row of no run of this study");
@@ -236,8 +225,8 @@ bool Store::merge(std::int64_t& missing) {
   std::vector<std::byte> bytes(layout_.row_bytes());
   const std::size_t run_column = layout_.find(kRunColumn);
   for (const std::string& path : files) {
-    sources.push_back(format_.open(path, layout_));
-    for (std::int64_t i = 0; i < sources.back()->size(); ++i) {
+    sources.push_back(open_rows(path));
+    for (std::int64_t i = 0; sources.back() != nullptr && i < sources.back()->size(); ++i) {
       if (!sources.back()->read(i, bytes)) continue;
       Place& place = places[static_cast<std::size_t>(Row(layout_, bytes).integer(run_column))];
       if (place.file < 0) place = {static_cast<std::int32_t>(sources.size() - 1), i};

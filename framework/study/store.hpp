@@ -82,8 +82,9 @@ class BUTEE_EXPORT Store {
   };
   Count count() const;
 
-  /// What the names of files of sweeps begin with.
+  /// What the names of files of sweeps begin with, and the file with the study as run.
   static constexpr const char* kSweep = "sweep-";
+  static constexpr const char* kStudyFile = "study.toml";
 
   const std::string& folder() const { return folder_; }
   std::string file(const std::string& name) const;
@@ -92,6 +93,8 @@ class BUTEE_EXPORT Store {
 
  private:
   std::vector<std::string> row_files(const std::string& folder) const;
+  /// A file of rows of this study; one that cannot be read has none, with a warning.
+  std::unique_ptr<RowSource> open_rows(const std::string& path) const;
   void check_identity(const std::string& folder) const;
   void read_done();
   void clear() const;

@@ -65,13 +65,14 @@ Counted counted_of(const Study& study, const scene::Scene& scene) {
 Worker::Worker(const Study& study, const Layout& layout)
     : study_(study),
       layout_(layout),
-      catalogue_(study.catalogue),
       bench_(study),
       first_value_(layout.find(kStatusColumn) - study.plan.axes().size()),
       first_result_(layout.find(kReasonColumn) + 1) {}
 
 scene::Scene Worker::read(const std::vector<config::Value>& values, Counted& counted) {
-  scene::Scene scene = scene::read_scene(scene_at(study_, values), catalogue_);
+  plugin::Catalogue catalogue = catalogue_ ? std::move(*catalogue_) : study_.catalogue;
+  catalogue_.reset();
+  scene::Scene scene = scene::read_scene(scene_at(study_, values), std::move(catalogue));
   if (scene.model.initial_motion && scene.model.initial_motion->time != 0.0)
     throw InputError("initial.keep_time: runs of a study begin at t = 0; leave keep_time out");
   counted = counted_of(study_, scene);
@@ -129,7 +130,13 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
     if (number_dofs(scene.model).free_count() != motion.x.size())
       throw InputError("study.follow: the run before has other degrees of freedom than this one");
   }
+  struct CatalogueKeeper {
+    std::optional<plugin::Catalogue>& to;
+    scene::Scene& scene;
+    ~CatalogueKeeper() { to = std::move(scene.catalogue); }
+  };
   bench_.take(std::move(owned), values);
+  const CatalogueKeeper keeper{catalogue_, scene};
   time::Simulation& simulation = bench_.simulation();
   Collector collector(study_.items, scene, bench_.dynamics(), counted);
   simulation.add(collector);

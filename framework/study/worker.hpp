@@ -36,7 +36,9 @@ class BUTEE_EXPORT Worker {
 
   const Study& study_;
   const Layout& layout_;
-  plugin::Catalogue catalogue_;
+  /// Goes from scene to scene: copying it, and opening modules, takes longer than a short run. Empty where it was lost
+  /// with a scene that could not be read.
+  std::optional<plugin::Catalogue> catalogue_;
   Bench bench_;
   std::size_t first_value_, first_result_;
 };

@@ -138,7 +138,7 @@ class Source final : public study::RowSource {
   }
 
   bool read(std::int64_t index, std::span<std::byte> row) override {
-    if (index < first_ || index >= first_ + count_) load(index);
+    if ((index < first_ || index >= first_ + count_) && !load(index)) return false;
     const std::byte* from = block_.data() + static_cast<std::size_t>(index - first_) * (row_bytes_ + 8);
     std::uint64_t sum = 0;
     std::memcpy(row.data(), from, row_bytes_);
@@ -147,16 +147,23 @@ class Source final : public study::RowSource {
   }
 
  private:
-  void load(std::int64_t index) {
+  /// Takes the rows from `index` on into memory, or that one alone where others cannot be read.
+  bool load(std::int64_t index) {
     const auto most = static_cast<std::int64_t>(std::max<std::size_t>(1, kBlockBytes / (row_bytes_ + 8)));
-    first_ = index;
-    count_ = std::min(most, size_ - index);
-    block_.resize(static_cast<std::size_t>(count_) * (row_bytes_ + 8));
-    const hsize_t start = static_cast<hsize_t>(first_), count = static_cast<hsize_t>(count_);
+    for (const std::int64_t count : {std::min(most, size_ - index), std::int64_t{1}}) {
+      block_.resize(static_cast<std::size_t>(count) * (row_bytes_ + 8));
+      first_ = index;
+      count_ = read_block(static_cast<hsize_t>(index), static_cast<hsize_t>(count)) ? count : 0;
+      if (count_ > 0) return true;
+    }
+    return false;
+  }
+
+  bool read_block(hsize_t first, hsize_t count) {
     const Handle space(H5Dget_space(set_), H5Sclose, "read " + path_);
     const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose, "read " + path_);
-    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, nullptr, &count, nullptr), "read " + path_);
-    check(H5Dread(set_, type_, memory, space, H5P_DEFAULT, block_.data()), "read " + path_);
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &count, nullptr), "read " + path_);
+    return H5Dread(set_, type_, memory, space, H5P_DEFAULT, block_.data()) >= 0;
   }
 
   std::string path_;

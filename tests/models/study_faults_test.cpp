@@ -136,13 +136,7 @@ TEST(StudyStore, CutAnywhereItGivesWholeRowsAlone) {
       // Near the end mostly, where a write was under way.
       const std::size_t back = random() % (i % 2 == 0 ? std::min<std::size_t>(text.size(), 3000) : text.size());
       std::ofstream(folder.file("cut"), std::ios::binary) << text.substr(0, text.size() - back);
-      Names left;
-      try {
-        left = rows_in_file(folder.file("study.toml"), folder.file("cut"), format);
-      } catch (const std::exception&) {
-        EXPECT_GT(back, 0U);
-        continue;
-      }
+      const Names left = rows_in_file(folder.file("study.toml"), folder.file("cut"), format);
       ASSERT_LE(left.size(), whole.size());
       for (const std::string& row : left)
         EXPECT_NE(std::find(whole.begin(), whole.end(), row), whole.end()) << format << " " << back;
