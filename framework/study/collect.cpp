@@ -11,7 +11,7 @@ using Kind = Item::Kind;
 
 Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, dynamics::Dynamics& dynamics,
                      const Counted& counted)
-    : places_(items.size(), {nullptr, 0}) {
+    : places_(items.size(), {nullptr, 0}), counted_(counted) {
   const auto add = [&](const std::vector<std::size_t>& chosen, std::unique_ptr<CollectorPart> part) {
     for (std::size_t i = 0; i < chosen.size(); ++i) places_[chosen[i]] = {part.get(), i};
     parts_.push_back(std::move(part));
@@ -46,14 +46,14 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
       !chosen.empty()) {
     std::vector<Kind> kinds;
     for (const std::size_t i : chosen) kinds.push_back(items[i].kind);
-    add(chosen, std::make_unique<MeanPart>(probes_of(chosen), kinds, dynamics, counted));
+    add(chosen, std::make_unique<MeanPart>(probes_of(chosen), kinds, dynamics, counted_));
   }
   if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::section; }); !chosen.empty())
-    add(chosen, std::make_unique<SectionPart>(probes_of(chosen), dynamics, counted));
+    add(chosen, std::make_unique<SectionPart>(probes_of(chosen), dynamics, counted_));
   if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::frequency; }); !chosen.empty())
-    add(chosen, std::make_unique<FrequencyPart>(probes_of(chosen), dynamics, counted));
+    add(chosen, std::make_unique<FrequencyPart>(probes_of(chosen), dynamics, counted_));
   if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::impacts; }); !chosen.empty()) {
-    add({chosen.front()}, std::make_unique<ImpactPart>(dynamics, counted));
+    add({chosen.front()}, std::make_unique<ImpactPart>(dynamics, counted_));
     for (const std::size_t i : chosen) places_[i] = places_[chosen.front()];
   }
 }
@@ -62,6 +62,10 @@ Collector::~Collector() = default;
 
 void Collector::open(const time::State& state) {
   is_open_ = true;
+  if (state.t != counted_.begin) {
+    counted_.end = state.t + counted_.end - counted_.begin;
+    counted_.begin = state.t;
+  }
   for (const auto& part : parts_) part->start(state);
 }
 

@@ -54,7 +54,7 @@ class BUTEE_EXPORT Collector final : public time::Observer {
             const Counted& counted);
   ~Collector() override;
 
-  /// From this state on the motion counts; it is that at the beginning of the next step.
+  /// From this state on, that at the beginning of the next step, the motion counts, over the span that it was to.
   void open(const time::State& state);
 
   void step(const time::AcceptedStep& step) override;
@@ -67,6 +67,7 @@ class BUTEE_EXPORT Collector final : public time::Observer {
   std::vector<std::unique_ptr<CollectorPart>> parts_;
   /// Of each item, the part that observes it and its place there; null for "lyapunov".
   std::vector<std::pair<const CollectorPart*, std::size_t>> places_;
+  Counted counted_;
   bool is_open_ = false;
 };
 

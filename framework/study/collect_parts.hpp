@@ -10,7 +10,8 @@
 #include "butee/record/probes.hpp"
 #include "butee/study/collect.hpp"
 
-// Private to this folder: the observers of single kinds of results.
+// Private to this folder: the observers of single kinds of results. What counts must outlive them; where it begins is
+// known from the first step on.
 namespace butee::study {
 
 /// Observes one kind of results, for all items that ask for it.
@@ -146,7 +147,7 @@ class SectionPart final : public CollectorPart {
   double after(std::int64_t i) const { return counted_.begin + static_cast<double>(i + 1) * counted_.period; }
 
   record::Probes probes_;
-  Counted counted_;
+  const Counted& counted_;
   std::int64_t taken_ = 0;
   std::vector<double> row_;
   std::vector<std::vector<double>> values_;
@@ -174,7 +175,7 @@ class FrequencyPart final : public CollectorPart {
   double instant() const { return counted_.begin + (static_cast<double>(taken_) + 0.5) * dt_; }
 
   record::Probes probes_;
-  Counted counted_;
+  const Counted& counted_;
   std::int64_t count_ = 0, taken_ = 0;
   double dt_ = 0.0;
   std::vector<double> row_, times_;
@@ -183,18 +184,18 @@ class FrequencyPart final : public CollectorPart {
 
 class ImpactPart final : public CollectorPart {
  public:
-  ImpactPart(dynamics::Dynamics& dynamics, const Counted& counted) : impacts_(dynamics), begin_(counted.begin) {}
+  ImpactPart(dynamics::Dynamics& dynamics, const Counted& counted) : impacts_(dynamics), counted_(counted) {}
   void start(const time::State& state) override { impacts_.start(state); }
   void step(const time::AcceptedStep& step) override { impacts_.step(step); }
   std::vector<double> values(std::size_t) const override {
     const auto all = impacts_.impacts();
-    return {static_cast<double>(
-        std::count_if(all.begin(), all.end(), [&](const record::Impact& impact) { return impact.t_in > begin_; }))};
+    return {static_cast<double>(std::count_if(
+        all.begin(), all.end(), [&](const record::Impact& impact) { return impact.t_in > counted_.begin; }))};
   }
 
  private:
   record::ImpactRecorder impacts_;
-  double begin_;
+  const Counted& counted_;
 };
 
 }  // namespace butee::study

@@ -152,6 +152,10 @@ std::vector<Parameter> study_parameters() {
           .at_most(kMostPeriods)
           .optional(),
       config::number("period", "s", "of settle, periods and sections; absent: that of the loads").above(0).optional(),
+      config::number("steady", "1", "ends settle earlier where the motion repeats itself to this part")
+          .above(0)
+          .at_most(1e-2)
+          .optional(),
       config::texts("collect", "the results of each run"),
       config::texts("set", "overrides of the scene for all runs: KEY=VALUE").optional()};
 }
@@ -253,6 +257,7 @@ Study load_study(const std::string& path, const StudyOptions& options) {
   study.settle = p->integer("settle");
   if (p->has("periods")) study.periods = p->integer("periods");
   if (p->has("period")) study.period = p->number("period");
+  if (p->has("steady")) study.steady = p->number("steady");
   study.items = std::move(items);
   study.stem = std::filesystem::path(path).stem().string();
   if (const Value* title = document.root.table()->find("title"); title != nullptr) study.title = *title->text();
@@ -277,6 +282,7 @@ Layout layout_of(const Study& study) {
   columns.push_back({kStatusColumn, "", Type::text, kStatusLength});
   columns.push_back({kReasonColumn, "", Type::text, kReasonLength});
   for (const Item& item : study.items) columns.push_back(column_of(item, study.periods.value_or(0)));
+  if (study.steady) columns.push_back({kSettledColumn, "1", Type::integer});
   columns.push_back({kSceneColumn, "", Type::text, kHashLength});
   columns.push_back({kStepsColumn, "1", Type::integer});
   for (const char* name : {kFactorizationsColumn, kSolvesColumn, kAssembliesColumn})

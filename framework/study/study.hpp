@@ -18,6 +18,7 @@ struct Study {
   std::int64_t settle = 0;                ///< periods before results count
   std::optional<std::int64_t> periods{};  ///< that count; to the scene's end_time where absent
   std::optional<double> period{};         ///< s; that of the loads where absent
+  std::optional<double> steady{};         ///< settling ends earlier where the motion repeats itself to this part
   std::vector<Item> items{};
   std::string title{};
   std::string stem{};  ///< of its file
@@ -52,8 +53,8 @@ BUTEE_EXPORT Layout layout_of(const Study& study);
 /// Names of columns that every study has.
 inline constexpr const char *kRunColumn = "run", *kPointColumn = "point", *kDirectionColumn = "direction",
                             *kStatusColumn = "status", *kReasonColumn = "reason", *kSceneColumn = "scene",
-                            *kStepsColumn = "steps", *kFactorizationsColumn = "factorizations",
-                            *kSolvesColumn = "solves", *kAssembliesColumn = "assemblies",
-                            *kSecondsColumn = "wall_seconds";
+                            *kSettledColumn = "settled", *kStepsColumn = "steps",
+                            *kFactorizationsColumn = "factorizations", *kSolvesColumn = "solves",
+                            *kAssembliesColumn = "assemblies", *kSecondsColumn = "wall_seconds";
 
 }  // namespace butee::study

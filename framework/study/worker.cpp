@@ -12,6 +12,7 @@
 #include "butee/core/text.hpp"
 #include "butee/scene/assembly.hpp"
 #include "butee/study/lyapunov.hpp"
+#include "butee/study/steady.hpp"
 
 namespace butee::study {
 namespace {
@@ -140,13 +141,16 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
   time::Simulation& simulation = bench_.simulation();
   Collector collector(study_.items, scene, bench_.dynamics(), counted);
   simulation.add(collector);
+  std::optional<SteadyWatch> watch;
+  if (study_.steady && study_.settle > 0)
+    simulation.add(watch.emplace(bench_.dynamics(), counted.period, *study_.steady));
   bool is_stopped = false;
   const auto run = [&] {
     const time::RunReport& report = simulation.run([&] {
       is_stopped = !goes_on();
-      return !is_stopped;
+      return !is_stopped && !(watch && watch->has_news());
     });
-    if (!is_stopped && !report.completed) throw RunError(report.message);
+    if (!report.message.empty()) throw RunError(report.message);
     return !is_stopped;
   };
   const auto finish = [&] {
@@ -159,13 +163,21 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
   try {
     simulation.start();
     if (!simulation.report().message.empty()) throw RunError(simulation.report().message);
+    std::int64_t settle = study_.settle;
     if (counted.begin > 0.0) {
       simulation.set_end_time(counted.begin);
       if (!run()) return false;
+      if (watch && watch->has_news()) {
+        settle = watch->next_alike(simulation.state().t, study_.settle);
+        watch->close();
+        simulation.set_end_time(std::max(simulation.state().t, static_cast<double>(settle) * counted.period));
+        if (!run()) return false;
+      }
     }
+    if (study_.steady) row.set_integer(layout_.find(kSettledColumn), settle);
     collector.open(simulation.state());
     settled = {simulation.state().x, simulation.state().v};
-    simulation.set_end_time(counted.end);
+    simulation.set_end_time(settle == study_.settle ? counted.end : simulation.state().t + counted.end - counted.begin);
     if (!run()) return false;
   } catch (...) {
     finish();

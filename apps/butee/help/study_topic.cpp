@@ -28,6 +28,8 @@ there are, how long they take and how large the rows become.
                                    # final motion of the one before; "up", "down"
   settle  = 1440                   # periods before results count
   periods = 60                     # periods that count; without, a run lasts to end_time of the scene
+  steady  = 1.0e-5                 # settle ends earlier where the motion repeats itself, after 1 to 16 periods, to this
+                                   # part of it; the column `settled` says when
   period  = 0.02                   # s; without, that of the loads
   set     = ["contact[0].gap=0"]   # overrides of the scene for all runs
   collect = ["section rotor.u", "peak rotor.u", "impacts"]
