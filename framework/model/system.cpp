@@ -227,15 +227,6 @@ Vector initial_vector(Vector x, const std::vector<NodalValue>& values, const Dof
   return x;
 }
 
-std::vector<FreeStops> reduce_stops(const Model& model, const DofTable& dofs, Index& skipped) {
-  std::vector<FreeStops> all;
-  for (const StopGroup& group : model.stops) {
-    FreeStops stops = reduce(group, dofs, skipped);
-    if (stops.size() > 0) all.push_back(std::move(stops));
-  }
-  return all;
-}
-
 std::vector<FreeLoad> reduce_loads(const Model& model, const DofTable& dofs, Index& skipped) {
   std::vector<FreeLoad> all;
   for (const Load& load : model.loads) {
@@ -312,7 +303,10 @@ System assemble(const Model& model, TurningParts turning) {
     if (!dofs.has_mass(dof))
       throw InputError("the free " + dofs.name(dof) + " has no mass: give it one, or fix it with a [[support]]");
 
-  system.stops = reduce_stops(model, dofs, system.skipped_stops);
+  for (const StopGroup& group : model.stops) {
+    FreeStops stops = reduce(group, dofs, system.skipped_stops);
+    if (stops.size() > 0) system.stops.push_back(std::move(stops));
+  }
   for (const ObstacleGroup& group : model.obstacles) {
     FreeObstacles free = reduce(group, dofs, model.nodes, system.skipped_stops);
     if (!free.ends.empty()) system.obstacles.push_back(std::move(free));
@@ -338,8 +332,11 @@ System assemble(const Model& model, TurningParts turning) {
 }
 
 bool replace_loads(const Model& model, System& system) {
+  if (!model.obstacles.empty() || !system.obstacles.empty()) return false;
   Index skipped_stops = 0, skipped_loads = 0;
-  std::vector<FreeStops> stops = reduce_stops(model, system.dofs, skipped_stops);
+  std::vector<FreeStops> stops;
+  for (const StopGroup& group : model.stops)
+    if (FreeStops free = reduce(group, system.dofs, skipped_stops); free.size() > 0) stops.push_back(std::move(free));
   std::vector<FreeLoad> loads = reduce_loads(model, system.dofs, skipped_loads);
   const bool same_stops = std::equal(stops.begin(), stops.end(), system.stops.begin(), system.stops.end(),
                                      [](const FreeStops& a, const FreeStops& b) { return a.a == b.a && a.b == b.b; });
