@@ -12,6 +12,7 @@
 
 #include "butee/core/bytes.hpp"
 #include "butee/core/error.hpp"
+#include "butee/core/types.hpp"
 
 namespace butee::config {
 
@@ -45,6 +46,32 @@ bool is_table_of_file(const Table& table) {
   return type != nullptr && type->text() != nullptr && *type->text() == "table" && file != nullptr;
 }
 
+bool is_element_of_files(const Table& table) {
+  const Value *type = table.find("type"), *mass = table.find("mass");
+  return type != nullptr && type->text() != nullptr && *type->text() == "matrices" && mass != nullptr &&
+         mass->text() != nullptr;
+}
+
+/// A text, or that of an array of one.
+const std::string* single_text(const Value* value) {
+  if (value == nullptr) return nullptr;
+  const Array* array = value->array();
+  return array != nullptr && array->size() == 1 ? array->front().text() : value->text();
+}
+
+/// The files of [[element]] type = "matrices"; `dofs` may be a degree of freedom in place of a file.
+void pin_matrices(const Document& document, Table& table, const std::string& folder) {
+  Array checksums;
+  for (const char* key : {"mass", "stiffness", "damping", "gyroscopic", "dofs"}) {
+    const std::string* named = single_text(table.find(key));
+    if (named == nullptr || dof_named(*named)) continue;
+    const std::string file = *named;
+    checksums.emplace_back(checksum_text(read_text(path_beside(document, file))));
+    table[key] = Value(found_from(document, file, folder));
+  }
+  table["checksums"] = Value(std::move(checksums));
+}
+
 void pin_all(const Document& document, Value& value, const std::string& folder) {
   if (Array* array = value.array())
     for (Value& item : *array) pin_all(document, item, folder);
@@ -52,6 +79,7 @@ void pin_all(const Document& document, Value& value, const std::string& folder) 
   if (table == nullptr) return;
   for (auto& entry : table->entries) pin_all(document, entry.second, folder);
   if (is_table_of_file(*table)) pin(document, *table, "file", "", folder);
+  if (is_element_of_files(*table)) pin_matrices(document, *table, folder);
 }
 
 void erase(Table& table, std::initializer_list<std::string_view> keys) {

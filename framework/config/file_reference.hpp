@@ -16,8 +16,8 @@ BUTEE_EXPORT std::string read_text(const std::string& path);
 /// CRC-64/XZ as 16 hexadecimal digits.
 BUTEE_EXPORT std::string checksum_text(const std::string& bytes);
 
-/// The document for a file in `folder`: the files that it names, by `file` of tables and by [initial] from, are found
-/// from there, and stand with their size and checksum, which reading compares.
+/// The document for a file in `folder`: the files that it names, by `file` of tables, by elements of matrices and by
+/// [initial] from, are found from there, and stand with their checksums, which reading compares.
 BUTEE_EXPORT Table with_files_found_from(const Document& document, const std::string& folder);
 
 /// The document with zero in place of the files that it names, for those who need its structure alone.

@@ -32,6 +32,10 @@ class BUTEE_EXPORT ElementContext {
   /// Makes two nodes one.
   virtual void join(NodeId a, NodeId b) = 0;
   virtual config::Diagnostics& diagnostics() = 0;
+  /// The nodes of a selector, such as one in a file, or the reason why there are none.
+  virtual Selection select(std::string_view selector) = 0;
+  /// The node that stands for `node` and all that were joined to it.
+  virtual NodeId canonical(NodeId node) const = 0;
 };
 
 /// A kind of [[element]]. Keys `type` and `name` are read for it.

@@ -40,6 +40,8 @@ class ReadingContext final : public ElementContext {
   }
   void join(NodeId a, NodeId b) override { reader_.model_.nodes.join(a, b); }
   config::Diagnostics& diagnostics() override { return reader_.diagnostics_; }
+  Selection select(std::string_view selector) override { return reader_.model_.nodes.select(selector); }
+  NodeId canonical(NodeId node) const override { return reader_.model_.nodes.canonical(node); }
 
  private:
   template <class Item>

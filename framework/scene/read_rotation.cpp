@@ -77,7 +77,9 @@ void SceneReader::choose_turning(const Parameters& p) {
   for (const std::string& part : parts)
     if (std::find(able.begin(), able.end(), part) == able.end() && !lacks_elements_)
       p.complain(diagnostics_, "parts",
-                 "\"" + part + "\" is no beam along x with motion = \"lateral\" or \"spatial\", and no disc" +
+                 "\"" + part +
+                     "\" is no beam along x with motion = \"lateral\" or \"spatial\", no disc, and no matrices with "
+                     "gyroscopic" +
                      suggestion(part, able) + (able.empty() ? "" : "; these can turn: " + join(able)));
   const auto has_entry = [this](const char* list, const auto& is_meant) {
     const Value* all = root_.table()->find(list);

@@ -7,6 +7,7 @@
 #include "apps/conformance/allocation_count.hpp"
 #include "apps/conformance/check.hpp"
 #include "conformance/methods.hpp"
+#include "support/program.hpp"
 
 namespace butee::test::suite_test {
 namespace {
@@ -39,6 +40,9 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, Suite,
 TEST(SuiteOfOtherKinds, DemandsAreMet) {
   plugin::Catalogue catalogue;
   catalogue.add(BUTEE_TEST_PLUGINS);
+  const TemporaryFolder folder;
+  folder.write("m.mtx", "%%MatrixMarket matrix array real symmetric\n2 2\n2.0\n0.5\n3.0\n");
+  folder.write("k.mtx", "%%MatrixMarket matrix array real symmetric\n2 2\n200.0\n-50\n300.0\n");
   const std::map<std::string, std::string> keys = {
       {"linear", "stiffness = 1e6\n"},
       {"arctan", "stiffness = 1e6\nregularization = 7e7\n"},
@@ -55,6 +59,8 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
        "node = \"string:1\"\nstiffness = [[1e4, 2e3], [0, 3e4]]\n"
        // A planar beam has no mass along uz.
        "[[element]]\ntype = \"disc\"\nnode = \"string:1\"\nmass = 1.0\n"},
+      {"matrices", "name = \"own\"\nmass = \"" + folder.file("m.mtx") + "\"\nstiffness = \"" + folder.file("k.mtx") +
+                       "\"\nnodes = [\"own:0\", \"a\"]\ndofs = \"u\"\n"},
       {"spring", "nodes = [\"a\", \"string:2\"]\nstiffness = 1e4\ndamping = 3.0\n"}};
   int count = 0;
   const auto test = [&](const std::string& kind, const std::vector<std::string>& names) {
@@ -70,7 +76,7 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
   test("law", model::type_names(catalogue.types().laws));
   test("load", model::type_names(catalogue.types().loads));
   test("element", model::type_names(catalogue.types().elements));
-  EXPECT_EQ(count, 3 * 5 + 5 * 5 + 5 * 2);
+  EXPECT_EQ(count, 3 * 5 + 5 * 5 + 6 * 2);
 }
 
 #ifndef __SANITIZE_ADDRESS__

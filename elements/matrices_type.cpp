@@ -1,0 +1,311 @@
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <numeric>
+
+#include "butee/config/file_reference.hpp"
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+#include "elements/matrices.hpp"
+#include "elements/matrix_market.hpp"
+
+namespace butee::elements {
+namespace {
+
+using config::Diagnostics;
+using config::Parameters;
+using model::NodalDof;
+using model::NodeId;
+
+constexpr NodeId kMostNodes = 5'000'000;
+/// Differences between entries (i, j) and (j, i) up to this part of the largest entry are rounding of printed numbers.
+constexpr double kRounding = 1e-12;
+
+/// A row of the matrices: the selector of its node, or its number among the element's own nodes (else -1).
+struct Row {
+  std::string node;
+  NodeId own = -1;
+  std::optional<DofKind> kind;
+  std::string where;  ///< "dofs.txt:3: ", of rows that a file names
+};
+
+bool names_kinds(const Parameters& p) {
+  const auto dofs = p.texts("dofs");
+  return dofs.size() != 1 || dof_named(dofs.front()).has_value();
+}
+
+std::string read_file_of(const Parameters& p, const std::string& key, const Diagnostics& diagnostics) {
+  const std::string text = config::read_text(config::path_beside(diagnostics.document(), p.texts(key).front()));
+  if (!p.has("checksums")) return text;
+  std::size_t place = 0;
+  for (const char* other : {"mass", "stiffness", "damping", "gyroscopic", "dofs"}) {
+    if (key == other) break;
+    if (p.has(other)) ++place;
+  }
+  const auto checksums = p.texts("checksums");
+  const std::string change = place < checksums.size() ? config::change_of(text, 0, checksums[place]) : "";
+  if (!change.empty()) throw InputError(change);
+  return text;
+}
+
+/// Calls read(text) with the text of a file; complains about `key` where it throws, with the file's line.
+template <class Read>
+bool with_file(const Parameters& p, const std::string& key, Diagnostics& diagnostics, Read read) {
+  try {
+    read(read_file_of(p, key, diagnostics));
+    return true;
+  } catch (const InputError& error) {
+    const std::string what = error.what(), file = std::filesystem::path(p.texts(key).front()).filename().string();
+    p.complain(diagnostics, key, what.front() == ':' ? printable(file) + what : what);
+    return false;
+  }
+}
+
+std::optional<SparseMatrix> read_matrix(const Parameters& p, const std::string& key, Diagnostics& diagnostics) {
+  SparseMatrix matrix;
+  if (p.has(key) &&
+      !with_file(p, key, diagnostics, [&](const std::string& text) { matrix = read_matrix_market(text); }))
+    return std::nullopt;
+  return matrix;
+}
+
+std::optional<NodeId> number_in(std::string_view text) {
+  NodeId number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+std::string own_name(const Parameters& p) {
+  return p.has("name") ? p.text("name") : "";
+}
+
+/// The largest number of an own node in a selector such as "NAME:17" or "NAME:0..48"; -1 where it is of other nodes.
+NodeId largest_own(const std::string& selector, const std::string& name) {
+  if (name.empty() || !selector.starts_with(name + ":")) return -1;
+  const auto dots = selector.find("..");
+  return number_in(std::string_view(selector).substr(dots == std::string::npos ? name.size() + 1 : dots + 2))
+      .value_or(-1);
+}
+
+std::vector<Row> rows_in(std::string_view text, const std::string& name) {
+  std::vector<Row> rows;
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    std::string line(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++number;
+    const auto refuse = [&](const std::string& what) { throw InputError(":" + std::to_string(number) + ": " + what); };
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
+    std::vector<std::string> words;
+    for (std::size_t at = 0; (at = line.find_first_not_of(' ', at)) != std::string::npos;) {
+      const auto stop = std::min(line.find(' ', at), line.size());
+      words.push_back(line.substr(at, stop - at));
+      at = stop;
+    }
+    if (words.empty() || words.front().front() == '#' || words.front().front() == '%') continue;
+    if (words.size() != 2) refuse("must hold a node and a degree of freedom, such as \"17 uy\" or \"shaft:last rz\"");
+    const auto kind = dof_named(words[1]);
+    if (!kind) refuse("\"" + printable(words[1]) + "\" is no degree of freedom; give one of ux, uy, uz, rx, ry, rz");
+    Row row{words[0], number_in(words[0]).value_or(largest_own(words[0], name)), kind, std::to_string(number)};
+    if (row.own >= kMostNodes) refuse("own nodes are numbered below " + std::to_string(kMostNodes));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+/// The nodes that the element creates: so many as it numbers.
+model::ElementType::Nodes own_nodes(const Parameters& p, Diagnostics& diagnostics) {
+  NodeId count = 0;
+  if (!names_kinds(p)) {
+    if (p.has("nodes")) {
+      p.complain(diagnostics, "nodes", "stands beside a file of dofs, which names the nodes; give one of the two");
+      return std::nullopt;
+    }
+    if (!with_file(p, "dofs", diagnostics, [&](const std::string& text) {
+          for (const Row& row : rows_in(text, own_name(p))) count = std::max(count, row.own + 1);
+        }))
+      return std::nullopt;
+  } else if (p.has("nodes")) {
+    for (const std::string& selector : p.texts("nodes"))
+      count = std::max(count, largest_own(selector, own_name(p)) + 1);
+  } else {
+    const auto mass = read_matrix(p, "mass", diagnostics);
+    if (!mass) return std::nullopt;
+    const Index kinds = std::ssize(p.texts("dofs"));
+    if (kinds == 0 || mass->rows() % kinds != 0) {
+      p.complain(diagnostics, "dofs",
+                 "names " + std::to_string(kinds) + " degrees of freedom of each node, and mass has " +
+                     std::to_string(mass->rows()) + " rows, which is no multiple of that");
+      return std::nullopt;
+    }
+    count = static_cast<NodeId>(mass->rows() / kinds);
+  }
+  if (count == 0) return std::nullopt;
+  if (!p.has("coordinates")) {
+    std::vector<double> x(static_cast<std::size_t>(count));
+    std::iota(x.begin(), x.end(), 0.0);
+    return x;
+  }
+  auto x = p.numbers("coordinates");
+  if (std::ssize(x) != count)
+    p.complain(diagnostics, "coordinates",
+               "holds " + std::to_string(x.size()) + " numbers; the element has " + std::to_string(count) + " nodes");
+  if (std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end())
+    p.complain(diagnostics, "coordinates", "must ascend: every coordinate larger than the one before");
+  return x;
+}
+
+class Maker {
+ public:
+  Maker(const Parameters& p, model::ElementContext& context) : p_(p), context_(context) {}
+
+  std::unique_ptr<model::Element> make() {
+    std::array<SparseMatrix, 4> matrices;
+    bool ok = true;
+    for (std::size_t i = 0; i < matrices.size(); ++i) {
+      auto matrix = read_matrix(p_, kKeys[i], context_.diagnostics());
+      ok = ok && matrix;
+      if (matrix) matrices[i] = std::move(*matrix);
+    }
+    ok = ok && sizes_match(matrices) && structure_fits(matrices);
+    const auto dofs = names_kinds(p_) ? dofs_of_nodes() : dofs_of_file();
+    if (!dofs || !ok) return nullptr;
+    if (std::ssize(*dofs) != matrices[0].rows()) {
+      p_.complain(context_.diagnostics(), "dofs",
+                  "names " + std::to_string(dofs->size()) + " rows" +
+                      (names_kinds(p_) ? " with the nodes (every one for each node)" : "") + ", and mass has " +
+                      std::to_string(matrices[0].rows()));
+      return nullptr;
+    }
+    return std::make_unique<Matrices>(*dofs, matrices[0], matrices[1], matrices[2], matrices[3]);
+  }
+
+ private:
+  static constexpr std::array<const char*, 4> kKeys = {"mass", "stiffness", "damping", "gyroscopic"};
+
+  bool sizes_match(const std::array<SparseMatrix, 4>& matrices) {
+    bool ok = true;
+    for (std::size_t i = 1; i < matrices.size(); ++i) {
+      if (!p_.has(kKeys[i]) || matrices[i].rows() == matrices[0].rows()) continue;
+      p_.complain(context_.diagnostics(), kKeys[i],
+                  "has " + std::to_string(matrices[i].rows()) + " rows, and mass has " +
+                      std::to_string(matrices[0].rows()) + "; all matrices are of one size");
+      ok = false;
+    }
+    return ok;
+  }
+
+  bool structure_fits(const std::array<SparseMatrix, 4>& matrices) {
+    const auto differs = [&](std::size_t i, double sign) {
+      const SparseMatrix difference = matrices[i] - sign * SparseMatrix(matrices[i].transpose());
+      return difference.size() > 0 &&
+             difference.coeffs().cwiseAbs().maxCoeff() > kRounding * matrices[i].coeffs().cwiseAbs().maxCoeff();
+    };
+    if (matrices[0].nonZeros() > 0 && differs(0, 1.0)) {
+      p_.complain(context_.diagnostics(), "mass", "is not symmetric");
+      return false;
+    }
+    if (matrices[3].nonZeros() > 0 && differs(3, -1.0)) {
+      p_.complain(context_.diagnostics(), "gyroscopic",
+                  "is not skew-symmetric; it is G in the force -Omega G v of a turning part");
+      return false;
+    }
+    for (Index i = 0; i < matrices[0].rows(); ++i)
+      if (matrices[0].coeff(i, i) < 0.0) {
+        p_.complain(context_.diagnostics(), "mass",
+                    "has a negative entry on the diagonal, in row " + std::to_string(i + 1));
+        return false;
+      }
+    return true;
+  }
+
+  std::optional<std::vector<NodalDof>> dofs_of_nodes() {
+    std::vector<NodeId> nodes;
+    if (p_.has("nodes")) {
+      const auto selected = context_.nodes(p_, "nodes");
+      if (!selected) return std::nullopt;
+      nodes = *selected;
+    } else {
+      const auto mass = read_matrix(p_, "mass", context_.diagnostics());
+      if (!mass) return std::nullopt;
+      nodes.resize(static_cast<std::size_t>(mass->rows() / std::ssize(p_.texts("dofs"))));
+      std::iota(nodes.begin(), nodes.end(), context_.own_node());
+    }
+    std::vector<NodalDof> dofs;
+    const auto kinds = p_.texts("dofs");
+    for (std::size_t i = 0; i < kinds.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (dof_named(kinds[i]) == dof_named(kinds[k])) {
+          p_.complain(context_.diagnostics(), "dofs", "names " + kinds[i] + " twice");
+          return std::nullopt;
+        }
+    for (const NodeId node : nodes)
+      for (const std::string& kind : kinds) dofs.push_back({node, *dof_named(kind)});
+    return dofs;
+  }
+
+  std::optional<std::vector<NodalDof>> dofs_of_file() {
+    std::vector<NodalDof> dofs;
+    if (!with_file(p_, "dofs", context_.diagnostics(), [&](const std::string& text) {
+          for (const Row& row : rows_in(text, own_name(p_))) dofs.push_back(dof_of(row));
+          refuse_doubles(text, dofs);
+        }))
+      return std::nullopt;
+    if (is_excused_) return std::nullopt;
+    return dofs;
+  }
+
+  NodalDof dof_of(const Row& row) {
+    if (row.own >= 0) return {context_.own_node() + row.own, *row.kind};
+    const model::Selection selection = context_.select(row.node);
+    if (!selection.problem.empty() || selection.nodes.size() > 1)
+      throw InputError(":" + row.where + ": \"" + printable(row.node) + "\": " +
+                       (selection.problem.empty() ? "names several nodes; a row is of one" : selection.problem));
+    is_excused_ = is_excused_ || selection.excused;
+    return {selection.nodes.empty() ? 0 : selection.nodes.front(), *row.kind};
+  }
+
+  void refuse_doubles(const std::string& text, const std::vector<NodalDof>& dofs) {
+    std::vector<std::size_t> order(dofs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t i) { return std::pair(context_.canonical(dofs[i].node), dofs[i].kind); };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+    for (std::size_t i = 1; i < order.size() && !is_excused_; ++i)
+      if (key(order[i]) == key(order[i - 1])) {
+        const auto rows = rows_in(text, own_name(p_));
+        throw InputError(":" + rows[order[i]].where + ": this degree of freedom was named in line " +
+                         rows[order[i - 1]].where + " before");
+      }
+  }
+
+  const Parameters& p_;
+  model::ElementContext& context_;
+  bool is_excused_ = false;
+};
+
+}  // namespace
+
+model::ElementType matrices_type() {
+  using config::text, config::texts;
+  return {"matrices",
+          "any linear structure, by Matrix Market files of its matrices",
+          {text("mass", "the file of M, relative to the scene; symmetric"), text("stiffness", "the file of K"),
+           text("damping", "the file of C, beside what [damping] gives").optional(),
+           text("gyroscopic", "the file of G, skew-symmetric: the force -Omega G v where the part turns").optional(),
+           texts("dofs",
+                 "the degrees of freedom of each node, such as [\"uy\", \"rz\"], or a file with a row \"NODE DOF\" for "
+                 "each row of the matrices"),
+           texts("nodes",
+                 "the nodes of the rows, node by node, own ones (NAME:0..48) and those of other elements; all "
+                 "own where absent")
+               .optional(),
+           config::numbers("coordinates", "m", "of the own nodes, for pictures; 0, 1, 2 ... where absent").optional(),
+           texts("checksums", "CRC-64 of the files in the order above, as model.toml has them").optional()},
+          own_nodes,
+          [](const Parameters& p, model::ElementContext& context) { return Maker(p, context).make(); }};
+}
+
+}  // namespace butee::elements

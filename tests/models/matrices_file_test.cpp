@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::matrices_file_test {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string kSymmetric = "%%MatrixMarket matrix coordinate real symmetric\n";
+
+class MatricesFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("m.mtx", kSymmetric + "2 2 2\n1 1 2.0\n2 2 3.0\n");
+    folder_.write("k.mtx", kSymmetric + "2 2 3\n1 1 200.0\n2 1 -50.0\n2 2 300.0\n");
+  }
+  Outcome run(const std::string& keys, const std::string& node = "two:0") {
+    folder_.write("s.toml",
+                  "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 1.0\n[[element]]\ntype = "
+                  "\"matrices\"\nname = \"two\"\n" +
+                      keys + "\n[[load]]\ntype = \"constant\"\nnode = \"" + node +
+                      "\"\nvalue = 1.0\n[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 0.1\n");
+    return run_program({"run", "s.toml", "-q"}, folder_.path());
+  }
+  void refused(const std::string& keys, const std::string& says) {
+    const Outcome outcome = run(keys);
+    EXPECT_EQ(outcome.status, 2) << keys;
+    EXPECT_TRUE(holds(outcome.errors, says)) << outcome.errors;
+    EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("s-results"))) << keys;
+  }
+
+  TemporaryFolder folder_;
+  const std::string files_ = "mass = \"m.mtx\"\nstiffness = \"k.mtx\"\n";
+};
+
+TEST_F(MatricesFile, MistakesAreSaidWithTheirLine) {
+  refused("mass = \"none.mtx\"\nstiffness = \"k.mtx\"\nnodes = [\"two:0..1\"]\ndofs = \"u\"",
+          "s.toml:9: element[1].mass = \"none.mtx\": does not exist");
+  folder_.write("bad.mtx", kSymmetric + "2 2 2\n1 1 2.0\n2 2 x\n");
+  refused("mass = \"m.mtx\"\nstiffness = \"bad.mtx\"\ndofs = \"u\"",
+          "s.toml:10: element[1].stiffness = \"bad.mtx\": bad.mtx:4: the value of entry (2, 2): \"x\" is no number");
+  folder_.write("large.mtx", kSymmetric + "3 3 1\n1 1 2.0\n");
+  refused("mass = \"m.mtx\"\nstiffness = \"large.mtx\"\ndofs = \"u\"", "has 3 rows, and mass has 2");
+  folder_.write("general.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 2\n2 2 3\n1 2 0.5\n");
+  refused("mass = \"general.mtx\"\nstiffness = \"k.mtx\"\ndofs = \"u\"",
+          "element[1].mass = \"general.mtx\": is not symm");
+  refused(files_ + "gyroscopic = \"general.mtx\"\ndofs = \"u\"", "is not skew-symmetric");
+  folder_.write("negative.mtx", kSymmetric + "2 2 2\n1 1 2.0\n2 2 -3.0\n");
+  refused("mass = \"negative.mtx\"\nstiffness = \"k.mtx\"\ndofs = \"u\"", "negative entry on the diagonal, in row 2");
+}
+
+TEST_F(MatricesFile, RowsThatDoNotFitAreSaid) {
+  refused(files_ + "dofs = [\"u\", \"theta\", \"uz\"]", "names 3 degrees of freedom of each node, and mass has 2 rows");
+  refused(files_ + "dofs = [\"u\", \"uy\"]", "names uy twice");
+  refused(files_ + "dofs = \"u\"\nnodes = [\"two:0\", \"ball\", \"two:1\"]", "names 3 rows with the nodes");
+  refused(files_ + "dofs = \"u\"\nnodes = [\"two:0\", \"bal\"]",
+          "there is no node or beam \"bal\" (did you mean \"ball\"?)");
+  refused(files_ + "dofs = \"u\"\ncoordinates = [0.0, 1.0, 2.0]", "holds 3 numbers; the element has 2 nodes");
+  refused(files_ + "dofs = \"rows.txt\"", "element[1].dofs = \"rows.txt\": does not exist");
+  folder_.write("rows.txt", "# node dof\n0 u\n1 v\n");
+  refused(files_ + "dofs = \"rows.txt\"", "rows.txt:3: \"v\" is no degree of freedom");
+  folder_.write("rows.txt", "0 u\n1\n");
+  refused(files_ + "dofs = \"rows.txt\"", "rows.txt:2: must hold a node and a degree of freedom");
+  folder_.write("rows.txt", "0 u\n0 uy\n");
+  refused(files_ + "dofs = \"rows.txt\"", "rows.txt:2: this degree of freedom was named in line 1 before");
+  folder_.write("rows.txt", "0 u\nbal u\n");
+  refused(files_ + "dofs = \"rows.txt\"", "rows.txt:2: \"bal\": there is no node or beam \"bal\"");
+  folder_.write("rows.txt", "0 u\n");
+  refused(files_ + "dofs = \"rows.txt\"", "names 1 rows, and mass has 2");
+  refused(files_ + "dofs = \"rows.txt\"\nnodes = [\"two:0\"]", "stands beside a file of dofs");
+}
+
+TEST_F(MatricesFile, AreNamedInModelTomlAndFoundFromThere) {
+  folder_.write("rows.txt", "two:0, u\nball, u\n");
+  const std::string keys = files_ + "dofs = \"rows.txt\"";
+  ASSERT_EQ(run(keys).status, 0) << run(keys).errors;
+  const std::string history = read_file(folder_.file("s-results/history.csv"));
+  const auto again = [&] { return run_program({"run", "s-results/model.toml", "-o", "again", "-q"}, folder_.path()); };
+  const Outcome outcome = again();
+  ASSERT_EQ(outcome.status, 0) << outcome.errors << read_file(folder_.file("s-results/model.toml"));
+  EXPECT_EQ(read_file(folder_.file("again/history.csv")), history);
+  for (const char* command : {"check", "modes"})
+    EXPECT_EQ(run_program({command, "s.toml"}, folder_.path()).status, 0) << command;
+  folder_.write("k.mtx", kSymmetric + "2 2 3\n1 1 201.0\n2 1 -50.0\n2 2 300.0\n");
+  const Outcome changed = again();
+  EXPECT_EQ(changed.status, 2);
+  EXPECT_TRUE(holds(changed.errors, "stiffness = \"../k.mtx\": is not the file that the model was run with"))
+      << changed.errors;
+}
+
+}  // namespace
+}  // namespace butee::test::matrices_file_test

@@ -1,0 +1,157 @@
+#include <numbers>
+
+#include <butee/dynamics/modes.hpp>
+#include <butee/dynamics/whirl.hpp>
+#include <gtest/gtest.h>
+
+#include "support/matrix_files.hpp"
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::matrices_test {
+namespace {
+
+/// Matrices printed with 17 digits and summed in another order.
+constexpr double kRounding = 1e-9;
+
+constexpr const char* kHead = R"(
+schema = 1
+[material.steel]
+young_modulus = 2.1e11
+density       = 7800.0
+[section.pipe]
+shape        = "tube"
+outer_radius = 0.06
+inner_radius = 0.04
+)";
+
+std::string beam(const std::string& name, double length, int elements, const std::string& more = "") {
+  return "[[element]]\ntype = \"beam\"\nname = \"" + name +
+         "\"\nmaterial = \"steel\"\nsection = \"pipe\"\nlength = " + std::to_string(length) +
+         "\nelements = " + std::to_string(elements) + "\n" + more;
+}
+
+Vector frequencies(const std::string& toml, Index count) {
+  SceneRun run(toml);
+  const auto modes = dynamics::find_modes(dynamics::Structure(run.model(), run.system().dofs), count);
+  EXPECT_EQ(modes.problem, "");
+  return modes.frequencies;
+}
+
+class MatricesOfABeam : public testing::Test {
+ protected:
+  /// Writes the matrices of a part to files and returns the keys that name them.
+  std::string exported(const std::string& toml) {
+    SceneRun part(toml);
+    folder_.write("m.mtx", matrix_market(part.system().mass, "symmetric"));
+    folder_.write("k.mtx", matrix_market(part.system().stiffness, "general"));
+    return "mass = \"" + folder_.file("m.mtx") + "\"\nstiffness = \"" + folder_.file("k.mtx") + "\"\n";
+  }
+
+  TemporaryFolder folder_;
+};
+
+const std::string kRun =
+    "[[support]]\nnodes = [\"string:first\", \"END\"]\nfix = [\"u\"]\n[[contact]]\ntype = \"stop\"\nnodes = "
+    "\"MIDDLE\"\ngap = 0.001\nlaw = \"linear\"\nstiffness = 1e6\n[[load]]\ntype = \"harmonic\"\nnode = "
+    "\"string:1\"\namplitude = 3000.0\nangular_frequency = 30.0\n[damping]\nmass_proportional = "
+    "0.1\nstiffness_proportional = 1e-4\n[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 0.3\n";
+
+std::string run_of(const std::string& middle, const std::string& end) {
+  std::string text = kRun;
+  text.replace(text.find("END"), 3, end);
+  text.replace(text.find("MIDDLE"), 6, middle);
+  return text;
+}
+
+/// Half of a beam by its matrices, its first node that of an ordinary beam: modes and motion are those of the whole.
+TEST_F(MatricesOfABeam, are_joined_to_a_beam_at_a_shared_node) {
+  const std::string whole = kHead + beam("string", 10.0, 8) + run_of("string:6", "string:last");
+  const std::string keys = exported(kHead + beam("half", 5.0, 4) +
+                                    "[integrator]\ntype = \"newmark\"\ntime_step = "
+                                    "1e-3\nend_time = 1e-3\n");
+  const std::string nodes =
+      "nodes = [\"string:last\", \"half:0..3\"]\ndofs = [\"u\", \"theta\"]\ncoordinates = [6.25, 7.5, 8.75, 10.0]\n";
+  const std::string parts = kHead + beam("string", 5.0, 4) + "[[element]]\ntype = \"matrices\"\nname = \"half\"\n" +
+                            keys + nodes + run_of("half:1", "half:last");
+  const Vector expected = frequencies(whole, 8), found = frequencies(parts, 8);
+  for (Index i = 0; i < 8; ++i) EXPECT_NEAR(found[i], expected[i], kRounding * expected[i]) << i;
+
+  SceneRun one(whole), two(parts);
+  Sampler of_one(one.dof("string:6"), {0.1, 0.2, 0.3}), of_two(two.dof("half:1"), {0.1, 0.2, 0.3});
+  one.simulation().add(of_one);
+  two.simulation().add(of_two);
+  ASSERT_TRUE(one.run().completed);
+  ASSERT_TRUE(two.run().completed);
+  EXPECT_GT(std::abs(of_one.x[2]), 1e-3);
+  EXPECT_LT(relative_rms(of_two.x, of_one.x), 1e-8);
+}
+
+/// The rows may be named by a file, in any order that the matrices have, and the nodes be all its own.
+TEST_F(MatricesOfABeam, take_their_rows_from_a_file) {
+  const std::string pinned = kHead + beam("string", 10.0, 8) +
+                             "[[support]]\nnodes = [\"string:first\", \"string:last\"]\nfix = [\"u\"]\n" +
+                             "[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 1e-3\n";
+  SceneRun part(pinned);
+  std::string rows = dof_rows(part.system(), part.model().nodes);
+  for (std::size_t at = 0; (at = rows.find("string:", at)) != std::string::npos;) rows.erase(at, 7);
+  folder_.write("rows.txt", rows);
+  const std::string keys = exported(pinned);
+  const std::string alone = std::string("schema = 1\n[[element]]\ntype = \"matrices\"\nname = \"all\"\n") + keys +
+                            "dofs = \"" + folder_.file("rows.txt") + "\"\n" +
+                            "[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 1e-3\n";
+  EXPECT_EQ(SceneRun(alone).dof("all:0"), model::DofTable::kAbsent);
+  const Vector expected = frequencies(pinned, 8), found = frequencies(alone, 8);
+  for (Index i = 0; i < 8; ++i) EXPECT_NEAR(found[i], expected[i], kRounding * expected[i]) << i;
+}
+
+/// A turning shaft by M, K and G: whirling modes and those with damping that turns are the shaft's.
+TEST_F(MatricesOfABeam, turn_with_their_gyroscopic_matrix) {
+  const std::string disc =
+      "[[element]]\ntype = \"disc\"\nnode = \"NAME:3\"\nmass = 10.0\ndiametral_inertia = "
+      "0.2\npolar_inertia = 0.39\n";
+  const std::string rest =
+      "[[support]]\nnodes = [\"NAME:0\", \"NAME:6\"]\nfix = [\"uy\", \"uz\"]\n[damping]\n"
+      "rotating_stiffness_proportional = 1e-5\n[rotation]\nspeed = 300.0\n[integrator]\ntype = "
+      "\"rk4\"\ntime_step = 1e-6\nend_time = 1e-3\n";
+  const auto named = [](std::string text, const std::string& name) {
+    for (std::size_t at = 0; (at = text.find("NAME", at)) != std::string::npos;) text.replace(at, 4, name);
+    return text;
+  };
+  const std::string shaft = kHead + beam("shaft", 1.5, 6, "motion = \"lateral\"\ntheory = \"rayleigh\"\n");
+  SceneRun bare(shaft + "[rotation]\nspeed = 1.0\n[integrator]\ntype = \"rk4\"\ntime_step = 1e-6\nend_time = 1e-3\n");
+  const model::System apart = assemble(bare.model(), model::TurningParts::apart);
+  folder_.write("m.mtx", matrix_market(apart.mass, "symmetric"));
+  folder_.write("k.mtx", matrix_market(apart.stiffness, "symmetric"));
+  folder_.write("g.mtx", matrix_market(apart.gyroscopic, "skew-symmetric"));
+  const std::string matrices = "[[element]]\ntype = \"matrices\"\nname = \"rotor\"\nmass = \"" + folder_.file("m.mtx") +
+                               "\"\nstiffness = \"" + folder_.file("k.mtx") + "\"\ngyroscopic = \"" +
+                               folder_.file("g.mtx") + "\"\ndofs = [\"uy\", \"uz\", \"ry\", \"rz\"]\n";
+  SceneRun one(shaft + named(disc + rest, "shaft"));
+  SceneRun two(std::string("schema = 1\n") + matrices + named(disc + rest, "rotor"));
+  EXPECT_EQ(two.model().nodes.size(), 7);
+  const auto expected = dynamics::Whirl(one.model()).modes(300.0, 8),
+             found = dynamics::Whirl(two.model()).modes(300.0, 8);
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_LT(std::abs(found[i].lambda - expected[i].lambda), kRounding * std::abs(expected[7].lambda)) << i;
+  EXPECT_GT(std::abs(expected[0].lambda.imag() - expected[1].lambda.imag()), 1e-3);
+}
+
+/// C of a file comes beside [damping] and need not be symmetric.
+TEST_F(MatricesOfABeam, add_their_damping) {
+  folder_.write("m.mtx", "%%MatrixMarket matrix array real symmetric\n2 2\n2.0\n0\n3.0\n");
+  folder_.write("k.mtx", "%%MatrixMarket matrix array real symmetric\n2 2\n200.0\n-50\n300.0\n");
+  folder_.write("c.mtx", "%%MatrixMarket matrix array real general\n2 2\n1.0\n0.25\n-0.5\n2.0\n");
+  SceneRun run("schema = 1\n[[element]]\ntype = \"matrices\"\nname = \"two\"\nmass = \"" + folder_.file("m.mtx") +
+               "\"\nstiffness = \"" + folder_.file("k.mtx") + "\"\ndamping = \"" + folder_.file("c.mtx") +
+               "\"\ndofs = \"u\"\n[damping]\nmass_proportional = 0.5\n[integrator]\ntype = \"rk4\"\ntime_step = "
+               "1e-3\nend_time = 1e-2\n");
+  Eigen::Matrix2d damping;
+  damping << 1.0, -0.5, 0.25, 2.0;
+  EXPECT_EQ(Eigen::MatrixXd(run.system().dashpots), damping);
+  EXPECT_FALSE(run.system().is_symmetric);
+  EXPECT_TRUE(run.system().stiffness_is_symmetric);
+}
+
+}  // namespace
+}  // namespace butee::test::matrices_test
