@@ -88,24 +88,26 @@ void Beam::claim(model::DofTable& dofs) const {
     for (const DofKind kind : kinds) dofs.claim({node, kind}, true);
 }
 
-BendingMatrices Beam::bending(double l, bool in_xy) const {
+BendingMatrices Beam::bending(const Part& part, bool in_xy) const {
+  const double l = part.length;
   const double moment = in_xy ? section_.second_moment : section_.second_moment_y;
   const double stiffness = material_.young_modulus * moment;
   const auto& factor = in_xy ? section_.shear_factor_y : section_.shear_factor_z;
   return BendingMatrices({l, stiffness, material_.density * section_.area,
                           options_.theory == BeamTheory::euler ? 0.0 : material_.density * moment,
-                          shear_ratio(options_, material_, stiffness, section_.area, factor, l), options_.preload});
+                          shear_ratio(options_, material_, stiffness, section_.area, factor, l), part.preload});
 }
 
-model::ElementMatrices Beam::matrices_of(double l, bool turns) const {
+model::ElementMatrices Beam::matrices_of(const Part& part, bool turns) const {
+  const double l = part.length;
   const auto kinds = this->kinds();
   model::ElementMatrices matrices(2 * std::ssize(kinds));
-  const BendingMatrices in_xy = bending(l, true);
+  const BendingMatrices in_xy = bending(part, true);
   const auto y = places_of(kinds, kPlaneY);
   add_at(y, y, in_xy.mass, matrices.mass);
   add_at(y, y, in_xy.stiffness, matrices.stiffness);
   if (options_.motion == Motion::planar) return matrices;
-  const BendingMatrices in_xz = bending(l, false);
+  const BendingMatrices in_xz = bending(part, false);
   const auto z = places_of(kinds, kPlaneZ);
   add_at(z, z, with_ry(in_xz.mass), matrices.mass);
   add_at(z, z, with_ry(in_xz.stiffness), matrices.stiffness);
@@ -138,16 +140,16 @@ model::ElementMatrices Beam::matrices_of(double l, bool turns) const {
 }
 
 void Beam::assemble_planar(model::MatrixSink& sink) const {
-  double length_before = 0.0;
+  std::optional<Part> before;
   model::ElementMatrices matrices(4);
   for (std::size_t e = 0; e + 1 < nodes_.size(); ++e) {
-    const double l = coordinates_[e + 1] - coordinates_[e];
-    if (l != length_before) {
-      const BendingMatrices in_xy = bending(l, true);
+    const Part part = part_at(static_cast<Index>(e));
+    if (part != before) {
+      const BendingMatrices in_xy = bending(part, true);
       matrices.mass = in_xy.mass;
       matrices.stiffness = in_xy.stiffness;
     }
-    length_before = l;
+    before = part;
     const std::array<NodalDof, 4> dofs = {NodalDof{nodes_[e], DofKind::uy}, NodalDof{nodes_[e], DofKind::rz},
                                           NodalDof{nodes_[e + 1], DofKind::uy}, NodalDof{nodes_[e + 1], DofKind::rz}};
     sink.add(dofs, matrices);
@@ -172,18 +174,18 @@ void Beam::assemble(model::MatrixSink& sink) const {
 
 void Beam::add_parts(model::MatrixSink& sink, const std::vector<std::vector<DofKind>>& sets, bool turns) const {
   const auto kinds = this->kinds();
-  double length_before = 0.0;
+  std::optional<Part> before;
   std::vector<model::ElementMatrices> matrices;
   std::vector<NodalDof> dofs;
   for (std::size_t e = 0; e + 1 < nodes_.size(); ++e) {
-    const double l = coordinates_[e + 1] - coordinates_[e];
-    if (l != length_before) {
+    const Part part = part_at(static_cast<Index>(e));
+    if (part != before) {
       matrices.clear();
-      const model::ElementMatrices whole = matrices_of(l, turns);
+      const model::ElementMatrices whole = matrices_of(part, turns);
       for (const auto& set : sets)
         matrices.push_back(set.size() == kinds.size() ? whole : selected(whole, places_of(kinds, set)));
     }
-    length_before = l;
+    before = part;
     for (std::size_t i = 0; i < sets.size(); ++i) {
       dofs.clear();
       for (const NodeId node : {nodes_[e], nodes_[e + 1]})
@@ -229,7 +231,7 @@ std::optional<model::SectionCut> Beam::cut(Index part, bool at_end) const {
   const double l = length_of(part), sign = at_end ? 1.0 : -1.0;
   const auto kinds = this->kinds();
   model::SectionCut cut(dofs_of(part));
-  cut.matrices = matrices_of(l, false);
+  cut.matrices = matrices_of(part_at(part), turning() != Turning::never);
   for (int axis = 0; axis < 3; ++axis) cut.line_loads.col(axis) = line_load(l, Eigen::Vector3d::Unit(axis));
   // Rows of the forces along, and of the moments about, the beam's own axes.
   for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -237,9 +239,18 @@ std::optional<model::SectionCut> Beam::cut(Index part, bool at_end) const {
     const int first = is_rotation(kinds[k]) ? 3 : 0;
     cut.resultants.block<3, 1>(first, column) = sign * options_.axes.row(axis_of(kinds[k])).transpose();
   }
+  cut.area = section_.area;
+  cut.preload = part_at(part).preload;
+  if (section_.torsion_modulus > 0.0) cut.torsion_modulus = section_.torsion_modulus;
   if (section_.outer_fibre > 0.0) cut.modulus = section_.second_moment / section_.outer_fibre;
   if (section_.outer_fibre_z > 0.0) cut.modulus_y = section_.second_moment_y / section_.outer_fibre_z;
   return cut;
+}
+
+std::vector<double> Beam::preload() const {
+  std::vector<double> all;
+  for (Index part = 0; part + 1 < std::ssize(nodes_); ++part) all.push_back(part_at(part).preload);
+  return all;
 }
 
 Beam::Turning Beam::turning() const {

@@ -14,7 +14,8 @@ struct BeamOptions {
   };
   Motion motion = Motion::planar;
   BeamTheory theory = BeamTheory::euler;
-  double preload = 0.0;  ///< N, tension positive: the axial force that is there before
+  double preload = 0.0;             ///< N, tension positive: the axial force that is there before
+  bool preload_of_gravity = false;  ///< in its place the forces of the static position under gravity, set later
   /// Columns: the beam's own axes x, y and z in space. Those of planar and lateral beams are the axes of space.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
@@ -38,6 +39,9 @@ class Beam final : public model::Element {
   std::vector<model::NodeId> axis() const override { return nodes_; }
   /// p at the end of a part in the beam's own axes, its opposite at its beginning.
   std::optional<model::SectionCut> cut(Index part, bool at_end) const override;
+  std::vector<double> preload() const override;
+  void set_preload(std::vector<double> forces) override { preloads_ = std::move(forces); }
+  bool takes_preload_of_gravity() const override { return options_.preload_of_gravity; }
   Turning turning() const override;
   std::string turning_problem() const override;
 
@@ -45,9 +49,17 @@ class Beam final : public model::Element {
   double length_of(Index part) const;
   std::vector<DofKind> kinds() const;
   std::vector<model::NodalDof> dofs_of(Index part) const;
-  BendingMatrices bending(double l, bool in_xy) const;
-  /// Mass, stiffness and, where it turns, gyroscopic matrix of an element of length l on the DOFs of dofs_of().
-  model::ElementMatrices matrices_of(double l, bool turns) const;
+  /// What the matrices of a part depend on.
+  struct Part {
+    double length, preload;
+    bool operator==(const Part&) const = default;
+  };
+  Part part_at(Index part) const {
+    return {length_of(part), preloads_.empty() ? options_.preload : preloads_[static_cast<std::size_t>(part)]};
+  }
+  BendingMatrices bending(const Part& part, bool in_xy) const;
+  /// Mass, stiffness and, where it turns, gyroscopic matrix of a part on the DOFs of dofs_of().
+  model::ElementMatrices matrices_of(const Part& part, bool turns) const;
   /// Consistent nodal forces of a line load in N/m on an element of length l.
   Eigen::VectorXd line_load(double l, const Eigen::Vector3d& in_space) const;
   void assemble_planar(model::MatrixSink& sink) const;
@@ -59,6 +71,7 @@ class Beam final : public model::Element {
   std::vector<model::NodeId> nodes_;
   std::vector<double> coordinates_;
   BeamOptions options_;
+  std::vector<double> preloads_;  ///< of the parts; empty: that of the options
 };
 
 model::ElementType beam_type();

@@ -109,7 +109,14 @@ std::unique_ptr<model::Element> make_beam(const Parameters& p, model::ElementCon
   options.theory = theory == "euler"      ? BeamTheory::euler
                    : theory == "rayleigh" ? BeamTheory::rayleigh
                                           : BeamTheory::timoshenko;
-  options.preload = p.number("preload");
+  options.preload_of_gravity = p.value("preload").text() != nullptr;
+  if (options.preload_of_gravity && options.motion != Motion::spatial) {
+    p.complain(context.diagnostics(), "preload",
+               "needs the axial displacement of the static position: write motion = \"spatial\", or give the axial "
+               "force in N");
+    return nullptr;
+  }
+  if (!options.preload_of_gravity) options.preload = p.number("preload");
   const auto axes = read_axes(p, context.diagnostics());
   if (axes) options.axes = *axes;
   if (axes && options.motion != Motion::spatial && !axes->isIdentity(kParallel)) {
@@ -158,7 +165,11 @@ model::ElementType beam_type() {
            numbers("up", "1", "with points, a direction in the plane of the beam's own axes x and y")
                .of_length(3)
                .or_else(config::Array{config::Value(0.0), config::Value(1.0), config::Value(0.0)}),
-           number("preload", "N", "the axial force that is there before, tension positive").or_else(0.0),
+           number("preload", "N",
+                  "the axial force that is there before, tension positive; gravity: that of the static "
+                  "position under [gravity]")
+               .one_of({"gravity"})
+               .or_else(0.0),
            text("start_node", "a node of another element that is this beam's first").optional(),
            text("end_node", "a node of another element that is this beam's last").optional()},
           read_coordinates,

@@ -25,6 +25,7 @@ Section annulus(double ro, double ri) {
   section.second_moment_y = second_moment;
   section.outer_fibre_z = ro;
   section.torsion_constant = 2.0 * second_moment;
+  section.torsion_modulus = section.torsion_constant / ro;
   section.shear_factor_y = section.shear_factor_z = shear;
   return section;
 }

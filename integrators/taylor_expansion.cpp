@@ -45,10 +45,6 @@ TaylorExpander::TaylorExpander(dynamics::Dynamics& dynamics, int order, double t
       stops_(dynamics.stop_count()),
       velocity_(dynamics.size()),
       terms_(order + 1) {
-  if (dynamics.system().rotation != nullptr)
-    throw InputError(
-        "integrator.type: exact takes shafts that turn at a constant speed, since its series are those of constant "
-        "matrices; with rotation.speed that varies take rodas4, dopri5 or extrapolation8");
   if (dynamics.obstacles() != nullptr) obstacles_.emplace(dynamics, order);
   for (const model::FreeLoad& load : dynamics.system().loads)
     if (!load.in_time->taylor(0.0, 1.0, load_))
@@ -60,6 +56,7 @@ TaylorExpander::TaylorExpander(dynamics::Dynamics& dynamics, int order, double t
 bool TaylorExpander::expand(double t, const Vector& x, const Vector& v, ContactBranches& branches,
                             TaylorExpansion& to) {
   to.begin = t;
+  dynamics_.set_time(t);
   to.x.resize(x.size(), order_ + 1);
   to.x.col(0) = x;
   to.x.col(1) = to.length * v;
@@ -98,6 +95,11 @@ void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
     if (contact.size() > 0) {
       branches.force(w_, k, stop_force_);
       contact.scatter(stop_force_, force_);
+    }
+    if (k > 0 && dynamics_.system().rotation != nullptr) {
+      // C(t) and K(t) of a speed that is linear in time add C' h v_(k-1) + K' h x_(k-1).
+      velocity_ = static_cast<double>(k) * to.x.col(k);
+      dynamics_.subtract_matrix_rate(h * to.x.col(k - 1), velocity_, force_);
     }
     velocity_ = (static_cast<double>(k + 1) / h) * to.x.col(k + 1);
     if (obstacles_) obstacles_->add(k, to.x.col(k), velocity_, force_);

@@ -31,9 +31,10 @@ std::vector<std::string> laws_of(const config::Document& document) {
   return laws;
 }
 
-void write_picture(const check::Layout& layout, const std::string& path) {
+void write_picture(const model::Model& model, const check::Survey& survey, const check::Layout& layout,
+                   const std::string& path) {
   std::ofstream file(path, std::ios::binary);
-  file << check::picture_svg(layout);
+  file << (check::is_in_space(model) ? check::picture_in_space(model, survey) : check::picture_svg(layout));
   file.close();
   if (!file) throw RunError(path + ": cannot be written");
 }
@@ -60,7 +61,7 @@ int check_command(const CheckArguments& arguments) {
   else
     check::print(session, system, facts, check::picture_text(layout, terminal_width(stdout), check::locale_is_utf8()));
   std::fflush(stdout);
-  if (!arguments.picture.empty()) write_picture(layout, arguments.picture);
+  if (!arguments.picture.empty()) write_picture(session.model, facts.survey, layout, arguments.picture);
   if (!arguments.json)
     for (const check::Advice& item : advice) log::warning(item.text);
   for (const std::string& warning : session.warnings) log::warning(warning);

@@ -31,7 +31,13 @@ std::string quoted_choices(const Parameter& parameter) {
 
 std::string number_complaint(const Parameter& parameter, const Value& value) {
   const auto number = as_number(value);
-  if (!number) return std::string("must be a number, not ") + value.kind();
+  const std::string* word = value.text();
+  if (word != nullptr &&
+      std::find(parameter.choices.begin(), parameter.choices.end(), *word) != parameter.choices.end())
+    return "";
+  if (!number)
+    return "must be a number" + (parameter.choices.empty() ? "" : " or " + quoted_choices(parameter)) + ", not " +
+           (word != nullptr && !parameter.choices.empty() ? "another string" : value.kind());
   const bool inside = std::isfinite(*number) && *number <= parameter.upper &&
                       (parameter.lower_open ? *number > parameter.lower : *number >= parameter.lower);
   if (inside) return "";
@@ -149,7 +155,7 @@ Parameter Parameter::of_length(std::size_t wanted) const {
 std::string Parameter::describe() const {
   switch (kind) {
     case Kind::number:
-      return "number" + bounds_text(*this);
+      return "number" + bounds_text(*this) + (choices.empty() ? "" : " or " + quoted_choices(*this));
     case Kind::integer:
       return "integer" + bounds_text(*this);
     case Kind::boolean:

@@ -32,7 +32,7 @@ struct BUTEE_EXPORT Parameter {
   Parameter try_first(Value::Data value) const;
   /// The key sets how accurate a method is: comparisons sweep it from `loose` to `tight`.
   Parameter sweep(double loose, double tight) const;
-  /// The only texts allowed.
+  /// The only texts allowed; of a number, texts that may stand in its place.
   Parameter one_of(std::vector<std::string> names) const;
   /// The exact length of an array.
   Parameter of_length(std::size_t length) const;

@@ -71,6 +71,21 @@ SparseMatrix or_zero(const SparseMatrix& matrix, Index n) {
   return matrix.size() > 0 ? matrix : SparseMatrix(n, n);
 }
 
+struct Pairs {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+
+/// Eigenvalues and eigenvectors. The real QR iteration gives up now and then where pairs lie close together; the
+/// complex one then finds them.
+Pairs pairs_of(const Eigen::MatrixXd& matrix) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  if (solver.info() == Eigen::Success) return {solver.eigenvalues(), solver.eigenvectors()};
+  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> complex(matrix.cast<Complex>());
+  if (complex.info() != Eigen::Success) throw RunError("the whirling modes could not be computed");
+  return {complex.eigenvalues(), complex.eigenvectors()};
+}
+
 }  // namespace
 
 double WhirlMode::damping_ratio() const {
@@ -152,18 +167,15 @@ std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
   motion.bottomLeftCorner(n, n) = -(scale.cwiseInverse().asDiagonal() * stiffness);
   motion.bottomRightCorner(n, n) =
       -(scale.cwiseInverse().asDiagonal() * (modal_damping_ + speed * modal_gyroscopic_) * scale.asDiagonal());
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(motion);
-  if (solver.info() != Eigen::Success) throw RunError("the whirling modes could not be computed");
+  const Pairs pairs = pairs_of(motion);
   std::vector<Index> places;
   for (Index i = 0; i < 2 * n; ++i)
-    if (solver.eigenvalues()[i].imag() >= 0.0) places.push_back(i);
-  std::stable_sort(places.begin(), places.end(), [&](Index a, Index b) {
-    return std::abs(solver.eigenvalues()[a]) < std::abs(solver.eigenvalues()[b]);
-  });
+    if (pairs.values[i].imag() >= 0.0) places.push_back(i);
+  std::stable_sort(places.begin(), places.end(),
+                   [&](Index a, Index b) { return std::abs(pairs.values[a]) < std::abs(pairs.values[b]); });
   places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
   std::vector<WhirlMode> modes;
-  for (const Index i : places)
-    modes.push_back(finished(solver.eigenvalues()[i], shapes_ * solver.eigenvectors().col(i).head(n)));
+  for (const Index i : places) modes.push_back(finished(pairs.values[i], shapes_ * pairs.vectors.col(i).head(n)));
   sort(modes);
   return modes;
 }

@@ -51,6 +51,10 @@ struct SectionCut {
   Eigen::Matrix<double, 6, Eigen::Dynamic> resultants;
   std::optional<double> modulus;    ///< m3: Mz over the stress of the outer fibre, where the section knows that fibre
   std::optional<double> modulus_y;  ///< m3: the same of My
+  /// m3: T over the shear stress of the outer fibre, of round sections alone, whose modulus is the same all around.
+  std::optional<double> torsion_modulus;
+  double area = 0.0;     ///< m2
+  double preload = 0.0;  ///< N, the axial force that is there before, which N holds beside the row of `resultants`
 };
 
 /// A linear structural element of the model file: a whole beam, a lumped mass, a spring.
@@ -88,6 +92,13 @@ class BUTEE_EXPORT Element {
     (void)part, (void)at_end;
     return std::nullopt;
   }
+
+  /// The axial forces of the parts of a beam that are there before, N, tension positive; empty for other elements.
+  virtual std::vector<double> preload() const { return {}; }
+  /// Replaces them: a number for each part.
+  virtual void set_preload(std::vector<double> forces) { (void)forces; }
+  /// True where they are to be those of the static position under gravity.
+  virtual bool takes_preload_of_gravity() const { return false; }
 
   /// True where the forces of the element on its nodes are spring forces.
   virtual bool is_spring() const { return false; }

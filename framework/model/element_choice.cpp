@@ -75,6 +75,24 @@ CutChoice cut_at(const Model& model, const Place& place, NodeId node, Index part
   return {model.elements[place.element].get(), part, part + 1 == place.at, ""};
 }
 
+/// Why a section force or stress is not known at the end of a part, or "".
+std::string cut_problem(Quantity quantity, const SectionCut& cut) {
+  const auto has = [&](Index row) { return !cut.resultants.row(row).isZero(0.0); };
+  const bool needs_modulus = quantity == Quantity::bending_stress || quantity == Quantity::von_mises;
+  if (needs_modulus && !cut.modulus)
+    return "the section of the beam does not know its outer fibre; give outer_fibre (m) beside second_moment";
+  const auto row = resultant_row(quantity);
+  if (row && !has(*row) && !(*row == 0 && cut.preload != 0.0))
+    return *row == 0 || *row == 3 ? "the beam has no such motion; write motion = \"spatial\""
+                                  : "the beam has no such motion; write motion = \"lateral\" or \"spatial\"";
+  if (quantity != Quantity::von_mises || !has(4)) return "";
+  if (has(3) && !cut.torsion_modulus)
+    return "the stress of torsion is known of round sections alone (tube, circle); bending_stress is that of bending "
+           "along u";
+  if (!cut.modulus_y) return "the section of the beam does not know its outer fibre along z; give outer_fibre_z (m)";
+  return "";
+}
+
 }  // namespace
 
 const std::string& element_name(const Model& model, std::size_t element) {
@@ -113,24 +131,42 @@ bool is_spring_on(const Model& model, std::size_t element, NodalDof dof, const s
   return found;
 }
 
+std::optional<Index> resultant_row(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::normal_force:
+      return 0;
+    case Quantity::shear_force:
+    case Quantity::shear_y:
+      return 1;
+    case Quantity::shear_z:
+      return 2;
+    case Quantity::torque:
+      return 3;
+    case Quantity::moment_y:
+      return 4;
+    case Quantity::bending_moment:
+    case Quantity::moment_z:
+    case Quantity::bending_stress:
+      return 5;
+    default:
+      return std::nullopt;
+  }
+}
+
 std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,
                     const std::string& element) {
   const NodalDof dof{node, kind_of(quantity)};
   const std::string none = std::string("there is no ") + name_of(quantity) + ": ";
-  if (is_element_force(quantity) && source_of(quantity) != Source::contacts && model.rotation != nullptr)
-    return none + "forces of elements leave out the gyroscopic forces of parts that turn";
+  if (is_absolute(quantity) && model.bases.empty())
+    return none + "the base does not move, so that u, v and a are those in space; give [base], or ask for them";
+  if (is_absolute(quantity) && !knows_base_motion(model))
+    return none + "the motion of the base is known of harmonic, constant, ramp and table alone";
   switch (source_of(quantity)) {
     case Source::section: {
       const CutChoice choice = choose_cut(model, node, element);
       if (choice.beam == nullptr) return none + choice.problem;
-      const bool needs_modulus = quantity == Quantity::bending_stress || quantity == Quantity::von_mises;
-      if (needs_modulus && !choice.beam->cut(choice.part, choice.at_end)->modulus)
-        return none +
-               "the section of the beam does not know its outer fibre; give outer_fibre (m) beside second_moment";
-      constexpr std::size_t kPlanarDofs = 4;
-      if (quantity == Quantity::von_mises && choice.beam->cut(choice.part, choice.at_end)->dofs.size() > kPlanarDofs)
-        return none + "it is that of beams with motion = \"planar\"; bending_stress is that of bending along u alone";
-      return "";
+      const std::string problem = cut_problem(quantity, *choice.beam->cut(choice.part, choice.at_end));
+      return problem.empty() ? "" : none + problem;
     }
     case Source::springs: {
       const auto acts = [&](std::size_t i, const std::string& name) { return is_spring_on(model, i, dof, name); };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "butee/model/model.hpp"
@@ -19,6 +20,9 @@ struct CutChoice {
 /// beam ("string") or one of its parts ("string:17", between the nodes 17 and 18). Without it the beam is the one by
 /// which the node is named, or the only one that it belongs to.
 BUTEE_EXPORT CutChoice choose_cut(const Model& model, NodeId node, const std::string& element);
+
+/// The row of SectionCut::resultants of a section force or of bending_stress; nothing for other quantities.
+BUTEE_EXPORT std::optional<Index> resultant_row(Quantity quantity);
 
 /// The reason why `quantity` cannot be recorded at the node, or "". `dofs` are those of the model.
 BUTEE_EXPORT std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,

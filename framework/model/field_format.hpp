@@ -30,7 +30,7 @@ struct FieldLayout {
   std::string title;
   std::vector<std::string> nodes;                ///< "string:17"
   std::vector<double> coordinates;               ///< m, along the own beam; 0 for a lone node
-  std::vector<std::array<double, 3>> positions;  ///< m, at rest: along the beam, along u, across
+  std::vector<std::array<double, 3>> positions;  ///< m, at rest: along the beam, along u, across; in space
   std::vector<FieldLine> lines;                  ///< a node in none of them is a point
   std::vector<Field> fields;
   std::vector<Field> columns;  ///< of a row of the history: "t", "mid.u", ..., "h"; a reader leaves it empty

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "butee/model/base_motion.hpp"
 #include "butee/model/contact_law.hpp"
 #include "butee/model/dofs.hpp"
 #include "butee/model/element.hpp"
@@ -36,6 +37,7 @@ struct Load {
   const Element* line = nullptr;  ///< the element that it is a line load of, whose section forces it enters
   double per_length = 0.0;        ///< N/m, of a line load
   DofKind along = DofKind::uy;    ///< the displacement that a line load acts along
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< of a pattern M r, r along x, y and z; else 0
 };
 
 /// A motion to start from: of every free DOF, in the order of DofTable::free().
@@ -72,9 +74,11 @@ struct Model {
   std::vector<ObstacleGroup> obstacles;
   std::vector<Load> loads;
   Damping damping;
-  std::unique_ptr<Rotation> rotation;  ///< null where nothing turns
-  std::vector<bool> turns;             ///< of `elements`, those that turn with it; may be shorter
-  bool starts_static = false;          ///< from rest in the static position under the loads of the start
+  std::unique_ptr<Rotation> rotation;        ///< null where nothing turns
+  std::vector<bool> turns;                   ///< of `elements`, those that turn with it; may be shorter
+  std::vector<BaseMotion> bases;             ///< motions of the supports, whose forces `loads` hold
+  BaseFrame base_frame = BaseFrame::moving;  ///< what x is measured from
+  bool starts_static = false;                ///< from rest in the static position under the loads of the start
   double rotating_damping = 0.0;  ///< s: of the parts that turn, stiffness-proportional damping that turns with them
   std::optional<InitialMotion> initial_motion;  ///< of an earlier run; the values below replace parts of it
   std::vector<NodalValue> initial_displacement;

@@ -8,8 +8,10 @@ namespace butee::model {
 template <class Take>
 class PartsAt final : public MatrixSink {
  public:
-  PartsAt(const NodeTable& nodes, NodalDof dof, Take take)
-      : nodes_(nodes), node_(nodes.canonical(dof.node)), kind_(dof.kind), take_(std::move(take)) {}
+  PartsAt(const NodeTable& nodes, NodalDof dof, Take take, bool turns = false)
+      : nodes_(nodes), node_(nodes.canonical(dof.node)), kind_(dof.kind), take_(std::move(take)), turns_(turns) {}
+
+  bool turns() const override { return turns_; }
 
   void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) override {
     for (std::size_t i = 0; i < dofs.size(); ++i)
@@ -22,6 +24,7 @@ class PartsAt final : public MatrixSink {
   NodeId node_;
   DofKind kind_;
   Take take_;
+  bool turns_;
 };
 
 }  // namespace butee::model

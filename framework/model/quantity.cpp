@@ -16,7 +16,7 @@ struct Description {
 };
 
 /// In the order of Quantity.
-constexpr std::array<Description, 41> kAll = {{
+constexpr std::array<Description, 68> kAll = {{
     {"u", "m", "displacement", Source::motion, DofKind::uy, 0},
     {"v", "m/s", "velocity", Source::motion, DofKind::uy, 1},
     {"a", "m/s2", "acceleration", Source::motion, DofKind::uy, 2},
@@ -57,6 +57,39 @@ constexpr std::array<Description, 41> kAll = {{
     {"rz", "rad", "rotation about z, another name of theta", Source::motion, DofKind::rz, 0},
     {"rz_v", "rad/s", "its velocity", Source::motion, DofKind::rz, 1},
     {"rz_a", "rad/s2", "its acceleration", Source::motion, DofKind::rz, 2},
+    {"u_abs", "m", "displacement in space, where the base moves", Source::motion, DofKind::uy, 0},
+    {"v_abs", "m/s", "its velocity", Source::motion, DofKind::uy, 1},
+    {"a_abs", "m/s2", "its acceleration", Source::motion, DofKind::uy, 2},
+    {"ux_abs", "m", "displacement along x in space", Source::motion, DofKind::ux, 0},
+    {"ux_v_abs", "m/s", "its velocity", Source::motion, DofKind::ux, 1},
+    {"ux_a_abs", "m/s2", "its acceleration", Source::motion, DofKind::ux, 2},
+    {"uz_abs", "m", "displacement along z in space", Source::motion, DofKind::uz, 0},
+    {"uz_v_abs", "m/s", "its velocity", Source::motion, DofKind::uz, 1},
+    {"uz_a_abs", "m/s2", "its acceleration", Source::motion, DofKind::uz, 2},
+    {"N", "N", "normal force of a beam, with its preload: tension is positive", Source::section, DofKind::ux, 0},
+    {"Vy", "N", "shear force along the beam's own axis y; V of a beam along x", Source::section, DofKind::uy, 0},
+    {"Vz", "N", "shear force along the beam's own axis z", Source::section, DofKind::uz, 0},
+    {"T", "N m", "torque about the beam's own axis x", Source::section, DofKind::rx, 0},
+    {"My", "N m", "bending moment about the beam's own axis y, -E I d2w/dx2", Source::section, DofKind::ry, 0},
+    {"Mz", "N m", "bending moment about the beam's own axis z; M of a beam along x", Source::section, DofKind::rz, 0},
+    {"spring_ux", "N", "force of springs on ux, bearings and their dashpots on the node", Source::springs, DofKind::ux,
+     0},
+    {"spring_uy", "N", "force of springs on uy, bearings and their dashpots on the node", Source::springs, DofKind::uy,
+     0},
+    {"spring_uz", "N", "force of springs on uz, bearings and their dashpots on the node", Source::springs, DofKind::uz,
+     0},
+    {"spring_rx", "N m", "moment of springs on rx, bearings and their dashpots on the node", Source::springs,
+     DofKind::rx, 0},
+    {"spring_ry", "N m", "moment of springs on ry, bearings and their dashpots on the node", Source::springs,
+     DofKind::ry, 0},
+    {"spring_rz", "N m", "moment of springs on rz, bearings and their dashpots on the node", Source::springs,
+     DofKind::rz, 0},
+    {"reaction_ux", "N", "force of a support that fixes ux of the node", Source::support, DofKind::ux, 0},
+    {"reaction_uy", "N", "force of a support that fixes uy of the node", Source::support, DofKind::uy, 0},
+    {"reaction_uz", "N", "force of a support that fixes uz of the node", Source::support, DofKind::uz, 0},
+    {"reaction_rx", "N m", "moment of a support that fixes rx of the node", Source::support, DofKind::rx, 0},
+    {"reaction_ry", "N m", "moment of a support that fixes ry of the node", Source::support, DofKind::ry, 0},
+    {"reaction_rz", "N m", "moment of a support that fixes rz of the node", Source::support, DofKind::rz, 0},
     {"normal_force", "N", "normal force of the contacts on the node, with dissipation", Source::contacts, DofKind::uy,
      0},
     {"friction_force", "N", "their friction force, positive against a positive slip", Source::contacts, DofKind::uy, 0},
@@ -105,12 +138,18 @@ DofKind kind_of(Quantity quantity) {
   return description_of(quantity).kind;
 }
 
+bool is_absolute(Quantity quantity) {
+  return quantity >= Quantity::u_abs && quantity <= Quantity::uz_a_abs;
+}
+
 int order_of(Quantity quantity) {
   return description_of(quantity).order;
 }
 
 std::vector<std::string> field_quantities() {
-  return names_where([](Quantity quantity) { return quantity <= Quantity::stop_state; });
+  return names_where([](Quantity quantity) {
+    return quantity <= Quantity::stop_state || (source_of(quantity) == Source::motion && !is_absolute(quantity));
+  });
 }
 
 std::vector<std::string> probe_quantities() {

@@ -50,11 +50,40 @@ enum class Quantity {
   rz,
   rz_v,
   rz_a,
-  // Of contacts in the plane, with dissipation or friction, at a node: of probes alone.
+  // In space, where the base moves.
+  u_abs,
+  v_abs,
+  a_abs,
+  ux_abs,
+  ux_v_abs,
+  ux_a_abs,
+  uz_abs,
+  uz_v_abs,
+  uz_a_abs,
+  // Forces of beams in space, of springs and of supports.
   normal_force,
-  friction_force,
-  slip,
-  wear_power
+  shear_y,
+  shear_z,
+  torque,
+  moment_y,
+  moment_z,
+  spring_ux,
+  spring_uy,
+  spring_uz,
+  spring_rx,
+  spring_ry,
+  spring_rz,
+  reaction_ux,
+  reaction_uy,
+  reaction_uz,
+  reaction_rx,
+  reaction_ry,
+  reaction_rz,
+  // Of contacts in the plane, with dissipation or friction, at a node: of probes alone.
+  contact_normal,
+  contact_friction,
+  contact_slip,
+  contact_wear
 };
 
 /// "u", "M" ...
@@ -80,6 +109,9 @@ BUTEE_EXPORT Source source_of(Quantity quantity);
 inline bool is_element_force(Quantity quantity) {
   return source_of(quantity) != Source::motion && source_of(quantity) != Source::stops;
 }
+
+/// True for displacements, velocities and accelerations in space.
+BUTEE_EXPORT bool is_absolute(Quantity quantity);
 
 /// The DOF of the node that a quantity belongs to.
 BUTEE_EXPORT DofKind kind_of(Quantity quantity);

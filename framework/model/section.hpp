@@ -29,6 +29,7 @@ struct Section {
   double torsion_constant = 0.0;    ///< m4; 0: not known
   ShearFactor shear_factor_y{0.0};  ///< of shear along y; 0: not known
   ShearFactor shear_factor_z{0.0};  ///< of shear along z; 0: not known
+  double torsion_modulus = 0.0;     ///< m3, of round sections: torque over the largest shear stress; 0: not round
 };
 
 }  // namespace butee::model

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "butee/core/error.hpp"
+#include "butee/model/turning_matrices.hpp"
 
 namespace butee::model {
 namespace {
@@ -21,22 +22,6 @@ bool is_symmetric(const Eigen::MatrixXd& matrix) {
       if (a != b && !(std::abs(a - b) <= kRounding * (std::abs(a) + std::abs(b)))) return false;
     }
   return true;
-}
-
-/// W = -D J per rad/s of rotating damping D on `dofs`, where J x is the cross product of e_x with the displacements and
-/// rotations of each node.
-Eigen::MatrixXd circulatory_of(std::span<const NodalDof> dofs, const Eigen::MatrixXd& damping) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(damping.rows(), damping.cols());
-  for (std::size_t j = 0; j < dofs.size(); ++j) {
-    const bool along_y = axis_of(dofs[j].kind) == 1;
-    if (axis_of(dofs[j].kind) == 0) continue;
-    const int other = is_rotation(dofs[j].kind) ? 3 : 0;
-    const NodalDof partner{dofs[j].node, static_cast<DofKind>(other + (along_y ? 2 : 1))};
-    for (std::size_t k = 0; k < dofs.size(); ++k)
-      if (dofs[k].node == partner.node && dofs[k].kind == partner.kind)
-        result.col(static_cast<Index>(j)) = (along_y ? -1.0 : 1.0) * damping.col(static_cast<Index>(k));
-  }
-  return result;
 }
 
 /// The entries of one matrix at a sequence of places that all matrices share, from the first that is not zero on.
@@ -328,6 +313,15 @@ System assemble(const Model& model, TurningParts turning) {
 
   system.loads = reduce_loads(model, dofs, system.skipped_loads);
   set_start(model, system);
+  if (model.base_frame == BaseFrame::still && !model.bases.empty() && model.bases.front().nodes.empty())
+    for (Index i = 0; i < system.size(); ++i) {
+      // Given relative to the base; u is x less these shares.
+      const NodalDof dof = dofs.free()[static_cast<std::size_t>(i)];
+      for (const BaseShare& share : base_shares(model, dofs, dof, 0, false))
+        system.initial_displacement[i] -= share.factor * share.motion->value(system.initial_time);
+      for (const BaseShare& share : base_shares(model, dofs, dof, 1, false))
+        system.initial_velocity[i] -= share.factor * share.motion->value(system.initial_time);
+    }
   return system;
 }
 

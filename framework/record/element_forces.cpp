@@ -1,17 +1,17 @@
 #include "butee/record/element_forces.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "butee/core/error.hpp"
 #include "butee/model/element_choice.hpp"
 #include "butee/model/parts_at.hpp"
+#include "butee/model/turning_matrices.hpp"
 
 namespace butee::record {
 namespace {
 
 using model::NodalDof;
-
-constexpr Index kVy = 1, kMz = 5;  ///< rows of SectionCut::resultants
 
 void gather(const std::vector<Index>& dofs, ConstVectorRef from, Eigen::VectorXd& to) {
   for (std::size_t i = 0; i < dofs.size(); ++i) to[static_cast<Index>(i)] = dofs[i] >= 0 ? from[dofs[i]] : 0.0;
@@ -34,14 +34,14 @@ void ElementForces::add(model::Quantity quantity, model::NodeId node, const std:
       add_section_force(quantity, node, element, column);
       break;
     case model::Source::springs:
-      add_springs({node, kind_of(quantity)}, element, column);
+      add_springs({node, kind_of(quantity)}, element, column.sums.front());
       break;
     case model::Source::support:
-      add_reaction({node, kind_of(quantity)}, column);
+      add_reaction({node, kind_of(quantity)}, column.sums.front());
       break;
     case model::Source::contacts:
     case model::Source::stops:
-      add_obstacles(quantity, node, column);
+      add_obstacles(quantity, node, column.sums.front());
       break;
     case model::Source::motion:
       throw LogicError("no force of an element");
@@ -49,84 +49,134 @@ void ElementForces::add(model::Quantity quantity, model::NodeId node, const std:
   columns_.push_back(std::move(column));
 }
 
+bool ElementForces::turns(std::size_t element) const {
+  return model_.rotation != nullptr && element < model_.turns.size() && model_.turns[element];
+}
+
 void ElementForces::add_section_force(model::Quantity quantity, model::NodeId node, const std::string& element,
                                       Column& column) {
   const model::CutChoice choice = choose_cut(model_, node, element);
   require(choice.beam != nullptr, "section forces of a beam");
   const model::SectionCut cut = choice.beam->cut(choice.part, choice.at_end).value();
-  const bool is_stress = quantity == model::Quantity::bending_stress || quantity == model::Quantity::von_mises;
-  if (is_stress) column.factor = 1.0 / cut.modulus.value();
-  column.is_magnitude = quantity == model::Quantity::von_mises;
-  const Eigen::VectorXd weights = cut.resultants.row(quantity == model::Quantity::shear_force ? kVy : kMz);
-  column.shares.push_back({add_piece(cut.dofs, cut.matrices), weights});
-  for (const model::Load& load : model_.loads)
-    if (load.line == choice.beam)
-      column.loads.push_back(
-          {load.in_time.get(), -load.per_length * weights.dot(cut.line_loads.col(axis_of(load.along)))});
+  std::size_t number = 0;
+  while (model_.elements[number].get() != choice.beam) ++number;
+  const std::size_t piece = add_piece(cut.dofs, cut.matrices, turns(number));
+  const auto fill = [&](Index row, Sum& sum) {
+    const Eigen::VectorXd weights = cut.resultants.row(row);
+    if (row == 0) sum.constant = cut.preload;
+    if (weights.isZero(0.0)) return;
+    sum.shares.push_back({piece, weights});
+    add_loads_of_part(choice.beam, cut, weights, sum);
+  };
+  if (quantity != model::Quantity::von_mises) {
+    fill(resultant_row(quantity).value(), column.sums.front());
+    if (quantity == model::Quantity::bending_stress) column.factor = 1.0 / cut.modulus.value();
+    return;
+  }
+  column.stress =
+      FibreStress{cut.area, cut.modulus_y.value_or(1.0), cut.modulus.value(), cut.torsion_modulus.value_or(0.0)};
+  column.sums.resize(4);
+  for (const auto& [place, row] : {std::pair(0, 0), std::pair(1, 3), std::pair(2, 4), std::pair(3, 5)})
+    fill(row, column.sums[static_cast<std::size_t>(place)]);
 }
 
-void ElementForces::add_obstacles(model::Quantity quantity, model::NodeId node, Column& column) {
-  column.quantity = quantity;
+double ElementForces::FibreStress::of(std::span<const double> forces) const {
+  const bool is_round = torsion_modulus > 0.0;
+  const double bending = is_round ? std::hypot(forces[2], forces[3]) / modulus_z
+                                  : std::abs(forces[2]) / modulus_y + std::abs(forces[3]) / modulus_z;
+  const double sigma = std::abs(forces[0]) / area + bending, tau = is_round ? forces[1] / torsion_modulus : 0.0;
+  return tau == 0.0 ? sigma : std::sqrt(sigma * sigma + 3.0 * tau * tau);
+}
+
+void ElementForces::add_loads_of_part(const model::Element* beam, const model::SectionCut& cut,
+                                      const Eigen::VectorXd& weights, Sum& sum) {
+  for (const model::Load& load : model_.loads) {
+    if (load.line == beam)
+      sum.loads.push_back(
+          {load.in_time.get(), -load.per_length * weights.dot(cut.line_loads.col(axis_of(load.along)))});
+    if (load.acceleration.isZero(0.0)) continue;
+    Eigen::VectorXd translation = Eigen::VectorXd::Zero(weights.size());
+    for (std::size_t i = 0; i < cut.dofs.size(); ++i)
+      if (!is_rotation(cut.dofs[i].kind))
+        translation[static_cast<Index>(i)] = load.acceleration[axis_of(cut.dofs[i].kind)];
+    sum.loads.push_back({load.in_time.get(), -weights.dot(cut.matrices.mass * translation)});
+  }
+}
+
+void ElementForces::add_obstacles(model::Quantity quantity, model::NodeId node, Sum& sum) {
+  sum.quantity = quantity;
   const model::DofTable& dofs = dynamics_.system().dofs;
   if (quantity == model::Quantity::contact_force) {
-    column.dof = dofs.index({node, kind_of(quantity)});
+    sum.dof = dofs.index({node, kind_of(quantity)});
     const dynamics::Contact& contact = dynamics_.contact();
     for (Index i = 0; i < contact.size(); ++i) {
-      if (column.dof >= 0 && contact.dof_a(i) == column.dof) column.stops.push_back({i, 1.0});
-      if (column.dof >= 0 && contact.dof_b(i) == column.dof) column.stops.push_back({i, -1.0});
+      if (sum.dof >= 0 && contact.dof_a(i) == sum.dof) sum.stops.push_back({i, 1.0});
+      if (sum.dof >= 0 && contact.dof_b(i) == sum.dof) sum.stops.push_back({i, -1.0});
     }
   }
   if (dynamics_.obstacles() == nullptr) return;
   for (Index i = 0; i < dynamics_.obstacles()->size(); ++i)
-    if (dynamics_.obstacles()->touches_node(i, dofs, model_.nodes.canonical(node))) column.obstacles.push_back(i);
-  has_obstacles_ = has_obstacles_ || !column.obstacles.empty();
+    if (dynamics_.obstacles()->touches_node(i, dofs, model_.nodes.canonical(node))) sum.obstacles.push_back(i);
+  has_obstacles_ = has_obstacles_ || !sum.obstacles.empty();
 }
 
-double ElementForces::sum_of_obstacles(const Column& column) const {
+double ElementForces::sum_of_obstacles(const Sum& of) const {
   double sum = 0.0;
-  for (const Index i : column.obstacles) {
+  for (const Index i : of.obstacles) {
     const dynamics::ContactForces& now = contacts_[static_cast<std::size_t>(i)];
     const model::FreeObstacles::Ends& ends = dynamics_.obstacles()->ends_of(i);
-    switch (column.quantity) {
-      case model::Quantity::normal_force:
+    switch (of.quantity) {
+      case model::Quantity::contact_normal:
         sum += now.normal;
         break;
-      case model::Quantity::friction_force:
+      case model::Quantity::contact_friction:
         sum += now.friction;
         break;
-      case model::Quantity::slip:
+      case model::Quantity::contact_slip:
         sum += now.slip_speed;
         break;
-      case model::Quantity::wear_power:
+      case model::Quantity::contact_wear:
         sum += std::abs(now.normal * now.slip_speed);
         break;
       default:
         for (std::size_t k = 0; k < 2; ++k) {
-          if (column.dof >= 0 && ends.a[k] == column.dof) sum += now.force[static_cast<Index>(k)];
-          if (column.dof >= 0 && ends.b[k] == column.dof) sum -= now.force[static_cast<Index>(k)];
+          if (of.dof >= 0 && ends.a[k] == of.dof) sum += now.force[static_cast<Index>(k)];
+          if (of.dof >= 0 && ends.b[k] == of.dof) sum -= now.force[static_cast<Index>(k)];
         }
     }
   }
   return sum;
 }
 
-void ElementForces::add_springs(NodalDof dof, const std::string& element, Column& column) {
+void ElementForces::add_springs(NodalDof dof, const std::string& element, Sum& sum) {
   for (std::size_t i = 0; i < model_.elements.size(); ++i)
-    if (is_spring_on(model_, i, dof, element)) add_pieces_at(*model_.elements[i], dof, -1.0, column);
+    if (is_spring_on(model_, i, dof, element)) add_pieces_at(i, dof, -1.0, sum);
 }
 
-void ElementForces::add_reaction(NodalDof dof, Column& column) {
-  for (const auto& element : model_.elements) add_pieces_at(*element, dof, 1.0, column);
+void ElementForces::add_reaction(NodalDof dof, Sum& sum) {
+  for (std::size_t i = 0; i < model_.elements.size(); ++i) add_pieces_at(i, dof, 1.0, sum);
   const auto same = [&](NodalDof other) {
     return other.kind == dof.kind && model_.nodes.canonical(other.node) == model_.nodes.canonical(dof.node);
   };
-  for (const model::Load& load : model_.loads)
+  for (const model::Load& load : model_.loads) {
     for (const model::NodalValue& entry : load.pattern)
-      if (same(entry.dof)) column.loads.push_back({load.in_time.get(), -entry.value});
-  if (dof.kind == DofKind::u) add_stops(dof.node, column);
+      if (same(entry.dof)) sum.loads.push_back({load.in_time.get(), -entry.value});
+    if (load.acceleration.isZero(0.0)) continue;
+    // The pattern leaves out what acts on supports.
+    double weight = 0.0;
+    model::PartsAt parts(
+        model_.nodes, dof, [&](std::span<const NodalDof> dofs, const model::ElementMatrices& matrices, Index row) {
+          for (std::size_t j = 0; j < dofs.size(); ++j)
+            if (!is_rotation(dofs[j].kind))
+              weight -= matrices.mass(row, static_cast<Index>(j)) * load.acceleration[axis_of(dofs[j].kind)];
+        });
+    for (const auto& element : model_.elements) element->assemble(parts);
+    sum.loads.push_back({load.in_time.get(), weight});
+  }
+  if (dof.kind == DofKind::u) add_stops(dof.node, sum);
 }
 
-void ElementForces::add_stops(model::NodeId node, Column& column) {
+void ElementForces::add_stops(model::NodeId node, Sum& sum) {
   const model::DofTable& table = dynamics_.system().dofs;
   const model::NodeId wanted = model_.nodes.canonical(node);
   Index stop = 0;
@@ -135,30 +185,48 @@ void ElementForces::add_stops(model::NodeId node, Column& column) {
       const bool is_free_a = table.index({group.a[i], DofKind::u}) >= 0;
       const bool is_free_b = !group.b.empty() && table.index({group.b[i], DofKind::u}) >= 0;
       if (!is_free_a && !is_free_b) continue;  // Such stops are not assembled.
-      if (model_.nodes.canonical(group.a[i]) == wanted) column.stops.push_back({stop, -1.0});
-      if (!group.b.empty() && model_.nodes.canonical(group.b[i]) == wanted) column.stops.push_back({stop, 1.0});
+      if (model_.nodes.canonical(group.a[i]) == wanted) sum.stops.push_back({stop, -1.0});
+      if (!group.b.empty() && model_.nodes.canonical(group.b[i]) == wanted) sum.stops.push_back({stop, 1.0});
       ++stop;
     }
 }
 
-void ElementForces::add_pieces_at(const model::Element& element, NodalDof dof, double sign, Column& column) {
-  model::PartsAt parts(model_.nodes, dof,
-                       [&](std::span<const NodalDof> dofs, const model::ElementMatrices& matrices, Index row) {
-                         Eigen::VectorXd weights = Eigen::VectorXd::Zero(std::ssize(dofs));
-                         weights[row] = sign;
-                         column.shares.push_back({add_piece(dofs, matrices), weights});
-                       });
-  element.assemble(parts);
+void ElementForces::add_pieces_at(std::size_t element, NodalDof dof, double sign, Sum& sum) {
+  const bool turns = this->turns(element);
+  model::PartsAt parts(
+      model_.nodes, dof,
+      [&](std::span<const NodalDof> dofs, const model::ElementMatrices& matrices, Index row) {
+        Eigen::VectorXd weights = Eigen::VectorXd::Zero(std::ssize(dofs));
+        weights[row] = sign;
+        sum.shares.push_back({add_piece(dofs, matrices, turns), weights});
+      },
+      turns);
+  model_.elements[element]->assemble(parts);
 }
 
-std::size_t ElementForces::add_piece(std::span<const NodalDof> dofs, const model::ElementMatrices& matrices) {
-  const model::Damping& damping = dynamics_.system().damping;
+std::size_t ElementForces::add_piece(std::span<const NodalDof> dofs, const model::ElementMatrices& matrices,
+                                     bool turns) {
+  const model::System& system = dynamics_.system();
+  const model::Damping& damping = system.damping;
   Piece piece;
-  for (const NodalDof& dof : dofs) piece.dofs.push_back(dynamics_.system().dofs.index(dof));
+  for (const NodalDof& dof : dofs) piece.dofs.push_back(system.dofs.index(dof));
   piece.mass = matrices.mass;
   piece.stiffness = matrices.stiffness;
   piece.damping = matrices.damping + damping.mass_proportional * matrices.mass +
                   damping.stiffness_proportional * matrices.stiffness;
+  if (turns) {
+    Eigen::MatrixXd turning = model_.rotating_damping * matrices.stiffness;
+    if (matrices.rotating_damping.size() > 0) turning += matrices.rotating_damping;
+    piece.damping += turning;
+    piece.circulatory = model::circulatory_of(dofs, turning);
+    piece.gyroscopic = matrices.gyroscopic.size() > 0 ? matrices.gyroscopic : Eigen::MatrixXd(0.0 * matrices.mass);
+  }
+  const bool is_still = model_.base_frame == model::BaseFrame::still;
+  for (std::size_t i = 0; i < dofs.size() && is_still; ++i)
+    for (const int order : {0, 1, 2})
+      // Forces of stiffness and damping are those of motion relative to the base, forces of inertia of that in space.
+      for (const model::BaseShare& share : base_shares(model_, system.dofs, dofs[i], order, order == 2))
+        piece.base.push_back({static_cast<Index>(i), order, share});
   piece.x = piece.v = piece.a = piece.p = Eigen::VectorXd::Zero(std::ssize(dofs));
   has_mass_ = has_mass_ || !piece.mass.isZero(0.0);
   pieces_.push_back(std::move(piece));
@@ -171,26 +239,44 @@ double ElementForces::force_of_stop(Index stop, ConstVectorRef x) {
   return contact.force_of(stop, (a >= 0 ? x[a] : 0.0) - (b >= 0 ? x[b] : 0.0));
 }
 
-void ElementForces::evaluate(double t, ConstVectorRef x, ConstVectorRef v, std::span<double> values) {
+void ElementForces::evaluate_pieces(double t, ConstVectorRef x, ConstVectorRef v) {
   if (has_mass_) dynamics_.acceleration(t, x, v, a_);
+  const double speed = model_.rotation != nullptr ? model_.rotation->speed(t) : 0.0;
+  const double rate = model_.rotation != nullptr ? model_.rotation->acceleration(t) : 0.0;
   for (Piece& piece : pieces_) {
     gather(piece.dofs, x, piece.x);
     gather(piece.dofs, v, piece.v);
+    if (has_mass_) gather(piece.dofs, a_, piece.a);
+    for (const BaseTerm& term : piece.base) {
+      Eigen::VectorXd& motion = term.order == 0 ? piece.x : term.order == 1 ? piece.v : piece.a;
+      motion[term.place] += term.share.factor * term.share.motion->value(t);
+    }
     piece.p.noalias() = piece.stiffness * piece.x;
     piece.p.noalias() += piece.damping * piece.v;
-    if (!has_mass_) continue;
-    gather(piece.dofs, a_, piece.a);
-    piece.p.noalias() += piece.mass * piece.a;
+    if (has_mass_) piece.p.noalias() += piece.mass * piece.a;
+    if (piece.gyroscopic.size() == 0) continue;
+    piece.p.noalias() += speed * (piece.gyroscopic * piece.v);
+    piece.p.noalias() += speed * (piece.circulatory * piece.x);
+    piece.p.noalias() += rate * (piece.gyroscopic * piece.x);
   }
+}
+
+double ElementForces::value_of(const Sum& sum, double t, ConstVectorRef x) {
+  double value = sum.constant;
+  for (const Share& share : sum.shares) value += share.weights.dot(pieces_[share.piece].p);
+  for (const LoadShare& load : sum.loads) value += load.weight * load.in_time->value(t);
+  for (const StopShare& stop : sum.stops) value += stop.sign * force_of_stop(stop.stop, x);
+  return value + sum_of_obstacles(sum);
+}
+
+void ElementForces::evaluate(double t, ConstVectorRef x, ConstVectorRef v, std::span<double> values) {
+  evaluate_pieces(t, x, v);
   if (has_obstacles_) dynamics_.contact_forces(t, x, v, contacts_);
+  std::array<double, 4> forces{};
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const Column& column = columns_[i];
-    double sum = 0.0;
-    for (const Share& share : column.shares) sum += share.weights.dot(pieces_[share.piece].p);
-    for (const LoadShare& load : column.loads) sum += load.weight * load.in_time->value(t);
-    for (const StopShare& stop : column.stops) sum += stop.sign * force_of_stop(stop.stop, x);
-    sum += sum_of_obstacles(column);
-    values[i] = column.factor * (column.is_magnitude ? std::abs(sum) : sum);
+    for (std::size_t k = 0; k < column.sums.size(); ++k) forces[k] = value_of(column.sums[k], t, x);
+    values[i] = column.stress ? column.stress->of(forces) : column.factor * forces[0];
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,12 +30,27 @@ class BUTEE_EXPORT ElementForces {
   void evaluate(double t, ConstVectorRef x, ConstVectorRef v, std::span<double> values);
 
  private:
+  /// factor motion(t) on entry `place` of x, v or a (order 0, 1, 2) of a piece, where the base moves.
+  struct BaseTerm {
+    Index place;
+    int order;
+    model::BaseShare share;
+  };
+  /// sqrt((|N|/area + sigma)^2 + 3 (T/torsion_modulus)^2), sigma = hypot(My, Mz)/modulus_z of a round section, else
+  /// |My|/modulus_y + |Mz|/modulus_z.
+  struct FibreStress {
+    double area, modulus_y, modulus_z;
+    double torsion_modulus;  ///< 0: not round
+    double of(std::span<const double> forces) const;
+  };
   /// A part of an element whose p is needed. Entry i of the matrices belongs to the DOF dofs[i], negative where it does
   /// not move.
   struct Piece {
     std::vector<Index> dofs;
     Eigen::MatrixXd mass, damping, stiffness;
+    Eigen::MatrixXd gyroscopic, circulatory;  ///< of a part that turns, else 0 x 0
     Eigen::VectorXd x, v, a, p;
+    std::vector<BaseTerm> base;
   };
   struct Share {
     std::size_t piece;
@@ -48,28 +64,39 @@ class BUTEE_EXPORT ElementForces {
     Index stop;
     double sign;
   };
-  /// factor (sum of weights.p + sum of weight f(t) + sum of sign F_c), or its magnitude.
-  struct Column {
+  /// constant + sum of weights.p + sum of weight f(t) + sum of sign F_c
+  struct Sum {
     std::vector<Share> shares;
     std::vector<LoadShare> loads;
     std::vector<StopShare> stops;
     std::vector<Index> obstacles;
     model::Quantity quantity = model::Quantity::contact_force;  ///< of obstacles
     Index dof = model::DofTable::kFixed;                        ///< that contact_force acts on
+    double constant = 0.0;
+  };
+  /// A sum times a factor, or the von Mises stress of a beam's outer fibre from N, T, My and Mz.
+  struct Column {
+    std::vector<Sum> sums = std::vector<Sum>(1);
     double factor = 1.0;
-    bool is_magnitude = false;
+    std::optional<FibreStress> stress{};
   };
 
   void add_section_force(model::Quantity quantity, model::NodeId node, const std::string& element, Column& column);
   /// The contacts in the plane, with dissipation or friction, at a node; its stops beside them for contact_force.
-  void add_obstacles(model::Quantity quantity, model::NodeId node, Column& column);
-  double sum_of_obstacles(const Column& column) const;
-  void add_springs(model::NodalDof dof, const std::string& element, Column& column);
-  void add_reaction(model::NodalDof dof, Column& column);
-  void add_stops(model::NodeId node, Column& column);
-  /// Adds sign p of every part of the element at the DOF.
-  void add_pieces_at(const model::Element& element, model::NodalDof dof, double sign, Column& column);
-  std::size_t add_piece(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices);
+  void add_obstacles(model::Quantity quantity, model::NodeId node, Sum& sum);
+  double sum_of_obstacles(const Sum& of) const;
+  void add_springs(model::NodalDof dof, const std::string& element, Sum& sum);
+  void add_reaction(model::NodalDof dof, Sum& sum);
+  void add_stops(model::NodeId node, Sum& sum);
+  /// Adds sign p of every part of an element at the DOF.
+  void add_pieces_at(std::size_t element, model::NodalDof dof, double sign, Sum& sum);
+  std::size_t add_piece(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices, bool turns);
+  /// Adds -weights.f of the loads that act on a beam's part: line loads and those on its mass.
+  void add_loads_of_part(const model::Element* beam, const model::SectionCut& cut, const Eigen::VectorXd& weights,
+                         Sum& sum);
+  bool turns(std::size_t element) const;
+  void evaluate_pieces(double t, ConstVectorRef x, ConstVectorRef v);
+  double value_of(const Sum& sum, double t, ConstVectorRef x);
   double force_of_stop(Index stop, ConstVectorRef x);
 
   dynamics::Dynamics& dynamics_;

@@ -24,11 +24,13 @@ class Placement {
     for (const std::string& name : nodes_.group_names())
       if (const NodeGroup& group = *nodes_.find(name); !group.lone()) place_beam(group);
     const bool beams = !lanes_.empty();
+    find_points();
     for (const std::string& name : nodes_.group_names())
       if (const NodeGroup& group = *nodes_.find(name); group.lone()) place_lone(group.first, beams);
   }
 
   std::array<double, 3> position(NodeId node, const NodeGroup& group) const {
+    if (is_in_space_) return in_space(node);
     const Place& own = group.lone() ? place_of(node) : starts_.at(group.first);
     const double x = group.lone() ? own.x : own.x + group.coordinates[static_cast<std::size_t>(node - group.first)];
     return {x, 0.0, static_cast<double>(own.lane) * (longest_ > 0.0 ? kLaneSpacing * longest_ : kLoneNodeSpacing)};
@@ -43,6 +45,25 @@ class Placement {
   struct Span {
     double begin, end;
   };
+
+  /// Beams between points stand where these are; a lone node at a beam's node, or at the origin.
+  std::array<double, 3> in_space(NodeId node) const {
+    const auto found = points_.find(nodes_.canonical(node));
+    return found != points_.end() ? found->second : std::array<double, 3>{};
+  }
+  void find_points() {
+    for (const std::string& name : nodes_.group_names()) {
+      const NodeGroup& group = *nodes_.find(name);
+      const bool is_along_x = group.direction == std::array{1.0, 0.0, 0.0} && group.origin == std::array{0.0, 0.0, 0.0};
+      is_in_space_ = is_in_space_ || !is_along_x;
+      for (NodeId i = 0; i < group.size() && !group.lone(); ++i) {
+        std::array<double, 3> at = group.origin;
+        for (std::size_t k = 0; k < 3; ++k)
+          at[k] += group.coordinates[static_cast<std::size_t>(i)] * group.direction[k];
+        points_.emplace(nodes_.canonical(group.first + i), at);
+      }
+    }
+  }
 
   Place& place_of(NodeId node) { return places_[static_cast<std::size_t>(nodes_.canonical(node))]; }
   const Place& place_of(NodeId node) const { return places_[static_cast<std::size_t>(nodes_.canonical(node))]; }
@@ -97,6 +118,8 @@ class Placement {
   std::map<NodeId, Place> starts_;  ///< of beams, by their first node: the x of coordinate 0
   std::vector<std::vector<Span>> lanes_;
   std::set<std::pair<double, int>> taken_;
+  std::map<NodeId, std::array<double, 3>> points_;  ///< in space, by canonical node
+  bool is_in_space_ = false;                        ///< some beam has points
   double longest_ = 0.0;
   int lone_ = 0;
 };

@@ -35,21 +35,25 @@ FieldRecorder::FieldRecorder(const model::OutputRequest& output, double end_time
   const auto wants = [this](std::initializer_list<model::Quantity> any) {
     return std::find_first_of(quantities_.begin(), quantities_.end(), any.begin(), any.end()) != quantities_.end();
   };
-  needs_v_ = wants({model::Quantity::v, model::Quantity::theta_v});
-  needs_a_ = wants({model::Quantity::a, model::Quantity::theta_a});
+  const auto needs = [this](int order) {
+    return std::any_of(quantities_.begin(), quantities_.end(), [&](model::Quantity quantity) {
+      return source_of(quantity) == model::Source::motion && order_of(quantity) == order;
+    });
+  };
+  needs_v_ = needs(1);
+  needs_a_ = needs(2);
   needs_stops_ = dynamics.stop_count() > 0 && wants({model::Quantity::contact_force, model::Quantity::stop_state});
   find_dofs(output.fields.nodes);
   if (needs_stops_) find_stops();
   x_.resize(dofs_.size());
   if (needs_v_) v_.resize(dofs_.size());
   if (needs_a_) a_.resize(dofs_.size());
-  record_.resize(quantities_.size() * u_.size());
+  record_.resize(quantities_.size() * output.fields.nodes.size());
+  if (dynamics.system().model != nullptr) find_base_terms(output.fields.nodes);
 }
 
 void FieldRecorder::find_dofs(const std::vector<model::NodeId>& nodes) {
   const model::DofTable& table = dynamics_.system().dofs;
-  const auto turns = [](model::Quantity quantity) { return kind_of(quantity) == DofKind::theta; };
-  const bool needs_theta = std::any_of(quantities_.begin(), quantities_.end(), turns);
   std::vector<std::int32_t> places(static_cast<std::size_t>(dynamics_.size()), -1);
   const auto place = [&](model::NodeId node, DofKind kind) {
     const Index dof = table.index({node, kind});
@@ -61,9 +65,24 @@ void FieldRecorder::find_dofs(const std::vector<model::NodeId>& nodes) {
     }
     return known;
   };
-  for (const model::NodeId node : nodes) {
-    u_.push_back(place(node, DofKind::u));
-    theta_.push_back(needs_theta ? place(node, DofKind::theta) : -1);
+  // Forces of stops are those on u.
+  std::array<bool, kDofKinds> is_needed{};
+  is_needed[static_cast<std::size_t>(DofKind::u)] = true;
+  for (const model::Quantity quantity : quantities_) is_needed[static_cast<std::size_t>(kind_of(quantity))] = true;
+  for (const DofKind kind : {DofKind::uy, DofKind::rz, DofKind::ux, DofKind::uz, DofKind::rx, DofKind::ry})
+    if (is_needed[static_cast<std::size_t>(kind)])
+      for (const model::NodeId node : nodes) places_[static_cast<std::size_t>(kind)].push_back(place(node, kind));
+}
+
+void FieldRecorder::find_base_terms(const std::vector<model::NodeId>& nodes) {
+  const model::System& system = dynamics_.system();
+  if (system.model->bases.empty()) return;
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    if (source_of(quantities_[q]) != model::Source::motion) continue;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (const model::BaseShare& share : base_shares(*system.model, system.dofs, {nodes[i], kind_of(quantities_[q])},
+                                                       order_of(quantities_[q]), false))
+        base_.push_back({q * nodes.size() + i, share});
   }
 }
 
@@ -103,45 +122,22 @@ void FieldRecorder::evaluate_stops(std::span<const double> x) {
   }
 }
 
-void FieldRecorder::fill(const time::Interpolated& samples) {
+void FieldRecorder::fill(double t, const time::Interpolated& samples) {
   if (needs_stops_) evaluate_stops(samples.x);
   auto out = record_.begin();
+  const std::array<std::span<const double>, 3> motion = {samples.x, samples.v, samples.a};
   for (const model::Quantity quantity : quantities_) {
-    const auto take = [&](std::span<const double> from, const std::vector<std::int32_t>& places) {
-      if (from.empty())
-        out = std::fill_n(out, places.size(), 0.0);
-      else
-        out = std::transform(places.begin(), places.end(), out, [&](std::int32_t place) { return at(from, place); });
-    };
-    switch (quantity) {
-      case model::Quantity::u:
-        take(samples.x, u_);
-        break;
-      case model::Quantity::v:
-        take(samples.v, u_);
-        break;
-      case model::Quantity::a:
-        take(samples.a, u_);
-        break;
-      case model::Quantity::theta:
-        take(samples.x, theta_);
-        break;
-      case model::Quantity::theta_v:
-        take(samples.v, theta_);
-        break;
-      case model::Quantity::theta_a:
-        take(samples.a, theta_);
-        break;
-      case model::Quantity::contact_force:
-        take(force_, u_);
-        break;
-      case model::Quantity::stop_state:
-        take(state_, u_);
-        break;
-      default:
-        throw LogicError("not a quantity of fields");
-    }
+    const auto& places = places_[static_cast<std::size_t>(kind_of(quantity))];
+    const std::span<const double> from = source_of(quantity) == model::Source::motion
+                                             ? motion[static_cast<std::size_t>(order_of(quantity))]
+                                         : quantity == model::Quantity::contact_force ? std::span<const double>(force_)
+                                                                                      : std::span<const double>(state_);
+    if (from.empty())
+      out = std::fill_n(out, places.size(), 0.0);
+    else
+      out = std::transform(places.begin(), places.end(), out, [&](std::int32_t place) { return at(from, place); });
   }
+  for (const BaseTerm& term : base_) record_[term.place] += term.share.factor * term.share.motion->value(t);
 }
 
 void FieldRecorder::fill(const time::State& state) {
@@ -150,7 +146,7 @@ void FieldRecorder::fill(const time::State& state) {
     if (needs_v_) v_[i] = state.v[dofs_[i]];
     if (needs_a_) a_[i] = state.a[dofs_[i]];
   }
-  fill(time::Interpolated{x_, v_, a_});
+  fill(state.t, time::Interpolated{x_, v_, a_});
 }
 
 void FieldRecorder::start(const time::State& state) {
@@ -164,7 +160,7 @@ void FieldRecorder::step(const time::AcceptedStep& step) {
       fill(step.to);
     else if (t != step.from.t) {
       step.integrator.interpolate(step.from, step.to, t, dofs_, {x_, v_, a_});
-      fill(time::Interpolated{x_, v_, a_});
+      fill(t, time::Interpolated{x_, v_, a_});
     }  // else the first instant, filled by start()
     write(t);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "butee/model/field_format.hpp"
@@ -34,11 +35,18 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
     std::int32_t a, b;
   };
 
+  /// A quantity of a node that is measured from another frame than x: what is added to its place of the record.
+  struct BaseTerm {
+    std::size_t place;
+    model::BaseShare share;
+  };
+
   void find_dofs(const std::vector<model::NodeId>& nodes);
+  void find_base_terms(const std::vector<model::NodeId>& nodes);
   void find_stops();
   void evaluate_stops(std::span<const double> x);
-  /// Makes a record of x, v, a at dofs_.
-  void fill(const time::Interpolated& samples);
+  /// Makes a record of x, v, a at dofs_ at an instant.
+  void fill(double t, const time::Interpolated& samples);
   void fill(const time::State& state);
   void write(double t);
 
@@ -46,8 +54,9 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
   OutputTimes times_;
   std::vector<model::Quantity> quantities_;
   std::vector<std::unique_ptr<model::FieldWriter>> writers_;
-  std::vector<Index> dofs_;              ///< that are sampled
-  std::vector<std::int32_t> u_, theta_;  ///< by kept node: the place in dofs_, or -1
+  std::vector<Index> dofs_;                                  ///< that are sampled
+  std::array<std::vector<std::int32_t>, kDofKinds> places_;  ///< by kind and kept node: the place in dofs_, or -1
+  std::vector<BaseTerm> base_;
   std::vector<KeptStop> stops_;
   std::vector<double> x_, v_, a_, force_, state_, record_;
   bool needs_v_ = false, needs_a_ = false, needs_stops_ = false;

@@ -15,12 +15,18 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMostAtOnce = 64;
 
 /// The requested quantities that Peaks follows, and u of every probe.
-std::vector<model::ProbeRequest> peak_requests(std::vector<model::ProbeRequest> requests, const model::DofTable& dofs) {
+std::vector<model::ProbeRequest> peak_requests(std::vector<model::ProbeRequest> requests, const model::System& system) {
+  const model::DofTable& dofs = system.dofs;
+  const model::Model* model = system.model;
   for (model::ProbeRequest& request : requests) {
     auto& list = request.quantities;
-    std::erase_if(list, model::is_element_force);
+    std::erase_if(list, [&](model::Quantity quantity) {
+      return is_element_force(quantity) || Probes::has_base_share(model, dofs, request.node, quantity);
+    });
     const bool has_u = std::find(list.begin(), list.end(), model::Quantity::u) != list.end();
-    if (!has_u && dofs.exists({request.node, DofKind::u})) list.push_back(model::Quantity::u);
+    if (!has_u && dofs.exists({request.node, DofKind::u}) &&
+        !Probes::has_base_share(model, dofs, request.node, model::Quantity::u))
+      list.push_back(model::Quantity::u);
   }
   return requests;
 }
@@ -31,7 +37,7 @@ HistoryRecorder::HistoryRecorder(const model::OutputRequest& request, double end
                                  CsvWriter* writer)
     : times_(request.interval, request.every, end_time),
       probes_(request.probes, dynamics),
-      peaks_(peak_requests(request.probes, dynamics.system().dofs), dynamics),
+      peaks_(peak_requests(request.probes, dynamics.system()), dynamics),
       writer_(writer),
       values_(probes_.columns().size()),
       largest_(values_.size(), 0.0) {
@@ -63,6 +69,11 @@ void HistoryRecorder::start(const time::State& state) {
 
 void HistoryRecorder::step(const time::AcceptedStep& step) {
   peaks_.step(step);
+  if (probes_.has_base_shares()) {
+    // Peaks follows motions relative to the frame of x alone: of these columns ends of steps and rows count.
+    probes_.evaluate(step.to, values_);
+    take_largest();
+  }
   due_.clear();
   times_.visit(step, [&](double t) {
     if (t == step.from.t) {
@@ -86,7 +97,7 @@ void HistoryRecorder::write_due(const time::AcceptedStep& step) {
 }
 
 void HistoryRecorder::write_row(double t, double h) {
-  for (std::size_t i = 0; i < values_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(values_[i]));
+  take_largest();
   if (writer_ == nullptr && writers_.empty()) return;
   row_.assign(1, t);
   row_.insert(row_.end(), values_.begin(), values_.end());
@@ -96,6 +107,10 @@ void HistoryRecorder::write_row(double t, double h) {
   const auto begin = Clock::now();
   for (model::FieldWriter* writer : writers_) writer->append_row(row_);
   seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void HistoryRecorder::take_largest() {
+  for (std::size_t i = 0; i < values_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(values_[i]));
 }
 
 void HistoryRecorder::finish() {

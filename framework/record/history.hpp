@@ -42,6 +42,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
 
  private:
   void write_due(const time::AcceptedStep& step);
+  void take_largest();
   void write_row(double t, double h);
 
   OutputTimes times_;

@@ -27,6 +27,10 @@ Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynam
       Column column{samples_of(quantity), slot(dof), stops_.size(), stops_.size()};
       if (quantity == model::Quantity::contact_force && dof >= 0) add_stops(dof);
       column.last_stop = stops_.size();
+      if (dynamics.system().model != nullptr && source_of(quantity) == model::Source::motion)
+        column.base = base_shares(*dynamics.system().model, table, {request.node, kind_of(quantity)},
+                                  order_of(quantity), is_absolute(quantity));
+      has_base_shares_ = has_base_shares_ || !column.base.empty();
       needs_v_ = needs_v_ || order_of(quantity) == 1;
       needs_a_ = needs_a_ || order_of(quantity) == 2;
       sources_.push_back(column);
@@ -35,6 +39,12 @@ Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynam
   all_.resize(static_cast<std::size_t>(dynamics.size()));
   std::iota(all_.begin(), all_.end(), Index{0});
   all_x_ = all_v_ = Vector::Zero(dynamics.size());
+}
+
+bool Probes::has_base_share(const model::Model* model, const model::DofTable& dofs, model::NodeId node,
+                            model::Quantity quantity) {
+  return model != nullptr && source_of(quantity) == model::Source::motion &&
+         !base_shares(*model, dofs, {node, kind_of(quantity)}, order_of(quantity), is_absolute(quantity)).empty();
 }
 
 Probes::Column Probes::element_force(model::Quantity quantity, const model::ProbeRequest& request) {
@@ -87,6 +97,7 @@ void Probes::copy(const time::State& state, std::size_t instant) {
 void Probes::sample(const time::AcceptedStep& step, std::span<const double> times) {
   if (times.empty()) return;
   make_room(times.size());
+  if (has_base_shares_) times_.assign(times.begin(), times.end());
   std::size_t within = times.size();
   for (; within > 0 && times[within - 1] == step.to.t; --within) copy(step.to, within - 1);
   step.integrator.interpolate(step.from, step.to, times.first(within), dofs_, {x_, v_, a_});
@@ -121,6 +132,7 @@ void Probes::evaluate_forces(double t, ConstVectorRef x, ConstVectorRef v, std::
 
 void Probes::evaluate(const time::State& state, std::span<double> values) {
   make_room(1);
+  if (has_base_shares_) times_.assign(1, state.t);
   copy(state, 0);
   if (element_forces_ != nullptr) evaluate_forces(state.t, state.x, state.v, 0);
   take(0, values);
@@ -146,6 +158,7 @@ void Probes::take(std::size_t instant, std::span<double> values) {
       values[i] = contact_force(column, x_.data() + begin);
     else
       values[i] = column.slot == kFixed ? 0.0 : (*column.samples)[begin + column.slot];
+    for (const model::BaseShare& share : column.base) values[i] += share.factor * share.motion->value(times_[instant]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "butee/model/base_motion.hpp"
 #include "butee/record/element_forces.hpp"
 #include "butee/time/simulation.hpp"
 
@@ -30,6 +31,11 @@ class BUTEE_EXPORT Probes {
     sample(step, {&t, 1});
     take(0, values);
   }
+  /// True where a column is measured from another frame than x: columns in space, or relative to a base that moves.
+  bool has_base_shares() const { return has_base_shares_; }
+  /// The same of one quantity of a node; `model` may be null.
+  static bool has_base_share(const model::Model* model, const model::DofTable& dofs, model::NodeId node,
+                             model::Quantity quantity);
   /// The values in a state.
   void evaluate(const time::State& state, std::span<double> values);
 
@@ -41,6 +47,7 @@ class BUTEE_EXPORT Probes {
     std::size_t slot;
     std::size_t first_stop, last_stop;
     bool is_element_force = false;
+    std::vector<model::BaseShare> base{};
   };
   /// One stop on a probed node; slots of its two ends, and the sign with which it acts there.
   struct ProbedStop {
@@ -67,7 +74,8 @@ class BUTEE_EXPORT Probes {
   std::vector<ProbedStop> stops_;
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;
-  bool needs_v_ = false, needs_a_ = false;
+  bool needs_v_ = false, needs_a_ = false, has_base_shares_ = false;
+  std::vector<double> times_;                      ///< of the instants, where base shares need them
   std::unique_ptr<ElementForces> element_forces_;  ///< null where no probe asks for one
   std::vector<Index> all_;                         ///< DOFs, for them
   Vector all_x_, all_v_;

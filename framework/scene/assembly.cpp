@@ -1,6 +1,7 @@
 #include "butee/scene/assembly.hpp"
 
 #include "butee/core/error.hpp"
+#include "butee/dynamics/modal_dashpots.hpp"
 #include "butee/dynamics/static_position.hpp"
 
 namespace butee::scene {
@@ -8,6 +9,7 @@ namespace {
 
 model::System assemble_changed(const model::Model& model, const std::function<void(model::System&)>& change) {
   model::System system = assemble(model);
+  dynamics::make_modal_damping_explicit(model, system);
   if (change) change(system);
   if (model.starts_static) {
     dynamics::Dynamics dynamics(system);

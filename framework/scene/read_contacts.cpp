@@ -89,6 +89,9 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
   }
   if (is_stop)
     declare({text("sides", "the sides that have a stop").one_of({"both", "positive", "negative"}).or_else("both")});
+  declare({text("frame", "of a contact with ground under [base]: it moves with the base, or stays in space")
+               .one_of({"base", "space"})
+               .or_else("base")});
   if (is_stop || is_support)
     declare({text("dof", "the displacement or rotation it acts on").one_of(dof_names()).or_else("u")});
   if (is_support) declare({number("normal_force", "N", "that presses the support on").above(0)});
@@ -169,6 +172,7 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
     ends_of(group, i);
     model_.obstacles.push_back(std::move(group));
   }
+  read_frame(*p);
 }
 
 std::optional<std::vector<double>> SceneReader::read_gaps(const Parameters& p, std::size_t count) {

@@ -31,9 +31,22 @@ void refuse_doubles(const Parameters& p, const std::string& key, Diagnostics& di
       return p.complain(diagnostics, key, "names " + name + " twice");
 }
 
-std::vector<config::Parameter> field_keys() {
+/// u, theta, v and the stops, and what else of displacements and rotations the scene has.
+config::Array usual_quantities(const model::Model* model) {
+  std::vector<std::string> names = {"u", "theta"};
+  if (model != nullptr) {
+    const model::DofTable dofs = number_dofs(*model);
+    for (const DofKind kind : {DofKind::ux, DofKind::uz, DofKind::rx, DofKind::ry})
+      if (std::any_of(dofs.free().begin(), dofs.free().end(), [&](model::NodalDof dof) { return dof.kind == kind; }))
+        names.emplace_back(name_of(kind));
+  }
+  names.insert(names.end(), {"v", "contact_force", "stop_state"});
   config::Array usual;
-  for (const char* name : {"u", "theta", "v", "contact_force", "stop_state"}) usual.emplace_back(std::string(name));
+  for (const std::string& name : names) usual.emplace_back(name);
+  return usual;
+}
+
+std::vector<config::Parameter> field_keys(const config::Array& usual) {
   return {
       config::texts("nodes", "the nodes that are kept: selectors; all where absent").optional(),
       config::texts("quantities", "what is kept of them").one_of(model::field_quantities()).or_else(usual),
@@ -74,7 +87,8 @@ model::FieldRequest read_fields(const Parameters& output, std::vector<std::strin
     output.complain(diagnostics, "fields", "must be one table, not several");
     return request;
   }
-  const auto p = read_parameters(table, "output.fields", field_keys(), diagnostics);
+  const auto p =
+      read_parameters(table, "output.fields", field_keys(usual_quantities(wanted ? model : nullptr)), diagnostics);
   if (!p) return request;
   if (p->texts("quantities").empty()) p->complain(diagnostics, "quantities", "must name at least one quantity");
   refuse_doubles(*p, "quantities", diagnostics);

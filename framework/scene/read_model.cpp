@@ -75,9 +75,10 @@ Model SceneReader::read() {
   read_contacts();
   read_loads();
   read_gravity();
-  read_base();
   read_damping();
+  read_base();
   read_initial();
+  read_preload();
   return std::move(model_);
 }
 

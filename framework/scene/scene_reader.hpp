@@ -37,6 +37,17 @@ class SceneReader {
   void choose_turning(const config::Parameters& parameters);
   void read_gravity();
   void read_base();
+  void read_base_entry(const config::Value& entry, const std::string& path, bool takes_nodes);
+  bool read_base_nodes(const config::Parameters& parameters, BaseMotion& base);
+  void integrate_base(const TimeFunction& acceleration, double initial_velocity, BaseMotion& base);
+  bool differentiate_base(const config::Value& motion, const std::string& path, const TimeFunction& displacement,
+                          BaseMotion& base);
+  bool can_be_still(const config::Value& given);
+  void add_base_loads(const BaseMotion& base);
+  void read_preload();
+  void find_preload_of_gravity();
+  void check_buckling();
+  void read_frame(const config::Parameters& parameters);
   void read_supports();
   void read_contacts();
   void read_contact(const config::Value& entry, const std::string& path);
@@ -85,6 +96,8 @@ class SceneReader {
   config::Diagnostics& diagnostics_;
   Model model_;
   std::optional<DofTable> dofs_;
+  std::optional<std::size_t> gravity_load_;  ///< among the loads
+  std::optional<BaseFrame> stop_frame_;  ///< of the stops to ground, where there are any
   std::map<std::string, std::optional<Material>> materials_;
   std::map<std::string, std::optional<Section>> sections_;
   std::vector<std::string> element_names_;

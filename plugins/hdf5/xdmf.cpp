@@ -1,8 +1,10 @@
 #include "xdmf.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <span>
 
 namespace butee::plugins::hdf5 {
 namespace {
@@ -50,6 +52,17 @@ std::string item(const std::string& path, const std::string& size, const char* t
   return "<DataItem Format=\"HDF\" Dimensions=\"" + size + "\" " + type + ">fields.h5:" + path + "</DataItem>";
 }
 
+/// A vector of three fields, those that are "" being zero; nothing where all are.
+std::string vector_attribute(const std::string& name, const std::string& nodes,
+                             std::span<const std::string, 3> components) {
+  if (components[0].empty() && components[1].empty() && components[2].empty()) return "";
+  std::string text = "    <Attribute Name=\"" + name + "\" AttributeType=\"Vector\"><DataItem ItemType=\"Function\" ";
+  text += "Function=\"JOIN($0 , $1 , $2)\" Dimensions=\"" + nodes + " 3\">";
+  for (const std::string& component : components)
+    text += component.empty() ? item("/nodes/zero", nodes, kReal) : component;
+  return text + "</DataItem></Attribute>\n";
+}
+
 }  // namespace
 
 std::vector<std::int64_t> mixed_topology(const model::FieldLayout& layout) {
@@ -95,18 +108,19 @@ void XdmfFile::add(std::size_t record, std::size_t records, double t) {
   std::string text = "  <Grid Name=\"scene\"><Time Value=\"";
   text += time.data();
   text += "\"/>" + mesh_;
+  std::array<std::string, 6> components;  ///< ux, uy, uz, rx, ry, rz
   for (const model::Field& field : layout_.fields) {
     std::string slab = "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" + nodes + "\"><DataItem Format=\"XML\" ";
     slab += "Dimensions=\"3 2\">" + std::to_string(record) + " 0 1 1 1 " + nodes + "</DataItem>";
     slab += item("/fields/" + field.name, std::to_string(records) + " " + nodes, field.whole ? kWhole : kReal);
     slab += "</DataItem>";
     text += "    <Attribute Name=\"" + field.name + "\" AttributeType=\"Scalar\">" + slab + "</Attribute>\n";
-    if (field.name != "u") continue;
-    const std::string zero = item("/nodes/zero", nodes, kReal);
-    text += "    <Attribute Name=\"displacement\" AttributeType=\"Vector\"><DataItem ItemType=\"Function\" ";
-    text += "Function=\"JOIN($0 , $1 , $0)\" Dimensions=\"" + nodes + " 3\">" + zero + slab;
-    text += "</DataItem></Attribute>\n";
+    if (const auto kind = dof_named(field.name)) components[static_cast<std::size_t>(*kind)] = slab;
   }
+  text += vector_attribute("displacement", nodes, std::span(components).first<3>());
+  // A rotation in the plane is the field theta itself.
+  if (!components[3].empty() || !components[4].empty())
+    text += vector_attribute("rotation", nodes, std::span(components).last<3>());
   text += "  </Grid>\n";
   write(text);
 }

@@ -61,6 +61,20 @@ TEST(Stress, RandomScenes) {
   expect_no_failure(tally, scenes.size());
 }
 
+/// Shafts that turn and frames in space. Methods for symmetric matrices refuse the first.
+TEST(Stress, RandomScenesInSpace) {
+  std::vector<Scene> scenes;
+  for (std::uint64_t seed = 1; seed <= 12; seed += kEvery) scenes.push_back(space_scene(seed));
+  Tally tally;
+  run_all(scenes, methods(), kWork, tally);
+  EXPECT_TRUE(tally.complaints.empty()) << tally.complaints.front();
+  for (const Failure& f : tally.failures())
+    ADD_FAILURE() << f.scene << ", " << f.method << ": " << name_of(f.outcome.verdict) << ", error " << f.outcome.error
+                  << ", allowed " << f.outcome.allowed << " " << f.outcome.message;
+  EXPECT_EQ(tally.scenes, std::ssize(scenes));
+  EXPECT_GT(tally.count(Verdict::correct), tally.scenes);
+}
+
 /// What wide_scene() is for is in its scenes.
 TEST(StressScenes, ReachTheirCorners) {
   std::string all;
@@ -69,6 +83,11 @@ TEST(StressScenes, ReachTheirCorners) {
                            "modal = 0", "unbalance", "ramp", "law = \"arctan\"", "law = \"linear\"", "gap = 0.0\n",
                            "sides = \"positive\"", "nodes = [\"m0\", \"m1\"]", "fix = [\"u\", \"theta\"]"})
     EXPECT_NE(all.find(what), std::string::npos) << what;
+  std::string space;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) space += space_scene(seed).toml;
+  for (const char* what : {"bearing", "[rotation]\nspeed = {", "unbalance", "rotating_stiffness", "preload", "modal",
+                           "spatial", "timoshenko", "[gravity]", "[base]", "dof = \"uz\""})
+    EXPECT_NE(space.find(what), std::string::npos) << what;
 }
 
 /// Scenes that once got a wrong answer, or grew without a word, in a wider run.

@@ -9,6 +9,13 @@ namespace butee::app::check {
 /// The scene as SVG: beams, supports, stops with their gaps to a common transverse scale, springs, masses, loads.
 std::string picture_svg(const Layout& layout);
 
+/// True where a beam does not lie along x from the origin.
+bool is_in_space(const model::Model& model);
+
+/// Such a scene as SVG, seen from above its front: beams where they stand, supports with the names of what they hold,
+/// stops, springs, masses, loads along their axes.
+std::string picture_in_space(const model::Model& model, const Survey& survey);
+
 /// The same as a few lines of text of at most `width` columns, with box-drawing characters where `utf8`.
 std::string picture_text(const Layout& layout, int width, bool utf8);
 

@@ -100,8 +100,9 @@ std::string limits_text(const plugin::Catalogue&) {
   Materials    plasticity, creep, fatigue; damping beyond Rayleigh's, modal damping, bearings and dashpots
   Contact      in three directions at once; at places that move along a beam, or between surfaces; friction of a turning part
                acts on its translation, not on its torsion; rigid stick in a ring
-  Loads        forces that depend on the motion, moving loads, different motions of several supports
-  Results      shear stresses, fatigue; section forces beyond V and M; optimal parameters; static solutions without a run
+  Loads        forces that depend on the motion, moving loads
+  Results      stresses of transverse shear, of torsion in sections that are not round; fatigue; optimal parameters; static
+               solutions without a run
 
 A motion that strikes stops may be chaotic: then no method can give its course for long (butee help trust). Scenes are
 limited by memory: butee check says how much one takes. New elements, laws and loads come as modules (butee help plugins).

@@ -81,26 +81,42 @@ element uses. Supports, loads, springs, initial values and probes take any of th
   motion     "planar" (uy, rz), "lateral" (both planes: uy, rz, uz, ry) or "spatial" (all six)
   theory     "euler", "rayleigh" (with rotary inertia) or "timoshenko" (with shear too)
   points     [[0, 0, 0], [1, 2, 0]]: a beam between two points in place of `length` along x; `up` orients its section
-  preload    N, tension positive: stiffens the beam, or softens it (compression)
+  preload    N, tension positive: stiffens the beam, or softens it (compression); "gravity" takes the axial force of each
+             element from the static position under [gravity] (motion = "spatial"). A compression that buckles is refused
+             with the critical load, or warned of where stops hold the beam.
+
+  [[element]] type = "matrices": any linear structure by Matrix Market files (symmetric, skew-symmetric or general)
+  mass, stiffness, damping, gyroscopic   M, K and, where given, C and G (skew; the force -Omega G v where the part turns)
+  dofs       those of each node, ["uy", "rz"], with `nodes` (NAME:0..48 for own ones, others of the scene), row after row
+             node by node; or a file with a row "NODE DOF" for each row of the matrices, NODE a number or a selector
 
   [rotation]
   speed      rad/s about x: a number, { type = "ramp", from = 0.0, to = 300.0, end = 10.0 } or { type = "table", ... }
-  parts      the beams and discs that turn; all along x where not given. They have gyroscopic moments (beams with rotary
-             inertia), and a run-up adds the moments of its acceleration.
+  parts      the beams, discs and matrices that turn; all along x where not given. They have gyroscopic moments (beams
+             with rotary inertia), and a run-up adds the moments of its acceleration.
   [[load]] type = "unbalance" without `speed` turns with [rotation]: moment (kg m), phase (rad, from y)
   [damping] rotating_stiffness_proportional (s), or rotating = true on a bearing or a spring: damping that turns with the
              shaft, which makes it unstable above a threshold
 
   [gravity] acceleration = [0.0, -9.81, 0.0]; static = true starts at rest in the static position, stops included
-  [base] acceleration = { direction = [0, 1, 0], type = "table", file = "quake.csv" }: all supports move so (m/s2); u is
-             then relative to the base, and stops to ground move with it
+  [base] acceleration = { direction = [0, 1, 0], type = "table", file = "quake.csv" }: all supports and the ground move so
+             (m/s2), from initial_velocity (0) on; or displacement = {...} (m), a smooth curve through a table. u is
+             relative to the base, u_abs, v_abs, a_abs (ux_abs, uz_abs ...) are those in space. Stops to ground move with
+             the base; frame = "space" in every [[contact]] to ground keeps them where they are. Several [[base]] add up.
+  [[base]] nodes = [...]: supports that move apart, each entry its own. u is then measured in space, and the ground of
+             springs and stops stands still; [initial] is the start in space.
+
+Probes of forces, along and about the own axes of a beam: N (with the preload), Vy, Vz, T, My, Mz: the force and the moment
+that the side of larger x exerts on the side of smaller x; V = Vy and M = Mz. My = -E I d2w/dx2. reaction_ux ... reaction_rz
+of supports, spring_ux ... spring_rz of springs and bearings along the axes of space. von_mises is that of the outer fibre,
+with N and T: in space of round sections; bending_stress that of bending along u. All hold the inertia of the element itself,
+gyroscopic moments, weight and the motion of the base.
 
 `butee modes SCENE --speed OMEGA` prints damped, whirling modes at a speed (rad/s), `--campbell FROM TO N` the critical
-speeds, with -o and --plot the Campbell diagram.
-Section forces are V and M of the plane (x, y) (of a beam in space, of its own axes x and y); where something turns there
-are none.
-Where shafts turn or bearings have cross terms the matrices are not symmetric. rodas4, dopri5, extrapolation8, exact (at a
-constant speed) and all methods with fixed steps take them, auto chooses among them, exponential refuses them.
+speeds, with -o and --plot the Campbell diagram. `butee plot` draws orbits (uz over uy), run-up (the radius over the speed),
+full-spectrum (forward and backward whirl) and frame (the deformed structure in space).
+Where shafts turn or bearings have cross terms the matrices are not symmetric. rodas4, dopri5, extrapolation8, exact and all
+methods with fixed steps take them, auto chooses among them, exponential refuses them.
 )";
 }
 
@@ -112,6 +128,7 @@ std::string contact_text(const plugin::Catalogue& catalogue) {
   between    two selectors of equally many nodes: a contact between each pair, on the difference of their motion
   gap        m, the free play (of a stop on each side); or gaps, a list with one for each contact; or
              gaps_from = { file = "gaps.csv" }, whose second column holds them
+  frame      under [base], of a stop to ground: "base" (moves with it, where not given) or "space" (butee help space)
   law        "linear" where not given; the laws and their parameters are below
   damping    dissipation while closed, a table (below)
   friction   Coulomb friction along the tangent, a table (below); not on a stop

@@ -95,7 +95,9 @@ Picture Chart::picture() const {
   };
   for (const Mark& level : levels)
     if (is_near(level)) y.take(level.at);
-  const Scale x_scale = scale_for(x_end ? *x_end : x.largest(), x_unit), y_scale = scale_for(y.largest(), y_unit);
+  const double x_size = x_end ? *x_end : x.largest(), y_size = y.largest(), both = std::max(x_size, y_size);
+  const Scale x_scale = scale_for(in_plane ? both : x_size, x_unit),
+              y_scale = scale_for(in_plane ? both : y_size, y_unit);
 
   Picture picture;
   picture.name = name;
@@ -104,6 +106,7 @@ Picture Chart::picture() const {
   set += "set xlabel " + gnuplot::quoted(x_scale.axis(x_name)) + "\n";
   set += "set ylabel " + gnuplot::quoted(y_scale.axis(y_name)) + "\n";
   set += "set title \"" + folded_title(title) + "\" noenhanced\n";
+  if (in_plane) set += "set size ratio -1\n";
   const bool path = !curves.empty() && curves.front().path;
   set += "set xrange " + x.range(x_begin, x_end, path ? kMargin : 0.0, x_scale) + "\n";
   if (log_y)

@@ -41,6 +41,7 @@ struct Chart {
   std::string x_name, x_unit, y_name, y_unit;
   bool log_y = false;
   bool from_zero = false;  ///< the y axis
+  bool in_plane = false;   ///< x and y are drawn to one scale
   std::vector<Curve> curves;
   std::vector<Mark> levels;    ///< of y
   std::vector<Mark> uprights;  ///< of x

@@ -8,6 +8,7 @@
 #include <butee/core/text.hpp>
 
 #include "../gnuplot.hpp"
+#include "frame.hpp"
 #include "shape.hpp"
 
 namespace butee::app::plot {
@@ -38,8 +39,8 @@ void check_probes(const Request& request, const std::vector<Result>& results) {
                        "; known: " + join(known));
 }
 
-std::vector<Picture> shapes(const Result& result, const plugin::Catalogue& catalogue, Window window, bool several,
-                            bool asked_for) {
+std::vector<Picture> shapes(Kind kind, const Result& result, const plugin::Catalogue& catalogue, Window window,
+                            bool several, bool asked_for) {
   if (result.field_format.empty()) return {};
   const auto* format = model::find_type(catalogue.types().formats, result.field_format);
   if (format == nullptr) {
@@ -49,6 +50,7 @@ std::vector<Picture> shapes(const Result& result, const plugin::Catalogue& catal
     log::warning(reason);
     return {};
   }
+  if (kind == Kind::frame) return frame_pictures(result, *format->open(result.folder), window, several);
   return shape_pictures(result, *format->open(result.folder), window, several);
 }
 
@@ -80,10 +82,10 @@ std::vector<std::string> draw(const Request& request, const plugin::Catalogue& c
   for (const std::string& name : chosen ? request.kinds : kind_names()) {
     const Kind kind = kind_of(name);
     std::vector<Picture> found;
-    if (kind == Kind::shape) {
+    if (kind == Kind::shape || kind == Kind::frame) {
       for (const Result& result : results)
         if (chosen || results.size() == 1)
-          for (Picture& picture : shapes(result, catalogue, request.window, results.size() > 1, chosen))
+          for (Picture& picture : shapes(kind, result, catalogue, request.window, results.size() > 1, chosen))
             found.push_back(std::move(picture));
     } else {
       found = pictures(kind, results, request.probes);

@@ -8,13 +8,15 @@
 
 #include "drawing.hpp"
 #include "motion.hpp"
+#include "orbits.hpp"
 #include "spectrum.hpp"
 
 namespace butee::app::plot {
 namespace {
 
-constexpr std::array<const char*, 12> kNames = {"displacement", "force",  "step",  "energy", "phase",  "spectrum",
-                                                "shape",        "moment", "shear", "stress", "spring", "reaction"};
+constexpr std::array<const char*, 16> kNames = {
+    "displacement", "force",  "step",   "energy",   "phase", "spectrum", "shape",         "moment",
+    "shear",        "stress", "spring", "reaction", "orbit", "run-up",   "full-spectrum", "frame"};
 
 std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
                              const std::string& y_name, const std::string& y_unit, bool with_gaps) {
@@ -189,7 +191,14 @@ std::vector<Chart> charts(Kind kind, const Drawing& drawing) {
       return over_time(drawing, "spring", "spring_force", "spring force", "N", false);
     case Kind::reaction:
       return over_time(drawing, "reaction", "reaction", "reaction", "N", false);
+    case Kind::orbit:
+      return of_orbit(drawing);
+    case Kind::run_up:
+      return of_run_up(drawing);
+    case Kind::full_spectrum:
+      return of_full_spectrum(drawing);
     case Kind::shape:
+    case Kind::frame:
       break;
   }
   return {};
@@ -242,6 +251,15 @@ std::string requirement_of(Kind kind) {
       return "a probe of spring_force: [[output.probe]] with quantities = [\"spring_force\"]";
     case Kind::reaction:
       return "a probe of reaction: [[output.probe]] with quantities = [\"reaction\"]";
+    case Kind::orbit:
+    case Kind::full_spectrum:
+      return "a probe of uy and uz: [[output.probe]] with quantities = [\"uy\", \"uz\"]";
+    case Kind::run_up:
+      return "a speed of [rotation] that varies and a probe of uy and uz: [[output.probe]] with quantities = [\"uy\", "
+             "\"uz\"]";
+    case Kind::frame:
+      return "beams in space and the displacements of all nodes: run again with --set 'output.formats=[\"csv\", "
+             "\"hdf5\"]'";
     case Kind::step:
       break;
   }

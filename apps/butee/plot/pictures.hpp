@@ -6,7 +6,24 @@
 namespace butee::app::plot {
 
 /// What can be drawn of a run.
-enum class Kind { displacement, force, step, energy, phase, spectrum, shape, moment, shear, stress, spring, reaction };
+enum class Kind {
+  displacement,
+  force,
+  step,
+  energy,
+  phase,
+  spectrum,
+  shape,
+  moment,
+  shear,
+  stress,
+  spring,
+  reaction,
+  orbit,
+  run_up,
+  full_spectrum,
+  frame
+};
 
 /// "displacement", ... in this order.
 std::vector<std::string> kind_names();

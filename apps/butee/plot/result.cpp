@@ -110,6 +110,8 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
   for (const model::ProbeRequest& probe : output.probes)
     result.probes.push_back({probe.label, gaps_of(scene.model, probe.node)});
   result.frequencies = frequencies_of(document);
+  if (const auto* rotation = scene.model.rotation.get(); rotation != nullptr && !rotation->is_constant())
+    for (const double t : result.history.times()) result.speeds.push_back(rotation->speed(t));
   return result;
 }
 

@@ -24,6 +24,7 @@ struct Result {
   std::optional<Table> energy;
   std::vector<Probe> probes;        ///< in the order of the columns
   std::vector<double> frequencies;  ///< Hz, of the harmonic loads
+  std::vector<double> speeds;       ///< rad/s, of [rotation] at the times of the history, where it varies
   std::string field_format;         ///< of the fields, "" where there are none
 
   /// The column "probe.quantity", or nullptr.

@@ -25,27 +25,53 @@ std::vector<double> resampled(const std::vector<double>& t, const std::vector<do
   return even;
 }
 
-}  // namespace
-
-Spectrum amplitude_spectrum(const std::vector<double>& times, const std::vector<double>& values) {
+/// The transform of y + i z (or of y alone) less its mean under a Hann window, whose values sum up to `sum`; nothing
+/// with too few samples. `dt` is the time between two samples.
+std::vector<std::complex<double>> transformed(const std::vector<double>& times, const std::vector<double>& y,
+                                              const std::vector<double>& z, double& sum, double& dt) {
   const std::size_t n = times.size();
   if (n < kFewest || !(times.back() > times.front())) return {};
-  const double dt = (times.back() - times.front()) / static_cast<double>(n - 1);
-  std::vector<double> signal = resampled(times, values, dt);
-  double mean = 0.0, sum = 0.0;
-  for (const double value : signal) mean += value / static_cast<double>(n);
+  dt = (times.back() - times.front()) / static_cast<double>(n - 1);
+  const std::vector<double> real = resampled(times, y, dt);
+  const std::vector<double> imaginary = z.empty() ? std::vector<double>(n, 0.0) : resampled(times, z, dt);
+  std::vector<std::complex<double>> signal(n), lines;
+  std::complex<double> mean = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    signal[i] = {real[i], imaginary[i]};
+    mean += signal[i] / static_cast<double>(n);
+  }
+  sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const double w = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n));
     signal[i] = w * (signal[i] - mean);
     sum += w;
   }
-  std::vector<std::complex<double>> lines;
   Eigen::FFT<double> transform;
   transform.fwd(lines, signal);
+  return lines;
+}
+
+}  // namespace
+
+Spectrum amplitude_spectrum(const std::vector<double>& times, const std::vector<double>& values) {
+  double sum = 0.0, dt = 0.0;
+  const auto lines = transformed(times, values, {}, sum, dt);
   Spectrum spectrum;
-  for (std::size_t k = 1; k <= n / 2; ++k) {
-    spectrum.frequencies.push_back(static_cast<double>(k) / (static_cast<double>(n) * dt));
+  for (std::size_t k = 1; k < lines.size() && k <= lines.size() / 2; ++k) {
+    spectrum.frequencies.push_back(static_cast<double>(k) / (static_cast<double>(lines.size()) * dt));
     spectrum.amplitudes.push_back(2.0 * std::abs(lines[k]) / sum);
+  }
+  return spectrum;
+}
+
+Spectrum full_spectrum(const std::vector<double>& times, const std::vector<double>& y, const std::vector<double>& z) {
+  double sum = 0.0, dt = 0.0;
+  const auto lines = transformed(times, y, z, sum, dt);
+  const auto n = static_cast<std::ptrdiff_t>(lines.size());
+  Spectrum spectrum;
+  for (std::ptrdiff_t k = -(n - 1) / 2; k <= n / 2 && n > 0; ++k) {
+    spectrum.frequencies.push_back(static_cast<double>(k) / (static_cast<double>(n) * dt));
+    spectrum.amplitudes.push_back(std::abs(lines[static_cast<std::size_t>(k < 0 ? k + n : k)]) / sum);
   }
   return spectrum;
 }

@@ -15,4 +15,8 @@ struct Spectrum {
 /// linear interpolation. A frequency between two lines shows up to 15 % too small. Empty with fewer than 8 samples.
 Spectrum amplitude_spectrum(const std::vector<double>& times, const std::vector<double>& values);
 
+/// The same of y + i z: frequencies ascend from minus half the sampling rate; y = A cos, z = A sin show A above zero
+/// alone.
+Spectrum full_spectrum(const std::vector<double>& times, const std::vector<double>& y, const std::vector<double>& z);
+
 }  // namespace butee::app::plot

@@ -99,7 +99,7 @@ void Reference::solve() {
   if (!(peak_ > 0.0) || !base_.is_finite) return;
   const model::System& system = run_->system();
   std::vector<bool> is_rotation;
-  for (const model::NodalDof& dof : system.dofs.free()) is_rotation.push_back(dof.kind == DofKind::theta);
+  for (const model::NodalDof& dof : system.dofs.free()) is_rotation.push_back(butee::is_rotation(dof.kind));
   modes_ = dynamics::lowest_modes(system, system.size());
   if (!modes_) return;
   promise_.emplace(base_, largest_, is_rotation, scene_.tolerance,

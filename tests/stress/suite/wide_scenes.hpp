@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "scenes.hpp"
+#include "space_scenes.hpp"
 
 namespace butee::stress {
 
@@ -13,8 +14,9 @@ namespace butee::stress {
 /// stops. Tolerances from 1e-2 to 1e-10.
 Scene wide_scene(std::uint64_t seed);
 
-/// Every third one by random_scene(), the others by wide_scene().
+/// Every tenth one by space_scene(), every third other by random_scene(), the others by wide_scene().
 inline Scene mixed_scene(std::uint64_t seed) {
+  if (seed % 10 == 9) return space_scene(seed);
   return seed % 3 == 0 ? random_scene(seed) : wide_scene(seed);
 }
 

@@ -1,0 +1,55 @@
+#include "butee/dynamics/buckling.hpp"
+
+#include <limits>
+
+#include <Eigen/SparseCholesky>
+
+#include "butee/model/system.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Bisection ends where the bounds are as near as this, relative.
+constexpr double kBisected = 1e-13;
+
+SparseMatrix symmetric_stiffness(const model::Model& model) {
+  const SparseMatrix k = assemble(model, model::TurningParts::apart).stiffness;
+  return 0.5 * (k + SparseMatrix(k.transpose()));
+}
+
+}  // namespace
+
+double critical_preload_factor(model::Model& model) {
+  const SparseMatrix whole = symmetric_stiffness(model);
+  std::vector<std::vector<double>> before;
+  for (const auto& element : model.elements) {
+    before.push_back(element->preload());
+    if (!before.back().empty()) element->set_preload(std::vector<double>(before.back().size(), 0.0));
+  }
+  const SparseMatrix elastic = symmetric_stiffness(model);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (!before[i].empty()) model.elements[i]->set_preload(before[i]);
+
+  const SparseMatrix geometric = whole - elastic;
+  Eigen::SimplicialLDLT<SparseMatrix> factor;
+  factor.analyzePattern(whole);
+  const auto holds = [&](double preload) {
+    factor.factorize(SparseMatrix(elastic + preload * geometric));
+    return factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0;
+  };
+  if (!holds(0.0)) return std::numeric_limits<double>::quiet_NaN();
+  double below = 0.0, above = 1.0;
+  while (holds(above)) {
+    below = above;
+    above *= 2.0;
+    if (above > kMostPreloadFactor) return kInfinity;
+  }
+  while (above - below > kBisected * above) {
+    const double middle = 0.5 * (below + above);
+    (holds(middle) ? below : above) = middle;
+  }
+  return 0.5 * (below + above);
+}
+
+}  // namespace butee::dynamics

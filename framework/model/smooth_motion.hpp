@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "butee/model/time_function.hpp"
+
+namespace butee::model {
+
+/// A piecewise polynomial in time. Piece i, of degree kDegree or less in t - start, holds from its start to the next;
+/// the first holds before its start too.
+class BUTEE_EXPORT PiecewisePolynomial final : public TimeFunction {
+ public:
+  static constexpr std::size_t kDegree = 4;
+  struct Piece {
+    double start = 0.0;
+    std::array<double, kDegree + 1> coefficients{};
+  };
+
+  PiecewisePolynomial() : pieces_(1) {}
+  /// `pieces` ascend and hold at least one.
+  explicit PiecewisePolynomial(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {}
+  /// The cubic spline through (times, values), without curvature at its beginning and without slope at its end, from
+  /// which on it is constant: at least two instants, ascending.
+  static PiecewisePolynomial spline(const std::vector<double>& times, const std::vector<double>& values);
+
+  double value(double t) const override;
+  bool vanishes() const override;
+  bool taylor(double t, double h, std::span<double> coefficients) const override;
+  bool is_piecewise_parabolic() const override;
+  std::vector<double> kinks() const override;
+
+  PiecewisePolynomial derivative() const;
+  /// The integral that is `at_zero` at t = 0; pieces of degree kDegree - 1 or less.
+  PiecewisePolynomial integral(double at_zero) const;
+  void add(double constant);
+
+ private:
+  const Piece& piece_at(double t) const;
+
+  std::vector<Piece> pieces_;
+};
+
+/// A motion that can be differentiated and integrated in closed form: a wave and a piecewise polynomial.
+struct BUTEE_EXPORT SmoothMotion {
+  Harmonic wave{0.0, 0.0, 0.0};
+  PiecewisePolynomial line;
+
+  /// Of a harmonic function or one that is a polynomial of degree two or less between kinks; `problem` says what is
+  /// wrong with all others.
+  static SmoothMotion of(const TimeFunction& function, std::string& problem);
+
+  double value(double t) const;
+  SmoothMotion derivative() const;
+  SmoothMotion integral(double at_zero) const;
+  /// Its parts that do not vanish, as functions of their own.
+  std::vector<std::unique_ptr<TimeFunction>> parts() const;
+};
+
+}  // namespace butee::model

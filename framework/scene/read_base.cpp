@@ -1,0 +1,240 @@
+#include <algorithm>
+
+#include "butee/scene/scene_reader.hpp"
+
+namespace butee::scene {
+
+using config::Parameters;
+using config::Value;
+
+namespace {
+
+/// A displacement whose velocity jumps, such as a ramp's, would be a blow.
+std::string complaint_about(const std::string& type, const TimeFunction& displacement) {
+  if (type == "ramp")
+    return "a ramp of displacement has jumps of velocity; give a table of the displacement, through which a smooth "
+           "curve goes, or the acceleration";
+  if (type == "table" && !displacement.kinks().empty() && displacement.kinks().front() > 0.0)
+    return "a table of displacement begins at t = 0 or before";
+  return "";
+}
+
+}  // namespace
+
+/// Reads [base], or [[base]] for several motions.
+void SceneReader::read_base() {
+  const Value* given = root_.table()->find("base");
+  const bool has_still_stops = model_.base_frame == BaseFrame::still;
+  if (given != nullptr) {
+    if (given->table() != nullptr) {
+      read_base_entry(*given, "base", false);
+    } else {
+      for (const auto& [entry, path] : entries("base")) read_base_entry(*entry, path, true);
+    }
+  }
+  if (given == nullptr && has_still_stops)
+    diagnostics_.error("contact", root_.at,
+                       "frame = \"space\" is of stops beside a base that moves: give [base], or leave frame out");
+  if (model_.bases.empty() || lacks_elements_ || diagnostics_.error_count() > 0) return;
+  const auto is_of_some = [](const BaseMotion& base) { return !base.nodes.empty(); };
+  const auto some = std::count_if(model_.bases.begin(), model_.bases.end(), is_of_some);
+  if (some > 0 && some < std::ssize(model_.bases))
+    return diagnostics_.error("base", given->at,
+                              "moves all supports in one entry and some in another; give every [[base]] its nodes, or "
+                              "none");
+  if (some > 0) model_.base_frame = BaseFrame::still;
+  if (!can_be_still(*given)) return;
+  for (const BaseMotion& base : model_.bases) add_base_loads(base);
+}
+
+void SceneReader::read_base_entry(const Value& entry, const std::string& path, bool takes_nodes) {
+  std::vector<config::Parameter> declared = {
+      config::table("acceleration", "the acceleration of the supports, m/s2, with its direction").optional(),
+      config::table("displacement", "in its place their displacement, m, with its direction").optional(),
+      config::number("initial_velocity", "m/s", "with acceleration, their velocity at t = 0").or_else(0.0)};
+  if (takes_nodes)
+    declared.push_back(config::texts("nodes", "the supports that move; all, with the ground, where absent").optional());
+  const auto p = read_table(entry, path, declared);
+  if (!p) return;
+  const std::string key = p->has("acceleration") ? "acceleration" : "displacement";
+  if (p->has("acceleration") == p->has("displacement"))
+    return diagnostics_.error(path, entry.at,
+                              p->has("acceleration")
+                                  ? "has both acceleration and displacement; give one of them"
+                                  : "give acceleration or displacement, such as { direction = [0, 1, 0], type = "
+                                    "\"table\", file = \"quake.csv\" }");
+  if (p->has("displacement") && p->given("initial_velocity"))
+    return p->complain(diagnostics_, "initial_velocity", "belongs to acceleration; displacement has a velocity itself");
+  const Value& motion = p->value(key);
+  if (motion.table() == nullptr) return diagnostics_.error(path + "." + key, motion, "must be one table, not several");
+  const auto in_time = read_in_time(motion, path + "." + key, {"direction"});
+  std::vector<std::string> others;
+  for (const auto& [name, value] : motion.table()->entries)
+    if (name != "direction") others.push_back(name);
+  const auto along = read_parameters(
+      motion, path + "." + key, {config::numbers("direction", "1", "along which it acts, x, y and z").of_length(3)},
+      diagnostics_, others);
+  if (!along || in_time == nullptr) return;
+  const auto d = along->numbers("direction");
+  const Eigen::Vector3d direction(d[0], d[1], d[2]);
+  if (!(direction.norm() > 0.0))
+    return along->complain(diagnostics_, "direction", "has no length; give one such as [0, 1, 0]");
+  BaseMotion base{direction.normalized(), std::nullopt, {}};
+  if (p->has("nodes") && !read_base_nodes(*p, base)) return;
+  if (key == "acceleration")
+    integrate_base(*in_time, p->number("initial_velocity"), base);
+  else if (!differentiate_base(motion, path + "." + key, *in_time, base))
+    return;
+  if (!base.motion) {
+    if (base.nodes.empty() && model_.base_frame == BaseFrame::moving) {
+      auto pattern = inertia_pattern(model_, -base.direction);
+      Load load{std::move(pattern), read_in_time(motion, path + "." + key, {"direction"}), nullptr, 0.0};
+      load.acceleration = -base.direction;
+      model_.loads.push_back(std::move(load));
+    } else {
+      return p->complain(diagnostics_, key,
+                         "its integral is known of harmonic, constant, ramp and table alone, and stops in space and "
+                         "supports apart need it");
+    }
+  }
+  if (base.nodes.empty() && !lacks_elements_ && inertia_pattern(model_, base.direction).empty())
+    return along->complain(diagnostics_, "direction", "is along no displacement that the scene has");
+  model_.bases.push_back(std::move(base));
+}
+
+bool SceneReader::read_base_nodes(const Parameters& p, BaseMotion& base) {
+  const auto nodes = select(p, "nodes");
+  if (!nodes) return false;
+  base.nodes = *nodes;
+  for (const NodeId node : base.nodes) {
+    bool moves = false;
+    for (const DofKind kind : {DofKind::ux, DofKind::uy, DofKind::uz})
+      if (base.direction[axis_of(kind)] != 0.0)
+        moves = moves || (dofs_->exists({node, kind}) && dofs_->is_fixed({node, kind}));
+    if (moves || lacks_elements_) continue;
+    p.complain(
+        diagnostics_, "nodes",
+        "no [[support]] holds " + model_.nodes.name(node) + " along the direction; a base moves what is fixed to it");
+    return false;
+  }
+  return true;
+}
+
+void SceneReader::integrate_base(const TimeFunction& acceleration, double initial_velocity, BaseMotion& base) {
+  std::string problem;
+  const SmoothMotion a = SmoothMotion::of(acceleration, problem);
+  if (!problem.empty()) return;
+  const SmoothMotion v = a.integral(initial_velocity);
+  base.motion = {v.integral(0.0), v, a};
+}
+
+bool SceneReader::differentiate_base(const Value& motion, const std::string& path, const TimeFunction& displacement,
+                                     BaseMotion& base) {
+  const Value* type = motion.table()->find("type");
+  std::string problem = complaint_about(*type->text(), displacement);
+  SmoothMotion d;
+  if (problem.empty() && *type->text() == "table" && !displacement.kinks().empty()) {
+    const std::vector<double> times = displacement.kinks();
+    std::vector<double> values;
+    for (const double t : times) values.push_back(displacement.value(t));
+    d.line = PiecewisePolynomial::spline(times, values);
+  } else if (problem.empty()) {
+    d = SmoothMotion::of(displacement, problem);
+  }
+  if (!problem.empty()) {
+    diagnostics_.error(path, motion.at, problem);
+    return false;
+  }
+  const SmoothMotion v = d.derivative();
+  base.motion = {d, v, v.derivative()};
+  return true;
+}
+
+/// Where x is absolute, some things cannot be said.
+bool SceneReader::can_be_still(const Value& given) {
+  if (model_.base_frame == BaseFrame::moving) return true;
+  const auto refuse = [&](const std::string& what) {
+    diagnostics_.error("base", given.at, what);
+    return false;
+  };
+  const std::string where = model_.bases.front().nodes.empty() ? "stops with frame = \"space\"" : "supports apart";
+  if (model_.damping.is_modal())
+    return refuse("modal damping is that of motion with the base, which " + where +
+                  " do not have; give mass_proportional and stiffness_proportional");
+  if (model_.initial_motion)
+    return refuse("[initial] from is of motion relative to one base, and this scene has " + where +
+                  "; give displacement and velocity");
+  const auto moves = [&](NodeId node) {
+    const NodalDof dof{node, DofKind::u};
+    if (!dofs_->exists(dof) || !dofs_->is_fixed(dof)) return false;
+    for (const BaseMotion& base : model_.bases) {
+      const auto same = [&](NodeId one) { return model_.nodes.canonical(one) == model_.nodes.canonical(node); };
+      if (base.direction[1] != 0.0 && (base.nodes.empty() || std::any_of(base.nodes.begin(), base.nodes.end(), same)))
+        return true;
+    }
+    return false;
+  };
+  for (const StopGroup& group : model_.stops)
+    for (const auto* side : {&group.a, &group.b})
+      for (const NodeId node : *side)
+        if (!group.b.empty() && moves(node))
+          return refuse("moves " + model_.nodes.name(node) + ", which a stop between two bodies names; where " + where +
+                        " are, both bodies of a stop have a free u");
+  for (std::size_t i = 0; i < model_.elements.size(); ++i) {
+    if (model_.bases.front().nodes.empty() || i >= model_.turns.size() || !model_.turns[i]) continue;
+    DofTable claims(model_.nodes);
+    model_.elements[i]->claim(claims);
+    for (const BaseMotion& base : model_.bases)
+      for (const NodeId node : base.nodes)
+        for (const DofKind kind : kAllDofKinds)
+          if (claims.exists({node, kind}))
+            return refuse("moves " + model_.nodes.name(node) +
+                          ", a node of a part that turns; move the far node of a bearing or spring between two nodes");
+  }
+  return true;
+}
+
+/// Of a [[contact]]: stops to ground either all move with the base or all stay in space.
+void SceneReader::read_frame(const Parameters& p) {
+  if (p.has("between")) {
+    if (p.given("frame"))
+      p.complain(diagnostics_, "frame", "is of stops to ground (nodes), not of stops between bodies");
+    return;
+  }
+  const BaseFrame frame = p.text("frame") == "space" ? BaseFrame::still : BaseFrame::moving;
+  if (stop_frame_ && *stop_frame_ != frame)
+    p.complain(
+        diagnostics_, "frame",
+        "differs from that of another [[contact]]: stops to ground all move with the base, or all stay in space");
+  stop_frame_ = frame;
+  model_.base_frame = frame;
+}
+
+void SceneReader::add_base_loads(const BaseMotion& base) {
+  if (!base.motion) return;
+  const auto add = [&](const std::vector<NodalValue>& pattern, double sign, std::size_t order,
+                       const Eigen::Vector3d& acceleration) {
+    if (pattern.empty()) return;
+    for (auto& in_time : (*base.motion)[order].parts()) {
+      Load load{pattern, std::move(in_time), nullptr, 0.0};
+      for (NodalValue& value : load.pattern) value.value *= sign;
+      load.acceleration = acceleration;
+      model_.loads.push_back(std::move(load));
+    }
+  };
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  if (model_.base_frame == BaseFrame::moving)
+    return add(inertia_pattern(model_, base.direction), -1.0, 2, -base.direction);
+  const auto forces = prescribed_forces(model_, *dofs_, base.direction, base.nodes);
+  if (base.nodes.empty()) {
+    add(forces.mass, -1.0, 2, none);
+    add(forces.damping, 1.0, 1, none);
+    add(forces.stiffness, 1.0, 0, none);
+    return;
+  }
+  add(forces.mass, -1.0, 2, none);
+  add(forces.damping, -1.0, 1, none);
+  add(forces.stiffness, -1.0, 0, none);
+}
+
+}  // namespace butee::scene

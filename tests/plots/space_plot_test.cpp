@@ -1,0 +1,194 @@
+// Pictures of shafts and frames, and their fields.
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "apps/butee/plot/spectrum.hpp"
+#include "support/program.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::space_plot_test {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A rotor that runs up, with probes in both planes.
+constexpr const char* kRotor = R"(schema = 1
+[[element]]
+type = "disc"
+name = "rotor"
+mass = 1.0
+[[element]]
+type = "bearing"
+node = "rotor"
+stiffness = [[4000.0, 0], [0, 4000.0]]
+damping = [[3.0, 0], [0, 3.0]]
+[rotation]
+speed = { type = "ramp", to = 100.0, end = 1.0 }
+[[load]]
+type = "unbalance"
+node = "rotor"
+moment = 1e-4
+[integrator]
+type = "exact"
+end_time = 1.0
+[output]
+interval = 0.005
+[[output.probe]]
+label = "disc"
+node = "rotor"
+quantities = ["uy", "uz"]
+)";
+
+TEST(SpacePlot, ShowsOrbitsRunUpAndFullSpectrum) {
+  const TemporaryFolder folder;
+  folder.write("rotor.toml", kRotor);
+  ASSERT_EQ(run_program({"run", "rotor.toml", "-q"}, folder.path()).status, 0);
+  const Outcome plot = run_program(
+      {"plot", "rotor-results", "--format", "script", "--kind", "orbit,run-up,full-spectrum"}, folder.path());
+  ASSERT_EQ(plot.status, 0) << plot.errors;
+  const auto script = [&](const std::string& name) {
+    return read_file(folder.file("rotor-results/plots/" + name + ".gp"));
+  };
+  const CsvTable history(folder.file("rotor-results/history.csv"));
+  const auto y = history.column("disc.uy"), z = history.column("disc.uz");
+  // Both axes in one scale: micrometres by the larger.
+  EXPECT_TRUE(holds(script("orbit-disc"), "set size ratio -1"));
+  EXPECT_TRUE(holds(script("orbit-disc"), "uy in ")) << script("orbit-disc").substr(0, 500);
+  // The last row: 100 rad/s.
+  const std::string run_up = script("run-up");
+  EXPECT_TRUE(holds(run_up, "speed of rotation in rad/s"));
+  EXPECT_TRUE(holds(run_up, "\n100 ")) << run_up;
+  EXPECT_TRUE(holds(script("full-spectrum"), "backward whirl below zero"));
+  const Outcome still = run_program({"plot", "rotor-results", "--format", "script", "--kind", "frame"}, folder.path());
+  EXPECT_EQ(still.status, 2);
+  EXPECT_TRUE(holds(still.errors, "beams in space and the displacements of all nodes")) << still.errors;
+}
+
+TEST(SpacePlot, FullSpectrumTellsForwardFromBackward) {
+  std::vector<double> t, y, z;
+  for (int i = 0; i < 1000; ++i) {
+    t.push_back(0.001 * i);
+    const double forward = 2.0 * M_PI * 50.0 * t.back(), backward = 2.0 * M_PI * 120.0 * t.back();
+    y.push_back(3.0 * std::cos(forward) + 0.5 * std::cos(backward));
+    z.push_back(3.0 * std::sin(forward) - 0.5 * std::sin(backward));
+  }
+  const auto spectrum = app::plot::full_spectrum(t, y, z);
+  double at_50 = 0.0, at_minus_120 = 0.0, elsewhere = 0.0;
+  for (std::size_t i = 0; i < spectrum.frequencies.size(); ++i) {
+    const double f = spectrum.frequencies[i];
+    // The Hann window spreads a line over its two neighbours.
+    if (std::abs(f - 50.0) < 0.5)
+      at_50 = spectrum.amplitudes[i];
+    else if (std::abs(f + 120.0) < 0.5)
+      at_minus_120 = spectrum.amplitudes[i];
+    else if (std::abs(f - 50.0) > 2.5 && std::abs(f + 120.0) > 2.5)
+      elsewhere = std::max(elsewhere, spectrum.amplitudes[i]);
+  }
+  EXPECT_NEAR(at_50, 3.0, 1e-6);
+  EXPECT_NEAR(at_minus_120, 0.5, 1e-6);
+  EXPECT_LT(elsewhere, 1e-6);
+}
+
+constexpr const char* kFrame = R"(schema = 1
+[material.s]
+young_modulus = 2e11
+poisson_ratio = 0.3
+density = 7850.0
+[section.c]
+shape = "circle"
+radius = 0.02
+[[element]]
+type = "beam"
+name = "leg"
+motion = "spatial"
+material = "s"
+section = "c"
+points = [[1, 0, 0], [1, 2, 0]]
+up = [0, 0, 1]
+elements = 2
+[[element]]
+type = "beam"
+name = "arm"
+motion = "spatial"
+material = "s"
+section = "c"
+points = [[1, 2, 0], [1, 2, 3]]
+elements = 3
+start_node = "leg:last"
+[[support]]
+nodes = "leg:first"
+fix = ["ux", "uy", "uz", "rx", "ry", "rz"]
+[[load]]
+type = "constant"
+node = "arm:last"
+dof = "ux"
+value = 50.0
+[integrator]
+type = "rodas4"
+tolerance = 1e-3
+end_time = 0.1
+[output]
+interval = 0.01
+formats = ["csv", "hdf5"]
+[[output.probe]]
+label = "tip"
+node = "arm:last"
+quantities = ["ux", "uy", "uz", "rx", "ry", "rz"]
+)";
+
+TEST(SpaceFields, HoldAllDisplacementsAndRotations) {
+  plugin::Catalogue catalogue;
+  catalogue.add(BUTEE_TEST_PLUGINS);
+  const auto* format = model::find_type(catalogue.types().formats, "hdf5");
+  if (format == nullptr) GTEST_SKIP() << "no HDF5";
+  const TemporaryFolder folder;
+  folder.write("frame.toml", kFrame);
+  const Outcome run = run_program({"run", "frame.toml", "-q"}, folder.path());
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const auto reader = format->open(folder.file("frame-results"));
+  const model::FieldLayout& layout = reader->layout();
+  const auto node =
+      static_cast<std::size_t>(std::find(layout.nodes.begin(), layout.nodes.end(), "arm:3") - layout.nodes.begin());
+  ASSERT_LT(node, layout.nodes.size());
+  EXPECT_EQ(layout.positions[node], (std::array<double, 3>{1.0, 2.0, 3.0}));
+  const CsvTable history(folder.file("frame-results/history.csv"));
+  std::vector<double> values(layout.nodes.size());
+  int compared = 0;
+  for (std::size_t i = 0; i < layout.fields.size(); ++i) {
+    const auto kind = dof_named(layout.fields[i].name);
+    if (!kind) continue;
+    const char* const names[] = {"tip.ux", "tip.uy", "tip.uz", "tip.rx", "tip.ry", "tip.rz"};
+    const auto column = history.column(names[static_cast<std::size_t>(*kind)]);
+    for (std::size_t record = 0; record < column.size(); ++record, ++compared) {
+      reader->read(record, i, values);
+      EXPECT_EQ(values[node], column[record]) << layout.fields[i].name;
+    }
+  }
+  EXPECT_EQ(compared, 6 * 11);
+  const std::string xdmf = read_file(folder.file("frame-results/fields.xdmf"));
+  EXPECT_TRUE(holds(xdmf, "<Attribute Name=\"displacement\" AttributeType=\"Vector\">"));
+  EXPECT_TRUE(holds(xdmf, "<Attribute Name=\"rotation\" AttributeType=\"Vector\">"));
+  const auto joined = xdmf.substr(xdmf.find("Name=\"displacement\""), 2000);
+  EXPECT_LT(joined.find("/fields/ux"), joined.find("/fields/u<"));
+  EXPECT_LT(joined.find("/fields/u<"), joined.find("/fields/uz"));
+  const Outcome plot = run_program({"plot", "frame-results", "--format", "script", "--kind", "frame"}, folder.path());
+  ASSERT_EQ(plot.status, 0) << plot.errors;
+  EXPECT_TRUE(holds(read_file(folder.file("frame-results/plots/frame.gp")), "splot $rest"));
+}
+
+TEST(SpacePicture, ShowsAFrameWhereItStands) {
+  const TemporaryFolder folder;
+  folder.write("frame.toml", kFrame);
+  const Outcome check = run_program({"check", "frame.toml", "--picture", "frame.svg"}, folder.path());
+  ASSERT_EQ(check.status, 0) << check.errors;
+  const std::string svg = read_file(folder.file("frame.svg"));
+  for (const char* text : {">leg<", ">arm<", ">x<", ">y<", ">z<", "50 N"}) EXPECT_TRUE(holds(svg, text)) << text;
+  EXPECT_FALSE(holds(svg, "nan"));
+}
+
+}  // namespace
+}  // namespace butee::test::space_plot_test
