@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <numeric>
 
 #include "butee/config/file_reference.hpp"
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
+#include "elements/dof_rows.hpp"
 #include "elements/matrices.hpp"
 #include "elements/matrix_market.hpp"
 
@@ -17,17 +17,8 @@ using config::Parameters;
 using model::NodalDof;
 using model::NodeId;
 
-constexpr NodeId kMostNodes = 5'000'000;
 /// Differences between entries (i, j) and (j, i) up to this part of the largest entry are rounding of printed numbers.
 constexpr double kRounding = 1e-12;
-
-/// A row of the matrices: the selector of its node, or its number among the element's own nodes (else -1).
-struct Row {
-  std::string node;
-  NodeId own = -1;
-  std::optional<DofKind> kind;
-  std::string where;  ///< "dofs.txt:3: ", of rows that a file names
-};
 
 bool names_kinds(const Parameters& p) {
   const auto dofs = p.texts("dofs");
@@ -69,51 +60,8 @@ std::optional<SparseMatrix> read_matrix(const Parameters& p, const std::string& 
   return matrix;
 }
 
-std::optional<NodeId> number_in(std::string_view text) {
-  NodeId number = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || number < 0) return std::nullopt;
-  return number;
-}
-
 std::string own_name(const Parameters& p) {
   return p.has("name") ? p.text("name") : "";
-}
-
-/// The largest number of an own node in a selector such as "NAME:17" or "NAME:0..48"; -1 where it is of other nodes.
-NodeId largest_own(const std::string& selector, const std::string& name) {
-  if (name.empty() || !selector.starts_with(name + ":")) return -1;
-  const auto dots = selector.find("..");
-  return number_in(std::string_view(selector).substr(dots == std::string::npos ? name.size() + 1 : dots + 2))
-      .value_or(-1);
-}
-
-std::vector<Row> rows_in(std::string_view text, const std::string& name) {
-  std::vector<Row> rows;
-  std::size_t number = 0;
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    std::string line(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++number;
-    const auto refuse = [&](const std::string& what) { throw InputError(":" + std::to_string(number) + ": " + what); };
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
-    std::vector<std::string> words;
-    for (std::size_t at = 0; (at = line.find_first_not_of(' ', at)) != std::string::npos;) {
-      const auto stop = std::min(line.find(' ', at), line.size());
-      words.push_back(line.substr(at, stop - at));
-      at = stop;
-    }
-    if (words.empty() || words.front().front() == '#' || words.front().front() == '%') continue;
-    if (words.size() != 2) refuse("must hold a node and a degree of freedom, such as \"17 uy\" or \"shaft:last rz\"");
-    const auto kind = dof_named(words[1]);
-    if (!kind) refuse("\"" + printable(words[1]) + "\" is no degree of freedom; give one of ux, uy, uz, rx, ry, rz");
-    Row row{words[0], number_in(words[0]).value_or(largest_own(words[0], name)), kind, std::to_string(number)};
-    if (row.own >= kMostNodes) refuse("own nodes are numbered below " + std::to_string(kMostNodes));
-    rows.push_back(std::move(row));
-  }
-  return rows;
 }
 
 /// The nodes that the element creates: so many as it numbers.
@@ -125,7 +73,7 @@ model::ElementType::Nodes own_nodes(const Parameters& p, Diagnostics& diagnostic
       return std::nullopt;
     }
     if (!with_file(p, "dofs", diagnostics, [&](const std::string& text) {
-          for (const Row& row : rows_in(text, own_name(p))) count = std::max(count, row.own + 1);
+          for (const DofRow& row : rows_in(text, own_name(p))) count = std::max(count, row.own + 1);
         }))
       return std::nullopt;
   } else if (p.has("nodes")) {
@@ -250,7 +198,7 @@ class Maker {
   std::optional<std::vector<NodalDof>> dofs_of_file() {
     std::vector<NodalDof> dofs;
     if (!with_file(p_, "dofs", context_.diagnostics(), [&](const std::string& text) {
-          for (const Row& row : rows_in(text, own_name(p_))) dofs.push_back(dof_of(row));
+          for (const DofRow& row : rows_in(text, own_name(p_))) dofs.push_back(dof_of(row));
           refuse_doubles(text, dofs);
         }))
       return std::nullopt;
@@ -258,7 +206,7 @@ class Maker {
     return dofs;
   }
 
-  NodalDof dof_of(const Row& row) {
+  NodalDof dof_of(const DofRow& row) {
     if (row.own >= 0) return {context_.own_node() + row.own, *row.kind};
     const model::Selection selection = context_.select(row.node);
     if (!selection.problem.empty() || selection.nodes.size() > 1)

@@ -59,7 +59,10 @@ int check_command(const CheckArguments& arguments) {
   if (arguments.json)
     print_json(check::to_json(session, system, facts, advice));
   else
-    check::print(session, system, facts, check::picture_text(layout, terminal_width(stdout), check::locale_is_utf8()));
+    check::print(session, system, facts,
+                 check::is_in_space(session.model)
+                     ? check::list_in_space(session.model)
+                     : check::picture_text(layout, terminal_width(stdout), check::locale_is_utf8()));
   std::fflush(stdout);
   if (!arguments.picture.empty()) write_picture(session.model, facts.survey, layout, arguments.picture);
   if (!arguments.json)

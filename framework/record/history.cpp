@@ -1,6 +1,7 @@
 #include "butee/record/history.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -13,6 +14,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Rows of one step that are interpolated together.
 constexpr std::size_t kMostAtOnce = 64;
+/// Instants of a step at which columns that are measured from another frame than x are looked at for their peaks.
+constexpr std::size_t kBaseSamples = 16;
 
 /// The requested quantities that Peaks follows, and u of every probe.
 std::vector<model::ProbeRequest> peak_requests(std::vector<model::ProbeRequest> requests, const model::System& system) {
@@ -69,11 +72,7 @@ void HistoryRecorder::start(const time::State& state) {
 
 void HistoryRecorder::step(const time::AcceptedStep& step) {
   peaks_.step(step);
-  if (probes_.has_base_shares()) {
-    // Peaks follows motions relative to the frame of x alone: of these columns ends of steps and rows count.
-    probes_.evaluate(step.to, values_);
-    take_largest();
-  }
+  if (probes_.has_base_shares()) follow_base_columns(step);
   due_.clear();
   times_.visit(step, [&](double t) {
     if (t == step.from.t) {
@@ -107,6 +106,31 @@ void HistoryRecorder::write_row(double t, double h) {
   const auto begin = Clock::now();
   for (model::FieldWriter* writer : writers_) writer->append_row(row_);
   seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Peaks follows x, which these columns are not: the largest of each step is that of the parabola through three
+/// instants.
+void HistoryRecorder::follow_base_columns(const time::AcceptedStep& step) {
+  std::array<double, kBaseSamples> times{};
+  for (std::size_t k = 0; k + 1 < kBaseSamples; ++k)
+    times[k] = step.from.t + (step.to.t - step.from.t) * static_cast<double>(k + 1) / kBaseSamples;
+  times.back() = step.to.t;
+  const std::size_t count = values_.size();
+  base_values_.resize((kBaseSamples + 1) * count);
+  probes_.evaluate(step.from, std::span(base_values_).first(count));
+  probes_.sample(step, times);
+  for (std::size_t k = 0; k < kBaseSamples; ++k)
+    probes_.take(k, std::span(base_values_).subspan((k + 1) * count, count));
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!probes_.has_base_share(i)) continue;
+    const auto at = [&](std::size_t k) { return base_values_[k * count + i]; };
+    for (std::size_t k = 0; k <= kBaseSamples; ++k) largest_[i] = std::max(largest_[i], std::abs(at(k)));
+    for (std::size_t k = 1; k < kBaseSamples; ++k) {
+      const double slope = at(k + 1) - at(k - 1), bend = at(k + 1) - 2.0 * at(k) + at(k - 1);
+      if (bend != 0.0 && std::abs(slope) <= 2.0 * std::abs(bend))
+        largest_[i] = std::max(largest_[i], std::abs(at(k) - slope * slope / (8.0 * bend)));
+    }
+  }
 }
 
 void HistoryRecorder::take_largest() {

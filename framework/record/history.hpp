@@ -43,6 +43,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
  private:
   void write_due(const time::AcceptedStep& step);
   void take_largest();
+  void follow_base_columns(const time::AcceptedStep& step);
   void write_row(double t, double h);
 
   OutputTimes times_;
@@ -53,7 +54,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   double seconds_ = 0.0;  ///< in writers_
   double start_time_ = 0.0;
   std::vector<double> row_, first_row_;
-  std::vector<double> due_;               ///< instants of rows within a step
+  std::vector<double> due_;  ///< instants of rows within a step
+  std::vector<double> base_values_;
   std::vector<double> values_, largest_;  ///< of probes_, in a row and in all of them
 };
 

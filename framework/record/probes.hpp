@@ -33,6 +33,7 @@ class BUTEE_EXPORT Probes {
   }
   /// True where a column is measured from another frame than x: columns in space, or relative to a base that moves.
   bool has_base_shares() const { return has_base_shares_; }
+  bool has_base_share(std::size_t column) const { return !sources_[column].base.empty(); }
   /// The same of one quantity of a node; `model` may be null.
   static bool has_base_share(const model::Model* model, const model::DofTable& dofs, model::NodeId node,
                              model::Quantity quantity);

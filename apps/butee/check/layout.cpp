@@ -140,6 +140,7 @@ void add_stops(const model::Model& model, const Placer& placer, const std::vecto
 
 void add_loads(const model::Model& model, const Placer& placer, Layout& layout) {
   for (const model::Load& load : model.loads) {
+    if (!load.acceleration.isZero(0.0)) continue;  // Weight, and a base that moves.
     LoadMark mark;
     for (const model::NodalValue& value : load.pattern)
       if (load.pattern.size() == 1 || value.dof.kind == DofKind::u) mark.at.push_back(placer.of(value.dof.node));

@@ -16,7 +16,10 @@ bool is_in_space(const model::Model& model);
 /// stops, springs, masses, loads along their axes.
 std::string picture_in_space(const model::Model& model, const Survey& survey);
 
-/// The same as a few lines of text of at most `width` columns, with box-drawing characters where `utf8`.
+/// The beams of such a scene with their ends, a line each.
+std::string list_in_space(const model::Model& model);
+
+/// Any scene as a few lines of text of at most `width` columns, with box-drawing characters where `utf8`.
 std::string picture_text(const Layout& layout, int width, bool utf8);
 
 /// True where the locale of the environment (LC_ALL, LC_CTYPE, LANG) is UTF-8.

@@ -197,6 +197,29 @@ bool is_in_space(const model::Model& model) {
                      [&](const std::string& name) { return !in_space::is_along_x(*model.nodes.find(name)); });
 }
 
+std::string list_in_space(const model::Model& model) {
+  using model::NodeGroup;
+  const auto place = [](const NodeGroup& group, double coordinate) {
+    std::string text = "(";
+    for (std::size_t k = 0; k < 3; ++k)
+      text += (k > 0 ? ", " : "") + to_short_text(group.origin[k] + coordinate * group.direction[k]);
+    return text + ")";
+  };
+  std::size_t width = 0;
+  for (const std::string& name : model.nodes.group_names()) width = std::max(width, name.size());
+  std::string text;
+  for (const std::string& name : model.nodes.group_names()) {
+    const NodeGroup& group = *model.nodes.find(name);
+    text += name + std::string(width - name.size(), ' ');
+    if (group.lone())
+      text += "  a node\n";
+    else
+      text += "  from " + place(group, group.coordinates.front()) + " to " + place(group, group.coordinates.back()) +
+              " m, " + std::to_string(group.size() - 1) + " elements\n";
+  }
+  return text + "--picture FILE.svg draws it in space\n";
+}
+
 std::string picture_in_space(const model::Model& model, const Survey& survey) {
   return in_space::Drawing(model).draw(survey);
 }
