@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Job{"tower",
                         {{"roof.u", 0.144},
                          {"roof.uz", 0.0956},
-                         {"roof.a_abs", 10.3},
+                         {"roof.a_abs", 10.4},
                          {"foot.V", 3.68e6},
                          {"foot.M", 9.16e7},
                          {"annex.contact_force", 1.25e6}}},

@@ -57,10 +57,10 @@ TEST(SpacePlot, ShowsOrbitsRunUpAndFullSpectrum) {
   const auto y = history.column("disc.uy"), z = history.column("disc.uz");
   // Both axes in one scale: micrometres by the larger.
   EXPECT_TRUE(holds(script("orbit-disc"), "set size ratio -1"));
-  EXPECT_TRUE(holds(script("orbit-disc"), "uy in ")) << script("orbit-disc").substr(0, 500);
+  EXPECT_TRUE(holds(script("orbit-disc"), "uy / ")) << script("orbit-disc").substr(0, 500);
   // The last row: 100 rad/s.
   const std::string run_up = script("run-up");
-  EXPECT_TRUE(holds(run_up, "speed of rotation in rad/s"));
+  EXPECT_TRUE(holds(run_up, "speed of rotation / rad/s"));
   EXPECT_TRUE(holds(run_up, "\n100 ")) << run_up;
   EXPECT_TRUE(holds(script("full-spectrum"), "backward whirl below zero"));
   const Outcome still = run_program({"plot", "rotor-results", "--format", "script", "--kind", "frame"}, folder.path());

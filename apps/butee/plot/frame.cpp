@@ -97,8 +97,8 @@ std::vector<Picture> frame_pictures(const Result& result, model::FieldReader& fi
   const std::string moved = "at t = " + short_number(fields.times()[chosen], 5) + " s, drawn " +
                             short_number(factor, 3) + " times as large (" + short_number(largest, 4) + " m)";
   picture.set = "set title \"" + folded_title(result.title.empty() ? result.label : result.title) +
-                "\" noenhanced\nset view 65, 35\nset view equal xyz\nset xyplane 0\nset xlabel 'z in m'\nset ylabel 'x "
-                "in m'\nset zlabel 'y in m'\n" +
+                "\" noenhanced\nset view 65, 35\nset view equal xyz\nset xyplane 0\nset xlabel 'z / m'\nset ylabel 'x "
+                "/ m'\nset zlabel 'y / m'\n" +
                 gnuplot::legend_below({"at rest", moved});
   picture.plot =
       "splot $rest with lines lw 1 lc rgb '#999999' title 'at rest', \\\n     $moved with lines lw 2 lc rgb '" +
