@@ -46,6 +46,21 @@ config::Array usual_quantities(const model::Model* model) {
   return usual;
 }
 
+/// Complains about displacements and rotations beside u and theta that none of the nodes has.
+void refuse_absent(const Parameters& p, const model::Model& model, const model::FieldRequest& request,
+                   Diagnostics& diagnostics) {
+  if (!p.given("quantities")) return;
+  const model::DofTable dofs = number_dofs(model);
+  for (const model::Quantity quantity : request.quantities) {
+    const DofKind kind = kind_of(quantity);
+    if (kind == DofKind::u || kind == DofKind::theta) continue;
+    const auto has = [&](model::NodeId node) { return dofs.exists({node, kind}); };
+    if (std::none_of(request.nodes.begin(), request.nodes.end(), has))
+      p.complain(diagnostics, "quantities",
+                 std::string("no node that is kept has ") + name_of(quantity) + ": no element there uses it");
+  }
+}
+
 std::vector<config::Parameter> field_keys(const config::Array& usual) {
   return {
       config::texts("nodes", "the nodes that are kept: selectors; all where absent").optional(),
@@ -102,6 +117,7 @@ model::FieldRequest read_fields(const Parameters& output, std::vector<std::strin
     request.nodes.resize(static_cast<std::size_t>(model->nodes.size()));
     std::iota(request.nodes.begin(), request.nodes.end(), model::NodeId{0});
   }
+  refuse_absent(*p, *model, request, diagnostics);
   return request;
 }
 

@@ -56,8 +56,8 @@ TEST(SpacePlot, ShowsOrbitsRunUpAndFullSpectrum) {
   const CsvTable history(folder.file("rotor-results/history.csv"));
   const auto y = history.column("disc.uy"), z = history.column("disc.uz");
   // Both axes in one scale: micrometres by the larger.
-  EXPECT_TRUE(holds(script("orbit-disc"), "set size ratio -1"));
-  EXPECT_TRUE(holds(script("orbit-disc"), "uy / ")) << script("orbit-disc").substr(0, 500);
+  EXPECT_TRUE(holds(script("orbit"), "set size ratio -1"));
+  EXPECT_TRUE(holds(script("orbit"), "uy / ")) << script("orbit").substr(0, 500);
   // The last row: 100 rad/s.
   const std::string run_up = script("run-up");
   EXPECT_TRUE(holds(run_up, "speed of rotation / rad/s"));

@@ -123,7 +123,7 @@ Scene frame(Random& random) {
   } else {
     const std::string l = to_text(shaft.length), tilt = to_text(shaft.length * random.uniform(-0.5, 0.5));
     const std::string beam = "[[element]]\ntype = \"beam\"\nmotion = \"spatial\"\nmaterial = \"s\"\nsection = \"c\"\n" +
-                             theory(random) + "elements = " + std::to_string(random.integer(1, 2)) + "\n";
+                             theory(random) + "elements = 2\n";
     scene.toml += beam + "name = \"a\"\npoints = [[0, 0, 0], [" + tilt + ", " + l + ", 0.0]]\nup = [0, 0, 1]\n" + beam +
                   "name = \"b\"\npoints = [[" + tilt + ", " + l + ", 0.0], [" + l + ", " + l + ", " + tilt +
                   "]]\nstart_node = \"a:last\"\n[[support]]\nnodes = [\"a:first\", \"b:last\"]\nfix = [\"ux\", "
