@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "butee/record/checkpoint.hpp"
+#include "butee/record/contact_recorder.hpp"
 #include "butee/record/field_recorder.hpp"
 #include "butee/record/history.hpp"
-#include "butee/record/contact_recorder.hpp"
 #include "butee/record/impacts.hpp"
 #include "butee/record/progress.hpp"
 #include "butee/record/state_keeper.hpp"

@@ -97,7 +97,7 @@ class SceneReader {
   Model model_;
   std::optional<DofTable> dofs_;
   std::optional<std::size_t> gravity_load_;  ///< among the loads
-  std::optional<BaseFrame> stop_frame_;  ///< of the stops to ground, where there are any
+  std::optional<BaseFrame> stop_frame_;      ///< of the stops to ground, where there are any
   std::map<std::string, std::optional<Material>> materials_;
   std::map<std::string, std::optional<Section>> sections_;
   std::vector<std::string> element_names_;

@@ -27,8 +27,9 @@ TEST(BadUsage, of_the_command_line) {
   const TemporaryFolder folder;
   folder.write(kFile, kGoodScene);
   expect_refusal({}, folder, {"subcommand"});
-  expect_refusal({"runn", kFile}, folder,
-                 {"butee runn: there is no such command (did you mean \"run\"?)", "check, modes, compare, study, plot"});
+  expect_refusal(
+      {"runn", kFile}, folder,
+      {"butee runn: there is no such command (did you mean \"run\"?)", "check, modes, compare, study, plot"});
   expect_refusal({"run"}, folder, {"model"});
   expect_refusal({"run", kFile, "--stes", "a=1"}, folder, {"--stes"});
   expect_refusal({"run", kFile, "--repeat", "0"}, folder, {"--repeat"});

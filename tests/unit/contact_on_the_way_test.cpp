@@ -20,7 +20,8 @@ std::string mass_at_a_stop(const std::string& sides, const std::string& integrat
 
 /// States of the free motion x = sin t, which is beyond 0.9 from t = 1.12 to 2.02.
 time::State at(double t) {
-  return {t, Vector::Constant(1, std::sin(t)), Vector::Constant(1, std::cos(t)), Vector::Constant(1, -std::sin(t)), {}, {}};
+  return {t, Vector::Constant(1, std::sin(t)), Vector::Constant(1, std::cos(t)), Vector::Constant(1, -std::sin(t)), {},
+          {}};
 }
 
 /// The largest speed of that motion, m/s.
