@@ -3,6 +3,9 @@
 namespace butee::test {
 
 std::vector<BadScene> bad_contact_scenes() {
+  const std::string stop =
+      "type = \"stop\"\nnodes = \"rotor\"\ngap = 0.01\nsides = \"both\"\nlaw = \"arctan\"\nstiffness = 1.0e6\n"
+      "regularization = 7.0e7";
   const std::string nodes = "nodes = \"rotor\"\ngap";
   const auto between = [&](const std::string& selectors) { return Edit{nodes, "between = " + selectors + " #!\ngap"}; };
   return {
@@ -74,6 +77,35 @@ std::vector<BadScene> bad_contact_scenes() {
        {{nodes, "between = [\"roter\", \"casing:3\"] #!!\ngap"}},
        {"\"roter\": there is no node or beam \"roter\" (did you mean \"rotor\"?)",
         "\"casing:3\": there is no node or beam \"casing\""}},
+      {"friction on a stop",
+       {{"regularization = 7.0e7", "regularization = 7.0e7\nfriction = { coefficient = 0.2, slip_speed = 0.1 } #!"}},
+       {"has no direction to slip in on a stop", "take type = \"plane\""}},
+      {"ring on a node with one transverse displacement",
+       {{"type = \"stop\"\nnodes = \"rotor\"", "type = \"ring\"\nnodes = \"rotor\" #!"}, {"sides = \"both\"\n", ""}},
+       {"uz of rotor does not exist", "contact in a plane needs both displacements"}},
+      {"negative restitution",
+       {{"regularization = 7.0e7",
+         "regularization = 7.0e7\ndamping = { type = \"hunt_crossley\", restitution = -0.5, impact_speed = 1.0 } #!"}},
+       {"contact[0].damping.restitution = -0.5: must be > 0"}},
+      {"restitution without what it needs",
+       {{"regularization = 7.0e7",
+         "regularization = 7.0e7\ndamping = { type = \"hunt_crossley\", restitution = 0.5 } #!"}},
+       {"contact[0].damping.impact_speed", "missing; a restitution needs the speed of the impact"}},
+      {"restitution of a law that has no closed form",
+       {{"regularization = 7.0e7",
+         "regularization = 7.0e7\ndamping = { type = \"kelvin_voigt\", restitution = 0.5, mass = 2.0 } #!"}},
+       {"contact[0].damping.restitution = 0.5: gives a coefficient with law = \"linear\" alone"}},
+      {"static below dynamic coefficient",
+       {{stop,
+         "type = \"friction\"\nnodes = \"rotor\"\nnormal_force = 5.0\n"
+         "friction = { coefficient = 0.3, static_coefficient = 0.2, stick_stiffness = 1e3 } #!"}},
+       {"contact[0].friction.static_coefficient = 0.2: must not be below coefficient = 0.3"}},
+      {"friction that neither creeps nor sticks",
+       {{stop, "type = \"friction\"\nnodes = \"rotor\"\nnormal_force = 5.0\nfriction = { coefficient = 0.3 } #!"}},
+       {"contact[0].friction: give one of slip_speed (regularised), stick_stiffness"}},
+      {"gaps of another number than the contacts",
+       {{"gap = 0.01", "gaps = [0.01, 0.02] #!"}},
+       {"contact[0].gaps = [0.01, 0.02]: holds 2 gaps for 1 contacts"}},
   };
 }
 
