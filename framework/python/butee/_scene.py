@@ -280,7 +280,7 @@ def stability(method: str, parameters: Optional[Mapping[str, Any]] = None) -> Di
     """How far a method is stable, and what it does to period and amplitude, as ``butee stability METHOD --json``."""
     settings = [word for key, value in (parameters or {}).items() for word in ("--set", f"{key}={value}")]
     with tempfile.TemporaryDirectory(prefix="butee-") as folder:
-        return json.loads(_program.call(["stability", method, *settings, "--json", "-o", "results"], folder))
+        return json.loads(_program.call(["stability", method, *settings, "--json", "-o", "results"], folder))[0]
 
 
 def _restored(cls, state: bytes, plugins: List[str]) -> Scene:
