@@ -35,11 +35,11 @@ TEST(SceneError, HasTheMistakesInParts) {
     EXPECT_EQ(mass.file, "a: b.toml");
     EXPECT_EQ(mass.line, 5);
     EXPECT_EQ(mass.key, "element[0].mass");
-    EXPECT_EQ(mass.message.rfind("-5: must be", 0), 0u) << mass.message;
+    EXPECT_EQ(mass.message.rfind("-5.0: must be", 0), 0u) << mass.message;
     EXPECT_EQ(error.mistakes()[1].line, 8);
     EXPECT_EQ(error.mistakes()[1].key, "contact[0].gapp");
     const auto& end = error.mistakes()[2];
-    EXPECT_EQ(end.file, "--set integrator.end_time=-1");
+    EXPECT_EQ(end.file, "--set integrator.end_time=-1.0");
     EXPECT_EQ(end.line, 0);
     EXPECT_EQ(end.key, "integrator.end_time");
   }
