@@ -27,7 +27,7 @@ solve = scipy.sparse.linalg.factorized(equations.M)
 
 def rate(t, y):
     x, v = y[:n], y[n:]
-    return np.concatenate([v, solve(equations.external_force(t) + equations.contact_force(x) - C @ v - K @ x)])
+    return np.concatenate([v, solve(equations.external_force(t) + equations.contact_force(x, v, t) - C @ v - K @ x)])
 
 
 begin = time.perf_counter()

@@ -46,9 +46,12 @@ class Equations {
     return alone([&](Vector& force) { assembly_.dynamics.external_force(t, force); });
   }
 
-  Vector contact_force(const Array& x) {
-    const auto at = checked(x, "x");
-    return alone([&](Vector& force) { assembly_.dynamics.add_contact_force(at, force); });
+  Vector contact_force(double t, const Array& x, const Array& v) {
+    const auto at = checked(x, "x"), moving = checked(v, "v");
+    return alone([&](Vector& force) {
+      assembly_.dynamics.add_contact_force(at, force);
+      assembly_.dynamics.add_obstacle_force(t, at, moving, force);
+    });
   }
 
   Vector acceleration(double t, const Array& x, const Array& v) {

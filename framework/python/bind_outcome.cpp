@@ -30,7 +30,8 @@ py::list impacts(const Outcome& outcome) {
   py::list rows;
   for (const record::Impact& impact : outcome.impacts)
     rows.append(py::make_tuple(impact.node, impact.side, impact.t_in, impact.t_out.value_or(kNone), impact.peak_force,
-                               impact.impulse, impact.impact_speed));
+                               impact.impulse, impact.impact_speed, impact.tangential_impulse, impact.slip,
+                               impact.dissipated));
   return rows;
 }
 
@@ -59,11 +60,21 @@ std::shared_ptr<Outcome> made(const py::dict& history, const py::dict& energy, c
   outcome->completed = completed;
   outcome->message = message;
   outcome->warnings = warnings;
+  outcome->wear = wear;
   for (const py::handle item : rows) {
     const auto row = item.cast<py::tuple>();
-    record::Impact impact{row[0].cast<std::string>(), row[1].cast<int>(),    row[2].cast<double>(), std::nullopt,
-                          row[4].cast<double>(),      row[5].cast<double>(), row[6].cast<double>()};
-    if (const double t_out = row[3].cast<double>(); t_out == t_out) impact.t_out = t_out;
+    const auto number = [&](std::size_t i) { return row[i].cast<double>(); };
+    record::Impact impact{row[0].cast<std::string>(),
+                          row[1].cast<int>(),
+                          number(2),
+                          std::nullopt,
+                          number(4),
+                          number(5),
+                          number(6),
+                          number(7),
+                          number(8),
+                          number(9)};
+    if (const double t_out = number(3); t_out == t_out) impact.t_out = t_out;
     outcome->impacts.push_back(std::move(impact));
   }
   return outcome;
@@ -83,6 +94,7 @@ void bind_outcome(py::module_& module) {
       .def_readonly("summary", &Outcome::summary)
       .def_readonly("completed", &Outcome::completed)
       .def_readonly("message", &Outcome::message)
+      .def_readonly("wear", &Outcome::wear)
       .def_readonly("warnings", &Outcome::warnings);
   seal(type);
 }

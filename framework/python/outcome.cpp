@@ -5,6 +5,7 @@
 
 #include "butee/config/file_reference.hpp"
 #include "butee/config/toml.hpp"
+#include "butee/core/text.hpp"
 #include "butee/record/result_folder.hpp"
 #include "butee/run/check_start.hpp"
 #include "butee/run/run.hpp"
@@ -20,6 +21,13 @@ void reserve(Columns& columns, const scene::Scene& scene) {
   const double rows = scene.integrator.options.end_time / *scene.output.interval + 2.0;
   if (!(rows < kMostReserved)) return;
   for (auto& column : columns.values) column.reserve(static_cast<std::size_t>(rows));
+}
+
+std::string wear_of(const record::ContactRecorder* contacts) {
+  if (contacts == nullptr) return "";
+  std::string text = join(record::ContactRecorder::wear_columns(), ",") + "\n";
+  for (const record::ContactWear& wear : contacts->wear()) text += contacts->wear_line(wear) + "\n";
+  return text;
 }
 
 /// The folder of a run, locked and with its model.toml.
@@ -64,6 +72,7 @@ std::shared_ptr<Outcome> perform(scene::Scene& scene, const RunOptions& options,
   outcome->message = summary.report.message;
   outcome->warnings = summary.report.warnings;
   outcome->impacts = run.impacts();
+  outcome->wear = wear_of(run.contacts());
   outcome->summary = record::to_json(summary);
   if (files) files->finish(*outcome);
   return outcome;

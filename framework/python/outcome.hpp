@@ -33,6 +33,7 @@ struct Outcome {
   std::vector<std::string> warnings;
   Columns history{{}}, energy{{}};
   std::vector<record::Impact> impacts;
+  std::string wear;  ///< what wear.csv holds; empty where no contact wears
 };
 
 /// What a run asks its caller between steps.

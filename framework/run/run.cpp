@@ -112,7 +112,14 @@ void Run::add_fields(const record::ResultFolder& folder) {
 }
 
 std::vector<record::Impact> Run::impacts() const {
-  return impacts_ ? impacts_->impacts() : std::vector<record::Impact>{};
+  if (!impacts_) return {};
+  std::vector<record::Impact> impacts = impacts_->impacts();
+  if (contacts_) {
+    const std::vector<record::Impact> more = contacts_->impacts();
+    impacts.insert(impacts.end(), more.begin(), more.end());
+    std::stable_sort(impacts.begin(), impacts.end(), [](const auto& a, const auto& b) { return a.t_in < b.t_in; });
+  }
+  return impacts;
 }
 
 void Run::integrate() {
@@ -175,14 +182,8 @@ void Run::write_files(const record::ResultFolder& folder) {
     writer.close();
   }
   if (!impacts_) return;
-  std::vector<record::Impact> impacts = impacts_->impacts();
-  if (contacts_) {
-    const std::vector<record::Impact> more = contacts_->impacts();
-    impacts.insert(impacts.end(), more.begin(), more.end());
-    std::stable_sort(impacts.begin(), impacts.end(), [](const auto& a, const auto& b) { return a.t_in < b.t_in; });
-  }
   record::CsvWriter writer(folder.file("impacts.csv"), record::ImpactRecorder::columns());
-  for (const record::Impact& impact : impacts) writer.line(record::ImpactRecorder::csv_line(impact));
+  for (const record::Impact& impact : impacts()) writer.line(record::ImpactRecorder::csv_line(impact));
   writer.close();
 }
 

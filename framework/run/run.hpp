@@ -47,6 +47,8 @@ class BUTEE_EXPORT Run {
   record::Summary perform(const record::ResultFolder* folder, const record::Checkpoint* from = nullptr);
   /// After perform(), in the order of t_in; none where [output] does not ask for them.
   std::vector<record::Impact> impacts() const;
+  /// What followed contacts in the plane, with dissipation or friction; null where the scene has none.
+  const record::ContactRecorder* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
 
  private:
   Run(scene::Scene& scene, bool with_progress, std::chrono::steady_clock::time_point begin);

@@ -101,6 +101,10 @@ def test_forces_of_stops_and_loads(rotor):
     equations = rotor.equations()
     for x, force in [(3.0e-4, 0.0), (5.0e-4, -1.0e6), (-6.0e-4, 2.0e6)]:
         assert np.isclose(equations.contact_force([x])[0], force, rtol=1e-12)
+    rotor["contact[0].damping"] = {"type": "kelvin_voigt", "coefficient": 2.0e4}
+    damped = rotor.equations()
+    assert np.isclose(damped.contact_force([5.0e-4], [3.0])[0], -1.0e6 - 6.0e4, rtol=1e-12)
+    assert np.isclose(damped.contact_force([5.0e-4])[0], -1.0e6, rtol=1e-12)
     t = 0.0123
     assert np.isclose(equations.external_force(t)[0], 201240.0 * np.cos(1256.6 * t), rtol=1e-14)
     a = (201240.0 * np.cos(1256.6 * t) - 1.0e6 - 50.0 * 2.0 - 1.0e9 * 5.0e-4) / 100.0

@@ -29,7 +29,7 @@ def same_bits(array, texts):
     return np.array_equal(array.view(np.uint64), numbers.view(np.uint64)) or np.array_equal(array, numbers, equal_nan=True)
 
 
-@pytest.fixture(scope="module", params=["rotor", "beam3"])
+@pytest.fixture(scope="module", params=["rotor", "damped", "beam3"])
 def both(request, tmp_path_factory):
     """A run by Python and the folder of the program's run of the same scene."""
     from conftest import MODELS, ROTOR
@@ -37,6 +37,9 @@ def both(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("results")
     if request.param == "rotor":
         scene = butee.Scene(ROTOR)
+    elif request.param == "damped":
+        stop = {**ROTOR["contact"][0], "damping": {"type": "kelvin_voigt", "coefficient": 2.0e4}}
+        scene = butee.Scene({**ROTOR, "contact": [stop]})
     else:
         scene = butee.Scene.load(MODELS / "beam3.toml", ["integrator.end_time=0.05", "output.energy=true", "output.impacts=true"])
     scene.save(folder / "scene.toml")
@@ -71,6 +74,20 @@ def test_impacts_are_the_programs(both):
     assert list(result.impacts["side"]) == [int(side) for side in columns.pop("side")]
     for name, texts in columns.items():
         assert same_bits(np.ascontiguousarray(result.impacts[name]), texts), name
+
+
+def test_wear_is_the_programs(both):
+    result, folder = both
+    if not (folder / "wear.csv").exists():
+        assert result.wear == []
+        return
+    columns = columns_of(folder / "wear.csv")
+    assert len(result.wear) == len(columns["node"]) > 0
+    for i, row in enumerate(result.wear):
+        assert list(row) == list(columns)
+        assert all(row[name] == (texts[i] if name in ("node", "kind") else float(texts[i])) for name, texts in columns.items())
+        assert row["dissipated"] > 0.0
+    assert pickle.loads(pickle.dumps(result)).wear == result.wear
 
 
 def test_summary_is_the_programs(both):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, List, Tuple
+from typing import TYPE_CHECKING, List, Optional, Tuple
 
 import numpy as np
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Equations:
-    """M a + C v + K x = F(t) + F_c(x) on the n free degrees of freedom of a scene, for other solvers.
+    """M a + C v + K x = F(t) + F_c(x, v) on the n free degrees of freedom of a scene, for other solvers.
 
     Vectors are arrays of shape (n,), displacements in m or rad, forces in N or N m, in the order of ``dofs``. C = c_m M + c_k K +
     dashpots, or modal damping and dashpots. Where shafts turn at a varying speed, C and K are those of an instant. A motion is
@@ -77,9 +77,10 @@ class Equations:
         """The forces of the loads at ``t`` in s, (n,)."""
         return self._core.external_force(t)
 
-    def contact_force(self, x: np.ndarray) -> np.ndarray:
-        """The forces of the stops at the displacements ``x``, (n,)."""
-        return self._core.contact_force(x)
+    def contact_force(self, x: np.ndarray, v: Optional[np.ndarray] = None, t: float = 0.0) -> np.ndarray:
+        """The forces of all contacts, (n,), at the displacements ``x`` and the velocities ``v`` (0 where they are None). Velocities
+        matter to contacts with dissipation or friction alone, and the time ``t`` to those that turn at a varying speed."""
+        return self._core.contact_force(t, x, np.zeros(np.shape(x)) if v is None else v)
 
     def acceleration(self, t: float, x: np.ndarray, v: np.ndarray) -> np.ndarray:
         """M^-1 (F(t) + F_c(x) - C v - K x), (n,)."""

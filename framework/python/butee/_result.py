@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 from typing import Any, Dict, Iterator, List, Mapping, Optional
 
@@ -10,7 +12,8 @@ import numpy as np
 from . import _butee
 from ._errors import RunError
 
-_IMPACT = [("side", "i4"), ("t_in", "f8"), ("t_out", "f8"), ("peak_force", "f8"), ("impulse", "f8"), ("impact_speed", "f8")]
+_IMPACT = [("side", "i4"), ("t_in", "f8"), ("t_out", "f8"), ("peak_force", "f8"), ("impulse", "f8"), ("impact_speed", "f8"),
+           ("tangential_impulse", "f8"), ("slip", "f8"), ("dissipated", "f8")]
 
 
 class Result(Mapping[str, np.ndarray]):
@@ -98,11 +101,18 @@ class Result(Mapping[str, np.ndarray]):
         """The closings of stops where the scene has ``output.impacts = true``, as a structured array of shape (impacts,).
 
         Fields: ``node``, ``side`` (+1 or -1), ``t_in`` and ``t_out`` (s; NaN where still closed), ``peak_force`` (N), ``impulse``
-        (N s), ``impact_speed`` (m/s).
+        (N s), ``impact_speed`` (m/s), ``tangential_impulse`` (N s), ``slip`` (m), ``dissipated`` (J).
         """
         rows = self._core.impacts()
         longest = max((len(row[0]) for row in rows), default=1)
         return np.array(rows, dtype=[("node", f"U{longest}"), *_IMPACT])
+
+    @property
+    def wear(self) -> List[Dict[str, Any]]:
+        """What each contact in the plane, with dissipation or friction did over the run: the rows of ``wear.csv`` as dicts with
+        ``node``, ``kind``, ``work`` (J), ``mean_power`` (W), ``contact_share``, ``slip`` (m), ``dissipated`` (J), ..."""
+        rows = csv.DictReader(io.StringIO(self._core.wear))
+        return [{key: value if key in ("node", "kind") else float(value or "nan") for key, value in row.items()} for row in rows]
 
     @property
     def energy(self) -> Optional[Dict[str, np.ndarray]]:
@@ -153,7 +163,7 @@ class Result(Mapping[str, np.ndarray]):
     def __reduce__(self):
         core = self._core
         state = (self.to_dict(), core.energy(self), core.impacts(), core.title, core.summary, core.completed, core.message,
-                 core.warnings)
+                 core.warnings, core.wear)
         return _restored, state
 
 
