@@ -247,7 +247,9 @@ double Structure::force(Index dof) const {
 double Structure::contact_force(Index dof) const {
   check_dof(dof, size());
   Vector force = Vector::Zero(size());
-  parts_->assembly->dynamics.add_contact_force(state().x, force);
+  const time::State& now = state();
+  parts_->assembly->dynamics.add_contact_force(now.x, force);
+  parts_->assembly->dynamics.add_obstacle_force(now.t, now.x, now.v, force);
   return force[dof];
 }
 

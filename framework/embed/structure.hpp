@@ -82,7 +82,7 @@ class BUTEE_EXPORT Structure {
   /// A force that goes from `from` now to `to` at time `until`, s, in a straight line (and on beyond).
   void set_force(Index dof, double from, double to, double until);
   double force(Index dof) const;
-  /// The force of the stops on a DOF, N.
+  /// The force of all contacts on a DOF, N, but for what holds those that stick rigidly.
   double contact_force(Index dof) const;
   /// A quantity of [[output.probe]] ("M", "reaction", ...) at the present instant; `node` names one node, `element` the
   /// beam or spring meant where there are several. Throws InputError where there is no such quantity there.

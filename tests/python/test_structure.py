@@ -44,6 +44,13 @@ def test_reads_and_sets(part):
     assert part.advance_step(1.0) == part.time > 1.0e-3
 
 
+def test_forces_of_contacts_with_dissipation(rotor):
+    rotor["contact[0].damping"] = {"type": "kelvin_voigt", "coefficient": 2.0e4}
+    part = rotor.structure()
+    part.set_motion([5.0e-4], [3.0])
+    assert np.isclose(part.contact_force(0), -1.0e6 - 6.0e4, rtol=1e-12)
+
+
 def test_arrays_are_copies(part):
     x = part.x
     x[0] = 7.0

@@ -124,7 +124,7 @@ class Structure:
         self._core.set_force(dof, value)
 
     def contact_force(self, dof: int) -> float:
-        """The force of the stops on a degree of freedom, N."""
+        """The force of all contacts on a degree of freedom, N."""
         return self._core.contact_force(dof)
 
     def quantity(self, name: str, node: str, element: str = "") -> float:
