@@ -51,7 +51,8 @@ Columns columns_of(const py::dict& from) {
 /// What bind_outcome's properties give, for pickles.
 std::shared_ptr<Outcome> made(const py::dict& history, const py::dict& energy, const py::list& rows,
                               const std::string& title, const std::string& summary, bool completed,
-                              const std::string& message, const std::vector<std::string>& warnings) {
+                              const std::string& message, const std::vector<std::string>& warnings,
+                              const std::string& wear) {
   auto outcome = std::make_shared<Outcome>();
   outcome->history = columns_of(history);
   outcome->energy = columns_of(energy);
