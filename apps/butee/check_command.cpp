@@ -41,6 +41,9 @@ void write_picture(const model::Model& model, const check::Survey& survey, const
 
 int check_command(const CheckArguments& arguments) {
   if (studies::names_study(arguments.model.model)) {
+    if (!arguments.picture.empty())
+      throw InputError("--picture: is of a scene; " + arguments.model.model +
+                       " is a study, which `butee study --plot` draws");
     studies::print_study_survey(arguments.model, arguments.json);
     return kDone;
   }
