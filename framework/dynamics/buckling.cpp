@@ -1,5 +1,6 @@
 #include "butee/dynamics/buckling.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include <Eigen/SparseCholesky>
@@ -20,7 +21,7 @@ SparseMatrix symmetric_stiffness(const model::Model& model) {
 
 }  // namespace
 
-double critical_preload_factor(model::Model& model) {
+double critical_preload_factor(model::Model& model, double up_to) {
   const SparseMatrix whole = symmetric_stiffness(model);
   std::vector<std::vector<double>> before;
   for (const auto& element : model.elements) {
@@ -39,11 +40,11 @@ double critical_preload_factor(model::Model& model) {
     return factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0;
   };
   if (!holds(0.0)) return std::numeric_limits<double>::quiet_NaN();
-  double below = 0.0, above = 1.0;
+  double below = 0.0, above = std::min(1.0, up_to);
   while (holds(above)) {
+    if (above >= up_to) return kInfinity;
     below = above;
-    above *= 2.0;
-    if (above > kMostPreloadFactor) return kInfinity;
+    above = std::min(2.0 * above, up_to);
   }
   while (above - below > kBisected * above) {
     const double middle = 0.5 * (below + above);

@@ -5,14 +5,12 @@
 namespace butee::dynamics {
 
 /// The smallest factor > 0 of all preloads of a model at which its stiffness is singular: linear buckling,
-/// det(K + factor K_g) = 0, stops open, nothing turning. Infinite where none up to kMost is found; NaN where K itself
+/// det(K + factor K_g) = 0, stops open, nothing turning. Infinite where there is none up to `up_to`; NaN where K itself
 /// is not positive definite, as that of a mechanism.
 ///
 /// K + factor K_g is factorized and its pivots' signs counted (Sylvester); bisection finds the factor to rounding.
 /// Checked against Euler's cases in tests/verification/preload_test.cpp. The preloads of `model` are changed and put
 /// back.
-BUTEE_EXPORT double critical_preload_factor(model::Model& model);
-
-inline constexpr double kMostPreloadFactor = 1e6;
+BUTEE_EXPORT double critical_preload_factor(model::Model& model, double up_to = 1e6);
 
 }  // namespace butee::dynamics

@@ -88,7 +88,7 @@ void SceneReader::check_buckling() {
     for (const double force : model_.elements[i]->preload())
       if (-force > largest) largest = -force, at = i;
   if (largest == 0.0) return;
-  const double factor = dynamics::critical_preload_factor(model_);
+  const double factor = dynamics::critical_preload_factor(model_, 1.0);
   if (!(factor <= 1.0)) return;
   const std::string what = "buckles the structure: its compression of " + to_short_text(largest) +
                            " N is beyond the critical load of " + to_text(factor * largest) + " N";

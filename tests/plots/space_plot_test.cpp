@@ -180,6 +180,19 @@ TEST(SpaceFields, HoldAllDisplacementsAndRotations) {
   EXPECT_TRUE(holds(read_file(folder.file("frame-results/plots/frame.gp")), "splot $rest"));
 }
 
+/// The lowest mode of the bent arm turns about its leg: ux and rx of its end, as long as the modal mass of 1 kg allows.
+TEST(SpaceModes, WriteShapesOfAllMotions) {
+  const TemporaryFolder folder;
+  folder.write("frame.toml", kFrame);
+  ASSERT_EQ(run_program({"modes", "frame.toml", "-n", "2", "-o", "out"}, folder.path()).status, 0);
+  const CsvTable shapes(folder.file("out/shapes.csv"));
+  for (const char* name : {"u1", "theta1", "ux1", "uz1", "rx1", "ry1", "ux2"})
+    EXPECT_EQ(shapes.column(name).size(), shapes.rows()) << name;
+  const auto along_x = shapes.column("ux1");
+  EXPECT_EQ(along_x.front(), 0.0);
+  EXPECT_GT(std::abs(along_x.back()), 0.1);
+}
+
 TEST(SpacePicture, ShowsAFrameWhereItStands) {
   const TemporaryFolder folder;
   folder.write("frame.toml", kFrame);

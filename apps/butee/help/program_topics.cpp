@@ -86,8 +86,8 @@ integrals over that output; a row of energy.csv stands at the end of a step.
 Files of an earlier run there are replaced, anything else in the folder stays; a folder that is not empty and was not made by
 butee is refused. A run that fails keeps what was computed, in whole lines, and says so in summary.json.
 
-`butee modes -o DIR` writes frequencies.csv and shapes.csv: node, coordinate, and u and theta of each mode, scaled so that
-the modal mass is 1 kg.
+`butee modes -o DIR` writes frequencies.csv and shapes.csv: node, coordinate, and u and theta of each mode (and ux, uz, rx, ry
+where the scene has them), scaled so that the modal mass is 1 kg.
 )";
 }
 

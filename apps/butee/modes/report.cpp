@@ -103,10 +103,12 @@ std::string frequencies_csv(const Analysis& analysis) {
 
 std::string shapes_csv(const Analysis& analysis, const model::Model& model, const model::System& system) {
   std::string text = "node,coordinate";
-  for (std::size_t i = 1; i <= analysis.modes.size(); ++i) {
-    const std::string number = std::to_string(i);
-    text += ",u" + number + ",theta" + number;
-  }
+  const auto& free = system.dofs.free();
+  std::vector<DofKind> kinds = {DofKind::u, DofKind::theta};
+  for (const DofKind kind : {DofKind::ux, DofKind::uz, DofKind::rx, DofKind::ry})
+    if (std::any_of(free.begin(), free.end(), [&](NodalDof dof) { return dof.kind == kind; })) kinds.push_back(kind);
+  for (std::size_t i = 1; i <= analysis.modes.size(); ++i)
+    for (const DofKind kind : kinds) text.append(1, ',').append(name_of(kind)).append(std::to_string(i));
   text += "\n";
   for (const model::NodeGroup* group : groups_of(model.nodes))
     for (NodeId i = 0; i < group->size(); ++i) {
@@ -114,8 +116,7 @@ std::string shapes_csv(const Analysis& analysis, const model::Model& model, cons
       text += model.nodes.name(node) + ",";
       if (!group->lone()) text += exact(group->coordinates[static_cast<std::size_t>(i)]);
       for (Index mode = 0; mode < std::ssize(analysis.modes); ++mode)
-        for (const DofKind kind : {DofKind::u, DofKind::theta})
-          text.append(1, ',').append(cell(analysis, system.dofs, {node, kind}, mode));
+        for (const DofKind kind : kinds) text.append(1, ',').append(cell(analysis, system.dofs, {node, kind}, mode));
       text += "\n";
     }
   return text;
