@@ -36,6 +36,7 @@ Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
       Contact contact{free.group, &free.ends[i], &free.names[i], {}, 0.0};
       if (free.group->shape != nullptr) {
         contact.form = free.group->shape->form();
+        contact.is_silent_apart = free.group->law->is_piecewise_linear() && free.group->law->secant(-1.0) == 0.0;
         contact.rest_energy = free.group->law->energy(free.group->shape->at({0.0, 0.0}).penetration);
       }
       contacts_.push_back(contact);
@@ -286,6 +287,7 @@ ContactForces Obstacles::forces(Index i, double t, ConstVectorRef x, ConstVector
 void Obstacles::add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef force) {
   ++counters_->contact_evaluations;
   for (Index i = 0; i < size(); ++i) {
+    if (is_idle(i)) continue;
     const ContactForces now = forces(i, t, x, v);
     if (now.normal != 0.0 || now.friction != 0.0) scatter(i, now.force, force);
   }
@@ -293,7 +295,8 @@ void Obstacles::add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRe
 
 double Obstacles::energy(double t, ConstVectorRef x, ConstVectorRef v) const {
   double sum = 0.0;
-  for (Index i = 0; i < size(); ++i) sum += forces(i, t, x, v).stored;
+  for (Index i = 0; i < size(); ++i)
+    if (!is_idle(i)) sum += forces(i, t, x, v).stored;
   return sum;
 }
 
@@ -367,6 +370,7 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
 const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVectorRef x, ConstVectorRef v) {
   tangents_.clear();
   for (Index i = 0; i < size(); ++i) {
+    if (is_idle(i)) continue;
     const Contact& contact = at(i);
     const model::ObstacleGroup& group = *contact.group;
     const Friction& friction = group.friction;

@@ -145,6 +145,7 @@ class BUTEE_EXPORT Obstacles {
     const std::string* name;
     model::ContactShape::Form form;
     double rest_energy;  ///< of the law at d = 0, J
+    bool is_silent_apart = false;
   };
   /// Where a contact is, and its slip.
   struct Kinematics {
@@ -171,6 +172,12 @@ class BUTEE_EXPORT Obstacles {
   /// How far a stick spring is stretched, m.
   double stretch(Index i, double t, const Kinematics& at, double anchor) const;
   double friction_force(Index i, double t, const Kinematics& at, const ContactPhase& phase, double normal) const;
+  /// True where the phase tells that no force acts, of a law without any while apart.
+  bool is_idle(Index i) const {
+    const Contact& contact = at(i);
+    return !is_live_ && contact.group->shape != nullptr && contact.is_silent_apart &&
+           phases_[static_cast<std::size_t>(i)].normal == ContactPhase::Normal::apart;
+  }
   ContactPhase& used(Index i) { return phases_[static_cast<std::size_t>(i)]; }
 
   const model::System* system_;

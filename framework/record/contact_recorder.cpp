@@ -60,8 +60,13 @@ void ContactRecorder::start(const time::State& state) {
 }
 
 const ContactRecorder::Forces& ContactRecorder::at(const time::AcceptedStep& step, double t) {
+  const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
+  const auto evaluate = [&](const Vector& x, const Vector& v) {
+    if (obstacles.has_rigid_friction()) return dynamics_.contact_forces(t, x, v, forces_);
+    for (const std::size_t i : active_) forces_[i] = obstacles.forces(static_cast<Index>(i), t, x, v);
+  };
   if (t >= step.to.t) {
-    dynamics_.contact_forces(step.to.t, step.to.x, step.to.v, forces_);
+    evaluate(step.to.x, step.to.v);
     return forces_;
   }
   step.integrator.interpolate(step.from, step.to, t, dofs_, {x_values_, v_values_, {}});
@@ -69,25 +74,38 @@ const ContactRecorder::Forces& ContactRecorder::at(const time::AcceptedStep& ste
     x_[dofs_[k]] = x_values_[k];
     v_[dofs_[k]] = v_values_[k];
   }
-  dynamics_.contact_forces(t, x_, v_, forces_);
+  evaluate(x_, v_);
   return forces_;
+}
+
+void ContactRecorder::find_active() {
+  const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
+  active_.clear();
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    const dynamics::ContactPhase phase = obstacles.phase(static_cast<Index>(i));
+    if (obstacles.is_live() || watches_[i].is_support || watches_[i].touches ||
+        phase.normal != dynamics::ContactPhase::Normal::apart)
+      active_.push_back(i);
+  }
 }
 
 void ContactRecorder::step(const time::AcceptedStep& step) {
   const double h = step.to.t - step.from.t;
+  duration_ += h;
+  find_active();
+  if (active_.empty()) return;
   double begin = step.from.t;
   for (int part = 1; part <= kParts; ++part) {
     const double end = part == kParts ? step.to.t : step.from.t + h * part / kParts;
     integrate(step, begin, end);
     begin = end;
   }
-  duration_ += h;
 }
 
 void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, double end) {
   for (const auto& [t, weight] : gauss_points(begin, end)) {
     const Forces& forces = at(step, t);
-    for (std::size_t i = 0; i < watches_.size(); ++i) {
+    for (const std::size_t i : active_) {
       const dynamics::ContactForces& now = forces[i];
       Watch& watch = watches_[i];
       if (!watch.is_support && !(now.penetration > 0.0)) continue;
@@ -109,7 +127,7 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
     }
   }
   const Forces& last = at(step, end);
-  for (std::size_t i = 0; i < watches_.size(); ++i) {
+  for (const std::size_t i : active_) {
     const dynamics::ContactForces now = last[i];
     Watch& watch = watches_[i];
     if (watch.is_support) {

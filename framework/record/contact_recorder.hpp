@@ -49,7 +49,10 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   };
   using Forces = std::vector<dynamics::ContactForces>;
 
+  /// Those of active_ at an instant of a step; others keep old values.
   const Forces& at(const time::AcceptedStep& step, double t);
+  /// Finds the contacts that may exert a force within the step: in given phases those that touch.
+  void find_active();
   void integrate(const time::AcceptedStep& step, double begin, double end);
   void change(const time::AcceptedStep& step, std::size_t contact, double begin, double end);
 
@@ -59,6 +62,7 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   Vector x_, v_;
   Forces forces_;
   std::vector<Watch> watches_;
+  std::vector<std::size_t> active_;
   std::vector<ContactWear> wear_;
   std::vector<Impact> done_;
   double duration_ = 0.0;

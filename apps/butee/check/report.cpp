@@ -24,6 +24,7 @@ constexpr double kRungeKutta4 = 2.8284271247461903, kCentralDifferences = 2.0;
 Index stop_count(const model::System& system) {
   Index stops = 0;
   for (const auto& group : system.stops) stops += static_cast<Index>(group.size());
+  for (const auto& group : system.obstacles) stops += static_cast<Index>(group.ends.size());
   return stops;
 }
 
