@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "butee/core/error.hpp"
 #include "butee/study/collect_parts.hpp"
 
 namespace butee::study {
@@ -27,22 +28,29 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
     for (const std::size_t i : chosen) probes.push_back(probe_of(items[i], scene));
     return probes;
   };
-  const auto is_rough_peak = [](const Item& item) {
-    return item.kind == Kind::peak && is_element_force(item.quantity);
+  const model::DofTable& dofs = dynamics.system().dofs;
+  const auto is_followed = [&](const Item& item) {
+    return !is_element_force(item.quantity) &&
+           !record::Probes::has_base_share(&scene.model, dofs, probe_of(item, scene).node, item.quantity);
   };
+  for (const Item& item : items)
+    if ((item.kind == Kind::max || item.kind == Kind::min) && !is_followed(item))
+      throw InputError("\"" + item.text + "\": is measured from another frame than the motion is solved in; take peak");
 
-  if (const auto chosen = chosen_by([&](const Item& i) { return i.kind == Kind::peak && !is_rough_peak(i); });
+  if (const auto chosen = chosen_by([&](const Item& i) { return i.kind == Kind::peak && is_followed(i); });
       !chosen.empty())
     add(chosen, std::make_unique<PeakPart>(probes_of(chosen), dynamics));
+  if (const auto chosen = chosen_by([&](const Item& i) { return i.kind == Kind::peak && !is_followed(i); });
+      !chosen.empty())
+    add(chosen, std::make_unique<SampledPeakPart>(probes_of(chosen), dynamics, counted_));
   if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::max || i.kind == Kind::min; });
       !chosen.empty()) {
     std::vector<bool> is_max;
     for (const std::size_t i : chosen) is_max.push_back(items[i].kind == Kind::max);
     add(chosen, std::make_unique<RangePart>(probes_of(chosen), is_max, dynamics));
   }
-  if (const auto chosen = chosen_by([&](const Item& i) {
-        return i.kind == Kind::mean || i.kind == Kind::rms || i.kind == Kind::end || is_rough_peak(i);
-      });
+  if (const auto chosen =
+          chosen_by([&](const Item& i) { return i.kind == Kind::mean || i.kind == Kind::rms || i.kind == Kind::end; });
       !chosen.empty()) {
     std::vector<Kind> kinds;
     for (const std::size_t i : chosen) kinds.push_back(items[i].kind);

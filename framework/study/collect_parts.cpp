@@ -38,7 +38,21 @@ double dominant_frequency(std::vector<double> signal, double dt) {
   return (static_cast<double>(best) + offset) / (n * dt);
 }
 
+model::OutputRequest rows_of(const std::vector<model::ProbeRequest>& probes, const Counted& counted) {
+  model::OutputRequest request;
+  request.interval = (counted.period > 0.0 ? counted.period : counted.end - counted.begin) /
+                     (counted.period > 0.0 ? kSamplesPerPeriod : kFewestSamples);
+  request.probes = probes;
+  return request;
+}
+
 }  // namespace
+
+SampledPeakPart::SampledPeakPart(const std::vector<model::ProbeRequest>& probes, dynamics::Dynamics& dynamics,
+                                 const Counted& counted)
+    : history_(rows_of(probes, counted), std::numeric_limits<double>::infinity(), dynamics, nullptr) {
+  for (const model::ProbeRequest& probe : probes) names_.push_back(probe.label + "." + name_of(probe.quantities[0]));
+}
 
 MeanPart::Integral MeanPart::integrate(const time::AcceptedStep& step, double begin, double end) {
   const auto points = record::gauss_points(begin, end);
@@ -51,7 +65,6 @@ MeanPart::Integral MeanPart::integrate(const time::AcceptedStep& step, double be
     for (std::size_t i = 0; i < row_.size(); ++i) {
       result.sums[i] += points[k].weight * row_[i];
       result.squares[i] += points[k].weight * row_[i] * row_[i];
-      largest_[i] = std::max(largest_[i], std::abs(row_[i]));
     }
   }
   return result;
@@ -98,7 +111,6 @@ void MeanPart::step(const time::AcceptedStep& step) {
   for (const double knot : step.integrator.knots(step.from, step.to)) piece(knot);
   piece(step.to.t);
   probes_.evaluate(step, step.to.t, last_);
-  for (std::size_t i = 0; i < row_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(last_[i]));
 }
 
 FrequencyPart::FrequencyPart(const std::vector<model::ProbeRequest>& probes, dynamics::Dynamics& dynamics,

@@ -5,7 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "butee/record/impacts.hpp"
+#include "butee/record/contact_recorder.hpp"
+#include "butee/record/history.hpp"
 #include "butee/record/peaks.hpp"
 #include "butee/record/probes.hpp"
 #include "butee/study/collect.hpp"
@@ -31,6 +32,20 @@ class PeakPart final : public CollectorPart {
 
  private:
   record::Peaks peaks_;
+  std::vector<std::string> names_;
+};
+
+/// Peaks of forces of elements and contacts, and of motion that is measured from another frame, as of a run that has a
+/// row 64 times a period.
+class SampledPeakPart final : public CollectorPart {
+ public:
+  SampledPeakPart(const std::vector<model::ProbeRequest>& probes, dynamics::Dynamics& dynamics, const Counted& counted);
+  void start(const time::State& state) override { history_.start(state); }
+  void step(const time::AcceptedStep& step) override { history_.step(step); }
+  std::vector<double> values(std::size_t item) const override { return {history_.peaks().at(names_[item])}; }
+
+ private:
+  record::HistoryRecorder history_;
   std::vector<std::string> names_;
 };
 
@@ -67,9 +82,8 @@ class RangePart final : public CollectorPart {
   std::vector<record::Range> ranges_;
 };
 
-/// Means, by Gauss' rule with five points between the knots of each step, values at the end, and the largest values of
-/// forces of elements, at the same instants. Where the dense output is no polynomial, intervals are halved until the
-/// rule over both halves is that over the whole.
+/// Means, by Gauss' rule with five points between the knots of each step, and values at the end. Where the dense output
+/// is no polynomial, intervals are halved until the rule over both halves is that over the whole.
 class MeanPart final : public CollectorPart {
  public:
   MeanPart(const std::vector<model::ProbeRequest>& probes, const std::vector<Item::Kind>& kinds,
@@ -79,12 +93,11 @@ class MeanPart final : public CollectorPart {
         span_(counted.end - counted.begin),
         longest_(counted.period > 0.0 ? 0.5 * counted.period : span_),
         row_(probes.size()) {
-    total_.sums = total_.squares = largest_ = last_ = std::vector<double>(probes.size(), 0.0);
+    total_.sums = total_.squares = last_ = std::vector<double>(probes.size(), 0.0);
   }
   void start(const time::State& state) override {
     probes_.evaluate(state, row_);
     last_ = row_;
-    for (std::size_t i = 0; i < row_.size(); ++i) largest_[i] = std::abs(row_[i]);
   }
   void step(const time::AcceptedStep& step) override;
   std::vector<double> values(std::size_t item) const override {
@@ -93,8 +106,6 @@ class MeanPart final : public CollectorPart {
         return {total_.sums[item] / span_};
       case Item::Kind::rms:
         return {std::sqrt(total_.squares[item] / span_)};
-      case Item::Kind::peak:
-        return {largest_[item]};
       default:
         return {last_[item]};
     }
@@ -113,7 +124,7 @@ class MeanPart final : public CollectorPart {
   std::vector<Item::Kind> kinds_;
   double span_, longest_;
   Integral total_;
-  std::vector<double> row_, largest_, last_;
+  std::vector<double> row_, last_;
 };
 
 class SectionPart final : public CollectorPart {
@@ -182,19 +193,31 @@ class FrequencyPart final : public CollectorPart {
   std::vector<std::vector<double>> values_;
 };
 
+/// Closings of stops, and of contacts in the plane, with dissipation or friction.
 class ImpactPart final : public CollectorPart {
  public:
-  ImpactPart(dynamics::Dynamics& dynamics, const Counted& counted) : impacts_(dynamics), counted_(counted) {}
-  void start(const time::State& state) override { impacts_.start(state); }
-  void step(const time::AcceptedStep& step) override { impacts_.step(step); }
+  ImpactPart(dynamics::Dynamics& dynamics, const Counted& counted) : impacts_(dynamics), counted_(counted) {
+    if (dynamics.obstacles() != nullptr) contacts_.emplace(dynamics);
+  }
+  void start(const time::State& state) override {
+    impacts_.start(state);
+    if (contacts_) contacts_->start(state);
+  }
+  void step(const time::AcceptedStep& step) override {
+    impacts_.step(step);
+    if (contacts_) contacts_->step(step);
+  }
   std::vector<double> values(std::size_t) const override {
-    const auto all = impacts_.impacts();
-    return {static_cast<double>(std::count_if(
-        all.begin(), all.end(), [&](const record::Impact& impact) { return impact.t_in > counted_.begin; }))};
+    const auto count = [&](const std::vector<record::Impact>& all) {
+      return std::count_if(all.begin(), all.end(),
+                           [&](const record::Impact& impact) { return impact.t_in > counted_.begin; });
+    };
+    return {static_cast<double>(count(impacts_.impacts()) + (contacts_ ? count(contacts_->impacts()) : 0))};
   }
 
  private:
   record::ImpactRecorder impacts_;
+  std::optional<record::ContactRecorder> contacts_;
   const Counted& counted_;
 };
 

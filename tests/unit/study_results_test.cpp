@@ -122,6 +122,15 @@ TEST(StudyResults, LyapunovExponentIsZeroWhereADisturbanceStays) {
   EXPECT_NEAR(r[0][0], 0.0, 1e-3);
 }
 
+/// Peaks of what is followed by samples: the reaction of the spring's force in steady motion.
+TEST(StudyResults, PeaksOfForcesOfElementsAreThoseOfTheMotion) {
+  const auto r = results_of(kOscillator, "settle = 50\nperiods = 8", {"peak m.spring_force", "rms m.spring_force"});
+  // k x + c v of the steady motion; 64 samples a period miss a peak by (pi/64)^2/2 of it at most.
+  const double amplitude = 2.0 / std::hypot(9.0 - 4.0, 0.8) * std::hypot(9.0, 0.8);
+  EXPECT_NEAR(r[0][0], amplitude, 1.3e-3 * amplitude);
+  EXPECT_NEAR(r[1][0], amplitude / std::numbers::sqrt2, 1e-6 * amplitude);
+}
+
 /// A motion that repeats itself after two periods: the section stands on the same of its two points as after all
 /// periods, and one that never repeats itself settles to the end.
 TEST(StudyResults, SettlingEndsEarlierWhereTheMotionIsSteady) {
