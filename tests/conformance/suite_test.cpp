@@ -52,6 +52,7 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
       {"ramp", "from = 0.5\nto = 2.0\nstart = 0.3\nend = 0.7\n"},
       {"table", "times = [0.0, 0.2, 0.9]\nvalues = [1.0, -1.0, 4.0]\n"},
       {"unbalance", "moment = 0.1\nspeed = 11.0\n"},
+      {"hertz", "stiffness = 1e6\nexponent = 1.5\n"},
       {"beam", "name = \"more\"\nmaterial = \"steel\"\nsection = \"pipe\"\nlength = 3.0\nelements = 5\n"},
       {"mass", "node = \"string:1\"\nmass = 2.0\nrotary_inertia = 0.1\n"},
       {"disc", "node = \"string:1\"\nmass = 2.0\ndiametral_inertia = 0.1\npolar_inertia = 0.15\n"},
@@ -76,7 +77,7 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
   test("law", model::type_names(catalogue.types().laws));
   test("load", model::type_names(catalogue.types().loads));
   test("element", model::type_names(catalogue.types().elements));
-  EXPECT_EQ(count, 3 * 5 + 5 * 5 + 6 * 2);
+  EXPECT_EQ(count, 4 * 5 + 5 * 5 + 6 * 2);
 }
 
 #ifndef __SANITIZE_ADDRESS__

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include <butee/config/toml.hpp>
@@ -57,6 +58,8 @@ const char* name_of(study::PlanKind kind) {
 }  // namespace
 
 bool names_study(const std::string& path) {
+  // A pipe can be read once, by the scene.
+  if (!std::filesystem::is_regular_file(path)) return false;
   return study::is_study(config::load_toml(path));
 }
 
