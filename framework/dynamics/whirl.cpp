@@ -21,8 +21,14 @@ using Complex = std::complex<double>;
 constexpr double kFlat = 1e-9;
 /// Parts of the highest frequency below which a mode at rest counts as rigid motion: rounding of dense eigenvalues.
 constexpr double kRigid = 1e-7;
+/// Frequencies below this part of |lambda| are the rounding of two real eigenvalues near each other.
+constexpr double kOverdamped = 1e-6;
+/// Damping ratio from which on a mode is not counted among critical speeds.
+constexpr double kNoResonance = 0.99;
 /// Speeds agree to this part of them.
 constexpr double kSameSpeed = 1e-13;
+/// Crossings that are nearer to each other, relative to the speed, are those of one or several equal modes.
+constexpr double kOneCrossing = 1e-8;
 
 /// y = (A - sigma)^-1 x of the first-order form of the pencil in (x, v).
 class ShiftInverted {
@@ -206,15 +212,26 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
 }
 
 Index Whirl::modes_below(double speed, double order, Index count) const {
+  const double bound = order * std::abs(speed);
+  if (is_dense()) {
+    // Those above are counted, since modes near critical damping come and go at frequency 0.
+    const auto all = modes(speed, 2 * size());
+    return -std::count_if(all.begin(), all.end(), [&](const WhirlMode& mode) {
+      return mode.frequency() > std::max(bound, kOverdamped * std::abs(mode.lambda));
+    });
+  }
   const auto found = modes(speed, count);
-  return std::count_if(found.begin(), found.end(), [&](const WhirlMode& mode) {
-    return mode.frequency() > 0.0 && mode.frequency() < order * std::abs(speed);
-  });
+  return std::count_if(found.begin(), found.end(),
+                       [&](const WhirlMode& mode) { return mode.frequency() > 0.0 && mode.frequency() < bound; });
 }
 
 std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index steps, double order,
                                                   Index count) const {
-  std::vector<CriticalSpeed> found;
+  struct Crossing {
+    CriticalSpeed at;
+    Index change;
+  };
+  std::vector<Crossing> crossings;
   struct End {
     double speed;
     Index below;
@@ -229,17 +246,28 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
       self(self, between, b);
       return;
     }
-    const auto near = modes(b.speed, count);
+    const auto near = modes(b.speed, is_dense() ? 2 * size() : count);
     const auto closest = std::min_element(near.begin(), near.end(), [&](const auto& p, const auto& q) {
       return std::abs(p.frequency() - order * b.speed) < std::abs(q.frequency() - order * b.speed);
     });
-    for (Index i = 0; i < std::abs(b.below - a.below); ++i) found.push_back({middle, closest->direction});
+    // A mode next to critical damping has no resonance, whether it meets the speed or stops to oscillate.
+    if (closest->damping_ratio() > kNoResonance) return;
+    crossings.push_back({{middle, closest->direction}, b.below - a.below});
   };
   End before = end_at(from);
   for (Index i = 1; i <= steps; ++i) {
     const End next = end_at(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
     search(search, before, next);
     before = next;
+  }
+  // Where two modes are one, rounding takes them to and fro across the line: what is left of that counts.
+  std::vector<CriticalSpeed> found;
+  for (std::size_t i = 0; i < crossings.size();) {
+    const CriticalSpeed first = crossings[i].at;
+    Index net = 0;
+    for (; i < crossings.size() && crossings[i].at.speed - first.speed <= kOneCrossing * std::abs(first.speed); ++i)
+      net += crossings[i].change;
+    for (Index k = 0; k < std::abs(net); ++k) found.push_back(first);
   }
   return found;
 }

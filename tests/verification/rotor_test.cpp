@@ -138,6 +138,50 @@ TEST_F(Friswell, critical_speeds) {
   EXPECT_NEAR(found[1].direction, 1.0, 1e-6);
 }
 
+/// Damping that makes most modes overdamped: the two equal modes of a disc in the middle of its shaft, which does not
+/// tilt, meet the speed once each, at w sqrt(1 - zeta^2), and no other mode does.
+TEST(OverdampedShaft, has_two_critical_speeds) {
+  SceneRun run(R"(
+schema = 1
+[material.steel]
+young_modulus = 2.1e11
+density = 7850.0
+[section.shaft]
+shape = "circle"
+radius = 0.015
+[[element]]
+type = "beam"
+motion = "lateral"
+name = "shaft"
+material = "steel"
+section = "shaft"
+length = 1.0
+elements = 8
+[[element]]
+type = "disc"
+node = "shaft:middle"
+mass = 12.0
+diametral_inertia = 0.03
+polar_inertia = 0.06
+[[support]]
+nodes = ["shaft:first", "shaft:last"]
+fix = ["uy", "uz"]
+[rotation]
+speed = 100.0
+[damping]
+stiffness_proportional = 2.0e-4
+[integrator]
+type = "rodas4"
+end_time = 1.0
+)");
+  const dynamics::Whirl whirl(run.model());
+  const auto found = whirl.critical_speeds(0.0, 400.0, 40, 1.0, 10);
+  ASSERT_EQ(found.size(), 2U);
+  const double size = std::abs(whirl.modes(0.0, 1)[0].lambda), zeta = 0.5 * 2.0e-4 * size;
+  for (const auto& critical : found)
+    EXPECT_NEAR(critical.speed, size * std::sqrt((1.0 - zeta) * (1.0 + zeta)), 1e-8 * size);
+}
+
 /// M. Lalanne, G. Ferraris, Rotordynamics Prediction in Engineering, 1998: the rotor with three discs, code_aster's
 /// SDLL124. Digits of an independent program with the same elements.
 TEST(LalanneFerraris, modes_at_speed) {
