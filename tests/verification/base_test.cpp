@@ -86,10 +86,10 @@ TEST(Pounding, meets_a_wall_fixed_in_space) {
   Rows rows(run.dynamics(), run.model().nodes, "m", kAbsolute, kTimes);
   run.simulation().add(rows);
   const auto recorder = [&](double interval) {
-    return std::make_unique<record::HistoryRecorder>(
-        model::OutputRequest{.interval = interval,
-                             .probes = {{"m", run.model().nodes.select("m").nodes.front(), kAbsolute, ""}}},
-        1.0, run.dynamics(), nullptr);
+    model::OutputRequest request;
+    request.interval = interval;
+    request.probes = {{"m", run.model().nodes.select("m").nodes.front(), kAbsolute, ""}};
+    return std::make_unique<record::HistoryRecorder>(request, 1.0, run.dynamics(), nullptr);
   };
   const auto few = recorder(0.5), many = recorder(1e-5);
   run.simulation().add(*few);

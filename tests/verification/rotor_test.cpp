@@ -356,8 +356,8 @@ TEST(RunUp, of_a_gyroscopic_shaft_agrees_between_methods) {
   EXPECT_LT(relative_rms(ends[2], ends[0]), 1e-6);
   SceneRun exact(scene, {"integrator.type=exact"});
   ASSERT_TRUE(exact.run().completed);
-  const Vector& x = exact.simulation().state().x;
-  EXPECT_LT(relative_rms({x.begin(), x.end()}, ends[2]), 1e-7);
+  const Vector& found = exact.simulation().state().x;
+  EXPECT_LT(relative_rms({found.begin(), found.end()}, ends[2]), 1e-7);
   // Newton's iteration would end right with a factorization of another speed; the linear step of newmark_modified would
   // not.
   for (const char* method : {"newmark", "newmark_modified"}) {
