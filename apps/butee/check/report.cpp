@@ -67,7 +67,7 @@ std::vector<std::string> skipped(const scene::Scene& session, const model::Syste
     lines.push_back(std::to_string(system.skipped_loads) +
                     " loads that are zero at all times or act on fixed DOFs alone");
   if (system.loads.empty()) lines.emplace_back("loads: nothing drives the free DOFs");
-  if (system.stops.empty())
+  if (system.stops.empty() && system.obstacles.empty())
     lines.emplace_back("contact: the scene has no stops, so an implicit method factorizes once for each step size");
   if (!system.damping.is_rayleigh() && !system.damping.is_modal() && system.dashpots.size() == 0)
     lines.emplace_back("damping: C is zero");
