@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <thread>
 #include <unistd.h>
@@ -107,18 +108,33 @@ INSTANTIATE_TEST_SUITE_P(, KilledStudy,
                          testing::Values(KillCase{"csv", ""}, KillCase{"csv", "follow = true\n"}, KillCase{"hdf5", ""},
                                          KillCase{"hdf5", "follow = true\n"}));
 
-/// The files of a study that was interrupted: some rows, not all.
+/// The file of rows in a folder of results, or "".
+std::string rows_in(const std::string& folder) {
+  std::error_code none_yet;
+  for (const auto& entry : fs::directory_iterator(folder, none_yet))
+    if (entry.path().filename().string().rfind("rows-", 0) == 0) return entry.path().string();
+  return "";
+}
+
+/// The files of a study that was interrupted once its file of rows had grown: some rows, not all.
 std::string interrupted(const TemporaryFolder& folder, const std::string& format) {
   folder.write("scene.toml", kScene);
   folder.write("study.toml", sweep_of(2000, 200));
   Process process({"study", "study.toml", "-q", "--format", format, "-o", "broken"}, folder.path());
-  std::this_thread::sleep_for(700ms);
+  std::optional<std::uintmax_t> first;
+  for (int i = 0; i < 6000; ++i) {
+    std::this_thread::sleep_for(10ms);
+    std::error_code none_yet;
+    const auto size = fs::file_size(rows_in(folder.file("broken")), none_yet);
+    if (none_yet) continue;
+    if (!first) first = size;
+    if (size > *first + 2000) break;
+  }
   process.send(SIGKILL);
   process.wait();
-  for (const auto& entry : fs::directory_iterator(folder.file("broken")))
-    if (entry.path().filename().string().rfind("rows-", 0) == 0) return entry.path().string();
-  ADD_FAILURE() << "no rows yet";
-  return "";
+  const std::string rows = rows_in(folder.file("broken"));
+  EXPECT_NE(rows, "") << "no rows within a minute";
+  return rows;
 }
 
 /// A kill within a write leaves any part of it: whatever the file is cut to, rows are whole or not there.
