@@ -163,7 +163,8 @@ TEST_P(FreeMotion, LosesEnergyAsTheAmplificationSays) {
   for (const double h_omega : {0.05, 0.3, 1.0}) {
     SceneRun run(scene(GetParam(), {2.0 * omega * omega, 0.0}, 0.3, -4.0), accept_all(GetParam()));
     const double before =
-        record::energy_of({0.0, Vector::Constant(1, 0.3), Vector::Constant(1, -4.0), {}, {}, {}}, run.dynamics()).total();
+        record::energy_of({0.0, Vector::Constant(1, 0.3), Vector::Constant(1, -4.0), {}, {}, {}}, run.dynamics())
+            .total();
     const time::State end = equal_steps(run, h_omega / omega, kSteps).back();
     const double kept = std::pow(kept_energy(GetParam(), h_omega), kSteps);
     EXPECT_NEAR(record::energy_of(end, run.dynamics()).total() / before, kept, kManySteps) << "h omega = " << h_omega;
