@@ -18,7 +18,7 @@ class Hertz final : public model::BatchedLaw<Hertz> {
   double energy(double g) const override {
     return g > 0.0 ? stiffness_ * std::pow(g, exponent_ + 1.0) / (exponent_ + 1.0) : 0.0;
   }
-  /// That at a penetration of kTypical, since it has no bound.
+  /// The tangent at the penetration kTypical, since the stiffness has no upper bound.
   double closed_stiffness() const override { return tangent(kTypical); }
 
  private:

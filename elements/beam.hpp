@@ -49,7 +49,7 @@ class Beam final : public model::Element {
   double length_of(Index part) const;
   std::vector<DofKind> kinds() const;
   std::vector<model::NodalDof> dofs_of(Index part) const;
-  /// What the matrices of a part depend on.
+  /// The data that determine the matrices of a part.
   struct Part {
     double length, preload;
     bool operator==(const Part&) const = default;

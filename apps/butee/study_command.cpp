@@ -149,7 +149,7 @@ int study_in_team(const StudyArguments& arguments, study::Team& team) {
   if (team.rank() > 0) log::set_level(log::Level::quiet);
   std::optional<FolderStudy> study;
   int status = kDone;
-  // What went wrong is said by the first process; another one says what the first does not know.
+  // The first process reports an error that all share; another one reports an error of its own.
   const auto step = [&](bool takes_part, auto work) {
     if (status == kDone && takes_part) {
       try {

@@ -10,7 +10,7 @@
 namespace butee::config {
 namespace {
 
-/// Of the text of a value in a message.
+/// The most characters of a value that a message shows.
 constexpr std::size_t kLongest = 60;
 
 struct Step {

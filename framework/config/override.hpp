@@ -15,7 +15,7 @@ BUTEE_EXPORT void apply_override(Document& document, const std::string& assignme
 /// The same with a value that is there already; messages name `key=value`.
 BUTEE_EXPORT void apply_override(Document& document, const std::string& key, Value value);
 
-/// What stands at a key with dots and indices, or nullptr where nothing does. Throws InputError for what is no such
+/// The value at a key with dots and indices, or nullptr if there is none. Throws InputError for what is no such
 /// key.
 BUTEE_EXPORT const Value* find_value(const Document& document, const std::string& key);
 

@@ -36,7 +36,7 @@ class BUTEE_EXPORT Dynamics {
   Obstacles* obstacles() { return obstacles_.get(); }
   /// The forces that hold the contacts that stick rigidly at a motion, as Obstacles::rigid_sticks() lists them, N.
   const Vector& stick_forces(double t, ConstVectorRef x, ConstVectorRef v);
-  /// What every contact of obstacles() does at a motion, rigid sticking included.
+  /// The forces of every contact of obstacles() at a motion, those that hold rigid sticks included.
   void contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std::vector<ContactForces>& all);
   /// a += M^-1 T^T of the forces that hold the contacts that stick rigidly now, where any do
   void hold_sticks(double t, VectorRef a);
@@ -161,7 +161,7 @@ class BUTEE_EXPORT Dynamics {
   Vector other_vector_, turning_damping_, turning_inertia_;  ///< of systems whose speed of rotation varies
   Vector shifted_, modal_force_;             ///< x + s v and C v, of systems with Rayleigh and with modal damping
   Vector work_, other_, inertia_, damping_;  ///< of a block of rows
-  // Of contacts that stick rigidly: which, M^-1 T^T (n x their number), T M^-1 T^T, and the forces that hold them.
+  // Contacts that stick rigidly: their indices, M^-1 T^T (n x their number), T M^-1 T^T, and the forces that hold them.
   std::vector<Index> sticks_;
   Eigen::MatrixXd stick_motion_, stick_compliance_;
   Vector stick_force_, stick_acceleration_;

@@ -33,9 +33,9 @@ struct ContactPhase {
   friend bool operator==(const ContactPhase&, const ContactPhase&) = default;
 };
 
-/// What a contact does at an instant.
+/// Kinematics, forces and stored energy of a contact at an instant.
 struct ContactForces {
-  double penetration = 0.0;            ///< g, m; infinitely negative never: of a friction support 0
+  double penetration = 0.0;            ///< g, m; 0 of a friction support
   double rate = 0.0;                   ///< g', m/s
   double normal = 0.0;                 ///< F_n, N
   double friction = 0.0;               ///< F_t = mu F_n s, N, against the slip

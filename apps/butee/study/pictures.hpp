@@ -9,7 +9,7 @@
 
 namespace butee::app::studies {
 
-/// What the rows of a study can be drawn as: bifurcation diagrams and response curves over one key, maps over two,
+/// The pictures of a study's rows: bifurcation diagrams and response curves over one key, maps over two,
 /// Poincare sections where sections of u and v of a probe were collected, histograms of plans that are spread at
 /// random.
 std::vector<plot::Picture> study_pictures(const study::Study& study, const study::Layout& layout,

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kMostSeconds = 2.0;  ///< of a trial
 
-/// What trials of the first, the middle and the last run came to.
+/// Results of trials of the first, the middle and the last run.
 struct Trials {
   double seconds = 0.0;  ///< of a run, the mean
   int count = 0, unfinished = 0;
