@@ -71,18 +71,23 @@ TEST_F(TwoRuns, IntoOneFolderLeaveOneWholeResult) {
   ASSERT_EQ(run_program(run_to("2.0"), folder_.path()).status, 0);
   const auto alone = std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now() - begin);
   std::mt19937 random(20171);
-  std::uniform_int_distribution<std::int64_t> delay(0, alone.count());
+  // Halved where they did not meet and doubled where they did: the delays stay about the length of a run, however much
+  // faster or slower the machine has become since the first.
+  std::int64_t longest_delay = alone.count();
   int refused = 0;
   for (int round = 0; round < 50 && !HasFailure(); ++round) {
     if (round % 2 == 0) fs::remove_all(folder_.file("both"));
     Process first(run_to("2.0"), folder_.path());
-    usleep(static_cast<useconds_t>(delay(random)));
+    usleep(static_cast<useconds_t>(std::uniform_int_distribution<std::int64_t>(0, longest_delay)(random)));
     Process second(run_to("1.0"), folder_.path());
     const int one = first.wait(), other = second.wait();
     EXPECT_TRUE(one == 0 || one == 2) << one;
     EXPECT_TRUE(other == 0 || other == 2) << other;
     ASSERT_TRUE(one == 0 || other == 0);
-    if (one == 2 || other == 2) ++refused;
+    const bool met = one == 2 || other == 2;
+    if (met) ++refused;
+    longest_delay =
+        met ? std::min<std::int64_t>(2 * longest_delay, alone.count()) : std::max<std::int64_t>(longest_delay / 2, 1);
     // Both were done: one after the other, in either order.
     const double t_end = Json::parse(read_file(folder_.file("both/summary.json")))["t_end"];
     expect_whole(one == 2 ? 1.0 : other == 2 ? 2.0 : t_end);
