@@ -20,6 +20,9 @@ namespace {
 /// Systems up to this size have their modes within a millisecond.
 constexpr Index kSmall = 96;
 
+/// Systems up to this size have their damped modes in less than a second, however they are coupled.
+constexpr Index kQuickModes = 140;
+
 struct Cost {
   double exponential, rodas4;  ///< s
 };
@@ -89,6 +92,17 @@ bool suits_exact(dynamics::Dynamics& dynamics, double tolerance, double end_time
   }
 }
 
+/// Whether exponential takes the scene by its damped modes, and these are found quickly.
+bool suits_collocation(dynamics::Dynamics& dynamics) {
+  const model::System& system = dynamics.system();
+  const bool is_coupled =
+      !system.is_symmetric || !system.obstacles.empty() || (system.size() > 1 && system.dashpots.size() > 0);
+  if (!is_coupled || system.rotation != nullptr || system.size() > kQuickModes) return false;
+  for (Index i = 0; i < dynamics.stop_count(); ++i)
+    if (!dynamics.contact().law_of(i).is_piecewise_linear()) return false;
+  return true;
+}
+
 std::unique_ptr<time::Integrator> make_rodas4(dynamics::Dynamics& dynamics, const Goal& goal) {
   return std::make_unique<Rodas4>(dynamics, goal);
 }
@@ -101,6 +115,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const std::string size = std::to_string(n) + " DOFs";
   if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
     return {Method::dopri5, "contacts stick rigidly, which it locates and implicit methods cannot treat"};
+  if (suits_collocation(dynamics))
+    return {Method::exponential, "the linear part is exact in its damped modes, and contacts alone are approximated"};
   if (dynamics.obstacles() != nullptr)
     return {Method::rodas4, "contacts act in the plane, dissipate or rub, and it ends its steps where they change"};
   if (!dynamics.system().is_symmetric)

@@ -9,6 +9,7 @@
 #include "butee/core/text.hpp"
 #include "integrators/local_error.hpp"
 #include "integrators/methods.hpp"
+#include "integrators/modal_collocation.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -282,7 +283,19 @@ void Exponential<Step>::do_interpolate_all(const State& from, const State& to, s
 template class Exponential<ExponentialStep>;
 template class Exponential<SingleStep>;
 
+namespace {
+
+/// Whether modes, stops and loads are those that the method of uncoupled modes takes.
+bool is_coupled(const model::System& system) {
+  return !system.is_symmetric || system.rotation != nullptr || !system.obstacles.empty() ||
+         (system.size() > 1 && system.dashpots.size() > 0);
+}
+
+}  // namespace
+
 std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options) {
+  if (is_coupled(dynamics.system()))
+    return std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
   auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
   const ModalSystem& modal = dynamics.modal(options.modes);
@@ -301,6 +314,7 @@ time::IntegratorType exponential_type() {
                              .at_least(0)
                              .or_else(std::int64_t{0})},
           .finds_first_step = true,
+          .contacts = time::ContactSupport::without_rigid,
           .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return make_exponential(dynamics,
                                     {p.number("tolerance"), p.number("end_time"), static_cast<int>(p.integer("order")),

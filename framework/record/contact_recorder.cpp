@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/quadrature.hpp"
@@ -12,6 +13,19 @@ namespace {
 
 constexpr int kBisections = 60;
 constexpr std::size_t kLeastBytes = 77;
+
+/// The DOFs of these contacts.
+void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size_t>& contacts,
+               std::vector<Index>& dofs) {
+  dofs.clear();
+  for (const std::size_t i : contacts)
+    for (const auto& side : {obstacles.ends_of(static_cast<Index>(i)).a, obstacles.ends_of(static_cast<Index>(i)).b})
+      for (const Index dof : side)
+        if (dof >= 0) dofs.push_back(dof);
+  // One DOF may belong to several contacts.
+  std::sort(dofs.begin(), dofs.end());
+  dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+}
 
 double closeness(const dynamics::ContactForces& forces) {
   return forces.penetration;
@@ -69,7 +83,7 @@ const ContactRecorder::Forces& ContactRecorder::at(const time::AcceptedStep& ste
     evaluate(step.to.x, step.to.v);
     return forces_;
   }
-  step.integrator.interpolate(step.from, step.to, t, dofs_, {x_values_, v_values_, {}});
+  step.integrator.trace(step.from, step.to, t, dofs_, {x_values_, v_values_, {}});
   for (std::size_t k = 0; k < dofs_.size(); ++k) {
     x_[dofs_[k]] = x_values_[k];
     v_[dofs_[k]] = v_values_[k];
@@ -87,6 +101,7 @@ void ContactRecorder::find_active() {
         phase.normal != dynamics::ContactPhase::Normal::apart)
       active_.push_back(i);
   }
+  if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);
 }
 
 void ContactRecorder::step(const time::AcceptedStep& step) {
@@ -127,6 +142,7 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
     }
   }
   const Forces& last = at(step, end);
+  std::vector<std::size_t> changed;
   for (const std::size_t i : active_) {
     const dynamics::ContactForces now = last[i];
     Watch& watch = watches_[i];
@@ -144,12 +160,21 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
     wear_[i].dissipated -= gained;
     watch.current.dissipated -= gained;
     watch.stored = now.stored;
-    if (touches != watch.touches) change(step, i, begin, end);
+    if (touches != watch.touches) changed.push_back(i);
   }
+  for (const std::size_t i : changed) change(step, i, begin, end);
 }
 
 void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact, double begin, double end) {
   Watch& watch = watches_[contact];
+  const std::vector<std::size_t> active = std::exchange(active_, {contact});
+  const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
+  if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);
+  // Steps of methods that follow phases end where these change.
+  const double shortly_before = end - step.integrator.event_precision() * (step.to.t - step.from.t);
+  if (!obstacles.is_live() && end == step.to.t && shortly_before > begin &&
+      (at(step, shortly_before)[contact].penetration > 0.0) == watch.touches)
+    begin = end;
   for (int k = 0; k < kBisections; ++k) {
     const double middle = 0.5 * (begin + end);
     if (middle <= begin || middle >= end) break;
@@ -161,8 +186,10 @@ void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact
     impact.t_in = end;
     impact.t_out.reset();
     impact.impact_speed = at(step, end)[contact].rate;
-    return;
   }
+  active_ = active;
+  if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);
+  if (watch.touches) return;
   impact.t_out = end;
   done_.push_back(impact);
   impact.peak_force = impact.impulse = impact.tangential_impulse = impact.slip = impact.dissipated = 0.0;

@@ -122,18 +122,25 @@ void ContactEvents::settle(State& state, double h) {
   if (changed) dynamics_.acceleration(state.t, state.x, state.v, state.a);
 }
 
-void ContactEvents::sample(const Integrator& integrator, const State& from, const State& to, double t, Sample& at) {
+void ContactEvents::add_dofs(Index contact, std::vector<Index>& dofs) const {
+  for (const auto& side : {obstacles_.ends_of(contact).a, obstacles_.ends_of(contact).b})
+    for (const Index dof : side)
+      if (dof >= 0) dofs.push_back(dof);
+}
+
+void ContactEvents::sample(const Integrator& integrator, const State& from, const State& to, double t,
+                           const std::vector<Index>& dofs, Sample& at) {
   at.t = t;
   if (t >= to.t) {
     at.x = to.x;
     at.v = to.v;
   } else {
-    const std::vector<Index>& dofs = sticks_.empty() ? obstacles_.dofs() : all_;
-    const std::span<double> x(values_x_.data(), dofs.size()), v(values_v_.data(), dofs.size());
-    integrator.interpolate(from, to, t, dofs, {x, v, {}});
-    for (std::size_t k = 0; k < dofs.size(); ++k) {
-      at.x[dofs[k]] = x[k];
-      at.v[dofs[k]] = v[k];
+    const std::vector<Index>& used = sticks_.empty() ? dofs : all_;
+    const std::span<double> x(values_x_.data(), used.size()), v(values_v_.data(), used.size());
+    integrator.trace(from, to, t, used, {x, v, {}});
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      at.x[used[k]] = x[k];
+      at.v[used[k]] = v[k];
     }
   }
   if (!sticks_.empty()) hold(at);
@@ -151,23 +158,30 @@ bool ContactEvents::is_near(Index contact, const State& from, const State& to) c
 std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integrator, const State& from,
                                                          const State& to) {
   sticks_ = obstacles_.rigid_sticks();
-  std::vector<Index> watched;
+  watched_.clear();
+  watched_dofs_.clear();
   for (Index i = 0; i < obstacles_.size(); ++i)
-    if (is_near(i, from, to)) watched.push_back(i);
-  if (watched.empty()) return std::nullopt;
+    if (is_near(i, from, to)) {
+      watched_.push_back(i);
+      add_dofs(i, watched_dofs_);
+    }
+  if (watched_.empty()) return std::nullopt;
+  // One DOF may belong to several contacts.
+  std::sort(watched_dofs_.begin(), watched_dofs_.end());
+  watched_dofs_.erase(std::unique(watched_dofs_.begin(), watched_dofs_.end()), watched_dofs_.end());
   const double h = to.t - from.t;
   const int samples = sticks_.empty() ? kSamples : std::max(kSamples, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
   for (int k = 0; k <= samples; ++k) {
     const double t = k == 0 ? from.t + kAhead * h : k == samples ? to.t : from.t + h * k / samples;
-    sample(integrator, from, to, t, now_);
+    sample(integrator, from, to, t, watched_dofs_, now_);
     std::optional<Event> earliest;
-    for (const Index i : watched) {
+    for (const Index i : watched_) {
       const std::size_t count = switches(i, now_);
       const auto present = found_;
       for (std::size_t which = 0; which < count; ++which) {
         if (present[which].value >= 0.0) continue;
-        const Event event = refine(integrator, from, to, {t, i, which}, last);
+        const Event event = refine(integrator, from, to, {t, i, which}, last, present[which].value);
         if (!earliest || event.t < earliest->t) earliest = event;
       }
     }
@@ -178,13 +192,38 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
 }
 
 ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const State& from, const State& to,
-                                           Event event, double begin) {
-  double end = event.t;
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = 0.5 * (begin + end);
+                                           Event event, double begin, double value) {
+  own_dofs_.clear();
+  add_dofs(event.contact, own_dofs_);
+  const auto value_at = [&](double t) {
+    sample(integrator, from, to, t, own_dofs_, work_);
+    return this->value(event.contact, event.which, work_);
+  };
+  // The Illinois form of the false position, whose bracket holds; bisection where it comes no nearer.
+  const double precision = 1e-15 * std::abs(to.t);
+  double end = event.t, at_end = value, at_begin = value_at(begin);
+  if (at_begin < 0.0) at_begin = 0.0;
+  double width = end - begin;
+  int side = 0;
+  for (int i = 0; i < kBisections && end - begin > precision; ++i) {
+    double middle = i % 3 == 2 && end - begin > 0.5 * width ? 0.5 * (begin + end)
+                                                            : end - at_end * (end - begin) / (at_end - at_begin);
+    if (i % 3 == 2) width = end - begin;
+    if (!(middle > begin && middle < end)) middle = 0.5 * (begin + end);
     if (middle <= begin || middle >= end) break;
-    sample(integrator, from, to, middle, work_);
-    (value(event.contact, event.which, work_) < 0.0 ? end : begin) = middle;
+    const double found = value_at(middle);
+    if (found < 0.0) {
+      end = middle;
+      at_end = found;
+      if (side < 0) at_begin *= 0.5;
+      side = -1;
+    } else {
+      begin = middle;
+      at_begin = found;
+      if (side > 0) at_end *= 0.5;
+      side = 1;
+      if (found == 0.0) break;
+    }
   }
   event.t = end;
   return event;
@@ -192,8 +231,10 @@ ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const S
 
 double ContactEvents::miss(const Integrator& integrator, const Event& event, const State& from, const State& to) {
   const double ahead = 1e-3 * (to.t - from.t);
-  sample(integrator, from, to, to.t, now_);
-  sample(integrator, from, to, to.t - ahead, work_);
+  own_dofs_.clear();
+  add_dofs(event.contact, own_dofs_);
+  sample(integrator, from, to, to.t, own_dofs_, now_);
+  sample(integrator, from, to, to.t - ahead, own_dofs_, work_);
   const double at_end = value(event.contact, event.which, now_), before = value(event.contact, event.which, work_);
   const double slope = (before - at_end) / ahead;
   return slope != 0.0 ? -at_end / slope : 0.0;

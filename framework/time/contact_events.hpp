@@ -52,14 +52,20 @@ class BUTEE_EXPORT ContactEvents {
     Vector x, v;
     Vector held;  ///< of the rigid sticks
   };
-  void sample(const Integrator& integrator, const State& from, const State& to, double t, Sample& at);
+  /// The motion of `dofs`, or of all where contacts stick rigidly, at `t`.
+  void sample(const Integrator& integrator, const State& from, const State& to, double t,
+              const std::vector<Index>& dofs, Sample& at);
+  /// The DOFs of a contact, into the vector.
+  void add_dofs(Index contact, std::vector<Index>& dofs) const;
   void hold(Sample& at);
   std::size_t switches(Index contact, const Sample& at);
   double value(Index contact, std::size_t which, const Sample& at);
   /// False where the motion over the step cannot bring the contact to a switch.
   bool is_near(Index contact, const State& from, const State& to) const;
   void enter(Index contact, const dynamics::ContactPhase& next, State& state);
-  Event refine(const Integrator& integrator, const State& from, const State& to, Event event, double begin);
+  /// Narrows [begin, event.t] down to the root of the event's switching function, whose value at event.t is `value`.
+  Event refine(const Integrator& integrator, const State& from, const State& to, Event event, double begin,
+               double value);
 
   dynamics::Dynamics& dynamics_;
   dynamics::Obstacles& obstacles_;
@@ -67,7 +73,7 @@ class BUTEE_EXPORT ContactEvents {
   std::vector<double> values_x_, values_v_;
   std::array<dynamics::Obstacles::Switch, dynamics::Obstacles::kMostSwitches> found_{};
   Sample now_, work_;
-  std::vector<Index> sticks_;
+  std::vector<Index> sticks_, watched_, watched_dofs_, own_dofs_;
 };
 
 }  // namespace butee::time

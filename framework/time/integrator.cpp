@@ -60,7 +60,8 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
 
 void Integrator::end_at_event(const State& from, const Step& step, State& to, StepReport& report) {
   constexpr int kMostTrials = 6;
-  constexpr double kGood = 1e-12, kLeast = 1e-10;
+  constexpr double kLeast = 1e-10;
+  const double good = event_precision();
   const auto is_accepted = [&] { return controller() == nullptr || controller()->decide(step.h, report).accept; };
   const double wanted = report.proposal;
   const auto redo = [&](double t_end) {
@@ -69,26 +70,27 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     ++next.inner_rejected;
     next.inner_rejected += report.inner_rejected;
     next.newton_iterations += report.newton_iterations;
-    next.proposal = std::max(next.proposal, wanted);
     report = next;
+    if (!is_accepted()) return false;
+    report.proposal = std::max(report.proposal, wanted);
     return report.status == StepStatus::ok && is_finite(to);
   };
   for (int trial = 0; trial < kMostTrials && is_accepted(); ++trial) {
     auto event = events_->first(*this, from, to);
     if (!event) return;
     const double h = to.t - from.t;
-    if (!redo(std::min(std::max(event->t, from.t + kLeast * h), to.t))) return;
+    if (!redo(std::min(std::max(event->t, from.t + kLeast * step.h), to.t))) return;
     for (int k = 0; k < 3 && is_accepted(); ++k) {
       const double miss = events_->miss(*this, *event, from, to);
-      if (std::abs(miss) <= kGood * h || std::abs(miss) > 0.1 * (to.t - from.t)) break;
+      if (std::abs(miss) <= good * h || std::abs(miss) > 0.1 * (to.t - from.t)) break;
       const double t_end = to.t - miss;
-      if (t_end <= from.t || t_end > step.t_end || t_end == to.t) break;
+      if (t_end < from.t + kLeast * step.h || t_end > step.t_end || t_end == to.t) break;
       if (!redo(t_end)) return;
     }
     events_->mark(*event, to);
     // Another contact may change before; beside this one the end of the step is no event.
     const auto before = events_->first(*this, from, to);
-    if (!before || to.t - before->t <= 1e-6 * h) return;
+    if (!before || to.t - before->t <= std::max(1e-6, good) * h) return;
     to.contact = from.contact;
   }
 }

@@ -99,6 +99,15 @@ class BUTEE_EXPORT Integrator {
   /// integrates; else contacts act by the motion of the instant alone, and laws with memory are refused.
   virtual bool follows_contact_phases() const { return false; }
 
+  /// Of a method that follows phases: the part of a step by which the end of a step may miss a change of phase.
+  virtual double event_precision() const { return 1e-12; }
+
+  /// The motion of `dofs` within the last step that was computed, as those see it who look for changes of contact: as
+  /// interpolate(), or where that is much cheaper by a polynomial as good as the method's own view of its contacts.
+  void trace(const State& from, const State& to, double t, std::span<const Index> dofs, Interpolated out) const {
+    do_trace(from, to, t, dofs, out);
+  }
+
   /// True where steps best end at the instants that observers ask for, since any length is as good.
   virtual bool lands_on_outputs() const { return false; }
 
@@ -131,6 +140,11 @@ class BUTEE_EXPORT Integrator {
   /// Default: one instant after the other. To be overridden where they have something in common.
   virtual void do_interpolate_all(const State& from, const State& to, std::span<const double> times,
                                   std::span<const Index> dofs, Interpolated out) const;
+
+  virtual void do_trace(const State& from, const State& to, double t, std::span<const Index> dofs,
+                        Interpolated out) const {
+    interpolate(from, to, t, dofs, out);
+  }
 
   /// Cuts an accepted step at the first change of phase within it.
   void end_at_event(const State& from, const Step& step, State& to, StepReport& report);

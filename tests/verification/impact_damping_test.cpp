@@ -99,7 +99,8 @@ TEST_P(ImpactMethods, jankowskis_law_gives_the_restitution_that_the_message_stat
 }
 
 INSTANTIATE_TEST_SUITE_P(Adaptive, ImpactMethods,
-                         testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8"));
+                         testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
+                                         "integrator.type=exponential"));
 
 }  // namespace
 }  // namespace butee::test::impact_damping_test

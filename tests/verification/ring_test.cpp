@@ -184,7 +184,8 @@ end_time = 0.3
 
 INSTANTIATE_TEST_SUITE_P(Adaptive, RingMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
-                                         "integrator.type=rodas4", "integrator.type=exact"));
+                                         "integrator.type=rodas4", "integrator.type=exact",
+                                         "integrator.type=exponential"));
 
 }  // namespace
 }  // namespace butee::test::ring_test

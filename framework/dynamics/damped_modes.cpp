@@ -1,0 +1,232 @@
+#include "butee/dynamics/damped_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "butee/core/error.hpp"
+#include "butee/dynamics/dynamics.hpp"
+#include "butee/linalg/dense_pairs.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Entries below this part of the largest are rounding.
+constexpr double kUncoupled = 1e-12;
+/// |V| |V^-1| of a basis beyond which it is no basis.
+constexpr double kDefective = 1e6, kHopeless = 1e8;
+
+/// Parts of the numbers 0 ... n - 1 that entries (i, j) join.
+class Parts {
+ public:
+  explicit Parts(Index n) : parent_(static_cast<std::size_t>(n)) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+  void join(Index i, Index j) { parent_[static_cast<std::size_t>(root(i))] = root(j); }
+  std::vector<std::vector<Index>> lists() {
+    std::vector<std::vector<Index>> lists(parent_.size());
+    for (Index i = 0; i < static_cast<Index>(parent_.size()); ++i)
+      lists[static_cast<std::size_t>(root(i))].push_back(i);
+    std::erase_if(lists, [](const auto& list) { return list.empty(); });
+    return lists;
+  }
+
+ private:
+  Index root(Index i) {
+    Index& parent = parent_[static_cast<std::size_t>(i)];
+    return parent == i ? i : parent = root(parent);
+  }
+  std::vector<Index> parent_;
+};
+
+void join_entries(const SparseMatrix& matrix, Parts& parts) {
+  for (Index j = 0; j < matrix.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
+      if (entry.value() != 0.0) parts.join(entry.row(), entry.col());
+}
+
+/// Entries of a full matrix that do not vanish beside the largest.
+void join_entries(const Eigen::MatrixXd& matrix, double smallest, Parts& parts) {
+  for (Index j = 0; j < matrix.cols(); ++j)
+    for (Index i = 0; i < matrix.rows(); ++i)
+      if (i != j && std::abs(matrix(i, j)) > smallest) parts.join(i, j);
+}
+
+SparseMatrix part_of(const SparseMatrix& matrix, const std::vector<Index>& dofs, const std::vector<Index>& place) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t c = 0; c < dofs.size(); ++c)
+    for (SparseMatrix::InnerIterator entry(matrix, dofs[c]); entry; ++entry)
+      if (entry.value() != 0.0)
+        entries.emplace_back(place[static_cast<std::size_t>(entry.row())], static_cast<Index>(c), entry.value());
+  const auto size = static_cast<Index>(dofs.size());
+  SparseMatrix part(size, size);
+  part.setFromTriplets(entries.begin(), entries.end());
+  return part;
+}
+
+/// The natural modes of M and K, part by part where the matrices fall apart, as two planes do. False where the
+/// iteration did not converge.
+bool natural_modes(const SparseMatrix& mass, const SparseMatrix& stiffness, Eigen::MatrixXd& shapes,
+                   Eigen::ArrayXd& squares) {
+  const Index n = mass.rows();
+  Parts parts(n);
+  join_entries(mass, parts);
+  join_entries(stiffness, parts);
+  shapes.setZero(n, n);
+  squares.resize(n);
+  std::vector<Index> place(static_cast<std::size_t>(n));
+  Index column = 0;
+  for (const std::vector<Index>& dofs : parts.lists()) {
+    for (std::size_t i = 0; i < dofs.size(); ++i) place[static_cast<std::size_t>(dofs[i])] = static_cast<Index>(i);
+    const auto pairs = linalg::dense_pairs(part_of(stiffness, dofs, place), part_of(mass, dofs, place));
+    if (!pairs) return false;
+    for (Index k = 0; k < pairs->values.size(); ++k, ++column) {
+      squares[column] = std::max(pairs->values[k], 0.0);
+      for (std::size_t i = 0; i < dofs.size(); ++i) shapes(dofs[i], column) = pairs->vectors(static_cast<Index>(i), k);
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping, Block& block) {
+  const Index b = stiffness.rows();
+  if (b == 1) {
+    const double delta = 0.5 * damping(0, 0), scale = block.scale[0];
+    const Complex root = std::sqrt(Complex(delta * delta - stiffness(0, 0)));
+    // Of two real ones the larger by its sum, the smaller by its product: no digits cancel.
+    Complex first = -delta + root, second = -delta - root;
+    if (root.imag() == 0.0 && std::abs(first) < std::abs(second)) first = stiffness(0, 0) / second;
+    if (root.imag() == 0.0 && std::abs(second) < std::abs(first)) second = stiffness(0, 0) / first;
+    block.values.resize(2);
+    block.values << first, second;
+    block.vectors.resize(2, 2);
+    block.vectors << 1.0, 1.0, first / scale, second / scale;
+    const Complex determinant = (second - first) / scale;
+    block.inverse.resize(2, 2);
+    block.inverse << second / scale, -1.0, -first / scale, 1.0;
+    block.inverse /= determinant;
+    return std::abs(determinant) * kDefective > 1.0;
+  }
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * b, 2 * b);
+  motion.topRightCorner(b, b) = block.scale.matrix().asDiagonal();
+  motion.bottomLeftCorner(b, b) = -stiffness * block.scale.inverse().matrix().asDiagonal();
+  motion.bottomRightCorner(b, b) = -damping;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(motion);
+  if (solver.info() != Eigen::Success) return false;
+  block.values = solver.eigenvalues();
+  block.vectors = solver.eigenvectors();
+  block.inverse = block.vectors.inverse();
+  return block.inverse.allFinite() && block.vectors.norm() * block.inverse.norm() < kDefective * static_cast<double>(b);
+}
+
+DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
+  const model::System& system = dynamics.system();
+  const Index n = system.size();
+  const char* const others = "; take rodas4, dopri5, extrapolation8 or exact, or auto, which chooses among them";
+  if (system.rotation != nullptr)
+    throw InputError(std::string("integrator.type: the speed of rotation varies, so that there are no modes to take") +
+                     others);
+  if (n > kMost)
+    throw InputError("integrator.type: " + std::to_string(n) + " DOFs whose damping, turning parts or contacts need " +
+                     "all their modes are more than " + std::to_string(kMost) + others);
+  SparseMatrix transposed = system.stiffness.transpose();
+  SparseMatrix even = 0.5 * (system.stiffness + transposed);
+  Eigen::MatrixXd shapes;
+  Eigen::ArrayXd squares;
+  if (!natural_modes(system.mass, even, shapes, squares))
+    throw InputError(std::string("integrator.type: the modes could not be computed") + others);
+
+  Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);
+  if (dynamics.has_damping()) {
+    Eigen::MatrixXd forces(n, n);
+    for (Index j = 0; j < n; ++j) dynamics.damping_force(shapes.col(j), forces.col(j));
+    damping.noalias() = shapes.transpose() * forces;
+  } else {
+    damping.setZero();
+  }
+  if (!system.stiffness_is_symmetric) {
+    SparseMatrix odd = 0.5 * (system.stiffness - transposed);
+    stiffness.noalias() = shapes.transpose() * (odd * shapes);
+  }
+  Parts parts(n);
+  join_entries(damping, kUncoupled * damping.cwiseAbs().maxCoeff(), parts);
+  join_entries(stiffness, kUncoupled * stiffness.cwiseAbs().maxCoeff(), parts);
+  stiffness.diagonal() += squares.matrix();
+
+  std::vector<Block> blocks;
+  std::vector<std::pair<std::size_t, Index>> kept;  ///< block and its damped mode
+  for (std::vector<Index>& modes : parts.lists()) {
+    Block& block = blocks.emplace_back();
+    block.modes = std::move(modes);
+    const auto b = static_cast<Index>(block.modes.size());
+    Eigen::MatrixXd k(b, b), c(b, b);
+    block.scale.resize(b);
+    for (Index i = 0; i < b; ++i)
+      for (Index j = 0; j < b; ++j) {
+        k(i, j) = stiffness(block.modes[static_cast<std::size_t>(i)], block.modes[static_cast<std::size_t>(j)]);
+        c(i, j) = damping(block.modes[static_cast<std::size_t>(i)], block.modes[static_cast<std::size_t>(j)]);
+      }
+    const Eigen::ArrayXd largest =
+        k.diagonal().array().abs().max(0.25 * c.diagonal().array().square()).max(1.0 / (run_time * run_time));
+    block.scale = largest.sqrt();
+    if (!solve(k, c, block)) {
+      for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];
+      if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
+        throw InputError(std::string("integrator.type: this structure's motion has no basis of modes") + others);
+    }
+    for (Index i = 0; i < 2 * b; ++i)
+      if (block.values[i].imag() >= 0.0) kept.emplace_back(blocks.size() - 1, i);
+  }
+  const auto value_of = [&](const std::pair<std::size_t, Index>& mode) {
+    return blocks[mode.first].values[mode.second];
+  };
+  std::stable_sort(kept.begin(), kept.end(),
+                   [&](const auto& a, const auto& b) { return std::abs(value_of(a)) < std::abs(value_of(b)); });
+
+  const auto p = static_cast<Index>(kept.size());
+  decay_.resize(p);
+  turn_.resize(p);
+  Eigen::MatrixXd of_x = Eigen::MatrixXd::Zero(n, 2 * p), of_v = of_x, from_q = of_x, from_v = of_x;
+  for (Index m = 0; m < p; ++m) {
+    const Block& block = blocks[kept[static_cast<std::size_t>(m)].first];
+    const Index k = kept[static_cast<std::size_t>(m)].second, b = block.scale.size();
+    const Complex lambda = block.values[k];
+    decay_[m] = lambda.real();
+    turn_[m] = lambda.imag();
+    const double weight = lambda.imag() > 0.0 ? 2.0 : 1.0;
+    for (Index i = 0; i < b; ++i) {
+      const auto shape = shapes.col(block.modes[static_cast<std::size_t>(i)]);
+      const Complex x = weight / block.scale[i] * block.vectors(i, k), v = weight * block.vectors(b + i, k),
+                    on_q = block.scale[i] * block.inverse(k, i), on_v = block.inverse(k, b + i);
+      of_x.col(m) += x.real() * shape;
+      of_x.col(p + m) -= x.imag() * shape;
+      of_v.col(m) += v.real() * shape;
+      of_v.col(p + m) -= v.imag() * shape;
+      from_q.col(m) += on_q.real() * shape;
+      from_q.col(p + m) += on_q.imag() * shape;
+      from_v.col(m) += on_v.real() * shape;
+      from_v.col(p + m) += on_v.imag() * shape;
+    }
+  }
+  speed_ = (decay_.square() + turn_.square()).sqrt();
+  displacement_ = of_x.transpose();
+  velocity_ = of_v.transpose();
+  input_ = from_v.transpose();
+  from_v_ = (system.mass * from_v).transpose();
+  from_x_ = (system.mass * from_q).transpose();
+}
+
+void DampedModes::to_modal(ConstVectorRef x, ConstVectorRef v, Eigen::Ref<Eigen::VectorXd> z) const {
+  z.noalias() = from_x_ * x;
+  z.noalias() += from_v_ * v;
+}
+
+}  // namespace butee::dynamics

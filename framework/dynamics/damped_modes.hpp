@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <butee/export.hpp>
+
+#include "butee/core/types.hpp"
+
+namespace butee::dynamics {
+
+class Dynamics;
+
+/// The damped modes of any linear system M a + C v + K x = f(t), whatever its damping, turning parts or cross terms:
+///
+///     z_k' = lambda_k z_k + b_k . f(t),    x = Re sum_k r_k z_k,    v = Re sum_k lambda_k r_k z_k
+///
+/// Of each pair of complex modes one is kept, with twice its shape. Columns of 2 p numbers hold the real parts of all p
+/// modes and then the imaginary parts, so that sums over modes are real products. Modes ascend in |lambda|.
+///
+/// The natural modes of M and the symmetric part of K that C and the rest of K couple form blocks, each with an
+/// eigenvalue problem of its own. Rigid motion and critical damping have no basis of eigenvectors; their stiffness is
+/// changed by kNudge times the largest of omega^2, delta^2 and 1/T^2, which over the run time T changes the motion by
+/// less than 1e-9 of itself. Checked against the matrix exponential in tests/unit/damped_modes_test.cpp.
+class BUTEE_EXPORT DampedModes {
+ public:
+  /// The most DOFs, whose matrices are full.
+  static constexpr Index kMost = 600;
+  static constexpr double kNudge = 1e-10;
+
+  /// `run_time` is T, s. Throws InputError where the speed of rotation varies, there are too many DOFs, or no basis of
+  /// modes is found.
+  DampedModes(Dynamics& dynamics, double run_time);
+
+  Index count() const { return decay_.size(); }           ///< p
+  const Eigen::ArrayXd& decay() const { return decay_; }  ///< Re lambda, 1/s
+  const Eigen::ArrayXd& turn() const { return turn_; }    ///< Im lambda >= 0, rad/s
+  const Eigen::ArrayXd& speed() const { return speed_; }  ///< |lambda|, 1/s, ascending
+
+  const Eigen::MatrixXd& displacement() const { return displacement_; }  ///< 2p x n: x_d = column d . z
+  const Eigen::MatrixXd& velocity() const { return velocity_; }          ///< 2p x n
+  const Eigen::MatrixXd& input() const { return input_; }                ///< 2p x n: z' gets column d times f_d
+
+  /// z, 2p numbers, of a motion.
+  void to_modal(ConstVectorRef x, ConstVectorRef v, Eigen::Ref<Eigen::VectorXd> z) const;
+
+ private:
+  /// Natural modes coupled with each other, and their part of the eigenvector basis.
+  struct Block {
+    std::vector<Index> modes;  ///< natural modes
+    std::vector<Index> kept;   ///< of the damped modes, one of each pair
+    Eigen::ArrayXd scale;      ///< s_i, 1/s: of the coordinates (s q, q')
+    Eigen::VectorXcd values;
+    Eigen::MatrixXcd vectors, inverse;
+  };
+  static bool solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping, Block& block);
+
+  Eigen::ArrayXd decay_, turn_, speed_;
+  Eigen::MatrixXd displacement_, velocity_, input_, from_x_, from_v_;
+};
+
+}  // namespace butee::dynamics

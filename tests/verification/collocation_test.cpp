@@ -1,0 +1,220 @@
+// exponential on coupled structures and contacts in the plane, against exact (Taylor series with every change located).
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "butee/core/error.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::collocation_test {
+namespace {
+
+/// A turning pipe with gyroscopic terms that strikes rings and rubs.
+const std::string kPipe = R"(
+schema = 1
+[material.steel]
+young_modulus = 2.03e11
+density = 7900.0
+[section.pipe]
+shape = "tube"
+outer_radius = 0.06
+inner_radius = 0.04
+[[element]]
+type = "beam"
+name = "b"
+motion = "lateral"
+theory = "rayleigh"
+material = "steel"
+section = "pipe"
+length = 20.0
+elements = 8
+[rotation]
+speed = 30.0
+[[support]]
+nodes = ["b:first", "b:last"]
+fix = ["uy", "uz"]
+[[contact]]
+type = "ring"
+nodes = "b:all"
+gap = 0.004
+stiffness = 1e6
+radius = 0.06
+friction = { coefficient = 0.2, slip_speed = 0.05 }
+[[load]]
+type = "unbalance"
+node = "b:middle"
+moment = 1.0
+[damping]
+mass_proportional = 0.5
+[integrator]
+end_time = 0.6
+)";
+
+/// A planar beam with a dashpot, a table load and stops on both sides.
+const std::string kBeam = R"(
+schema = 1
+[material.steel]
+young_modulus = 2.03e11
+density = 7900.0
+[section.pipe]
+shape = "tube"
+outer_radius = 0.06
+inner_radius = 0.04
+[[element]]
+type = "beam"
+name = "b"
+material = "steel"
+section = "pipe"
+length = 20.0
+elements = 8
+[[element]]
+type = "spring"
+node = "b:3"
+stiffness = 10.0
+damping = 300.0
+[[support]]
+nodes = ["b:first", "b:last"]
+fix = ["u"]
+[[contact]]
+type = "stop"
+nodes = "b:all"
+gap = 0.004
+stiffness = 1e6
+[[load]]
+type = "table"
+node = "b:middle"
+times = [0.0, 0.11, 0.35, 0.6]
+values = [0.0, 900.0, -700.0, 100.0]
+[integrator]
+end_time = 0.6
+)";
+
+/// Two bodies without ground, joined by a dashpot, one of which strikes planes with loss.
+const std::string kFlight = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 1.0
+[[element]]
+type = "mass"
+name = "b"
+mass = 2.0
+[[element]]
+type = "spring"
+nodes = ["a", "b"]
+dof = "uy"
+stiffness = 500.0
+damping = 2.0
+[[element]]
+type = "spring"
+nodes = ["a", "b"]
+dof = "uz"
+stiffness = 500.0
+damping = 2.0
+[[contact]]
+type = "plane"
+nodes = "a"
+normal = [1.0, 0.3]
+gap = 0.05
+stiffness = 1e5
+damping = { type = "hunt_crossley", restitution = 0.7, impact_speed = 1.0 }
+friction = { coefficient = 0.1, slip_speed = 0.05 }
+[initial]
+velocity = [{ nodes = "a", dof = "uy", value = 1.0 }, { nodes = "b", dof = "uy", value = 0.8 }]
+[integrator]
+end_time = 0.4
+)";
+
+class CoupledScenes : public testing::TestWithParam<std::string> {};
+
+double distance(const time::State& a, const time::State& b) {
+  return std::max((a.x - b.x).norm() / b.x.norm(), (a.v - b.v).norm() / b.v.norm());
+}
+
+/// Disturbances grow at most 30 times in these scenes (start displaced by 1e-6 of itself, exact).
+TEST_P(CoupledScenes, meet_exact_the_nearer_the_smaller_the_tolerance) {
+  SceneRun exact(GetParam(), {"integrator.type=exact"});
+  ASSERT_TRUE(exact.run().completed) << exact.simulation().report().message;
+  const time::State& wanted = exact.simulation().state();
+  std::vector<double> errors;
+  for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+    SceneRun run(GetParam(),
+                 {"integrator.type=exponential", "integrator.tolerance=" + std::to_string(tolerance * 1e7) + "e-7"});
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    errors.push_back(distance(run.simulation().state(), wanted));
+    EXPECT_LT(errors.back(), 30.0 * tolerance) << tolerance;
+  }
+  EXPECT_LT(errors[2], 1e-2 * std::max(errors[0], 1e-5));
+}
+
+/// What a step makes of a state depends on nothing else.
+TEST_P(CoupledScenes, go_on_from_a_state_with_the_same_bits) {
+  SceneRun run(GetParam(), {"integrator.type=exponential"}), other(GetParam(), {"integrator.type=exponential"});
+  time::State from, to, again;
+  from.x = run.system().initial_displacement;
+  from.v = run.system().initial_velocity;
+  time::State twin = from;
+  run.integrator().start(from);
+  other.integrator().start(twin);
+  double h = 1e-3;
+  for (int k = 0; k < 40; ++k) {
+    run.integrator().settle(from, h);
+    const auto report = run.integrator().step(from, {h, from.t + h, true}, to);
+    ASSERT_EQ(report.status, time::StepStatus::ok);
+    // The other has seen none of the steps before.
+    other.integrator().settle(from, h);
+    other.integrator().step(from, {h, from.t + h, true}, again);
+    EXPECT_TRUE(again.x == to.x && again.v == to.v && again.t == to.t && again.memory == to.memory);
+    if (report.error <= 1.0) std::swap(from, to);
+    h = report.error <= 1.0 ? 1e-3 : 0.5 * h;
+  }
+}
+
+/// Outputs are the motion itself: the closed form of the step meets the end of shorter steps.
+TEST_P(CoupledScenes, have_the_same_outputs_for_any_steps) {
+  const std::vector<double> times = {0.0313, 0.1002, 0.177, 0.2811, 0.33};
+  SceneRun exact(GetParam(), {"integrator.type=exact"}),
+      run(GetParam(), {"integrator.type=exponential", "integrator.tolerance=1e-8"});
+  Sampler wanted(0, times), got(0, times);
+  exact.simulation().add(wanted);
+  run.simulation().add(got);
+  ASSERT_TRUE(exact.run().completed);
+  ASSERT_TRUE(run.run().completed);
+  double size_x = 0.0, size_v = 0.0;
+  for (const double x : wanted.x) size_x = std::max(size_x, std::abs(x));
+  for (const double v : wanted.v) size_v = std::max(size_v, std::abs(v));
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_NEAR(got.x[i], wanted.x[i], 1e-6 * size_x) << times[i];
+    EXPECT_NEAR(got.v[i], wanted.v[i], 1e-6 * size_v) << times[i];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Collocation, CoupledScenes, testing::Values(kPipe, kBeam, kFlight));
+
+std::string complaint(const std::string& toml) {
+  try {
+    SceneRun run(toml, {"integrator.type=exponential"});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Collocation, refuses_a_varying_speed_and_names_the_others) {
+  std::string varying = kPipe;
+  varying.replace(varying.find("speed = 30.0"), 12, "speed = { type = \"ramp\", from = 10.0, to = 30.0, end = 0.5 }");
+  const std::string message = complaint(varying);
+  EXPECT_NE(message.find("the speed of rotation varies"), std::string::npos) << message;
+  EXPECT_NE(message.find("rodas4"), std::string::npos) << message;
+}
+
+TEST(Collocation, refuses_rigid_stick_and_names_the_others) {
+  std::string rigid = kFlight;
+  rigid.replace(rigid.find("slip_speed = 0.05"), 17, "stick = \"rigid\"");
+  const std::string message = complaint(rigid);
+  EXPECT_NE(message.find("exact"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace butee::test::collocation_test

@@ -1,0 +1,191 @@
+// The damped modes of coupled structures, and their motion under polynomial and harmonic forces, against the matrix
+// exponential of the first-order system (Eigen's unsupported module).
+#include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include <butee/dynamics/damped_modes.hpp>
+#include <gtest/gtest.h>
+
+#include "integrators/modal_response.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::damped_modes_test {
+namespace {
+
+using dynamics::DampedModes;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A shaft on bearings with cross terms that turns, a dashpot on it, and two bodies without ground that a dashpot
+/// joins.
+const std::string kShaft = R"(
+schema = 1
+[material.steel]
+young_modulus = 2e11
+density = 7800.0
+poisson_ratio = 0.3
+[section.shaft]
+shape = "tube"
+outer_radius = 0.03
+inner_radius = 0.0
+[[element]]
+type = "beam"
+name = "s"
+motion = "lateral"
+theory = "timoshenko"
+material = "steel"
+section = "shaft"
+length = 1.0
+elements = 4
+[[element]]
+type = "disc"
+node = "s:middle"
+mass = 20.0
+diametral_inertia = 0.2
+polar_inertia = 0.4
+[[element]]
+type = "bearing"
+node = "s:first"
+stiffness = [[1e7, 2e5], [-3e5, 2e7]]
+damping = [[500.0, 20.0], [10.0, 300.0]]
+[[element]]
+type = "bearing"
+node = "s:last"
+stiffness = [[1e7, 0.0], [0.0, 1e7]]
+damping = [[50.0, 0.0], [0.0, 50.0]]
+[rotation]
+speed = 200.0
+[integrator]
+end_time = 1.0
+)";
+
+const std::string kBodies = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 2.0
+[[element]]
+type = "mass"
+name = "b"
+mass = 5.0
+[[element]]
+type = "spring"
+nodes = ["a", "b"]
+stiffness = 40.0
+damping = 3.0
+[[element]]
+type = "mass"
+name = "critical"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "critical"
+stiffness = 9.0
+damping = 6.0
+[[element]]
+type = "mass"
+name = "over"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "over"
+stiffness = 4.0
+damping = 50.0
+[integrator]
+end_time = 1.0
+)";
+
+/// The matrix of y' = A y + [0; M^-1 f] of the motion y = (x, v).
+MatrixXd first_order(SceneRun& run, MatrixXd& compliance) {
+  const Index n = run.dynamics().size();
+  MatrixXd stiffness(n, n), damping(n, n);
+  VectorXd column(n);
+  for (Index j = 0; j < n; ++j) {
+    run.dynamics().elastic_force(VectorXd::Unit(n, j), column);
+    stiffness.col(j) = column;
+    run.dynamics().damping_force(VectorXd::Unit(n, j), column);
+    damping.col(j) = column;
+  }
+  compliance = MatrixXd(run.system().mass).inverse();
+  MatrixXd all = MatrixXd::Zero(2 * n, 2 * n);
+  all.topRightCorner(n, n).setIdentity();
+  all.bottomLeftCorner(n, n) = -compliance * stiffness;
+  all.bottomRightCorner(n, n) = -compliance * damping;
+  return all;
+}
+
+class DampedModesOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(DampedModesOf, give_the_motion_of_the_matrix_exponential) {
+  SceneRun run(GetParam());
+  const Index n = run.dynamics().size();
+  MatrixXd compliance;
+  const MatrixXd matrix = first_order(run, compliance);
+  const DampedModes modes(run.dynamics(), 1.0);
+  const Index p = modes.count();
+  VectorXd x = VectorXd::LinSpaced(n, -1.0, 2.0), v = VectorXd::LinSpaced(n, 3.0, 1.0), z(2 * p);
+  modes.to_modal(x, v, z);
+  const VectorXd back_x = modes.displacement().transpose() * z, back_v = modes.velocity().transpose() * z;
+  EXPECT_LT((back_x - x).norm(), 1e-9 * x.norm());
+  EXPECT_LT((back_v - v).norm(), 1e-9 * v.norm());
+
+  // f on the first DOF: 3 - 2 s + 7 s^4 - s^6 over the step, and 5 cos(30 t + 0.4) from t = 0.2 on.
+  const double coefficients[] = {3.0, -2.0, 0.0, 0.0, 7.0, 0.0, -1.0}, turn = 30.0, begin = 0.2;
+  integrators::TurningLoad load{turn, VectorXd(2 * p), VectorXd(2 * p)};
+  const VectorXd shape = modes.input().col(0);
+  const auto turned = [&](double angle) {
+    VectorXd out(2 * p);
+    out.head(p) = 2.5 * (std::cos(angle) * shape.head(p) - std::sin(angle) * shape.tail(p));
+    out.tail(p) = 2.5 * (std::cos(angle) * shape.tail(p) + std::sin(angle) * shape.head(p));
+    return out;
+  };
+  load.forth = turned(0.4);
+  load.back = turned(-0.4);
+  MatrixXd g(2 * p, 7);
+  for (Index r = 0; r < 7; ++r) g.col(r) = coefficients[r] * shape;
+  for (const double h : {1e-5, 1e-3, 0.02, 0.4})
+    for (const double place : {0.3, 1.0}) {
+      VectorXd out(2 * p);
+      integrators::PlaceResponse(modes, {load}, place, h).move(begin, z.data(), g.data(), out);
+      // The powers of s, and cosine and sine, as further unknowns of one linear system.
+      MatrixXd all = MatrixXd::Zero(2 * n + 9, 2 * n + 9);
+      all.topLeftCorner(2 * n, 2 * n) = matrix;
+      for (Index r = 0; r < 7; ++r) {
+        all.block(n, 2 * n + r, n, 1) = coefficients[r] * compliance.col(0);
+        if (r > 0) all(2 * n + r, 2 * n + r - 1) = static_cast<double>(r) / h;
+      }
+      all.block(n, 2 * n + 7, n, 1) = 5.0 * compliance.col(0);
+      all(2 * n + 7, 2 * n + 8) = -turn;
+      all(2 * n + 8, 2 * n + 7) = turn;
+      VectorXd y = VectorXd::Zero(2 * n + 9);
+      y << x, v, 1.0, VectorXd::Zero(6), std::cos(turn * begin + 0.4), std::sin(turn * begin + 0.4);
+      const VectorXd wanted = (all * (place * h)).exp() * y;
+      const VectorXd got_x = modes.displacement().transpose() * out, got_v = modes.velocity().transpose() * out;
+      EXPECT_LT((got_x - wanted.head(n)).norm(), 2e-9 * wanted.head(n).norm()) << h << " " << place;
+      EXPECT_LT((got_v - wanted.segment(n, n)).norm(), 2e-9 * wanted.segment(n, n).norm()) << h << " " << place;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies));
+
+TEST(StepNodes, interpolate_polynomials_of_degree_six) {
+  using integrators::StepNodes;
+  Eigen::Matrix<double, 1, 7> values, fifth;
+  for (Index j = 0; j < 7; ++j) {
+    const double s = StepNodes::kPlaces[static_cast<std::size_t>(j)];
+    fifth[j] = 1.0 - 3.0 * s + std::pow(s, 5);
+    values[j] = fifth[j] + 2.0 * std::pow(s, 6);
+  }
+  for (const double s : {0.1, 0.7, 0.95}) {
+    const double exact = 1.0 - 3.0 * s + std::pow(s, 5);
+    EXPECT_NEAR((values * StepNodes::lagrange(s))(0), exact + 2.0 * std::pow(s, 6), 1e-12);
+    const Eigen::Matrix<double, 1, 7> powers = fifth * StepNodes::without_middle();
+    double sum = 0.0;
+    for (Index r = 6; r >= 0; --r) sum = sum * s + powers[r];
+    EXPECT_NEAR(sum, exact, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace butee::test::damped_modes_test
