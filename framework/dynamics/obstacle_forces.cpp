@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "butee/dynamics/obstacles.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+using model::ContactShape;
+using model::Friction;
+using model::ImpactDamping;
+using NormalPhase = ContactPhase::Normal;
+using SlipPhase = ContactPhase::Slip;
+
+/// The multiple of `period` nearest to 0 that differs from y by whole periods.
+double nearest(double y, double period) {
+  return period > 0.0 ? std::remainder(y, period) : y;
+}
+
+}  // namespace
+
+Obstacles::Normal Obstacles::normal(const Contact& contact, NormalPhase phase, double g, double rate) const {
+  const model::ObstacleGroup& group = *contact.group;
+  if (group.shape == nullptr) return {group.normal_force, group.normal_force, 0.0, 0.0};
+  const model::ContactLaw& law = *group.law;
+  const bool touches = phase == NormalPhase::pressed || phase == NormalPhase::receding;
+  ++counters_->law_evaluations;
+  // A kinked law is continued beyond the end of its phase by the branch that holds within it.
+  double secant, tangent;
+  if (law.is_piecewise_linear()) {
+    secant = tangent = touches || phase == NormalPhase::released ? law.closed_stiffness() : 0.0;
+  } else {
+    secant = law.secant(g);
+    tangent = law.tangent(g);
+  }
+  Normal result{secant * g, secant * g, tangent, 0.0};
+  if (phase == NormalPhase::released) return {0.0, 0.0, 0.0, 0.0};
+  if (phase != NormalPhase::pressed) return result;
+  const ImpactDamping& damping = group.damping;
+  switch (damping.kind) {
+    case ImpactDamping::Kind::none:
+      break;
+    case ImpactDamping::Kind::kelvin_voigt:
+      result.force += damping.coefficient * rate;
+      result.by_rate = damping.coefficient;
+      break;
+    case ImpactDamping::Kind::hunt_crossley:
+      result.by_rate = damping.coefficient * result.elastic;
+      result.by_penetration = tangent * (1.0 + damping.coefficient * rate);
+      result.force += result.by_rate * rate;
+      break;
+    case ImpactDamping::Kind::jankowski: {
+      result.by_rate = 2.0 * damping.coefficient * std::sqrt(std::max(secant, 0.0) * damping.mass);
+      result.force += result.by_rate * rate;
+      if (g > 0.0 && secant > 0.0)
+        result.by_penetration += 0.5 * result.by_rate * (tangent - secant) / (g * secant) * rate;
+      break;
+    }
+  }
+  return result;
+}
+
+Obstacles::Slide Obstacles::slide(const Friction& friction, SlipPhase phase, double w) {
+  if (phase == SlipPhase::forward) return {1.0, 0.0};
+  if (phase == SlipPhase::backward) return {-1.0, 0.0};
+  const double scale = friction.slip_speed;
+  switch (friction.rule) {
+    case Friction::Rule::sqrt: {
+      const double root = std::hypot(w, scale);
+      return {w / root, scale * scale / (root * root * root)};
+    }
+    case Friction::Rule::tanh: {
+      const double share = std::tanh(w / scale);
+      return {share, (1.0 - share) * (1.0 + share) / scale};
+    }
+    case Friction::Rule::clip:
+      return {w / scale, 1.0 / scale};
+    default:
+      return {0.0, 0.0};
+  }
+}
+
+double Obstacles::path(Index i, double t, const Kinematics& now) const {
+  const Contact& contact = at(i);
+  const model::ObstacleGroup& group = *contact.group;
+  double path = -group.friction.surface_speed * t;
+  if (group.radius != 0.0 && rotation_ != nullptr) path += group.radius * rotation_->angle(t);
+  if (contact.form.kind == ContactShape::Form::Kind::circle) {
+    const Eigen::Vector2d arm = now.motion.d - contact.form.place;
+    return path + contact.form.sense * contact.form.distance * std::atan2(arm[1], arm[0]);
+  }
+  return path + now.tangent.dot(now.motion.d);
+}
+
+double Obstacles::stretch(Index i, double t, const Kinematics& now, double anchor) const {
+  const double stretch = path(i, t, now) - anchor;
+  const Contact& contact = at(i);
+  if (contact.form.kind != ContactShape::Form::Kind::circle) return stretch;
+  return nearest(stretch, 2.0 * std::numbers::pi * contact.form.distance);
+}
+
+double Obstacles::friction_force(Index i, double t, const Kinematics& now, const ContactPhase& phase,
+                                 double normal) const {
+  const model::ObstacleGroup& group = *at(i).group;
+  const Friction& friction = group.friction;
+  if (friction.rule == Friction::Rule::none || (group.shape != nullptr && !phase.touches())) return 0.0;
+  const double limit = friction.coefficient * (group.damping.pulls ? std::max(normal, 0.0) : normal);
+  if (friction.has_memory() && phase.slip == SlipPhase::stick) {
+    if (friction.rule == Friction::Rule::rigid) return 0.0;
+    return friction.stick_stiffness * stretch(i, t, now, phase.anchor) + friction.stick_damping * now.slip;
+  }
+  return limit * slide(friction, phase.slip, now.slip).share;
+}
+
+const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVectorRef x, ConstVectorRef v) {
+  tangents_.clear();
+  for (Index i = 0; i < size(); ++i) {
+    if (is_idle(i)) continue;
+    const Contact& contact = at(i);
+    const model::ObstacleGroup& group = *contact.group;
+    const Friction& friction = group.friction;
+    const Kinematics now = kinematics(i, t, x, v);
+    ContactPhase phase = phases_[static_cast<std::size_t>(i)];
+    if (is_live_) phase = live_phase(contact, now);
+    const Normal normal = this->normal(contact, phase.normal, now.approach.penetration, now.rate);
+    const Eigen::Vector2d &n = now.approach.normal, &u = now.tangent;
+    const double bend = now.approach.curvature, along = u.dot(now.motion.v);
+    Eigen::RowVector2d normal_by_d =
+        normal.by_penetration * n.transpose() + normal.by_rate * bend * along * u.transpose();
+    Eigen::RowVector2d normal_by_v = normal.by_rate * n.transpose();
+    if (group.shape == nullptr) normal_by_d = normal_by_v = Eigen::RowVector2d::Zero();
+    Eigen::RowVector2d friction_by_d(0.0, 0.0), friction_by_v(0.0, 0.0);
+    double force = 0.0, friction_rate = 0.0;
+    const double surface_acceleration = this->surface_acceleration(i, t);
+    if (friction.rule != Friction::Rule::none && (group.shape == nullptr || phase.touches())) {
+      force = friction_force(i, t, now, phase, normal.force);
+      const Eigen::RowVector2d slip_by_d = -bend * now.rate * u.transpose();
+      if (friction.rule == Friction::Rule::spring && phase.slip == SlipPhase::stick) {
+        const bool round = contact.form.kind == ContactShape::Form::Kind::circle;
+        friction_by_d = friction.stick_stiffness * (round ? contact.form.sense * contact.form.distance * bend : 1.0) *
+                            u.transpose() +
+                        friction.stick_damping * slip_by_d;
+        friction_by_v = friction.stick_damping * u.transpose();
+        friction_rate = friction.stick_stiffness * now.surface + friction.stick_damping * surface_acceleration;
+      } else if (!(friction.rule == Friction::Rule::rigid && phase.slip == SlipPhase::stick)) {
+        const Slide slide = this->slide(friction, phase.slip, now.slip);
+        const bool presses = !group.damping.pulls || normal.force > 0.0;
+        const double mu = presses ? friction.coefficient : 0.0;
+        friction_by_d = mu * slide.share * normal_by_d + mu * normal.force * slide.slope * slip_by_d;
+        friction_by_v = mu * slide.share * normal_by_v + mu * normal.force * slide.slope * u.transpose();
+        friction_rate = mu * normal.force * slide.slope * surface_acceleration;
+      }
+    }
+    Tangent tangent{i, n * normal_by_d + u * friction_by_d, n * normal_by_v + u * friction_by_v, -friction_rate * u};
+    if (group.shape != nullptr)
+      tangent.stiffness += normal.force * bend * u * u.transpose() - force * bend * n * u.transpose();
+    if (group.directions.size() == 1) {
+      tangent.stiffness(0, 1) = tangent.stiffness(1, 0) = tangent.stiffness(1, 1) = 0.0;
+      tangent.damping(0, 1) = tangent.damping(1, 0) = tangent.damping(1, 1) = 0.0;
+      tangent.rate[1] = 0.0;
+    }
+    if (!tangent.stiffness.isZero(0.0) || !tangent.damping.isZero(0.0)) tangents_.push_back(tangent);
+  }
+  return tangents_;
+}
+
+}  // namespace butee::dynamics

@@ -1,0 +1,132 @@
+#include <cmath>
+
+#include "butee/dynamics/obstacles.hpp"
+
+namespace butee::dynamics {
+namespace {
+
+using model::Friction;
+using model::ImpactDamping;
+using NormalPhase = ContactPhase::Normal;
+using SlipPhase = ContactPhase::Slip;
+
+}  // namespace
+
+ContactPhase Obstacles::live_phase(const Contact& contact, const Kinematics& now) const {
+  const model::ObstacleGroup& group = *contact.group;
+  ContactPhase phase;
+  if (group.shape == nullptr) {
+    phase.normal = NormalPhase::pressed;
+  } else if (now.approach.penetration > 0.0) {
+    phase.normal = NormalPhase::pressed;
+    if (group.damping.kind == ImpactDamping::Kind::jankowski && now.rate < 0.0) phase.normal = NormalPhase::receding;
+    if (group.damping.kind != ImpactDamping::Kind::none && !group.damping.pulls &&
+        normal(contact, phase.normal, now.approach.penetration, now.rate).force < 0.0)
+      phase.normal = NormalPhase::released;
+  }
+  switch (group.friction.rule) {
+    case Friction::Rule::clip:
+      phase.slip = SlipPhase::stick;
+      if (std::abs(now.slip) > group.friction.slip_speed)
+        phase.slip = now.slip > 0.0 ? SlipPhase::forward : SlipPhase::backward;
+      break;
+    case Friction::Rule::spring:
+    case Friction::Rule::rigid:
+      phase.slip = now.slip == 0.0 ? SlipPhase::stick : now.slip > 0.0 ? SlipPhase::forward : SlipPhase::backward;
+      break;
+    default:
+      break;
+  }
+  return phase;
+}
+
+ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVectorRef v) const {
+  const Kinematics now = kinematics(i, t, x, v);
+  ContactPhase phase = live_phase(at(i), now);
+  const Friction& friction = at(i).group->friction;
+  if (friction.rule == Friction::Rule::spring) {
+    phase.anchor = path(i, t, now);
+    // Where slip begins with contact the force is still 0: whether the spring or the limit grows faster decides.
+    const double limit =
+        at(i).group->shape == nullptr
+            ? friction.static_coefficient * at(i).group->normal_force
+            : friction.static_coefficient * normal(at(i), phase.normal, now.approach.penetration, now.rate).force;
+    if (limit > 0.0) {
+      if (friction.stick_damping * std::abs(now.slip) <= limit) phase.slip = SlipPhase::stick;
+    } else if (phase.touches() && now.rate > 0.0) {
+      const double growth = friction.static_coefficient * at(i).group->law->closed_stiffness() * now.rate;
+      if (friction.stick_damping == 0.0 && friction.stick_stiffness * std::abs(now.slip) <= growth)
+        phase.slip = SlipPhase::stick;
+    }
+  }
+  return phase;
+}
+
+std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, double held,
+                                std::array<Switch, kMostSwitches>& out) const {
+  const Contact& contact = at(i);
+  const model::ObstacleGroup& group = *contact.group;
+  const ContactPhase phase = phases_[static_cast<std::size_t>(i)];
+  const Kinematics now = kinematics(i, t, x, v);
+  const double g = now.approach.penetration;
+  std::size_t count = 0;
+  const auto add = [&](double value, NormalPhase normal, SlipPhase slip, double anchor) {
+    out[count++] = {value, {normal, slip, anchor}};
+  };
+  const bool dissipates = group.damping.kind != ImpactDamping::Kind::none;
+  if (group.shape != nullptr) {
+    switch (phase.normal) {
+      case NormalPhase::apart:
+        add(-g, NormalPhase::pressed, phase.slip, phase.anchor);
+        return count;
+      case NormalPhase::released: {
+        add(g, NormalPhase::apart, phase.slip, phase.anchor);
+        const double pull = group.damping.kind == ImpactDamping::Kind::hunt_crossley
+                                ? 1.0 + group.damping.coefficient * now.rate
+                                : normal(contact, NormalPhase::pressed, g, now.rate).force;
+        add(-pull, NormalPhase::pressed, phase.slip, phase.anchor);
+        return count;
+      }
+      case NormalPhase::pressed:
+        add(g, NormalPhase::apart, phase.slip, phase.anchor);
+        if (group.damping.kind == ImpactDamping::Kind::jankowski)
+          add(now.rate, NormalPhase::receding, phase.slip, phase.anchor);
+        else if (group.damping.kind == ImpactDamping::Kind::hunt_crossley)
+          add(1.0 + group.damping.coefficient * now.rate, NormalPhase::released, phase.slip, phase.anchor);
+        else if (dissipates && !group.damping.pulls)
+          add(normal(contact, phase.normal, g, now.rate).force, NormalPhase::released, phase.slip, phase.anchor);
+        break;
+      case NormalPhase::receding:
+        add(g, NormalPhase::apart, phase.slip, phase.anchor);
+        add(-now.rate, NormalPhase::pressed, phase.slip, phase.anchor);
+        break;
+    }
+  }
+  const Friction& friction = group.friction;
+  if (friction.rule == Friction::Rule::clip) {
+    if (phase.slip != SlipPhase::backward)
+      add((phase.slip == SlipPhase::forward ? 1.0 : -1.0) * (now.slip - friction.slip_speed), phase.normal,
+          phase.slip == SlipPhase::forward ? SlipPhase::stick : SlipPhase::forward, 0.0);
+    if (phase.slip != SlipPhase::forward)
+      add((phase.slip == SlipPhase::backward ? -1.0 : 1.0) * (now.slip + friction.slip_speed), phase.normal,
+          phase.slip == SlipPhase::backward ? SlipPhase::stick : SlipPhase::backward, 0.0);
+  }
+  if (!friction.has_memory()) return count;
+  const double force = normal(contact, phase.normal, g, now.rate).force;
+  if (phase.slip == SlipPhase::stick) {
+    const double tension = friction.rule == Friction::Rule::rigid ? held : friction_force(i, t, now, phase, force);
+    add(friction.static_coefficient * force - tension, phase.normal, SlipPhase::forward, 0.0);
+    add(friction.static_coefficient * force + tension, phase.normal, SlipPhase::backward, 0.0);
+  } else {
+    const double sense = phase.slip == SlipPhase::forward ? 1.0 : -1.0;
+    double anchor = 0.0;
+    if (friction.rule == Friction::Rule::spring) {
+      const double tension = sense * friction.coefficient * force - friction.stick_damping * now.slip;
+      anchor = path(i, t, now) - tension / friction.stick_stiffness;
+    }
+    add(sense * now.slip, phase.normal, SlipPhase::stick, anchor);
+  }
+  return count;
+}
+
+}  // namespace butee::dynamics
