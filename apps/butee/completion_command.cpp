@@ -18,6 +18,7 @@ std::vector<std::string> names_of(const plugin::Catalogue& catalogue) {
   add(catalogue.types().elements);
   add(catalogue.types().sections);
   add(catalogue.types().laws);
+  add(catalogue.types().contacts);
   add(catalogue.types().loads);
   return names;
 }

@@ -97,7 +97,7 @@ Command add_new_plugin_command(CLI::App& program) {
       ->required()
       ->type_name("NAME");
   app->add_option("--kind", arguments->kind, "what it brings; integrator where not given")
-      ->check(CLI::IsMember({"integrator", "law", "load", "element"}));
+      ->check(CLI::IsMember({"integrator", "law", "contact", "load", "element"}));
   app->add_option("-o,--output", arguments->folder, "the folder for the project; NAME where not given")
       ->type_name("DIR");
   return {app, [arguments] { return new_plugin_command(*arguments); }};

@@ -21,6 +21,7 @@ std::string value_text(const std::string& text) {
 std::vector<Check> checks_of(const std::string& kind) {
   if (kind == "integrator") return integrator_checks();
   if (kind == "law") return law_checks();
+  if (kind == "contact") return contact_checks();
   if (kind == "load") return load_checks();
   return element_checks();
 }

@@ -11,7 +11,7 @@ namespace butee::conformance {
 /// A type under test: what scenes write to get it.
 struct Subject {
   plugin::Catalogue catalogue;  ///< that knows it, and the standard types beside it
-  std::string kind;             ///< "integrator", "law", "load" or "element"
+  std::string kind;             ///< "integrator", "law", "contact", "load" or "element"
   std::string name;
   std::string keys;  ///< TOML lines with its parameters
 };
@@ -34,6 +34,7 @@ std::vector<Check> checks_of(const std::string& kind);
 
 std::vector<Check> integrator_checks();
 std::vector<Check> law_checks();
+std::vector<Check> contact_checks();
 std::vector<Check> load_checks();
 std::vector<Check> element_checks();
 

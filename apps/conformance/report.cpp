@@ -34,6 +34,7 @@ std::vector<Named> types_of(const plugin::Catalogue& catalogue, const std::strin
       if (is_from_it(catalogue.module_of(kind, type.name))) found.push_back({kind, type.name, &type.parameters});
   };
   add("law", catalogue.types().laws);
+  add("contact", catalogue.types().contacts);
   add("load", catalogue.types().loads);
   add("element", catalogue.types().elements);
   return found;

@@ -45,8 +45,8 @@ Type loaded(const std::string& name, std::vector<Type> ModuleTypes::*list, const
 template <class Type>
 void load_when_made(Type& type, std::vector<Type> ModuleTypes::*list, const std::string& path) {
   const std::string name = type.name;
-  type.make = [name, list, path](const auto& first, auto& second) {
-    return loaded(name, list, path).make(first, second);
+  type.make = [name, list, path](const auto& first, auto&&... others) {
+    return loaded(name, list, path).make(first, std::forward<decltype(others)>(others)...);
   };
   if constexpr (std::is_same_v<Type, model::ElementType>)
     type.nodes = [name, list, path](const config::Parameters& p, config::Diagnostics& diagnostics) {
@@ -123,6 +123,7 @@ void Catalogue::add(ModuleTypes found, const std::string& path) {
   // All or nothing: a copy takes the types, and is kept where none of them is refused.
   Catalogue next = *this;
   next.add_types("law", std::move(found.laws), &ModuleTypes::laws, path, next.types_.laws);
+  next.add_types("contact", std::move(found.contacts), &ModuleTypes::contacts, path, next.types_.contacts);
   next.add_types("load", std::move(found.loads), &ModuleTypes::loads, path, next.types_.loads);
   next.add_types("element", std::move(found.elements), &ModuleTypes::elements, path, next.types_.elements);
   next.add_types("format", std::move(found.formats), &ModuleTypes::formats, path, next.types_.formats);

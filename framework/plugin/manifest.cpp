@@ -150,6 +150,7 @@ std::string write_manifest(const ModuleTypes& types) {
   }
   if (!list.empty()) root["integrator"] = Value(std::move(list));
   write_types(types.laws, "law", root);
+  write_types(types.contacts, "contact", root);
   write_types(types.loads, "load", root);
   write_types(types.elements, "element", root);
   write_types(types.formats, "format", root);
@@ -173,11 +174,12 @@ ModuleTypes read_manifest(const std::string& path) {
       types.integrators[i].finds_first_step = get<bool>(table, "finds_first_step");
     }
     read_types(root, "law", types.laws);
+    read_types(root, "contact", types.contacts);
     read_types(root, "load", types.loads);
     read_types(root, "element", types.elements);
     read_types(root, "format", types.formats);
-    if (types.integrators.empty() && types.laws.empty() && types.loads.empty() && types.elements.empty() &&
-        types.formats.empty())
+    if (types.integrators.empty() && types.laws.empty() && types.contacts.empty() && types.loads.empty() &&
+        types.elements.empty() && types.formats.empty())
       throw InputError("names no type");
     return types;
   } catch (const std::exception& error) {

@@ -11,6 +11,7 @@ namespace butee::plugin {
 struct ModuleTypes {
   std::vector<time::IntegratorType> integrators{};
   std::vector<model::LawType> laws{};
+  std::vector<model::ContactType> contacts{};
   std::vector<model::LoadType> loads{};
   std::vector<model::ElementType> elements{};
   std::vector<model::FieldFormat> formats{};
@@ -21,6 +22,7 @@ class BUTEE_EXPORT Registrar {
  public:
   void add(time::IntegratorType type) { types_.integrators.push_back(std::move(type)); }
   void add(model::LawType type) { types_.laws.push_back(std::move(type)); }
+  void add(model::ContactType type) { types_.contacts.push_back(std::move(type)); }
   void add(model::LoadType type) { types_.loads.push_back(std::move(type)); }
   void add(model::ElementType type) { types_.elements.push_back(std::move(type)); }
   void add(model::FieldFormat type) { types_.formats.push_back(std::move(type)); }

@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, Suite,
                                           testing::ValuesIn(conformance::integrator_checks())),
                          name_of);
 
-/// The same for laws, loads and elements, those of the library among them.
+/// The same for laws, contacts, loads and elements, those of the library among them.
 TEST(SuiteOfOtherKinds, DemandsAreMet) {
   plugin::Catalogue catalogue;
   catalogue.add(BUTEE_TEST_PLUGINS);
@@ -47,6 +47,8 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
       {"linear", "stiffness = 1e6\n"},
       {"arctan", "stiffness = 1e6\nregularization = 7e7\n"},
       {"smooth", "stiffness = 1e6\nwidth = 1e-4\n"},
+      {"ring", "centre = [0.002, -0.001]\n"},
+      {"plane", "normal = [0.6, 0.8]\n"},
       {"harmonic", "amplitude = 3.0\nangular_frequency = 7.0\nphase = 0.4\n"},
       {"constant", "value = -2.0\n"},
       {"ramp", "from = 0.5\nto = 2.0\nstart = 0.3\nend = 0.7\n"},
@@ -75,9 +77,10 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
     }
   };
   test("law", model::type_names(catalogue.types().laws));
+  test("contact", model::type_names(catalogue.types().contacts));
   test("load", model::type_names(catalogue.types().loads));
   test("element", model::type_names(catalogue.types().elements));
-  EXPECT_EQ(count, 4 * 5 + 5 * 5 + 6 * 2);
+  EXPECT_EQ(count, 4 * 5 + 2 * 3 + 5 * 5 + 6 * 2);
 }
 
 #ifndef __SANITIZE_ADDRESS__

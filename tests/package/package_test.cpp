@@ -48,7 +48,7 @@ TEST_P(NewPlugin, BuildsPassesTheSuiteAndRunsAtOnce) {
   EXPECT_TRUE(shell(folder.file("mine"), "'" + package() + "/bin/butee' plugins mine --plugin build/mine.so"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, NewPlugin, testing::Values("integrator", "law", "load", "element"),
+INSTANTIATE_TEST_SUITE_P(Kinds, NewPlugin, testing::Values("integrator", "law", "contact", "load", "element"),
                          [](const auto& one) { return one.param; });
 
 TEST_F(Package, RefusesAModuleThatWasBuiltOtherwise) {

@@ -105,7 +105,7 @@ std::string limits_text(const plugin::Catalogue&) {
                solutions without a run
 
 A motion that strikes stops may be chaotic: then no method can give its course for long (butee help trust). Scenes are
-limited by memory: butee check says how much one takes. New elements, laws and loads come as modules (butee help plugins).
+limited by memory: butee check says how much one takes. New elements, laws, contacts and loads come as modules (butee help plugins).
 )";
 }
 
@@ -146,7 +146,8 @@ course for long, while peaks and rms values may still be right.
 std::string plugins_text(const plugin::Catalogue& catalogue) {
   return "Methods are modules: shared objects with a manifest beside each, so that names and parameters are known "
          "without "
-         "loading\nany; only the module that a scene names is loaded. Modules may bring laws, loads and elements as "
+         "loading\nany; only the module that a scene names is loaded. Modules may bring laws, contacts, loads and "
+         "elements as "
          "well. " +
          std::to_string(catalogue.integrators().size()) + " methods are\ninstalled here.\n" +
          R"(
