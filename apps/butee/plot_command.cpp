@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "plot/draw.hpp"
+#include "study/pictures.hpp"
 
 namespace butee::app {
 namespace {
@@ -15,7 +16,23 @@ struct PlotArguments {
   std::vector<std::string> plugins;
 };
 
+/// Pictures of a study, of the rows that are there.
+int plot_study(const PlotArguments& arguments) {
+  const plot::Request& request = arguments.request;
+  const std::string& folder = request.folders.front();
+  if (request.folders.size() > 1) throw InputError(folder + ": is a study; its pictures are drawn by themselves");
+  if (!request.kinds.empty() || !request.probes.empty() || request.window.from > plot::Window{}.from ||
+      request.window.to < plot::Window{}.to)
+    throw InputError(folder + ": is a study, for which --kind, --probe, --from and --to do not hold");
+  plot::require_gnuplot(request.formats);
+  for (const std::string& file : studies::draw_folder(folder, request.output, request.formats))
+    if (!log::is_quiet()) std::printf("%s\n", file.c_str());
+  return kDone;
+}
+
 int plot_command(const PlotArguments& arguments) {
+  for (const std::string& folder : arguments.request.folders)
+    if (study::Store::is_study_folder(folder)) return plot_study(arguments);
   const plot::Window window = arguments.request.window;
   if (!(window.from < window.to)) throw InputError("--from must be less than --to");
   for (const std::string& file : plot::draw(arguments.request, plugin::Catalogue::with_plugins(arguments.plugins)))
@@ -28,8 +45,11 @@ int plot_command(const PlotArguments& arguments) {
 Command add_plot_command(CLI::App& program) {
   const auto arguments = std::make_shared<PlotArguments>();
   plot::Request& request = arguments->request;
-  CLI::App* app = program.add_subcommand("plot", "draw the results of runs; several of them into one picture");
-  app->add_option("folder", request.folders, "result folders of `butee run`")->required()->type_name("DIR");
+  CLI::App* app =
+      program.add_subcommand("plot", "draw the results of runs, several of them into one picture, or those of a study");
+  app->add_option("folder", request.folders, "result folders of `butee run`, or one of `butee study`")
+      ->required()
+      ->type_name("DIR");
   app->add_option("--kind", request.kinds, "what to draw; what the results allow where not given")
       ->delimiter(',')
       ->check(CLI::IsMember(plot::kind_names()))

@@ -84,6 +84,7 @@ int run(scene::Scene& session, const RunArguments& arguments, const record::Resu
   folder.write("summary.json", record::to_json(best));
   if (best.report.completed) record::CheckpointFolder(folder).clear();
   if (session.output.trust && best.report.completed) {
+    log::info("running the scene again, some times, to see how far to trust it");
     best.trust = find_trust(session);
     folder.write("summary.json", record::to_json(best));
   }

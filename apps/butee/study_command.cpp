@@ -10,6 +10,7 @@
 #include <butee/core/terminal.hpp>
 #include <butee/core/text.hpp>
 #include <butee/study/perform.hpp>
+#include <butee/study/store.hpp>
 #include <butee/study/stream.hpp>
 #include <butee/study/team.hpp>
 
@@ -17,6 +18,7 @@
 #include "gnuplot.hpp"
 #include "interruption.hpp"
 #include "plot/draw.hpp"
+#include "study/horizon.hpp"
 #include "study/pictures.hpp"
 #include "study/progress_line.hpp"
 
@@ -57,7 +59,8 @@ class FolderStudy {
       : arguments_(arguments),
         team_(team),
         shard_(shard_of(arguments.shard)),
-        study_(study::load_study(arguments.model.model, {arguments.model.overrides, arguments.model.plugins, {}})),
+        study_(study::load_study(arguments.model.model,
+                                 {arguments.model.overrides, arguments.model.plugins, {}, studies::horizon_of})),
         layout_(layout_of(study_)),
         format_(study::row_format(arguments.format)),
         store_(folder(), study_, layout_, *format_) {
@@ -81,9 +84,11 @@ class FolderStudy {
                                (arguments_.progress == "always" ||
                                 (arguments_.progress == "auto" && is_terminal(stderr) && !log::is_quiet())));
     study::PerformOptions options{arguments_.threads, shard_};
+    std::optional<study::Dealer> dealer;
     if (team_ != nullptr) {
-      options.shard = {team_->rank(), team_->size()};
       if (options.threads == 0) options.threads = 1;
+      options.dealer = &dealer.emplace(*team_, study_.plan.chain_count(), options.threads);
+      options.serve = [this] { team_->serve(); };
     }
     options.goes_on = [] { return interruption() == nullptr; };
     options.report = [&](const study::Progress& progress) { line.report(progress); };
@@ -205,8 +210,8 @@ int study_points(const StudyArguments& arguments) {
   if (!next(header) || !next(first))
     throw InputError("--points " + arguments.points +
                      ": holds no points: a line with the keys, then a line for each point");
-  study::Study study = study::load_study(
-      arguments.model.model, {arguments.model.overrides, arguments.model.plugins, header + "\n" + first + "\n"});
+  study::Study study = study::load_study(arguments.model.model, {arguments.model.overrides, arguments.model.plugins,
+                                                                 header + "\n" + first + "\n", studies::horizon_of});
   if (study.plan.follow() != study::Follow::no)
     throw InputError("study.follow: points that are given one by one are no sweep; set it to false");
   study::check_first_point(study);

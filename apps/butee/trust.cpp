@@ -187,7 +187,6 @@ class Judgement {
 }  // namespace
 
 record::Trust find_trust(scene::Scene& session) {
-  log::info("running the scene again, some times, to see how far to trust it");
   return Judgement(session).pronounce();
 }
 

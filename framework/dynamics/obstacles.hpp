@@ -91,6 +91,11 @@ class BUTEE_EXPORT Obstacles {
   /// The phase of a contact that an instant tells by itself. Where the path is at its anchor a stick spring is
   /// unstressed.
   ContactPhase phase_at(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
+  /// What contact i in `phase` remembers of the motion before an instant: the numbers of its phase and, in m, how far a
+  /// stick spring is stretched. Unlike an anchor that depends on neither the time nor the surface's path.
+  Eigen::Vector3d memory(Index i, const ContactPhase& phase, double t, ConstVectorRef x, ConstVectorRef v) const;
+  /// phase_at(), with slip and stretch as in `memory` where the contact touched then and touches now.
+  ContactPhase phase_after(Index i, const Eigen::Vector3d& memory, double t, ConstVectorRef x, ConstVectorRef v) const;
   /// The switching functions of the phase of contact i, positive within it, and the phases they lead to. `held` is the
   /// tangential force that holds a rigid stick, N. Returns their number.
   struct Switch {

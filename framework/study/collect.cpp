@@ -28,6 +28,11 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
     for (const std::size_t i : chosen) probes.push_back(probe_of(items[i], scene));
     return probes;
   };
+  const auto kinds_of = [&](const std::vector<std::size_t>& chosen) {
+    std::vector<Kind> kinds;
+    for (const std::size_t i : chosen) kinds.push_back(items[i].kind);
+    return kinds;
+  };
   const model::DofTable& dofs = dynamics.system().dofs;
   const auto is_followed = [&](const Item& item) {
     return !is_element_force(item.quantity) &&
@@ -36,6 +41,10 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
   for (const Item& item : items)
     if ((item.kind == Kind::max || item.kind == Kind::min) && !is_followed(item))
       throw InputError("\"" + item.text + "\": is measured from another frame than the motion is solved in; take peak");
+
+  for (const Item& item : items)
+    if (item.kind == Kind::wear && dynamics.obstacles() == nullptr)
+      throw InputError("\"wear\": no contact of the scene rubs; give one friction, or take it out");
 
   if (const auto chosen = chosen_by([&](const Item& i) { return i.kind == Kind::peak && is_followed(i); });
       !chosen.empty())
@@ -52,18 +61,15 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
   if (const auto chosen =
           chosen_by([&](const Item& i) { return i.kind == Kind::mean || i.kind == Kind::rms || i.kind == Kind::end; });
       !chosen.empty()) {
-    std::vector<Kind> kinds;
-    for (const std::size_t i : chosen) kinds.push_back(items[i].kind);
-    add(chosen, std::make_unique<MeanPart>(probes_of(chosen), kinds, dynamics, counted_));
+    add(chosen, std::make_unique<MeanPart>(probes_of(chosen), kinds_of(chosen), dynamics, counted_));
   }
   if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::section; }); !chosen.empty())
     add(chosen, std::make_unique<SectionPart>(probes_of(chosen), dynamics, counted_));
   if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::frequency; }); !chosen.empty())
     add(chosen, std::make_unique<FrequencyPart>(probes_of(chosen), dynamics, counted_));
-  if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::impacts; }); !chosen.empty()) {
-    add({chosen.front()}, std::make_unique<ImpactPart>(dynamics, counted_));
-    for (const std::size_t i : chosen) places_[i] = places_[chosen.front()];
-  }
+  if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::impacts || i.kind == Kind::wear; });
+      !chosen.empty())
+    add(chosen, std::make_unique<ContactPart>(kinds_of(chosen), dynamics, counted_));
 }
 
 Collector::~Collector() = default;

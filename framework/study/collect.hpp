@@ -11,7 +11,7 @@ namespace butee::study {
 
 /// A result that a study collects from each run: "peak rotor.u", "section rotor.u", "impacts".
 struct Item {
-  enum class Kind { peak, max, min, mean, rms, end, section, frequency, impacts, lyapunov };
+  enum class Kind { peak, max, min, mean, rms, end, section, frequency, impacts, wear, lyapunov, trust };
 
   Kind kind = Kind::peak;
   std::string text;   ///< as written
@@ -46,7 +46,7 @@ struct Counted {
 
 class CollectorPart;
 
-/// Observes the part of a run that counts, and gives the items but "lyapunov". Begins where open() says.
+/// Observes the part of a run that counts, and gives the items but "lyapunov" and "trust". Begins where open() says.
 class BUTEE_EXPORT Collector final : public time::Observer {
  public:
   /// `dynamics` must outlive it. Throws InputError where an item names nothing.
@@ -60,12 +60,12 @@ class BUTEE_EXPORT Collector final : public time::Observer {
   void step(const time::AcceptedStep& step) override;
   double next_instant(double t) const override;
 
-  /// The entries of an item, as many as its column has; none of "lyapunov".
+  /// The entries of an item, as many as its column has; none of "lyapunov" and "trust".
   std::vector<double> values(std::size_t item) const;
 
  private:
   std::vector<std::unique_ptr<CollectorPart>> parts_;
-  /// Of each item, the part that observes it and its place there; null for "lyapunov".
+  /// Of each item, the part that observes it and its place there; null for "lyapunov" and "trust".
   std::vector<std::pair<const CollectorPart*, std::size_t>> places_;
   Counted counted_;
   bool is_open_ = false;

@@ -193,10 +193,11 @@ class FrequencyPart final : public CollectorPart {
   std::vector<std::vector<double>> values_;
 };
 
-/// Closings of stops, and of contacts in the plane, with dissipation or friction.
-class ImpactPart final : public CollectorPart {
+/// Closings of stops, and of contacts in the plane, with dissipation or friction; the work of rubbing of the latter.
+class ContactPart final : public CollectorPart {
  public:
-  ImpactPart(dynamics::Dynamics& dynamics, const Counted& counted) : impacts_(dynamics), counted_(counted) {
+  ContactPart(const std::vector<Item::Kind>& kinds, dynamics::Dynamics& dynamics, const Counted& counted)
+      : kinds_(kinds), impacts_(dynamics), counted_(counted) {
     if (dynamics.obstacles() != nullptr) contacts_.emplace(dynamics);
   }
   void start(const time::State& state) override {
@@ -207,7 +208,12 @@ class ImpactPart final : public CollectorPart {
     impacts_.step(step);
     if (contacts_) contacts_->step(step);
   }
-  std::vector<double> values(std::size_t) const override {
+  std::vector<double> values(std::size_t item) const override {
+    if (kinds_[item] == Item::Kind::wear) {
+      double work = 0.0;
+      for (const record::ContactWear& wear : contacts_->wear()) work += wear.work;
+      return {work};
+    }
     const auto count = [&](const std::vector<record::Impact>& all) {
       return std::count_if(all.begin(), all.end(),
                            [&](const record::Impact& impact) { return impact.t_in > counted_.begin; });
@@ -216,6 +222,7 @@ class ImpactPart final : public CollectorPart {
   }
 
  private:
+  std::vector<Item::Kind> kinds_;
   record::ImpactRecorder impacts_;
   std::optional<record::ContactRecorder> contacts_;
   const Counted& counted_;

@@ -52,6 +52,11 @@ Identity identity_of(const Study& study) {
           "butee " BUTEE_VERSION ", " + target() + ", " + compiled_for() + ", " + checksum_of_build(study.catalogue)};
 }
 
+void Store::adopt_identity() {
+  const config::Document known = config::load_toml(file(kStudyFile));
+  identity_ = {text_in(known, "study"), text_in(known, "scene"), text_in(known, "build")};
+}
+
 void Store::check_identity(const std::string& folder) const {
   const config::Document known = config::load_toml((fs::path(folder) / kStudyFile).string());
   const std::pair<const char*, std::pair<std::string, const char*>> parts[] = {

@@ -11,7 +11,7 @@ namespace {
 using Kind = Item::Kind;
 
 bool takes_probe(Kind kind) {
-  return kind != Kind::impacts && kind != Kind::lyapunov;
+  return kind != Kind::impacts && kind != Kind::wear && kind != Kind::lyapunov && kind != Kind::trust;
 }
 
 std::string known_kinds() {
@@ -34,7 +34,9 @@ const std::vector<ItemKind>& item_kinds() {
       {Kind::section, "section", "value at the end of each period (Poincare section)"},
       {Kind::frequency, "frequency", "frequency of the largest line of the spectrum, Hz"},
       {Kind::impacts, "impacts", "closings of stops"},
-      {Kind::lyapunov, "lyapunov", "largest Lyapunov exponent: growth of a small disturbance, 1/s"}};
+      {Kind::wear, "wear", "work of rubbing of all contacts, the integral of |F_n w| (Archard), J"},
+      {Kind::lyapunov, "lyapunov", "largest Lyapunov exponent: growth of a small disturbance, 1/s"},
+      {Kind::trust, "trust", "instant up to which the run can be trusted (butee run --trust), s: several runs"}};
   return all;
 }
 
@@ -79,6 +81,12 @@ Column column_of(const Item& item, std::int64_t periods) {
       column.unit = "1/s";
       break;
     case Kind::impacts:
+      break;
+    case Kind::wear:
+      column.unit = "J";
+      break;
+    case Kind::trust:
+      column.unit = "s";
       break;
     case Kind::section:
       column.length = static_cast<std::size_t>(periods);

@@ -13,18 +13,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kBetweenReports = 100ms;
+constexpr auto kBetweenReports = 100ms, kBetweenServices = 10ms;
 /// A sweep under way is kept on disk so often.
 constexpr auto kBetweenKeeps = 1s;
 
 /// What the threads of a study share.
 class Pool {
  public:
-  Pool(const Study& study, const Layout& layout, Store& store, const PerformOptions& options)
-      : study_(study), layout_(layout), store_(store), options_(options), status_(layout.find(kStatusColumn)) {
-    progress_.done = store.done_count();
+  Pool(const Study& study, const Layout& layout, Rows& rows, const PerformOptions& options)
+      : study_(study), layout_(layout), rows_(rows), options_(options), status_(layout.find(kStatusColumn)) {
+    progress_.done = rows.done_count();
     progress_.total = study.plan.run_count();
     if (options.shard.count > 1) count_shard();
+    at_first_ = progress_.done;
   }
 
   bool perform() {
@@ -36,7 +37,7 @@ class Pool {
     wait();
     threads.clear();
     if (error_) std::rethrow_exception(error_);
-    store_.flush();
+    rows_.flush();
     return goes_on_;
   }
 
@@ -45,16 +46,26 @@ class Pool {
     progress_.total = progress_.done = 0;
     for (std::int64_t c = options_.shard.index; c < study_.plan.chain_count(); c += options_.shard.count) {
       const Plan::Chain chain = study_.plan.chain(c);
-      for (std::int64_t i = 0; i < chain.length; ++i) progress_.done += store_.is_done(chain.at(i)) ? 1 : 0;
+      for (std::int64_t i = 0; i < chain.length; ++i) progress_.done += rows_.is_done(chain.at(i)) ? 1 : 0;
       progress_.total += chain.length;
     }
   }
 
   void wait() {
     std::unique_lock lock(mutex_);
+    auto reported = std::chrono::steady_clock::now();
     while (running_ > 0) {
-      changed_.wait_for(lock, kBetweenReports);
-      const Progress now = progress_;
+      if (options_.serve) {
+        changed_.wait_for(lock, kBetweenServices);
+        lock.unlock();
+        options_.serve();
+        lock.lock();
+        if (running_ > 0 && std::chrono::steady_clock::now() - reported < kBetweenReports) continue;
+        reported = std::chrono::steady_clock::now();
+      } else {
+        changed_.wait_for(lock, kBetweenReports);
+      }
+      const Progress now = progress_of_all();
       lock.unlock();
       if (options_.report) options_.report(now);
       if (options_.goes_on && !options_.goes_on()) goes_on_ = false;
@@ -62,11 +73,28 @@ class Pool {
     }
   }
 
+  /// Where processes share the chains, those that have been handed out count as done.
+  Progress progress_of_all() {
+    Progress all = progress_;
+    if (options_.dealer == nullptr) return all;
+    options_.dealer->look();
+    const std::int64_t handed = std::min(options_.dealer->handed_out(), study_.plan.chain_count());
+    const std::int64_t passed = handed * (all.total / study_.plan.chain_count());
+    all.done = std::max(all.done, passed);
+    all.fresh = all.done - at_first_;
+    return all;
+  }
+
+  std::int64_t next_chain() {
+    if (options_.dealer != nullptr) return options_.dealer->next();
+    return options_.shard.index + next_.fetch_add(1) * options_.shard.count;
+  }
+
   void work() {
     try {
       Worker worker(study_, layout_);
       while (goes_on_) {
-        const std::int64_t chain = options_.shard.index + next_.fetch_add(1) * options_.shard.count;
+        const std::int64_t chain = next_chain();
         if (chain >= study_.plan.chain_count()) break;
         perform_chain(worker, chain);
       }
@@ -84,28 +112,28 @@ class Pool {
     const Plan::Chain chain = study_.plan.chain(index);
     const bool is_sweep = study_.plan.follow() != Follow::no;
     std::int64_t left = 0;
-    for (std::int64_t i = 0; i < chain.length; ++i) left += store_.is_done(chain.at(i)) ? 0 : 1;
+    for (std::int64_t i = 0; i < chain.length; ++i) left += rows_.is_done(chain.at(i)) ? 0 : 1;
     if (left == 0) return;
     Motion motion;
     std::int64_t i = 0;
     if (is_sweep)
-      if (const std::int64_t kept = store_.kept(index, motion); kept >= 0) i = (kept - chain.first) * chain.step + 1;
+      if (const std::int64_t kept = rows_.kept(index, motion); kept >= 0) i = (kept - chain.first) * chain.step + 1;
     auto kept_at = std::chrono::steady_clock::now();
     for (; i < chain.length && goes_on_; ++i) {
       const std::int64_t run = chain.at(i);
       // A run of a sweep whose row is there already is done again for its motion alone.
       const auto row = worker.perform(run, motion, [this] { return goes_on_.load(std::memory_order_relaxed); });
       if (!row) return;
-      if (!store_.is_done(run)) add(*row);
+      if (!rows_.is_done(run)) add(*row);
       if (!is_sweep || motion.is_empty() || std::chrono::steady_clock::now() - kept_at < kBetweenKeeps) continue;
-      store_.keep(index, run, motion);
+      rows_.keep(index, run, motion);
       kept_at = std::chrono::steady_clock::now();
     }
-    if (is_sweep && i == chain.length) store_.forget(index);
+    if (is_sweep && i == chain.length) rows_.forget(index);
   }
 
   void add(const Row& row) {
-    store_.append(row);
+    rows_.append(row);
     const std::lock_guard guard(mutex_);
     ++progress_.done;
     ++progress_.fresh;
@@ -114,7 +142,7 @@ class Pool {
 
   const Study& study_;
   const Layout& layout_;
-  Store& store_;
+  Rows& rows_;
   const PerformOptions& options_;
   std::size_t status_;
   std::atomic<std::int64_t> next_{0};
@@ -123,6 +151,7 @@ class Pool {
   std::condition_variable changed_;
   int running_ = 0;
   Progress progress_;
+  std::int64_t at_first_ = 0;  ///< runs that were done before
   std::exception_ptr error_;
 };
 
@@ -135,8 +164,8 @@ int processor_count() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-bool perform(const Study& study, const Layout& layout, Store& store, const PerformOptions& options) {
-  return Pool(study, layout, store, options).perform();
+bool perform(const Study& study, const Layout& layout, Rows& rows, const PerformOptions& options) {
+  return Pool(study, layout, rows, options).perform();
 }
 
 }  // namespace butee::study

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <functional>
 
-#include "butee/study/store.hpp"
+#include "butee/study/dealer.hpp"
+#include "butee/study/rows.hpp"
+#include "butee/study/shard.hpp"
 
 namespace butee::study {
 
@@ -17,15 +19,17 @@ struct Progress {
 struct PerformOptions {
   int threads = 0;  ///< 0: as many as the process may use processors
   Shard shard{};
-  std::function<bool()> goes_on{};                ///< asked some times a second, by the calling thread
+  Dealer* dealer = nullptr;         ///< hands out the chains where several processes share them; null: all of the shard
+  std::function<bool()> goes_on{};  ///< asked some times a second, by the calling thread
   std::function<void(const Progress&)> report{};  ///< likewise
+  std::function<void()> serve{};                  ///< likewise, a hundred times a second
 };
 
 /// The processors that this process may use.
 BUTEE_EXPORT int processor_count();
 
-/// Does the runs of a study that are not done yet and adds their rows to the store, which has begun. False where it was
+/// Does the runs of a study that are not done yet and adds their rows; a Store has begun. False where it was
 /// told not to go on. Rows depend neither on the number of threads nor on their order. Throws what writing throws.
-BUTEE_EXPORT bool perform(const Study& study, const Layout& layout, Store& store, const PerformOptions& options);
+BUTEE_EXPORT bool perform(const Study& study, const Layout& layout, Rows& rows, const PerformOptions& options);
 
 }  // namespace butee::study

@@ -127,9 +127,11 @@ std::vector<Item> read_items(const Parameters& p, Diagnostics& diagnostics) {
   return items;
 }
 
-config::Document load_scene(const config::Document& study, const Parameters& p, const StudyOptions& options) {
-  const std::string path = config::path_beside(study, *study.root.table()->find("scene")->text());
-  config::Document scene = config::load_toml(path);
+config::Document scene_beside(const config::Document& study) {
+  return config::load_toml(config::path_beside(study, *study.root.table()->find("scene")->text()));
+}
+
+config::Document with_overrides(config::Document scene, const Parameters& p, const StudyOptions& options) {
   if (p.has("set"))
     for (const std::string& assignment : p.texts("set")) config::apply_override(scene, assignment);
   for (const std::string& assignment : options.overrides) config::apply_override(scene, assignment);
@@ -209,8 +211,10 @@ double period_of(const model::Model& model) {
   return 2.0 * std::numbers::pi / frequency;
 }
 
-Study load_study(const std::string& path, const StudyOptions& options) {
-  config::Document document = config::load_toml(path);
+namespace {
+
+/// Without a scene that of the file which the study names.
+Study study_of(const config::Document& document, const config::Document* known_scene, const StudyOptions& options) {
   Diagnostics diagnostics(document);
   Reader reader(document, diagnostics);
   reader.check_root();
@@ -241,6 +245,12 @@ Study load_study(const std::string& path, const StudyOptions& options) {
                   "missing; \"" + item.text + "\" needs the number of periods that count (integer >= 1)");
       break;
     }
+  for (const Item& item : items)
+    if (item.kind == Item::Kind::trust && reader.follow() != Follow::no)
+      p->complain(diagnostics, "collect",
+                  "names \"trust\", which judges runs that begin as the scene says; take follow out");
+    else if (item.kind == Item::Kind::trust && !options.horizon)
+      p->complain(diagnostics, "collect", "names \"trust\", which the program `butee study` alone gives");
   diagnostics.throw_if_any();
 
   const std::optional<std::uint64_t> seed =
@@ -249,46 +259,30 @@ Study load_study(const std::string& path, const StudyOptions& options) {
     try {
       return Plan(std::move(axes), kind, p->has("count") ? p->integer("count") : 0, seed, reader.follow());
     } catch (const InputError& error) {
-      throw InputError(path + ": " + error.what());
+      throw InputError(document.sources.front() + ": " + error.what());
     }
   };
-  Study study{document, load_scene(document, *p, options), plugin::Catalogue::with_plugins(options.plugins),
-              make_plan()};
+  Study study{document, with_overrides(known_scene != nullptr ? *known_scene : scene_beside(document), *p, options),
+              plugin::Catalogue::with_plugins(options.plugins), make_plan()};
   study.settle = p->integer("settle");
   if (p->has("periods")) study.periods = p->integer("periods");
   if (p->has("period")) study.period = p->number("period");
   if (p->has("steady")) study.steady = p->number("steady");
   study.items = std::move(items);
-  study.stem = std::filesystem::path(path).stem().string();
+  study.horizon = options.horizon;
+  study.stem = std::filesystem::path(document.sources.front()).stem().string();
   if (const Value* title = document.root.table()->find("title"); title != nullptr) study.title = *title->text();
   return study;
 }
 
-Layout layout_of(const Study& study) {
-  using Type = Column::Type;
-  constexpr std::size_t kStatusLength = 16, kReasonLength = 240, kHashLength = 16, kLongestValue = 120;
-  std::vector<Column> columns = {{kRunColumn, "1", Type::integer}, {kPointColumn, "1", Type::integer}};
-  if (study.plan.follow() != Follow::no) columns.push_back({kDirectionColumn, "1", Type::integer});
-  for (const Axis& axis : study.plan.axes()) {
-    if (axis.is_numeric()) {
-      columns.push_back({axis.key, ""});
-      continue;
-    }
-    std::size_t longest = 1;
-    for (const Value& value : axis.values)
-      longest = std::max(longest, value.text() != nullptr ? value.text()->size() : config::to_toml(value).size());
-    columns.push_back({axis.key, "", Type::text, std::min(longest, kLongestValue)});
-  }
-  columns.push_back({kStatusColumn, "", Type::text, kStatusLength});
-  columns.push_back({kReasonColumn, "", Type::text, kReasonLength});
-  for (const Item& item : study.items) columns.push_back(column_of(item, study.periods.value_or(0)));
-  if (study.steady) columns.push_back({kSettledColumn, "1", Type::integer});
-  columns.push_back({kSceneColumn, "", Type::text, kHashLength});
-  columns.push_back({kStepsColumn, "1", Type::integer});
-  for (const char* name : {kFactorizationsColumn, kSolvesColumn, kAssembliesColumn})
-    columns.push_back({name, "1", Type::integer, 1, true});
-  columns.push_back({kSecondsColumn, "s", Type::number, 1, true});
-  return Layout(std::move(columns));
+}  // namespace
+
+Study load_study(const std::string& path, const StudyOptions& options) {
+  return study_of(config::load_toml(path), nullptr, options);
+}
+
+Study read_study(const config::Document& study, const config::Document& scene, const StudyOptions& options) {
+  return study_of(study, &scene, options);
 }
 
 }  // namespace butee::study

@@ -28,12 +28,6 @@ bool begins_with(const std::string& text, const std::string& begin) {
   return text.rfind(begin, 0) == 0;
 }
 
-bool is_ours(const fs::path& folder) {
-  std::ifstream file(folder / kStudyFile);
-  std::string first;
-  return std::getline(file, first) && first == kMark;
-}
-
 std::vector<std::string> entries_of(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code error;
@@ -47,9 +41,22 @@ std::vector<std::string> entries_of(const std::string& folder) {
 std::vector<std::string> shards_in(const std::string& folder) {
   std::vector<std::string> shards;
   for (const std::string& name : entries_of(folder))
-    if (begins_with(name, kShard) && is_ours(fs::path(folder) / name))
+    if (begins_with(name, kShard) && Store::is_study_folder((fs::path(folder) / name).string()))
       shards.push_back((fs::path(folder) / name).string());
   return shards;
+}
+
+/// The tables of a study, in which files of points are found from anywhere.
+config::Value with_absolute_files(const config::Document& document) {
+  config::Value root = document.root;
+  if (const config::Value* list = root.table()->find("vary"); list != nullptr && list->array() != nullptr)
+    for (config::Value& axis : std::get<config::Array>((*root.table())["vary"].data))
+      if (axis.table() != nullptr && axis.table()->find("file") != nullptr) {
+        config::Value& file = (*axis.table())["file"];
+        if (file.text() != nullptr)
+          file = config::Value(fs::absolute(config::path_beside(document, *file.text())).string());
+      }
+  return root;
 }
 
 }  // namespace
@@ -58,6 +65,12 @@ Store::Store(std::string folder, const Study& study, const Layout& layout, RowFo
     : folder_(std::move(folder)), study_(study), layout_(layout), format_(format), identity_(identity_of(study)) {}
 
 Store::~Store() = default;
+
+bool Store::is_study_folder(const std::string& folder) {
+  std::ifstream file(fs::path(folder) / kStudyFile);
+  std::string first;
+  return std::getline(file, first) && first == kMark;
+}
 
 std::string Store::file(const std::string& name) const {
   return (fs::path(folder_) / name).string();
@@ -85,7 +98,7 @@ void Store::refuse_foreign(const std::string& folder) {
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
     throw InputError(folder + ": is a file, not a folder for results; choose another with -o");
-  if (is_ours(folder)) return;
+  if (is_study_folder(folder)) return;
   for (const std::string& name : entries_of(folder))
     if (name != record::FolderLock::kName && name != std::string(kStudyFile) + ".part" && !begins_with(name, kShard))
       throw InputError(folder + ": is not empty and holds no study of butee (it has " + name +
@@ -114,7 +127,7 @@ void Store::open(bool fresh) {
   refuse_foreign(folder_);
   for (const std::string& shard : shards_in(folder_)) record::FolderLock::check(shard);
   if (fresh) clear();
-  if (!fresh && is_ours(folder_)) {
+  if (!fresh && is_study_folder(folder_)) {
     check_identity(folder_);
   } else {
     config::Table root, identity;
@@ -122,7 +135,7 @@ void Store::open(bool fresh) {
          {std::pair("study", identity_.study), {"scene", identity_.scene}, {"build", identity_.build}})
       identity[key] = config::Value(text);
     root["identity"] = config::Value(std::move(identity));
-    root["study"] = study_.document.root;
+    root["study"] = with_absolute_files(study_.document);
     root["scene"] = study_.scene.root;
     const std::string text = std::string(kMark) + "\n" + config::write_toml(root);
     record::write_whole(file(kStudyFile), std::as_bytes(std::span(text)));
@@ -203,68 +216,21 @@ void Store::flush() {
   flushed_ = std::chrono::steady_clock::now();
 }
 
-bool Store::merge(std::int64_t& missing) {
-  if (sink_) {
-    flush();
-    sink_->close();
-    sink_.reset();
-  }
-  if (is_complete_) return true;
+std::vector<std::string> Store::all_row_files() const {
   std::vector<std::string> files = row_files(folder_);
   for (const std::string& shard : shards_in(folder_)) {
     check_identity(shard);
     const auto more = row_files(shard);
     files.insert(files.end(), more.begin(), more.end());
   }
-  struct Place {
-    std::int32_t file = -1;
-    std::int64_t index = 0;
-  };
-  std::vector<Place> places(done_.size());
-  std::vector<std::unique_ptr<RowSource>> sources;
-  std::vector<std::byte> bytes(layout_.row_bytes());
-  const std::size_t run_column = layout_.find(kRunColumn);
-  for (const std::string& path : files) {
-    sources.push_back(open_rows(path));
-    for (std::int64_t i = 0; sources.back() != nullptr && i < sources.back()->size(); ++i) {
-      if (!sources.back()->read(i, bytes)) continue;
-      Place& place = places[static_cast<std::size_t>(Row(layout_, bytes).integer(run_column))];
-      if (place.file < 0) place = {static_cast<std::int32_t>(sources.size() - 1), i};
-    }
-  }
-  for (std::size_t run = 0; run < places.size(); ++run)
-    if (places[run].file < 0) {
-      missing = static_cast<std::int64_t>(run);
-      return false;
-    }
-  const std::string draft = result() + ".part";
-  const auto sink = format_.create(draft, layout_, study_.title);
-  std::vector<std::byte> block;
-  for (const Place& place : places) {
-    sources[static_cast<std::size_t>(place.file)]->read(place.index, bytes);
-    block.insert(block.end(), bytes.begin(), bytes.end());
-    if (block.size() < kMostWaiting) continue;
-    sink->append(block);
-    block.clear();
-  }
-  if (!block.empty()) sink->append(block);
-  sink->close();
-  fs::rename(draft, result());
-  sources.clear();
+  return files;
+}
+
+void Store::remove_parts() const {
   std::error_code error;
-  for (const std::string& path : files) fs::remove(path, error);
   for (const std::string& shard : shards_in(folder_)) fs::remove_all(shard, error);
   for (const std::string& name : entries_of(folder_))
     if (begins_with(name, kSweep)) fs::remove(file(name), error);
-  is_complete_ = true;
-  return true;
-}
-
-void Store::visit(const std::function<void(const Row&)>& look) const {
-  const auto source = format_.open(result(), layout_);
-  std::vector<std::byte> bytes(layout_.row_bytes());
-  for (std::int64_t i = 0; i < source->size(); ++i)
-    if (source->read(i, bytes)) look(Row(layout_, bytes));
 }
 
 Store::Count Store::count() const {

@@ -9,8 +9,8 @@
 
 #include "butee/record/folder_lock.hpp"
 #include "butee/study/row_file.hpp"
+#include "butee/study/rows.hpp"
 #include "butee/study/study.hpp"
-#include "butee/study/worker.hpp"
 
 namespace butee::study {
 
@@ -22,12 +22,6 @@ struct Identity {
 };
 BUTEE_EXPORT Identity identity_of(const Study& study);
 
-/// One of several processes that share a study: those chains are its own whose number is `index` modulo `count`.
-struct Shard {
-  std::int64_t index = 0, count = 1;
-  bool owns(std::int64_t chain) const { return chain % count == index; }
-};
-
 /// The folder of a study.
 ///
 ///     study.toml             the study with its scene as run, and its identity
@@ -35,11 +29,11 @@ struct Shard {
 ///     sweep-C.bin            where sweep C stands, while it is under way
 ///     study.h5 (.csv)        all rows in the order of the plan, once they are there; the files of rows are gone then
 ///     shard-I-of-N/          the same of one shard
-class BUTEE_EXPORT Store {
+class BUTEE_EXPORT Store final : public Rows {
  public:
   /// `study`, `layout` and `format` must outlive it. Touches nothing.
   Store(std::string folder, const Study& study, const Layout& layout, RowFormat& format);
-  ~Store();
+  ~Store() override;
 
   /// Throws InputError where a folder is neither empty nor one of a study or its shards.
   static void refuse_foreign(const std::string& folder);
@@ -52,28 +46,36 @@ class BUTEE_EXPORT Store {
   void look();
 
   bool is_complete() const { return is_complete_; }
-  bool is_done(std::int64_t run) const { return done_[static_cast<std::size_t>(run)]; }
-  std::int64_t done_count() const { return done_count_; }
+  bool is_done(std::int64_t run) const override { return done_[static_cast<std::size_t>(run)]; }
+  std::int64_t done_count() const override { return done_count_; }
 
   /// Begins a file for the rows of this process; no two give the same session and process.
   void begin(int session, int process);
   int next_session() const { return next_session_; }
-  /// Adds a row. For any thread. Rows wait for each other some tenths of a second at most.
-  void append(const Row& row);
-  void flush();
+  /// Rows wait for each other some tenths of a second at most.
+  void append(const Row& row) override;
+  void flush() override;
 
-  /// Where a sweep stands after its run `run`; kept beside the rows for going on.
-  void keep(std::int64_t chain, std::int64_t run, const Motion& motion);
-  /// The last run of a sweep that is kept, with its motion; -1 where there is none.
-  std::int64_t kept(std::int64_t chain, Motion& motion) const;
-  void forget(std::int64_t chain);
+  void keep(std::int64_t chain, std::int64_t run, const Motion& motion) override;
+  std::int64_t kept(std::int64_t chain, Motion& motion) const override;
+  void forget(std::int64_t chain) override;
 
   /// Sorts the rows of all files of this folder, and of those of its shards, into study.h5 or study.csv, and takes the
   /// files of rows away. False where rows are missing, of which `missing` is the first.
   bool merge(std::int64_t& missing);
 
-  /// Calls `look(row)` for all rows in the order of the plan, once it is complete.
+  /// Calls `look(row)` for all rows that are there, in the order of the plan.
   void visit(const std::function<void(const Row&)>& look) const;
+
+  /// Takes what is in the folder for its own, whatever has changed since: to look at, not to go on with.
+  void adopt_identity();
+
+  /// True for the folder of a study.
+  static bool is_study_folder(const std::string& folder);
+  /// The study of a folder, as it was run. Throws InputError.
+  static Study read(const std::string& folder);
+  /// The extension of its files of rows.
+  static std::string extension_in(const std::string& folder);
 
   /// Rows by status, for what is said at the end: completed, failed and refused, and the first reason.
   struct Count {
@@ -92,7 +94,15 @@ class BUTEE_EXPORT Store {
   std::string result() const;
 
  private:
+  struct Found;
+
   std::vector<std::string> row_files(const std::string& folder) const;
+  /// Those of this folder and of its shards.
+  std::vector<std::string> all_row_files() const;
+  /// The place of the row of each run, where there is one.
+  Found find_rows(const std::vector<std::string>& files) const;
+  /// Takes away shards and what sweeps have kept.
+  void remove_parts() const;
   /// A file of rows of this study; one that cannot be read has none, with a warning.
   std::unique_ptr<RowSource> open_rows(const std::string& path) const;
   void check_identity(const std::string& folder) const;

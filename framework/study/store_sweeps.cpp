@@ -17,6 +17,7 @@ void Store::keep(std::int64_t chain, std::int64_t run, const Motion& motion) {
   to.put(run);
   to.put(motion.x);
   to.put(motion.v);
+  to.put(motion.contact);
   ByteWriter sealed(whole);
   sealed.put(checksum(body));
   sealed.put(std::span<const std::byte>(body));
@@ -36,6 +37,7 @@ std::int64_t Store::kept(std::int64_t chain, Motion& motion) const {
   const auto run = inner.take<std::int64_t>();
   inner.take(motion.x);
   inner.take(motion.v);
+  inner.take(motion.contact);
   return run;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct Study {
   std::vector<Item> items{};
   std::string title{};
   std::string stem{};  ///< of its file
+  /// The instant up to which a run of a scene can be trusted, s, for "trust"; by any thread. Throws RunError.
+  std::function<double(scene::Scene&)> horizon{};
 };
 
 /// The keys of a study, for help and completion.
@@ -34,11 +37,15 @@ BUTEE_EXPORT bool is_study(const config::Document& document);
 struct StudyOptions {
   std::vector<std::string> overrides{};  ///< of the scene, "KEY=VALUE"
   std::vector<std::string> plugins{};
-  std::string points{};  ///< CSV text with a header of keys, in place of [[vary]]
+  std::string points{};                            ///< CSV text with a header of keys, in place of [[vary]]
+  std::function<double(scene::Scene&)> horizon{};  ///< Study::horizon; "trust" is refused where it is empty
 };
 
 /// Reads a study, its scene and the first of its points. Throws InputError with every mistake.
 BUTEE_EXPORT Study load_study(const std::string& path, const StudyOptions& options = {});
+/// The same of a study and its scene in memory; what `scene` names in the study is not read.
+BUTEE_EXPORT Study read_study(const config::Document& study, const config::Document& scene,
+                              const StudyOptions& options = {});
 
 /// The scene of a study at these values, an entry for each axis.
 BUTEE_EXPORT config::Document scene_at(const Study& study, const std::vector<config::Value>& values);

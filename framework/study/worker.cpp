@@ -13,6 +13,7 @@
 #include "butee/scene/assembly.hpp"
 #include "butee/study/lyapunov.hpp"
 #include "butee/study/steady.hpp"
+#include "butee/time/contact_events.hpp"
 
 namespace butee::study {
 namespace {
@@ -59,6 +60,17 @@ Counted counted_of(const Study& study, const scene::Scene& scene) {
     counted.periods =
         static_cast<std::int64_t>(std::floor((counted.end - counted.begin) / counted.period * (1.0 + 1e-12)));
   return counted;
+}
+
+Motion motion_at(const time::State& state, dynamics::Dynamics& dynamics) {
+  return {state.x, state.v, time::contact_memory(dynamics, state)};
+}
+
+void begin_with(const Motion& motion, dynamics::Dynamics& dynamics, time::Simulation& simulation) {
+  const Index contacts = dynamics.obstacles() != nullptr ? dynamics.obstacles()->size() : 0;
+  if (motion.contact.size() != 0 && motion.contact.size() != dynamics::Obstacles::kStateSize * contacts)
+    throw InputError("study.follow: the run before has other contacts than this one");
+  simulation.begin_with(motion.x, motion.v, motion.contact);
 }
 
 }  // namespace
@@ -161,6 +173,7 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
   };
   Motion settled;
   try {
+    if (!motion.is_empty()) begin_with(motion, bench_.dynamics(), simulation);
     simulation.start();
     if (!simulation.report().message.empty()) throw RunError(simulation.report().message);
     std::int64_t settle = study_.settle;
@@ -176,7 +189,7 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
     }
     if (study_.steady) row.set_integer(layout_.find(kSettledColumn), settle);
     collector.open(simulation.state());
-    settled = {simulation.state().x, simulation.state().v};
+    settled = motion_at(simulation.state(), bench_.dynamics());
     simulation.set_end_time(settle == study_.settle ? counted.end : simulation.state().t + counted.end - counted.begin);
     if (!run()) return false;
   } catch (...) {
@@ -184,6 +197,12 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
     throw;
   }
   finish();
+  if (const auto trust = std::find_if(study_.items.begin(), study_.items.end(),
+                                      [](const Item& item) { return item.kind == Item::Kind::trust; });
+      trust != study_.items.end()) {
+    row.set(first_result_ + static_cast<std::size_t>(trust - study_.items.begin()), horizon(scene, counted.end));
+    if (!goes_on()) return false;
+  }
   for (std::size_t i = 0; i < study_.items.size(); ++i) {
     std::vector<double> entries = collector.values(i);
     if (study_.items[i].kind == Item::Kind::lyapunov) {
@@ -193,8 +212,19 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
     }
     for (std::size_t k = 0; k < entries.size(); ++k) row.set(first_result_ + i, entries[k], k);
   }
-  if (study_.plan.follow() != Follow::no) motion = {simulation.state().x, simulation.state().v};
+  if (study_.plan.follow() != Follow::no) motion = motion_at(simulation.state(), bench_.dynamics());
   return true;
+}
+
+double Worker::horizon(const scene::Scene& scene, double end) const {
+  config::Document document = scene.document;
+  (*(*document.root.table())["integrator"].table())["end_time"] = config::Value(end);
+  scene::Scene whole = scene::read_scene(std::move(document), scene.catalogue);
+  try {
+    return study_.horizon(whole);
+  } catch (const RunError&) {
+    return std::nan("");
+  }
 }
 
 void check_first_point(const Study& study) {

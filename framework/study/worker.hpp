@@ -9,7 +9,8 @@ namespace butee::study {
 
 /// The motion at the end of a run, from which the next of a sweep starts.
 struct Motion {
-  Vector x, v;  ///< m or rad, m/s or rad/s
+  Vector x, v;     ///< m or rad, m/s or rad/s
+  Vector contact;  ///< what contacts with friction remember (time::contact_memory), or empty
   bool is_empty() const { return x.size() == 0; }
 };
 
@@ -33,6 +34,9 @@ class BUTEE_EXPORT Worker {
   /// False where it was told not to go on.
   bool integrate(std::unique_ptr<scene::Scene> owned, const std::vector<config::Value>& values, const Counted& counted,
                  Motion& motion, Row& row, const std::function<bool()>& goes_on);
+
+  /// Study::horizon of a run from 0 to `end`; NaN where it fails.
+  double horizon(const scene::Scene& scene, double end) const;
 
   const Study& study_;
   const Layout& layout_;

@@ -42,10 +42,16 @@ ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
   values_v_ = values_x_;
 }
 
-void ContactEvents::start(State& state) {
+void ContactEvents::start(State& state, ConstVectorRef memory) {
+  constexpr Index kSize = Obstacles::kStateSize;
+  require(memory.size() == 0 || memory.size() == kSize * obstacles_.size(), "the memory of every contact");
   state.contact = Vector::Zero(kEntries * obstacles_.size());
   follow(state);
-  for (Index i = 0; i < obstacles_.size(); ++i) enter(i, obstacles_.phase_at(i, state.t, state.x, state.v), state);
+  for (Index i = 0; i < obstacles_.size(); ++i)
+    enter(i,
+          memory.size() == 0 ? obstacles_.phase_at(i, state.t, state.x, state.v)
+                             : obstacles_.phase_after(i, memory.segment<kSize>(kSize * i), state.t, state.x, state.v),
+          state);
   dynamics_.acceleration(state.t, state.x, state.v, state.a);
 }
 
@@ -242,6 +248,20 @@ double ContactEvents::miss(const Integrator& integrator, const Event& event, con
 
 void ContactEvents::mark(const Event& event, State& to) {
   to.contact[kEntries * event.contact + kEntries - 1] = static_cast<double>(event.which + 1);
+}
+
+Vector contact_memory(dynamics::Dynamics& dynamics, const State& state) {
+  if (dynamics.obstacles() == nullptr || state.contact.size() == 0) return {};
+  constexpr Index kSize = Obstacles::kStateSize;
+  const Obstacles& obstacles = *dynamics.obstacles();
+  Vector memory(kSize * obstacles.size());
+  for (Index i = 0; i < obstacles.size(); ++i) {
+    const auto entry = state.contact.segment<ContactEvents::kEntries>(ContactEvents::kEntries * i);
+    const ContactPhase phase{static_cast<ContactPhase::Normal>(static_cast<int>(entry[0])),
+                             static_cast<ContactPhase::Slip>(static_cast<int>(entry[1])), entry[2]};
+    memory.segment<kSize>(kSize * i) = obstacles.memory(i, phase, state.t, state.x, state.v);
+  }
+  return memory;
 }
 
 }  // namespace butee::time

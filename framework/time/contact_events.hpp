@@ -23,8 +23,9 @@ class BUTEE_EXPORT ContactEvents {
   /// `dynamics` must outlive it and has obstacles.
   explicit ContactEvents(dynamics::Dynamics& dynamics);
 
-  /// The phases that the instant tells, into state.contact; a follows.
-  void start(State& state);
+  /// The phases that the instant tells, into state.contact; a follows. `memory`, where it is not empty, is that of an
+  /// earlier run of the same contacts (contact_memory), from which stick and slip go on.
+  void start(State& state, ConstVectorRef memory);
   /// Takes contacts at the end of their phase to the next, and all that follows at the same instant; a follows.
   /// `h` is the length of the step to come, s.
   void settle(State& state, double h);
@@ -75,5 +76,9 @@ class BUTEE_EXPORT ContactEvents {
   Sample now_, work_;
   std::vector<Index> sticks_, watched_, watched_dofs_, own_dofs_;
 };
+
+/// What the contacts of a state remember, for a run with other values, or another time, to start from:
+/// Obstacles::kStateSize numbers each; empty where no phases are followed.
+BUTEE_EXPORT Vector contact_memory(dynamics::Dynamics& dynamics, const State& state);
 
 }  // namespace butee::time

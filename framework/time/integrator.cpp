@@ -23,11 +23,15 @@ bool is_finite(const State& state) {
 }  // namespace
 
 void Integrator::start(State& state) {
+  start(state, Vector());
+}
+
+void Integrator::start(State& state, ConstVectorRef contact_memory) {
   require(state.x.size() == dynamics_.size() && state.v.size() == dynamics_.size(), "a state of another size");
   state.a.resize(state.x.size());
   if (dynamics_.obstacles() != nullptr && follows_contact_phases()) {
     if (!events_) events_ = std::make_unique<ContactEvents>(dynamics_);
-    events_->start(state);
+    events_->start(state, contact_memory);
   } else {
     if (dynamics_.obstacles() != nullptr) dynamics_.obstacles()->follow_live();
     dynamics_.acceleration(state.t, state.x, state.v, state.a);

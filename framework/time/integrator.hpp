@@ -50,6 +50,8 @@ class BUTEE_EXPORT Integrator {
 
   /// Completes a state of which t, x and v are given: a = M^-1 (F + F_c - C v - K x), and the method's memory.
   void start(State& state);
+  /// The same where the contacts go on from what contact_memory() gave of another run; it may be empty.
+  void start(State& state, ConstVectorRef contact_memory);
 
   /// Takes contacts whose phase is over at a state to the next one; its acceleration follows. `h` is the length of the
   /// step to come. A state must be settled before a step from it.

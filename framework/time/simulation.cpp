@@ -87,10 +87,18 @@ void Simulation::add(Observer& observer) {
   if (started_) observer.start(state_);
 }
 
+void Simulation::begin_with(ConstVectorRef x, ConstVectorRef v, ConstVectorRef contact_memory) {
+  require(!started_, "a motion to begin with comes before the start");
+  require(x.size() == state_.x.size() && v.size() == state_.v.size(), "a motion of this system's size");
+  state_.x = x;
+  state_.v = v;
+  contact_memory_ = contact_memory;
+}
+
 void Simulation::start() {
   if (started_) return;
   started_ = true;
-  integrator_.start(state_);
+  integrator_.start(state_, contact_memory_);
   const double own = next_h_ == 0.0 || integrator_.lands_on_outputs() ? integrator_.first_step(state_) : 0.0;
   if (next_h_ == 0.0 || std::isinf(own)) next_h_ = own;
   require(next_h_ > 0.0, "a method without a first step of its own has a time_step");

@@ -86,6 +86,10 @@ class BUTEE_EXPORT Simulation {
   /// `observer` must outlive the simulation. Before the first step.
   void add(Observer& observer);
 
+  /// Begins with this motion in place of the system's initial one; `contact_memory` is what contact_memory() gave of
+  /// it, or empty. Before start().
+  void begin_with(ConstVectorRef x, ConstVectorRef v, ConstVectorRef contact_memory);
+
   /// Completes the initial state (a_0, and what the method needs for it). Every other function does so where it is
   /// still due.
   void start();
@@ -141,6 +145,7 @@ class BUTEE_EXPORT Simulation {
   SimulationOptions options_;
   std::vector<Observer*> observers_;
   State state_, next_;
+  Vector contact_memory_;  ///< to begin with
   GrowthWatch growth_;
   RunReport report_;
   std::vector<double> kinks_;  ///< of the loads, at which steps end

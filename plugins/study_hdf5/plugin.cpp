@@ -77,6 +77,7 @@ class Sink final : public study::RowSink {
   }
 
   void append(std::span<const std::byte> rows) override {
+    hdf5::be_silent();  // For each thread of its own.
     const hsize_t count = rows.size() / row_bytes_, before = size_, after = size_ + count;
     packed_.resize(count * (row_bytes_ + 8));
     for (std::size_t i = 0; i < count; ++i) {

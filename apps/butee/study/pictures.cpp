@@ -227,19 +227,34 @@ std::vector<Picture> study_pictures(const study::Study& study, const study::Layo
   return Drawing(study, layout, store).all();
 }
 
+std::vector<std::string> draw_folder(const std::string& folder, const std::string& to,
+                                     const std::vector<std::string>& formats) {
+  const study::Study study = study::Store::read(folder);
+  const study::Layout layout = layout_of(study);
+  const auto format = study::row_format(study::Store::extension_in(folder) == ".csv" ? "csv" : "hdf5");
+  study::Store store(folder, study, layout, *format);
+  store.adopt_identity();
+  store.look();
+  if (store.done_count() == 0) throw InputError(folder + ": holds no rows yet");
+  return draw_study(study, layout, store, formats, to);
+}
+
 std::vector<std::string> draw_study(const study::Study& study, const study::Layout& layout, const study::Store& store,
-                                    const std::vector<std::string>& formats) {
-  const std::string folder = store.file("plots");
+                                    const std::vector<std::string>& formats, const std::string& to) {
+  const std::string folder = to.empty() ? store.file("plots") : to;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw RunError(folder + ": cannot be made: " + error.message());
-  std::vector<std::string> made;
+  std::vector<std::string> made, drawn = formats;
+  const bool keeps_script = std::erase(drawn, "script") > 0;
   for (const Picture& picture : study_pictures(study, layout, store)) {
-    gnuplot::write_script(folder, picture.name, picture.script(formats));
+    gnuplot::write_script(folder, picture.name, picture.script(drawn.empty() ? gnuplot::formats() : drawn));
+    if (keeps_script) made.push_back(folder + "/" + picture.name + ".gp");
+    if (drawn.empty()) continue;
     const std::string complaint = gnuplot::run_script(folder, picture.name);
     if (!complaint.empty())
       throw RunError("gnuplot could not draw " + folder + "/" + picture.name + ".gp: " + complaint);
-    for (const std::string& format : formats) made.push_back(folder + "/" + picture.name + "." + format);
+    for (const std::string& format : drawn) made.push_back(folder + "/" + picture.name + "." + format);
   }
   return made;
 }

@@ -15,8 +15,11 @@ namespace butee::app::studies {
 std::vector<plot::Picture> study_pictures(const study::Study& study, const study::Layout& layout,
                                           const study::Store& store);
 
-/// Draws them into DIR/plots; the files. Throws RunError where gnuplot cannot.
+/// Draws them into `to`, DIR/plots where that is empty; the files. Throws RunError where gnuplot cannot.
 std::vector<std::string> draw_study(const study::Study& study, const study::Layout& layout, const study::Store& store,
-                                    const std::vector<std::string>& formats);
+                                    const std::vector<std::string>& formats, const std::string& to = "");
+/// The same of the folder of a study, of the rows that are there.
+std::vector<std::string> draw_folder(const std::string& folder, const std::string& to,
+                                     const std::vector<std::string>& formats);
 
 }  // namespace butee::app::studies

@@ -12,6 +12,7 @@
 #include <butee/study/perform.hpp>
 
 #include "../json.hpp"
+#include "horizon.hpp"
 #include "progress_line.hpp"
 
 namespace butee::app::studies {
@@ -64,7 +65,8 @@ bool names_study(const std::string& path) {
 }
 
 void print_study_survey(const ModelArguments& arguments, bool as_json) {
-  const study::Study study = study::load_study(arguments.model, {arguments.overrides, arguments.plugins, {}});
+  const study::Study study =
+      study::load_study(arguments.model, {arguments.overrides, arguments.plugins, {}, horizon_of});
   study::check_first_point(study);
   const study::Layout layout = layout_of(study);
   const Trials trials = try_runs(study, layout);
