@@ -58,14 +58,14 @@ Session with(const Session& session, const py::dict& values) {
   return copy.with(assignments);
 }
 
-std::shared_ptr<Outcome> run(const Session& session, py::object progress, bool progress_bar,
-                             const std::string& folder) {
+std::shared_ptr<Outcome> run(const Session& session, py::object progress, bool progress_bar, const std::string& folder,
+                             bool resume) {
   PythonWatch watch(std::move(progress));
   const auto scene = session.shared();
   std::shared_ptr<Outcome> outcome;
   {
     const py::gil_scoped_release unlocked;
-    outcome = perform(*scene, {progress_bar, folder}, watch);
+    outcome = perform(*scene, {progress_bar, folder, resume}, watch);
   }
   watch.rethrow();
   return outcome;

@@ -10,9 +10,12 @@ namespace butee::python {
 
 void bind_errors(pybind11::module_& module);
 void bind_loads(pybind11::module_& module);
+void bind_laws(pybind11::module_& module);
+void bind_conformance(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_outcome(pybind11::module_& module);
 void bind_batch(pybind11::module_& module);
+void bind_study(pybind11::module_& module);
 void bind_equations(pybind11::module_& module);
 void bind_structure(pybind11::module_& module);
 

@@ -11,9 +11,12 @@ PYBIND11_MODULE(_butee, module) {
   module.attr("lib_to_program") = BUTEE_LIB_TO_PROGRAM;
   bind_errors(module);
   bind_loads(module);
+  bind_laws(module);
+  bind_conformance(module);
   bind_scene(module);
   bind_outcome(module);
   bind_batch(module);
+  bind_study(module);
   bind_equations(module);
   bind_structure(module);
 }

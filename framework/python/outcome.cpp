@@ -1,10 +1,12 @@
 #include "butee/python/outcome.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "butee/config/file_reference.hpp"
 #include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/record/result_folder.hpp"
 #include "butee/run/check_start.hpp"
@@ -33,11 +35,18 @@ std::string wear_of(const record::ContactRecorder* contacts) {
 /// The folder of a run, locked and with its model.toml.
 class Files {
  public:
-  Files(const scene::Scene& scene, const std::string& path) : folder_(path), lock_(folder_.lock()) {
-    folder_.prepare(config::write_toml(config::with_files_found_from(scene.document, folder_.path())));
+  Files(const scene::Scene& scene, const RunOptions& options) : folder_(options.folder), lock_(folder_.lock()) {
+    const std::string model = config::write_toml(config::with_files_found_from(scene.document, folder_.path()));
+    if (options.resumes && std::filesystem::exists(folder_.file("model.toml"))) {
+      if (!config::read_text(folder_.file("model.toml")).ends_with("\n" + model))
+        throw InputError(folder_.path() + ": the run there is of another scene, so that this one cannot go on with it");
+      checkpoint_ = record::CheckpointFolder(folder_).newest();
+    }
+    if (!checkpoint_) folder_.prepare(model);
   }
 
   const record::ResultFolder& folder() const { return folder_; }
+  const record::Checkpoint* checkpoint() const { return checkpoint_ ? &*checkpoint_ : nullptr; }
 
   void finish(const Outcome& outcome) const {
     folder_.write("summary.json", outcome.summary);
@@ -47,6 +56,7 @@ class Files {
  private:
   record::ResultFolder folder_;
   record::FolderLock lock_;
+  std::optional<record::Checkpoint> checkpoint_;
 };
 
 }  // namespace
@@ -66,8 +76,9 @@ std::shared_ptr<Outcome> perform(scene::Scene& scene, const RunOptions& options,
   const time::Simulation& simulation = run.assembly().simulation;
   run.interrupt_by([&] { return watch.look(simulation.state().t); });
   std::optional<Files> files;
-  if (!options.folder.empty()) files.emplace(scene, options.folder);
-  const record::Summary summary = run.perform(files ? &files->folder() : nullptr);
+  if (!options.folder.empty()) files.emplace(scene, options);
+  const record::Summary summary =
+      run.perform(files ? &files->folder() : nullptr, files ? files->checkpoint() : nullptr);
   outcome->completed = summary.report.completed;
   outcome->message = summary.report.message;
   outcome->warnings = summary.report.warnings;

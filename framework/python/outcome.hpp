@@ -47,6 +47,7 @@ class Watch {
 struct RunOptions {
   bool progress_bar = false;
   std::string folder{};  ///< for the files that `butee run` writes; empty: none
+  bool resumes = false;  ///< goes on from the newest checkpoint there, or begins anew
 };
 
 /// Integrates the scene. Throws InputError where it cannot be run and, of the folder, RunError; a run that fails says

@@ -3,19 +3,13 @@
 #include <pybind11/stl.h>
 
 #include "butee/python/bindings.hpp"
+#include "butee/python/python_laws.hpp"
+#include "butee/python/shared_function.hpp"
 
 namespace py = pybind11;
 
 namespace butee::python {
 namespace {
-
-/// A function of Python, whose last reference any thread may drop.
-std::shared_ptr<py::function> shared_function(const py::function& function) {
-  return {new py::function(function), [](py::function* held) {
-            const py::gil_scoped_acquire lock;
-            delete held;
-          }};
-}
 
 /// The course of a load as a function of Python: f(t, parameters...).
 class PythonLoad final : public model::TimeFunction {
@@ -42,16 +36,10 @@ std::vector<model::LoadType>& registered() {
   return *types;
 }
 
-void register_load(const std::string& name, const py::function& function,
-                   const std::vector<std::pair<std::string, std::optional<double>>>& parameters,
+void register_load(const std::string& name, const py::function& function, const DeclaredParameters& parameters,
                    const std::string& summary) {
   model::LoadType type{name, summary, {}, nullptr};
-  std::vector<std::string> names;
-  for (const auto& [parameter, value] : parameters) {
-    const config::Parameter declared = config::number(parameter, "", "of the function in Python");
-    type.parameters.push_back(value ? declared.or_else(*value) : declared);
-    names.push_back(parameter);
-  }
+  const std::vector<std::string> names = declare(parameters, type.parameters);
   type.make = [held = shared_function(function), names](const config::Parameters& given, config::Diagnostics&) {
     std::vector<double> values;
     for (const std::string& one : names) values.push_back(given.number(one));
@@ -66,7 +54,8 @@ void register_load(const std::string& name, const py::function& function,
 
 plugin::Catalogue catalogue_with(const std::vector<std::string>& plugins) {
   auto catalogue = plugin::Catalogue::with_plugins(plugins);
-  if (!registered().empty()) catalogue.add({.loads = registered()}, "Python");
+  if (!registered().empty() || !python_laws().empty())
+    catalogue.add({.laws = python_laws(), .loads = registered()}, "Python");
   return catalogue;
 }
 

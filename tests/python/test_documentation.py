@@ -69,7 +69,7 @@ def test_everything_public_is_documented_and_annotated(name, thing):
         return
     assert inspect.getdoc(thing), name
     function = thing.fget if isinstance(thing, property) else getattr(thing, "__func__", thing)
-    if inspect.isfunction(function) and name not in ("Result.plot", "Result.to_dataframe"):
+    if inspect.isfunction(function) and name not in ("Result.plot", "Result.to_dataframe", "Study.to_dataframe"):
         assert "return" in function.__annotations__, name
 
 
@@ -80,7 +80,7 @@ def test_names_are_those_of_the_package():
 
 
 def run_example(name, folder, *arguments):
-    environment = dict(os.environ, MPLBACKEND="Agg")
+    environment = dict(os.environ, MPLBACKEND="Agg", BUTEE=butee._program.program())
     path = SOURCE / "apps" / "python" / name
     return subprocess.run([sys.executable, path, *arguments], cwd=folder, env=environment, check=True, capture_output=True,
                           text=True).stdout

@@ -14,13 +14,16 @@ from ._batch import Batch
 from ._butee import version as __version__
 from ._equations import Equations, Modes
 from ._errors import Error, InputError, Mistake, RunError, SceneWarning
+from ._functions import Finding, conformance
+from ._laws import law
 from ._loads import load
 from ._result import Result
-from ._scene import Scene, stability
+from ._scene import Scene, plugins, stability
 from ._structure import Snapshot, Structure
+from ._study import Study
 
-__all__ = ["Batch", "Equations", "Error", "InputError", "Mistake", "Modes", "Result", "RunError", "Scene", "SceneWarning",
-           "Snapshot", "Structure", "load", "stability", "__version__"]
+__all__ = ["Batch", "Equations", "Error", "Finding", "InputError", "Mistake", "Modes", "Result", "RunError", "Scene", "SceneWarning",
+           "Snapshot", "Structure", "Study", "conformance", "law", "load", "plugins", "stability", "__version__"]
 
 for _name in __all__:
     if isinstance(globals()[_name], type):

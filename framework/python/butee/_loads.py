@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import inspect
-from typing import Callable, Optional
+from typing import Callable
 
 from . import _butee
+from ._functions import declared
 
 
 def load(name: str) -> Callable[[Callable[..., float]], Callable[..., float]]:
@@ -32,16 +33,8 @@ def load(name: str) -> Callable[[Callable[..., float]], Callable[..., float]]:
     """
 
     def register(function: Callable[..., float]) -> Callable[..., float]:
-        parameters = list(inspect.signature(function).parameters.values())
-        if not parameters:
-            raise TypeError(f"{name}: the function takes the time, and its parameters behind that")
-        declared = []
-        for parameter in parameters[1:]:
-            if parameter.kind not in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
-                raise TypeError(f"{name}: {parameter} is no plain argument")
-            default: Optional[float] = None if parameter.default is parameter.empty else float(parameter.default)
-            declared.append((parameter.name, default))
-        _butee.register_load(name, function, declared, inspect.getdoc(function) or "a function in Python")
+        parameters = declared(name, function, "the time")
+        _butee.register_load(name, function, parameters, inspect.getdoc(function) or "a function in Python")
         return function
 
     return register

@@ -50,6 +50,24 @@ def json_of(scene: "Scene", command: str, arguments: Sequence[str] = ()) -> Any:
         return json.loads(call([command, name, *arguments, *plugins, "--json"], folder))
 
 
+def text_of(scene: "Scene", command: str) -> str:
+    """What a command prints of a scene."""
+    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
+        name, plugins = _folder_with(scene, folder)
+        return call([command, name, *plugins], folder)
+
+
+def pictures_of(scene: "Scene", to: str, kinds: Sequence[str], formats: Sequence[str]) -> List[str]:
+    """Runs a scene and draws it into a folder; the paths of the pictures."""
+    to = os.path.abspath(to)
+    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
+        name, plugins = _folder_with(scene, folder)
+        call(["run", name, "-q", "-o", "results", *plugins], folder)
+        chosen = ["--kind", ",".join(kinds)] if kinds else []
+        lines = call(["plot", "results", "-o", to, "--format", ",".join(formats), *chosen, *plugins], folder).splitlines()
+    return [line.strip() for line in lines if line.strip().endswith(tuple(f".{one}" for one in formats))]
+
+
 def trust_of(scene: "Scene") -> Any:
     with tempfile.TemporaryDirectory(prefix="butee-") as folder:
         name, plugins = _folder_with(scene, folder)

@@ -14,6 +14,7 @@ from ._equations import Equations, Modes
 from ._errors import SceneWarning
 from ._result import Result
 from ._structure import Structure
+from ._study import Collected, Study, run_study
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_matrix
@@ -171,12 +172,14 @@ class Scene:
     # --- what can be done with it
 
     def run(self, values: Optional[Mapping[str, Any]] = None, *, progress: Union[bool, Progress] = False,
-            output: Union[str, "os.PathLike[str]", None] = None, **integrator: Any) -> Result:
+            output: Union[str, "os.PathLike[str]", None] = None, resume: bool = False, **integrator: Any) -> Result:
         """Integrates the scene, with other ``values`` where given, and leaves the scene as it is.
 
         Keywords are keys of ``[integrator]``: ``end_time``, ``time_step``, ``type``, ``tolerance``, ...
         ``progress`` is True for a bar on standard error, or a function of the present time and the end time (s) that is called
-        some times a second. ``output`` is a folder for the files that ``butee run -o`` writes.
+        some times a second. ``output`` is a folder for the files that ``butee run -o`` writes, checkpoints among them where the
+        scene asks for them (``output.checkpoint``); with ``resume`` an interrupted run goes on from the newest of them, to the
+        same bits, and the result has the rows from there on.
 
         Other Python threads go on meanwhile. Ctrl-C ends the run after a step. Raises InputError where the scene cannot be run,
         and RunError, with the result so far, where the run fails.
@@ -184,10 +187,12 @@ class Scene:
         >>> scene.run(end_time=0.01).summary["status"]
         'completed'
         """
+        if resume and output is None:
+            raise ValueError("resume: output has to name the folder of the run that is to go on")
         core = self._with(values, integrator)
         end = core.end_time
         call = (lambda t: progress(t, end)) if callable(progress) else None
-        result = Result(core.run(call, progress is True, "" if output is None else os.fspath(output)))
+        result = Result(core.run(call, progress is True, "" if output is None else os.fspath(output), resume))
         if result._core.warnings:
             _warn(result._core.warnings)
         return result.check()
@@ -209,6 +214,30 @@ class Scene:
         [True, True]
         """
         return run_batch(self._with(None, integrator), values, plan, threads, collect, progress)
+
+    def study(self, vary: Mapping[str, Any], collect: Collected, *, plan: str = "grid", count: Optional[int] = None,
+              seed: Optional[int] = None, follow: Union[bool, str] = False, settle: int = 0, periods: Optional[int] = None,
+              period: Optional[float] = None, steady: Optional[float] = None, threads: Optional[int] = None,
+              output: Union[str, "os.PathLike[str]"] = "", progress: Optional[Callable[[int, int], None]] = None,
+              **integrator: Any) -> Study:
+        """Runs the scene at many points and keeps a row of numbers of each, as ``butee study``, on threads without the interpreter's lock.
+
+        ``vary`` is a dict of keys, each with a sequence of values, or with ``{"from": ..., "to": ..., "count": ...}``; ``collect``
+        names the results, ``"peak rotor.u"``, ``"section rotor.u"``, ``"impacts"``, ``"lyapunov"``, ...; ``butee help study``
+        explains them and the other arguments. Where the systems of the points differ in loads, gaps and laws alone they are assembled
+        and factorized once for each thread. ``output`` is a folder as after ``butee study -o``: what is done is kept there, and
+        the same call goes on after Ctrl-C. ``progress(done, runs)`` is called some times a second. Keywords are keys of ``[integrator]``
+        for all runs. Rows do not depend on the threads.
+
+        Bad input raises InputError; a run that fails is a row, see ``Study.failed``.
+
+        >>> rows = scene.study({"load[0].amplitude": [1e5, 2e5]}, ["peak rotor.u", "impacts"], settle=5, periods=10)
+        >>> rows["peak rotor.u"].shape, rows.units["peak rotor.u"], list(rows["status"])
+        ((2,), 'm', ['completed', 'completed'])
+        """
+        settings = {"plan": plan, "count": count, "seed": seed, "follow": follow, "settle": settle, "periods": periods,
+                    "period": period, "steady": steady}
+        return run_study(self._with(None, integrator), vary, collect, settings, threads, os.fspath(output), progress)
 
     def equations(self) -> Equations:
         """M, C, K, the forces of loads and stops, and the initial state, for other solvers."""
@@ -252,6 +281,20 @@ class Scene:
         """What the scene holds, its frequencies, likely mistakes and the cost of a run, as ``butee check --json``."""
         return _program.json_of(self, "check")
 
+    def picture(self) -> str:
+        """A drawing of the scene in text, with what it holds, as ``butee check``."""
+        return _program.text_of(self, "check")
+
+    def draw(self, folder: Union[str, "os.PathLike[str]"], *kinds: str, formats: Union[str, Sequence[str]] = "png",
+             values: Optional[Mapping[str, Any]] = None, **integrator: Any) -> List[str]:
+        """Runs the scene and draws it by gnuplot into ``folder``, as ``butee run --plot`` and ``butee plot``; the paths of the pictures.
+
+        ``kinds`` are those of ``butee plot --kind`` (``displacement``, ``phase``, ``spectrum``, ``shape``, ...), all that the results allow
+        where there are none. Keywords are keys of ``[integrator]``.
+        """
+        chosen = [formats] if isinstance(formats, str) else list(formats)
+        return _program.pictures_of(self._of(self._with(values, integrator)), os.fspath(folder), kinds, chosen)
+
     def trust(self) -> Dict[str, Any]:
         """How far the answer can be trusted, and whether the scene is chaotic, as ``butee run --trust``: several runs."""
         return _program.trust_of(self)
@@ -281,6 +324,12 @@ def stability(method: str, parameters: Optional[Mapping[str, Any]] = None) -> Di
     settings = [word for key, value in (parameters or {}).items() for word in ("--set", f"{key}={value}")]
     with tempfile.TemporaryDirectory(prefix="butee-") as folder:
         return json.loads(_program.call(["stability", method, *settings, "--json", "-o", "results"], folder))[0]
+
+
+def plugins(name: str = "") -> Any:
+    """Every method, law, load and element that is found, or the one of a name: aliases, parameters with units and defaults, as
+    ``butee plugins --json``."""
+    return json.loads(_program.call(["plugins", *([name] if name else []), "--json"]))
 
 
 def _restored(cls, state: bytes, plugins: List[str]) -> Scene:

@@ -1,0 +1,121 @@
+#include <pybind11/stl.h>
+
+#include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
+#include "butee/python/bindings.hpp"
+#include "butee/python/memory_rows.hpp"
+#include "butee/python/session.hpp"
+#include "butee/python/values.hpp"
+#include "butee/study/perform.hpp"
+#include "butee/study/store.hpp"
+
+namespace py = pybind11;
+
+namespace butee::python {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// Looks after Ctrl-C and calls `progress(done, runs)`, while threads go on without the interpreter's lock.
+class StudyWatch {
+ public:
+  explicit StudyWatch(py::object progress) : progress_(std::move(progress)) {}
+
+  void report(const study::Progress& now) {
+    const py::gil_scoped_acquire lock;
+    if (error_) return;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!progress_.is_none()) progress_(now.done, now.total);
+    } catch (py::error_already_set& error) {
+      error_.emplace(error);
+    }
+  }
+  bool goes_on() const { return !error_; }
+  void rethrow() {
+    if (!error_) return;
+    py::error_already_set error = *error_;
+    error_.reset();
+    throw error;
+  }
+
+ private:
+  py::object progress_;
+  std::optional<py::error_already_set> error_;
+};
+
+Bytes in_memory(const study::Study& study, const study::Layout& layout, const study::PerformOptions& options) {
+  MemoryRows rows(study.plan.run_count(), layout);
+  (void)study::perform(study, layout, rows, options);
+  return rows.take();
+}
+
+/// As `butee study -o FOLDER`.
+Bytes in_folder(const study::Study& study, const study::Layout& layout, const study::PerformOptions& options,
+                const std::string& folder, const std::string& format_name) {
+  const auto format = study::row_format(format_name);
+  study::Store store(folder, study, layout, *format);
+  store.open(false);
+  if (!store.is_complete() && store.done_count() < study.plan.run_count()) {
+    store.begin(store.next_session(), 0);
+    if (!study::perform(study, layout, store, options)) return {};
+  }
+  std::int64_t missing = 0;
+  if (!store.merge(missing)) throw RunError(folder + ": run " + std::to_string(missing) + " is missing");
+  MemoryRows rows(study.plan.run_count(), layout);
+  store.visit([&](const study::Row& row) { rows.append(row); });
+  return rows.take();
+}
+
+/// (name, unit, format, offset) of each column, format as numpy takes it.
+py::list columns_of(const study::Layout& layout) {
+  using Type = study::Column::Type;
+  py::list columns;
+  for (std::size_t i = 0; i < layout.columns().size(); ++i) {
+    const study::Column& column = layout.columns()[i];
+    const std::string length = std::to_string(column.length);
+    const std::string format = column.type == Type::text      ? "S" + length
+                               : column.type == Type::integer ? "<i8"
+                               : column.length == 1           ? "<f8"
+                                                              : "(" + length + ",)<f8";
+    columns.append(py::make_tuple(column.name, column.unit, format, layout.offset(i)));
+  }
+  return columns;
+}
+
+/// The columns, the bytes of a row, and all rows in the order of the plan.
+py::tuple run_study(const Session& session, py::handle tables, int threads, const std::string& folder,
+                    const std::string& format, py::object progress) {
+  const config::Document document{{"study"}, to_value(tables)};
+  const auto scene = session.shared();
+  const config::Document scene_document = session.document();
+  StudyWatch watch(std::move(progress));
+  study::PerformOptions options;
+  options.threads = threads;
+  options.report = [&](const study::Progress& now) { watch.report(now); };
+  options.goes_on = [&] { return watch.goes_on(); };
+  std::optional<study::Layout> layout;
+  Bytes rows;
+  {
+    const py::gil_scoped_release unlocked;
+    study::Study study = study::read_study(document, scene_document);
+    study.catalogue = scene->catalogue;
+    study::check_first_point(study);
+    layout.emplace(layout_of(study));
+    rows = folder.empty() ? in_memory(study, *layout, options) : in_folder(study, *layout, options, folder, format);
+  }
+  watch.rethrow();
+  return py::make_tuple(columns_of(*layout), layout->row_bytes(),
+                        py::bytes(reinterpret_cast<const char*>(rows.data()), rows.size()));
+}
+
+}  // namespace
+
+void bind_study(py::module_& module) {
+  module.def("study", &run_study);
+  py::list kinds;
+  for (const study::ItemKind& kind : study::item_kinds()) kinds.append(py::make_tuple(kind.name, kind.summary));
+  module.attr("study_results") = kinds;
+}
+
+}  // namespace butee::python

@@ -1,0 +1,50 @@
+"""What loads and laws written in Python share."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+
+from . import _butee
+
+
+def declared(name: str, function: Callable[..., float], first: str) -> List[Tuple[str, Optional[float]]]:
+    """The parameters behind the first one, with their defaults; TypeError where a scene could not give them."""
+    parameters = list(inspect.signature(function).parameters.values())
+    if not parameters:
+        raise TypeError(f"{name}: the function takes {first}, and its parameters behind that")
+    found = []
+    for parameter in parameters[1:]:
+        if parameter.kind not in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
+            raise TypeError(f"{name}: {parameter} is no plain argument")
+        default: Optional[float] = None if parameter.default is parameter.empty else float(parameter.default)
+        found.append((parameter.name, default))
+    return found
+
+
+class Finding(NamedTuple):
+    """The result of one check of ``conformance``."""
+
+    name: str
+    """``derivatives``"""
+    demand: str
+    """What is demanded of every law or load."""
+    passed: bool
+    details: str
+    """Figures, or what is wrong."""
+
+
+def conformance(name: str, **keys: Any) -> List[Finding]:
+    """Runs the suite of ``butee test-plugin`` on a law or load, one written in Python included; ``keys`` are its keys in a scene.
+
+    >>> @butee.law("cubic")
+    ... def cubic(g, stiffness):
+    ...     return stiffness * g**3 if g > 0 else 0.0
+    >>> findings = butee.conformance("cubic", stiffness=1e12)
+    >>> [finding.name for finding in findings if not finding.passed]
+    []
+    """
+    return [Finding(*parts) for parts in _butee.conformance(name, dict(keys))]
+
+
+__all__ = ["Finding", "conformance"]

@@ -1,0 +1,97 @@
+"""Studies: many runs of one scene, of which a row of numbers is kept."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _butee
+
+if TYPE_CHECKING:
+    from ._scene import Scene
+
+Collected = Union[str, Sequence[str]]
+
+
+class Study(Mapping[str, np.ndarray]):
+    """The rows of ``Scene.study``: a mapping of columns to arrays of shape (runs,), or (runs, periods) of sections.
+
+    Columns are those of ``butee study``: ``run``, ``point``, the keys that vary, ``status`` (``completed``, ``failed``, ``refused``),
+    ``reason``, what was collected, ``steps`` and what the run cost. Results of a run that has none are NaN.
+    """
+
+    def __init__(self, rows: np.ndarray, units: Dict[str, str]):
+        self.rows = rows
+        """All rows, a structured array."""
+        self.units = units
+        """By column; "1" for pure numbers, "" where none is known."""
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        if column not in self.units:
+            raise KeyError(f"{column}; the columns are {', '.join(self.units)}")
+        values = self.rows[column]
+        return np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.units)
+
+    def __len__(self) -> int:
+        return len(self.units)
+
+    @property
+    def failed(self) -> Dict[int, str]:
+        """The numbers of the runs without results, each with its reason."""
+        return {int(i): str(self["reason"][i]) for i in np.flatnonzero(self["status"] != "completed")}
+
+    def to_dataframe(self):
+        """The rows as a ``pandas.DataFrame`` (pandas has to be installed); sections become columns ``NAME[1]``, ``NAME[2]``, ..."""
+        import pandas
+
+        columns: Dict[str, np.ndarray] = {}
+        for name, values in self.items():
+            if values.ndim == 1:
+                columns[name] = np.array(values)
+            else:
+                columns.update({f"{name}[{k + 1}]": np.array(values[:, k]) for k in range(values.shape[1])})
+        return pandas.DataFrame(columns)
+
+    def __repr__(self) -> str:
+        return f"<butee.Study of {self.rows.size} runs; {len(self.failed)} without results>"
+
+    def __reduce__(self):
+        return type(self), (self.rows, self.units)
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+
+def run_study(core: "_butee.Session", vary: Mapping[str, Any], collect: Collected, settings: Dict[str, Any], threads: Optional[int],
+              output: str, progress: Optional[Callable[[int, int], None]]) -> Study:
+    if threads is None:
+        threads = len(os.sched_getaffinity(0))
+    if threads < 1:
+        raise ValueError(f"threads = {threads}: at least 1 is needed")
+    axes: List[Dict[str, Any]] = []
+    for key, values in vary.items():
+        if isinstance(values, Mapping):
+            axes.append({"key": key, **values})
+        elif isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+            raise TypeError(f"{key}: give a sequence of values, or a dict of from, to, count")
+        else:
+            axes.append({"key": key, "values": list(values)})
+    tables: Dict[str, Any] = {"schema": 1, "scene": core.name}
+    if axes:
+        tables["vary"] = axes
+    tables["study"] = {"collect": [collect] if isinstance(collect, str) else list(collect)}
+    tables["study"].update((key, value) for key, value in settings.items() if value is not None)
+    columns, row_bytes, rows = _butee.study(core, tables, threads, output, "", progress)
+    names, units, formats, offsets = zip(*columns)
+    row = np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": row_bytes})
+    return Study(np.frombuffer(rows, dtype=row), dict(zip(names, units)))
+
+
+__all__ = ["Study"]

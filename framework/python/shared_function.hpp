@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <pybind11/pybind11.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "butee/config/parameter.hpp"
+
+namespace butee::python {
+
+/// A function of Python, whose last reference any thread may drop.
+inline std::shared_ptr<pybind11::function> shared_function(const pybind11::function& function) {
+  return {new pybind11::function(function), [](pybind11::function* held) {
+            const pybind11::gil_scoped_acquire lock;
+            delete held;
+          }};
+}
+
+/// Names of parameters with their defaults.
+using DeclaredParameters = std::vector<std::pair<std::string, std::optional<double>>>;
+
+/// Adds a declaration for each; their names.
+inline std::vector<std::string> declare(const DeclaredParameters& parameters, std::vector<config::Parameter>& to) {
+  std::vector<std::string> names;
+  for (const auto& [parameter, value] : parameters) {
+    const config::Parameter declared = config::number(parameter, "", "of the function in Python");
+    to.push_back(value ? declared.or_else(*value) : declared);
+    names.push_back(parameter);
+  }
+  return names;
+}
+
+}  // namespace butee::python
