@@ -176,7 +176,11 @@ class Source final : public study::RowSource {
 
 class Format final : public study::RowFormat {
  public:
-  Format() { hdf5::be_silent(); }
+  Format() {
+    // At the end of the process HDF5 1.10 crashes over a file that it could not write to the end.
+    H5dont_atexit();
+    hdf5::be_silent();
+  }
   std::string name() const override { return "hdf5"; }
   std::string extension() const override { return ".h5"; }
   std::unique_ptr<study::RowSink> create(const std::string& path, const Layout& layout,

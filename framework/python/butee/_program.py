@@ -64,8 +64,7 @@ def pictures_of(scene: "Scene", to: str, kinds: Sequence[str], formats: Sequence
         name, plugins = _folder_with(scene, folder)
         call(["run", name, "-q", "-o", "results", *plugins], folder)
         chosen = ["--kind", ",".join(kinds)] if kinds else []
-        lines = call(["plot", "results", "-o", to, "--format", ",".join(formats), *chosen, *plugins], folder).splitlines()
-    return [line.strip() for line in lines if line.strip().endswith(tuple(f".{one}" for one in formats))]
+        return call(["plot", "results", "-o", to, "--format", ",".join(formats), *chosen, *plugins], folder).splitlines()
 
 
 def trust_of(scene: "Scene") -> Any:
