@@ -25,6 +25,8 @@ class Handle {
   }
 
   operator hid_t() const { return id_; }
+  /// Leaves the object open for good.
+  void abandon() { close_ = nullptr; }
   /// Closes; false where that failed.
   bool reset() { return close_ == nullptr || std::exchange(close_, nullptr)(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
 

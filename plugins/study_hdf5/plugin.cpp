@@ -77,6 +77,24 @@ class Sink final : public study::RowSink {
   }
 
   void append(std::span<const std::byte> rows) override {
+    try {
+      add(rows);
+    } catch (const RunError&) {
+      // As a killed writer would leave it, the file holds all rows that were flushed; closing it would write half of
+      // what is left, and readers would refuse it.
+      set_.abandon();
+      file_.abandon();
+      throw;
+    }
+  }
+
+  void close() override {
+    const bool is_set_closed = set_.reset();
+    if (!file_.reset() || !is_set_closed) throw RunError("HDF5 cannot close " + path_);
+  }
+
+ private:
+  void add(std::span<const std::byte> rows) {
     hdf5::be_silent();  // For each thread of its own.
     const hsize_t count = rows.size() / row_bytes_, before = size_, after = size_ + count;
     packed_.resize(count * (row_bytes_ + 8));
@@ -96,12 +114,6 @@ class Sink final : public study::RowSink {
     size_ = after;
   }
 
-  void close() override {
-    const bool is_set_closed = set_.reset();
-    if (!file_.reset() || !is_set_closed) throw RunError("HDF5 cannot close " + path_);
-  }
-
- private:
   std::string path_;
   std::size_t row_bytes_;
   Handle type_, file_, set_;
