@@ -67,6 +67,8 @@ if(PROJECT_IS_TOP_LEVEL)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
         "butee (= ${PROJECT_VERSION}), python3 (>= 3.${BUTEE_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-scipy, python3-matplotlib, python3-pandas")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+        "${PROJECT_SOURCE_DIR}/framework/python/package/postinst;${PROJECT_SOURCE_DIR}/framework/python/package/prerm")
   endif()
   include(CPack)
 endif()
