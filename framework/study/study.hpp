@@ -23,8 +23,9 @@ struct Study {
   std::vector<Item> items{};
   std::string title{};
   std::string stem{};  ///< of its file
-  /// The instant up to which a run of a scene can be trusted, s, for "trust"; by any thread. Throws RunError.
-  std::function<double(scene::Scene&)> horizon{};
+  /// For "trust": the instant up to which a run of a scene can be trusted, s; nothing where it was interrupted. By any
+  /// thread. Throws RunError.
+  std::function<std::optional<double>(scene::Scene&)> horizon{};
 };
 
 /// The keys of a study, for help and completion.
@@ -37,8 +38,9 @@ BUTEE_EXPORT bool is_study(const config::Document& document);
 struct StudyOptions {
   std::vector<std::string> overrides{};  ///< of the scene, "KEY=VALUE"
   std::vector<std::string> plugins{};
-  std::string points{};                            ///< CSV text with a header of keys, in place of [[vary]]
-  std::function<double(scene::Scene&)> horizon{};  ///< Study::horizon; "trust" is refused where it is empty
+  std::string points{};  ///< CSV text with a header of keys, in place of [[vary]]
+  /// Study::horizon; "trust" is refused where it is empty.
+  std::function<std::optional<double>(scene::Scene&)> horizon{};
 };
 
 /// Reads a study, its scene and the first of its points. Throws InputError with every mistake.

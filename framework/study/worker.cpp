@@ -200,8 +200,9 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
   if (const auto trust = std::find_if(study_.items.begin(), study_.items.end(),
                                       [](const Item& item) { return item.kind == Item::Kind::trust; });
       trust != study_.items.end()) {
-    row.set(first_result_ + static_cast<std::size_t>(trust - study_.items.begin()), horizon(scene, counted.end));
-    if (!goes_on()) return false;
+    const auto until = horizon(scene, counted.end);
+    if (!until || !goes_on()) return false;
+    row.set(first_result_ + static_cast<std::size_t>(trust - study_.items.begin()), *until);
   }
   for (std::size_t i = 0; i < study_.items.size(); ++i) {
     std::vector<double> entries = collector.values(i);
@@ -216,7 +217,7 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
   return true;
 }
 
-double Worker::horizon(const scene::Scene& scene, double end) const {
+std::optional<double> Worker::horizon(const scene::Scene& scene, double end) const {
   config::Document document = scene.document;
   (*(*document.root.table())["integrator"].table())["end_time"] = config::Value(end);
   scene::Scene whole = scene::read_scene(std::move(document), scene.catalogue);

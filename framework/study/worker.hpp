@@ -35,8 +35,8 @@ class BUTEE_EXPORT Worker {
   bool integrate(std::unique_ptr<scene::Scene> owned, const std::vector<config::Value>& values, const Counted& counted,
                  Motion& motion, Row& row, const std::function<bool()>& goes_on);
 
-  /// Study::horizon of a run from 0 to `end`; NaN where it fails.
-  double horizon(const scene::Scene& scene, double end) const;
+  /// Study::horizon of a run from 0 to `end`; NaN where it fails, nothing where it was interrupted.
+  std::optional<double> horizon(const scene::Scene& scene, double end) const;
 
   const Study& study_;
   const Layout& layout_;
