@@ -174,3 +174,12 @@ def test_laws_that_are_none():
 
     with pytest.raises((butee.RunError, IndexError), match="late"):
         with_law(law="python_late", k=1e10).run()
+
+
+def test_laws_in_python_on_threads():
+    scene = with_law(law="python_linear", stiffness=1e10)
+    rows = scene.study({"load[0].amplitude": AMPLITUDES}, ["peak rotor.u"], periods=3, threads=3)
+    peaks = [scene.run({"load[0].amplitude": amplitude}, end_time=3 * 2.0 * np.pi / 1256.6).peaks["rotor.u"] for amplitude in AMPLITUDES]
+    assert np.allclose(rows["peak rotor.u"], peaks, rtol=1e-5)
+    many = scene.batch({"load[0].amplitude": AMPLITUDES}, threads=2, end_time=0.005)
+    assert np.array_equal(many[1]["rotor.u"], scene.run({"load[0].amplitude": AMPLITUDES[1]}, end_time=0.005)["rotor.u"])
