@@ -19,9 +19,9 @@ def law(name: str, *, tangent: Optional[Callable[..., float]] = None,
     in J; where they are absent, the force is differentiated by differences and summed up by Gauss' rule in intervals that shrink
     towards 0, a few hundred calls for each value of the energy.
 
-    For trying out: a call takes about a microsecond and the interpreter's lock, ten times and more what laws in C++ take for
-    a step of a small scene, and threads wait for each other. The method ``exact`` refuses the law. ``butee.conformance`` holds it
-    against the suite that laws in C++ pass.
+    For trying out: each call takes some microseconds and the interpreter's lock, so that a scene of one mass runs a hundred times
+    slower than with a law in C++, and threads wait for each other. The method ``exact`` refuses the law. ``butee.conformance``
+    holds it against the suite that laws in C++ pass.
 
     >>> @butee.law("hardening")
     ... def hardening(g, stiffness, cubic=0.0):
