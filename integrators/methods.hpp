@@ -32,6 +32,7 @@ time::IntegratorType generalized_alpha_type();
 time::IntegratorType generalized_alpha_adaptive_type();
 time::IntegratorType hht_alpha_type();
 time::IntegratorType hht_alpha_adaptive_type();
+time::IntegratorType piecewise_type();
 time::IntegratorType rodas4_type();
 time::IntegratorType rk4_type();
 time::IntegratorType rk4_fixed_factors_type();

@@ -28,6 +28,7 @@ inline void PrintTo(const MethodCase& method, std::ostream* out) {
 inline std::vector<MethodCase> method_cases() {
   const std::string newton = "residual_tolerance = 1e-13\nincrement_tolerance = 1e-13\nmax_iterations = 20\n";
   std::vector<MethodCase> all = {{"exact", "", 0.0},
+                                 {"piecewise", "", 0.0},
                                  {"exponential", "tolerance = 1e-6\n", 0.0, 0.0, false, false},
                                  {"rk4", "", 4.0},
                                  {"newmark", newton, 2.0, 0.0, true},

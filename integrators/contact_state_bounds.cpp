@@ -1,0 +1,288 @@
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/contact_state_flow.hpp"
+
+namespace butee::integrators {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Terms of a power series whose argument is at most 1, to rounding.
+constexpr int kTerms = 22;
+
+/// e^z - 1 without cancellation.
+Complex expm1(Complex z) {
+  const double half = std::sin(0.5 * z.imag());
+  return {std::expm1(z.real()) * std::cos(z.imag()) - 2.0 * half * half, std::exp(z.real()) * std::sin(z.imag())};
+}
+
+/// The response from rest of z' = lambda z + e^(i omega s), and three derivatives.
+std::array<Complex, 4> response(Complex lambda, double omega, double s) {
+  const Complex turn(0.0, omega), apart = turn - lambda, load = std::exp(turn * s);
+  const Complex ratio = apart == Complex(0.0) ? Complex(s) : expm1(apart * s) / apart;
+  std::array<Complex, 4> z;
+  z[0] = std::exp(lambda * s) * ratio;
+  z[1] = lambda * z[0] + load;
+  z[2] = lambda * z[1] + turn * load;
+  z[3] = lambda * z[2] + turn * turn * load;
+  return z;
+}
+
+double power(double base, int k) {
+  double product = 1.0;
+  while (k-- > 0) product *= base;
+  return product;
+}
+
+}  // namespace
+
+void ContactStateFlow::respond_slowly(const Piece& piece, const Block& block, double s, double* extra) const {
+  const double* parabola = &piece.forcing[6 * static_cast<std::size_t>(block.extra)];
+  const auto place = static_cast<Index>(2 * with_extras_[static_cast<std::size_t>(block.extra)]);
+  for (Index i = 0; i < 2; ++i) {
+    if (!block.slow[static_cast<std::size_t>(i)]) continue;
+    std::array<double, kTerms + 1> f{};  // Taylor coefficients of the load, times s^k
+    double scale = 1.0;
+    for (std::size_t k = 0; k < 3; ++k, scale *= s) f[k] = scale * parabola[static_cast<std::size_t>(3 * i) + k];
+    double now = parabola[3 * i] + s * (parabola[3 * i + 1] + s * parabola[3 * i + 2]);
+    double change = parabola[3 * i + 1] + 2.0 * s * parabola[3 * i + 2], curve = 2.0 * parabola[3 * i + 2];
+    for (const Index j : block.resonant) {
+      const auto p = static_cast<std::size_t>(2 * j);
+      const double omega = system_.frequencies[static_cast<std::size_t>(j)];
+      const double gc = harmonic_c_(place + i, j), gs = harmonic_s_(place + i, j);
+      const double c = std::cos(omega * s) * piece.phases[p] - std::sin(omega * s) * piece.phases[p + 1];
+      const double sine = std::sin(omega * s) * piece.phases[p] + std::cos(omega * s) * piece.phases[p + 1];
+      now += gc * c + gs * sine;
+      change += omega * (gs * c - gc * sine);
+      curve -= omega * omega * (gc * c + gs * sine);
+      double even = gc * piece.phases[p] + gs * piece.phases[p + 1], odd = gs * piece.phases[p] - gc * piece.phases[p + 1];
+      for (int k = 0; k <= kTerms; ++k) {
+        f[static_cast<std::size_t>(k)] += even;
+        const double next = odd * omega * s / (k + 1), after = -even * omega * s / (k + 1);
+        even = next;
+        odd = after;
+      }
+    }
+    double* out = extra + 4 * i;
+    if (block.kind == Kind::reals) {
+      const double rate = block.rates[static_cast<std::size_t>(i)];
+      double term = 0.0, sum = 0.0;
+      for (int k = 0; k <= kTerms; ++k) {
+        term = (rate * s * term + s * f[static_cast<std::size_t>(k)]) / (k + 1);
+        sum += term;
+      }
+      out[0] = sum;
+      out[1] = rate * sum + now;
+      out[2] = rate * out[1] + change;
+      out[3] = rate * out[2] + curve;
+      continue;
+    }
+    const double d = block.decay;
+    if (2.0 * d * s > 1.0 && block.square == 0.0) {
+      // q' = u_0 + u_1 s + u_2 s^2 - u_0 e^(-2 d s)
+      const double r = 0.5 / d, u2 = parabola[2] * r, u1 = (parabola[1] - 2.0 * u2) * r, u0 = (parabola[0] - u1) * r;
+      out[0] = s * (u0 + s * (0.5 * u1 + s * u2 / 3.0)) + u0 * r * std::expm1(-2.0 * d * s);
+      out[1] = s * (u1 + s * u2) - u0 * std::expm1(-2.0 * d * s);
+    } else {
+      double before = 0.0, latest = 0.0, q = 0.0, v = 0.0;
+      for (int k = 0; k + 2 <= kTerms; ++k) {
+        const double next = (s * s * f[static_cast<std::size_t>(k)] - (k + 1) * 2.0 * d * s * latest -
+                             block.square * s * s * before) /
+                            ((k + 1) * (k + 2));
+        q += next;
+        v += (k + 2) * next;
+        before = latest;
+        latest = next;
+      }
+      out[0] = q;
+      out[1] = s > 0.0 ? v / s : 0.0;
+    }
+    out[2] = now - 2.0 * d * out[1] - block.square * out[0];
+    out[3] = change - 2.0 * d * out[2] - block.square * out[1];
+  }
+}
+
+void ContactStateFlow::resonate(const Piece& piece, const Block& block, double s, double* extra) const {
+  const auto place = static_cast<Index>(2 * with_extras_[static_cast<std::size_t>(block.extra)]);
+  const Complex lambda(-block.decay, block.frequency), i(0.0, 1.0);
+  for (const Index j : block.resonant) {
+    const double omega = system_.frequencies[static_cast<std::size_t>(j)];
+    const Complex phase(piece.phases[static_cast<std::size_t>(2 * j)], piece.phases[static_cast<std::size_t>(2 * j + 1)]);
+    const auto with = response(lambda, omega, s);
+    if (block.kind == Kind::mode) {
+      const auto against = response(std::conj(lambda), omega, s);
+      const Complex load = (harmonic_c_(place, j) - i * harmonic_s_(place, j)) * phase / (2.0 * i * block.frequency);
+      for (std::size_t k = 0; k < 4; ++k) extra[k] += (load * (with[k] - against[k])).real();
+      continue;
+    }
+    const auto against = response(lambda, -omega, s);
+    const Complex gc(harmonic_c_(place, j), harmonic_c_(place + 1, j)), gs(harmonic_s_(place, j), harmonic_s_(place + 1, j));
+    const Complex ahead = 0.5 * (gc - i * gs) * phase, back = 0.5 * (gc + i * gs) * std::conj(phase);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Complex z = ahead * with[k] + back * against[k];
+      extra[k] += z.real();
+      extra[4 + k] += z.imag();
+    }
+  }
+}
+
+double ContactStateFlow::bound_of(const Block& block, const double* y, int k, double until) const {
+  const double d = block.decay;
+  if (block.kind == Kind::pair) return std::hypot(y[0], y[1]) * power(block.rate, k);
+  if (block.kind == Kind::reals)
+    return std::hypot(y[0] * power(block.rates[0], k), y[1] * power(block.rates[1], k));
+  if (block.oscillates()) {
+    const double other = (y[1] + d * y[0]) / block.frequency;
+    return std::sqrt(y[0] * y[0] + other * other) * power(std::sqrt(block.square), k);
+  }
+  double here = y[0], next = y[1];
+  for (int order = 0; order < k; ++order) {
+    const double after = -2.0 * d * next - block.square * here;
+    here = next;
+    next = after;
+  }
+  // |C + d S| <= 1 and S <= 1/(2 d) of heavily damped motion; S = s of a rigid one.
+  return std::abs(here) + std::abs(next) * (d > 0.0 ? std::min(until, 0.5 / d) : until);
+}
+
+double ContactStateFlow::extra_bound(const Piece& piece, const Block& block, int k, double until) const {
+  const double* parabola = &piece.forcing[6 * static_cast<std::size_t>(block.extra)];
+  const auto place = static_cast<Index>(2 * with_extras_[static_cast<std::size_t>(block.extra)]);
+  double sum = 0.0;
+  for (Index i = 0; i < 2; ++i) {
+    const double* f = parabola + 3 * i;
+    const bool is_slow = block.slow[static_cast<std::size_t>(i)];
+    // Bounds of the load and of its first derivatives.
+    double load = 0.0, rise = 0.0, bend = 0.0, fastest = 0.0, strength = 0.0;
+    if (is_slow) {
+      load = std::abs(f[0]) + until * (std::abs(f[1]) + until * std::abs(f[2]));
+      rise = std::abs(f[1]) + 2.0 * until * std::abs(f[2]);
+      bend = 2.0 * std::abs(f[2]);
+    }
+    for (const Index j : block.resonant) {
+      const double omega = system_.frequencies[static_cast<std::size_t>(j)];
+      const double size = std::hypot(harmonic_c_(place + i, j), harmonic_s_(place + i, j));
+      load += size;
+      rise += size * omega;
+      bend += size * omega * omega;
+      strength += size;
+      fastest = std::max(fastest, omega);
+    }
+    if (is_slow) {
+      // From rest |q| <= s^2/2 max |f| and |q'| <= s max |f|, since damping only takes; |z| <= s max |f| likewise.
+      const double rate = block.kind == Kind::mode ? std::sqrt(block.square) + 2.0 * block.decay : block.rate;
+      const int lifted = block.kind == Kind::mode ? k - 2 : k - 1;
+      if (lifted < 0)
+        sum += load * (block.kind == Kind::mode && k == 0 ? 0.5 * until * until : until);
+      else
+        sum += (lifted == 0 ? load : lifted == 1 ? rise + load * rate : (bend + rise * rate + load * rate * rate) *
+                                                                            power(std::max(rate, fastest), lifted - 2)) +
+               (lifted == 0 ? rise * until : 0.0);
+      continue;
+    }
+    if (strength == 0.0 || block.slow[0]) continue;
+    const double rate = std::max(block.rate, fastest), most = std::max(until, 2.0 / rate);
+    const double response = 2.0 * strength * (power(rate, k) * most + (k > 0 ? k * power(rate, k - 1) : 0.0));
+    sum += block.kind == Kind::mode ? response / (2.0 * block.frequency) : response;
+  }
+  return sum;
+}
+
+std::array<double, 5> ContactStateFlow::stop_bounds(const Piece& piece, Index i, double until) const {
+  std::array<double, 5> bounds{};
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block& block = blocks_[b];
+    const double size = stops_.size(i, static_cast<Index>(b));
+    if (size == 0.0) continue;
+    if (block.oscillates()) {
+      double bound = size * bound_of(block, &piece.y[2 * b], 0, until);
+      const double rate = block.kind == Kind::pair ? block.rate : std::sqrt(block.square);
+      for (double& each : bounds) {
+        each += bound;
+        bound *= rate;
+      }
+    } else {
+      for (int k = 0; k < 5; ++k)
+        bounds[static_cast<std::size_t>(k)] += size * bound_of(block, &piece.y[2 * b], k, until);
+    }
+    if (block.extra >= 0)
+      for (int k = 0; k < 5; ++k)
+        bounds[static_cast<std::size_t>(k)] += size * extra_bound(piece, block, k, until);
+  }
+  for (std::size_t j = 0; j < system_.frequencies.size(); ++j) {
+    double swing = stops_.swing(i, static_cast<Index>(j));
+    for (double& each : bounds) {
+      each += swing;
+      swing *= system_.frequencies[j];
+    }
+  }
+  if (!piece.has_parabola) return bounds;
+  const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
+  std::array<double, 3> p{};
+  for (Index k = 0; k < 3; ++k)
+    p[static_cast<std::size_t>(k)] = std::abs((stop.a >= 0 ? piece.parabola(stop.a, k) : 0.0) -
+                                              (stop.b >= 0 ? piece.parabola(stop.b, k) : 0.0));
+  bounds[0] += p[0] + until * (p[1] + until * p[2]);
+  bounds[1] += p[1] + 2.0 * until * p[2];
+  bounds[2] += 2.0 * p[2];
+  return bounds;
+}
+
+double ContactStateFlow::rate(const Piece& piece) const {
+  constexpr double kUnseen = 1e-9;
+  double largest = 0.0, fastest = 0.0;
+  for (int look = 0; look < 2; ++look) {
+    const auto take = [&](double speed, double rate) {
+      if (look == 0)
+        largest = std::max(largest, speed);
+      else if (speed > kUnseen * largest)
+        fastest = std::max(fastest, rate);
+    };
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      take(dofs_.size.col(static_cast<Index>(b)).maxCoeff() * bound_of(blocks_[b], &piece.y[2 * b], 1, 0.0),
+           blocks_[b].rate);
+    for (std::size_t j = 0; j < system_.frequencies.size(); ++j)
+      take(dofs_.swing.col(static_cast<Index>(j)).maxCoeff() * system_.frequencies[j], system_.frequencies[j]);
+    for (const std::size_t b : with_extras_)
+      for (const Index j : blocks_[b].resonant) take(largest, system_.frequencies[static_cast<std::size_t>(j)]);
+  }
+  return fastest;
+}
+
+double ContactStateFlow::sixth_derivative(const Piece& piece, Index i, double until) const {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block& block = blocks_[b];
+    const double size = dofs_.size(i, static_cast<Index>(b));
+    sum += size * bound_of(block, &piece.y[2 * b], 6, until);
+    if (block.extra >= 0) sum += size * extra_bound(piece, block, 6, until);
+  }
+  for (std::size_t j = 0; j < system_.frequencies.size(); ++j)
+    sum += dofs_.swing(i, static_cast<Index>(j)) * power(system_.frequencies[j], 6);
+  return sum;
+}
+
+Eigen::MatrixXd ContactStateFlow::propagator(double s) const {
+  Eigen::MatrixXd product(2 * n_, 2 * n_);
+  Piece piece;
+  piece.start.resize(2 * blocks_.size());
+  piece.y.resize(piece.start.size());
+  const auto harmonics = 2 * system_.frequencies.size();
+  piece.phases.assign(harmonics, 0.0);
+  piece.now.assign(harmonics, 0.0);
+  piece.forcing.assign(6 * with_extras_.size(), 0.0);
+  piece.extra.assign(8 * with_extras_.size(), 0.0);
+  for (Index column = 0; column < 2 * n_; ++column) {
+    for (std::size_t k = 0; k < piece.start.size(); ++k) piece.start[k] = project_(static_cast<Index>(k), column);
+    go(piece, s);
+    for (Index i = 0; i < n_; ++i) {
+      const Jet jet = dof(piece, i);
+      product(i, column) = jet[0];
+      product(n_ + i, column) = jet[1];
+    }
+  }
+  return product;
+}
+
+}  // namespace butee::integrators
