@@ -8,9 +8,9 @@
 #include "butee/core/text.hpp"
 #include "integrators/active_part.hpp"
 #include "integrators/dormand_prince.hpp"
-#include "integrators/exact.hpp"
 #include "integrators/exponential.hpp"
 #include "integrators/methods.hpp"
+#include "integrators/piecewise.hpp"
 #include "integrators/rodas4.hpp"
 
 namespace butee::integrators {
@@ -45,51 +45,31 @@ Cost estimate(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
           (0.8 * n + 4.0 * turns) * finer * (6e-8 * n + 1.1e-11 * m * m * m)};
 }
 
-/// An impact takes exponential about 10 (k_c/k)^0.35 (1e-4/tolerance)^0.2 steps of 85 ns, and exact five series, which
-/// are 22 us: equal at 26 by that fit, and at about 20 on 60 random oscillators (plugins/auto/README.md).
-constexpr double kStiffness = 0.35, kTightness = 0.2, kSteps = 20.0;
-/// A motion that comes to rest on its stop is followed by exact through every turn of the closed stop's frequency. Rest
-/// is out of reach where damping takes less than this power of e, or no load presses that far at any of these instants.
-constexpr double kRest = 3.0;
-constexpr int kInstants = 64;
+/// Up to this size the motion between two changes of contact in closed form costs less than the steps of the others at
+/// any tolerance (plugins/auto/README.md).
+constexpr Index kFew = 4;
 
-bool is_pressed(dynamics::Dynamics& dynamics, double stiffness, double end_time) {
-  double gap = dynamics.contact().gap_of(0);
-  for (Index i = 0; i < dynamics.stop_count(); ++i) gap = std::min(gap, dynamics.contact().gap_of(i));
-  Vector force = Vector::Zero(1);
-  for (int i = 0; i <= kInstants; ++i) {
-    force.setZero();
-    dynamics.external_force(end_time * i / kInstants, force);
-    if (std::abs(force[0]) >= stiffness * gap) return true;
-  }
-  return false;
-}
-
-/// Whether series from impact to impact are expected to be faster than steps.
-bool suits_exact(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
-  if (dynamics.size() != 1 || dynamics.stop_count() == 0) return false;
-  const auto& contact = dynamics.contact();
-  for (Index i = 0; i < contact.size(); ++i)
-    if (!contact.law_of(i).is_piecewise_linear()) return false;
-  const double mass = dynamics.system().mass.coeff(0, 0), stiffness = dynamics.system().stiffness.coeff(0, 0);
-  if (!(stiffness > 0.0)) return false;
-  const double ratio = contact.closed_stiffness().maxCoeff() / stiffness, omega = std::sqrt(stiffness / mass);
-  if (!(std::pow(ratio, kStiffness) * std::pow(1e-4 / tolerance, kTightness) > kSteps)) return false;
-  if (static_cast<double>(dynamics.load_kinks().size()) > omega * end_time) return false;
-  Vector damping(1);
-  dynamics.damping_force(Vector::Ones(1), damping);
-  if (damping[0] / (2.0 * mass) * end_time > kRest && is_pressed(dynamics, stiffness, end_time)) return false;
+/// Whether the scene is one of few DOFs with linear stops whose contact states have modes: all of them where damping
+/// leaves modes alone, else those with none, one or all stops closed are looked at.
+bool suits_piecewise(dynamics::Dynamics& dynamics, double end_time) {
+  const Index contacts = dynamics.stop_count() + (dynamics.obstacles() != nullptr ? dynamics.obstacles()->size() : 0);
+  if (dynamics.size() > kFew || contacts == 0 || !SmallSystem::obstacle_to(dynamics).empty()) return false;
   try {
-    // Loads that turn much faster than the spring shorten the series, as a start within a stop does.
-    Exact exact(dynamics, Exact::kOrder, Exact::kSeriesTolerance);
-    time::State state;
-    state.x = dynamics.system().initial_displacement;
-    state.v = dynamics.system().initial_velocity;
-    exact.start(state);
-    return exact.first_step(state) * omega >= 1.0;
-  } catch (const InputError&) {
+    const SmallSystem system(dynamics);
+    std::vector<bool> closed(system.stops.size(), false);
+    const ContactStateFlow open(system, closed, end_time);
+    if (dynamics.size() == 1 || !dynamics.has_damping()) return true;
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+      closed.assign(closed.size(), false);
+      closed[i] = true;
+      const ContactStateFlow one(system, closed, end_time);
+    }
+    closed.assign(closed.size(), true);
+    const ContactStateFlow all(system, closed, end_time);
+  } catch (const RunError&) {
     return false;
   }
+  return true;
 }
 
 /// Whether exponential takes the scene by its damped modes, and these are found quickly.
@@ -112,7 +92,9 @@ std::unique_ptr<time::Integrator> make_rodas4(dynamics::Dynamics& dynamics, cons
 Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   using Method = Choice::Method;
   const Index n = dynamics.size(), most = dynamics::ModalSystem::kAllModes;
-  const std::string size = std::to_string(n) + " DOFs";
+  const std::string size = std::to_string(n) + (n == 1 ? " DOF" : " DOFs");
+  if (suits_piecewise(dynamics, end_time))
+    return {Method::piecewise, size + " with linear stops, so that the motion between impacts is known in closed form"};
   if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
     return {Method::dopri5, "contacts stick rigidly, which it locates and implicit methods cannot treat"};
   if (suits_collocation(dynamics))
@@ -127,8 +109,6 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     if (!load.in_time->harmonic() && !load.in_time->is_piecewise_parabolic())
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
-  if (suits_exact(dynamics, tolerance, end_time))
-    return {Method::exact, "one DOF, whose stops are so stiff that series from impact to impact are faster than steps"};
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
     if (cost.rodas4 < cost.exponential)
@@ -145,9 +125,9 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
   if (choice.method == Choice::Method::exponential) {
     what = "exponential" + with;
     integrator = make_exponential(dynamics, {tolerance, end_time, 6, 0});
-  } else if (choice.method == Choice::Method::exact) {
-    what = "exact";
-    integrator = std::make_unique<Exact>(dynamics, Exact::kOrder, Exact::kSeriesTolerance);
+  } else if (choice.method == Choice::Method::piecewise) {
+    what = "piecewise";
+    integrator = std::make_unique<Piecewise>(dynamics, end_time);
   } else if (choice.method == Choice::Method::dopri5) {
     what = "dopri5" + with;
     integrator = std::make_unique<DormandPrince>(dynamics, Goal{tolerance, end_time});

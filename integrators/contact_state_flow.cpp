@@ -17,8 +17,8 @@ using LongComplexMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dyna
 constexpr long double kUncoupled = 1e-14L;
 /// Squares of frequencies below this part of the largest are rounding: the motion is rigid.
 constexpr long double kRigid = 1e-17L;
-/// Eigenvectors whose matrix is worse conditioned lose more than half of the digits.
-constexpr long double kParallel = 1e8L;
+/// Eigenvectors whose matrix is worse conditioned lose six digits or more.
+constexpr long double kParallel = 1e6L;
 /// A load this near to a block, relative to its frequency, is in resonance; else its response in closed form loses
 /// four digits of 16 at most.
 constexpr double kResonance = 1e-4;

@@ -50,6 +50,9 @@ class ContactStateFlow {
     std::vector<double> extra;    ///< by block with extras: responses from rest and three derivatives, 2 x 4
   };
 
+  /// Whether bounds over a longer time are larger.
+  bool bounds_grow(const Piece& piece) const { return piece.has_parabola || is_damped_ || !with_extras_.empty(); }
+
   /// A piece from (x, v) at t under the polynomial loads of `force`, n x 3 (ignored unless `has_force`), those of gaps
   /// included. The piece is at its start.
   void begin(double t, const double* x, const double* v, const Eigen::MatrixXd& force, bool has_force,

@@ -14,8 +14,8 @@ constexpr double kNoise = 8.0 * kRounding;
 /// A stop that has just changed is on its border if it is within so much rounding.
 constexpr double kNearBorder = 1e3;
 /// A cubic that bounds a function is solved from below to this part.
-constexpr double kGood = 0.98;
-constexpr int kMostRefinements = 6;
+constexpr double kGood = 0.8;
+constexpr int kMostRefinements = 4;
 /// So many looks at a piece end it where it has got to.
 constexpr int kMostLooks = 20000;
 
@@ -66,7 +66,7 @@ FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactState
     if (status[i] == kOpen && watch.bounds[0] < stop.gap)
       watch.next = kNever;
     else {
-      watch.sizes = flow.stop_bounds(piece, static_cast<Index>(i), 0.0);
+      watch.sizes = flow.bounds_grow(piece) ? flow.stop_bounds(piece, static_cast<Index>(i), 0.0) : watch.bounds;
       watch.has_changed = static_cast<Index>(i) == changed;
       look(flow, piece, static_cast<Index>(i), status[i], until, wait);
       watch.has_changed = false;

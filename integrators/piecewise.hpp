@@ -30,9 +30,12 @@ class Piecewise final : public time::Integrator {
                  time::Interpolated out) const override;
 
   /// The derivative of (x, v) at the end of an accepted step with respect to (x, v) at its start, 2n x 2n: the product of
-  /// those of its pieces, and of the jumps where the force of a stop with dissipation jumps. At grazing contact, where
-  /// it does not exist, that of the pieces taken.
+  /// those of its pieces, and of what a stop with dissipation adds where its force jumps. At grazing contact, where it
+  /// does not exist, that of the pieces taken. Over several steps: the product.
   Eigen::MatrixXd derivative(const time::State& from, const time::State& to) const;
+  /// The derivative of (x, v) at the end with respect to a factor on all loads, at 1, in this step alone, 2n. Over
+  /// several steps: s := derivative() s + this.
+  Vector derivative_by_loads(const time::State& from, const time::State& to) const;
 
   /// Contact states whose modes were computed, those given up included.
   std::int64_t states_made() const { return states_made_; }
@@ -71,6 +74,12 @@ class Piecewise final : public time::Integrator {
   void take_to(double t);
   void load_piece(std::size_t piece);
   void find_knots();
+  /// Calls jump(stop, sign) for every stop whose dissipation sets in (+1) or ends (-1) with a jump of its force at the
+  /// start of a piece of the step that is recalled, and propagate() after the piece was loaded.
+  template <class Jump, class Propagate>
+  void follow_pieces(const time::State& from, const time::State& to, Jump jump, Propagate propagate);
+  /// The jump of v by x, M^-1 r^T c, of a stop with w = r x, n.
+  Vector jump_of(Index stop) const;
   double next_kink(double t) const;
 
   Controller controller_;

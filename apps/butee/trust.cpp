@@ -65,9 +65,14 @@ std::string method_of(const scene::Scene& session, const FollowedRun& run) {
   return run.choice.empty() ? session.integrator.name : run.choice.substr(0, run.choice.find_first_of(" :"));
 }
 
+/// Methods without truncation error.
+bool is_closed_form(const std::string& method) {
+  return method == "exact" || method == "piecewise";
+}
+
 double tolerance_of(const scene::Scene& session, const std::string& method) {
   const config::Parameters& parameters = session.integrator.parameters;
-  return session.integrator.options.limits.keeps_tolerance && method != "exact" && parameters.has("tolerance")
+  return session.integrator.options.limits.keeps_tolerance && !is_closed_form(method) && parameters.has("tolerance")
              ? parameters.number("tolerance")
              : 0.0;
 }
@@ -145,7 +150,7 @@ class Judgement {
     const double own_size = disturbance(tolerance_of(session_, method_));
     const double other_size = other_ ? disturbance(other_->noise) : own_size;
     // The finer disturbance tells more; of two that are alike the cheaper run.
-    const bool by_other = other_ && method_ != "exact" && (other_size < own_size || other_->run.work <= run_.work);
+    const bool by_other = other_ && !is_closed_form(method_) && (other_size < own_size || other_->run.work <= run_.work);
     scene::Scene& by = by_other ? other_->session : session_;
     const FollowedRun& run = by_other ? other_->run : run_;
     const double size = by_other ? other_size : own_size;

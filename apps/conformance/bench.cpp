@@ -63,6 +63,22 @@ std::string rattling_beam(int elements, const std::string& law, const std::strin
   return scene + damping;
 }
 
+bool takes(const Subject& subject, const std::string& scene) {
+  try {
+    Bench(subject.catalogue, scene);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::string contact_law(const Subject& subject) {
+  return takes(subject, rattling_beam(6, kBentLaw, kRayleighDamping) + integrator_table(subject, 1e-5, 1e-2)) ||
+                 !takes(subject, rattling_beam(6, kLinearLaw, kRayleighDamping) + integrator_table(subject, 1e-5, 1e-2))
+             ? kBentLaw
+             : kLinearLaw;
+}
+
 std::vector<std::string> accept_all(const Subject& subject) {
   constexpr double kEverything = 1e30;
   for (const config::Parameter& p : subject.catalogue.find(subject.name)->declaration.parameters)

@@ -40,6 +40,10 @@ std::string rattling_beam(int elements, const std::string& law, const std::strin
 /// Laws for it: one that its motion resolves, and one with a kink.
 inline constexpr const char* kBentLaw = "law = \"arctan\"\nstiffness = 1e6\nregularization = 1e5\n";
 inline constexpr const char* kLinearLaw = "law = \"linear\"\nstiffness = 1e6\n";
+/// The first, or the second of methods that take no smooth law.
+std::string contact_law(const Subject& subject);
+/// False where the method refuses the scene, as those for few DOFs do with large ones.
+bool takes(const Subject& subject, const std::string& scene);
 inline constexpr const char* kRayleighDamping = "mass_proportional = 0.5\nstiffness_proportional = 1e-5\n";
 
 /// The overrides with which an adaptive method accepts every step, so that equal steps can be taken with it: the

@@ -13,7 +13,7 @@ constexpr double kStep = 1e-5, kEnd = 2e-2;
 constexpr double kAgreement = 2e-3;
 
 std::string beam(const Subject& subject) {
-  return rattling_beam(6, kBentLaw, kRayleighDamping) + integrator_table(subject, kStep, kEnd);
+  return rattling_beam(6, contact_law(subject), kRayleighDamping) + integrator_table(subject, kStep, kEnd);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ Finding check_end_time(const Subject& subject) {
 Finding check_agreement(const Subject& subject) {
   Bench bench(subject.catalogue, beam(subject));
   Bench exact(subject.catalogue,
-              rattling_beam(6, kBentLaw, kRayleighDamping) + integrator_table("exact", "", kStep, kEnd));
+              rattling_beam(6, contact_law(subject), kRayleighDamping) + integrator_table("exact", "", kStep, kEnd));
   if (!bench.simulation().run().completed) return {false, bench.simulation().report().message};
   if (!exact.simulation().run().completed)
     return {false, "the reference failed: " + exact.simulation().report().message};

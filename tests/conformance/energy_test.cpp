@@ -14,8 +14,8 @@ namespace {
 std::string scene(const MethodCase& method, int steps) {
   return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n"
          "[[element]]\ntype = \"spring\"\nnode = \"m\"\nstiffness = 40.0\ndamping = 0.9\n"
-         "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.05\nstiffness = 400.0\nlaw = \"arctan\"\nregularization "
-         "= 30.0\n"
+         "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.05\nstiffness = 400.0\n" +
+         std::string(method.takes_smooth_laws ? "law = \"arctan\"\nregularization = 30.0\n" : "law = \"linear\"\n") +
          "sides = \"positive\"\n"
          "[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 3.0\nangular_frequency = 5.0\n"
          "[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n[damping]\nmass_proportional = 0.2\n"

@@ -58,21 +58,15 @@ std::string oscillator(const std::string& tolerance, double stop = 1e10, const s
          more + "[integrator]\nend_time = 0.4\ntolerance = " + tolerance + "\n";
 }
 
-TEST(Automatic, TakesExactForStiffStopsOfOneDof) {
+TEST(Automatic, TakesPiecewiseForFewDofsWithLinearStops) {
   const auto choice = [](const std::string& scene) { return SceneRun(scene).integrator().choice(); };
-  EXPECT_EQ(choice(oscillator("1e-6")).rfind("exact: one DOF", 0), 0U);
-  EXPECT_EQ(choice(oscillator("1e-4", 1e12)).rfind("exact: one DOF", 0), 0U);
-  EXPECT_EQ(choice(oscillator("1e-4")).rfind("exponential", 0), 0U);       // 1.9 ms beside 2.1 ms to 4 s
-  EXPECT_EQ(choice(oscillator("1e-6", 1e7)).rfind("exponential", 0), 0U);  // blunt stops
-  // It comes to rest on its stop, where every turn of the closed stop costs exact a series.
-  EXPECT_EQ(choice(oscillator("1e-6", 1e10, "1e4")).rfind("exponential", 0), 0U);
-  // A load that turns faster than the spring by far.
-  EXPECT_EQ(choice(oscillator("1e-6", 1e10, "0.0",
-                              "[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 3000.0\n"
-                              "angular_frequency = 1e4\n"))
-                .rfind("exponential", 0),
-            0U);
-  SceneRun chosen(oscillator("1e-6")), named(oscillator("1e-6") + "type = \"exact\"\n");
+  for (const std::string& scene :
+       {oscillator("1e-6"), oscillator("1e-2", 1e7), oscillator("1e-6", 1e10, "1e4"),
+        oscillator("1e-4", 1e10, "0.0", "[[element]]\ntype = \"mass\"\nname = \"n\"\nmass = 1.0\n[[element]]\n"
+                                        "type = \"spring\"\nnodes = [\"m\", \"n\"]\nstiffness = 1e4\ndamping = 3.0\n")})
+    EXPECT_EQ(choice(scene).rfind("piecewise: ", 0), 0U) << choice(scene);
+  EXPECT_EQ(choice(beam(6, kStops)).rfind("exponential", 0), 0U);
+  SceneRun chosen(oscillator("1e-6")), named(oscillator("1e-6") + "type = \"piecewise\"\n");
   ASSERT_TRUE(chosen.run().completed);
   ASSERT_TRUE(named.run().completed);
   EXPECT_TRUE(chosen.simulation().state().x == named.simulation().state().x);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
 #include <gtest/gtest.h>
 
 #include "integrators/piecewise.hpp"
@@ -17,7 +19,7 @@ namespace {
 
 class RandomChain {
  public:
-  explicit RandomChain(unsigned seed) : random_(seed) {
+  explicit RandomChain(unsigned seed, bool dissipates = false) : random_(seed), dissipates_(dissipates) {
     const int n = 1 + static_cast<int>(seed % 4);
     scene_ << "schema = 1\n";
     scene_.precision(17);
@@ -42,7 +44,6 @@ class RandomChain {
     else if (damping < 0.6 && !is_free)
       scene_ << "[damping]\nmodal = " << log_uniform(0.01, 0.3) << "\n";
     scene_ << "[initial]\nvelocity = [{ nodes = \"m0\", value = ";
-    initial_ = scene_.str().size();
     velocity_ = 2.0 * uniform() - 1.0;
   }
 
@@ -68,6 +69,9 @@ class RandomChain {
            << ends << "\ngap = " << (chance(0.1) ? 0.0 : 0.2 * uniform()) << "\nsides = \""
            << (sides < 0.4 ? "both" : sides < 0.7 ? "positive" : "negative")
            << "\"\nlaw = \"linear\"\nstiffness = " << log_uniform(10.0, 1e5) << "\n";
+    if (dissipates_)
+      scene_ << "damping = { type = \"kelvin_voigt\", coefficient = " << log_uniform(0.1, 30.0)
+             << (chance(0.3) ? ", pull = true" : "") << " }\n";
   }
   void load(int mass) {
     scene_ << "[[load]]\nnode = \"m" << mass << "\"\n";
@@ -85,15 +89,13 @@ class RandomChain {
   }
 
   std::mt19937 random_;
+  bool dissipates_;
   std::ostringstream scene_;
-  std::size_t initial_ = 0;
   double velocity_ = 0.0;
 };
 
 struct Motions {
   std::vector<double> x, v;
-  std::int64_t steps = 0;
-  double t_end = 0.0;
 };
 
 Motions run(const std::string& scene, const std::string& method, Index dof) {
@@ -105,11 +107,13 @@ Motions run(const std::string& scene, const std::string& method, Index dof) {
   run.simulation().add(sampler);
   const time::RunReport& report = run.run();
   EXPECT_TRUE(report.completed) << method << ": " << report.message << "\n" << scene;
-  return {sampler.x, sampler.v, report.steps, report.t_end};
+  return {sampler.x, sampler.v};
 }
 
-/// Rounding of either method, relative to the peaks.
-constexpr double kRounding = 1e-12;
+/// Rounding of either method, relative to the peaks; 1.4e-11 was seen.
+constexpr double kRounding = 3e-11;
+/// exact finds the ends of phases of stops with dissipation to 1e-12 of a step.
+constexpr double kEvents = 1e-8;
 /// A disturbance whose growth is measured, m/s.
 constexpr double kDisturbance = 1e-9;
 
@@ -119,34 +123,234 @@ double peak(const std::vector<double>& y) {
   return largest;
 }
 
+/// How often two runs were compared.
+unsigned compare_with_exact(const RandomChain& chain, double tolerance, const std::string& name) {
+  const Motions ours = run(chain.scene(), "piecewise", 0), reference = run(chain.scene(), "exact", 0),
+                disturbed = run(chain.scene(kDisturbance), "exact", 0);
+  const double largest_x = peak(reference.x), largest_v = peak(reference.v);
+  double growth = 1.0;
+  unsigned compared = 0;
+  for (std::size_t i = 0; i < reference.x.size(); ++i) {
+    growth = std::max({growth, std::abs(disturbed.x[i] - reference.x[i]) / kDisturbance,
+                       std::abs(disturbed.v[i] - reference.v[i]) / kDisturbance});
+    if (growth > 1e5) break;  // what follows is chance
+    EXPECT_NEAR(ours.x.at(i), reference.x[i], tolerance * growth * largest_x) << name << " row " << i;
+    EXPECT_NEAR(ours.v.at(i), reference.v[i], tolerance * growth * largest_v) << name << " row " << i;
+    if (testing::Test::HasFailure()) {
+      ADD_FAILURE() << chain.scene();
+      break;
+    }
+    ++compared;
+  }
+  return compared;
+}
+
 TEST(Piecewise, MeetsExactOnRandomChains) {
   constexpr unsigned kChains = 120;
   unsigned compared = 0;
-  double worst = 0.0;
-  for (unsigned seed = 0; seed < kChains; ++seed) {
-    const RandomChain chain(seed);
-    const Index dof = 0;
-    const Motions ours = run(chain.scene(), "piecewise", dof), reference = run(chain.scene(), "exact", dof),
-                  disturbed = run(chain.scene(kDisturbance), "exact", dof);
-    const double largest_x = peak(reference.x), largest_v = peak(reference.v);
-    double growth = 1.0;
-    for (std::size_t i = 0; i < reference.x.size(); ++i) {
-      growth = std::max({growth, std::abs(disturbed.x[i] - reference.x[i]) / kDisturbance,
-                         std::abs(disturbed.v[i] - reference.v[i]) / kDisturbance});
-      if (growth > 1e5) break;  // what follows is chance
-      ASSERT_NEAR(ours.x.at(i), reference.x[i], 20.0 * kRounding * growth * largest_x)
-          << "seed " << seed << " row " << i << "\n"
-          << chain.scene();
-      ASSERT_NEAR(ours.v.at(i), reference.v[i], 20.0 * kRounding * growth * largest_v)
-          << "seed " << seed << " row " << i << "\n"
-          << chain.scene();
-      worst = std::max({worst, std::abs(ours.v.at(i) - reference.v[i]) / (growth * largest_v)});
-      ++compared;
-    }
-  }
-  RecordProperty("worst", std::to_string(worst));
-  std::printf("worst %g compared %u\n", worst, compared);
+  for (unsigned seed = 0; seed < kChains && !HasFailure(); ++seed)
+    compared += compare_with_exact(RandomChain(seed), kRounding, "seed " + std::to_string(seed));
   EXPECT_GT(compared, kChains * 150);
+}
+
+TEST(Piecewise, MeetsExactWhereStopsDissipate) {
+  constexpr unsigned kChains = 60;
+  unsigned compared = 0;
+  for (unsigned seed = 0; seed < kChains && !HasFailure(); ++seed)
+    compared += compare_with_exact(RandomChain(seed, true), kEvents, "seed " + std::to_string(seed));
+  EXPECT_GT(compared, kChains * 150);
+}
+
+/// A mass between stops: problem SDND121 of Code_Aster's suite.
+constexpr const char* kOneMass = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 156.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 2e6
+damping = DASHPOT
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 1e-3
+law = "linear"
+stiffness = 1e10
+[[load]]
+type = "harmonic"
+node = "m"
+amplitude = AMPLITUDE
+angular_frequency = 31.4159265358979
+phase = -1.5707963267948966
+[integrator]
+type = "piecewise"
+end_time = 0.4
+)";
+
+std::string one_mass(double dashpot, double amplitude = 3000.0) {
+  std::string scene = kOneMass;
+  scene.replace(scene.find("DASHPOT"), 7, to_text(dashpot));
+  return scene.replace(scene.find("AMPLITUDE"), 9, to_text(amplitude));
+}
+
+/// The derivatives of a run, over its steps, and where it ends.
+struct Derivatives {
+  Eigen::MatrixXd by_start;
+  Vector by_loads, end;
+};
+
+Derivatives follow(const std::string& scene, const Vector& start = Vector(), double end_time = 0.4) {
+  SceneRun run(scene, {"integrator.type=piecewise"});
+  auto& method = dynamic_cast<integrators::Piecewise&>(run.integrator());
+  time::State from, to;
+  const Index n = run.system().size();
+  from.t = 0.0;
+  from.x = start.size() > 0 ? Vector(start.head(n)) : run.system().initial_displacement;
+  from.v = start.size() > 0 ? Vector(start.tail(n)) : run.system().initial_velocity;
+  method.start(from);
+  Derivatives all{Eigen::MatrixXd::Identity(2 * n, 2 * n), Vector::Zero(2 * n), {}};
+  while (from.t < end_time) {
+    EXPECT_EQ(method.step(from, {end_time - from.t, end_time}, to).status, time::StepStatus::ok);
+    const Eigen::MatrixXd step = method.derivative(from, to);
+    all.by_start = step * all.by_start;
+    all.by_loads = step * all.by_loads + method.derivative_by_loads(from, to);
+    std::swap(from, to);
+  }
+  all.end.resize(2 * n);
+  all.end << from.x, from.v;
+  return all;
+}
+
+TEST(Piecewise, DerivativeHasTheDeterminantOfTheDamping) {
+  for (const double dashpot : {0.0, 100.0, 2000.0})
+    // Forces are continuous, so that volume in phase space shrinks with c/m alone; the product of some 30 matrices.
+    EXPECT_NEAR(follow(one_mass(dashpot)).by_start.determinant() / std::exp(-dashpot / 156.0 * 0.4), 1.0, 1e-9);
+}
+
+TEST(Piecewise, DerivativeMeetsDifferences) {
+  constexpr double kEnd = 1.5, kDifference = 1e-6;
+  int compared = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    const RandomChain chain(seed, seed % 2 == 1);
+    SceneRun run(chain.scene());
+    const Index n = run.system().size();
+    Vector start(2 * n);
+    start << run.system().initial_displacement, run.system().initial_velocity;
+    const Derivatives here = follow(chain.scene(), start, kEnd);
+    Eigen::MatrixXd difference(2 * n, 2 * n);
+    double bend = 0.0;
+    for (Index i = 0; i < 2 * n; ++i) {
+      Vector ahead = start, back = start;
+      ahead[i] += kDifference;
+      back[i] -= kDifference;
+      const Vector up = follow(chain.scene(), ahead, kEnd).end, down = follow(chain.scene(), back, kEnd).end;
+      difference.col(i) = (up - down) / (2.0 * kDifference);
+      bend = std::max(bend, (up + down - 2.0 * here.end).cwiseAbs().maxCoeff() / kDifference);
+    }
+    // Where one side of the difference meets another contact, or the second derivative is large, it tells nothing.
+    if (bend > 1e-3 * difference.cwiseAbs().maxCoeff()) continue;
+    EXPECT_LT((here.by_start - difference).cwiseAbs().maxCoeff(), 1e-4 * difference.cwiseAbs().maxCoeff())
+        << "seed " << seed << "\n"
+        << here.by_start << "\n\n"
+        << difference << chain.scene();
+    ++compared;
+  }
+  EXPECT_GE(compared, 14);
+}
+
+TEST(Piecewise, DerivativeByLoadsMeetsDifferences) {
+  constexpr double kPart = 1e-7;
+  const Vector up = follow(one_mass(100.0, 3000.0 * (1.0 + kPart))).end,
+               down = follow(one_mass(100.0, 3000.0 * (1.0 - kPart))).end;
+  const Vector difference = (up - down) / (2.0 * kPart), ours = follow(one_mass(100.0)).by_loads;
+  for (Index i = 0; i < 2; ++i) EXPECT_NEAR(ours[i] / difference[i], 1.0, 1e-4);
+}
+
+TEST(Piecewise, RefusesOtherScenesBeforeTheFirstStep) {
+  const std::string scene = one_mass(0.0);
+  const auto message_of = [](const std::string& toml, const std::vector<std::string>& overrides) -> std::string {
+    try {
+      SceneRun run(toml, overrides);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(message_of(scene, {}), "taken");
+  EXPECT_NE(message_of(scene, {"contact[0].law=arctan", "contact[0].regularization=7e7"}).find("law = \"linear\""),
+            std::string::npos);
+  EXPECT_NE(message_of(with_linear_law("beam1"), {"integrator.type=piecewise"}).find("68 DOFs are more than the 24"),
+            std::string::npos);
+  EXPECT_NE(message_of(scene, {"contact[0].damping={type=\"hunt_crossley\",factor=0.1}"}).find("Kelvin-Voigt"),
+            std::string::npos);
+}
+
+/// x'' + omega^2 x = f cos(omega t) from rest is f t sin(omega t)/(2 omega); so near to resonance the closed form of the
+/// driven motion would lose all digits.
+TEST(Piecewise, FollowsResonance) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 9.0\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 2.0\n[integrator]\ntype = "
+      "\"piecewise\"\nend_time = 50.0\n";
+  for (const double detuning : {0.0, 1e-13, 1e-9, 1e-6, 1e-4, 1e-2}) {
+    const double omega = 3.0 * (1.0 + detuning);
+    SceneRun run(scene, {"load[0].angular_frequency=" + to_text(omega)});
+    ASSERT_TRUE(run.run().completed);
+    // 2 sin(a) sin(b)/((omega - 3)(omega + 3)) with the half difference and sum of the phases.
+    const long double half = 0.5L * 3.0L * detuning * 50.0L, sum = 3.0L * 50.0L + half;
+    const long double beat = half == 0.0L ? 1.0L : std::sin(half) / half;
+    const long double x = 2.0L * 50.0L * beat * std::sin(sum) / (static_cast<long double>(omega) + 3.0L);
+    // The load's frequency as a double is the largest error: 50 omega eps of the phase.
+    EXPECT_NEAR(run.simulation().state().x[0], static_cast<double>(x), 2e-12 * 50.0) << detuning;
+  }
+}
+
+/// A free mass under a constant force, with so little damping that m g/c is a million times its way, strikes a stop.
+TEST(Piecewise, FallsFreelyWithNextToNoDamping) {
+  for (const double rate : {0.0, 1e-12, 1e-6, 1e-3, 10.0}) {
+    SceneRun run("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[load]]\ntype = "
+                 "\"constant\"\nnode = \"m\"\nvalue = -20.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = "
+                 "100.0\nlaw = \"linear\"\nstiffness = 1e6\n[damping]\nmass_proportional = " +
+                 to_text(rate) + "\n[integrator]\ntype = \"piecewise\"\nend_time = 3.0\n");
+    ASSERT_TRUE(run.run().completed);
+    const long double c = rate, t = 3.0L;
+    // x = -g (t - (1 - e^(-c t))/c)/c, or its series.
+    const long double x = rate < 1e-4 ? -10.0L * t * t * (0.5L - c * t / 6.0L + c * c * t * t / 24.0L)
+                                      : -10.0L * (t + std::expm1(-c * t) / c) / c;
+    EXPECT_NEAR(run.simulation().state().x[0] / static_cast<double>(x), 1.0, 1e-13) << rate;
+  }
+}
+
+/// A start on the border of the stop, at rest: the first derivative that is not zero decides.
+TEST(Piecewise, DecidesStartsOnTheBorder) {
+  for (const char* load : {"type = \"constant\"\nvalue = 3.0\n", "type = \"constant\"\nvalue = -3.0\n",
+                           "type = \"ramp\"\nto = 3.0\nend = 0.5\n", "type = \"ramp\"\nto = -3.0\nend = 0.5\n",
+                           "type = \"constant\"\nvalue = 0.0\n"}) {
+    const std::string scene =
+        std::string("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = "
+                    "\"stop\"\nnodes = \"m\"\ngap = 0.125\nsides = \"positive\"\nlaw = \"linear\"\nstiffness = "
+                    "1e4\n[initial]\ndisplacement = [{ nodes = \"m\", value = 0.125 }]\n[[load]]\nnode = \"m\"\n") +
+        load + "[integrator]\nend_time = 0.9\n";
+    SceneRun ours(scene, {"integrator.type=piecewise"}), reference(scene, {"integrator.type=exact"});
+    ASSERT_TRUE(ours.run().completed);
+    ASSERT_TRUE(reference.run().completed);
+    EXPECT_NEAR(ours.simulation().state().x[0], reference.simulation().state().x[0], 1e-13) << load;
+    EXPECT_LT(ours.simulation().report().steps, 200) << load;
+  }
+}
+
+/// A run whose steps end elsewhere, as with other outputs, and one that is taken up in its middle.
+TEST(Piecewise, GoesOnFromASnapshotToTheSameBits) {
+  const std::string scene = one_mass(50.0);
+  SceneRun whole(scene), parts(scene, {"integrator.end_time=0.4"});
+  ASSERT_TRUE(whole.run().completed);
+  parts.simulation().set_end_time(0.4);
+  ASSERT_TRUE(parts.run().completed);
+  EXPECT_TRUE(whole.simulation().state().x == parts.simulation().state().x);
+  EXPECT_GE(dynamic_cast<integrators::Piecewise&>(whole.integrator()).states_made(), 2);
 }
 
 }  // namespace
