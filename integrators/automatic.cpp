@@ -45,15 +45,16 @@ Cost estimate(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
           (0.8 * n + 4.0 * turns) * finer * (6e-8 * n + 1.1e-11 * m * m * m)};
 }
 
-/// Up to this size the motion between two changes of contact in closed form costs less than the steps of the others at
-/// any tolerance (plugins/auto/README.md).
-constexpr Index kFew = 4;
+/// Up to this size the motion between two changes of contact in closed form costs less than steps, at a tight
+/// tolerance somewhat beyond (plugins/auto/README.md).
+constexpr Index kFew = 4, kFewAtTight = 6;
+constexpr double kTight = 1e-5;
 
 /// Whether the scene is one of few DOFs with linear stops whose contact states have modes: all of them where damping
 /// leaves modes alone, else those with none, one or all stops closed are looked at.
-bool suits_piecewise(dynamics::Dynamics& dynamics, double end_time) {
+bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const Index contacts = dynamics.stop_count() + (dynamics.obstacles() != nullptr ? dynamics.obstacles()->size() : 0);
-  if (dynamics.size() > kFew || contacts == 0 || !SmallSystem::obstacle_to(dynamics).empty()) return false;
+  if (dynamics.size() > (tolerance <= kTight ? kFewAtTight : kFew) || contacts == 0 || !SmallSystem::obstacle_to(dynamics).empty()) return false;
   try {
     const SmallSystem system(dynamics);
     std::vector<bool> closed(system.stops.size(), false);
@@ -93,7 +94,7 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   using Method = Choice::Method;
   const Index n = dynamics.size(), most = dynamics::ModalSystem::kAllModes;
   const std::string size = std::to_string(n) + (n == 1 ? " DOF" : " DOFs");
-  if (suits_piecewise(dynamics, end_time))
+  if (suits_piecewise(dynamics, tolerance, end_time))
     return {Method::piecewise, size + " with linear stops, so that the motion between impacts is known in closed form"};
   if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
     return {Method::dopri5, "contacts stick rigidly, which it locates and implicit methods cannot treat"};

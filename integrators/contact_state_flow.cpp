@@ -101,7 +101,8 @@ void ContactStateFlow::append(Block block, const LongMatrix& right, const LongMa
   right_.rightCols(2) = right;
   left_.bottomRows(2) = left;
   forcing_.bottomRows(2) = forcing;
-  is_damped_ = is_damped_ || block.decay > 0.0 || block.kind == Kind::reals;
+  largest_decay_ = std::max(largest_decay_, block.kind == Kind::reals || !block.oscillates() ? block.rate : block.decay);
+  grows_ = grows_ || !block.oscillates();
   fastest_ = std::max(fastest_, block.rate);
   blocks_.push_back(std::move(block));
 }
@@ -212,6 +213,7 @@ void ContactStateFlow::find_extras(double end_time) {
     if (!block.slow[0] && !block.slow[1] && block.resonant.empty()) continue;
     block.extra = static_cast<Index>(with_extras_.size());
     with_extras_.push_back(b);
+    grows_ = true;
   }
 }
 

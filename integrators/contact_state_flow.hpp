@@ -30,8 +30,8 @@ class ContactStateFlow {
   Index size() const { return n_; }
   /// The longest piece that resonances allow, s.
   double longest() const { return longest_; }
-  /// Whether bounds shrink along a piece.
-  bool is_damped() const { return is_damped_; }
+  /// Of anything in it, 1/s.
+  double largest_decay() const { return largest_decay_; }
   /// The largest rate of change, 1/s.
   double fastest() const { return fastest_; }
 
@@ -51,7 +51,7 @@ class ContactStateFlow {
   };
 
   /// Whether bounds over a longer time are larger.
-  bool bounds_grow(const Piece& piece) const { return piece.has_parabola || is_damped_ || !with_extras_.empty(); }
+  bool bounds_grow(const Piece& piece) const { return piece.has_parabola || grows_; }
 
   /// A piece from (x, v) at t under the polynomial loads of `force`, n x 3 (ignored unless `has_force`), those of gaps
   /// included. The piece is at its start.
@@ -123,7 +123,8 @@ class ContactStateFlow {
   std::array<Eigen::MatrixXd, 3> parabola_;  ///< n x n: x_parabola of F_0, and what F_1 and F_2 add to lower powers
   Table harmonic_c_, harmonic_s_;            ///< 2B x harmonics: their forcing
   double longest_, fastest_ = 0.0;
-  bool is_damped_ = false;
+  double largest_decay_ = 0.0;
+  bool grows_ = false;  ///< bounds over a longer time
   mutable std::vector<double> x_, v_;
 };
 

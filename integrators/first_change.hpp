@@ -56,6 +56,7 @@ class FirstChange {
     bool is_change = false;
     StopStatus to = kOpen;
     std::array<double, 5> bounds{}, sizes{};  ///< over the rest of the piece, and of what is summed at its start
+    double bounded_at = 0.0;  ///< where they were taken, s
     bool has_changed = false;
   };
   /// One switching function and its bounds.

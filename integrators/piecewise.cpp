@@ -214,7 +214,7 @@ void Piecewise::find_knots() {
     while (knots_.size() < kMostKnots && end - t > 1.2 * step) {
       t += step;
       knots_.push_back(t);
-      if (!flow_->is_damped()) continue;
+      if (flow_->largest_decay() == 0.0) continue;
       flow_->go(piece_, t - begin);
       step = kTurn / flow_->rate(piece_);
     }

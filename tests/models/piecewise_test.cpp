@@ -98,9 +98,9 @@ struct Motions {
   std::vector<double> x, v;
 };
 
-Motions run(const std::string& scene, const std::string& method, Index dof) {
+Motions run(const std::string& scene, const std::string& method, Index dof, const std::string& more = "") {
   constexpr int kSamples = 240;
-  SceneRun run(scene, {"integrator.type=" + method});
+  SceneRun run(scene + more, {"integrator.type=" + method});
   std::vector<double> times;
   for (int i = 1; i < kSamples; ++i) times.push_back(12.0 * i / kSamples);
   Sampler sampler(dof, times);
@@ -112,8 +112,8 @@ Motions run(const std::string& scene, const std::string& method, Index dof) {
 
 /// Rounding of either method, relative to the peaks; 1.4e-11 was seen.
 constexpr double kRounding = 3e-11;
-/// exact finds the ends of phases of stops with dissipation to 1e-12 of a step.
-constexpr double kEvents = 1e-8;
+/// The smallest tolerance of extrapolation8, 1e-12, over some thousand steps.
+constexpr double kEvents = 1e-10;
 /// A disturbance whose growth is measured, m/s.
 constexpr double kDisturbance = 1e-9;
 
@@ -124,15 +124,16 @@ double peak(const std::vector<double>& y) {
 }
 
 /// How often two runs were compared.
-unsigned compare_with_exact(const RandomChain& chain, double tolerance, const std::string& name) {
-  const Motions ours = run(chain.scene(), "piecewise", 0), reference = run(chain.scene(), "exact", 0),
-                disturbed = run(chain.scene(kDisturbance), "exact", 0);
+unsigned compare(const RandomChain& chain, const std::string& method, const std::string& keys, double tolerance,
+                 const std::string& name) {
+  const Motions ours = run(chain.scene(), "piecewise", 0), reference = run(chain.scene(), method, 0, keys),
+                disturbed = run(chain.scene(kDisturbance), "piecewise", 0);
   const double largest_x = peak(reference.x), largest_v = peak(reference.v);
   double growth = 1.0;
   unsigned compared = 0;
   for (std::size_t i = 0; i < reference.x.size(); ++i) {
-    growth = std::max({growth, std::abs(disturbed.x[i] - reference.x[i]) / kDisturbance,
-                       std::abs(disturbed.v[i] - reference.v[i]) / kDisturbance});
+    growth = std::max({growth, std::abs(disturbed.x[i] - ours.x[i]) / kDisturbance,
+                       std::abs(disturbed.v[i] - ours.v[i]) / kDisturbance});
     if (growth > 1e5) break;  // what follows is chance
     EXPECT_NEAR(ours.x.at(i), reference.x[i], tolerance * growth * largest_x) << name << " row " << i;
     EXPECT_NEAR(ours.v.at(i), reference.v[i], tolerance * growth * largest_v) << name << " row " << i;
@@ -149,15 +150,18 @@ TEST(Piecewise, MeetsExactOnRandomChains) {
   constexpr unsigned kChains = 120;
   unsigned compared = 0;
   for (unsigned seed = 0; seed < kChains && !HasFailure(); ++seed)
-    compared += compare_with_exact(RandomChain(seed), kRounding, "seed " + std::to_string(seed));
+    compared += compare(RandomChain(seed), "exact", "", kRounding, "seed " + std::to_string(seed));
   EXPECT_GT(compared, kChains * 150);
 }
 
-TEST(Piecewise, MeetsExactWhereStopsDissipate) {
+/// exact may miss visits shorter than an eighth of its steps, which it does on one of these; the steps of extrapolation8
+/// are shorter.
+TEST(Piecewise, MeetsAnotherMethodWhereStopsDissipate) {
   constexpr unsigned kChains = 60;
   unsigned compared = 0;
   for (unsigned seed = 0; seed < kChains && !HasFailure(); ++seed)
-    compared += compare_with_exact(RandomChain(seed, true), kEvents, "seed " + std::to_string(seed));
+    compared += compare(RandomChain(seed, true), "extrapolation8", "tolerance = 1e-12\n", kEvents,
+                        "seed " + std::to_string(seed));
   EXPECT_GT(compared, kChains * 150);
 }
 
