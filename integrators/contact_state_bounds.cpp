@@ -217,8 +217,18 @@ std::array<double, 5> ContactStateFlow::stop_bounds(const Piece& piece, Index i,
       swing *= system_.frequencies[j];
     }
   }
-  if (!piece.has_parabola) return bounds;
   const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
+  if (piece.is_short) {
+    const double s = std::min((piece.s + until) / piece.length, 1.0);
+    for (Index k = 0; k < piece.series.cols(); ++k) {
+      double term = std::abs((stop.a >= 0 ? piece.series(stop.a, k) : 0.0) - (stop.b >= 0 ? piece.series(stop.b, k) : 0.0));
+      for (int order = 0; order < 5 && order <= k; ++order) {
+        bounds[static_cast<std::size_t>(order)] += term * power(s, static_cast<int>(k) - order);
+        term *= static_cast<double>(k - order) / piece.length;
+      }
+    }
+  }
+  if (!piece.has_parabola) return bounds;
   std::array<double, 3> p{};
   for (Index k = 0; k < 3; ++k)
     p[static_cast<std::size_t>(k)] = std::abs((stop.a >= 0 ? piece.parabola(stop.a, k) : 0.0) -
@@ -258,6 +268,9 @@ double ContactStateFlow::sixth_derivative(const Piece& piece, Index i, double un
     sum += size * bound_of(block, &piece.y[2 * b], 6, until);
     if (block.extra >= 0) sum += size * extra_bound(piece, block, 6, until);
   }
+  if (piece.is_short)
+    for (Index k = 6; k < piece.series.cols(); ++k)
+      sum += std::abs(piece.series(i, k)) * power(static_cast<double>(k) / piece.length, 6);
   for (std::size_t j = 0; j < system_.frequencies.size(); ++j)
     sum += dofs_.swing(i, static_cast<Index>(j)) * power(system_.frequencies[j], 6);
   return sum;

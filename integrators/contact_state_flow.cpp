@@ -22,6 +22,10 @@ constexpr long double kParallel = 1e6L;
 /// A load this near to a block, relative to its frequency, is in resonance; else its response in closed form loses
 /// four digits of 16 at most.
 constexpr double kResonance = 1e-4;
+/// Between kinks so near to each other, over the fastest rate, a parabola would be the difference of far larger ones; its
+/// response is a power series with so many terms then.
+constexpr double kShort = 1.0;
+constexpr Index kTerms = 23;
 /// Turns in radians for which a response in resonance is followed at a time.
 constexpr double kLongest = 100.0;
 LongMatrix closed_stiffness(const SmallSystem& system, const std::vector<bool>& closed, bool of_damping) {
@@ -45,6 +49,10 @@ LongMatrix closed_stiffness(const SmallSystem& system, const std::vector<bool>& 
 ContactStateFlow::ContactStateFlow(const SmallSystem& system, const std::vector<bool>& closed, double end_time)
     : system_(system), n_(system.size()), longest_(end_time) {
   const LongMatrix stiffness = closed_stiffness(system, closed, false), damping = closed_stiffness(system, closed, true);
+  const LongMatrix inverse = system.mass.ldlt().solve(LongMatrix::Identity(n_, n_));
+  by_force_ = inverse.cast<double>();
+  by_x_ = (inverse * stiffness).cast<double>();
+  by_v_ = (inverse * damping).cast<double>();
   LongMatrix shapes(n_, n_);
   LongVector squares(n_);
   if (n_ == 1) {
@@ -321,7 +329,7 @@ ContactStateFlow::Rows ContactStateFlow::rows_of(const LongMatrix& forms) const 
 }
 
 void ContactStateFlow::begin(double t, const double* x, const double* v, const Eigen::MatrixXd& force, bool has_force,
-                             Piece& piece) const {
+                             double length, Piece& piece) const {
   const auto harmonics = system_.frequencies.size();
   piece.t = t;
   piece.start.resize(2 * blocks_.size());
@@ -347,7 +355,9 @@ void ContactStateFlow::begin(double t, const double* x, const double* v, const E
       v_[static_cast<std::size_t>(i)] -= omega * (by_sine * c - by_cosine * s);
     }
   }
-  piece.has_parabola = has_force;
+  piece.is_short = has_force && fastest_ * length < kShort && !force.rightCols(2).isZero(0.0);
+  piece.has_parabola = has_force = has_force && !piece.is_short;
+  if (piece.is_short) expand(force, length, piece);
   if (has_force) {
     piece.parabola.resize(n_, 3);
     // Column by column; F_1 and F_2 are zero for constant loads.
@@ -383,6 +393,21 @@ void ContactStateFlow::begin(double t, const double* x, const double* v, const E
   piece.s = 0.0;
   piece.y = piece.start;
   piece.now = piece.phases;
+}
+
+void ContactStateFlow::expand(const Eigen::MatrixXd& force, double length, Piece& piece) const {
+  piece.length = length;
+  piece.series.resize(n_, kTerms);
+  piece.series.leftCols(2).setZero();
+  double power = length * length;
+  for (Index k = 0; k + 2 < kTerms; ++k) {
+    const auto order = static_cast<double>(k + 1);
+    piece.series.col(k + 2).noalias() = -(length * order) * (by_v_ * piece.series.col(k + 1));
+    piece.series.col(k + 2).noalias() -= (length * length) * (by_x_ * piece.series.col(k));
+    if (k < 3) piece.series.col(k + 2).noalias() += power * (by_force_ * force.col(k));
+    piece.series.col(k + 2) /= order * (order + 1.0);
+    power *= length;
+  }
 }
 
 void ContactStateFlow::go(Piece& piece, double s) const {
@@ -468,6 +493,19 @@ Jet ContactStateFlow::jet(const Rows& rows, const Piece& piece, Index row, Index
       }
       sign = -1.0;
     }
+  }
+  if (piece.is_short) {
+    const double s = piece.s / piece.length;
+    Jet sum{};
+    for (Index k = kTerms; k-- > 0;) {
+      const double c = (a >= 0 ? piece.series(a, k) : 0.0) - (b >= 0 ? piece.series(b, k) : 0.0);
+      sum[3] = sum[3] * s + 3.0 * sum[2];
+      sum[2] = sum[2] * s + 2.0 * sum[1];
+      sum[1] = sum[1] * s + sum[0];
+      sum[0] = sum[0] * s + c;
+    }
+    double scale = 1.0;
+    for (std::size_t k = 0; k < 4; ++k, scale /= piece.length) jet[k] += scale * sum[k];
   }
   for (std::size_t e = 0; e < with_extras_.size(); ++e) {
     const auto place = static_cast<Index>(2 * with_extras_[e]);

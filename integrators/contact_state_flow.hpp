@@ -43,6 +43,9 @@ class ContactStateFlow {
     std::vector<double> phases;  ///< cos and sin of W t, by harmonic
     bool has_parabola = false;
     Eigen::MatrixXd parabola;     ///< n x 3: x_parabola
+    bool is_short = false;        ///< the parabolas of loads have their response from rest instead, as a series
+    Eigen::MatrixXd series;       ///< n x terms, in powers of s/length
+    double length = 0.0;          ///< s
     std::vector<double> forcing;  ///< by block with extras: the loads' parabola in its two coordinates, 2 x 3
     double s = 0.0;               ///< s
     std::vector<double> y;        ///< as start
@@ -51,11 +54,11 @@ class ContactStateFlow {
   };
 
   /// Whether bounds over a longer time are larger.
-  bool bounds_grow(const Piece& piece) const { return piece.has_parabola || grows_; }
+  bool bounds_grow(const Piece& piece) const { return piece.has_parabola || piece.is_short || grows_; }
 
   /// A piece from (x, v) at t under the polynomial loads of `force`, n x 3 (ignored unless `has_force`), those of gaps
-  /// included. The piece is at its start.
-  void begin(double t, const double* x, const double* v, const Eigen::MatrixXd& force, bool has_force,
+  /// included. `length`: that it goes at most, s. The piece is at its start.
+  void begin(double t, const double* x, const double* v, const Eigen::MatrixXd& force, bool has_force, double length,
              Piece& piece) const;
   /// Takes the piece to t + s.
   void go(Piece& piece, double s) const;
@@ -104,6 +107,7 @@ class ContactStateFlow {
   void find_response();
   Rows rows_of(const LongMatrix& forms) const;
 
+  void expand(const Eigen::MatrixXd& force, double length, Piece& piece) const;
   void respond(const Piece& piece, const Block& block, double s, double* extra) const;
   void respond_slowly(const Piece& piece, const Block& block, double s, double* extra) const;
   void resonate(const Piece& piece, const Block& block, double s, double* extra) const;
@@ -118,6 +122,7 @@ class ContactStateFlow {
   std::vector<std::size_t> with_extras_;
   LongMatrix right_, left_, forcing_;  ///< x = R y (n x 2B), y of (x, v) (2B x 2n), what a force adds (2B x n)
   Table project_, force_of_;
+  Eigen::MatrixXd by_force_, by_x_, by_v_;  ///< M^-1, M^-1 K and M^-1 C of the contact state
   Rows dofs_, stops_;
   LongMatrix cosine_, sine_;                 ///< n x harmonics: x_harmonic
   std::array<Eigen::MatrixXd, 3> parabola_;  ///< n x n: x_parabola of F_0, and what F_1 and F_2 add to lower powers

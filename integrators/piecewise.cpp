@@ -161,7 +161,7 @@ const ContactStateFlow& Piecewise::begin_piece(double t) {
     if (stop.b >= 0) force_(stop.b, 0) -= push;
     has_force = true;
   }
-  now.begin(t, x_.data(), v_.data(), force_, has_force, piece_);
+  now.begin(t, x_.data(), v_.data(), force_, has_force, next_kink(t) - t, piece_);
   flow_ = &now;
   return now;
 }
@@ -321,7 +321,7 @@ Vector Piecewise::derivative_by_loads(const time::State& from, const time::State
       [&](double s) {
         force.setZero();
         const bool has_force = system_.add_polynomials(piece_.t, force);
-        flow_->begin(piece_.t, by_loads.data(), by_loads.data() + n, force, has_force, response);
+        flow_->begin(piece_.t, by_loads.data(), by_loads.data() + n, force, has_force, next_kink(piece_.t) - piece_.t, response);
         flow_->go(response, s);
         for (Index i = 0; i < n; ++i) {
           const Jet jet = flow_->dof(response, i);

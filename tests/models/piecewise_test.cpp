@@ -66,7 +66,7 @@ class RandomChain {
   void stop(const std::string& ends) {
     const double sides = uniform();
     scene_ << "[[contact]]\ntype = \"stop\"\n"
-           << ends << "\ngap = " << (chance(0.1) ? 0.0 : 0.2 * uniform()) << "\nsides = \""
+           << ends << "\ngap = " << (chance(0.1) && !dissipates_ ? 0.0 : 0.01 + 0.2 * uniform()) << "\nsides = \""
            << (sides < 0.4 ? "both" : sides < 0.7 ? "positive" : "negative")
            << "\"\nlaw = \"linear\"\nstiffness = " << log_uniform(10.0, 1e5) << "\n";
     if (dissipates_)

@@ -44,9 +44,9 @@ rodas4, 1e-11 for dopri5 and 1e-12 for extrapolation8; below them rounding or th
 scene is refused.
 
 Exceptions: structures of more than 600 DOFs are measured as a whole, in the norm of the mass matrix, and every step is
-held to the tolerance, whatever their number. exact has no truncation error. newmark_adaptive, newmark_modified_adaptive,
-rk4_fixed_factors, rk4_error_scaled and sundials control what their sources or libraries control. `butee run --trust` bounds
-the error of a run, whatever the method.
+held to the tolerance, whatever their number. exact and piecewise have no truncation error. newmark_adaptive,
+newmark_modified_adaptive, rk4_fixed_factors, rk4_error_scaled and sundials control what their sources or libraries control.
+`butee run --trust` bounds the error of a run, whatever the method.
 )";
 }
 

@@ -154,8 +154,9 @@ and surface_speed (m/s) of the obstacle along the tangent, as of a belt.
 
 rodas4, dopri5, extrapolation8 and exact end their steps where a contact touches, parts, sticks or slips, so that the
 regularisation alone is left as an error; rk4 and its kin take rings, planes, dissipation and regularised friction as the
-instant has them. exact takes law = "linear"; rigid stick is for dopri5, extrapolation8 and exact. auto chooses among them;
-other methods refuse. A visit that is shorter than an eighth of a step may pass unseen.
+instant has them. exact takes law = "linear"; piecewise takes linear stops, elastic or with kelvin_voigt, of up to 24 DOFs;
+rigid stick is for dopri5, extrapolation8 and exact. auto chooses among them; other methods refuse. A visit that is shorter
+than an eighth of a step may pass unseen, but not by piecewise.
 )" + listed(catalogue.types().laws) +
          "\nThe linear law is the exact unilateral spring; arctan is smooth, but pulls open stops a little (butee "
          "check "

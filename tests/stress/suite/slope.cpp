@@ -82,6 +82,8 @@ std::vector<Slope> slopes(Scene scene, const std::vector<Method>& methods, std::
         const double error = largest_error(promise, follower.trajectory);
         if (error <= floor) break;
         if (error >= kMost || error < kSurplus * scene.tolerance) continue;
+        // The tolerance has no effect on methods without truncation error, nor on auto where it takes one.
+        if (!slope.errors.empty() && error == slope.errors.back()) continue;
         slope.tolerances.push_back(scene.tolerance);
         slope.errors.push_back(error);
       } catch (const InputError&) {
