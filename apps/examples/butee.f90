@@ -11,7 +11,10 @@ module butee
             butee_save, butee_restore, butee_free_snapshot, butee_message, butee_version
 
   integer(c_int), parameter, public :: butee_ok = 0, butee_run_failed = 1, butee_bad_input = 2, butee_bad_call = 3
+  ! Displacements along x, y and z, rotations about them; u is uy, theta is rz.
   integer(c_int), parameter, public :: butee_u = 0, butee_theta = 1
+  integer(c_int), parameter, public :: butee_ux = 2, butee_uy = butee_u, butee_uz = 3, butee_rx = 4, butee_ry = 5, &
+                                       butee_rz = butee_theta
 
   interface
     function c_open_file(path, forced, made) bind(c, name="butee_open_file") result(status)

@@ -31,8 +31,17 @@ enum {
   BUTEE_BAD_CALL = 3
 };
 
-/* Kinds of degrees of freedom. */
-enum { BUTEE_U = 0, BUTEE_THETA = 1 };
+/* Kinds of degrees of freedom: displacements along x, y and z, rotations about them. u is uy and theta is rz. */
+enum {
+  BUTEE_U = 0,
+  BUTEE_THETA = 1,
+  BUTEE_UX = 2,
+  BUTEE_UY = BUTEE_U,
+  BUTEE_UZ = 3,
+  BUTEE_RX = 4,
+  BUTEE_RY = 5,
+  BUTEE_RZ = BUTEE_THETA
+};
 
 typedef struct butee_structure butee_structure;
 typedef struct butee_snapshot butee_snapshot;
@@ -43,7 +52,8 @@ BUTEE_C_EXPORT const char* butee_message(void);
 
 /*
  * Makes a structure of a scene in a file, or in TOML text. `forced` names the nodes on which forces will be set, parted
- * by blanks ("string:middle rotor string:3..9 string:0.theta"); null or "" for none.
+ * by blanks ("string:middle rotor string:3..9 string:0.theta string:middle.uz"), u where no other degree of freedom
+ * (ux to rz) is given; null or "" for none.
  */
 BUTEE_C_EXPORT int butee_open_file(const char* path, const char* forced, butee_structure** made);
 BUTEE_C_EXPORT int butee_open_text(const char* toml, const char* forced, butee_structure** made);
@@ -86,7 +96,7 @@ BUTEE_C_EXPORT int butee_quantity(const butee_structure* structure, const char* 
                                   const char* element, double* value);
 
 /*
- * The largest |value| of a quantity of a node ("u", "v", "a", "theta", "theta_v", "theta_a", "contact_force") over the
+ * The largest |value| of a quantity of a node ("u", "v", "a", "theta", "uz", "rx_v", "contact_force", ...) over the
  * whole motion. To be followed before the first step; `node` is a selector that names one.
  */
 BUTEE_C_EXPORT int butee_follow_peak(butee_structure* structure, const char* node, const char* quantity);

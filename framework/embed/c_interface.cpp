@@ -60,6 +60,27 @@ butee::model::Quantity checked_quantity(const std::string& name) {
   return butee::model::quantity_of(name);
 }
 
+butee::DofKind checked_kind(int kind) {
+  using butee::DofKind;
+  switch (kind) {
+    case BUTEE_UX:
+      return DofKind::ux;
+    case BUTEE_UY:
+      return DofKind::uy;
+    case BUTEE_UZ:
+      return DofKind::uz;
+    case BUTEE_RX:
+      return DofKind::rx;
+    case BUTEE_RY:
+      return DofKind::ry;
+    case BUTEE_RZ:
+      return DofKind::rz;
+    default:
+      throw butee::LogicError("the kind " + std::to_string(kind) +
+                              " is none of BUTEE_U, BUTEE_THETA, BUTEE_UX ... BUTEE_RZ");
+  }
+}
+
 StructureOptions options_of(const char* forced) {
   StructureOptions options;
   std::istringstream words(forced != nullptr ? forced : "");
@@ -126,8 +147,7 @@ int butee_size(const butee_structure* structure, int64_t* size) {
 int butee_dof(const butee_structure* structure, const char* selector, int kind, int64_t* dof) {
   return guarded([&] {
     need(structure, selector, dof);
-    butee::require(kind == BUTEE_U || kind == BUTEE_THETA, "the kind is neither BUTEE_U nor BUTEE_THETA");
-    *dof = structure->structure.dof(selector, kind == BUTEE_U ? butee::DofKind::u : butee::DofKind::theta);
+    *dof = structure->structure.dof(selector, checked_kind(kind));
   });
 }
 

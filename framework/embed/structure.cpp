@@ -11,6 +11,7 @@
 #include "butee/core/error.hpp"
 #include "butee/core/log.hpp"
 #include "butee/core/text.hpp"
+#include "butee/embed/forced_dof.hpp"
 #include "butee/model/element_choice.hpp"
 #include "butee/record/probes.hpp"
 #include "butee/scene/assembly.hpp"
@@ -71,18 +72,17 @@ std::vector<model::NodalDof> Structure::Parts::select(const std::string& selecto
 
 void Structure::Parts::add_forces(const std::string& selector,
                                   std::vector<std::pair<model::NodalDof, NodalForce*>>& made) {
-  const std::size_t point = selector.rfind('.');
-  const std::string ending = point == std::string::npos ? "" : selector.substr(point);
-  const bool on_theta = ending == ".theta";
-  const std::string nodes = on_theta || ending == ".u" ? selector.substr(0, point) : selector;
+  const auto [nodes, kind] = split_forced(selector);
+  const std::size_t before = made.size();
   const model::DofTable table = number_dofs(scene.model);
-  for (const model::NodalDof dof : select(nodes, on_theta ? DofKind::theta : DofKind::u)) {
+  for (const model::NodalDof dof : select(nodes, kind)) {
     if (table.index(dof) < 0) continue;
     auto force = std::make_unique<NodalForce>();
     made.emplace_back(dof, force.get());
     scene.model.loads.push_back({{{dof, 1.0}}, std::move(force), nullptr, 0.0});
   }
-  if (made.empty()) throw InputError(selector + ": names no free degree of freedom that a force could act on");
+  if (made.size() == before)
+    throw InputError(selector + ": names no free " + name_of(kind) + " that a force could act on");
 }
 
 NodalForce& Structure::Parts::force_on(Index dof) {

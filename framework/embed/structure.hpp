@@ -20,7 +20,8 @@ namespace butee::embed {
 struct StructureOptions {
   std::vector<std::string> overrides{};  ///< "integrator.type=NM1", as --set of the program
   std::vector<std::string> plugins{};    ///< modules or folders of modules, as --plugin
-  /// Selectors of the nodes on which forces will be set: "string:middle", or "string:all.theta" for moments.
+  /// Selectors of the nodes on which forces will be set: "string:middle" along u, "string:all.uz" along another degree
+  /// of freedom, ux to rz, "string:all.theta" for moments about z.
   std::vector<std::string> forced{};
   std::optional<plugin::Catalogue> catalogue{};  ///< the types that the scene may name, instead of `plugins`
 };

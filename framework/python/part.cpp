@@ -1,27 +1,17 @@
 #include "butee/python/part.hpp"
 
 #include "butee/core/error.hpp"
+#include "butee/embed/forced_dof.hpp"
 #include "butee/time/snapshot.hpp"
 
 namespace butee::python {
-namespace {
-
-/// "string:all.theta" -> {"string:all", theta}; u without an ending.
-std::pair<std::string, DofKind> split(const std::string& selector) {
-  for (const auto& [ending, kind] : {std::pair{".theta", DofKind::theta}, std::pair{".u", DofKind::u}})
-    if (selector.ends_with(ending)) return {selector.substr(0, selector.rfind('.')), kind};
-  return {selector, DofKind::u};
-}
-
-}  // namespace
-
 Part::Part(const Session& session, std::vector<std::string> forced)
     : session_(session),
       forced_(std::move(forced)),
       structure_(embed::Structure::from_document(session.document(),
                                                  {.forced = forced_, .catalogue = session.scene().catalogue})) {
   for (const std::string& selector : forced_) {
-    const auto [nodes, kind] = split(selector);
+    const auto [nodes, kind] = embed::split_forced(selector);
     for (const Index dof : structure_.dofs(nodes, kind)) forced_dofs_.push_back(dof);
   }
 }

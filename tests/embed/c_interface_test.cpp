@@ -102,6 +102,47 @@ TEST_F(CInterface, GivesQuantitiesByNameAndTheirPeaks) {
   butee_close(pair);
 }
 
+/// Springs along x, y and z and about y and z of one body: x = F/k (1 - cos(w t)) on each.
+TEST_F(CInterface, NamesEveryDegreeOfFreedom) {
+  std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\nrotary_inertia = 0.5\n"
+      "[integrator]\ntype = \"exact\"\n";
+  const std::pair<const char*, int> kinds[] = {
+      {"ux", BUTEE_UX}, {"uy", BUTEE_UY}, {"uz", BUTEE_UZ}, {"ry", BUTEE_RY}, {"rz", BUTEE_RZ}};
+  double stiffness = 100.0;
+  std::string forced;
+  for (const auto& [name, kind] : kinds) {
+    scene += std::string("[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = \"") + name +
+             "\"\nstiffness = " + std::to_string(stiffness *= 2.0) + "\n";
+    forced += std::string(" m.") + name;
+  }
+  butee_structure* body = nullptr;
+  ASSERT_EQ(butee_open_text(scene.c_str(), forced.c_str(), &body), BUTEE_OK) << butee_message();
+  ASSERT_EQ(butee_follow_peak(body, "m", "uz"), BUTEE_OK) << butee_message();
+  int64_t dofs[5];
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_EQ(butee_dof(body, "m", kinds[i].second, &dofs[i]), BUTEE_OK) << butee_message();
+    ASSERT_EQ(butee_set_force(body, dofs[i], 3.0), BUTEE_OK) << butee_message();
+  }
+  ASSERT_EQ(butee_advance_to(body, 0.7), BUTEE_OK) << butee_message();
+  stiffness = 100.0;
+  for (int i = 0; i < 5; ++i) {
+    stiffness *= 2.0;
+    const double inertia = i < 3 ? 2.0 : 0.5,
+                 wanted = 3.0 / stiffness * (1.0 - std::cos(std::sqrt(stiffness / inertia) * 0.7));
+    double u = 0.0;
+    ASSERT_EQ(butee_motion(body, dofs[i], &u, nullptr, nullptr), BUTEE_OK);
+    EXPECT_NEAR(u, wanted, 1e-13) << kinds[i].first;
+  }
+  double peak = 0.0;
+  ASSERT_EQ(butee_peak(body, "m", "uz", &peak), BUTEE_OK) << butee_message();
+  EXPECT_NEAR(peak, 2.0 * 3.0 / 800.0, 1e-12);
+  int64_t none = 0;
+  EXPECT_EQ(butee_dof(body, "m", BUTEE_RX, &none), BUTEE_BAD_INPUT);
+  EXPECT_NE(std::strstr(butee_message(), "rx does not exist there"), nullptr) << butee_message();
+  butee_close(body);
+}
+
 TEST_F(CInterface, TurnsEveryMistakeIntoAStatusAndAMessage) {
   butee_structure* none = reinterpret_cast<butee_structure*>(this);
   EXPECT_EQ(butee_open_text("schema = 2", nullptr, &none), BUTEE_BAD_INPUT);
@@ -111,7 +152,7 @@ TEST_F(CInterface, TurnsEveryMistakeIntoAStatusAndAMessage) {
   EXPECT_EQ(butee_open_file(nullptr, nullptr, &none), BUTEE_BAD_CALL);
   int64_t dof = 7;
   EXPECT_EQ(butee_dof(mass_, "nobody", BUTEE_U, &dof), BUTEE_BAD_INPUT);
-  EXPECT_EQ(butee_dof(mass_, "m", 5, &dof), BUTEE_BAD_CALL);
+  EXPECT_EQ(butee_dof(mass_, "m", 6, &dof), BUTEE_BAD_CALL);
   EXPECT_EQ(butee_dof(nullptr, "m", BUTEE_U, &dof), BUTEE_BAD_CALL);
   EXPECT_EQ(dof, 7);
   double number = 0.0;

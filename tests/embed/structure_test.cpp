@@ -73,6 +73,37 @@ TEST(Structure, FeelsForcesThatAreSetBetweenSteps) {
   }
 }
 
+/// Forces and moments on all six degrees of freedom of a frame's corner, set from outside and given by the scene.
+TEST(Structure, IsPushedAlongAndAboutEveryAxis) {
+  const std::string frame =
+      "schema = 1\n[material.steel]\nyoung_modulus = 2e11\ndensity = 7850.0\npoisson_ratio = 0.3\n"
+      "[section.bar]\nshape = \"rectangle\"\nwidth = 0.03\nheight = 0.06\n[[element]]\ntype = \"beam\"\n"
+      "name = \"post\"\nmotion = \"spatial\"\nmaterial = \"steel\"\nsection = \"bar\"\nelements = 2\n"
+      "points = [[0, 0, 0], [0.3, 1, 0.2]]\nup = [0, 0, 1]\n[[support]]\nnodes = \"post:first\"\nfix = [\"ux\", "
+      "\"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]\n[integrator]\ntype = \"exact\"\nend_time = 0.02\n";
+  std::string loads;
+  for (const DofKind kind : kAllDofKinds) {
+    const std::string name(kDofNames[2 + static_cast<std::size_t>(kind)]);  // ux ... rz
+    loads += "[[load]]\ntype = \"constant\"\nnode = \"post:last\"\ndof = \"" + name +
+             "\"\nvalue = " + std::to_string(10.0 + static_cast<int>(kind)) + "\n";
+  }
+  const StructureOptions options = with_plugins(
+      {.forced = {"post:last.ux", "post:last", "post:last.w", "post:last.rx", "post:last.ry", "post:last.theta"}});
+  Structure post = Structure::from_toml(frame, options);
+  for (const DofKind kind : kAllDofKinds) post.set_force(post.dof("post:last", kind), 10.0 + static_cast<int>(kind));
+  SceneRun whole(frame + loads);
+  ASSERT_TRUE(whole.run().completed);
+  post.advance_to(0.02);
+  const Vector& x = whole.simulation().state().x;
+  for (const DofKind kind : kAllDofKinds) {
+    const Index dof = whole.dof("post:last", kind);
+    ASSERT_GT(std::abs(x[dof]), 1e-7);
+    EXPECT_NEAR(post.displacement(post.dof("post:last", kind)), x[dof], 1e-10 * x.lpNorm<Eigen::Infinity>())
+        << name_of(kind);
+  }
+  EXPECT_THROW(Structure::from_toml(frame, with_plugins({.forced = {"post:last", "post:first.uz"}})), InputError);
+}
+
 /// A force in a straight line is a ramp: x = (t - sin(w t)/w) slope/k without damping.
 TEST(Structure, FollowsForcesInStraightLinesExactly) {
   Structure mass = Structure::from_toml(

@@ -93,6 +93,26 @@ TEST(Cantilever, converges_with_shear_to_timoshenko) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1);
 }
 
+/// A stubby cantilever, 5 times as long as it is high: a third of the sixth frequency by Euler and Bernoulli is wrong.
+/// Errors of order l^2, so that two meshes give the limit, and three say how good it is.
+TEST(StubbyCantilever, has_the_exact_frequencies_of_timoshenko) {
+  const auto strong = [](const std::string& theory, int elements) {
+    std::string scene = cantilever("[[0, 0, 0], [0.3, 0, 0]]", "", theory);
+    scene.replace(scene.find("elements = 20"), 13, "elements = " + std::to_string(elements));
+    scene += "[[support]]\nnodes = \"arm:all\"\nfix = [\"ux\", \"uz\", \"rx\", \"ry\"]\n";
+    return frequencies(scene, 3);
+  };
+  const auto coarse = strong("timoshenko", 40), middle = strong("timoshenko", 80), fine = strong("timoshenko", 160);
+  const double exact[] = {540.1816525855, 2909.1983388789, 6924.4415676};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(std::log2((coarse[i] - exact[i]) / (middle[i] - exact[i])), 2.0, 0.02) << i;
+    EXPECT_NEAR((4.0 * fine[i] - middle[i]) / 3.0, exact[i], 1e-6 * exact[i]) << i;
+  }
+  const auto euler = strong("euler", 40);
+  EXPECT_NEAR(euler[0], 557.011063, 1e-6 * 557.0);
+  EXPECT_NEAR(euler[1], 3490.728746, 2e-6 * 3490.0);
+}
+
 /// NAFEMS test 5, a deep pinned beam: a w^4 - b w^2 + c = 0 in Timoshenko's theory.
 TEST(DeepBeam, has_the_frequencies_of_timoshenko) {
   const std::string scene = R"(
@@ -121,8 +141,34 @@ type = "newmark"
 time_step = 1e-4
 end_time = 1e-3
 )";
-  // Errors of order l^2: 160 elements leave some 1e-4 in the fourth.
-  expect_all(frequencies(scene, 4), {42.6087172539, 147.7860120041, 282.3633846355, 428.4717673861}, 3e-4);
+  // Errors of order l^2: the limit of two meshes.
+  const auto mesh = [&](int elements) {
+    std::string finer = scene;
+    finer.replace(finer.find("elements = 160"), 14, "elements = " + std::to_string(elements));
+    return frequencies(finer, 4);
+  };
+  const auto coarse = mesh(80), fine = mesh(160);
+  const double exact[] = {42.6087172539, 147.7860120041, 282.3633846355, 428.4717673861};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(std::log2((coarse[i] - exact[i]) / (fine[i] - exact[i])), 2.0, 0.02) << i;
+    EXPECT_NEAR((4.0 * fine[i] - coarse[i]) / 3.0, exact[i], 1e-7 * exact[i]) << i;
+  }
+}
+
+/// The same bar clamped and free along its axis: sqrt(E/rho)/(4 L).
+TEST(DeepBeam, has_the_axial_frequency_of_a_bar) {
+  std::string scene = cantilever("[[0, 0, 0], [10, 0, 0]]", "");
+  scene.replace(scene.find("young_modulus"),
+                scene.find("\n", scene.find("young_modulus")) - scene.find("young_modulus"), "young_modulus = 2e11");
+  scene.replace(scene.find("density"), scene.find("\n", scene.find("density")) - scene.find("density"),
+                "density = 8000.0");
+  scene += "[[support]]\nnodes = \"arm:all\"\nfix = [\"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]\n";
+  const auto mesh = [&](int elements) {
+    std::string finer = scene;
+    finer.replace(finer.find("elements = 20"), 13, "elements = " + std::to_string(elements));
+    return frequencies(finer, 1)[0];
+  };
+  EXPECT_NEAR((4.0 * mesh(20) - mesh(10)) / 3.0, 125.0, 1e-6 * 125.0);
 }
 
 std::string tied_bar(double preload, int elements, const std::string& more = "") {
