@@ -9,75 +9,15 @@
 #include <butee/linalg/linear_solver.hpp>
 #include <gtest/gtest.h>
 
+#include "rotors.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::rotor_test {
 namespace {
 
+using namespace rotors;
+
 using std::numbers::pi;
-
-/// The references are printed with 8 to 10 digits.
-constexpr double kPrinted = 2e-8;
-constexpr double kRpm = pi / 30.0;
-
-std::string steel(const std::string& theory, int elements, double length, double radius, const std::string& material) {
-  return R"(
-schema = 1
-[material.steel]
-)" + material +
-         R"(
-[section.round]
-shape  = "circle"
-radius = )" +
-         std::to_string(radius) + R"(
-[[element]]
-type     = "beam"
-name     = "shaft"
-motion   = "lateral"
-theory   = ")" +
-         theory + R"("
-material = "steel"
-section  = "round"
-length   = )" +
-         std::to_string(length) + R"(
-elements = )" +
-         std::to_string(elements) + "\n";
-}
-
-std::string disc(const std::string& at, double mass, double diametral, double polar) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "[[element]]\ntype = \"disc\"\nnode = \"shaft" << at << "\"\nmass = " << mass
-       << "\ndiametral_inertia = " << diametral << "\npolar_inertia = " << polar << "\n";
-  return text.str();
-}
-
-std::string bearing(const std::string& at, double kyy, double kzz, double cyy = 0.0, double czz = 0.0) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "[[element]]\ntype = \"bearing\"\nnode = \"shaft" << at << "\"\nstiffness = [[" << kyy << ", 0], [0, " << kzz
-       << "]]\ndamping = [[" << cyy << ", 0], [0, " << czz << "]]\n";
-  return text.str();
-}
-
-std::string turning(double speed) {
-  std::ostringstream text;
-  text.precision(17);
-  text << "[rotation]\nspeed = " << speed << "\n[integrator]\ntype = \"rk4\"\ntime_step = 1e-6\nend_time = 1e-3\n";
-  return text.str();
-}
-
-std::vector<double> frequencies(const std::vector<dynamics::WhirlMode>& modes) {
-  std::vector<double> list;
-  for (const auto& mode : modes) list.push_back(mode.frequency());
-  return list;
-}
-
-void expect_all(const std::vector<double>& found, const std::vector<double>& wanted, double unit, double tolerance) {
-  ASSERT_GE(found.size(), wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    EXPECT_NEAR(found[i], wanted[i] * unit, tolerance * wanted[i] * unit) << "mode " << i + 1;
-}
 
 /// M. I. Friswell, J. E. T. Penny, S. D. Garvey, A. W. Lees, Dynamics of Rotating Machines, 2010, examples 5.9.1 to
 /// 5.9.9; the digits beyond those printed there are of an independent program with the same elements.
@@ -280,93 +220,6 @@ end_time = 1.0
   EXPECT_TRUE(run.run().completed);
   EXPECT_GT(energy.work(), 1e-4);
   EXPECT_LT(std::abs(energy.balance_error()), 1e-9);
-}
-
-/// The run-up of a Jeffcott rotor: r'' + 2 z w0 r' + w0^2 r = e (W^2 - i W') exp(i phi), phi = a t^2/2, from rest.
-class RunUp : public testing::TestWithParam<const char*> {};
-
-TEST_P(RunUp, passes_the_resonance) {
-  constexpr double kW0 = 20.0 * pi;
-  std::ostringstream scene;
-  scene.precision(17);
-  scene << "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"rotor\"\nmass = 1.0\n"
-        << "[[element]]\ntype = \"bearing\"\nnode = \"rotor\"\nstiffness = [[" << kW0 * kW0 << ", 0], [0, " << kW0 * kW0
-        << "]]\ndamping = [[" << 0.04 * kW0 << ", 0], [0, " << 0.04 * kW0 << "]]\n"
-        << "[rotation]\nspeed = { type = \"ramp\", to = " << 100.0 * pi << ", end = 10.0 }\n"
-        << "[[load]]\ntype = \"unbalance\"\nnode = \"rotor\"\nmoment = 1e-4\n"
-        << "[integrator]\ntype = \"" << GetParam() << "\"\nend_time = 3.0\n[integrator.rodas4]\ntolerance = 1e-8\n"
-        << "[integrator.dopri5]\ntolerance = 1e-8\n[integrator.extrapolation8]\ntolerance = 1e-8\n[integrator.auto]\n"
-           "tolerance = 1e-8\n";
-  SceneRun run(scene.str());
-  const std::vector<double> times = {1.0, 2.0, 2.2, 2.5, 3.0};
-  Sampler y(run.dof("rotor", DofKind::uy), times), z(run.dof("rotor", DofKind::uz), times);
-  run.simulation().add(y);
-  run.simulation().add(z);
-  ASSERT_TRUE(run.run().completed);
-  // By the Faddeeva function.
-  const double radius[] = {3.3051780460e-5, 5.7474092598e-4, 1.0184387964e-3, 8.1198775103e-4, 5.4410342818e-4};
-  constexpr double kPeak = 12.1674717e-4;
-  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(std::hypot(y.x[i], z.x[i]), radius[i], 1e-7 * kPeak);
-}
-
-INSTANTIATE_TEST_SUITE_P(methods, RunUp, testing::Values("rodas4", "dopri5", "extrapolation8", "exact", "auto"));
-
-std::string gyroscopic_run_up() {
-  return steel("rayleigh", 6, 1.0, 0.02, "young_modulus = 2.1e11\ndensity = 7800.0") + disc(":4", 10.0, 0.2, 0.39) +
-         "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"u\", \"w\"]\n"
-         "[damping]\nmass_proportional = 1.0\nstiffness_proportional = 1e-5\nrotating_stiffness_proportional = 2e-5\n"
-         "[rotation]\nspeed = { type = \"ramp\", from = 50.0, to = 500.0, end = 0.05 }\n"
-         "[[load]]\ntype = \"unbalance\"\nnode = \"shaft:2\"\nmoment = 1e-2\nphase = 0.3\n"
-         "[integrator]\nend_time = 0.08\n";
-}
-
-/// The equations of motion hold at the end of a long implicit step, at whatever speed the matrices were factorized
-/// before.
-TEST(RunUp, effective_equations_are_those_of_their_instant) {
-  SceneRun run(gyroscopic_run_up(), {"integrator.type=rodas4"});
-  dynamics::Dynamics& dynamics = run.dynamics();
-  const Index n = dynamics.size();
-  constexpr double kOnV = 0.02, kOnX = 1e-4;
-  const Vector x = Vector::LinSpaced(n, -1e-3, 2e-3), v = Vector::LinSpaced(n, 0.3, -0.2), none(0);
-  Vector a(n), force(n), inertia(n);
-  for (const double t : {0.01, 0.03, 0.06}) {
-    ASSERT_TRUE(dynamics.solve_secant(t, kOnV, kOnX, none, none, x, v, a));
-    dynamics.total_force(t, x + kOnX * a, v + kOnV * a, force);
-    dynamics.inertia_force(a, inertia);
-    // Rounding of forces that cancel.
-    EXPECT_LT((force - inertia).norm(), 1e-9 * (inertia.norm() + run.system().stiffness.norm() * x.norm()));
-  }
-}
-
-/// With gyroscopic moments a run-up adds Omega' G to K, and rotating damping Omega W: methods of different families
-/// agree, and the energy balance holds with the work of the drive.
-TEST(RunUp, of_a_gyroscopic_shaft_agrees_between_methods) {
-  const std::string scene = gyroscopic_run_up();
-  std::vector<std::vector<double>> ends;
-  for (const char* method : {"rodas4", "dopri5", "extrapolation8"}) {
-    SceneRun run(scene, {std::string("integrator.type=") + method, "integrator.tolerance=1e-8"});
-    record::EnergyRecorder energy(run.dynamics());
-    run.simulation().add(energy);
-    ASSERT_TRUE(run.run().completed) << method;
-    EXPECT_LT(std::abs(energy.balance_error()), 1e-6) << method;
-    const Vector& x = run.simulation().state().x;
-    ends.emplace_back(x.begin(), x.end());
-  }
-  EXPECT_LT(relative_rms(ends[1], ends[0]), 1e-6);
-  EXPECT_LT(relative_rms(ends[2], ends[0]), 1e-6);
-  SceneRun exact(scene, {"integrator.type=exact"});
-  ASSERT_TRUE(exact.run().completed);
-  const Vector& found = exact.simulation().state().x;
-  EXPECT_LT(relative_rms({found.begin(), found.end()}, ends[2]), 1e-7);
-  // Newton's iteration would end right with a factorization of another speed; the linear step of newmark_modified would
-  // not.
-  for (const char* method : {"newmark", "newmark_modified"}) {
-    SceneRun run(scene, {std::string("integrator.type=") + method, "integrator.time_step=1e-5"});
-    ASSERT_GT(run.system().size(), linalg::LinearSolver::kTiny);
-    ASSERT_TRUE(run.run().completed) << method;
-    const Vector& x = run.simulation().state().x;
-    EXPECT_LT(relative_rms({x.begin(), x.end()}, ends[0]), 1e-3) << method;
-  }
 }
 
 /// Modal damping of a shaft that turns is that of the modes at rest: free motion is a sum of the damped modes that

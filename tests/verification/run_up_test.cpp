@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <tuple>
+
+#include <butee/record/energy.hpp>
+#include <gtest/gtest.h>
+
+#include "rotors.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::run_up_test {
+namespace {
+
+using namespace rotors;
+
+/// The run-up of a Jeffcott rotor: r'' + 2 z w0 r' + w0^2 r = e (W^2 - i W') exp(i phi), phi = a t^2/2, from rest.
+class RunUp : public testing::TestWithParam<const char*> {
+ protected:
+  /// |r| at `times` (s), m; the speed goes up by `rate` turns a second in a second.
+  static std::vector<double> radius(double rate, const std::vector<double>& times) {
+    constexpr double kW0 = 20.0 * pi;
+    std::ostringstream scene;
+    scene.precision(17);
+    scene << "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"rotor\"\nmass = 1.0\n"
+          << "[[element]]\ntype = \"bearing\"\nnode = \"rotor\"\nstiffness = [[" << kW0 * kW0 << ", 0], [0, "
+          << kW0 * kW0 << "]]\ndamping = [[" << 0.04 * kW0 << ", 0], [0, " << 0.04 * kW0 << "]]\n"
+          << "[rotation]\nspeed = { type = \"ramp\", to = " << 20.0 * pi * rate << ", end = 10.0 }\n"
+          << "[[load]]\ntype = \"unbalance\"\nnode = \"rotor\"\nmoment = 1e-4\n"
+          << "[integrator]\ntype = \"" << GetParam() << "\"\nend_time = " << times.back()
+          << "\n[integrator.rodas4]\ntolerance = 1e-8\n"
+          << "[integrator.dopri5]\ntolerance = 1e-8\n[integrator.extrapolation8]\ntolerance = 1e-8\n"
+          << "[integrator.auto]\ntolerance = 1e-8\n";
+    SceneRun run(scene.str());
+    Sampler y(run.dof("rotor", DofKind::uy), times), z(run.dof("rotor", DofKind::uz), times);
+    run.simulation().add(y);
+    run.simulation().add(z);
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    std::vector<double> all;
+    for (std::size_t i = 0; i < times.size(); ++i) all.push_back(std::hypot(y.x.at(i), z.x.at(i)));
+    return all;
+  }
+  /// Times around a peak, so near that a parabola's top is 1e-9 of it above the highest.
+  static std::vector<double> around(double peak) {
+    std::vector<double> times;
+    for (int i = -40; i <= 40; ++i) times.push_back(peak + 5e-5 * i);
+    return times;
+  }
+};
+
+constexpr double kPeak = 12.1674717e-4, kPeakOfFast = 7.5681051e-4;  // m
+/// Of the peak; the references are printed with ten digits, the peaks with nine.
+constexpr double kRunUp = 1e-7;
+
+/// By the Faddeeva function.
+TEST_P(RunUp, passes_the_resonance) {
+  const auto slow = radius(5.0, {1.0, 2.0, 2.2, 2.5, 3.0});
+  const double of_slow[] = {3.3051780460e-5, 5.7474092598e-4, 1.0184387964e-3, 8.1198775103e-4, 5.4410342818e-4};
+  for (std::size_t i = 0; i < slow.size(); ++i) EXPECT_NEAR(slow[i], of_slow[i], kRunUp * kPeak) << i;
+  const auto fast = radius(20.0, {0.3, 0.5, 0.55, 0.6, 0.8});
+  const double of_fast[] = {4.8772949e-5, 2.8545728822e-4, 4.1874272312e-4, 5.7889674149e-4, 3.2109752459e-4};
+  for (std::size_t i = 0; i < fast.size(); ++i) EXPECT_NEAR(fast[i], of_fast[i], kRunUp * kPeakOfFast) << i;
+}
+
+TEST_P(RunUp, has_its_peak_after_the_resonance) {
+  for (const auto& [rate, peak, t] : {std::tuple(5.0, kPeak, 2.3427577), {20.0, kPeakOfFast, 0.6841809}}) {
+    const auto times = around(t), found = radius(rate, times);
+    const auto top = std::max_element(found.begin(), found.end());
+    EXPECT_NEAR(*top, peak, kRunUp * peak) << rate;
+    EXPECT_NEAR(times[static_cast<std::size_t>(top - found.begin())], t, 2.0 * 5e-5) << rate;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(methods, RunUp, testing::Values("rodas4", "dopri5", "extrapolation8", "exact", "auto"));
+
+std::string gyroscopic_run_up() {
+  return steel("rayleigh", 6, 1.0, 0.02, "young_modulus = 2.1e11\ndensity = 7800.0") + disc(":4", 10.0, 0.2, 0.39) +
+         "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"u\", \"w\"]\n"
+         "[damping]\nmass_proportional = 1.0\nstiffness_proportional = 1e-5\nrotating_stiffness_proportional = 2e-5\n"
+         "[rotation]\nspeed = { type = \"ramp\", from = 50.0, to = 500.0, end = 0.05 }\n"
+         "[[load]]\ntype = \"unbalance\"\nnode = \"shaft:2\"\nmoment = 1e-2\nphase = 0.3\n"
+         "[integrator]\nend_time = 0.08\n";
+}
+
+/// The equations of motion hold at the end of a long implicit step, at whatever speed the matrices were factorized
+/// before.
+TEST(RunUp, effective_equations_are_those_of_their_instant) {
+  SceneRun run(gyroscopic_run_up(), {"integrator.type=rodas4"});
+  dynamics::Dynamics& dynamics = run.dynamics();
+  const Index n = dynamics.size();
+  constexpr double kOnV = 0.02, kOnX = 1e-4;
+  const Vector x = Vector::LinSpaced(n, -1e-3, 2e-3), v = Vector::LinSpaced(n, 0.3, -0.2), none(0);
+  Vector a(n), force(n), inertia(n);
+  for (const double t : {0.01, 0.03, 0.06}) {
+    ASSERT_TRUE(dynamics.solve_secant(t, kOnV, kOnX, none, none, x, v, a));
+    dynamics.total_force(t, x + kOnX * a, v + kOnV * a, force);
+    dynamics.inertia_force(a, inertia);
+    // Rounding of forces that cancel.
+    EXPECT_LT((force - inertia).norm(), 1e-9 * (inertia.norm() + run.system().stiffness.norm() * x.norm()));
+  }
+}
+
+/// With gyroscopic moments a run-up adds Omega' G to K, and rotating damping Omega W: methods of different families
+/// agree, and the energy balance holds with the work of the drive.
+TEST(RunUp, of_a_gyroscopic_shaft_agrees_between_methods) {
+  const std::string scene = gyroscopic_run_up();
+  std::vector<std::vector<double>> ends;
+  for (const char* method : {"rodas4", "dopri5", "extrapolation8"}) {
+    SceneRun run(scene, {std::string("integrator.type=") + method, "integrator.tolerance=1e-8"});
+    record::EnergyRecorder energy(run.dynamics());
+    run.simulation().add(energy);
+    ASSERT_TRUE(run.run().completed) << method;
+    EXPECT_LT(std::abs(energy.balance_error()), 1e-6) << method;
+    const Vector& x = run.simulation().state().x;
+    ends.emplace_back(x.begin(), x.end());
+  }
+  EXPECT_LT(relative_rms(ends[1], ends[0]), 1e-6);
+  EXPECT_LT(relative_rms(ends[2], ends[0]), 1e-6);
+  SceneRun exact(scene, {"integrator.type=exact"});
+  ASSERT_TRUE(exact.run().completed);
+  const Vector& found = exact.simulation().state().x;
+  EXPECT_LT(relative_rms({found.begin(), found.end()}, ends[2]), 1e-7);
+  // Newton's iteration would end right with a factorization of another speed; the linear step of newmark_modified would
+  // not.
+  for (const char* method : {"newmark", "newmark_modified"}) {
+    SceneRun run(scene, {std::string("integrator.type=") + method, "integrator.time_step=1e-5"});
+    ASSERT_GT(run.system().size(), linalg::LinearSolver::kTiny);
+    ASSERT_TRUE(run.run().completed) << method;
+    const Vector& x = run.simulation().state().x;
+    EXPECT_LT(relative_rms({x.begin(), x.end()}, ends[0]), 1e-3) << method;
+  }
+}
+
+}  // namespace
+}  // namespace butee::test::run_up_test
