@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
@@ -55,9 +57,33 @@ class NarrowFactor {
   bool is_positive_ = true;
 };
 
-}  // namespace
+/// The part that each row belongs to, numbered from 0: rows that an entry other than zero connects share one.
+std::vector<Index> parts_of(const SparseMatrix& stiffness, const SparseMatrix& mass, Index& count) {
+  std::vector<Index> root(static_cast<std::size_t>(mass.rows()));
+  std::iota(root.begin(), root.end(), Index{0});
+  const auto find = [&root](Index i) {
+    while (root[static_cast<std::size_t>(i)] != i)
+      i = root[static_cast<std::size_t>(i)] = root[static_cast<std::size_t>(root[static_cast<std::size_t>(i)])];
+    return i;
+  };
+  for (const SparseMatrix* matrix : {&stiffness, &mass})
+    for (Index j = 0; j < matrix->outerSize(); ++j)
+      for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) {
+        if (entry.value() == 0.0) continue;
+        const Index a = find(entry.row()), b = find(entry.col());
+        root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      }
+  // A root is the first row of its part.
+  count = 0;
+  std::vector<Index> part(root.size());
+  for (std::size_t i = 0; i < root.size(); ++i) {
+    const Index first = find(static_cast<Index>(i));
+    part[i] = first == static_cast<Index>(i) ? count++ : part[static_cast<std::size_t>(first)];
+  }
+  return part;
+}
 
-std::optional<Pairs> dense_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass) {
+std::optional<Pairs> pairs_of_part(const SparseMatrix& stiffness, const SparseMatrix& mass) {
   const NarrowFactor factor(mass);
   if (!factor.is_positive()) return std::nullopt;
   Rows x(stiffness);
@@ -69,6 +95,42 @@ std::optional<Pairs> dense_pairs(const SparseMatrix& stiffness, const SparseMatr
   x = solver.eigenvectors();
   factor.solve_transposed(x);
   return Pairs{solver.eigenvalues(), x};
+}
+
+/// A vector that is other than zero in one part alone: equal values of several parts do not mix them by rounding.
+std::optional<Pairs> pairs_of_parts(const SparseMatrix& stiffness, const SparseMatrix& mass,
+                                    const std::vector<Index>& part, Index count) {
+  const Index size = mass.rows();
+  Pairs all{Vector(size), Eigen::MatrixXd::Zero(size, size)};
+  Index filled = 0;
+  for (Index k = 0; k < count; ++k) {
+    std::vector<Index> rows;
+    for (Index i = 0; i < size; ++i)
+      if (part[static_cast<std::size_t>(i)] == k) rows.push_back(i);
+    const auto of_part = static_cast<Index>(rows.size());
+    std::vector<Eigen::Triplet<double>> taken;
+    for (Index j = 0; j < of_part; ++j) taken.emplace_back(rows[static_cast<std::size_t>(j)], j, 1.0);
+    SparseMatrix take(size, of_part);
+    take.setFromTriplets(taken.begin(), taken.end());
+    const auto pairs = pairs_of_part(take.transpose() * stiffness * take, take.transpose() * mass * take);
+    if (!pairs) return std::nullopt;
+    all.values.segment(filled, of_part) = pairs->values;
+    all.vectors(rows, Eigen::seqN(filled, of_part)) = pairs->vectors;
+    filled += of_part;
+  }
+  std::vector<Index> order(static_cast<std::size_t>(size));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return all.values[a] < all.values[b]; });
+  return Pairs{all.values(order), all.vectors(Eigen::all, order)};
+}
+
+}  // namespace
+
+std::optional<Pairs> dense_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass) {
+  Index count = 0;
+  const std::vector<Index> part = parts_of(stiffness, mass, count);
+  if (count > 1) return pairs_of_parts(stiffness, mass, part, count);
+  return pairs_of_part(stiffness, mass);
 }
 
 std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {

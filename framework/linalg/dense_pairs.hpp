@@ -21,7 +21,8 @@ struct Pairs {
 /// iteration did not converge. For this project, not installed: the solvers of Eigen are compiled once, here.
 BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 
-/// The same of sparse matrices, computed densely; the faster, the nearer M is to its diagonal.
+/// The same of sparse matrices, computed densely; the faster, the nearer M is to its diagonal. A vector is other than
+/// zero in one connected part of the matrices alone, such as one of two planes.
 BUTEE_EXPORT std::optional<Pairs> dense_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass);
 
 /// The eigenvalues alone.

@@ -68,6 +68,119 @@ TEST(SpacePlot, ShowsOrbitsRunUpAndFullSpectrum) {
   EXPECT_TRUE(holds(still.errors, "beams in space and the displacements of all nodes")) << still.errors;
 }
 
+/// A shaft that strikes a ring, and a lone body beside it between two stops and a plane.
+constexpr const char* kRubbing = R"(schema = 1
+[material.steel]
+young_modulus = 2e11
+density = 7850.0
+[section.round]
+shape = "circle"
+radius = 0.01
+[[element]]
+type = "beam"
+name = "tube"
+motion = "lateral"
+material = "steel"
+section = "round"
+length = 4.0
+elements = 4
+[[support]]
+nodes = ["tube:first", "tube:last"]
+fix = ["uy", "uz"]
+[[contact]]
+type = "ring"
+nodes = ["tube:1", "tube:2", "tube:3"]
+gaps = [0.5, 1e-3, 2e-3]
+centre = [1e-4, 0.0]
+stiffness = 1e5
+friction = { coefficient = 0.2, slip_speed = 1e-2 }
+[[contact]]
+type = "stop"
+nodes = "tube:3"
+dof = "uz"
+gap = 3e-3
+stiffness = 1e5
+[[load]]
+type = "harmonic"
+node = "tube:2"
+amplitude = 40.0
+angular_frequency = 20.0
+[[load]]
+type = "harmonic"
+node = "tube:2"
+dof = "uz"
+amplitude = 40.0
+angular_frequency = 20.0
+phase = 1.57
+[integrator]
+tolerance = 1e-4
+end_time = 1.0
+[output]
+interval = 0.005
+impacts = true
+[[output.probe]]
+label = "middle"
+node = "tube:2"
+quantities = ["uy", "uz"]
+[[output.probe]]
+label = "side"
+node = "tube:1"
+quantities = ["uy", "uz"]
+[[output.probe]]
+label = "other"
+node = "tube:3"
+quantities = ["uy", "uz"]
+)";
+
+TEST(SpacePlot, ShowsRingsContactsAndWear) {
+  const TemporaryFolder folder;
+  folder.write("tube.toml", kRubbing);
+  const Outcome run = run_program({"run", "tube.toml", "-q"}, folder.path());
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const Outcome plot =
+      run_program({"plot", "tube-results", "--format", "script", "--kind", "orbit,contact-map,wear"}, folder.path());
+  ASSERT_EQ(plot.status, 0) << plot.errors;
+  const auto script = [&](const std::string& name) {
+    return read_file(folder.file("tube-results/plots/" + name + ".gp"));
+  };
+  // 1 mm around the centre at 0.1 mm.
+  EXPECT_TRUE(holds(script("orbit-middle"), "# ring 1 mm\n$curve1 << EOD\n1.1 0\n")) << script("orbit-middle");
+  EXPECT_TRUE(holds(script("orbit-middle"), "with lines dt 2 lw 2 lc rgb '#222222' title 'ring 1 mm'"));
+  EXPECT_TRUE(holds(script("orbit-side"), "ring 500 mm (out of sight)")) << script("orbit-side");
+  EXPECT_TRUE(holds(script("orbit-other"), "gap of uz 3 mm")) << script("orbit-other");
+  // A row for each closing, at its node's place, from t_in on.
+  const std::string impacts = read_file(folder.file("tube-results/impacts.csv")), map = script("contact-map");
+  const auto count = [](const std::string& text, const std::string& part) {
+    int found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  const auto of_middle = count(impacts, "\ntube:2,");
+  ASSERT_GT(of_middle, 2);
+  const std::string data = map.substr(map.find("<< EOD\n") + 6, map.find("\nEOD") - map.find("<< EOD\n") - 6);
+  EXPECT_EQ(count(data, "\n"), count(impacts, "\ntube:")) << map;
+  EXPECT_EQ(count(data, " 2 "), of_middle) << map;
+  EXPECT_TRUE(holds(map, "set ylabel 'x / m'"));
+  EXPECT_TRUE(holds(map, "largest force of a contact / "));
+  const std::string wear = script("wear");
+  EXPECT_TRUE(holds(wear, "\n1 0 0\n")) << wear;  // never touches
+  EXPECT_TRUE(holds(wear, "with impulses") && holds(wear, "share of the time in contact")) << wear;
+
+  // Lone bodies have names on the axis; nothing rubs.
+  folder.write("body.toml",
+               "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 1.0\n[[contact]]\ntype = "
+               "\"stop\"\nnodes = \"ball\"\ngap = 0.01\nstiffness = 1e4\n[initial]\nvelocity = [{ nodes = "
+               "\"ball\", value = 1.0 }]\n[integrator]\nend_time = 1.0\n[output]\nimpacts = true\n");
+  ASSERT_EQ(run_program({"run", "body.toml", "-q"}, folder.path()).status, 0);
+  const Outcome named =
+      run_program({"plot", "body-results", "--format", "script", "--kind", "contact-map"}, folder.path());
+  ASSERT_EQ(named.status, 0) << named.errors;
+  EXPECT_TRUE(holds(read_file(folder.file("body-results/plots/contact-map.gp")), "ytics noenhanced ('ball' 1)"));
+  const Outcome none = run_program({"plot", "body-results", "--format", "script", "--kind", "wear"}, folder.path());
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(holds(none.errors, "dissipation or friction, that touch")) << none.errors;
+}
+
 TEST(SpacePlot, FullSpectrumTellsForwardFromBackward) {
   std::vector<double> t, y, z;
   for (int i = 0; i < 1000; ++i) {

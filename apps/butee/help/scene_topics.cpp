@@ -113,8 +113,9 @@ with N and T: in space of round sections; bending_stress that of bending along u
 gyroscopic moments, weight and the motion of the base.
 
 `butee modes SCENE --speed OMEGA` prints damped, whirling modes at a speed (rad/s), `--campbell FROM TO N` the critical
-speeds, with -o and --plot the Campbell diagram. `butee plot` draws orbits (uz over uy), run-up (the radius over the speed),
-full-spectrum (forward and backward whirl) and frame (the deformed structure in space).
+speeds, with -o and --plot the Campbell diagram. `butee plot` draws orbits (uz over uy, in the rings and between the stops
+of the node), run-up (the radius over the speed), full-spectrum (forward and backward whirl), frame (the deformed structure in
+space), contact-map (which contact was closed when, over time and length) and wear (the powers of wear.csv over the length).
 Where shafts turn or bearings have cross terms the matrices are not symmetric. rodas4, dopri5, extrapolation8, exact and all
 methods with fixed steps take them, auto chooses among them, exponential refuses them.
 )";

@@ -42,6 +42,7 @@ struct Extent {
 
 std::string pen_of(const Curve& curve) {
   if (curve.points) return " with points pt 7 ps 0.6 lc rgb '#222222'";
+  if (curve.dashed) return " with lines dt 2 lw 2 lc rgb '#222222'";
   const std::string colour = gnuplot::kColours[curve.colour % gnuplot::kColours.size()];
   return " with lines lw " + (curve.wide ? std::string("4.5") : std::string("1.3")) + " lc rgb '" + colour + "'";
 }

@@ -27,6 +27,7 @@ struct Curve {
   bool points = false;  ///< are not to be joined
   bool wide = false;    ///< another one is drawn over it
   bool path = false;    ///< x goes to and fro: a curve in the plane
+  bool dashed = false;  ///< the edge of something that does not move
 };
 
 /// A dashed line across the picture, in units of SI.

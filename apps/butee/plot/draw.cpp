@@ -8,6 +8,7 @@
 #include <butee/core/text.hpp>
 
 #include "../gnuplot.hpp"
+#include "contact_pictures.hpp"
 #include "frame.hpp"
 #include "shape.hpp"
 
@@ -87,6 +88,11 @@ std::vector<std::string> draw(const Request& request, const plugin::Catalogue& c
         if (chosen || results.size() == 1)
           for (Picture& picture : shapes(kind, result, catalogue, request.window, results.size() > 1, chosen))
             found.push_back(std::move(picture));
+    } else if (kind == Kind::contact_map || kind == Kind::wear) {
+      for (const Result& result : results)
+        for (Picture& picture : kind == Kind::wear ? wear_picture(result, results.size() > 1)
+                                                   : contact_map(result, request.window, results.size() > 1))
+          found.push_back(std::move(picture));
     } else {
       found = pictures(kind, results, request.probes);
     }

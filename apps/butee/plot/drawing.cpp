@@ -4,14 +4,11 @@
 #include <set>
 
 namespace butee::app::plot {
-namespace {
 
-std::string in_mm(double metres) {
+std::string length_text(double metres) {
   const Scale scale = scale_for(std::abs(metres), "m");
   return short_number(std::abs(metres) * scale.factor) + " " + scale.unit;
 }
-
-}  // namespace
 
 std::string title_of(const std::vector<Result>& results) {
   std::set<std::string> titles;
@@ -30,7 +27,7 @@ std::vector<Mark> gap_marks(const Item& item) {
   std::vector<Mark> marks;
   for (const double gap : all) {
     const bool both = all.contains(-gap);
-    const std::string text = "gap " + std::string(both && gap != 0.0 ? "±" : gap < 0.0 ? "-" : "") + in_mm(gap);
+    const std::string text = "gap " + std::string(both && gap != 0.0 ? "±" : gap < 0.0 ? "-" : "") + length_text(gap);
     marks.push_back({gap, both && gap < 0.0 ? "" : text});
   }
   return marks;

@@ -23,6 +23,9 @@ struct Item {
 /// The scene's title, or the runs' names where they are of several scenes.
 std::string title_of(const std::vector<Result>& results);
 
+/// |length| with a unit in which it is easy to read.
+std::string length_text(double metres);
+
 /// What an axis shows, with the probe where the legend names the runs.
 std::string axis_name(const Drawing& drawing, const Item& item, const std::string& what);
 /// A curve's name in the legend.

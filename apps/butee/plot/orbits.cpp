@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "spectrum.hpp"
 
@@ -20,6 +21,35 @@ const std::vector<double>* along_z(const Item& item) {
   return displacement(item, "uz", "w");
 }
 
+constexpr int kCircle = 180;  ///< points of a ring
+
+/// The edges of rings and planes; those far beyond the orbit are named alone.
+void add_walls(const Item& item, double largest, Chart& chart) {
+  constexpr double kFar = 4.0;
+  for (const Probe& probe : item.result->probes) {
+    if (probe.label != item.label) continue;
+    for (const double gap : probe.gaps_z) chart.levels.push_back({gap, "gap of uz " + length_text(gap)});
+    for (const double gap : probe.gaps) chart.uprights.push_back({gap, "gap of uy " + length_text(gap)});
+    for (const Wall& wall : probe.walls) {
+      const std::string title = (wall.is_circle ? "ring " : "plane at ") + length_text(wall.distance);
+      if (std::abs(wall.distance) > kFar * largest) {
+        chart.levels.push_back({2.0 * kFar * wall.distance, title});
+        continue;
+      }
+      Curve edge{title, {}, {}, 0};
+      edge.path = edge.dashed = true;
+      for (int i = 0; i <= (wall.is_circle ? kCircle : 1); ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / kCircle, along = (2.0 * i - 1.0) * largest;
+        edge.x.push_back(wall.is_circle ? wall.y + wall.distance * std::cos(angle)
+                                        : wall.distance * wall.y - along * wall.z);
+        edge.y.push_back(wall.is_circle ? wall.z + wall.distance * std::sin(angle)
+                                        : wall.distance * wall.z + along * wall.y);
+      }
+      chart.curves.push_back(std::move(edge));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Chart> of_orbit(const Drawing& drawing) {
@@ -33,6 +63,7 @@ std::vector<Chart> of_orbit(const Drawing& drawing) {
     Curve curve{curve_name(drawing, item), *y, *z, place};
     curve.path = true;
     chart.curves.push_back(std::move(curve));
+    if (place == 0) add_walls(item, std::max(largest_of(*y), largest_of(*z)), chart);
     return true;
   });
 }

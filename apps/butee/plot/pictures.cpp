@@ -14,9 +14,9 @@
 namespace butee::app::plot {
 namespace {
 
-constexpr std::array<const char*, 16> kNames = {
-    "displacement", "force",  "step",   "energy",   "phase", "spectrum", "shape",         "moment",
-    "shear",        "stress", "spring", "reaction", "orbit", "run-up",   "full-spectrum", "frame"};
+constexpr std::array<const char*, 18> kNames = {
+    "displacement", "force",  "step",     "energy", "phase",  "spectrum",      "shape",       "moment", "shear",
+    "stress",       "spring", "reaction", "orbit",  "run-up", "full-spectrum", "contact-map", "wear",   "frame"};
 
 std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
                              const std::string& y_name, const std::string& y_unit, bool with_gaps) {
@@ -197,6 +197,8 @@ std::vector<Chart> charts(Kind kind, const Drawing& drawing) {
       return of_run_up(drawing);
     case Kind::full_spectrum:
       return of_full_spectrum(drawing);
+    case Kind::contact_map:
+    case Kind::wear:
     case Kind::shape:
     case Kind::frame:
       break;
@@ -257,6 +259,11 @@ std::string requirement_of(Kind kind) {
     case Kind::run_up:
       return "a speed of [rotation] that varies and a probe of uy and uz: [[output.probe]] with quantities = [\"uy\", "
              "\"uz\"]";
+    case Kind::contact_map:
+      return "closings of contacts: run again with --set output.impacts=true";
+    case Kind::wear:
+      return "wear: contacts in the plane, with dissipation or friction, that touch; run again with --set "
+             "output.impacts=true";
     case Kind::frame:
       return "beams in space and the displacements of all nodes: run again with --set 'output.formats=[\"csv\", "
              "\"hdf5\"]'";

@@ -22,6 +22,8 @@ enum class Kind {
   orbit,
   run_up,
   full_spectrum,
+  contact_map,
+  wear,
   frame
 };
 

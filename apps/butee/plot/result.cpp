@@ -11,6 +11,8 @@
 #include <butee/scene/read_output.hpp>
 #include <butee/scene/read_scene.hpp>
 
+#include "contact_places.hpp"
+
 namespace butee::app::plot {
 namespace {
 
@@ -28,21 +30,6 @@ std::string label_of(const std::string& folder) {
   if (name.size() > std::string(kEnding).size() && name.ends_with(kEnding))
     name.resize(name.size() - std::string(kEnding).size());
   return name;
-}
-
-/// The positions at which a node meets stops to ground.
-std::vector<double> gaps_of(const model::Model& model, model::NodeId node) {
-  std::vector<double> gaps;
-  const model::NodeId wanted = model.nodes.canonical(node);
-  for (const model::StopGroup& stops : model.stops) {
-    const auto on_node = [&](model::NodeId a) { return model.nodes.canonical(a) == wanted; };
-    if (!stops.b.empty() || std::none_of(stops.a.begin(), stops.a.end(), on_node)) continue;
-    if (stops.sides != model::Sides::positive) gaps.push_back(-stops.gap);
-    if (stops.sides != model::Sides::negative) gaps.push_back(stops.gap);
-  }
-  std::sort(gaps.begin(), gaps.end());
-  gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
-  return gaps;
 }
 
 /// Collects the frequencies of a load and of its course in time, Hz.
@@ -108,7 +95,9 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
   if (const auto energy = fs::path(folder) / "energy.csv"; fs::exists(energy))
     result.energy = read_table(energy.string(), window);
   for (const model::ProbeRequest& probe : output.probes)
-    result.probes.push_back({probe.label, gaps_of(scene.model, probe.node)});
+    result.probes.push_back({probe.label, gaps_of(scene.model, probe.node, DofKind::uy),
+                             gaps_of(scene.model, probe.node, DofKind::uz), walls_of(scene.model, probe.node)});
+  find_contact_places(scene.model, result);
   result.frequencies = frequencies_of(document);
   if (const auto* rotation = scene.model.rotation.get(); rotation != nullptr && !rotation->is_constant())
     for (const double t : result.history.times()) result.speeds.push_back(rotation->speed(t));
