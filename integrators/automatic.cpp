@@ -54,7 +54,9 @@ constexpr double kTight = 1e-5;
 /// leaves modes alone, else those with none, one or all stops closed are looked at.
 bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const Index contacts = dynamics.stop_count() + (dynamics.obstacles() != nullptr ? dynamics.obstacles()->size() : 0);
-  if (dynamics.size() > (tolerance <= kTight ? kFewAtTight : kFew) || contacts == 0 || !SmallSystem::obstacle_to(dynamics).empty()) return false;
+  if (dynamics.size() > (tolerance <= kTight ? kFewAtTight : kFew) || contacts == 0 ||
+      !SmallSystem::obstacle_to(dynamics).empty())
+    return false;
   try {
     const SmallSystem system(dynamics);
     std::vector<bool> closed(system.stops.size(), false);
@@ -98,6 +100,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     return {Method::piecewise, size + " with linear stops, so that the motion between impacts is known in closed form"};
   if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
     return {Method::dopri5, "contacts stick rigidly, which it locates and implicit methods cannot treat"};
+  if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
+    return {Method::dopri5, "the slope of jankowski's dashpot is infinite where a contact closes"};
   if (suits_collocation(dynamics))
     return {Method::exponential, "the linear part is exact in its damped modes, and contacts alone are approximated"};
   if (dynamics.obstacles() != nullptr)

@@ -176,7 +176,8 @@ void ModalCollocation::find_active(const State& from) {
   if (const dynamics::Obstacles* obstacles = dynamics().obstacles())
     for (Index i = 0; i < obstacles->size(); ++i) {
       const model::ObstacleGroup& group = obstacles->group_of(i);
-      const bool is_idle = group.shape != nullptr && !obstacles->phase(i).touches() &&
+      const bool is_idle = group.shape != nullptr &&
+                           obstacles->phase(i).normal == dynamics::ContactPhase::Normal::apart &&
                            group.law->is_piecewise_linear() && group.law->secant(-1.0) == 0.0;
       if (is_idle) continue;
       for (const auto& side : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})

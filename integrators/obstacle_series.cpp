@@ -49,7 +49,7 @@ void ObstacleSeries::begin(double t, ConstVectorRef x, ConstVectorRef v, double 
   for (Index i = 0; i < obstacles_.size(); ++i) {
     const ContactPhase phase = obstacles_.phase(i);
     const model::ObstacleGroup& group = obstacles_.group_of(i);
-    if (group.shape != nullptr && !phase.touches()) continue;
+    if (group.shape != nullptr && !phase.touches() && phase.normal != ContactPhase::Normal::pulling) continue;
     if (used == contacts_.size()) {
       contacts_.emplace_back();
       Contact& fresh = contacts_.back();
@@ -135,6 +135,7 @@ double ObstacleSeries::press(Contact& contact, Index k) {
 }
 
 double ObstacleSeries::rub(Contact& contact, Index k) {
+  if (contact.phase.normal == ContactPhase::Normal::pulling) return 0.0;
   const auto at = static_cast<std::size_t>(k);
   const model::ObstacleGroup& group = obstacles_.group_of(contact.index);
   const Friction& friction = group.friction;

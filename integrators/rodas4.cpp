@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "butee/core/error.hpp"
 #include "integrators/methods.hpp"
 #include "integrators/quintic.hpp"
 #include "integrators/rodas4_coefficients.hpp"
@@ -14,12 +15,23 @@ namespace {
 
 /// Measured in tests/conformance/error_constant_test.cpp.
 constexpr double kConstant = 0.57, kKink = 10.0;
+
 }  // namespace
+
+bool has_infinite_slope(const dynamics::Obstacles& obstacles) {
+  for (Index i = 0; i < obstacles.size(); ++i)
+    if (obstacles.group_of(i).damping.kind == model::ImpactDamping::Kind::jankowski) return true;
+  return false;
+}
 
 Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
       control_(dynamics, goal, {4.0, 4.0, kConstant, kKink}, LocalErrorControl::Steps::ladder),
       solver_(dynamics.effective(), dynamics.obstacles()) {
+  if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
+    throw InputError(
+        "integrator.type: rodas4 takes derivatives of forces, and that of jankowski's dashpot is infinite where the "
+        "contact closes; take dopri5 or extrapolation8, or auto, which chooses among them");
   for (std::size_t i = 0; i < kStages; ++i) p_[i] = q_[i] = Vector::Zero(dynamics.size());
   work_ = other_ = residual_v_ = rate_ = Vector::Zero(dynamics.size());
   stop_displacement_ = stop_force_ = tangent_ = stop_work_ = Vector::Zero(dynamics.stop_count());

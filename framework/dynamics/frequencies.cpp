@@ -96,6 +96,31 @@ std::optional<Modes> dense_modes(const model::System& system, Index count) {
   return modes_of({pairs->values.head(count), pairs->vectors.leftCols(count)}, pairs->values.maxCoeff());
 }
 
+/// Of obstacles while they are pressed: along the normal of a plane, in a ring along both of its axes; of a friction
+/// support its stick spring.
+void add_obstacles(const model::System& system, SparseMatrix& stiffness) {
+  using Kind = model::ContactShape::Form::Kind;
+  for (const model::FreeObstacles& obstacles : system.obstacles) {
+    const model::ObstacleGroup& group = *obstacles.group;
+    Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
+    if (group.shape == nullptr) {
+      block(0, 0) = group.friction.stick_stiffness;
+    } else {
+      const model::ContactShape::Form form = group.shape->form();
+      block =
+          form.kind == Kind::line ? Eigen::Matrix2d(form.place * form.place.transpose()) : Eigen::Matrix2d::Identity();
+      block *= group.law->closed_stiffness();
+    }
+    for (const auto& ends : obstacles.ends)
+      for (std::size_t p = 0; p < 4; ++p)
+        for (std::size_t q = 0; q < 4; ++q) {
+          const Index i = p < 2 ? ends.a[p] : ends.b[p - 2], j = q < 2 ? ends.a[q] : ends.b[q - 2];
+          const double value = block(static_cast<Index>(p % 2), static_cast<Index>(q % 2));
+          if (i >= 0 && j >= 0 && value != 0.0) stiffness.coeffRef(i, j) += (p < 2) == (q < 2) ? value : -value;
+        }
+  }
+}
+
 }  // namespace
 
 double contact_frequency(const model::System& system, const Contact& contact) {
@@ -121,6 +146,7 @@ SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) 
     stiffness.coeffRef(a, b) -= closed[i];
     stiffness.coeffRef(b, a) -= closed[i];
   }
+  add_obstacles(system, stiffness);
   return stiffness;
 }
 

@@ -24,7 +24,7 @@ Obstacles::Normal Obstacles::normal(const Contact& contact, NormalPhase phase, d
   const model::ObstacleGroup& group = *contact.group;
   if (group.shape == nullptr) return {group.normal_force, group.normal_force, 0.0, 0.0};
   const model::ContactLaw& law = *group.law;
-  const bool touches = phase == NormalPhase::pressed || phase == NormalPhase::receding;
+  const bool touches = phase == NormalPhase::pressed || phase == NormalPhase::receding || phase == NormalPhase::pulling;
   ++counters_->law_evaluations;
   // A kinked law is continued beyond the end of its phase by the branch that holds within it.
   double secant, tangent;
@@ -36,7 +36,7 @@ Obstacles::Normal Obstacles::normal(const Contact& contact, NormalPhase phase, d
   }
   Normal result{secant * g, secant * g, tangent, 0.0};
   if (phase == NormalPhase::released) return {0.0, 0.0, 0.0, 0.0};
-  if (phase != NormalPhase::pressed) return result;
+  if (phase != NormalPhase::pressed && phase != NormalPhase::pulling) return result;
   const ImpactDamping& damping = group.damping;
   switch (damping.kind) {
     case ImpactDamping::Kind::none:
@@ -105,7 +105,7 @@ double Obstacles::friction_force(Index i, double t, const Kinematics& now, const
   const model::ObstacleGroup& group = *at(i).group;
   const Friction& friction = group.friction;
   if (friction.rule == Friction::Rule::none || (group.shape != nullptr && !phase.touches())) return 0.0;
-  const double limit = friction.coefficient * (group.damping.pulls ? std::max(normal, 0.0) : normal);
+  const double limit = friction.coefficient * normal;
   if (friction.has_memory() && phase.slip == SlipPhase::stick) {
     if (friction.rule == Friction::Rule::rigid) return 0.0;
     return friction.stick_stiffness * stretch(i, t, now, phase.anchor) + friction.stick_damping * now.slip;
@@ -145,8 +145,7 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
         friction_rate = friction.stick_stiffness * now.surface + friction.stick_damping * surface_acceleration;
       } else if (!(friction.rule == Friction::Rule::rigid && phase.slip == SlipPhase::stick)) {
         const Slide slide = this->slide(friction, phase.slip, now.slip);
-        const bool presses = !group.damping.pulls || normal.force > 0.0;
-        const double mu = presses ? friction.coefficient : 0.0;
+        const double mu = friction.coefficient;
         friction_by_d = mu * slide.share * normal_by_d + mu * normal.force * slide.slope * slip_by_d;
         friction_by_v = mu * slide.share * normal_by_v + mu * normal.force * slide.slope * u.transpose();
         friction_rate = mu * normal.force * slide.slope * surface_acceleration;

@@ -10,6 +10,11 @@ using model::ImpactDamping;
 using NormalPhase = ContactPhase::Normal;
 using SlipPhase = ContactPhase::Slip;
 
+/// A dashpot that may pull presses no surfaces on each other then.
+bool stops_rubbing(const model::ObstacleGroup& group) {
+  return group.damping.pulls && group.friction.rule != Friction::Rule::none;
+}
+
 }  // namespace
 
 ContactPhase Obstacles::live_phase(const Contact& contact, const Kinematics& now) const {
@@ -23,6 +28,8 @@ ContactPhase Obstacles::live_phase(const Contact& contact, const Kinematics& now
     if (group.damping.kind != ImpactDamping::Kind::none && !group.damping.pulls &&
         normal(contact, phase.normal, now.approach.penetration, now.rate).force < 0.0)
       phase.normal = NormalPhase::released;
+    if (stops_rubbing(group) && normal(contact, phase.normal, now.approach.penetration, now.rate).force < 0.0)
+      phase.normal = NormalPhase::pulling;
   }
   switch (group.friction.rule) {
     case Friction::Rule::clip:
@@ -95,7 +102,13 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
           add(1.0 + group.damping.coefficient * now.rate, NormalPhase::released, phase.slip, phase.anchor);
         else if (dissipates && !group.damping.pulls)
           add(normal(contact, phase.normal, g, now.rate).force, NormalPhase::released, phase.slip, phase.anchor);
+        else if (stops_rubbing(group))
+          add(normal(contact, phase.normal, g, now.rate).force, NormalPhase::pulling, phase.slip, phase.anchor);
         break;
+      case NormalPhase::pulling:
+        add(g, NormalPhase::apart, phase.slip, phase.anchor);
+        add(-normal(contact, phase.normal, g, now.rate).force, NormalPhase::pressed, phase.slip, phase.anchor);
+        return count;
       case NormalPhase::receding:
         add(g, NormalPhase::apart, phase.slip, phase.anchor);
         add(-now.rate, NormalPhase::pressed, phase.slip, phase.anchor);

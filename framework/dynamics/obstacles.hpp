@@ -17,7 +17,8 @@ struct ContactPhase {
     apart,     ///< g < 0
     released,  ///< g > 0, but the dissipative law would pull
     pressed,   ///< a force acts
-    receding   ///< a force acts, g' < 0, where the law tells approach from rebound
+    receding,  ///< a force acts, g' < 0, where the law tells approach from rebound
+    pulling    ///< F_n < 0 of a dashpot that may pull, in a contact with friction: none acts
   };
   enum class Slip : std::uint8_t {
     smooth,   ///< no friction, or one that is smooth in the slip speed

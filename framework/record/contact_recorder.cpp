@@ -12,6 +12,8 @@ namespace butee::record {
 namespace {
 
 constexpr int kBisections = 60;
+/// A force that is so much less than the peak is no neighbour of a larger maximum, between twelve instants of a step.
+constexpr double kNear = 0.9;
 constexpr std::size_t kLeastBytes = 77;
 
 /// The DOFs of these contacts.
@@ -109,6 +111,11 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
   duration_ += h;
   find_active();
   if (active_.empty()) return;
+  const Forces& first = at(step, step.from.t);
+  for (const std::size_t i : active_) {
+    const Sampled begin{step.from.t, first[i].normal};
+    watches_[i].last = {begin, begin};
+  }
   double begin = step.from.t;
   for (int part = 1; part <= kParts; ++part) {
     const double end = part == kParts ? step.to.t : step.from.t + h * part / kParts;
@@ -119,9 +126,11 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
 
 void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, double end) {
   for (const auto& [t, weight] : gauss_points(begin, end)) {
-    const Forces& forces = at(step, t);
+    now_ = at(step, t);
+    for (const std::size_t i : active_)
+      if (watches_[i].is_support || now_[i].penetration > 0.0) take_force(step, i, t, now_[i].normal);
     for (const std::size_t i : active_) {
-      const dynamics::ContactForces& now = forces[i];
+      const dynamics::ContactForces& now = now_[i];
       Watch& watch = watches_[i];
       if (!watch.is_support && !(now.penetration > 0.0)) continue;
       ContactWear& wear = wear_[i];
@@ -137,14 +146,12 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
       impact.tangential_impulse += weight * now.friction;
       impact.slip += weight * slip;
       impact.dissipated += taken;
-      impact.peak_force = std::max(impact.peak_force, now.normal);
-      wear.peak_force = std::max(wear.peak_force, now.normal);
     }
   }
-  const Forces& last = at(step, end);
+  now_ = at(step, end);
   std::vector<std::size_t> changed;
   for (const std::size_t i : active_) {
-    const dynamics::ContactForces now = last[i];
+    const dynamics::ContactForces now = now_[i];
     Watch& watch = watches_[i];
     if (watch.is_support) {
       wear_[i].dissipated -= now.stored - watch.stored;
@@ -152,10 +159,7 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
       continue;
     }
     const bool touches = now.penetration > 0.0;
-    if (touches || watch.touches) {
-      watch.current.peak_force = std::max(watch.current.peak_force, now.normal);
-      wear_[i].peak_force = std::max(wear_[i].peak_force, now.normal);
-    }
+    if (touches || watch.touches) take_force(step, i, end, now.normal);
     const double gained = now.stored - watch.stored;
     wear_[i].dissipated -= gained;
     watch.current.dissipated -= gained;
@@ -163,6 +167,22 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
     if (touches != watch.touches) changed.push_back(i);
   }
   for (const std::size_t i : changed) change(step, i, begin, end);
+}
+
+void ContactRecorder::take_force(const time::AcceptedStep& step, std::size_t contact, double t, double force) {
+  Watch& watch = watches_[contact];
+  const Sampled now{t, force};
+  auto& [before, last] = watch.last;
+  double largest = std::max(last.value, force);
+  const bool is_top = before.t < last.t && last.value >= before.value && last.value >= force && last.value > 0.0;
+  if (is_top && last.value > kNear * watch.current.peak_force)
+    largest = std::max(largest, local_maximum(before, last, now, [&](double instant) {
+                                  return at(step, instant)[contact].normal;
+                                }).value);
+  watch.current.peak_force = std::max(watch.current.peak_force, largest);
+  wear_[contact].peak_force = std::max(wear_[contact].peak_force, largest);
+  before = last;
+  last = now;
 }
 
 void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact, double begin, double end) {

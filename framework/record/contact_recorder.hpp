@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "butee/record/impacts.hpp"
+#include "butee/record/local_maximum.hpp"
 
 namespace butee::record {
 
@@ -20,7 +21,7 @@ struct ContactWear {
 
 /// Follows contacts in the plane, with dissipation or friction, on the method's dense output: their impacts and their
 /// wear. Integrals by Gauss' rule with five points between kParts parts of a step; largest forces at these instants and
-/// refined by parabolas.
+/// at the maxima between them.
 class BUTEE_EXPORT ContactRecorder final : public time::Observer {
  public:
   /// `dynamics` must outlive it and has obstacles.
@@ -45,7 +46,8 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   struct Watch {
     bool is_support = false, touches = false;
     Impact current{};
-    double stored = 0.0;  ///< J, at the last instant
+    double stored = 0.0;            ///< J, at the last instant
+    std::array<Sampled, 2> last{};  ///< the normal forces of the two instants before; none where t is equal
   };
   using Forces = std::vector<dynamics::ContactForces>;
 
@@ -54,13 +56,15 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   /// Finds the contacts that may exert a force within the step: in given phases those that touch.
   void find_active();
   void integrate(const time::AcceptedStep& step, double begin, double end);
+  /// Takes the normal force of a contact at an instant of a step, and the largest around the one before.
+  void take_force(const time::AcceptedStep& step, std::size_t contact, double t, double force);
   void change(const time::AcceptedStep& step, std::size_t contact, double begin, double end);
 
   dynamics::Dynamics& dynamics_;
   std::vector<Index> dofs_;
   std::vector<double> x_values_, v_values_;
   Vector x_, v_;
-  Forces forces_;
+  Forces forces_, now_;
   std::vector<Watch> watches_;
   std::vector<std::size_t> active_;
   std::vector<ContactWear> wear_;

@@ -41,6 +41,7 @@ HistoryRecorder::HistoryRecorder(const model::OutputRequest& request, double end
     : times_(request.interval, request.every, end_time),
       probes_(request.probes, dynamics),
       peaks_(peak_requests(request.probes, dynamics.system()), dynamics),
+      contact_peaks_(request.probes, dynamics),
       writer_(writer),
       values_(probes_.columns().size()),
       largest_(values_.size(), 0.0) {
@@ -67,11 +68,13 @@ void HistoryRecorder::start(const time::State& state) {
   probes_.evaluate(state, values_);
   first_row_ = values_;
   peaks_.start(state);
+  contact_peaks_.start(state);
   std::fill(largest_.begin(), largest_.end(), 0.0);
 }
 
 void HistoryRecorder::step(const time::AcceptedStep& step) {
   peaks_.step(step);
+  contact_peaks_.step(step);
   if (probes_.has_base_shares()) follow_base_columns(step);
   due_.clear();
   times_.visit(step, [&](double t) {
@@ -150,6 +153,7 @@ void HistoryRecorder::save(ByteWriter& to) const {
   to.put(first_row_);
   to.put(largest_);
   peaks_.save(to);
+  contact_peaks_.save(to);
   to.put(writer_ != nullptr ? writer_->position() : std::uint64_t{0});
 }
 
@@ -159,6 +163,7 @@ void HistoryRecorder::restore(ByteReader& from) {
   from.take(largest_);
   require(first_row_.size() == values_.size() && largest_.size() == values_.size(), "a history of these probes");
   peaks_.restore(from);
+  contact_peaks_.restore(from);
   const auto position = from.take<std::uint64_t>();
   if (writer_ != nullptr) writer_->go_back(position);
 }
@@ -169,6 +174,7 @@ std::map<std::string, double> HistoryRecorder::peaks() const {
     double& peak = peaks[probes_.columns()[i]];
     peak = std::max(peak, largest_[i]);
   }
+  contact_peaks_.add_to(peaks);
   return peaks;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "butee/model/field_format.hpp"
+#include "butee/record/contact_peaks.hpp"
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/output_times.hpp"
 #include "butee/record/peaks.hpp"
@@ -36,8 +37,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   /// The same with their units.
   static std::vector<model::Field> columns_with_units(const model::OutputRequest& request);
 
-  /// Largest |value| by column over the whole motion (Peaks) and the rows, of forces of elements over the rows alone; u
-  /// of every probe is always among them.
+  /// Largest |value| by column over the whole motion (Peaks, ContactPeaks) and the rows, of forces of elements over the
+  /// rows alone; u of every probe is always among them.
   std::map<std::string, double> peaks() const;
 
  private:
@@ -49,6 +50,7 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   OutputTimes times_;
   Probes probes_;
   Peaks peaks_;
+  ContactPeaks contact_peaks_;
   CsvWriter* writer_;
   std::vector<model::FieldWriter*> writers_;
   double seconds_ = 0.0;  ///< in writers_

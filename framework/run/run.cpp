@@ -26,6 +26,13 @@ double largest_pull(const dynamics::Contact& contact) {
   return largest;
 }
 
+/// Of a method that keeps one.
+std::optional<double> tolerance_of(const scene::IntegratorChoice& choice) {
+  if (!choice.options.limits.keeps_tolerance || choice.name == "exact" || !choice.parameters.has("tolerance"))
+    return std::nullopt;
+  return choice.parameters.number("tolerance");
+}
+
 }  // namespace
 
 Run::Run(scene::Scene& scene, bool with_progress) : Run(scene, with_progress, Clock::now()) {}
@@ -83,6 +90,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
   }
   if (output.impacts) simulation.add(impacts_.emplace(assembly_.dynamics));
   if (assembly_.dynamics.obstacles() != nullptr) simulation.add(contacts_.emplace(assembly_.dynamics));
+  if (contacts_ && tolerance_of(scene_.integrator)) simulation.add(slips_.emplace(assembly_.dynamics));
   if (with_progress_) simulation.add(progress_.emplace(assembly_.dynamics, end_time));
   if (folder != nullptr && !output.fields.formats.empty()) add_fields(*folder);
   states_.emplace(output.states, assembly_.dynamics.size());
@@ -150,7 +158,14 @@ void Run::summarize() {
   if (history_) summary_.peaks = history_->peaks();
   summary_.energy = record::energy_of(assembly_.simulation.state(), assembly_.dynamics);
   if (energy_) summary_.followed = {energy_->work(), energy_->dissipated(), energy_->balance_error()};
+  look_at_slips();
   look_at_rows();
+}
+
+void Run::look_at_slips() {
+  if (!slips_) return;
+  const std::string complaint = slips_->complaint(*tolerance_of(scene_.integrator));
+  if (!complaint.empty()) summary_.report.warnings.push_back(complaint);
 }
 
 void Run::look_at_rows() {

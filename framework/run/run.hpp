@@ -10,6 +10,7 @@
 #include "butee/record/history.hpp"
 #include "butee/record/impacts.hpp"
 #include "butee/record/progress.hpp"
+#include "butee/record/slip_watch.hpp"
 #include "butee/record/state_keeper.hpp"
 #include "butee/record/summary.hpp"
 #include "butee/run/checkpointer.hpp"
@@ -56,6 +57,8 @@ class BUTEE_EXPORT Run {
   void add_fields(const record::ResultFolder& folder);
   void integrate();
   void summarize();
+  /// Warns where the tolerance does not resolve the sense of friction.
+  void look_at_slips();
   /// Warns where a force was asked for and rows are too far apart to show it.
   void look_at_rows();
   void write_files(const record::ResultFolder& folder);
@@ -77,6 +80,7 @@ class BUTEE_EXPORT Run {
   std::optional<record::EnergyRecorder> energy_;
   std::optional<record::ImpactRecorder> impacts_;
   std::optional<record::ContactRecorder> contacts_;  ///< where the scene has obstacles
+  std::optional<record::SlipWatch> slips_;           ///< there, where a tolerance is kept
   std::optional<record::Progress> progress_;
   std::optional<record::FieldRecorder> fields_;
   std::optional<record::StateKeeper> states_;

@@ -75,6 +75,23 @@ TEST(Stress, RandomScenesInSpace) {
   EXPECT_GT(tally.count(Verdict::correct), tally.scenes);
 }
 
+/// Rings, planes, dissipation and friction. Methods that end no steps where contacts change refuse them.
+TEST(Stress, RandomScenesThatRub) {
+  std::vector<Scene> scenes;
+  for (std::uint64_t seed = 1; seed <= 40; seed += kEvery) scenes.push_back(rubbing_scene(seed));
+  std::vector<Method> chosen;
+  for (const Method& method : methods())
+    if (method.is_judged) chosen.push_back(method);
+  Tally tally;
+  run_all(scenes, chosen, kWork, tally);
+  EXPECT_TRUE(tally.complaints.empty()) << tally.complaints.front();
+  for (const Failure& f : tally.failures())
+    ADD_FAILURE() << f.scene << ", " << f.method << ": " << name_of(f.outcome.verdict) << ", error " << f.outcome.error
+                  << ", allowed " << f.outcome.allowed << " " << f.outcome.message;
+  EXPECT_EQ(tally.scenes, std::ssize(scenes));
+  EXPECT_GT(tally.count(Verdict::correct), 2 * tally.scenes);
+}
+
 /// What wide_scene() is for is in its scenes.
 TEST(StressScenes, ReachTheirCorners) {
   std::string all;
@@ -88,6 +105,13 @@ TEST(StressScenes, ReachTheirCorners) {
   for (const char* what : {"bearing", "[rotation]\nspeed = {", "unbalance", "rotating_stiffness", "preload", "modal",
                            "spatial", "timoshenko", "[gravity]", "[base]", "dof = \"uz\""})
     EXPECT_NE(space.find(what), std::string::npos) << what;
+  std::string rubbing;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) rubbing += rubbing_scene(seed).toml;
+  for (const char* what : {"kelvin_voigt", "pull = true", "hunt_crossley", "jankowski", "hertz", "smoothing = \"sqrt\"",
+                           "smoothing = \"tanh\"", "smoothing = \"clip\"", "stick_stiffness", "stick_damping",
+                           "stick = \"rigid\"", "static_coefficient", "surface_speed", "radius", "centre",
+                           "between = [\"rotor\"", "type = \"plane\"", "type = \"friction\""})
+    EXPECT_NE(rubbing.find(what), std::string::npos) << what;
 }
 
 /// Scenes that once got a wrong answer, or grew without a word, in a wider run.

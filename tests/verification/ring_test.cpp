@@ -3,6 +3,7 @@
 #include <complex>
 #include <numbers>
 
+#include <butee/dynamics/frequencies.hpp>
 #include <butee/record/energy.hpp>
 #include <gtest/gtest.h>
 
@@ -68,6 +69,72 @@ TEST_P(RingMethods, a_synchronous_rub_keeps_its_amplitude) {
     ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
     EXPECT_NEAR(std::abs(position(run, "rotor")), row.amplitude, 1e-8 * row.amplitude) << row.mu << " " << w;
   }
+}
+
+/// S1: the rub loses its stability by friction beyond mu_c (a Hopf bifurcation in the rotating frame): of runs that
+/// start a little off the closed form, those with less friction come back to it and those with more leave. Bisection to
+/// 1e-3.
+TEST(SynchronousRub, loses_its_stability_at_its_threshold) {
+  const double zeta = 0.05, b = 0.04, gap = 1.05;
+  const auto amplitude = [&](double w, double mu) {
+    // [(b + 1 - W^2) A - R0]^2 + [(2 z W + mu) A - mu R0]^2 = W^4, the larger root, which is the rub.
+    const double p = b + 1.0 - w * w, q = 2.0 * zeta * w + mu;
+    const double two = p * p + q * q, one = -2.0 * gap * (p + mu * q),
+                 none = gap * gap * (1.0 + mu * mu) - std::pow(w, 4);
+    return (-one + std::sqrt(one * one - 4.0 * two * none)) / (2.0 * two);
+  };
+  EXPECT_NEAR(amplitude(0.6, 0.05), 2.0117317966, 1e-9);
+  const auto grows = [&](double w, double mu) {
+    const double size = amplitude(w, mu);
+    const Complex r = w * w / (Complex(b - w * w, 2.0 * zeta * w) + (1.0 - gap / size) * Complex(1.0, mu));
+    constexpr double kOff = 1e-4, kTime = 1600.0;
+    // dopri5 at 1e-9 is damped by 1e-12 a radian: growth rates of 1e-5 at 1e-3 of mu are far above that.
+    SceneRun run(rotor(w, 20.0, "friction = { coefficient = " + text(mu) + ", slip_speed = 1e-5 }\n", 1.0,
+                       (1.0 + kOff) * r, Complex(0, w) * r, kTime),
+                 {"integrator.type=extrapolation8"});
+    // The mean square distance from the closed form in an early and in the last part of the run; what dies out fast is
+    // gone by then.
+    double early = 0.0, late = 0.0;
+    constexpr int kSamples = 400;
+    std::vector<double> times;
+    for (int i = 1; i <= 2 * kSamples; ++i)
+      times.push_back(kTime * (i <= kSamples ? 0.15 + 0.15 * i / kSamples : 0.85 + 0.15 * (i - kSamples) / kSamples));
+    Sampler y(run.dof("rotor", DofKind::uy), times), z(run.dof("rotor", DofKind::uz), times);
+    run.simulation().add(y);
+    run.simulation().add(z);
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      (i < kSamples ? early : late) +=
+          std::norm(Complex(y.x.at(i), z.x.at(i)) * std::exp(Complex(0, -w * times[i])) - r);
+    return late > early;
+  };
+  for (const auto& [speed, wanted] : {std::pair(0.3, 0.1939063821), {0.6, 0.1239881887}, {0.9, 0.1087751366}}) {
+    double below = 0.8 * wanted, above = 1.2 * wanted;
+    while (above - below > 1e-3 * wanted) {
+      const double mu = 0.5 * (below + above);
+      (grows(speed, mu) ? above : below) = mu;
+    }
+    EXPECT_NEAR(0.5 * (below + above), wanted, 1e-3 * wanted) << speed;
+  }
+}
+
+/// Frequencies with contacts closed hold rings, planes along their normal and stick springs.
+TEST(ClosedContacts, stiffen_the_structure) {
+  const auto highest = [](const std::string& contact) {
+    SceneRun run("schema = 1\n" + body("m", 2.0, 100.0, 0.0) + contact +
+                 "[integrator]\ntype = \"dopri5\"\nend_time = 1.0\n");
+    const auto open = dynamics::frequency_range(run.system(), dynamics::StopState::open);
+    EXPECT_NEAR(open->highest, std::sqrt(50.0), 1e-9);
+    const auto closed = dynamics::frequency_range(run.system(), dynamics::StopState::closed);
+    return std::pair(closed->lowest, closed->highest);
+  };
+  const auto ring = highest("[[contact]]\ntype = \"ring\"\nnodes = \"m\"\ngap = 0.01\nstiffness = 700.0\n");
+  EXPECT_NEAR(ring.first, 20.0, 1e-9);
+  EXPECT_NEAR(ring.second, 20.0, 1e-9);
+  const auto plane =
+      highest("[[contact]]\ntype = \"plane\"\nnodes = \"m\"\nnormal = [0.6, 0.8]\ngap = 0.01\nstiffness = 700.0\n");
+  EXPECT_NEAR(plane.first, std::sqrt(50.0), 1e-9);
+  EXPECT_NEAR(plane.second, 20.0, 1e-9);
 }
 
 /// S3: without unbalance, a start above the threshold of backward whirl ends in it, one below comes to rest. A wrong

@@ -185,7 +185,7 @@ void print(const scene::Scene& session, const model::System& system, const Facts
   print_modal_damping(system);
   if (!picture.empty()) std::printf("\n%s\n", picture.c_str());
   for (const std::string& line : skipped(session, system)) std::printf("skips      %s\n", line.c_str());
-  const bool has_stops = !system.stops.empty();
+  const bool has_stops = !system.stops.empty() || !system.obstacles.empty();
   print_range(has_stops ? "frequency  all stops open:  " : "frequency ", facts.open);
   if (has_stops) print_range("           all stops closed:", facts.closed);
   if (facts.open && facts.closed) {

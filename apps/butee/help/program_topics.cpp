@@ -79,7 +79,8 @@ one has changed since, running model.toml again is refused.
 
 A peak is the largest |value| over the whole motion, between steps and rows too: a stationary point of the method's own
 dense output, found to 1e-10 of it (the sum of several stops on a node to 1e-6), so that it is as good as the run. Of
-forces of elements (M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. The largest peak_force
+normal_force, friction_force, slip and wear_power it is looked for between eight instants of a step. Of forces of elements
+(M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. The largest peak_force
 of impacts.csv is the peak of contact_force where a node has one stop. Work and dissipation, with energy = true, are
 integrals over that output; a row of energy.csv stands at the end of a step.
 

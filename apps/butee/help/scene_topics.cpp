@@ -143,7 +143,7 @@ friction: a support that is always pressed, with dof and normal_force (N).
 
 damping = { type = ... }, with the rate of penetration g':
   kelvin_voigt   F = K_c g + c g': coefficient c (N s/m), or restitution with mass (law "linear"). The contact ends where
-                 F = 0; with pull = true at g = 0
+                 F = 0; with pull = true at g = 0, without friction where it pulls
   hunt_crossley  F = K_c g (1 + a g'): factor a (s/m), or restitution with impact_speed (m/s)
   jankowski      restitution and mass, with law = "hertz": dissipates in approach alone; what comes out is said
 friction = { coefficient, ... }: the force is mu F_n against the slip speed w = t . v + radius Omega - surface_speed, with the
@@ -155,9 +155,11 @@ and surface_speed (m/s) of the obstacle along the tangent, as of a belt.
 
 rodas4, dopri5, extrapolation8 and exact end their steps where a contact touches, parts, sticks or slips, so that the
 regularisation alone is left as an error; rk4 and its kin take rings, planes, dissipation and regularised friction as the
-instant has them. exact takes law = "linear"; piecewise takes linear stops, elastic or with kelvin_voigt, of up to 24 DOFs;
-rigid stick is for dopri5, extrapolation8 and exact. auto chooses among them; other methods refuse. A visit that is shorter
-than an eighth of a step may pass unseen, but not by piecewise.
+instant has them. exponential takes all but rigid stick, at a constant speed of rotation. exact takes law = "linear";
+piecewise takes linear stops, elastic or with kelvin_voigt, of up to 24 DOFs; rigid stick is for dopri5, extrapolation8 and
+exact; jankowski is not for rodas4. auto chooses among them; other methods refuse. A stick spring in a ring must not be
+stretched by more than half the circumference. A visit that is shorter than an eighth of a step may pass unseen, but not by
+piecewise.
 )" + listed(catalogue.types().laws) +
          "\nThe linear law is the exact unilateral spring; arctan is smooth, but pulls open stops a little (butee "
          "check "

@@ -19,31 +19,54 @@ std::vector<double> ends_of(const time::AcceptedStep& step) {
   return ends;
 }
 
-double sum_of_ends(const dynamics::Contact& contact, Index stop, ConstVectorRef values) {
+double sum_of_ends(const std::vector<Index>& ends, ConstVectorRef values) {
   double sum = 0.0;
-  for (const Index dof : {contact.dof_a(stop), contact.dof_b(stop)})
-    if (dof >= 0) sum += values[dof];
+  for (const Index dof : ends) sum += values[dof];
   return sum;
 }
 
 }  // namespace
 
-CourseWatch::CourseWatch(const dynamics::Contact& contact)
-    : contact_(contact),
-      w_(contact.size()),
-      penetration_(contact.size()),
-      sides_(static_cast<std::size_t>(contact.size())),
-      closings_(static_cast<std::size_t>(contact.size()), -1) {}
+CourseWatch::CourseWatch(dynamics::Dynamics& dynamics)
+    : contact_(dynamics.contact()),
+      obstacles_(dynamics.obstacles()),
+      w_(contact_.size()),
+      penetration_(contact_.size()) {
+  const Vector of_stops = contact_.closed_stiffness();
+  const Index stops = contact_.size(), obstacles = obstacles_ != nullptr ? obstacles_->size() : 0;
+  ends_.resize(static_cast<std::size_t>(stops + obstacles));
+  stiffness_.resize(stops + obstacles);
+  for (Index i = 0; i < stops + obstacles; ++i) {
+    std::vector<Index> ends = {i < stops ? contact_.dof_a(i) : -1, i < stops ? contact_.dof_b(i) : -1};
+    if (i >= stops) {
+      const auto& of = obstacles_->ends_of(i - stops);
+      ends = {of.a[0], of.a[1], of.b[0], of.b[1]};
+    }
+    for (const Index dof : ends)
+      if (dof >= 0) ends_[static_cast<std::size_t>(i)].push_back(dof);
+    stiffness_[i] = i < stops ? of_stops[i] : obstacles_->closed_stiffness(i - stops);
+  }
+  now_.resize(ends_.size());
+  sides_.resize(ends_.size());
+  closings_.assign(ends_.size(), -1);
+}
+
+void CourseWatch::find_sides(double t, ConstVectorRef x, ConstVectorRef v) {
+  contact_.displacement(x, w_);
+  contact_.penetration(w_, penetration_);
+  for (Index i = 0; i < w_.size(); ++i)
+    now_[static_cast<std::size_t>(i)] = penetration_[i] > 0.0 ? std::copysign(1.0, w_[i]) : 0.0;
+  for (auto i = static_cast<std::size_t>(w_.size()); i < now_.size(); ++i)
+    now_[i] = obstacles_->forces(static_cast<Index>(i) - w_.size(), t, x, v).penetration > 0.0 ? 1.0 : 0.0;
+}
 
 void CourseWatch::start(const time::State& state) {
   largest_x = state.x.cwiseAbs();
   largest_v = state.v.cwiseAbs();
   all_.clear();
   for (Index i = 0; i < state.x.size(); ++i) all_.push_back(i);
-  contact_.displacement(state.x, w_);
-  contact_.penetration(w_, penetration_);
-  for (Index i = 0; i < w_.size(); ++i)
-    sides_[static_cast<std::size_t>(i)] = penetration_[i] > 0.0 ? std::copysign(1.0, w_[i]) : 0.0;
+  find_sides(state.t, state.x, state.v);
+  sides_ = now_;
 }
 
 void CourseWatch::step(const time::AcceptedStep& step) {
@@ -61,20 +84,26 @@ void CourseWatch::step(const time::AcceptedStep& step) {
     largest_x = largest_x.cwiseMax(x.cwiseAbs().rowwise().maxCoeff());
     largest_v = largest_v.cwiseMax(v.cwiseAbs().rowwise().maxCoeff());
     if (watches != Watches::all) continue;
-    contact_.displacement(x.col(kPoints / 2 - 1), w_);
-    contact_.penetration(w_, penetration_);
-    for (Index i = 0; i < w_.size(); ++i) {
-      const double side = penetration_[i] > 0.0 ? std::copysign(1.0, w_[i]) : 0.0;
-      if (side != sides_[static_cast<std::size_t>(i)]) change(step, ends[piece], i, side);
-    }
+    find_sides(times_[kPoints / 2 - 1], x.col(kPoints / 2 - 1), v.col(kPoints / 2 - 1));
+    for (std::size_t i = 0; i < now_.size(); ++i)
+      if (now_[i] != sides_[i]) change(step, ends[piece], static_cast<Index>(i), now_[i]);
   }
 }
 
-void CourseWatch::change(const time::AcceptedStep& step, double t, Index stop, double side) {
-  const auto place = static_cast<std::size_t>(stop);
-  ContactChange found{t, stop, side != 0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
+std::pair<double, double> CourseWatch::motion_of(const time::AcceptedStep& step, double t, Index contact) {
+  if (contact >= w_.size()) {
+    const Index obstacle = contact - w_.size();
+    Vector x = Vector::Zero(static_cast<Index>(all_.size())), v = x, a = x;
+    step.integrator.interpolate(step.from, step.to, t, all_,
+                                {{x.data(), all_.size()}, {v.data(), all_.size()}, {a.data(), all_.size()}});
+    const Eigen::Vector2d place = obstacles_->gather(obstacle, x);
+    const auto& shape = obstacles_->group_of(obstacle).shape;
+    if (shape == nullptr) return {0.0, 0.0};
+    const Eigen::Vector2d normal = shape->at(place).normal;
+    return {normal.dot(obstacles_->gather(obstacle, v)), normal.dot(obstacles_->gather(obstacle, a))};
+  }
   const double signs[] = {1.0, -1.0};
-  const Index dofs[] = {contact_.dof_a(stop), contact_.dof_b(stop)};
+  const Index dofs[] = {contact_.dof_a(contact), contact_.dof_b(contact)};
   double speed = 0.0, acceleration = 0.0;
   for (int end = 0; end < 2; ++end) {
     if (dofs[end] < 0) continue;
@@ -83,6 +112,13 @@ void CourseWatch::change(const time::AcceptedStep& step, double t, Index stop, d
     speed += signs[end] * v;
     acceleration += signs[end] * a;
   }
+  return {speed, acceleration};
+}
+
+void CourseWatch::change(const time::AcceptedStep& step, double t, Index contact, double side) {
+  const auto place = static_cast<std::size_t>(contact);
+  ContactChange found{t, contact, side != 0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
+  const auto [speed, acceleration] = motion_of(step, t, contact);
   found.speed = std::abs(speed);
   found.acceleration = std::abs(acceleration);
   if (sides_[place] != 0.0 && closings_[place] >= 0) changes[static_cast<std::size_t>(closings_[place])].until = t;
@@ -118,15 +154,16 @@ void VelocityBand::step(const time::AcceptedStep& step) {
   }
 }
 
-double time_margin(const std::vector<ContactChange>& changes, const dynamics::Contact& contact,
+double time_margin(const std::vector<ContactChange>& changes, const std::vector<std::vector<Index>>& ends,
                    const Trajectory& scales, Index row, double t, double parts) {
   double margin = 0.0;
   for (const ContactChange& change : changes) {
-    const double size = sum_of_ends(contact, change.stop, scales.x.col(row)), way = parts * size;
+    const auto& dofs = ends[static_cast<std::size_t>(change.contact)];
+    const double size = sum_of_ends(dofs, scales.x.col(row)), way = parts * size;
     // At rest on the border any time would do; the way that the acceleration takes is the larger of both then.
     const double reach = std::min(way / change.speed, 2.0 * std::sqrt(2.0 * way / change.acceleration));
     if (!(reach > margin) || !std::isfinite(reach)) continue;
-    const double own_time = size / sum_of_ends(contact, change.stop, scales.v.col(row));
+    const double own_time = size / sum_of_ends(dofs, scales.v.col(row));
     const double end = change.closes && change.until - change.t < own_time ? change.until : change.t;
     if (t >= change.t - reach && t <= end + reach) margin = reach;
   }

@@ -12,8 +12,9 @@
 
 namespace butee::stress {
 
-/// The solution of a scene by `exact`, and Gamma by runs of it that were disturbed by e = tolerance: at the start, at
-/// each tenth of the run and before the hardest impacts.
+/// The solution of a scene by `exact`, or where that cannot take its contacts by extrapolation8 with a thousandth of
+/// the tolerance, and Gamma by runs of it that were disturbed by e = tolerance: at the start, at each tenth of the run
+/// and before the hardest impacts.
 ///
 /// Gamma is the largest over all disturbances, of which a few are tried; more can only raise it. To be within the
 /// promise of a few is to be within it, so that refine() tries more of them where a method seems to break it. The first
@@ -60,6 +61,10 @@ class Reference {
   };
 
   void solve();
+  /// The scene with the reference's method, or another one to compare with.
+  std::string toml(bool is_other) const;
+  /// Of the run, which goes on with the phases that its contacts are in.
+  void set_motion(const Vector& x, const Vector& v);
   void place_instants();
   /// Runs to the end, keeping a snapshot at each row; how far it came, s.
   double follow();
@@ -89,7 +94,7 @@ class Reference {
   std::optional<dynamics::Modes> modes_;
   std::optional<Promise> promise_;
   int level_ = 0;
-  bool is_uncertain_ = false;
+  bool is_uncertain_ = false, is_exact_ = true;
   std::string complaint_;
 };
 

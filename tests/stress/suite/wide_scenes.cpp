@@ -155,8 +155,8 @@ Scene wide_scene(std::uint64_t seed) {
 }
 
 std::optional<Scene> random_scene_of(const std::string& name) {
-  for (const auto& [kind, make] :
-       {std::pair{"random ", &random_scene}, std::pair{"wide ", &wide_scene}, std::pair{"space ", &space_scene}}) {
+  for (const auto& [kind, make] : {std::pair{"random ", &random_scene}, std::pair{"wide ", &wide_scene},
+                                   std::pair{"space ", &space_scene}, std::pair{"rubbing ", &rubbing_scene}}) {
     const std::string start = kind, number = name.starts_with(start) ? name.substr(start.size()) : "";
     if (!number.empty() && number.find_first_not_of("0123456789") == std::string::npos)
       return make(std::stoull(number));

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "rubbing_scenes.hpp"
 #include "scenes.hpp"
 #include "space_scenes.hpp"
 
@@ -14,9 +15,11 @@ namespace butee::stress {
 /// stops. Tolerances from 1e-2 to 1e-10.
 Scene wide_scene(std::uint64_t seed);
 
-/// Every tenth one by space_scene(), every third other by random_scene(), the others by wide_scene().
+/// Every tenth one by space_scene(), another tenth by rubbing_scene(), every third other by random_scene(), the others
+/// by wide_scene().
 inline Scene mixed_scene(std::uint64_t seed) {
   if (seed % 10 == 9) return space_scene(seed);
+  if (seed % 10 == 4) return rubbing_scene(seed);
   return seed % 3 == 0 ? random_scene(seed) : wide_scene(seed);
 }
 

@@ -1,0 +1,98 @@
+#include "butee/record/contact_peaks.hpp"
+
+#include <algorithm>
+
+namespace butee::record {
+namespace {
+
+/// A sample that is so much less than the peak is no neighbour of a larger maximum, between eight of a step.
+constexpr double kNearPeak = 0.9;
+
+bool is_of_contact(dynamics::Dynamics& dynamics, model::NodeId node, model::Quantity quantity) {
+  if (source_of(quantity) == model::Source::contacts) return true;
+  if (quantity != model::Quantity::contact_force) return false;
+  const model::System& system = dynamics.system();
+  const dynamics::Obstacles& obstacles = *dynamics.obstacles();
+  for (Index i = 0; i < obstacles.size(); ++i)
+    if (obstacles.touches_node(i, system.dofs, system.model->nodes.canonical(node))) return true;
+  return false;
+}
+
+}  // namespace
+
+ContactPeaks::ContactPeaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics)
+    : dynamics_(dynamics) {
+  if (dynamics.obstacles() == nullptr || dynamics.system().model == nullptr) return;
+  std::vector<model::ProbeRequest> chosen;
+  for (model::ProbeRequest request : requests) {
+    std::erase_if(request.quantities,
+                  [&](model::Quantity quantity) { return !is_of_contact(dynamics, request.node, quantity); });
+    if (!request.quantities.empty()) chosen.push_back(std::move(request));
+  }
+  if (chosen.empty()) return;
+  probes_ = std::make_unique<Probes>(chosen, dynamics);
+  values_.resize(probes_->columns().size());
+  largest_.assign(values_.size(), 0.0);
+  last_.resize(values_.size());
+}
+
+void ContactPeaks::start(const time::State& state) {
+  if (!probes_) return;
+  probes_->evaluate(state, values_);
+  for (std::size_t i = 0; i < values_.size(); ++i) largest_[i] = std::abs(values_[i]);
+}
+
+bool ContactPeaks::is_active() const {
+  const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
+  if (obstacles.is_live()) return true;
+  for (Index i = 0; i < obstacles.size(); ++i)
+    if (obstacles.phase(i).normal != dynamics::ContactPhase::Normal::apart || obstacles.group_of(i).shape == nullptr)
+      return true;
+  return false;
+}
+
+void ContactPeaks::step(const time::AcceptedStep& step) {
+  if (!probes_ || !is_active()) return;
+  double begin = step.from.t;
+  for (const double knot : step.integrator.knots(step.from, step.to)) {
+    follow_piece(step, begin, knot);
+    begin = knot;
+  }
+  follow_piece(step, begin, step.to.t);
+}
+
+void ContactPeaks::follow_piece(const time::AcceptedStep& step, double begin, double end) {
+  const std::size_t count = values_.size();
+  for (int k = 0; k <= kSamples; ++k) {
+    const double t = k == kSamples ? end : begin + (end - begin) * k / kSamples;
+    if (t <= step.from.t)
+      probes_->evaluate(step.from, values_);
+    else
+      probes_->evaluate(step, t, values_);
+    now_ = values_;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Sampled sample{t, std::abs(now_[i])};
+      auto& [before, last] = last_[i];
+      largest_[i] = std::max(largest_[i], sample.value);
+      const bool is_top = k >= 2 && last.value >= before.value && last.value >= sample.value && last.value > 0.0;
+      if (is_top && last.value > kNearPeak * largest_[i]) {
+        const Sampled top = local_maximum(before, last, sample, [&](double instant) {
+          probes_->evaluate(step, instant, values_);
+          return std::abs(values_[i]);
+        });
+        largest_[i] = std::max(largest_[i], top.value);
+      }
+      before = last;
+      last = sample;
+    }
+  }
+}
+
+void ContactPeaks::add_to(std::map<std::string, double>& peaks) const {
+  for (std::size_t i = 0; i < largest_.size(); ++i) {
+    double& peak = peaks[probes_->columns()[i]];
+    peak = std::max(peak, largest_[i]);
+  }
+}
+
+}  // namespace butee::record

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scenes.hpp"
+
+namespace butee::stress {
+
+/// A random scene with contacts that lie in the plane, dissipate or rub: rotors and shafts in rings, two bodies in a
+/// ring, a block on a plane or a belt, rows of masses with friction supports, bodies between damped stops. All kinds of
+/// damping and friction, stick springs and rigid stick among them.
+Scene rubbing_scene(std::uint64_t seed);
+
+}  // namespace butee::stress
