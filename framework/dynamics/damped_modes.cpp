@@ -45,53 +45,11 @@ class Parts {
   std::vector<Index> parent_;
 };
 
-void join_entries(const SparseMatrix& matrix, Parts& parts) {
-  for (Index j = 0; j < matrix.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
-      if (entry.value() != 0.0) parts.join(entry.row(), entry.col());
-}
-
 /// Entries of a full matrix that do not vanish beside the largest.
 void join_entries(const Eigen::MatrixXd& matrix, double smallest, Parts& parts) {
   for (Index j = 0; j < matrix.cols(); ++j)
     for (Index i = 0; i < matrix.rows(); ++i)
       if (i != j && std::abs(matrix(i, j)) > smallest) parts.join(i, j);
-}
-
-SparseMatrix part_of(const SparseMatrix& matrix, const std::vector<Index>& dofs, const std::vector<Index>& place) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t c = 0; c < dofs.size(); ++c)
-    for (SparseMatrix::InnerIterator entry(matrix, dofs[c]); entry; ++entry)
-      if (entry.value() != 0.0)
-        entries.emplace_back(place[static_cast<std::size_t>(entry.row())], static_cast<Index>(c), entry.value());
-  const auto size = static_cast<Index>(dofs.size());
-  SparseMatrix part(size, size);
-  part.setFromTriplets(entries.begin(), entries.end());
-  return part;
-}
-
-/// The natural modes of M and K, part by part where the matrices fall apart, as two planes do. False where the
-/// iteration did not converge.
-bool natural_modes(const SparseMatrix& mass, const SparseMatrix& stiffness, Eigen::MatrixXd& shapes,
-                   Eigen::ArrayXd& squares) {
-  const Index n = mass.rows();
-  Parts parts(n);
-  join_entries(mass, parts);
-  join_entries(stiffness, parts);
-  shapes.setZero(n, n);
-  squares.resize(n);
-  std::vector<Index> place(static_cast<std::size_t>(n));
-  Index column = 0;
-  for (const std::vector<Index>& dofs : parts.lists()) {
-    for (std::size_t i = 0; i < dofs.size(); ++i) place[static_cast<std::size_t>(dofs[i])] = static_cast<Index>(i);
-    const auto pairs = linalg::dense_pairs(part_of(stiffness, dofs, place), part_of(mass, dofs, place));
-    if (!pairs) return false;
-    for (Index k = 0; k < pairs->values.size(); ++k, ++column) {
-      squares[column] = std::max(pairs->values[k], 0.0);
-      for (std::size_t i = 0; i < dofs.size(); ++i) shapes(dofs[i], column) = pairs->vectors(static_cast<Index>(i), k);
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -139,10 +97,9 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
                      "all their modes are more than " + std::to_string(kMost) + others);
   SparseMatrix transposed = system.stiffness.transpose();
   SparseMatrix even = 0.5 * (system.stiffness + transposed);
-  Eigen::MatrixXd shapes;
-  Eigen::ArrayXd squares;
-  if (!natural_modes(system.mass, even, shapes, squares))
-    throw InputError(std::string("integrator.type: the modes could not be computed") + others);
+  const auto natural = linalg::dense_pairs(even, system.mass);
+  if (!natural) throw InputError(std::string("integrator.type: the modes could not be computed") + others);
+  const Eigen::MatrixXd& shapes = natural->vectors;
 
   Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);
   if (dynamics.has_damping()) {
@@ -159,7 +116,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   Parts parts(n);
   join_entries(damping, kUncoupled * damping.cwiseAbs().maxCoeff(), parts);
   join_entries(stiffness, kUncoupled * stiffness.cwiseAbs().maxCoeff(), parts);
-  stiffness.diagonal() += squares.matrix();
+  stiffness.diagonal() += natural->values.cwiseMax(0.0);
 
   std::vector<Block> blocks;
   std::vector<std::pair<std::size_t, Index>> kept;  ///< block and its damped mode
