@@ -54,7 +54,7 @@ std::vector<config::Parameter> gap_parameters(const config::Table& entry) {
           config::table("gaps_from", "a file with a column of gaps, in place of gap").optional()};
 }
 
-std::vector<std::string> dof_names() {
+std::vector<std::string> stop_dof_names() {
   return {"u", "w", "theta", "ux", "uy", "uz", "rx", "ry", "rz"};
 }
 
@@ -93,7 +93,7 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
                .one_of({"base", "space"})
                .or_else("base")});
   if (is_stop || is_support)
-    declare({text("dof", "the displacement or rotation it acts on").one_of(dof_names()).or_else("u")});
+    declare({text("dof", "the displacement or rotation it acts on").one_of(stop_dof_names()).or_else("u")});
   if (is_support) declare({number("normal_force", "N", "that presses the support on").above(0)});
   if (shape != nullptr) {
     declare(shape->parameters);

@@ -106,7 +106,7 @@ TEST(StressScenes, ReachTheirCorners) {
                            "spatial", "timoshenko", "[gravity]", "[base]", "dof = \"uz\""})
     EXPECT_NE(space.find(what), std::string::npos) << what;
   std::string rubbing;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) rubbing += rubbing_scene(seed).toml;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) rubbing += rubbing_scene(seed).toml;
   for (const char* what : {"kelvin_voigt", "pull = true", "hunt_crossley", "jankowski", "hertz", "smoothing = \"sqrt\"",
                            "smoothing = \"tanh\"", "smoothing = \"clip\"", "stick_stiffness", "stick_damping",
                            "stick = \"rigid\"", "static_coefficient", "surface_speed", "radius", "centre",

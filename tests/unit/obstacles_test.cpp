@@ -20,7 +20,7 @@ std::string bodies(const std::string& contacts) {
       toml += std::string("[[element]]\ntype = \"spring\"\nnode = \"") + name + "\"\ndof = \"" + dof +
               "\"\nstiffness = 50.0\n";
   }
-  return toml + contacts + "[integrator]\ntype = \"rodas4\"\nend_time = 1.0\n";
+  return toml + contacts + "[integrator]\ntype = \"dopri5\"\nend_time = 1.0\n";
 }
 
 const std::string kRing = "[[contact]]\ntype = \"ring\"\nbetween = [\"a\", \"b\"]\ngap = 0.1\nradius = 0.3\n";

@@ -162,8 +162,8 @@ std::string block(const Body& body, Random& random) {
   text += "[[contact]]\ntype = \"plane\"\nnodes = \"m\"\n";
   const double angle = random.chance(0.4) ? random.uniform(-0.5, 0.5) : 0.0;
   text += pair("normal", std::sin(angle), std::cos(angle)) +
-          law(body, random.chance(0.5) ? 0.0 : 0.3 * body.size, stiffness, random) +
-          friction(body, stiffness, Stick::any, true, random);
+          law(body, random.chance(0.5) ? 0.0 : 0.3 * body.size, stiffness, random);
+  text += friction(body, stiffness, Stick::any, true, random);
   return text + load("m", "uz", "type = \"constant\"\n" + key("value", weight)) +
          load("m", "uy", harmonic(weight * random.decades(-0.7, 0.3), body.omega() * random.decades(-0.5, 0.3), 0.4));
 }
