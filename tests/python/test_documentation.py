@@ -58,7 +58,8 @@ def public_members():
             continue
         yield name, thing
         if inspect.isclass(thing):
-            for member, value in vars(thing).items():
+            own = {member: value for base in thing.__mro__ if base.__module__.startswith("butee") for member, value in vars(base).items()}
+            for member, value in own.items():
                 if not member.startswith("_") and (callable(value) or isinstance(value, (property, classmethod))):
                     yield f"{name}.{member}", value
 

@@ -10,6 +10,7 @@
 Names, defaults and units are those of the program: ``butee help`` explains scenes, methods and results.
 """
 
+from ._analyses import plugins, stability
 from ._batch import Batch
 from ._butee import version as __version__
 from ._equations import Equations, Modes
@@ -18,7 +19,7 @@ from ._functions import Finding, conformance
 from ._laws import law
 from ._loads import load
 from ._result import Result
-from ._scene import Scene, plugins, stability
+from ._scene import Scene
 from ._structure import Snapshot, Structure
 from ._study import Study
 
