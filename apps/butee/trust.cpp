@@ -8,6 +8,7 @@
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
+#include <butee/record/extremes.hpp>
 
 #include "perturb.hpp"
 #include "trust/disturbance.hpp"
@@ -175,7 +176,8 @@ class Judgement {
     if (!trust.to_the_end)
       for (const double sign : {1.0, -1.0}) add(follow_or_throw(session_, sign * kElsewhere * peak_of(run_), kNumbers));
     const double factor = trust.to_the_end ? kAgreeing : kScattering;
-    const double rounding = 1e-14 * std::min(1e6, trust.amplification);
+    // Extremes are found to a part of them.
+    const double rounding = std::max(record::Course::kGood, 1e-14 * std::min(1e6, trust.amplification));
     for (std::size_t i = 0; i < values_.size(); ++i)
       trust.statistics.push_back(record::bracket(run_.numbers[i].name, values_[i], run_.numbers[i].is_count, factor,
                                                  rounding * std::abs(values_[i].front())));
