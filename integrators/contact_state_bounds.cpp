@@ -56,7 +56,8 @@ void ContactStateFlow::respond_slowly(const Piece& piece, const Block& block, do
       now += gc * c + gs * sine;
       change += omega * (gs * c - gc * sine);
       curve -= omega * omega * (gc * c + gs * sine);
-      double even = gc * piece.phases[p] + gs * piece.phases[p + 1], odd = gs * piece.phases[p] - gc * piece.phases[p + 1];
+      double even = gc * piece.phases[p] + gs * piece.phases[p + 1],
+             odd = gs * piece.phases[p] - gc * piece.phases[p + 1];
       for (int k = 0; k <= kTerms; ++k) {
         f[static_cast<std::size_t>(k)] += even;
         const double next = odd * omega * s / (k + 1), after = -even * omega * s / (k + 1);
@@ -87,9 +88,9 @@ void ContactStateFlow::respond_slowly(const Piece& piece, const Block& block, do
     } else {
       double before = 0.0, latest = 0.0, q = 0.0, v = 0.0;
       for (int k = 0; k + 2 <= kTerms; ++k) {
-        const double next = (s * s * f[static_cast<std::size_t>(k)] - (k + 1) * 2.0 * d * s * latest -
-                             block.square * s * s * before) /
-                            ((k + 1) * (k + 2));
+        const double next =
+            (s * s * f[static_cast<std::size_t>(k)] - (k + 1) * 2.0 * d * s * latest - block.square * s * s * before) /
+            ((k + 1) * (k + 2));
         q += next;
         v += (k + 2) * next;
         before = latest;
@@ -108,7 +109,8 @@ void ContactStateFlow::resonate(const Piece& piece, const Block& block, double s
   const Complex lambda(-block.decay, block.frequency), i(0.0, 1.0);
   for (const Index j : block.resonant) {
     const double omega = system_.frequencies[static_cast<std::size_t>(j)];
-    const Complex phase(piece.phases[static_cast<std::size_t>(2 * j)], piece.phases[static_cast<std::size_t>(2 * j + 1)]);
+    const Complex phase(piece.phases[static_cast<std::size_t>(2 * j)],
+                        piece.phases[static_cast<std::size_t>(2 * j + 1)]);
     const auto with = response(lambda, omega, s);
     if (block.kind == Kind::mode) {
       const auto against = response(std::conj(lambda), omega, s);
@@ -117,7 +119,8 @@ void ContactStateFlow::resonate(const Piece& piece, const Block& block, double s
       continue;
     }
     const auto against = response(lambda, -omega, s);
-    const Complex gc(harmonic_c_(place, j), harmonic_c_(place + 1, j)), gs(harmonic_s_(place, j), harmonic_s_(place + 1, j));
+    const Complex gc(harmonic_c_(place, j), harmonic_c_(place + 1, j)),
+        gs(harmonic_s_(place, j), harmonic_s_(place + 1, j));
     const Complex ahead = 0.5 * (gc - i * gs) * phase, back = 0.5 * (gc + i * gs) * std::conj(phase);
     for (std::size_t k = 0; k < 4; ++k) {
       const Complex z = ahead * with[k] + back * against[k];
@@ -130,8 +133,7 @@ void ContactStateFlow::resonate(const Piece& piece, const Block& block, double s
 double ContactStateFlow::bound_of(const Block& block, const double* y, int k, double until) const {
   const double d = block.decay;
   if (block.kind == Kind::pair) return std::hypot(y[0], y[1]) * power(block.rate, k);
-  if (block.kind == Kind::reals)
-    return std::hypot(y[0] * power(block.rates[0], k), y[1] * power(block.rates[1], k));
+  if (block.kind == Kind::reals) return std::hypot(y[0] * power(block.rates[0], k), y[1] * power(block.rates[1], k));
   if (block.oscillates()) {
     const double other = (y[1] + d * y[0]) / block.frequency;
     return std::sqrt(y[0] * y[0] + other * other) * power(std::sqrt(block.square), k);
@@ -176,9 +178,11 @@ double ContactStateFlow::extra_bound(const Piece& piece, const Block& block, int
       if (lifted < 0)
         sum += load * (block.kind == Kind::mode && k == 0 ? 0.5 * until * until : until);
       else
-        sum += (lifted == 0 ? load : lifted == 1 ? rise + load * rate : (bend + rise * rate + load * rate * rate) *
-                                                                            power(std::max(rate, fastest), lifted - 2)) +
-               (lifted == 0 ? rise * until : 0.0);
+        sum +=
+            (lifted == 0   ? load
+             : lifted == 1 ? rise + load * rate
+                           : (bend + rise * rate + load * rate * rate) * power(std::max(rate, fastest), lifted - 2)) +
+            (lifted == 0 ? rise * until : 0.0);
       continue;
     }
     if (strength == 0.0 || block.slow[0]) continue;
@@ -207,8 +211,7 @@ std::array<double, 5> ContactStateFlow::stop_bounds(const Piece& piece, Index i,
         bounds[static_cast<std::size_t>(k)] += size * bound_of(block, &piece.y[2 * b], k, until);
     }
     if (block.extra >= 0)
-      for (int k = 0; k < 5; ++k)
-        bounds[static_cast<std::size_t>(k)] += size * extra_bound(piece, block, k, until);
+      for (int k = 0; k < 5; ++k) bounds[static_cast<std::size_t>(k)] += size * extra_bound(piece, block, k, until);
   }
   for (std::size_t j = 0; j < system_.frequencies.size(); ++j) {
     double swing = stops_.swing(i, static_cast<Index>(j));
@@ -221,7 +224,8 @@ std::array<double, 5> ContactStateFlow::stop_bounds(const Piece& piece, Index i,
   if (piece.is_short) {
     const double s = std::min((piece.s + until) / piece.length, 1.0);
     for (Index k = 0; k < piece.series.cols(); ++k) {
-      double term = std::abs((stop.a >= 0 ? piece.series(stop.a, k) : 0.0) - (stop.b >= 0 ? piece.series(stop.b, k) : 0.0));
+      double term =
+          std::abs((stop.a >= 0 ? piece.series(stop.a, k) : 0.0) - (stop.b >= 0 ? piece.series(stop.b, k) : 0.0));
       for (int order = 0; order < 5 && order <= k; ++order) {
         bounds[static_cast<std::size_t>(order)] += term * power(s, static_cast<int>(k) - order);
         term *= static_cast<double>(k - order) / piece.length;
@@ -231,8 +235,8 @@ std::array<double, 5> ContactStateFlow::stop_bounds(const Piece& piece, Index i,
   if (!piece.has_parabola) return bounds;
   std::array<double, 3> p{};
   for (Index k = 0; k < 3; ++k)
-    p[static_cast<std::size_t>(k)] = std::abs((stop.a >= 0 ? piece.parabola(stop.a, k) : 0.0) -
-                                              (stop.b >= 0 ? piece.parabola(stop.b, k) : 0.0));
+    p[static_cast<std::size_t>(k)] =
+        std::abs((stop.a >= 0 ? piece.parabola(stop.a, k) : 0.0) - (stop.b >= 0 ? piece.parabola(stop.b, k) : 0.0));
   bounds[0] += p[0] + until * (p[1] + until * p[2]);
   bounds[1] += p[1] + 2.0 * until * p[2];
   bounds[2] += 2.0 * p[2];
@@ -274,28 +278,6 @@ double ContactStateFlow::sixth_derivative(const Piece& piece, Index i, double un
   for (std::size_t j = 0; j < system_.frequencies.size(); ++j)
     sum += dofs_.swing(i, static_cast<Index>(j)) * power(system_.frequencies[j], 6);
   return sum;
-}
-
-Eigen::MatrixXd ContactStateFlow::propagator(double s) const {
-  Eigen::MatrixXd product(2 * n_, 2 * n_);
-  Piece piece;
-  piece.start.resize(2 * blocks_.size());
-  piece.y.resize(piece.start.size());
-  const auto harmonics = 2 * system_.frequencies.size();
-  piece.phases.assign(harmonics, 0.0);
-  piece.now.assign(harmonics, 0.0);
-  piece.forcing.assign(6 * with_extras_.size(), 0.0);
-  piece.extra.assign(8 * with_extras_.size(), 0.0);
-  for (Index column = 0; column < 2 * n_; ++column) {
-    for (std::size_t k = 0; k < piece.start.size(); ++k) piece.start[k] = project_(static_cast<Index>(k), column);
-    go(piece, s);
-    for (Index i = 0; i < n_; ++i) {
-      const Jet jet = dof(piece, i);
-      product(i, column) = jet[0];
-      product(n_ + i, column) = jet[1];
-    }
-  }
-  return product;
 }
 
 }  // namespace butee::integrators

@@ -37,10 +37,10 @@ class ContactStateFlow {
 
   /// A piece of the motion, and where in it one is.
   struct Piece {
-    double t = 0.0;              ///< s, of the start
+    double t = 0.0;                          ///< s, of the start
     double displacement = 0.0, speed = 0.0;  ///< the largest at the start
-    std::vector<double> start;   ///< y at the start without the responses to loads
-    std::vector<double> phases;  ///< cos and sin of W t, by harmonic
+    std::vector<double> start;               ///< y at the start without the responses to loads
+    std::vector<double> phases;              ///< cos and sin of W t, by harmonic
     bool has_parabola = false;
     Eigen::MatrixXd parabola;     ///< n x 3: x_parabola
     bool is_short = false;        ///< the parabolas of loads have their response from rest instead, as a series
@@ -79,11 +79,11 @@ class ContactStateFlow {
   enum class Kind : std::uint8_t { mode, pair, reals };
   struct Block {
     Kind kind = Kind::mode;
-    double decay = 0.0;            ///< d of a mode, -Re lambda of a pair
-    double square = 0.0;           ///< omega^2, |lambda|^2
-    double turning = 0.0;          ///< omega^2 - d^2 of a mode
-    double frequency = 0.0;        ///< sqrt |turning|, Im lambda
-    double rate = 0.0;             ///< omega, |lambda|, or the larger of two
+    double decay = 0.0;             ///< d of a mode, -Re lambda of a pair
+    double square = 0.0;            ///< omega^2, |lambda|^2
+    double turning = 0.0;           ///< omega^2 - d^2 of a mode
+    double frequency = 0.0;         ///< sqrt |turning|, Im lambda
+    double rate = 0.0;              ///< omega, |lambda|, or the larger of two
     std::array<double, 2> rates{};  ///< of two real ones: lambda
     std::array<bool, 2> slow{};     ///< its parabola is in the extras; of a mode the first alone
     std::vector<Index> resonant{};  ///< harmonics that are in the extras
@@ -94,9 +94,9 @@ class ContactStateFlow {
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   /// Linear forms of x, a row each.
   struct Rows {
-    std::array<Table, 4> of;      ///< of y: the form and its derivatives, by 2 B
-    Table size;                   ///< by block: by what |y| becomes the form
-    Table cosine, sine, swing;    ///< by harmonic: of x_harmonic, and their root sum of squares
+    std::array<Table, 4> of;    ///< of y: the form and its derivatives, by 2 B
+    Table size;                 ///< by block: by what |y| becomes the form
+    Table cosine, sine, swing;  ///< by harmonic: of x_harmonic, and their root sum of squares
   };
 
   void add_alone(const LongMatrix& shapes, const LongVector& squares, const LongMatrix& damping, Index mode);

@@ -39,8 +39,9 @@ double safe_step(double g, double slope, double curvature, double third) {
   if (!(third > 0.0)) return last;
   double low = 0.0, high = last;
   // For every r the quadratic with the curvature of the end, curvature - third r/3, stays below the cubic up to r.
-  if (last == kNever) last = std::cbrt(6.0 * g / third) + std::sqrt(6.0 * std::max(slope, 0.0) / third) +
-                             6.0 * std::max(curvature, 0.0) / third;
+  if (last == kNever)
+    last = std::cbrt(6.0 * g / third) + std::sqrt(6.0 * std::max(slope, 0.0) / third) +
+           6.0 * std::max(curvature, 0.0) / third;
   for (int i = 0; i < kMostRefinements && low < kGood * high; ++i) {
     const double root = first_root(g, slope, curvature - third * last / 3.0);
     low = std::max(low, std::min(last, root));
@@ -54,8 +55,7 @@ FirstChange::FirstChange(const SmallSystem& system)
     : system_(system), watches_(static_cast<std::size_t>(system.stop_count())) {}
 
 FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactStateFlow::Piece& piece,
-                                      std::span<const StopStatus> status, double until, Index changed,
-                                      bool wait) {
+                                      std::span<const StopStatus> status, double until, Index changed, bool wait) {
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     Watch& watch = watches_[i];
     const LinearStop& stop = system_.stops[i];
@@ -116,7 +116,11 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
   noise[1] += kNoise * piece.speed;
   for (std::size_t k = 1; k < 4; ++k) noise[k] += flow.fastest() * noise[k - 1];
   const auto displacement = [&](double sign, double offset, StopStatus to) {
-    return Function{{offset + sign * w[0], sign * w[1], sign * w[2], sign * w[3]}, noise, bounds[3], bounds[4], to,
+    return Function{{offset + sign * w[0], sign * w[1], sign * w[2], sign * w[3]},
+                    noise,
+                    bounds[3],
+                    bounds[4],
+                    to,
                     watch.has_changed};
   };
   if (status == kOpen) {
@@ -129,7 +133,8 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
   }
   const double side = status > 0 ? 1.0 : -1.0;
   const bool pushes_only = stop.damping > 0.0 && !stop.pulls;
-  if (!pushes_only || !is_closed(status)) consider(displacement(side, -stop.gap, kOpen), s, until, piece.t, wait, watch);
+  if (!pushes_only || !is_closed(status))
+    consider(displacement(side, -stop.gap, kOpen), s, until, piece.t, wait, watch);
   if (!pushes_only) return;
   const double k = stop.stiffness, c = stop.damping, sign = is_closed(status) ? 1.0 : -1.0;
   Function force;
@@ -161,8 +166,8 @@ void FirstChange::consider(const Function& function, double s, double until, dou
         g[0] > known * (std::abs(g[1]) + known * (0.5 * std::abs(g[2]) + known * third / 6.0)) + noise[0])
       return;
     step = safe_step(g[0], g[1], g[2], third);
-    const bool is_root = g[1] + g[2] * step < 0.0 && (third * step * step * step <= noise[0] ||
-                                                      step <= kRounding * (std::abs(t) + s));
+    const bool is_root =
+        g[1] + g[2] * step < 0.0 && (third * step * step * step <= noise[0] || step <= kRounding * (std::abs(t) + s));
     return suggest(s + step, is_root && s + step <= until);
   }
   if (wait && g[0] >= -noise[0]) {

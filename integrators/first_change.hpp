@@ -9,7 +9,8 @@
 
 namespace butee::integrators {
 
-/// What a stop does: open, closed on a side (+1, -1), or with dissipation and beyond its gap on a side, yet without force.
+/// What a stop does: open, closed on a side (+1, -1), or with dissipation and beyond its gap on a side, yet without
+/// force.
 using StopStatus = std::int8_t;
 inline constexpr StopStatus kOpen = 0, kClosed = 1, kReleased = 2;
 inline StopStatus on_side(StopStatus status, double side) {
@@ -20,15 +21,16 @@ inline bool is_closed(StopStatus status) {
 }
 
 /// How far g(s) surely stays positive, s: the first root, from below, of its Taylor polynomial of degree 2 less
-/// `third` s^3/6, a bound of the third derivative. g(0) > 0, or g(0) = 0 and then positive. Infinite where there is none.
+/// `third` s^3/6, a bound of the third derivative. g(0) > 0, or g(0) = 0 and then positive. Infinite where there is
+/// none.
 double safe_step(double g, double slope, double curvature, double third);
 
 /// Finds the first change of status of any stop along a piece of a contact state.
 ///
-/// Every switching function is positive until it changes sign. Bounds of its third derivative over the rest of the piece
-/// give a step that cannot pass a root; near a simple root it is Newton's. Only the stop whose step ends first is looked
-/// at again. A function that is zero to rounding is decided by its first derivative that is not. Theory: piecewise.md.
-/// Checked in tests/unit/first_change_test.cpp.
+/// Every switching function is positive until it changes sign. Bounds of its third derivative over the rest of the
+/// piece give a step that cannot pass a root; near a simple root it is Newton's. Only the stop whose step ends first is
+/// looked at again. A function that is zero to rounding is decided by its first derivative that is not. Theory:
+/// piecewise.md. Checked in tests/unit/first_change_test.cpp.
 class FirstChange {
  public:
   /// `system` must outlive it.
@@ -42,8 +44,8 @@ class FirstChange {
     double s;                      ///< of the change; else until where none occurs, s
     std::optional<Change> change;  ///< nothing: the piece may go on from s
   };
-  /// For 0 <= s <= `until`. `changed`: the stop that has just changed, if any, and so is on its border. `wait`: stops that
-  /// are on a border to rounding wait there until they have left it, which ends chatter by rounding.
+  /// For 0 <= s <= `until`. `changed`: the stop that has just changed, if any, and so is on its border. `wait`: stops
+  /// that are on a border to rounding wait there until they have left it, which ends chatter by rounding.
   Result find(const ContactStateFlow& flow, ContactStateFlow::Piece& piece, std::span<const StopStatus> status,
               double until, Index changed, bool wait);
 
@@ -56,7 +58,7 @@ class FirstChange {
     bool is_change = false;
     StopStatus to = kOpen;
     std::array<double, 5> bounds{}, sizes{};  ///< over the rest of the piece, and of what is summed at its start
-    double bounded_at = 0.0;  ///< where they were taken, s
+    double bounded_at = 0.0;                  ///< where they were taken, s
     bool has_changed = false;
   };
   /// One switching function and its bounds.

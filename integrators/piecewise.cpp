@@ -52,10 +52,9 @@ void Piecewise::do_start(time::State& state) {
     if (stop.always_closed)
       status = kClosed;
     else if (g > 0.0)
-      status = on_side(stop.damping > 0.0 && !stop.pulls && stop.stiffness * g + stop.damping * side * v < 0.0
-                           ? kReleased
-                           : kClosed,
-                       side);
+      status = on_side(
+          stop.damping > 0.0 && !stop.pulls && stop.stiffness * g + stop.damping * side * v < 0.0 ? kReleased : kClosed,
+          side);
     state.memory[i] = status;
   }
   end_t_ = std::numeric_limits<double>::quiet_NaN();
@@ -98,8 +97,10 @@ void Piecewise::follow(const time::State& from, const time::Step& step) {
   changed_ = static_cast<Index>(from.memory[system_.stop_count()]);
   while (true) {
     const ContactStateFlow& flow = begin_piece(t);
-    const double landing = std::min(step.t_end, next_kink(t)), rest = landing - t, until = std::min(rest, flow.longest());
-    const auto found = first_change_.find(flow, piece_, status_, until, changed_, at_once > kMostAtOnce * (status_.size() + 1));
+    const double landing = std::min(step.t_end, next_kink(t)), rest = landing - t,
+                 until = std::min(rest, flow.longest());
+    const auto found =
+        first_change_.find(flow, piece_, status_, until, changed_, at_once > kMostAtOnce * (status_.size() + 1));
     const double t_next = found.s < rest ? std::min(t + found.s, landing) : landing;
     const bool has_passed = t_next > t;
     if (has_passed) {
@@ -259,95 +260,23 @@ void Piecewise::departure(const time::State& from, const time::State& to, double
   }
 }
 
-template <class Jump, class Propagate>
-void Piecewise::follow_pieces(const time::State& from, const time::State& to, Jump jump, Propagate propagate) {
-  recall(from, to);
-  const std::size_t m = status_.size();
-  std::vector<StopStatus> before(m), after(m);
-  const auto change = [&] {
-    for (std::size_t i = 0; i < m; ++i)
-      if (system_.stops[i].damping > 0.0 && is_closed(before[i]) != is_closed(after[i]) &&
-          (before[i] == kOpen || after[i] == kOpen))
-        jump(static_cast<Index>(i), is_closed(after[i]) ? 1.0 : -1.0);
-    before = after;
-  };
-  for (std::size_t i = 0; i < m; ++i) before[i] = static_cast<StopStatus>(from.memory[static_cast<Index>(i)]);
-  for (std::size_t piece = 0; piece < begins_.size(); ++piece) {
-    std::copy_n(begin_status_.begin() + static_cast<std::ptrdiff_t>(piece * m), m, after.begin());
-    change();
-    load_piece(piece);
-    propagate((piece + 1 < begins_.size() ? begins_[piece + 1] : end_t_) - begins_[piece]);
-  }
-  for (std::size_t i = 0; i < m; ++i) after[i] = static_cast<StopStatus>(to.memory[static_cast<Index>(i)]);
-  change();
-}
-
-Vector Piecewise::jump_of(Index i) const {
-  const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
-  LongVector force = LongVector::Zero(system_.size());
-  if (stop.a >= 0) force[stop.a] += stop.damping;
-  if (stop.b >= 0) force[stop.b] -= stop.damping;
-  return system_.mass.ldlt().solve(force).cast<double>();
-}
-
-Eigen::MatrixXd Piecewise::derivative(const time::State& from, const time::State& to) const {
-  const Index n = system_.size();
-  Eigen::MatrixXd product = Eigen::MatrixXd::Identity(2 * n, 2 * n);
-  const_cast<Piecewise&>(*this).follow_pieces(
-      from, to,
-      [&](Index i, double sign) {
-        const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
-        Eigen::RowVectorXd w = Eigen::RowVectorXd::Zero(2 * n);
-        if (stop.a >= 0) w += product.row(stop.a);
-        if (stop.b >= 0) w -= product.row(stop.b);
-        product.bottomRows(n) -= sign * jump_of(i) * w;
-      },
-      [&](double s) { product = flow_->propagator(s) * product; });
-  return product;
-}
-
-Vector Piecewise::derivative_by_loads(const time::State& from, const time::State& to) const {
-  const Index n = system_.size();
-  Vector by_loads = Vector::Zero(2 * n);
-  ContactStateFlow::Piece response;
-  Eigen::MatrixXd force(n, 3);
-  auto& self = const_cast<Piecewise&>(*this);
-  self.follow_pieces(
-      from, to,
-      [&](Index i, double sign) {
-        const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
-        by_loads.tail(n) -= sign * stop.displacement(by_loads.data()) * jump_of(i);
-      },
-      [&](double s) {
-        force.setZero();
-        const bool has_force = system_.add_polynomials(piece_.t, force);
-        flow_->begin(piece_.t, by_loads.data(), by_loads.data() + n, force, has_force, next_kink(piece_.t) - piece_.t, response);
-        flow_->go(response, s);
-        for (Index i = 0; i < n; ++i) {
-          const Jet jet = flow_->dof(response, i);
-          by_loads[i] = jet[0];
-          by_loads[n + i] = jet[1];
-        }
-      });
-  return by_loads;
-}
-
 time::IntegratorType piecewise_type() {
-  return {.name = "piecewise",
-          .aliases = {"PWL"},
-          .summary = "closed form from one change of contact to the next; few DOFs and linear stops; no truncation error",
-          .parameters = {config::number("tolerance", "1", "ignored: there is no truncation").above(0).optional()},
-          .finds_first_step = true,
-          .contacts = time::ContactSupport::without_memory,
-          .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return std::make_unique<Piecewise>(dynamics, p.number("end_time"));
-          },
-          .check =
-              [](const config::Parameters& p, config::Diagnostics& diagnostics) {
-                if (p.has("tolerance"))
-                  diagnostics.warning(p.key("tolerance"), p.value("tolerance").at,
-                                      "is ignored by piecewise, which has no truncation error");
-              }};
+  return {
+      .name = "piecewise",
+      .aliases = {"PWL"},
+      .summary = "closed form from one change of contact to the next; few DOFs and linear stops; no truncation error",
+      .parameters = {config::number("tolerance", "1", "ignored: there is no truncation").above(0).optional()},
+      .finds_first_step = true,
+      .contacts = time::ContactSupport::without_memory,
+      .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+        return std::make_unique<Piecewise>(dynamics, p.number("end_time"));
+      },
+      .check =
+          [](const config::Parameters& p, config::Diagnostics& diagnostics) {
+            if (p.has("tolerance"))
+              diagnostics.warning(p.key("tolerance"), p.value("tolerance").at,
+                                  "is ignored by piecewise, which has no truncation error");
+          }};
 }
 
 }  // namespace butee::integrators

@@ -29,9 +29,9 @@ class Piecewise final : public time::Integrator {
   void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
                  time::Interpolated out) const override;
 
-  /// The derivative of (x, v) at the end of an accepted step with respect to (x, v) at its start, 2n x 2n: the product of
-  /// those of its pieces, and of what a stop with dissipation adds where its force jumps. At grazing contact, where it
-  /// does not exist, that of the pieces taken. Over several steps: the product.
+  /// The derivative of (x, v) at the end of an accepted step with respect to (x, v) at its start, 2n x 2n: the product
+  /// of those of its pieces, and of what a stop with dissipation adds where its force jumps. At grazing contact, where
+  /// it does not exist, that of the pieces taken. Over several steps: the product.
   Eigen::MatrixXd derivative(const time::State& from, const time::State& to) const;
   /// The derivative of (x, v) at the end with respect to a factor on all loads, at 1, in this step alone, 2n. Over
   /// several steps: s := derivative() s + this.

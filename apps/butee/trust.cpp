@@ -151,7 +151,8 @@ class Judgement {
     const double own_size = disturbance(tolerance_of(session_, method_));
     const double other_size = other_ ? disturbance(other_->noise) : own_size;
     // The finer disturbance tells more; of two that are alike the cheaper run.
-    const bool by_other = other_ && !is_closed_form(method_) && (other_size < own_size || other_->run.work <= run_.work);
+    const bool by_other =
+        other_ && !is_closed_form(method_) && (other_size < own_size || other_->run.work <= run_.work);
     scene::Scene& by = by_other ? other_->session : session_;
     const FollowedRun& run = by_other ? other_->run : run_;
     const double size = by_other ? other_size : own_size;

@@ -62,8 +62,9 @@ TEST(Automatic, TakesPiecewiseForFewDofsWithLinearStops) {
   const auto choice = [](const std::string& scene) { return SceneRun(scene).integrator().choice(); };
   for (const std::string& scene :
        {oscillator("1e-6"), oscillator("1e-2", 1e7), oscillator("1e-6", 1e10, "1e4"),
-        oscillator("1e-4", 1e10, "0.0", "[[element]]\ntype = \"mass\"\nname = \"n\"\nmass = 1.0\n[[element]]\n"
-                                        "type = \"spring\"\nnodes = [\"m\", \"n\"]\nstiffness = 1e4\ndamping = 3.0\n")})
+        oscillator("1e-4", 1e10, "0.0",
+                   "[[element]]\ntype = \"mass\"\nname = \"n\"\nmass = 1.0\n[[element]]\n"
+                   "type = \"spring\"\nnodes = [\"m\", \"n\"]\nstiffness = 1e4\ndamping = 3.0\n")})
     EXPECT_EQ(choice(scene).rfind("piecewise: ", 0), 0U) << choice(scene);
   EXPECT_EQ(choice(beam(6, kStops)).rfind("exponential", 0), 0U);
   SceneRun chosen(oscillator("1e-6")), named(oscillator("1e-6") + "type = \"piecewise\"\n");

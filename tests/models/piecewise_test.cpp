@@ -1,5 +1,7 @@
-// The method in closed form against exact, which expands in series and finds changes as roots of polynomials, and against
-// closed forms. Random chains have all kinds of stops, damping and loads that it takes.
+// The method in closed form against exact, which expands in series and finds changes as roots of polynomials, and
+// against closed forms. Random chains have all kinds of stops, damping and loads that it takes.
+#include "integrators/piecewise.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -11,7 +13,6 @@
 #include <butee/core/text.hpp>
 #include <gtest/gtest.h>
 
-#include "integrators/piecewise.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::piecewise_test {
@@ -67,7 +68,9 @@ class RandomChain {
     const double sides = uniform();
     scene_ << "[[contact]]\ntype = \"stop\"\n"
            << ends << "\ngap = " << (chance(0.1) && !dissipates_ ? 0.0 : 0.01 + 0.2 * uniform()) << "\nsides = \""
-           << (sides < 0.4 ? "both" : sides < 0.7 ? "positive" : "negative")
+           << (sides < 0.4   ? "both"
+               : sides < 0.7 ? "positive"
+                             : "negative")
            << "\"\nlaw = \"linear\"\nstiffness = " << log_uniform(10.0, 1e5) << "\n";
     if (dissipates_)
       scene_ << "damping = { type = \"kelvin_voigt\", coefficient = " << log_uniform(0.1, 30.0)
@@ -154,8 +157,8 @@ TEST(Piecewise, MeetsExactOnRandomChains) {
   EXPECT_GT(compared, kChains * 150);
 }
 
-/// exact may miss visits shorter than an eighth of its steps, which it does on one of these; the steps of extrapolation8
-/// are shorter.
+/// exact may miss visits shorter than an eighth of its steps, which it does on one of these; the steps of
+/// extrapolation8 are shorter.
 TEST(Piecewise, MeetsAnotherMethodWhereStopsDissipate) {
   constexpr unsigned kChains = 60;
   unsigned compared = 0;
@@ -292,8 +295,8 @@ TEST(Piecewise, RefusesOtherScenesBeforeTheFirstStep) {
             std::string::npos);
 }
 
-/// x'' + omega^2 x = f cos(omega t) from rest is f t sin(omega t)/(2 omega); so near to resonance the closed form of the
-/// driven motion would lose all digits.
+/// x'' + omega^2 x = f cos(omega t) from rest is f t sin(omega t)/(2 omega); so near to resonance the closed form of
+/// the driven motion would lose all digits.
 TEST(Piecewise, FollowsResonance) {
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
@@ -315,10 +318,11 @@ TEST(Piecewise, FollowsResonance) {
 /// A free mass under a constant force, with so little damping that m g/c is a million times its way, strikes a stop.
 TEST(Piecewise, FallsFreelyWithNextToNoDamping) {
   for (const double rate : {0.0, 1e-12, 1e-6, 1e-3, 10.0}) {
-    SceneRun run("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[load]]\ntype = "
-                 "\"constant\"\nnode = \"m\"\nvalue = -20.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = "
-                 "100.0\nlaw = \"linear\"\nstiffness = 1e6\n[damping]\nmass_proportional = " +
-                 to_text(rate) + "\n[integrator]\ntype = \"piecewise\"\nend_time = 3.0\n");
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[load]]\ntype = "
+        "\"constant\"\nnode = \"m\"\nvalue = -20.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = "
+        "100.0\nlaw = \"linear\"\nstiffness = 1e6\n[damping]\nmass_proportional = " +
+        to_text(rate) + "\n[integrator]\ntype = \"piecewise\"\nend_time = 3.0\n");
     ASSERT_TRUE(run.run().completed);
     const long double c = rate, t = 3.0L;
     // x = -g (t - (1 - e^(-c t))/c)/c, or its series.
@@ -334,9 +338,10 @@ TEST(Piecewise, DecidesStartsOnTheBorder) {
                            "type = \"ramp\"\nto = 3.0\nend = 0.5\n", "type = \"ramp\"\nto = -3.0\nend = 0.5\n",
                            "type = \"constant\"\nvalue = 0.0\n"}) {
     const std::string scene =
-        std::string("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = "
-                    "\"stop\"\nnodes = \"m\"\ngap = 0.125\nsides = \"positive\"\nlaw = \"linear\"\nstiffness = "
-                    "1e4\n[initial]\ndisplacement = [{ nodes = \"m\", value = 0.125 }]\n[[load]]\nnode = \"m\"\n") +
+        std::string(
+            "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = "
+            "\"stop\"\nnodes = \"m\"\ngap = 0.125\nsides = \"positive\"\nlaw = \"linear\"\nstiffness = "
+            "1e4\n[initial]\ndisplacement = [{ nodes = \"m\", value = 0.125 }]\n[[load]]\nnode = \"m\"\n") +
         load + "[integrator]\nend_time = 0.9\n";
     SceneRun ours(scene, {"integrator.type=piecewise"}), reference(scene, {"integrator.type=exact"});
     ASSERT_TRUE(ours.run().completed);

@@ -1,4 +1,6 @@
 // Steps that cannot pass a root, on functions whose roots are known by dense sampling.
+#include "integrators/first_change.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,8 +8,6 @@
 #include <random>
 
 #include <gtest/gtest.h>
-
-#include "integrators/first_change.hpp"
 
 namespace butee::test::first_change_test {
 namespace {
