@@ -17,6 +17,7 @@ struct MethodCase {
   bool is_implicit = false;    ///< factorizes a matrix for each step size
   bool takes_dashpots = true;  ///< that couple the modes
   bool takes_smooth_laws = true;
+  bool is_for_few_dofs = false;
 
   double step_order() const { return order > 0.0 ? order : order_of_equal_steps; }
 };
@@ -29,7 +30,7 @@ inline void PrintTo(const MethodCase& method, std::ostream* out) {
 inline std::vector<MethodCase> method_cases() {
   const std::string newton = "residual_tolerance = 1e-13\nincrement_tolerance = 1e-13\nmax_iterations = 20\n";
   std::vector<MethodCase> all = {{"exact", "", 0.0},
-                                 {"piecewise", "", 0.0, 0.0, false, true, false},
+                                 {"piecewise", "", 0.0, 0.0, false, true, false, true},
                                  {"exponential", "tolerance = 1e-6\n", 0.0, 0.0, false, false},
                                  {"rk4", "", 4.0},
                                  {"newmark", newton, 2.0, 0.0, true},
