@@ -47,6 +47,7 @@ plugin::Catalogue& catalogue() {
                          generalized_alpha_adaptive_type(),
                          hht_alpha_type(),
                          hht_alpha_adaptive_type(),
+                         piecewise_type(),
                          rodas4_type(),
                          rk4_type(),
                          rk4_fixed_factors_type(),
