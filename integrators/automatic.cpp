@@ -83,7 +83,13 @@ bool suits_collocation(dynamics::Dynamics& dynamics) {
   if (!is_coupled || system.rotation != nullptr || system.size() > kQuickModes) return false;
   for (Index i = 0; i < dynamics.stop_count(); ++i)
     if (!dynamics.contact().law_of(i).is_piecewise_linear()) return false;
-  return true;
+  for (const model::FreeObstacles& obstacles : system.obstacles)
+    if (obstacles.group->friction.has_memory() ||
+        (obstacles.group->law != nullptr && !obstacles.group->law->is_piecewise_linear()))
+      return false;
+  return std::all_of(system.loads.begin(), system.loads.end(), [](const model::FreeLoad& load) {
+    return load.in_time->harmonic() || load.in_time->is_piecewise_parabolic();
+  });
 }
 
 std::unique_ptr<time::Integrator> make_rodas4(dynamics::Dynamics& dynamics, const Goal& goal) {

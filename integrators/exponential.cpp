@@ -314,7 +314,7 @@ time::IntegratorType exponential_type() {
                              .at_least(0)
                              .or_else(std::int64_t{0})},
           .finds_first_step = true,
-          .contacts = time::ContactSupport::without_rigid,
+          .contacts = time::ContactSupport::without_memory,
           .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
             return make_exponential(dynamics,
                                     {p.number("tolerance"), p.number("end_time"), static_cast<int>(p.integer("order")),

@@ -116,11 +116,23 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
     const Sampled begin{step.from.t, first[i].normal};
     watches_[i].last = {begin, begin};
   }
+  // Steps of methods that follow phases end where these change; in others contacts may touch and part between knots.
   double begin = step.from.t;
+  if (dynamics_.obstacles()->is_live()) {
+    const auto knots = step.integrator.knots(step.from, step.to);
+    for (const double knot : std::vector<double>(knots.begin(), knots.end())) {
+      in_parts(step, begin, knot);
+      begin = knot;
+    }
+  }
+  in_parts(step, begin, step.to.t);
+}
+
+void ContactRecorder::in_parts(const time::AcceptedStep& step, double begin, double end) {
+  const double length = (end - begin) / kParts;
   for (int part = 1; part <= kParts; ++part) {
-    const double end = part == kParts ? step.to.t : step.from.t + h * part / kParts;
-    integrate(step, begin, end);
-    begin = end;
+    const double from = begin + length * (part - 1);
+    integrate(step, from, part == kParts ? end : from + length);
   }
 }
 

@@ -55,6 +55,8 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   const Forces& at(const time::AcceptedStep& step, double t);
   /// Finds the contacts that may exert a force within the step: in given phases those that touch.
   void find_active();
+  /// integrate() over kParts equal parts.
+  void in_parts(const time::AcceptedStep& step, double begin, double end);
   void integrate(const time::AcceptedStep& step, double begin, double end);
   /// Takes the normal force of a contact at an instant of a step, and the largest around the one before.
   void take_force(const time::AcceptedStep& step, std::size_t contact, double t, double force);

@@ -32,6 +32,18 @@ int samples_of_loads(const model::System& system, double h) {
   return static_cast<int>(std::min(kPerTurn * turns, kMost));
 }
 
+/// Where the parabola through three points has its lowest value, if that is below half of the middle one: there a
+/// function that is no parabola may be negative.
+std::optional<double> lowest_of(const std::array<double, 3>& t, const std::array<double, 3>& value) {
+  const double rise = (value[1] - value[0]) / (t[1] - t[0]), next = (value[2] - value[1]) / (t[2] - t[1]),
+               bend = (next - rise) / (t[2] - t[0]);
+  if (!(bend > 0.0)) return std::nullopt;
+  const double slope = rise + bend * (t[1] - t[0]), place = t[1] - 0.5 * slope / bend;
+  const double lowest = value[1] - 0.25 * slope * slope / bend;
+  if (!(lowest < 0.5 * value[1]) || place <= t[0] || place >= t[2]) return std::nullopt;
+  return place;
+}
+
 }  // namespace
 
 ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
@@ -176,19 +188,45 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
   std::sort(watched_dofs_.begin(), watched_dofs_.end());
   watched_dofs_.erase(std::unique(watched_dofs_.begin(), watched_dofs_.end()), watched_dofs_.end());
   const double h = to.t - from.t;
-  const int samples = sticks_.empty() ? kSamples : std::max(kSamples, samples_of_loads(dynamics_.system(), h));
+  // A method that has knots within a step takes the longer steps.
+  const int looks = kSamples * static_cast<int>(1 + integrator.knots(from, to).size());
+  const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
+  // Of every switching function at the two looks before; a dip between two looks shows as a lowest one.
+  struct Look {
+    double t = 0.0, value = 0.0;
+  };
+  std::vector<std::array<std::array<Look, 2>, Obstacles::kMostSwitches>> before(watched_.size());
   for (int k = 0; k <= samples; ++k) {
     const double t = k == 0 ? from.t + kAhead * h : k == samples ? to.t : from.t + h * k / samples;
     sample(integrator, from, to, t, watched_dofs_, now_);
     std::optional<Event> earliest;
-    for (const Index i : watched_) {
+    const auto take = [&earliest](const Event& event) {
+      if (!earliest || event.t < earliest->t) earliest = event;
+    };
+    const auto bottom_at = [&](double instant, Index contact, std::size_t which) {
+      own_dofs_.clear();
+      add_dofs(contact, own_dofs_);
+      sample(integrator, from, to, instant, own_dofs_, work_);
+      return value(contact, which, work_);
+    };
+    for (std::size_t w = 0; w < watched_.size(); ++w) {
+      const Index i = watched_[w];
       const std::size_t count = switches(i, now_);
       const auto present = found_;
       for (std::size_t which = 0; which < count; ++which) {
-        if (present[which].value >= 0.0) continue;
-        const Event event = refine(integrator, from, to, {t, i, which}, last, present[which].value);
-        if (!earliest || event.t < earliest->t) earliest = event;
+        auto& [first, second] = before[w][which];
+        const Look now{t, present[which].value};
+        if (now.value < 0.0) {
+          take(refine(integrator, from, to, {t, i, which}, last, now.value));
+        } else if (k >= 2 && second.value < first.value && second.value <= now.value) {
+          const auto lowest = lowest_of({first.t, second.t, t}, {first.value, second.value, now.value});
+          const double begin = lowest && *lowest > second.t ? second.t : first.t;
+          if (const double bottom = lowest ? bottom_at(*lowest, i, which) : 0.0; bottom < 0.0)
+            take(refine(integrator, from, to, {*lowest, i, which}, begin, bottom));
+        }
+        first = second;
+        second = now;
       }
     }
     if (earliest) return earliest;
@@ -201,13 +239,13 @@ ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const S
                                            Event event, double begin, double value) {
   own_dofs_.clear();
   add_dofs(event.contact, own_dofs_);
-  const auto value_at = [&](double t) {
+  const auto at = [&](double t) {
     sample(integrator, from, to, t, own_dofs_, work_);
     return this->value(event.contact, event.which, work_);
   };
   // The Illinois form of the false position, whose bracket holds; bisection where it comes no nearer.
   const double precision = 1e-15 * std::abs(to.t);
-  double end = event.t, at_end = value, at_begin = value_at(begin);
+  double end = event.t, at_end = value, at_begin = at(begin);
   if (at_begin < 0.0) at_begin = 0.0;
   double width = end - begin;
   int side = 0;
@@ -217,7 +255,7 @@ ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const S
     if (i % 3 == 2) width = end - begin;
     if (!(middle > begin && middle < end)) middle = 0.5 * (begin + end);
     if (middle <= begin || middle >= end) break;
-    const double found = value_at(middle);
+    const double found = at(middle);
     if (found < 0.0) {
       end = middle;
       at_end = found;

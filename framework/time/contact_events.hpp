@@ -15,7 +15,8 @@ class Integrator;
 /// Within a step every contact keeps the phase that it has at the start; a step in which one ends is cut there, so that
 /// every step is smooth. The phases are in State::contact: kEntries numbers a contact, of which the last tells which
 /// switching function ended the step (0: none). An end is seen where a switching function has another sign at one of
-/// kSamples instants within the step; shorter visits pass unseen.
+/// kSamples instants within the step, or at the lowest point of a dip between three of them; shorter visits pass
+/// unseen.
 class BUTEE_EXPORT ContactEvents {
  public:
   static constexpr Index kEntries = dynamics::Obstacles::kStateSize + 1;

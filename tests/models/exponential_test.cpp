@@ -283,13 +283,19 @@ TEST(Exponential, WithTheLowestModesComesCloserTheMoreThereAreAndSaysWhatIsLeftO
   EXPECT_LT(with_ten, 0.1 * with_two);
 }
 
-TEST(Exponential, RefusesDampingThatCouplesTheModes) {
-  const std::string dashpot = "[[element]]\ntype = \"spring\"\nnode = \"b:3\"\nstiffness = 1e3\ndamping = 200.0\n";
+TEST(Exponential, RefusesLoadsOfWhichItKnowsTooLittle) {
+  // The unbalance of a shaft that speeds up, beside a dashpot that couples the modes.
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
+      "\"b\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 10.0\n[[element]]\n"
+      "type = \"spring\"\nnode = \"a\"\nstiffness = 1e3\ndamping = 5.0\n[[load]]\ntype = \"unbalance\"\nnode = "
+      "\"a\"\nmoment = 0.1\n[rotation]\nspeed = { type = \"ramp\", from = 0.0, to = 50.0, end = 1.0 }\n[integrator]\n"
+      "type = \"exponential\"\nend_time = 0.1\n";
   try {
-    SceneRun scene(frame(dashpot, "[integrator]\ntype = \"exponential\"\nend_time = 0.1\n"));
+    SceneRun run(scene);
     FAIL() << "was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("dashpots"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("rodas4"), std::string::npos) << error.what();
   }
 }
 

@@ -141,8 +141,7 @@ TEST_P(ImpactMethods, the_peak_of_the_normal_force_is_found_between_rows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Adaptive, ImpactMethods,
-                         testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
-                                         "integrator.type=exponential"));
+                         testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8"));
 
 }  // namespace
 }  // namespace butee::test::impact_damping_test

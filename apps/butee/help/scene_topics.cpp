@@ -155,7 +155,7 @@ and surface_speed (m/s) of the obstacle along the tangent, as of a belt.
 
 rodas4, dopri5, extrapolation8 and exact end their steps where a contact touches, parts, sticks or slips, so that the
 regularisation alone is left as an error; rk4 and its kin take rings, planes, dissipation and regularised friction as the
-instant has them. exponential takes all but rigid stick, at a constant speed of rotation. exact takes law = "linear";
+instant has them. exponential takes them with law = "linear" and a constant speed of rotation, but no stick springs. exact takes law = "linear";
 piecewise takes linear stops, elastic or with kelvin_voigt, of up to 24 DOFs; rigid stick is for dopri5, extrapolation8 and
 exact; jankowski is not for rodas4. auto chooses among them; other methods refuse. A stick spring in a ring must not be
 stretched by more than half the circumference. A visit that is shorter than an eighth of a step may pass unseen, but not by
