@@ -119,18 +119,20 @@ std::string rows_in(const std::string& folder) {
 /// The files of a study that was interrupted once its file of rows had grown: some rows, not all.
 std::string interrupted(const TemporaryFolder& folder, const std::string& format) {
   folder.write("scene.toml", kScene);
-  folder.write("study.toml", sweep_of(2000, 200));
+  folder.write("study.toml", sweep_of(2000, 4000));
   Process process({"study", "study.toml", "-q", "--format", format, "-o", "broken"}, folder.path());
   std::optional<std::uintmax_t> first;
-  for (int i = 0; i < 6000; ++i) {
-    std::this_thread::sleep_for(10ms);
+  bool has_ended = false;
+  for (int i = 0; i < 6000 && !has_ended; ++i) {
+    has_ended = process.ends_within(10ms);
     std::error_code none_yet;
     const auto size = fs::file_size(rows_in(folder.file("broken")), none_yet);
     if (none_yet) continue;
     if (!first) first = size;
     if (size > *first + 2000) break;
   }
-  process.send(SIGKILL);
+  EXPECT_FALSE(has_ended) << "before it could be interrupted";
+  if (!has_ended) process.send(SIGKILL);
   process.wait();
   const std::string rows = rows_in(folder.file("broken"));
   EXPECT_NE(rows, "") << "no rows within a minute";
@@ -173,9 +175,9 @@ TEST(StudyStore, RefusesAnotherSceneStudyOrFormat) {
   folder.write("scene.toml", other.replace(other.find("0.3"), 3, "0.4"));
   expect_refusal(arguments, "the scene, or a file that it names has changed");
   folder.write("scene.toml", kScene);
-  folder.write("study.toml", sweep_of(2000, 201));
+  folder.write("study.toml", sweep_of(2000, 4001));
   expect_refusal(arguments, "the study (what varies, how, and what is collected) has changed");
-  folder.write("study.toml", sweep_of(2000, 200));
+  folder.write("study.toml", sweep_of(2000, 4000));
   if (has_hdf5()) expect_refusal({"study", "study.toml", "-q", "-o", "broken"}, "--format");
   std::string identity = read_file(folder.file("broken/study.toml"));
   const auto build = identity.find("butee ", identity.find("build"));
