@@ -53,7 +53,9 @@ int check_command(const CheckArguments& arguments) {
   check::Facts facts;
   facts.survey = check::survey_of(session.model);
   facts.open = frequency_range(system, dynamics::StopState::open);
-  facts.closed = system.stops.empty() && system.obstacles.empty() ? facts.open : frequency_range(system, dynamics::StopState::closed);
+  facts.closed = system.stops.empty() && system.obstacles.empty()
+                     ? facts.open
+                     : frequency_range(system, dynamics::StopState::closed);
   facts.mechanics = check::mechanics_of(system, session.integrator.options.end_time);
   facts.cost = check::estimate(session, reading_seconds);
   const auto advice = check::advise(session, system, facts);

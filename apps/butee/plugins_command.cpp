@@ -165,8 +165,8 @@ int plugins_command(const PluginsArguments& arguments) {
 
 Command add_plugins_command(CLI::App& program) {
   const auto arguments = std::make_shared<PluginsArguments>();
-  CLI::App* app =
-      program.add_subcommand("plugins", "list what a scene may name: methods, elements, laws, contacts, loads, formats");
+  CLI::App* app = program.add_subcommand(
+      "plugins", "list what a scene may name: methods, elements, laws, contacts, loads, formats");
   app->add_option("name", arguments->name, "show the parameters of this one")->type_name("NAME");
   add_plugin_option(*app, arguments->plugins);
   app->add_flag("--json", arguments->json, "print JSON");

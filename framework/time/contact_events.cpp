@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "butee/core/error.hpp"
 #include "butee/time/integrator.hpp"
 
 namespace butee::time {

@@ -143,7 +143,8 @@ TEST(Plugins, are_listed_as_json) {
   const Json all = Json::parse(printed({"plugins", "--json"}));
   std::set<std::string> kinds;
   for (const Json& entry : all) kinds.insert(entry["kind"].get<std::string>());
-  EXPECT_EQ(kinds, (std::set<std::string>{"contact", "element", "format", "integrator", "law", "load", "quantity", "section"}));
+  EXPECT_EQ(kinds, (std::set<std::string>{"contact", "element", "format", "integrator", "law", "load", "quantity",
+                                          "section"}));
   const Json one = Json::parse(printed({"plugins", "NM2", "--json"}));
   ASSERT_EQ(one.size(), 1U);
   EXPECT_EQ(one[0]["name"], "newmark_adaptive");
