@@ -159,7 +159,9 @@ void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, do
   const Power first = gauss(step, begin, middle), second = gauss(step, middle, end);
   const double miss = std::max(std::abs(first.of_loads + second.of_loads - whole.of_loads),
                                std::abs(first.of_damping + second.of_damping - whole.of_damping));
-  if (miss > kGoodWork * largest_ && halvings < kMostHalvingsOfWork) {
+  // At a start from rest the piece itself is the only measure.
+  const double size = std::max(largest_, std::abs(whole.of_loads) + std::abs(whole.of_damping));
+  if (miss > kGoodWork * size && halvings < kMostHalvingsOfWork) {
     add_halved(step, begin, middle, first, halvings + 1);
     add_halved(step, middle, end, second, halvings + 1);
     return;
