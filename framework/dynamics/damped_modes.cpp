@@ -59,7 +59,7 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
   if (b == 1) {
     const double delta = 0.5 * damping(0, 0), scale = block.scale[0];
     const Complex root = std::sqrt(Complex(delta * delta - stiffness(0, 0)));
-    // Of two real ones the larger by its sum, the smaller by its product: no digits cancel.
+    // The larger of two real roots comes from the sum, the smaller from the product of both, so that no digits cancel.
     Complex first = -delta + root, second = -delta - root;
     if (root.imag() == 0.0 && std::abs(first) < std::abs(second)) first = stiffness(0, 0) / second;
     if (root.imag() == 0.0 && std::abs(second) < std::abs(first)) second = stiffness(0, 0) / first;

@@ -15,7 +15,7 @@ class Dynamics;
 ///
 ///     z_k' = lambda_k z_k + b_k . f(t),    x = Re sum_k r_k z_k,    v = Re sum_k lambda_k r_k z_k
 ///
-/// Of each pair of complex modes one is kept, with twice its shape. Columns of 2 p numbers hold the real parts of all p
+/// One mode of each complex pair is kept, with twice its shape. Columns of 2 p numbers hold the real parts of all p
 /// modes and then the imaginary parts, so that sums over modes are real products. Modes ascend in |lambda|.
 ///
 /// The natural modes of M and the symmetric part of K that C and the rest of K couple form blocks, each with an

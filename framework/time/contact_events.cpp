@@ -193,7 +193,7 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
   const int looks = kSamples * static_cast<int>(1 + integrator.knots(from, to).size());
   const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
-  // Of every switching function at the two looks before; a dip between two looks shows as a lowest one.
+  // The values of every switching function at the last two instants. A dip between instants shows as a lowest value.
   struct Look {
     double t = 0.0, value = 0.0;
   };

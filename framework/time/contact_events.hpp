@@ -78,7 +78,7 @@ class BUTEE_EXPORT ContactEvents {
   std::vector<Index> sticks_, watched_, watched_dofs_, own_dofs_;
 };
 
-/// What the contacts of a state remember, for a run with other values, or another time, to start from:
+/// The memory of the contacts of a state, from which a run with other values or at another time can start:
 /// Obstacles::kStateSize numbers each; empty where no phases are followed.
 BUTEE_EXPORT Vector contact_memory(dynamics::Dynamics& dynamics, const State& state);
 

@@ -101,7 +101,7 @@ class BUTEE_EXPORT Integrator {
   /// integrates; else contacts act by the motion of the instant alone, and laws with memory are refused.
   virtual bool follows_contact_phases() const { return false; }
 
-  /// Of a method that follows phases: the part of a step by which the end of a step may miss a change of phase.
+  /// The part of a step by which its end may miss a change of phase, for methods that follow phases.
   virtual double event_precision() const { return 1e-12; }
 
   /// The motion of `dofs` within the last step that was computed, as those see it who look for changes of contact: as
