@@ -1,39 +1,18 @@
 #include "integrators/modal_response.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
-
-#include <Eigen/LU>
 
 namespace butee::integrators {
 namespace {
 
 using Complex = std::complex<double>;
-using Square = Eigen::Matrix<double, StepNodes::kCount, StepNodes::kCount>;
 
 constexpr int kPowers = static_cast<int>(StepNodes::kCount);
 /// |lambda c h| up to which the series is taken, and its terms, of which the last is below rounding there.
 constexpr double kSmall = 7.0;
 constexpr int kMostTerms = 34;
 constexpr double kRounding = 1e-18;
-
-Square interpolation(bool has_middle) {
-  std::vector<Index> used;
-  for (Index j = 0; j < StepNodes::kCount; ++j)
-    if (has_middle || j != StepNodes::kMiddle) used.push_back(j);
-  const auto n = static_cast<Index>(used.size());
-  Eigen::MatrixXd powers(n, n);
-  for (Index j = 0; j < n; ++j)
-    for (Index r = 0; r < n; ++r)
-      powers(j, r) = std::pow(StepNodes::kPlaces[static_cast<std::size_t>(used[static_cast<std::size_t>(j)])],
-                              static_cast<double>(r));
-  const Eigen::MatrixXd inverse = powers.fullPivLu().inverse();  // coefficient r from value j
-  Square all = Square::Zero();
-  for (Index j = 0; j < n; ++j)
-    for (Index r = 0; r < n; ++r) all(used[static_cast<std::size_t>(j)], r) = inverse(r, j);
-  return all;
-}
 
 /// (e^w - 1)/w for |w| <= 1/2.
 Complex phi(Complex w) {
@@ -43,28 +22,6 @@ Complex phi(Complex w) {
 }
 
 }  // namespace
-
-const std::array<double, StepNodes::kCount> StepNodes::kPlaces = {
-    0.0, 0.5 - 0.5 * 0.76505532392946469, 0.5 - 0.5 * 0.28523151648064510,
-    0.5, 0.5 + 0.5 * 0.28523151648064510, 0.5 + 0.5 * 0.76505532392946469,
-    1.0};
-
-const Square& StepNodes::with_middle() {
-  static const Square matrix = interpolation(true);
-  return matrix;
-}
-
-const Square& StepNodes::without_middle() {
-  static const Square matrix = interpolation(false);
-  return matrix;
-}
-
-Eigen::Matrix<double, StepNodes::kCount, 1> StepNodes::lagrange(double place) {
-  Eigen::Matrix<double, kCount, 1> powers;
-  powers[0] = 1.0;
-  for (Index r = 1; r < kCount; ++r) powers[r] = powers[r - 1] * place;
-  return with_middle() * powers;
-}
 
 PlaceResponse::PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place,
                              double h, Index first)
@@ -192,6 +149,21 @@ void PlaceResponse::add_force(const double* g, Eigen::Ref<Eigen::VectorXd> out) 
       im[k] += mr[k] * gi[k] + mi[k] * gr[k];
     }
   }
+}
+
+StepResponse::StepResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double h)
+    : h_(h) {
+  for (Index j = 1; j < StepNodes::kCount; ++j)
+    places_.emplace_back(modes, loads, StepNodes::kPlaces[static_cast<std::size_t>(j)], h);
+}
+
+void StepResponse::move(double t, const double* z, const double* g, Eigen::MatrixXd& nodes) const {
+  nodes.col(0) = Eigen::Map<const Eigen::VectorXd>(z, nodes.rows());
+  for (std::size_t j = 0; j < places_.size(); ++j) places_[j].move(t, z, g, nodes.col(static_cast<Index>(j) + 1));
+}
+
+void StepResponse::add_force(const double* g, Eigen::MatrixXd& nodes) const {
+  for (std::size_t j = 0; j < places_.size(); ++j) places_[j].add_force(g, nodes.col(static_cast<Index>(j) + 1));
 }
 
 }  // namespace butee::integrators

@@ -1,27 +1,13 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "butee/dynamics/damped_modes.hpp"
+#include "integrators/step_nodes.hpp"
 
 namespace butee::integrators {
-
-/// Places in a step at which forces are taken: 0, 1 and the zeros of P'_5 (Lobatto's rule of six points), and the
-/// middle.
-struct StepNodes {
-  static constexpr Index kCount = 7, kMiddle = 3, kEnd = 6;
-  static const std::array<double, kCount> kPlaces;
-  /// From values at the nodes to the coefficients of 1, s, ..., s^6: by all of them, or without the middle one, whose
-  /// row is then zero. f (n x 7) times it.
-  using Matrix = Eigen::Matrix<double, kCount, kCount>;
-  static const Matrix& with_middle();
-  static const Matrix& without_middle();
-  /// Lagrange's polynomials at a place.
-  static Eigen::Matrix<double, kCount, 1> lagrange(double place);
-};
 
 /// A load amplitude cos(Omega t + phase) on all modes: the factors of e^(i Omega t) and e^(-i Omega t), 2p numbers
 /// each.
@@ -61,6 +47,22 @@ class PlaceResponse {
     Eigen::VectorXd forth, back;
   };
   std::vector<Harmonic> harmonics_;
+};
+
+/// The responses at all nodes of a step but its start.
+class StepResponse {
+ public:
+  StepResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double h);
+
+  double h() const { return h_; }
+  /// Fills the columns of `nodes` (2p x 7) with z at the nodes; arguments as of PlaceResponse::move().
+  void move(double t, const double* z, const double* g, Eigen::MatrixXd& nodes) const;
+  /// nodes += the moments of `g`, but for the start.
+  void add_force(const double* g, Eigen::MatrixXd& nodes) const;
+
+ private:
+  double h_;
+  std::vector<PlaceResponse> places_;
 };
 
 }  // namespace butee::integrators
