@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "butee/core/error.hpp"
 #include "butee/time/integrator.hpp"
@@ -22,6 +23,11 @@ constexpr int kMostAtOnce = 50;
 constexpr int kBisections = 60;
 /// A contact is near where it is within so many times the way that its ends' speeds cover.
 constexpr double kReach = 1.0;
+/// Parabolas through a dip, and how many times its error there the last one must lie above zero.
+constexpr int kMostInDip = 8;
+constexpr double kDipError = 4.0;
+/// Fall into a dip, relative to its lowest look, that rounding does not cause.
+constexpr double kRounding = 1e-9;
 
 /// Looks that follow the loads over a step: what sticks rigidly does not move while they change.
 int samples_of_loads(const model::System& system, double h) {
@@ -33,16 +39,43 @@ int samples_of_loads(const model::System& system, double h) {
   return static_cast<int>(std::min(kPerTurn * turns, kMost));
 }
 
-/// Where the parabola through three points has its lowest value, if that is below half of the middle one: there a
-/// function that is no parabola may be negative.
-std::optional<double> lowest_of(const std::array<double, 3>& t, const std::array<double, 3>& value) {
-  const double rise = (value[1] - value[0]) / (t[1] - t[0]), next = (value[2] - value[1]) / (t[2] - t[1]),
-               bend = (next - rise) / (t[2] - t[0]);
+/// A switching function at an instant.
+struct Look {
+  double t = 0.0, value = 0.0;
+};
+
+/// The lowest point of the parabola through three looks, the middle one of which is lowest; none where rounding hides
+/// its bend.
+std::optional<Look> lowest_of(const std::array<Look, 3>& looks) {
+  const auto& [first, second, third] = looks;
+  const double rise = (second.value - first.value) / (second.t - first.t),
+               next = (third.value - second.value) / (third.t - second.t), bend = (next - rise) / (third.t - first.t);
   if (!(bend > 0.0)) return std::nullopt;
-  const double slope = rise + bend * (t[1] - t[0]), place = t[1] - 0.5 * slope / bend;
-  const double lowest = value[1] - 0.25 * slope * slope / bend;
-  if (!(lowest < 0.5 * value[1]) || place <= t[0] || place >= t[2]) return std::nullopt;
-  return place;
+  const double slope = rise + bend * (second.t - first.t), way = -0.5 * slope / bend;
+  const Look lowest{second.t + way, second.value + 0.5 * slope * way};
+  if (lowest.t <= first.t || lowest.t >= third.t || lowest.t == second.t) return std::nullopt;
+  return lowest;
+}
+
+/// An instant within a dip at which the function is negative, and the last look before it at which it is not; none
+/// where the dip ends above zero. `function` gives the value at an instant; `looks` as for lowest_of.
+template <typename Function>
+std::optional<std::pair<Look, Look>> below_zero(std::array<Look, 3> looks, const Function& function) {
+  for (int i = 0; i < kMostInDip; ++i) {
+    const std::optional<Look> expected = lowest_of(looks);
+    if (!expected) return std::nullopt;
+    const Look found{expected->t, function(expected->t)};
+    auto& [first, second, third] = looks;
+    if (found.value < 0.0) return std::pair{found, found.t > second.t ? second : first};
+    // The parabola is as wrong elsewhere in the dip as it is here.
+    if (found.value > kDipError * std::abs(found.value - expected->value)) return std::nullopt;
+    if (found.t > second.t) {
+      found.value < second.value ? first = second, second = found : third = found;
+    } else {
+      found.value < second.value ? third = second, second = found : first = found;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -193,23 +226,24 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
   const int looks = kSamples * static_cast<int>(1 + integrator.knots(from, to).size());
   const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
-  // The values of every switching function at the last two instants. A dip between instants shows as a lowest value.
-  struct Look {
-    double t = 0.0, value = 0.0;
-  };
+  // Every switching function at the last two instants. A dip between instants shows as a lowest value.
   std::vector<std::array<std::array<Look, 2>, Obstacles::kMostSwitches>> before(watched_.size());
-  for (int k = 0; k <= samples; ++k) {
-    const double t = k == 0 ? from.t + kAhead * h : k == samples ? to.t : from.t + h * k / samples;
-    sample(integrator, from, to, t, watched_dofs_, now_);
+  // Two looks close to either end tell a dip between the end and its neighbour.
+  for (int k = -1; k <= samples + 1; ++k) {
+    const double t = k == -1            ? from.t
+                     : k == 0           ? from.t + kAhead * h
+                     : k == samples     ? to.t - kAhead * h
+                     : k == samples + 1 ? to.t
+                                        : from.t + h * k / samples;
+    if (k == -1) {
+      now_ = {from.t, from.x, from.v, {}};
+      hold(now_);
+    } else {
+      sample(integrator, from, to, t, watched_dofs_, now_);
+    }
     std::optional<Event> earliest;
     const auto take = [&earliest](const Event& event) {
       if (!earliest || event.t < earliest->t) earliest = event;
-    };
-    const auto bottom_at = [&](double instant, Index contact, std::size_t which) {
-      own_dofs_.clear();
-      add_dofs(contact, own_dofs_);
-      sample(integrator, from, to, instant, own_dofs_, work_);
-      return value(contact, which, work_);
     };
     for (std::size_t w = 0; w < watched_.size(); ++w) {
       const Index i = watched_[w];
@@ -218,13 +252,19 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
       for (std::size_t which = 0; which < count; ++which) {
         auto& [first, second] = before[w][which];
         const Look now{t, present[which].value};
-        if (now.value < 0.0) {
+        // At its start a step may be about to leave what the last one ended at.
+        if (now.value < 0.0 && k >= 0) {
           take(refine(integrator, from, to, {t, i, which}, last, now.value));
-        } else if (k >= 2 && second.value < first.value && second.value <= now.value) {
-          const auto lowest = lowest_of({first.t, second.t, t}, {first.value, second.value, now.value});
-          const double begin = lowest && *lowest > second.t ? second.t : first.t;
-          if (const double bottom = lowest ? bottom_at(*lowest, i, which) : 0.0; bottom < 0.0)
-            take(refine(integrator, from, to, {*lowest, i, which}, begin, bottom));
+        } else if (k >= 1 && second.value >= 0.0 && second.value <= now.value &&
+                   first.value - second.value > kRounding * second.value) {
+          const auto at = [&](double instant) {
+            own_dofs_.clear();
+            add_dofs(i, own_dofs_);
+            sample(integrator, from, to, instant, own_dofs_, work_);
+            return value(i, which, work_);
+          };
+          if (const auto dip = below_zero({first, second, now}, at))
+            take(refine(integrator, from, to, {dip->first.t, i, which}, dip->second.t, dip->first.value));
         }
         first = second;
         second = now;

@@ -115,7 +115,7 @@ Motions run(const std::string& scene, const std::string& method, Index dof, cons
 
 /// Rounding of either method, relative to the peaks; 1.4e-11 was seen.
 constexpr double kRounding = 3e-11;
-/// The smallest tolerance of extrapolation8, 1e-12, over some thousand steps.
+/// Looser, since `exact` locates these changes on samples; 1.05e-10 was seen once on 584 chains.
 constexpr double kEvents = 1e-10;
 /// A disturbance whose growth is measured, m/s.
 constexpr double kDisturbance = 1e-9;
@@ -157,14 +157,11 @@ TEST(Piecewise, MeetsExactOnRandomChains) {
   EXPECT_GT(compared, kChains * 150);
 }
 
-/// exact may miss visits shorter than an eighth of its steps, which it does on one of these; the steps of
-/// extrapolation8 are shorter.
-TEST(Piecewise, MeetsAnotherMethodWhereStopsDissipate) {
+TEST(Piecewise, MeetsExactWhereStopsDissipate) {
   constexpr unsigned kChains = 60;
   unsigned compared = 0;
   for (unsigned seed = 0; seed < kChains && !HasFailure(); ++seed)
-    compared += compare(RandomChain(seed, true), "extrapolation8", "tolerance = 1e-12\n", kEvents,
-                        "seed " + std::to_string(seed));
+    compared += compare(RandomChain(seed, true), "exact", "", kEvents, "seed " + std::to_string(seed));
   EXPECT_GT(compared, kChains * 150);
 }
 
