@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "butee/model/obstacle.hpp"
 
 namespace butee::contact {
@@ -19,7 +17,7 @@ class Ring final : public model::ContactShape {
 
   model::Approach at(const Eigen::Vector2d& d) const override {
     const Eigen::Vector2d arm = d - centre_;
-    const double r = std::hypot(arm[0], arm[1]);
+    const double r = arm.norm();
     // At the centre every direction is normal.
     if (r == 0.0) return {-sense_ * gap_, {sense_, 0.0}, 0.0};
     return {sense_ * (r - gap_), sense_ / r * arm, sense_ / r};

@@ -67,7 +67,7 @@ Obstacles::Slide Obstacles::slide(const Friction& friction, SlipPhase phase, dou
   const double scale = friction.slip_speed;
   switch (friction.rule) {
     case Friction::Rule::sqrt: {
-      const double root = std::hypot(w, scale);
+      const double root = std::sqrt(w * w + scale * scale);
       return {w / root, scale * scale / (root * root * root)};
     }
     case Friction::Rule::tanh: {
@@ -116,7 +116,7 @@ double Obstacles::friction_force(Index i, double t, const Kinematics& now, const
 const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVectorRef x, ConstVectorRef v) {
   tangents_.clear();
   for (Index i = 0; i < size(); ++i) {
-    if (is_idle(i)) continue;
+    if (is_idle(i, x)) continue;
     const Contact& contact = at(i);
     const model::ObstacleGroup& group = *contact.group;
     const Friction& friction = group.friction;

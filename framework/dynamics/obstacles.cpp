@@ -1,6 +1,8 @@
 #include "butee/dynamics/obstacles.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "butee/core/error.hpp"
 
@@ -15,6 +17,19 @@ Eigen::Vector2d tangent_to(const Eigen::Vector2d& normal) {
   return {-normal[1], normal[0]};
 }
 
+/// A distance that is surely within the contact's gap.
+double reach_of(const model::ContactShape::Form& form) {
+  constexpr double kRounding = 1e-12;
+  switch (form.kind) {
+    case model::ContactShape::Form::Kind::line:
+      return form.distance - kRounding * std::abs(form.distance);
+    case model::ContactShape::Form::Kind::circle:
+      return form.distance * (1.0 - form.sense * kRounding);
+    default:
+      return -std::numeric_limits<double>::infinity();
+  }
+}
+
 }  // namespace
 
 Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
@@ -26,6 +41,7 @@ Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
       Contact contact{free.group, &free.ends[i], &free.names[i], {}, 0.0};
       if (free.group->shape != nullptr) {
         contact.form = free.group->shape->form();
+        contact.reach = reach_of(contact.form);
         contact.is_silent_apart = free.group->law->is_piecewise_linear() && free.group->law->secant(-1.0) == 0.0;
         contact.rest_energy = free.group->law->energy(free.group->shape->at({0.0, 0.0}).penetration);
       }
@@ -83,6 +99,36 @@ void Obstacles::scatter(Index i, const Eigen::Vector2d& value, VectorRef force) 
   }
 }
 
+bool Obstacles::is_apart(const Contact& contact, const Eigen::Vector2d& d) const {
+  switch (contact.form.kind) {
+    case model::ContactShape::Form::Kind::line:
+      return contact.form.place.dot(d) < contact.reach;
+    case model::ContactShape::Form::Kind::circle: {
+      const double square = (d - contact.form.place).squaredNorm(), border = contact.reach * contact.reach;
+      return contact.form.sense > 0.0 ? square < border : square > border;
+    }
+    default:
+      return false;
+  }
+}
+
+bool Obstacles::may_touch(Index i, const Motion& from, const Motion& to, double h) const {
+  const Contact& contact = at(i);
+  if (contact.group->shape == nullptr) return true;
+  const double way = h * (from.v.lpNorm<1>() + to.v.lpNorm<1>()) + (to.d - from.d).lpNorm<1>();
+  const auto distance = [&](const Eigen::Vector2d& d) {
+    switch (contact.form.kind) {
+      case model::ContactShape::Form::Kind::line:
+        return contact.form.distance - contact.form.place.dot(d);
+      case model::ContactShape::Form::Kind::circle:
+        return contact.form.sense * (contact.form.distance - (d - contact.form.place).norm());
+      default:
+        return -contact.group->shape->at(d).penetration;
+    }
+  };
+  return !(distance(from.d) > way && distance(to.d) > way);
+}
+
 Obstacles::Motion Obstacles::motion(Index i, ConstVectorRef x, ConstVectorRef v) const {
   return {gather(i, x), gather(i, v)};
 }
@@ -134,7 +180,7 @@ ContactForces Obstacles::forces(Index i, double t, ConstVectorRef x, ConstVector
 void Obstacles::add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef force) {
   ++counters_->contact_evaluations;
   for (Index i = 0; i < size(); ++i) {
-    if (is_idle(i)) continue;
+    if (is_idle(i, x)) continue;
     const ContactForces now = forces(i, t, x, v);
     if (now.normal != 0.0 || now.friction != 0.0) scatter(i, now.force, force);
   }
@@ -143,7 +189,7 @@ void Obstacles::add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRe
 double Obstacles::energy(double t, ConstVectorRef x, ConstVectorRef v) const {
   double sum = 0.0;
   for (Index i = 0; i < size(); ++i)
-    if (!is_idle(i)) sum += forces(i, t, x, v).stored;
+    if (!is_idle(i, x)) sum += forces(i, t, x, v).stored;
   return sum;
 }
 

@@ -110,6 +110,9 @@ class BUTEE_EXPORT Obstacles {
     Eigen::Vector2d d, v;
   };
   Motion motion(Index i, ConstVectorRef x, ConstVectorRef v) const;
+  /// False where a motion that goes from one to the other within h seconds stays apart: where both ends are farther
+  /// away than the speeds of both cover, which a cubic through them exceeds by 4/27 at most.
+  bool may_touch(Index i, const Motion& from, const Motion& to, double h) const;
 
   /// -dF/dd, -dF/dd' and dF/dt of a contact, N/m, N s/m, N/s.
   struct Tangent {
@@ -150,8 +153,9 @@ class BUTEE_EXPORT Obstacles {
     const model::FreeObstacles::Ends* ends;
     const std::string* name;
     model::ContactShape::Form form;
-    double rest_energy;  ///< of the law at d = 0, J
-    bool is_silent_apart = false;
+    double rest_energy;            ///< of the law at d = 0, J
+    double reach = 0.0;            ///< m: nearer than that it is apart, whatever the rounding
+    bool is_silent_apart = false;  ///< no force acts while apart
   };
   /// Where a contact is, and its slip.
   struct Kinematics {
@@ -178,12 +182,15 @@ class BUTEE_EXPORT Obstacles {
   /// How far a stick spring is stretched, m.
   double stretch(Index i, double t, const Kinematics& at, double anchor) const;
   double friction_force(Index i, double t, const Kinematics& at, const ContactPhase& phase, double normal) const;
-  /// True where the phase tells that no force acts, of a law without any while apart.
-  bool is_idle(Index i) const {
+  /// True where no force acts since the contact is apart.
+  bool is_idle(Index i, ConstVectorRef x) const {
     const Contact& contact = at(i);
-    return !is_live_ && contact.group->shape != nullptr && contact.is_silent_apart &&
-           phases_[static_cast<std::size_t>(i)].normal == ContactPhase::Normal::apart;
+    if (!contact.is_silent_apart) return false;
+    return is_live_ ? is_apart(contact, gather(i, x))
+                    : phases_[static_cast<std::size_t>(i)].normal == ContactPhase::Normal::apart;
   }
+  /// By the place alone; false where rounding decides.
+  bool is_apart(const Contact& contact, const Eigen::Vector2d& d) const;
   ContactPhase& used(Index i) { return phases_[static_cast<std::size_t>(i)]; }
 
   const model::System* system_;

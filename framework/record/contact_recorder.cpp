@@ -94,14 +94,16 @@ const ContactRecorder::Forces& ContactRecorder::at(const time::AcceptedStep& ste
   return forces_;
 }
 
-void ContactRecorder::find_active() {
+void ContactRecorder::find_active(const time::State& from, const time::State& to) {
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
   active_.clear();
   for (std::size_t i = 0; i < watches_.size(); ++i) {
-    const dynamics::ContactPhase phase = obstacles.phase(static_cast<Index>(i));
-    if (obstacles.is_live() || watches_[i].is_support || watches_[i].touches ||
-        phase.normal != dynamics::ContactPhase::Normal::apart)
-      active_.push_back(i);
+    const auto contact = static_cast<Index>(i);
+    const bool can_touch = obstacles.is_live()
+                               ? obstacles.may_touch(contact, obstacles.motion(contact, from.x, from.v),
+                                                     obstacles.motion(contact, to.x, to.v), to.t - from.t)
+                               : obstacles.phase(contact).normal != dynamics::ContactPhase::Normal::apart;
+    if (can_touch || watches_[i].is_support || watches_[i].touches) active_.push_back(i);
   }
   if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);
 }
@@ -109,7 +111,7 @@ void ContactRecorder::find_active() {
 void ContactRecorder::step(const time::AcceptedStep& step) {
   const double h = step.to.t - step.from.t;
   duration_ += h;
-  find_active();
+  find_active(step.from, step.to);
   if (active_.empty()) return;
   const Forces& first = at(step, step.from.t);
   for (const std::size_t i : active_) {
@@ -136,9 +138,14 @@ void ContactRecorder::in_parts(const time::AcceptedStep& step, double begin, dou
   }
 }
 
+void ContactRecorder::take(const Forces& forces) {
+  now_.resize(forces.size());
+  for (const std::size_t i : active_) now_[i] = forces[i];
+}
+
 void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, double end) {
   for (const auto& [t, weight] : gauss_points(begin, end)) {
-    now_ = at(step, t);
+    take(at(step, t));
     for (const std::size_t i : active_)
       if (watches_[i].is_support || now_[i].penetration > 0.0) take_force(step, i, t, now_[i].normal);
     for (const std::size_t i : active_) {
@@ -160,7 +167,7 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
       impact.dissipated += taken;
     }
   }
-  now_ = at(step, end);
+  take(at(step, end));
   std::vector<std::size_t> changed;
   for (const std::size_t i : active_) {
     const dynamics::ContactForces now = now_[i];

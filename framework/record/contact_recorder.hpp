@@ -53,8 +53,10 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
 
   /// Those of active_ at an instant of a step; others keep old values.
   const Forces& at(const time::AcceptedStep& step, double t);
-  /// Finds the contacts that may exert a force within the step: in given phases those that touch.
-  void find_active();
+  /// Finds the contacts that may exert a force within a step: in given phases those that touch.
+  void find_active(const time::State& from, const time::State& to);
+  /// Those of active_ into now_.
+  void take(const Forces& forces);
   /// integrate() over kParts equal parts.
   void in_parts(const time::AcceptedStep& step, double begin, double end);
   void integrate(const time::AcceptedStep& step, double begin, double end);

@@ -21,8 +21,6 @@ constexpr double kAtEnd = 1e-6;
 /// Changes of phase at one instant; more are no motion.
 constexpr int kMostAtOnce = 50;
 constexpr int kBisections = 60;
-/// A contact is near where it is within so many times the way that its ends' speeds cover.
-constexpr double kReach = 1.0;
 /// Parabolas through a dip, and how many times its error there the last one must lie above zero.
 constexpr int kMostInDip = 8;
 constexpr double kDipError = 4.0;
@@ -201,10 +199,8 @@ void ContactEvents::sample(const Integrator& integrator, const State& from, cons
 bool ContactEvents::is_near(Index contact, const State& from, const State& to) const {
   const ContactPhase phase = obstacles_.phase(contact);
   if (phase.normal != ContactPhase::Normal::apart || obstacles_.group_of(contact).shape == nullptr) return true;
-  const auto first = obstacles_.motion(contact, from.x, from.v), last = obstacles_.motion(contact, to.x, to.v);
-  const model::ContactShape& shape = *obstacles_.group_of(contact).shape;
-  const double way = kReach * (to.t - from.t) * (first.v.norm() + last.v.norm()) + (first.d - last.d).norm();
-  return shape.at(first.d).penetration + way >= 0.0 || shape.at(last.d).penetration + way >= 0.0;
+  return obstacles_.may_touch(contact, obstacles_.motion(contact, from.x, from.v),
+                              obstacles_.motion(contact, to.x, to.v), to.t - from.t);
 }
 
 std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integrator, const State& from,
