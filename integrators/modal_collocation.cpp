@@ -48,7 +48,10 @@ ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goa
       forces_(dynamics, modes_),
       tolerance_(goal.tolerance),
       rate_(ErrorAccount(goal).rate()),
-      memory_begin_(LocalErrorControl::memory_size(dynamics.size())) {}
+      memory_begin_(LocalErrorControl::memory_size(dynamics.size())),
+      traced_(static_cast<std::size_t>(dynamics.size())),
+      traced_x_(kCount, dynamics.size()),
+      traced_v_(kCount, dynamics.size()) {}
 
 double ModalCollocation::first_step(const State&) const {
   constexpr double kOfContact = 0.3;
@@ -76,8 +79,10 @@ const StepResponse& ModalCollocation::response(double h) {
   return responses_.emplace_front(modes_, loads_.turning(), h);
 }
 
-StepReport ModalCollocation::do_step(const State& from, const time::Step&, State& to) {
+StepReport ModalCollocation::do_step(const State& from, const time::Step& step, State& to) {
   StepReport report;
+  if (step.is_part && from.t == step_begin_ && to.t <= solved_end_ && end_at(from, to, report)) return report;
+  step_end_ = std::numeric_limits<double>::quiet_NaN();
   const auto redo_with = [&report](double h) {
     report.error = 2.0;
     report.proposal = on_ladder(h);
@@ -105,9 +110,8 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step&, State
     ++report.inner_rejected;
   }
   accept(from, h, to);
-  const Vector error_x = modes_.displacement().transpose() * forces_.error(),
-               error_v = modes_.velocity().transpose() * forces_.error();
-  control_.judge(from, to, h, error_x, error_v, report);
+  solved_end_ = to.t;
+  judge(from, to, h, report);
   if (report.error > 1.0) return report;
   if (coarse > 0.0) report.proposal = std::min(report.proposal, on_ladder(h * by_resolution(coarse)));
   // A step that a stop cut short says nothing against longer ones.
@@ -115,10 +119,30 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step&, State
   return report;
 }
 
+bool ModalCollocation::end_at(const State& from, State& to, StepReport& report) {
+  const double h = to.t - from.t;
+  const StepResponse response(modes_, loads_.turning(), h);
+  response.move(from.t, modal(from), loads_.has_others() ? loads_.polynomial(from.t, h).data() : nullptr,
+                forces_.free_nodes());
+  forces_.end_at(h / (step_end_ - step_begin_), response);
+  accept(from, h, to);
+  judge(from, to, h, report);
+  if (report.error <= 1.0) return true;
+  report = {};
+  return false;
+}
+
+void ModalCollocation::judge(const State& from, State& to, double h, StepReport& report) {
+  const Vector error_x = modes_.displacement().transpose() * forces_.error(),
+               error_v = modes_.velocity().transpose() * forces_.error();
+  control_.judge(from, to, h, error_x, error_v, report);
+}
+
 void ModalCollocation::accept(const State& from, double h, State& to) {
   const Index p = modes_.count();
   step_begin_ = from.t;
   step_end_ = to.t;
+  ++accepted_;
   const auto end = forces_.nodes().col(StepNodes::kEnd);
   to.memory.segment(memory_begin_, 2 * p) = end;
   Eigen::Map<Eigen::MatrixXd> polynomial(to.memory.data() + memory_begin_ + 2 * p, 2 * p, kCount);
@@ -135,7 +159,7 @@ std::span<const double> ModalCollocation::knots(const State& from, const State& 
 }
 
 std::optional<Index> ModalCollocation::node_at(const State& from, const State& to, double t) const {
-  if (from.t != step_begin_ || to.t != step_end_) return std::nullopt;
+  if (!holds(from, to)) return std::nullopt;
   for (Index j = 0; j < kCount; ++j)
     if (t == from.t + StepNodes::kPlaces[static_cast<std::size_t>(j)] * (to.t - from.t)) return j;
   return std::nullopt;
@@ -145,7 +169,7 @@ void ModalCollocation::move_to(const State& from, const State& to, double place,
   const Index p = modes_.count();
   const double h = to.t - from.t;
   Index slow = 0;
-  if (from.t == step_begin_ && to.t == step_end_) {
+  if (holds(from, to)) {
     // Slow modes by the polynomial through the nodes, which misses them by StepNodes::kMiss (|lambda| h)^7 of their
     // size.
     const double most = std::pow(kOutput * tolerance_ / StepNodes::kMiss, 1.0 / 7.0) / h;
@@ -190,12 +214,17 @@ void ModalCollocation::do_interpolate(const State& from, const State& to, double
 
 void ModalCollocation::do_trace(const State& from, const State& to, double t, std::span<const Index> dofs,
                                 time::Interpolated out) const {
-  if (from.t != step_begin_ || to.t != step_end_ || !out.a.empty()) return do_interpolate(from, to, t, dofs, out);
+  if (!holds(from, to) || !out.a.empty()) return do_interpolate(from, to, t, dofs, out);
   const auto weights = StepNodes::lagrange((t - from.t) / (to.t - from.t));
-  const Eigen::VectorXd z = forces_.nodes() * weights;
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (!out.x.empty()) out.x[i] = modes_.displacement().col(dofs[i]).dot(z);
-    if (!out.v.empty()) out.v[i] = modes_.velocity().col(dofs[i]).dot(z);
+    const Index dof = dofs[i];
+    if (auto& traced = traced_[static_cast<std::size_t>(dof)]; traced != accepted_) {
+      traced = accepted_;
+      traced_x_.col(dof).noalias() = forces_.nodes().transpose() * modes_.displacement().col(dof);
+      traced_v_.col(dof).noalias() = forces_.nodes().transpose() * modes_.velocity().col(dof);
+    }
+    if (!out.x.empty()) out.x[i] = weights.dot(traced_x_.col(dof));
+    if (!out.v.empty()) out.v[i] = weights.dot(traced_v_.col(dof));
   }
 }
 

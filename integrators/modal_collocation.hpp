@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <list>
 #include <optional>
+#include <vector>
 
 #include "integrators/modal_loads.hpp"
 #include "integrators/node_forces.hpp"
@@ -41,8 +43,17 @@ class ModalCollocation final : public time::Integrator {
 
   /// The response over a step of length h, made at its first use.
   const StepResponse& response(double h);
+  /// Ends the step that forces_ holds elsewhere, at to.t, with the same forces; false where these are too far off
+  /// there.
+  bool end_at(const time::State& from, time::State& to, time::StepReport& report);
   /// Fills `to` with the end of the step that forces_ holds.
   void accept(const time::State& from, double h, time::State& to);
+  /// Errors of displacements and velocities at the end.
+  void judge(const time::State& from, time::State& to, double h, time::StepReport& report);
+  /// Whether forces_ holds the step from one to the other.
+  bool holds(const time::State& from, const time::State& to) const {
+    return from.t == step_begin_ && to.t == step_end_;
+  }
   std::optional<Index> node_at(const time::State& from, const time::State& to, double t) const;
   /// z at a place within an accepted step.
   void move_to(const time::State& from, const time::State& to, double place, Eigen::VectorXd& z) const;
@@ -56,6 +67,11 @@ class ModalCollocation final : public time::Integrator {
   Index memory_begin_;  ///< of z and the force polynomials in State::memory
   std::list<StepResponse> responses_;
   double step_begin_ = 0.0, step_end_ = -1.0;  ///< s, of the step that forces_ holds
+  double solved_end_ = -1.0;                   ///< s: to which its forces were found
+  // The motion of DOFs at the nodes, found when a trace first asks for them.
+  std::uint64_t accepted_ = 0;  ///< counts the steps
+  mutable std::vector<std::uint64_t> traced_;
+  mutable Eigen::Matrix<double, StepNodes::kCount, Eigen::Dynamic> traced_x_, traced_v_;
   mutable std::array<double, StepNodes::kCount> knots_{};
 };
 

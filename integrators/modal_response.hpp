@@ -59,6 +59,8 @@ class StepResponse {
   void move(double t, const double* z, const double* g, Eigen::MatrixXd& nodes) const;
   /// nodes += the moments of `g`, but for the start.
   void add_force(const double* g, Eigen::MatrixXd& nodes) const;
+  /// out += the moments of `g` at the end.
+  void add_force_at_end(const double* g, Eigen::VectorXd& out) const { places_.back().add_force(g, out); }
 
  private:
   double h_;

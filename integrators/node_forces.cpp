@@ -56,7 +56,7 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
     reach_ = reach_.max((shape.head(p).square() + shape.tail(p).square()).sqrt());
   }
   x_ = v_ = force_ = Vector::Zero(dynamics.size());
-  free_ = nodes_ = polynomial_ = Eigen::MatrixXd::Zero(2 * p, kCount);
+  free_ = nodes_ = polynomial_ = missed_ = Eigen::MatrixXd::Zero(2 * p, kCount);
   error_ = Vector::Zero(2 * p);
 }
 
@@ -160,6 +160,7 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
   error_.setZero();
   if (active_.empty()) {
     polynomial_.setZero();
+    missed_.setZero();
     nodes_ = free_;
     return nodes_.allFinite() ? Outcome::converged : Outcome::not_finite;
   }
@@ -203,9 +204,22 @@ void NodeForces::estimate(double t, const StepResponse& response) {
   error_ = nodes_.col(kEnd) - nodes.col(kEnd);
   // In equilibrium nothing but rounding is left.
   if (error_.norm() <= kRoundingOfEnd * (nodes.col(kEnd) - free_.col(kEnd)).norm()) error_.setZero();
+  missed_ = polynomial_ - polynomial;
   nodes_ = nodes;
   polynomial_ = polynomial;
   moved_ = moved;
+}
+
+void NodeForces::end_at(double part, const StepResponse& response) {
+  double power = 1.0;
+  for (Index r = 0; r < kCount; ++r, power *= part) {
+    polynomial_.col(r) *= power;
+    missed_.col(r) *= power;
+  }
+  nodes_ = free_;
+  response.add_force(polynomial_.data(), nodes_);
+  error_.setZero();
+  response.add_force_at_end(missed_.data(), error_);
 }
 
 double NodeForces::first_kink() const {

@@ -26,10 +26,14 @@ class NodeForces {
   /// change velocities by less than `settled`, relative to their scales.
   Outcome find(const time::State& from, const StepResponse& response, double settled);
 
+  /// Ends the step that was found after `part` of its length, with the same forces; free_nodes() is the motion of the
+  /// new step without them. Within the step the polynomials have no superconvergence: the error is their own.
+  void end_at(double part, const StepResponse& response);
+
   Eigen::MatrixXd& free_nodes() { return free_; }
   const Eigen::MatrixXd& nodes() const { return nodes_; }            ///< z at the nodes, 2p x 7
   const Eigen::MatrixXd& polynomial() const { return polynomial_; }  ///< factors of 1, s, ..., s^6, 2p x 7
-  /// What z at the end would be without the values in the middle of the step, less what it is.
+  /// The z at the end without the values in the middle of the step, less z at the end.
   const Eigen::VectorXd& error() const { return error_; }
   /// The part of the step after which a stop opens or closes; 1 where none does.
   double first_kink() const;
@@ -58,6 +62,7 @@ class NodeForces {
   std::vector<Index> active_;                        ///< DOFs of the contacts that may act in the step
   Eigen::MatrixXd input_, displacement_, velocity_;  ///< the modes' columns of these, 2p x their number
   Eigen::MatrixXd free_, nodes_, polynomial_, coefficients_;
+  Eigen::MatrixXd missed_;  ///< polynomial_ without the values in the middle, less polynomial_
   AtNodes forces_, forces_before_, moved_, moved_velocity_;  ///< of the active DOFs
   Vector x_, v_, force_, error_;
 };

@@ -74,18 +74,21 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
   const Contact& contact = at(i);
   const model::ObstacleGroup& group = *contact.group;
   const ContactPhase phase = phases_[static_cast<std::size_t>(i)];
-  const Kinematics now = kinematics(i, t, x, v);
-  const double g = now.approach.penetration;
   std::size_t count = 0;
   const auto add = [&](double value, NormalPhase normal, SlipPhase slip, double anchor) {
     out[count++] = {value, {normal, slip, anchor}};
   };
+  if (group.shape != nullptr && phase.normal == NormalPhase::apart) {
+    add(-penetration(contact, gather(i, x)), NormalPhase::pressed, phase.slip, phase.anchor);
+    return count;
+  }
+  const Kinematics now = kinematics(i, t, x, v);
+  const double g = now.approach.penetration;
   const bool dissipates = group.damping.kind != ImpactDamping::Kind::none;
   if (group.shape != nullptr) {
     switch (phase.normal) {
       case NormalPhase::apart:
-        add(-g, NormalPhase::pressed, phase.slip, phase.anchor);
-        return count;
+        break;
       case NormalPhase::released: {
         add(g, NormalPhase::apart, phase.slip, phase.anchor);
         const double pull = group.damping.kind == ImpactDamping::Kind::hunt_crossley

@@ -99,7 +99,7 @@ void Obstacles::scatter(Index i, const Eigen::Vector2d& value, VectorRef force) 
   }
 }
 
-bool Obstacles::is_apart(const Contact& contact, const Eigen::Vector2d& d) const {
+bool Obstacles::is_apart(const Contact& contact, const Eigen::Vector2d& d) {
   switch (contact.form.kind) {
     case model::ContactShape::Form::Kind::line:
       return contact.form.place.dot(d) < contact.reach;
@@ -112,21 +112,22 @@ bool Obstacles::is_apart(const Contact& contact, const Eigen::Vector2d& d) const
   }
 }
 
+double Obstacles::penetration(const Contact& contact, const Eigen::Vector2d& d) {
+  switch (contact.form.kind) {
+    case model::ContactShape::Form::Kind::line:
+      return contact.form.place.dot(d) - contact.form.distance;
+    case model::ContactShape::Form::Kind::circle:
+      return contact.form.sense * ((d - contact.form.place).norm() - contact.form.distance);
+    default:
+      return contact.group->shape->at(d).penetration;
+  }
+}
+
 bool Obstacles::may_touch(Index i, const Motion& from, const Motion& to, double h) const {
   const Contact& contact = at(i);
   if (contact.group->shape == nullptr) return true;
   const double way = h * (from.v.lpNorm<1>() + to.v.lpNorm<1>()) + (to.d - from.d).lpNorm<1>();
-  const auto distance = [&](const Eigen::Vector2d& d) {
-    switch (contact.form.kind) {
-      case model::ContactShape::Form::Kind::line:
-        return contact.form.distance - contact.form.place.dot(d);
-      case model::ContactShape::Form::Kind::circle:
-        return contact.form.sense * (contact.form.distance - (d - contact.form.place).norm());
-      default:
-        return -contact.group->shape->at(d).penetration;
-    }
-  };
-  return !(distance(from.d) > way && distance(to.d) > way);
+  return !(penetration(contact, from.d) < -way && penetration(contact, to.d) < -way);
 }
 
 Obstacles::Motion Obstacles::motion(Index i, ConstVectorRef x, ConstVectorRef v) const {

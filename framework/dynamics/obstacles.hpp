@@ -110,6 +110,8 @@ class BUTEE_EXPORT Obstacles {
     Eigen::Vector2d d, v;
   };
   Motion motion(Index i, ConstVectorRef x, ConstVectorRef v) const;
+  /// True where a contact is apart at x by more than rounding; false for shapes of other forms than lines and circles.
+  bool is_apart(Index i, ConstVectorRef x) const { return is_apart(at(i), gather(i, x)); }
   /// False where a motion that goes from one to the other within h seconds stays apart: where both ends are farther
   /// away than the speeds of both cover, which a cubic through them exceeds by 4/27 at most.
   bool may_touch(Index i, const Motion& from, const Motion& to, double h) const;
@@ -189,8 +191,9 @@ class BUTEE_EXPORT Obstacles {
     return is_live_ ? is_apart(contact, gather(i, x))
                     : phases_[static_cast<std::size_t>(i)].normal == ContactPhase::Normal::apart;
   }
-  /// By the place alone; false where rounding decides.
-  bool is_apart(const Contact& contact, const Eigen::Vector2d& d) const;
+  static bool is_apart(const Contact& contact, const Eigen::Vector2d& d);
+  /// g at d, m.
+  static double penetration(const Contact& contact, const Eigen::Vector2d& d);
   ContactPhase& used(Index i) { return phases_[static_cast<std::size_t>(i)]; }
 
   const model::System* system_;

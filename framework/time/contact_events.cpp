@@ -13,6 +13,7 @@ namespace {
 
 using dynamics::ContactPhase;
 using dynamics::Obstacles;
+using Look = ContactEvents::Look;
 
 /// The first look into a step, as a part of it.
 constexpr double kAhead = 1e-4;
@@ -36,11 +37,6 @@ int samples_of_loads(const model::System& system, double h) {
       turns = std::max(turns, std::abs(harmonic->angular_frequency) * h / 6.283);
   return static_cast<int>(std::min(kPerTurn * turns, kMost));
 }
-
-/// A switching function at an instant.
-struct Look {
-  double t = 0.0, value = 0.0;
-};
 
 /// The lowest point of the parabola through three looks, the middle one of which is lowest; none where rounding hides
 /// its bend.
@@ -113,6 +109,12 @@ void ContactEvents::enter(Index contact, const ContactPhase& next, State& state)
       static_cast<double>(next.slip), next.anchor, 0.0;
 }
 
+void ContactEvents::place(Sample& at, double t, const Vector& x, const Vector& v) {
+  at.t = t;
+  at.x = x;
+  at.v = v;
+}
+
 void ContactEvents::hold(Sample& at) {
   sticks_ = obstacles_.rigid_sticks();
   if (!sticks_.empty()) at.held = dynamics_.stick_forces(at.t, at.x, at.v);
@@ -137,12 +139,16 @@ void ContactEvents::settle(State& state, double h) {
     bool again = false;
     if (changed) dynamics_.acceleration(state.t, state.x, state.v, state.a);
     const double ahead = kAhead * h;
-    now_ = {state.t, state.x, state.v, {}};
-    work_ = {state.t + ahead, state.x + ahead * (state.v + 0.5 * ahead * state.a), state.v + ahead * state.a, {}};
+    place(now_, state.t, state.x, state.v);
+    work_.t = state.t + ahead;
+    work_.x.noalias() = state.x + ahead * (state.v + 0.5 * ahead * state.a);
+    work_.v.noalias() = state.v + ahead * state.a;
     hold(now_);
     hold(work_);
     for (Index i = 0; i < obstacles_.size(); ++i) {
       double& mark = state.contact[kEntries * i + kEntries - 1];
+      if (mark == 0.0 && obstacles_.phase(i).normal == ContactPhase::Normal::apart && obstacles_.is_apart(i, work_.x))
+        continue;
       const std::size_t count = switches(i, now_);
       const auto present = found_;
       std::optional<std::size_t> over;
@@ -222,8 +228,8 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
   const int looks = kSamples * static_cast<int>(1 + integrator.knots(from, to).size());
   const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
-  // Every switching function at the last two instants. A dip between instants shows as a lowest value.
-  std::vector<std::array<std::array<Look, 2>, Obstacles::kMostSwitches>> before(watched_.size());
+  // A dip between instants shows as a lowest value.
+  looks_.assign(watched_.size(), {});
   // Two looks close to either end tell a dip between the end and its neighbour.
   for (int k = -1; k <= samples + 1; ++k) {
     const double t = k == -1            ? from.t
@@ -232,7 +238,7 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
                      : k == samples + 1 ? to.t
                                         : from.t + h * k / samples;
     if (k == -1) {
-      now_ = {from.t, from.x, from.v, {}};
+      place(now_, from.t, from.x, from.v);
       hold(now_);
     } else {
       sample(integrator, from, to, t, watched_dofs_, now_);
@@ -246,7 +252,7 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
       const std::size_t count = switches(i, now_);
       const auto present = found_;
       for (std::size_t which = 0; which < count; ++which) {
-        auto& [first, second] = before[w][which];
+        auto& [first, second] = looks_[w][which];
         const Look now{t, present[which].value};
         // At its start a step may be about to leave what the last one ended at.
         if (now.value < 0.0 && k >= 0) {
@@ -303,7 +309,10 @@ ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const S
       at_begin = found;
       if (side > 0) at_end *= 0.5;
       side = 1;
-      if (found == 0.0) break;
+      if (found == 0.0) {
+        end = middle;
+        break;
+      }
     }
   }
   event.t = end;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,10 @@ class BUTEE_EXPORT ContactEvents {
   /// Has the contacts keep the phases of a state.
   void follow(const State& state);
 
+  /// A switching function at an instant.
+  struct Look {
+    double t = 0.0, value = 0.0;
+  };
   /// A change of phase.
   struct Event {
     double t;  ///< s
@@ -59,6 +64,7 @@ class BUTEE_EXPORT ContactEvents {
               const std::vector<Index>& dofs, Sample& at);
   /// The DOFs of a contact, into the vector.
   void add_dofs(Index contact, std::vector<Index>& dofs) const;
+  static void place(Sample& at, double t, const Vector& x, const Vector& v);
   void hold(Sample& at);
   std::size_t switches(Index contact, const Sample& at);
   double value(Index contact, std::size_t which, const Sample& at);
@@ -75,6 +81,8 @@ class BUTEE_EXPORT ContactEvents {
   std::vector<double> values_x_, values_v_;
   std::array<dynamics::Obstacles::Switch, dynamics::Obstacles::kMostSwitches> found_{};
   Sample now_, work_;
+  /// Every switching function of those watched at the last two instants.
+  std::vector<std::array<std::array<Look, 2>, dynamics::Obstacles::kMostSwitches>> looks_;
   std::vector<Index> sticks_, watched_, watched_dofs_, own_dofs_;
 };
 

@@ -70,7 +70,7 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
   const double wanted = report.proposal;
   const auto redo = [&](double t_end) {
     to.t = t_end;
-    StepReport next = do_step(from, {t_end - from.t, t_end, step.single}, to);
+    StepReport next = do_step(from, {t_end - from.t, t_end, step.single, true}, to);
     ++next.inner_rejected;
     next.inner_rejected += report.inner_rejected;
     next.newton_iterations += report.newton_iterations;

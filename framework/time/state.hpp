@@ -23,6 +23,7 @@ struct Step {
   double h = 0.0;      ///< s
   double t_end = 0.0;  ///< s
   bool single = false;
+  bool is_part = false;  ///< of the last step from the same state, which was accepted but passed a change of phase
 };
 
 enum class StepStatus {
