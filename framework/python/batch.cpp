@@ -5,6 +5,25 @@
 namespace butee::python {
 namespace {
 
+using namespace std::chrono_literals;
+
+/// Results of a thread that may wait, and how many may where they hold more than kMostBytes together.
+constexpr std::size_t kMostWaiting = 64, kMostLargeWaiting = 4, kMostBytes = std::size_t{1} << 24U;
+/// The taker is woken so often where runs are short.
+constexpr auto kBetweenWakes = 5ms;
+
+std::size_t bytes_of(const Columns& columns) {
+  std::size_t bytes = 0;
+  for (const auto& column : columns.values) bytes += column.capacity() * sizeof(double);
+  return bytes;
+}
+
+std::size_t bytes_of(const Batch::Done& done) {
+  if (done.outcome == nullptr) return 0;
+  return bytes_of(done.outcome->history) + bytes_of(done.outcome->energy) +
+         done.outcome->impacts.size() * sizeof(record::Impact);
+}
+
 class StopWatch final : public Watch {
  public:
   explicit StopWatch(const std::atomic<bool>& stop) : stop_(stop) {}
@@ -21,9 +40,9 @@ Batch::Batch(const Session& session, std::vector<std::string> keys, std::vector<
       scene_(session.shared()),
       keys_(std::move(keys)),
       points_(std::move(points)),
-      most_waiting_(4 * threads) {
-  threads = std::min(threads, points_.size());
-  for (std::size_t i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+      thread_count_(std::min(threads, points_.size())),
+      handed_at_(std::chrono::steady_clock::now()) {
+  for (std::size_t i = 0; i < thread_count_; ++i) threads_.emplace_back([this] { work(); });
 }
 
 Batch::~Batch() {
@@ -35,13 +54,30 @@ Batch::~Batch() {
   for (std::thread& thread : threads_) thread.join();
 }
 
+bool Batch::is_full() const {
+  const std::size_t most = waiting_bytes_ > kMostBytes ? kMostLargeWaiting : kMostWaiting;
+  return waiting_.size() >= most * thread_count_;
+}
+
+bool Batch::is_time() const {
+  return is_full() || handed_count_ + waiting_.size() == points_.size() ||
+         (!waiting_.empty() && std::chrono::steady_clock::now() - handed_at_ > kBetweenWakes);
+}
+
 std::optional<Batch::Done> Batch::next(std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
-  if (!came_.wait_for(lock, patience, [this] { return !waiting_.empty(); })) return std::nullopt;
-  Done done = std::move(waiting_.front());
-  waiting_.pop_front();
+  if (handed_.empty()) {
+    came_.wait_for(lock, patience, [this] { return is_time(); });
+    handed_.swap(waiting_);
+    handed_count_ += handed_.size();
+    handed_at_ = std::chrono::steady_clock::now();
+    waiting_bytes_ = 0;
+    left_.notify_all();
+  }
+  if (handed_.empty()) return std::nullopt;
+  Done done = std::move(handed_.front());
+  handed_.pop_front();
   ++taken_;
-  left_.notify_one();
   return done;
 }
 
@@ -51,14 +87,15 @@ void Batch::work() {
     std::size_t point = 0;
     {
       std::unique_lock lock(mutex_);
-      left_.wait(lock, [this] { return stop_ || waiting_.size() < most_waiting_; });
+      left_.wait(lock, [this] { return stop_ || !is_full(); });
       if (stop_ || next_ == points_.size()) return;
       point = next_++;
     }
     Done done = done_of(point, catalogue);
     const std::lock_guard lock(mutex_);
+    waiting_bytes_ += bytes_of(done);
     waiting_.push_back(std::move(done));
-    came_.notify_one();
+    if (is_time()) came_.notify_one();
   }
 }
 

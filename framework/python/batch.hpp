@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -15,7 +16,8 @@ namespace butee::python {
 
 /// Runs of one scene with other values, point by point, on threads that know nothing of Python.
 ///
-/// Few results wait to be taken at a time, so that memory does not grow with the number of points.
+/// Results of short runs are handed over many at a time, since each wake of the taker interrupts a thread that
+/// computes. Only so many wait to be taken that memory does not grow with the number of points.
 class Batch {
  public:
   /// One point's outcome, or why there is none.
@@ -34,24 +36,27 @@ class Batch {
   Batch& operator=(const Batch&) = delete;
 
   std::size_t size() const { return points_.size(); }
-  std::size_t taken() const { return taken_; }
+  std::size_t taken() const { return taken_; }  ///< by next()
   /// Waits for the next result, in whatever order they come; nothing where it took longer than `patience`.
   std::optional<Done> next(std::chrono::milliseconds patience);
 
  private:
   void work();
   Done done_of(std::size_t point, plugin::Catalogue& catalogue);
+  bool is_full() const;
+  bool is_time() const;
 
   config::Document document_;
   std::shared_ptr<scene::Scene> scene_;  ///< whose catalogue each thread copies
   std::vector<std::string> keys_;
   std::vector<Values> points_;
-  std::size_t most_waiting_;
+  std::size_t thread_count_;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
   std::condition_variable came_, left_;
-  std::deque<Done> waiting_;
-  std::size_t next_ = 0;
+  std::deque<Done> waiting_, handed_;  ///< for the taker to be woken; next to be given
+  std::size_t waiting_bytes_ = 0, handed_count_ = 0, next_ = 0;
+  std::chrono::steady_clock::time_point handed_at_;
   std::atomic<std::size_t> taken_ = 0;
   std::vector<std::thread> threads_;
 };
