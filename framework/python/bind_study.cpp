@@ -50,12 +50,20 @@ Bytes in_memory(const study::Study& study, const study::Layout& layout, const st
   return rows.take();
 }
 
+/// Where rows are kept.
+struct Kept {
+  std::string folder{};  ///< empty: in memory alone
+  std::string format{};  ///< empty: hdf5 where it is there
+  bool fresh = false;
+};
+
 /// As `butee study -o FOLDER`.
 Bytes in_folder(const study::Study& study, const study::Layout& layout, const study::PerformOptions& options,
-                const std::string& folder, const std::string& format_name) {
-  const auto format = study::row_format(format_name);
+                const Kept& kept) {
+  const std::string& folder = kept.folder;
+  const auto format = study::row_format(kept.format);
   study::Store store(folder, study, layout, *format);
-  store.open(false);
+  store.open(kept.fresh);
   if (!store.is_complete() && store.done_count() < study.plan.run_count()) {
     store.begin(store.next_session(), 0);
     if (!study::perform(study, layout, store, options)) return {};
@@ -83,9 +91,20 @@ py::list columns_of(const study::Layout& layout) {
   return columns;
 }
 
+/// For the result "trust": what a function of Python says of a scene, from any thread.
+std::optional<double> horizon_of(const scene::Scene& scene, const Session& session, const py::function& horizon) {
+  const Session judged(scene.document, session.plugins(), scene.catalogue);
+  const py::gil_scoped_acquire lock;
+  try {
+    return horizon(judged).cast<double>();
+  } catch (py::error_already_set& error) {
+    throw RunError(error.what());
+  }
+}
+
 /// The columns, the bytes of a row, and all rows in the order of the plan.
-py::tuple run_study(const Session& session, py::handle tables, int threads, const std::string& folder,
-                    const std::string& format, py::object progress) {
+py::tuple run_study(const Session& session, py::handle tables, int threads, const Kept& kept,
+                    const py::function& horizon, py::object progress) {
   const config::Document document{{"study"}, to_value(tables)};
   const auto scene = session.shared();
   const config::Document scene_document = session.document();
@@ -98,11 +117,13 @@ py::tuple run_study(const Session& session, py::handle tables, int threads, cons
   Bytes rows;
   {
     const py::gil_scoped_release unlocked;
-    study::Study study = study::read_study(document, scene_document);
+    study::StudyOptions study_options;
+    study_options.horizon = [&](scene::Scene& judged) { return horizon_of(judged, session, horizon); };
+    study::Study study = study::read_study(document, scene_document, study_options);
     study.catalogue = scene->catalogue;
     study::check_first_point(study);
     layout.emplace(layout_of(study));
-    rows = folder.empty() ? in_memory(study, *layout, options) : in_folder(study, *layout, options, folder, format);
+    rows = kept.folder.empty() ? in_memory(study, *layout, options) : in_folder(study, *layout, options, kept);
   }
   watch.rethrow();
   return py::make_tuple(columns_of(*layout), layout->row_bytes(),
@@ -112,7 +133,10 @@ py::tuple run_study(const Session& session, py::handle tables, int threads, cons
 }  // namespace
 
 void bind_study(py::module_& module) {
-  module.def("study", &run_study);
+  module.def("study", [](const Session& session, py::handle tables, int threads, const std::string& folder,
+                         const std::string& format, bool fresh, const py::function& horizon, py::object progress) {
+    return run_study(session, tables, threads, {folder, format, fresh}, horizon, std::move(progress));
+  });
   py::list kinds;
   for (const study::ItemKind& kind : study::item_kinds()) kinds.append(py::make_tuple(kind.name, kind.summary));
   module.attr("study_results") = kinds;

@@ -156,6 +156,33 @@ def test_equations_on_many_threads(rotor):
     assert not wrong
 
 
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_forked_process_goes_on_by_itself(rotor):
+    """With what was made before the fork, and while other threads compute."""
+    expected, part = rotor.run()["rotor.u"], rotor.structure()
+    slow = rotor.with_values({"integrator.tolerance": None, "output.interval": 0.01}, type="rk4", time_step=1e-7, end_time=0.3)
+    running = threading.Thread(target=slow.run)
+    running.start()
+    statuses = []
+    for _ in range(3):
+        child = os.fork()
+        if child == 0:
+            try:
+                amplitudes = {"load[0].amplitude": [1e5, 2e5]}
+                many, rows = rotor.batch(amplitudes, threads=2), rotor.study(amplitudes, "peak rotor.u", periods=3, threads=2)
+                part.advance_to(1e-3)
+                good = np.array_equal(rotor.run()["rotor.u"], expected) and not many.failed and not rows.failed and part.time == 1e-3
+                os._exit(0 if good else 3)
+            finally:
+                os._exit(4)
+        watchdog = threading.Timer(30.0, os.kill, (child, signal.SIGKILL))
+        watchdog.start()
+        statuses.append(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+        watchdog.cancel()
+    running.join()
+    assert statuses == [0, 0, 0] and part.time == 0.0
+
+
 def test_owners_may_go_first(rotor):
     part, equations, result = rotor.structure(forced=["rotor"]), rotor.equations(), rotor.run()
     snapshot, K, u = part.snapshot(), equations.K, result["rotor.u"]

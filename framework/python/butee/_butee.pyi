@@ -119,6 +119,8 @@ def study(
     threads: int,
     folder: str,
     format: str,
+    fresh: bool,
+    horizon: Callable[[Session], float],
     progress: Optional[Callable[[int, int], None]],
 ) -> Tuple[List[Tuple[str, str, str, int]], int, bytes]: ...
 def conformance(name: str, keys: Dict[str, Any]) -> List[Tuple[str, str, bool, str]]: ...

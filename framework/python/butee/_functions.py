@@ -3,9 +3,21 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Set, Tuple
 
 from . import _butee
+
+
+#: The laws and loads that were written in Python so far.
+written: Set[str] = set()
+
+
+def names_in(value: Any) -> Set[str]:
+    """Those of them that the tables of a scene name."""
+    if isinstance(value, dict):
+        here = {value.get(key) for key in ("law", "type") if isinstance(value.get(key), str)} & written
+        return here.union(*map(names_in, value.values()))
+    return set().union(*map(names_in, value)) if isinstance(value, list) else set()
 
 
 def declared(name: str, function: Callable[..., float], first: str) -> List[Tuple[str, Optional[float]]]:

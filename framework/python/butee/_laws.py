@@ -6,7 +6,7 @@ import inspect
 from typing import Callable, Optional
 
 from . import _butee
-from ._functions import declared
+from ._functions import declared, written
 
 
 def law(name: str, *, tangent: Optional[Callable[..., float]] = None,
@@ -38,6 +38,7 @@ def law(name: str, *, tangent: Optional[Callable[..., float]] = None,
             if other is not None and [one for one, _ in declared(name, other, "the penetration")] != [one for one, _ in parameters]:
                 raise TypeError(f"{name}: tangent and energy take the arguments of the force")
         _butee.register_law(name, force, tangent, energy, parameters, inspect.getdoc(force) or "a function in Python")
+        written.add(name)
         return force
 
     return register

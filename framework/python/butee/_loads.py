@@ -6,7 +6,7 @@ import inspect
 from typing import Callable
 
 from . import _butee
-from ._functions import declared
+from ._functions import declared, written
 
 
 def load(name: str) -> Callable[[Callable[..., float]], Callable[..., float]]:
@@ -35,6 +35,7 @@ def load(name: str) -> Callable[[Callable[..., float]], Callable[..., float]]:
     def register(function: Callable[..., float]) -> Callable[..., float]:
         parameters = declared(name, function, "the time")
         _butee.register_load(name, function, parameters, inspect.getdoc(function) or "a function in Python")
+        written.add(name)
         return function
 
     return register

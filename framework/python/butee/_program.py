@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
 import tempfile
-from typing import TYPE_CHECKING, Any, List, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Iterator, List, Sequence, Tuple
 
 from . import _butee
 from ._errors import InputError, RunError
+from ._functions import names_in
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -38,55 +40,81 @@ def call(arguments: Sequence[str], folder: str = ".") -> str:
     return out
 
 
-def _folder_with(scene: "Scene", folder: str) -> Tuple[str, List[str]]:
-    scene.save(os.path.join(folder, "scene.toml"))
-    return "scene.toml", [word for plugin in scene._core.plugins for word in ("--plugin", os.path.abspath(plugin))]
+def words(option: str, values: Sequence[Any]) -> List[str]:
+    """An option with values parted by commas, or nothing where there are none."""
+    if isinstance(values, (str, int, float)):
+        values = [values]
+    return [option, ",".join(value if isinstance(value, str) else repr(float(value)) for value in values)] if len(values) else []
+
+
+def with_plugins(plugins: Sequence[Any]) -> List[str]:
+    if isinstance(plugins, (str, os.PathLike)):
+        plugins = [plugins]
+    return [word for plugin in plugins for word in ("--plugin", os.path.abspath(plugin))]
+
+
+def refuse_functions(tables: Any) -> None:
+    """The program cannot call laws and loads written in Python."""
+    names = sorted(names_in(tables))
+    if names:
+        raise InputError(f"the scene names {', '.join(names)}, which is written in Python; this analysis is done by the program butee, "
+                         "which knows laws and loads of modules alone")
+
+
+@contextlib.contextmanager
+def saved(scene: "Scene") -> Iterator[Tuple[str, List[str]]]:
+    """A folder with the scene as ``scene.toml``, while it is needed, and the options that name its modules."""
+    refuse_functions(scene.to_dict())
+    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
+        scene.save(os.path.join(folder, "scene.toml"))
+        yield folder, with_plugins(scene._core.plugins)
 
 
 def json_of(scene: "Scene", command: str, arguments: Sequence[str] = ()) -> Any:
     """What a command says of a scene with --json."""
-    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
-        name, plugins = _folder_with(scene, folder)
-        return json.loads(call([command, name, *arguments, *plugins, "--json"], folder))
+    with saved(scene) as (folder, plugins):
+        return json.loads(call([command, "scene.toml", *arguments, *plugins, "--json"], folder))
 
 
-def text_of(scene: "Scene", command: str) -> str:
+def text_of(scene: "Scene", command: str, arguments: Sequence[str] = ()) -> str:
     """What a command prints of a scene."""
-    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
-        name, plugins = _folder_with(scene, folder)
-        return call([command, name, *plugins], folder)
+    with saved(scene) as (folder, plugins):
+        return call([command, "scene.toml", *arguments, *plugins], folder)
 
 
-def pictures_of(scene: "Scene", to: str, kinds: Sequence[str], formats: Sequence[str]) -> List[str]:
+def pictures_of(scene: "Scene", to: str, options: Sequence[str]) -> List[str]:
     """Runs a scene and draws it into a folder; the paths of the pictures."""
     to = os.path.abspath(to)
-    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
-        name, plugins = _folder_with(scene, folder)
-        call(["run", name, "-q", "-o", "results", *plugins], folder)
-        chosen = ["--kind", ",".join(kinds)] if kinds else []
-        return call(["plot", "results", "-o", to, "--format", ",".join(formats), *chosen, *plugins], folder).splitlines()
+    with saved(scene) as (folder, plugins):
+        call(["run", "scene.toml", "-q", "-o", "results", *plugins], folder)
+        return call(["plot", "results", "-o", to, *options, *plugins], folder).splitlines()
+
+
+def files_of(scene: "Scene", command: str, to: str, options: Sequence[str]) -> List[str]:
+    """The paths of the files that a command with -o writes of a scene."""
+    to = os.path.abspath(to)
+    with saved(scene) as (folder, plugins):
+        call([command, "scene.toml", "-q", "-o", to, *options, *plugins], folder)
+    return [os.path.join(to, name) for name in sorted(os.listdir(to))]
 
 
 def trust_of(scene: "Scene") -> Any:
-    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
-        name, plugins = _folder_with(scene, folder)
-        call(["run", name, "--trust", "-q", "-o", "results", *plugins], folder)
+    with saved(scene) as (folder, plugins):
+        call(["run", "scene.toml", "--trust", "-q", "-o", "results", *plugins], folder)
         with open(os.path.join(folder, "results", "summary.json"), encoding="utf-8") as file:
             return json.load(file)["trust"]
 
 
-def comparison_of(scene: "Scene", study: str) -> List[Any]:
+def comparison_of(scene: "Scene", study: str, to: str, fresh: bool) -> List[Any]:
     import csv
 
-    with tempfile.TemporaryDirectory(prefix="butee-") as folder:
-        name, plugins = _folder_with(scene, folder)
-        if study:
-            name = "study.toml"
-            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-                file.write(study)
-        call(["compare", name, "-o", "results", *plugins], folder)
-        with open(os.path.join(folder, "results", "runs.csv"), encoding="utf-8", newline="") as file:
-            return [{key: _number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    with saved(scene) as (folder, plugins):
+        with open(os.path.join(folder, "study.toml"), "w", encoding="utf-8") as file:
+            file.write(study)
+        results = os.path.abspath(to) if to else os.path.join(folder, "results")
+        call(["compare", "study.toml", "-o", results, *(["--fresh"] if fresh else []), *plugins], folder)
+        with open(os.path.join(results, "runs.csv"), encoding="utf-8", newline="") as rows:
+            return [{key: _number(value) for key, value in row.items()} for row in csv.DictReader(rows)]
 
 
 def _number(text: str) -> Any:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _butee
+from ._program import refuse_functions
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -57,6 +58,22 @@ class Study(Mapping[str, np.ndarray]):
                 columns.update({f"{name}[{k + 1}]": np.array(values[:, k]) for k in range(values.shape[1])})
         return pandas.DataFrame(columns)
 
+    def plot(self, result: str, axes=None):
+        """Draws one result by matplotlib over the first key that varies, returns the axes: sections as dots, a bifurcation diagram;
+        sweeps up and down as lines of their own; over two keys of a grid a map.
+
+        >>> axes = scene.study({"contact[0].gap": [1e-4, 2e-4]}, "section rotor.u", periods=5).plot("section rotor.u")
+        """
+        from ._plot import plot_rows
+
+        return plot_rows(self, result, axes)
+
+    @property
+    def keys_varied(self) -> List[str]:
+        """The keys that vary, in the order they were given."""
+        names = list(self.units)
+        return [name for name in names[:names.index("status")] if name not in ("run", "point", "direction")]
+
     def __repr__(self) -> str:
         return f"<butee.Study of {self.rows.size} runs; {len(self.failed)} without results>"
 
@@ -70,11 +87,14 @@ class Study(Mapping[str, np.ndarray]):
 
 
 def run_study(core: "_butee.Session", vary: Mapping[str, Any], collect: Collected, settings: Dict[str, Any], threads: Optional[int],
-              output: str, progress: Optional[Callable[[int, int], None]]) -> Study:
+              kept: Tuple[str, str, bool], horizon: Callable[["_butee.Session"], float],
+              progress: Optional[Callable[[int, int], None]]) -> Study:
     if threads is None:
         threads = len(os.sched_getaffinity(0))
     if threads < 1:
         raise ValueError(f"threads = {threads}: at least 1 is needed")
+    if kept[1] not in ("", "hdf5", "csv"):
+        raise ValueError(f'format = {kept[1]!r}: "hdf5" and "csv" are allowed')
     axes: List[Dict[str, Any]] = []
     for key, values in vary.items():
         if isinstance(values, Mapping):
@@ -88,7 +108,9 @@ def run_study(core: "_butee.Session", vary: Mapping[str, Any], collect: Collecte
         tables["vary"] = axes
     tables["study"] = {"collect": [collect] if isinstance(collect, str) else list(collect)}
     tables["study"].update((key, value) for key, value in settings.items() if value is not None)
-    columns, row_bytes, rows = _butee.study(core, tables, threads, output, "", progress)
+    if "trust" in tables["study"]["collect"]:
+        refuse_functions(core.to_dict())
+    columns, row_bytes, rows = _butee.study(core, tables, threads, *kept, horizon, progress)
     names, units, formats, offsets = zip(*columns)
     row = np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": row_bytes})
     return Study(np.frombuffer(rows, dtype=row), dict(zip(names, units)))
