@@ -32,7 +32,7 @@ int plot_study(const PlotArguments& arguments) {
 
 int plot_command(const PlotArguments& arguments) {
   for (const std::string& folder : arguments.request.folders)
-    if (study::Store::is_study_folder(folder)) return plot_study(arguments);
+    if (!study::Store::study_in(folder).empty()) return plot_study(arguments);
   const plot::Window window = arguments.request.window;
   if (!(window.from < window.to)) throw InputError("--from must be less than --to");
   for (const std::string& file : plot::draw(arguments.request, plugin::Catalogue::with_plugins(arguments.plugins)))

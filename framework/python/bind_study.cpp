@@ -91,6 +91,12 @@ py::list columns_of(const study::Layout& layout) {
   return columns;
 }
 
+/// The columns, the bytes of a row, and rows in the order of the plan.
+py::tuple table_of(const study::Layout& layout, const Bytes& rows) {
+  return py::make_tuple(columns_of(layout), layout.row_bytes(),
+                        py::bytes(reinterpret_cast<const char*>(rows.data()), rows.size()));
+}
+
 /// For the result "trust": what a function of Python says of a scene, from any thread.
 std::optional<double> horizon_of(const scene::Scene& scene, const Session& session, const py::function& horizon) {
   const Session judged(scene.document, session.plugins(), scene.catalogue);
@@ -102,7 +108,6 @@ std::optional<double> horizon_of(const scene::Scene& scene, const Session& sessi
   }
 }
 
-/// The columns, the bytes of a row, and all rows in the order of the plan.
 py::tuple run_study(const Session& session, py::handle tables, int threads, const Kept& kept,
                     const py::function& horizon, py::object progress) {
   const config::Document document{{"study"}, to_value(tables)};
@@ -126,8 +131,24 @@ py::tuple run_study(const Session& session, py::handle tables, int threads, cons
     rows = kept.folder.empty() ? in_memory(study, *layout, options) : in_folder(study, *layout, options, kept);
   }
   watch.rethrow();
-  return py::make_tuple(columns_of(*layout), layout->row_bytes(),
-                        py::bytes(reinterpret_cast<const char*>(rows.data()), rows.size()));
+  return table_of(*layout, rows);
+}
+
+/// The same of the rows that are in a folder so far.
+py::tuple study_rows(const std::string& folder) {
+  std::optional<study::Layout> layout;
+  Bytes rows;
+  {
+    const py::gil_scoped_release unlocked;
+    const study::Study study = study::Store::read(folder);
+    layout.emplace(layout_of(study));
+    const auto format = study::row_format(study::Store::extension_in(folder) == ".csv" ? "csv" : "hdf5");
+    study::Store store(folder, study, *layout, *format);
+    store.adopt_identity();
+    store.look();
+    store.visit([&](const study::Row& row) { rows.insert(rows.end(), row.bytes().begin(), row.bytes().end()); });
+  }
+  return table_of(*layout, rows);
 }
 
 }  // namespace
@@ -137,6 +158,7 @@ void bind_study(py::module_& module) {
                          const std::string& format, bool fresh, const py::function& horizon, py::object progress) {
     return run_study(session, tables, threads, {folder, format, fresh}, horizon, std::move(progress));
   });
+  module.def("study_rows", &study_rows);
   py::list kinds;
   for (const study::ItemKind& kind : study::item_kinds()) kinds.append(py::make_tuple(kind.name, kind.summary));
   module.attr("study_results") = kinds;

@@ -53,7 +53,7 @@ Identity identity_of(const Study& study) {
 }
 
 void Store::adopt_identity() {
-  const config::Document known = config::load_toml(file(kStudyFile));
+  const config::Document known = config::load_toml((fs::path(study_in(folder_)) / kStudyFile).string());
   identity_ = {text_in(known, "study"), text_in(known, "scene"), text_in(known, "build")};
 }
 

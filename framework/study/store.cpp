@@ -72,6 +72,12 @@ bool Store::is_study_folder(const std::string& folder) {
   return std::getline(file, first) && first == kMark;
 }
 
+std::string Store::study_in(const std::string& folder) {
+  if (is_study_folder(folder) || !fs::is_directory(folder)) return is_study_folder(folder) ? folder : "";
+  const std::vector<std::string> shards = shards_in(folder);
+  return shards.empty() ? "" : shards.front();
+}
+
 std::string Store::file(const std::string& name) const {
   return (fs::path(folder_) / name).string();
 }

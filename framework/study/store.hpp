@@ -72,6 +72,9 @@ class BUTEE_EXPORT Store final : public Rows {
 
   /// True for the folder of a study.
   static bool is_study_folder(const std::string& folder);
+  /// The folder with the study as run: `folder` or, before its shards are merged, the first of them; "" where it holds
+  /// none.
+  static std::string study_in(const std::string& folder);
   /// The study of a folder, as it was run. Throws InputError.
   static Study read(const std::string& folder);
   /// The extension of its files of rows.

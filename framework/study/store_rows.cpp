@@ -96,7 +96,9 @@ void Store::visit(const std::function<void(const Row&)>& look) const {
 }
 
 Study Store::read(const std::string& folder) {
-  const config::Document known = config::load_toml((fs::path(folder) / kStudyFile).string());
+  const std::string from = study_in(folder);
+  if (from.empty()) throw InputError(folder + ": is no folder of a study");
+  const config::Document known = config::load_toml((fs::path(from) / kStudyFile).string());
   const config::Value *study = known.root.table()->find("study"), *scene = known.root.table()->find("scene");
   if (study == nullptr || study->table() == nullptr || scene == nullptr || scene->table() == nullptr)
     throw InputError(folder + ": " + kStudyFile + " there is no study as butee writes it");
@@ -110,6 +112,7 @@ std::string Store::extension_in(const std::string& folder) {
         path.extension() != ".part")
       return path.extension().string();
   }
+  if (const std::string shard = study_in(folder); !shard.empty() && shard != folder) return extension_in(shard);
   throw InputError(folder + ": holds no rows yet");
 }
 

@@ -95,6 +95,40 @@ def test_the_folder_of_a_study(rotor, tmp_path):
         rotor.study({"contact[0].gap": [3e-4]}, "impacts", periods=2, output=tmp_path / "others", format="jpeg")
 
 
+def test_rows_of_a_folder_are_read_while_it_grows(rotor, program, tmp_path):
+    rotor.save(tmp_path / "scene.toml")
+    (tmp_path / "study.toml").write_text("""
+schema = 1
+scene = "scene.toml"
+[[vary]]
+key = "contact[0].gap"
+from = 1e-4
+to = 1e-3
+count = 8
+[study]
+periods = 4
+collect = ["peak rotor.u", "section rotor.v"]
+""")
+    subprocess.run([program, "study", "study.toml", "-q", "-o", "whole"], cwd=tmp_path, check=True)
+    whole = butee.Study.load(tmp_path / "whole")
+    here = rotor.study({"contact[0].gap": whole["contact[0].gap"]}, ["peak rotor.u", "section rotor.v"], periods=4)
+    for name in ("run", "peak rotor.u", "section rotor.v", "status"):
+        assert np.array_equal(whole[name], here[name]), name
+    for format in ("hdf5", "csv"):
+        for done, shard in enumerate(("2/4", "1/4", "4/4", "3/4"), 1):
+            subprocess.run([program, "study", "study.toml", "-q", "-o", format, "--format", format, "--shard", shard], cwd=tmp_path,
+                           check=True)
+            part = butee.Study.load(tmp_path / format)
+            assert part.rows.size == 2 * done and np.array_equal(part["peak rotor.u"], whole["peak rotor.u"][part["run"]])
+        assert np.array_equal(part["run"], np.arange(8))
+        made = subprocess.run([program, "plot", format, "--format", "script", "-o", "pictures"], cwd=tmp_path, check=True,
+                              capture_output=True, text=True).stdout
+        assert "bifurcation-section-rotor.v.gp" in made
+    for wrong in ("nowhere", "."):
+        with pytest.raises(butee.InputError, match="no folder of a study"):
+            butee.Study.load(tmp_path / wrong)
+
+
 def test_pictures_of_a_study(rotor):
     gaps, amplitudes = [2e-4, 3e-4, 4e-4], [1e5, 2e5]
     collect = ["section rotor.u", "peak rotor.u"]

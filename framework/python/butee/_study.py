@@ -29,6 +29,21 @@ class Study(Mapping[str, np.ndarray]):
         self.units = units
         """By column; "1" for pure numbers, "" where none is known."""
 
+    @classmethod
+    def load(cls, folder: Union[str, "os.PathLike[str]"]) -> "Study":
+        """The rows in a folder of ``butee study -o`` or ``Scene.study(..., output=...)``, in the order of the plan.
+
+        While the study is under way, by threads, processes or shards, those that are there so far.
+        """
+        return cls._of(_butee.study_rows(os.fspath(folder)))
+
+    @classmethod
+    def _of(cls, table: Tuple[List[Tuple[str, str, str, int]], int, bytes]) -> "Study":
+        columns, row_bytes, rows = table
+        names, units, formats, offsets = zip(*columns)
+        row = np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": row_bytes})
+        return cls(np.frombuffer(rows, dtype=row), dict(zip(names, units)))
+
     def __getitem__(self, column: str) -> np.ndarray:
         if column not in self.units:
             raise KeyError(f"{column}; the columns are {', '.join(self.units)}")
@@ -110,10 +125,7 @@ def run_study(core: "_butee.Session", vary: Mapping[str, Any], collect: Collecte
     tables["study"].update((key, value) for key, value in settings.items() if value is not None)
     if "trust" in tables["study"]["collect"]:
         refuse_functions(core.to_dict())
-    columns, row_bytes, rows = _butee.study(core, tables, threads, *kept, horizon, progress)
-    names, units, formats, offsets = zip(*columns)
-    row = np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": row_bytes})
-    return Study(np.frombuffer(rows, dtype=row), dict(zip(names, units)))
+    return Study._of(_butee.study(core, tables, threads, *kept, horizon, progress))
 
 
 __all__ = ["Study"]
