@@ -47,7 +47,8 @@ lyapunov takes two further runs over the periods that count, and neglects what a
 several, from the scene's own start, so that it does not go with follow.
 
 Killed or interrupted, the same command goes on with what is left. Where scene, study or butee have changed since, it
-refuses; --fresh begins anew. While it runs, rows-*.h5 can be read (h5py.File(name, "r", swmr=True)["rows"]).
+refuses; --fresh begins anew. While it runs, rows-*.h5 can be read (h5py.File(name, "r", swmr=True)["rows"]), and all
+rows of processes and shards together by butee.Study.load(DIR) of the Python package.
 
   --plot              bifurcation diagram, response curve, map over two keys, Poincare section, histogram, into DIR/plots
                       (butee plot DIR draws them again, and those of a study that is under way)
