@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include <butee/dynamics/modes.hpp>
@@ -135,6 +138,100 @@ TEST_F(MatricesOfABeam, turn_with_their_gyroscopic_matrix) {
   for (std::size_t i = 0; i < 8; ++i)
     EXPECT_LT(std::abs(found[i].lambda - expected[i].lambda), kRounding * std::abs(expected[7].lambda)) << i;
   EXPECT_GT(std::abs(expected[0].lambda.imag() - expected[1].lambda.imag()), 1e-3);
+}
+
+/// M and K of a membrane of 7 x 21 points as Kronecker products of bars with consistent masses, written here entry by
+/// entry: lambda = lambda_i + lambda_j with lambda_i = 6/h^2 (1 - cos)/(2 + cos) along each side. Frequencies and the
+/// motion under a step of force are those of the closed form.
+class Membrane : public testing::Test {
+ protected:
+  static constexpr int kRows = 7, kColumns = 21;
+
+  struct Side {
+    int points;
+    double spacing;
+    double mass(int i, int j) const { return spacing / 6.0 * (i == j ? 4.0 : 1.0); }
+    double stiffness(int i, int j) const { return (i == j ? 2.0 : -1.0) / spacing; }
+    double cosine(int mode) const { return std::cos(mode * std::numbers::pi / (points + 1)); }
+    double lambda(int mode) const { return 6.0 / (spacing * spacing) * (1.0 - cosine(mode)) / (2.0 + cosine(mode)); }
+    double shape(int mode, int point) const { return std::sin(mode * std::numbers::pi * (point + 1) / (points + 1)); }
+    double modal_mass(int mode) const { return spacing / 6.0 * (4.0 + 2.0 * cosine(mode)) * 0.5 * (points + 1); }
+  };
+  const Side down_{kRows, 0.31}, along_{kColumns, 0.017};
+
+  /// The lower triangle as a coordinate real symmetric file.
+  std::string file(bool is_mass) const {
+    std::string entries;
+    int count = 0;
+    for (int p = 0; p < kRows * kColumns; ++p)
+      for (int q = 0; q <= p; ++q) {
+        const int i = p / kColumns, j = q / kColumns, k = p % kColumns, l = q % kColumns;
+        if (std::abs(i - j) > 1 || std::abs(k - l) > 1) continue;
+        const double value =
+            is_mass ? down_.mass(i, j) * along_.mass(k, l)
+                    : down_.stiffness(i, j) * along_.mass(k, l) + down_.mass(i, j) * along_.stiffness(k, l);
+        char line[80];
+        std::snprintf(line, sizeof line, "%d %d %.17g\n", p + 1, q + 1, value);
+        entries += line;
+        ++count;
+      }
+    return "%%MatrixMarket matrix coordinate real symmetric\n147 147 " + std::to_string(count) + "\n" + entries;
+  }
+
+  std::string scene(const std::string& rest) const {
+    folder_.write("m.mtx", file(true));
+    folder_.write("k.mtx", file(false));
+    return "schema = 1\n[[element]]\ntype = \"matrices\"\nname = \"net\"\nmass = \"" + folder_.file("m.mtx") +
+           "\"\nstiffness = \"" + folder_.file("k.mtx") + "\"\ndofs = \"u\"\n" + rest;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Membrane, has_the_frequencies_of_its_closed_form) {
+  const std::string toml = scene("[integrator]\ntype = \"exact\"\nend_time = 1.0\n");
+  std::vector<double> expected;
+  for (int i = 1; i <= kRows; ++i)
+    for (int j = 1; j <= kColumns; ++j) expected.push_back(std::sqrt(down_.lambda(i) + along_.lambda(j)));
+  std::sort(expected.begin(), expected.end());
+  const Vector found = frequencies(toml, kRows * kColumns);
+  ASSERT_EQ(found.size(), kRows * kColumns);
+  for (Index i = 0; i < found.size(); ++i) {
+    const double omega = expected[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(found[i], omega, 1e-11 * omega) << i;
+  }
+  // Both triangles count: the sums of all entries are those of the products.
+  SceneRun run(toml);
+  const auto sum = [](const Side& side, bool is_mass) {
+    double total = 0.0;
+    for (int i = 0; i < side.points; ++i)
+      for (int j = std::max(0, i - 1); j < std::min(side.points, i + 2); ++j)
+        total += is_mass ? side.mass(i, j) : side.stiffness(i, j);
+    return total;
+  };
+  EXPECT_NEAR(run.system().mass.sum(), sum(down_, true) * sum(along_, true), 1e-12);
+  EXPECT_NEAR(run.system().stiffness.sum(),
+              sum(down_, false) * sum(along_, true) + sum(down_, true) * sum(along_, false), 1e-10);
+}
+
+TEST_F(Membrane, answers_a_step_of_force_as_its_closed_form) {
+  const int loaded = 40, seen = 71;
+  const double end = 0.37;
+  double expected = 0.0;
+  for (int i = 1; i <= kRows; ++i)
+    for (int j = 1; j <= kColumns; ++j) {
+      const auto shape = [&](int p) { return down_.shape(i, p / kColumns) * along_.shape(j, p % kColumns); };
+      const double square = down_.lambda(i) + along_.lambda(j);
+      expected += shape(loaded) * shape(seen) / (down_.modal_mass(i) * along_.modal_mass(j)) *
+                  (1.0 - std::cos(std::sqrt(square) * end)) / square;
+    }
+  for (const char* method : {"exact", "exponential"}) {
+    SceneRun run(scene("[[load]]\ntype = \"constant\"\nnode = \"net:40\"\nvalue = 1.0\n[integrator]\ntype = \"") +
+                 method + "\"\nend_time = 0.37\n" + (method[2] == 'p' ? "tolerance = 1e-8\n" : ""));
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_NEAR(run.simulation().state().x[run.dof("net:" + std::to_string(seen))], expected, 1e-8 * std::abs(expected))
+        << method;
+  }
 }
 
 /// C of a file comes beside [damping] and need not be symmetric.
