@@ -20,14 +20,27 @@ class SurveySink final : public model::MatrixSink {
         if (dofs[i].kind == DofKind::u && dofs[j].kind == DofKind::u)
           mass += matrices.mass(static_cast<Index>(i), static_cast<Index>(j));
     survey_.total_mass += mass;
+    if (dofs.size() == 2 && matrices.stiffness(0, 0) == 0.0 && matrices.stiffness(0, 1) != 0.0) are_entries_ = true;
+    if (dofs.size() == 2 && mass != 0.0) couples_masses_ = true;
     if (dofs.size() == 4) return add_stretch(dofs, matrices, mass);
     if (dofs.front().kind != DofKind::u) return;
-    if (dofs.size() == 1 && mass > 0.0) {
-      survey_.lumped_mass += mass;
-      survey_.masses.push_back({dofs[0].node, mass});
-    }
+    if (dofs.size() == 1 && mass > 0.0) masses_.push_back({dofs[0].node, mass});
     if (const double k = matrices.stiffness(0, 0); dofs.size() <= 2 && k != 0.0)
-      survey_.springs.push_back({dofs[0].node, dofs.size() == 2 ? dofs[1].node : -1, k});
+      springs_.push_back({dofs[0].node, dofs.size() == 2 ? dofs[1].node : -1, k});
+  }
+
+  /// The end of an element. Of matrices that come entry by entry the diagonal is no spring to ground, and no mass of a
+  /// single node where masses are coupled.
+  void end() {
+    if (!couples_masses_)
+      for (const MassPlace& mass : masses_) {
+        survey_.lumped_mass += mass.mass;
+        survey_.masses.push_back(mass);
+      }
+    if (!are_entries_) survey_.springs.insert(survey_.springs.end(), springs_.begin(), springs_.end());
+    masses_.clear();
+    springs_.clear();
+    are_entries_ = couples_masses_ = false;
   }
 
  private:
@@ -43,6 +56,9 @@ class SurveySink final : public model::MatrixSink {
 
   const model::NodeTable& nodes_;
   Survey& survey_;
+  std::vector<MassPlace> masses_;
+  std::vector<SpringPlace> springs_;
+  bool are_entries_ = false, couples_masses_ = false;
 };
 
 }  // namespace
@@ -50,7 +66,10 @@ class SurveySink final : public model::MatrixSink {
 Survey survey_of(const model::Model& model) {
   Survey survey;
   SurveySink sink(model.nodes, survey);
-  for (const auto& element : model.elements) element->assemble(sink);
+  for (const auto& element : model.elements) {
+    element->assemble(sink);
+    sink.end();
+  }
   return survey;
 }
 
