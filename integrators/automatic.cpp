@@ -107,7 +107,7 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
     return {Method::dopri5, "contacts stick rigidly, which it locates and implicit methods cannot treat"};
   if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
-    return {Method::dopri5, "the slope of jankowski's dashpot is infinite where a contact closes"};
+    return {Method::dopri5, "the slope of a contact's dissipation is infinite where it closes"};
   if (suits_collocation(dynamics))
     return {Method::exponential, "the linear part is exact in its damped modes, and contacts alone are approximated"};
   if (dynamics.obstacles() != nullptr)

@@ -36,7 +36,7 @@ double natural_time(dynamics::Dynamics& dynamics) {
   if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
     for (Index i = 0; i < obstacles->size(); ++i)
       for (const auto& ends : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
-        for (const Index dof : ends)
+        for (const Index dof : {ends[0], ends[1]})
           if (dof >= 0) stiffness[dof] += obstacles->closed_stiffness(i);
   const double square = stiffness.cwiseQuotient(dynamics.system().mass.diagonal()).maxCoeff();
   return square > 0.0 && std::isfinite(square) ? 1.0 / std::sqrt(square) : 1.0;

@@ -24,6 +24,8 @@ constexpr double kSpendOnSmooth = 0.01;
 constexpr double kOfJump = 0.1;
 /// Where a stop closes or opens, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
+/// A contact begins or ends with a step if its penetration there is this small a part of that at the other end.
+constexpr double kTouches = 1e-3;
 
 /// The highest k/m of a single DOF, 1/s^2.
 double highest(const Vector& stiffness, const Vector& mass) {
@@ -33,10 +35,25 @@ double highest(const Vector& stiffness, const Vector& mass) {
   return square;
 }
 
+/// The highest rate at which friction supports slow a single DOF where their friction is steep, 1/s.
+double friction_rate(const dynamics::Obstacles* obstacles, const Vector& mass) {
+  double rate = 0.0;
+  if (obstacles == nullptr) return rate;
+  for (Index i = 0; i < obstacles->size(); ++i) {
+    const model::ObstacleGroup& group = obstacles->group_of(i);
+    if (group.shape != nullptr || !(group.friction.slip_speed > 0.0)) continue;
+    const double damping = group.friction.coefficient * group.normal_force / group.friction.slip_speed;
+    for (const Index dof : {obstacles->ends_of(i).a[0], obstacles->ends_of(i).b[0]})
+      if (dof >= 0) rate = std::max(rate, damping / mass[dof]);
+  }
+  return rate;
+}
+
 }  // namespace
 
 LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps)
     : dynamics_(dynamics),
+      obstacles_(dynamics.obstacles()),
       contact_(dynamics, goal.tolerance),
       account_(goal),
       orders_(orders),
@@ -59,12 +76,24 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
       if (dof >= 0) stiffness[dof] += closed[i];
-  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
-    for (Index i = 0; i < obstacles->size(); ++i)
-      for (const auto& ends : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
-        for (const Index dof : ends)
-          if (dof >= 0) stiffness[dof] += obstacles->closed_stiffness(i);
-  omega_ = std::sqrt(highest(stiffness, mass));
+  if (obstacles_ != nullptr)
+    for (Index i = 0; i < obstacles_->size(); ++i)
+      for (const auto& ends : {obstacles_->ends_of(i).a, obstacles_->ends_of(i).b})
+        for (const Index dof : {ends[0], ends[1]})
+          if (dof >= 0) stiffness[dof] += obstacles_->closed_stiffness(i);
+  omega_ = std::max(std::sqrt(highest(stiffness, mass)), friction_rate(obstacles_, mass));
+}
+
+bool LocalErrorControl::touches_anew(const time::State& from, const time::State& to) const {
+  if (obstacles_ == nullptr) return false;
+  for (Index i = 0; i < obstacles_->size(); ++i) {
+    const model::ContactLaw* law = obstacles_->group_of(i).law.get();
+    if (law == nullptr || law->is_piecewise_linear() || !obstacles_->phase(i).touches()) continue;
+    const double begin = obstacles_->forces(i, from.t, from.x, from.v).penetration,
+                 end = obstacles_->forces(i, to.t, to.x, to.v).penetration;
+    if (std::min(begin, end) < kTouches * std::max(begin, end)) return true;
+  }
+  return false;
 }
 
 void LocalErrorControl::start(time::State& state) {
@@ -137,7 +166,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     scales_.raise(work_, scale_x_);
     epsilon = relative_error(error_x, error_v);
   }
-  const bool has_changed = contact_.changed(from, to, h, scale_v_);
+  const bool has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to);
   double r = epsilon / smooth, charge = 0.0;
   if (as_a_whole_) {
     if (has_changed) r *= orders_.kink;

@@ -88,6 +88,9 @@ class LocalErrorControl {
   /// Places in the memory.
   static constexpr Index kOld = 0, kAccount = 1, kNormX = 2, kNormV = 3, kScales = 4;
 
+  /// Whether a contact of a law that is no straight line begins or ends with the step: there its force is like a broken
+  /// power of time, which the estimate takes for a smooth function.
+  bool touches_anew(const time::State& from, const time::State& to) const;
   double relative_error(ConstVectorRef error_x, ConstVectorRef error_v) const;
   double norm(ConstVectorRef y);
   /// The same of the whole structure; updates the norms that `to` carries.
@@ -97,13 +100,14 @@ class LocalErrorControl {
   double ladder_step(double h, double r, double order) const;
 
   const dynamics::Dynamics& dynamics_;
+  const dynamics::Obstacles* obstacles_;  ///< null where there are none
   Proposed controller_;
   ContactOnTheWay contact_;
   ErrorAccount account_;
   Orders orders_;
   double power_;        ///< q/(p + 1)
   double first_step_;   ///< s
-  double omega_ = 0.0;  ///< 1/s, with all stops closed; 0 where nothing has a stiffness
+  double omega_ = 0.0;  ///< 1/s, with all stops closed and supports slipping; 0 where nothing has a stiffness
   Steps steps_;
   ComponentScales scales_;
   std::vector<double> kinks_;  ///< instants at which a load or its slope jumps, s

@@ -36,7 +36,8 @@ ObstacleSeries::ObstacleSeries(dynamics::Dynamics& dynamics, int order)
   for (Index i = 0; i < obstacles_.size(); ++i) {
     const model::ObstacleGroup& group = obstacles_.group_of(i);
     if (group.shape == nullptr) continue;
-    if (!group.law->is_piecewise_linear() || group.shape->form().kind == ContactShape::Form::Kind::other)
+    if (!group.law->is_piecewise_linear() || group.damping.kind == ImpactDamping::Kind::law ||
+        group.shape->form().kind == ContactShape::Form::Kind::other)
       throw InputError("integrator.type: exact expands contacts (" + group.kind +
                        ") in series with law = \"linear\" on "
                        "lines and circles alone; take dopri5, extrapolation8 or rodas4");
@@ -55,9 +56,9 @@ void ObstacleSeries::begin(double t, ConstVectorRef x, ConstVectorRef v, double 
       Contact& fresh = contacts_.back();
       for (Plane* plane : {&fresh.d, &fresh.v, &fresh.normal, &fresh.tangent})
         for (Series* series : {&plane->y, &plane->z}) series->assign(terms_, 0.0);
-      for (Series* series :
-           {&fresh.square, &fresh.radius, &fresh.inverse, &fresh.penetration, &fresh.rate, &fresh.pressing,
-            &fresh.along, &fresh.slip, &fresh.smooth, &fresh.root, &fresh.share, &fresh.path, &fresh.friction})
+      for (Series* series : {&fresh.square, &fresh.radius, &fresh.inverse, &fresh.penetration, &fresh.rate,
+                             &fresh.pressing, &fresh.along, &fresh.slip, &fresh.smooth, &fresh.root, &fresh.share,
+                             &fresh.path, &fresh.friction, &fresh.turning})
         series->assign(terms_, 0.0);
     }
     Contact& contact = contacts_[used++];
@@ -76,11 +77,12 @@ void ObstacleSeries::begin(double t, ConstVectorRef x, ConstVectorRef v, double 
 void ObstacleSeries::add(Index k, ConstVectorRef x, ConstVectorRef v, VectorRef force) {
   const auto at = static_cast<std::size_t>(k);
   for (Contact& contact : contacts_) {
-    const Eigen::Vector2d d = obstacles_.gather(contact.index, x), speed = obstacles_.gather(contact.index, v);
+    const auto d = obstacles_.gather(contact.index, x), speed = obstacles_.gather(contact.index, v);
     contact.d.y[at] = d[0];
     contact.d.z[at] = d[1];
     contact.v.y[at] = speed[0];
     contact.v.z[at] = speed[1];
+    contact.turning[at] = obstacles_.arm_of(contact.index) * speed[2];
     add(contact, k, force);
   }
 }
@@ -140,7 +142,7 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
   const model::ObstacleGroup& group = obstacles_.group_of(contact.index);
   const Friction& friction = group.friction;
   contact.along[at] = product(contact.tangent.y, contact.v.y, k) + product(contact.tangent.z, contact.v.z, k);
-  contact.slip[at] = contact.along[at] + (k == 0 ? contact.surface : 0.0);
+  contact.slip[at] = contact.along[at] + contact.turning[at] + (k == 0 ? contact.surface : 0.0);
   const bool slides =
       contact.phase.slip == ContactPhase::Slip::forward || contact.phase.slip == ContactPhase::Slip::backward;
   if (slides) {
@@ -159,6 +161,7 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
         const bool round = group.shape != nullptr && group.shape->form().kind == ContactShape::Form::Kind::circle;
         const ContactShape::Form form = group.shape != nullptr ? group.shape->form() : ContactShape::Form{};
         double speed = round ? form.distance * product(contact.inverse, contact.along, k - 1) : contact.along[at - 1];
+        speed += contact.turning[at - 1];
         if (k == 1) speed += contact.surface;
         contact.path[at] = length_ / static_cast<double>(k) * speed;
       }
@@ -197,8 +200,9 @@ void ObstacleSeries::add(Contact& contact, Index k, VectorRef force) {
   contact.pressing[at] = press(contact, k);
   contact.friction[at] = rub(contact, k);
   const bool has_shape = obstacles_.group_of(contact.index).shape != nullptr;
-  Eigen::Vector2d value(-product(contact.friction, contact.tangent.y, k),
-                        -product(contact.friction, contact.tangent.z, k));
+  dynamics::Obstacles::Coordinates value(-product(contact.friction, contact.tangent.y, k),
+                                         -product(contact.friction, contact.tangent.z, k),
+                                         -obstacles_.arm_of(contact.index) * contact.friction[at]);
   if (has_shape) {
     value[0] -= product(contact.pressing, contact.normal.y, k);
     value[1] -= product(contact.pressing, contact.normal.z, k);

@@ -34,7 +34,8 @@ class ObstacleSeries {
     dynamics::ContactPhase phase;
     double surface, stretch;
     Plane d, v, normal, tangent;
-    Series square, radius, inverse, penetration, rate, pressing, along, slip, smooth, root, share, path, friction;
+    Series square, radius, inverse, penetration, rate, pressing, along, slip, smooth, root, share, path, friction,
+        turning;
   };
 
   void add(Contact& contact, Index k, VectorRef force);

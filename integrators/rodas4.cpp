@@ -19,8 +19,15 @@ constexpr double kConstant = 0.57, kKink = 10.0;
 }  // namespace
 
 bool has_infinite_slope(const dynamics::Obstacles& obstacles) {
-  for (Index i = 0; i < obstacles.size(); ++i)
-    if (obstacles.group_of(i).damping.kind == model::ImpactDamping::Kind::jankowski) return true;
+  for (Index i = 0; i < obstacles.size(); ++i) {
+    const model::ObstacleGroup& group = obstacles.group_of(i);
+    if (group.damping.kind == model::ImpactDamping::Kind::jankowski) return true;
+    if (group.damping.kind != model::ImpactDamping::Kind::law) continue;
+    // A slope like g^-p grows by 10^(8 p) between these.
+    constexpr double kLittle = 1e-8, kLess = 1e-16, kGrows = 10.0;
+    const auto slope = [&](double g) { return std::abs(group.law->rated_force(g, 1.0, false).by_penetration); };
+    if (!(slope(kLess) <= kGrows * slope(kLittle))) return true;
+  }
   return false;
 }
 
@@ -30,8 +37,8 @@ Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
       solver_(dynamics.effective(), dynamics.obstacles()) {
   if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
     throw InputError(
-        "integrator.type: rodas4 takes derivatives of forces, and that of jankowski's dashpot is infinite where the "
-        "contact closes; take dopri5 or extrapolation8, or auto, which chooses among them");
+        "integrator.type: rodas4 takes derivatives of forces, and that of the contact's dissipation is infinite where "
+        "the contact closes; take dopri5 or extrapolation8, or auto, which chooses among them");
   for (std::size_t i = 0; i < kStages; ++i) p_[i] = q_[i] = Vector::Zero(dynamics.size());
   work_ = other_ = residual_v_ = rate_ = Vector::Zero(dynamics.size());
   stop_displacement_ = stop_force_ = tangent_ = stop_work_ = Vector::Zero(dynamics.stop_count());

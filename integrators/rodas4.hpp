@@ -7,7 +7,7 @@
 
 namespace butee::integrators {
 
-/// True where the damping of a contact has an infinite derivative, at g = 0: the dashpot of jankowski.
+/// True where the damping of a contact has an infinite derivative at g = 0: the dashpot of jankowski, some of modules.
 bool has_infinite_slope(const dynamics::Obstacles& obstacles);
 
 /// rodas4: the Rosenbrock method RODAS4(3) of six stages, in n x n form.

@@ -131,6 +131,10 @@ Finding check_rebound(const Subject& subject) {
   Bench bench(subject.catalogue, scene + integrator_table("dopri5", "tolerance = 1e-8\n", 1e-6, 0.5));
   const auto& report = bench.simulation().run();
   if (!report.completed) return {false, report.message};
+  if (law->rate_dependence() != model::ContactLaw::RateDependence::none) {
+    const double back = -bench.simulation().state().v[0];
+    return {back >= 0.0 && back <= 1.0 + 1e-4, "thrown at 1 m/s it comes back with " + to_short_text(back) + " m/s"};
+  }
   // A law that pulls an open stop holds a little of the energy back.
   const double x = bench.simulation().state().x[0], v = bench.simulation().state().v[0];
   const double held = 2.0 * (law->energy(x - kGap) - law->energy(-kGap));
@@ -139,12 +143,49 @@ Finding check_rebound(const Subject& subject) {
 
 }  // namespace
 
+/// Of a law that dissipates: rated_force() and its derivatives in both branches, and the sense of the dissipation.
+Finding check_rate(const Subject& subject) {
+  using Dependence = model::ContactLaw::RateDependence;
+  const auto law = make_law(subject);
+  if (law->rate_dependence() == Dependence::none) return {true, "elastic"};
+  if (law->is_piecewise_linear()) return {false, "is_piecewise_linear() belongs to elastic laws"};
+  for (const double g : {1e-7, 1e-5, 1e-3, 1e-1})
+    for (const double rate : {-3.0, -0.1, -1e-3, 0.0, 1e-3, 0.1, 3.0})
+      for (const bool recedes : {false, true}) {
+        const bool is_by_sense = law->rate_dependence() == Dependence::by_sense;
+        if (is_by_sense ? recedes != (rate < 0.0) && rate != 0.0 : recedes) continue;
+        const std::string where = "at g = " + to_short_text(g) + " m and g' = " + to_short_text(rate) + " m/s " +
+                                  (recedes ? "receding, " : "");
+        const auto at = law->rated_force(g, rate, recedes);
+        if (!std::isfinite(at.force + at.by_penetration + at.by_rate))
+          return {false, where + "the force is not finite"};
+        const double elastic = force(*law, g), scale = std::abs(elastic) + std::abs(at.force);
+        if (rate == 0.0 && !(std::abs(at.force - elastic) <= 1e-12 * scale))
+          return {false, where + "F = " + to_text(at.force) + " and K_c g = " + to_text(elastic)};
+        if (at.force >= 0.0 && (at.force - elastic) * rate < -1e-12 * scale * std::abs(rate))
+          return {false, where + "it puts energy into the motion"};
+        const double dg = kReach * g, dv = kReach * (std::abs(rate) + 1e-3);
+        const double by_g =
+            (law->rated_force(g + dg, rate, recedes).force - law->rated_force(g - dg, rate, recedes).force) /
+            (2.0 * dg);
+        const double by_v =
+            (law->rated_force(g, rate + dv, recedes).force - law->rated_force(g, rate - dv, recedes).force) /
+            (2.0 * dv);
+        if (!(std::abs(by_g - at.by_penetration) <= kDifference * (std::abs(by_g) + scale / g)))
+          return {false, where + "dF/dg = " + to_text(by_g) + " and by_penetration = " + to_text(at.by_penetration)};
+        if (!(std::abs(by_v - at.by_rate) <= kDifference * (std::abs(by_v) + scale / (std::abs(rate) + 1e-3))))
+          return {false, where + "dF/dg' = " + to_text(by_v) + " and by_rate = " + to_text(at.by_rate)};
+      }
+  return {true, "F(g, 0) = K_c g, the derivatives are those of differences, and the rate only dissipates"};
+}
+
 std::vector<Check> law_checks() {
   return {{"bounds", "force, stiffness and energy are finite, and a closed stop never pulls", check_bounds},
           {"derivatives", "the force is the slope of the energy, the tangent that of the force", check_derivatives},
           {"batches", "the loops over many stops give what a single stop gives", check_batches},
           {"series", "a Taylor series, where there is one, sums to the force", check_series},
-          {"rebound", "a stop gives back what it took", check_rebound}};
+          {"rate", "what depends on the rate dissipates, and has the slopes it states", check_rate},
+          {"rebound", "a stop gives back what it took, or less", check_rebound}};
 }
 
 }  // namespace butee::conformance

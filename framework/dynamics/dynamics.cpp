@@ -251,7 +251,9 @@ void Dynamics::contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std:
   for (std::size_t k = 0; k < sticks.size(); ++k) {
     ContactForces& forces = all[static_cast<std::size_t>(sticks[k])];
     forces.friction = -held[static_cast<Index>(k)];
-    forces.force -= forces.friction * obstacles_->tangent_of(sticks[k]);
+    const Obstacles::Coordinates tangent = obstacles_->tangent_of(sticks[k]);
+    forces.force -= forces.friction * tangent.head<2>();
+    forces.torque -= forces.friction * tangent[2];
   }
 }
 

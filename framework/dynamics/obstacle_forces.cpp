@@ -13,10 +13,8 @@ using model::ImpactDamping;
 using NormalPhase = ContactPhase::Normal;
 using SlipPhase = ContactPhase::Slip;
 
-/// The multiple of `period` nearest to 0 that differs from y by whole periods.
-double nearest(double y, double period) {
-  return period > 0.0 ? std::remainder(y, period) : y;
-}
+/// A penetration that is nothing, and no subnormal after a few roots and powers.
+constexpr double kBarelyClosed = 1e-100;
 
 }  // namespace
 
@@ -26,6 +24,13 @@ Obstacles::Normal Obstacles::normal(const Contact& contact, NormalPhase phase, d
   const model::ContactLaw& law = *group.law;
   const bool touches = phase == NormalPhase::pressed || phase == NormalPhase::receding || phase == NormalPhase::pulling;
   ++counters_->law_evaluations;
+  if (group.damping.kind == ImpactDamping::Kind::law) {
+    if (!touches) return {0.0, 0.0, 0.0, 0.0};
+    // Beyond the end of its phase the force goes on along its slope.
+    const double closed = std::max(g, 0.0);
+    const auto at = law.rated_force(closed, rate, phase == NormalPhase::receding);
+    return {at.force + at.by_penetration * (g - closed), law.secant(closed) * closed, at.by_penetration, at.by_rate};
+  }
   // A kinked law is continued beyond the end of its phase by the branch that holds within it.
   double secant, tangent;
   if (law.is_piecewise_linear()) {
@@ -40,6 +45,7 @@ Obstacles::Normal Obstacles::normal(const Contact& contact, NormalPhase phase, d
   const ImpactDamping& damping = group.damping;
   switch (damping.kind) {
     case ImpactDamping::Kind::none:
+    case ImpactDamping::Kind::law:
       break;
     case ImpactDamping::Kind::kelvin_voigt:
       result.force += damping.coefficient * rate;
@@ -59,6 +65,13 @@ Obstacles::Normal Obstacles::normal(const Contact& contact, NormalPhase phase, d
     }
   }
   return result;
+}
+
+double Obstacles::pressing_share(const Contact& contact, NormalPhase phase, double g, double rate) const {
+  const double closed = std::max(g, kBarelyClosed);
+  const Normal now = normal(contact, phase, closed, rate);
+  const double parts = std::abs(now.elastic) + std::abs(now.force - now.elastic);
+  return parts > 0.0 ? now.force / parts : 1.0;
 }
 
 Obstacles::Slide Obstacles::slide(const Friction& friction, SlipPhase phase, double w) {
@@ -81,23 +94,20 @@ Obstacles::Slide Obstacles::slide(const Friction& friction, SlipPhase phase, dou
   }
 }
 
-double Obstacles::path(Index i, double t, const Kinematics& now) const {
-  const Contact& contact = at(i);
-  const model::ObstacleGroup& group = *contact.group;
-  double path = -group.friction.surface_speed * t;
-  if (group.radius != 0.0 && rotation_ != nullptr) path += group.radius * rotation_->angle(t);
-  if (contact.form.kind == ContactShape::Form::Kind::circle) {
-    const Eigen::Vector2d arm = now.motion.d - contact.form.place;
-    return path + contact.form.sense * contact.form.distance * std::atan2(arm[1], arm[0]);
-  }
-  return path + now.tangent.dot(now.motion.d);
+double Obstacles::angle_of(Index i, const Kinematics& now) const {
+  const ContactShape::Form& form = at(i).form;
+  if (form.kind != ContactShape::Form::Kind::circle) return 0.0;
+  const Eigen::Vector2d arm = now.motion.d - form.place;
+  return std::atan2(arm[1], arm[0]);
 }
 
-double Obstacles::stretch(Index i, double t, const Kinematics& now, double anchor) const {
-  const double stretch = path(i, t, now) - anchor;
+double Obstacles::path(Index i, double t, const Kinematics& now, double angle) const {
   const Contact& contact = at(i);
-  if (contact.form.kind != ContactShape::Form::Kind::circle) return stretch;
-  return nearest(stretch, 2.0 * std::numbers::pi * contact.form.distance);
+  double path = contact.arm * now.motion.rotation - contact.group->friction.surface_speed * t;
+  if (contact.radius != 0.0 && rotation_ != nullptr) path += contact.radius * rotation_->angle(t);
+  if (contact.form.kind != ContactShape::Form::Kind::circle) return path + now.tangent.dot(now.motion.d);
+  const double turned = std::remainder(angle_of(i, now) - angle, 2.0 * std::numbers::pi);
+  return path + contact.form.sense * contact.form.distance * turned;
 }
 
 double Obstacles::friction_force(Index i, double t, const Kinematics& now, const ContactPhase& phase,
@@ -108,7 +118,7 @@ double Obstacles::friction_force(Index i, double t, const Kinematics& now, const
   const double limit = friction.coefficient * normal;
   if (friction.has_memory() && phase.slip == SlipPhase::stick) {
     if (friction.rule == Friction::Rule::rigid) return 0.0;
-    return friction.stick_stiffness * stretch(i, t, now, phase.anchor) + friction.stick_damping * now.slip;
+    return friction.stick_stiffness * (path(i, t, now, phase.angle) - phase.anchor) + friction.stick_damping * now.slip;
   }
   return limit * slide(friction, phase.slip, now.slip).share;
 }
@@ -131,6 +141,7 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
     Eigen::RowVector2d normal_by_v = normal.by_rate * n.transpose();
     if (group.shape == nullptr) normal_by_d = normal_by_v = Eigen::RowVector2d::Zero();
     Eigen::RowVector2d friction_by_d(0.0, 0.0), friction_by_v(0.0, 0.0);
+    double friction_by_angle = 0.0, friction_by_turning = 0.0;
     double force = 0.0, friction_rate = 0.0;
     const double surface_acceleration = this->surface_acceleration(i, t);
     if (friction.rule != Friction::Rule::none && (group.shape == nullptr || phase.touches())) {
@@ -142,23 +153,32 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
                             u.transpose() +
                         friction.stick_damping * slip_by_d;
         friction_by_v = friction.stick_damping * u.transpose();
+        friction_by_angle = friction.stick_stiffness * contact.arm;
+        friction_by_turning = friction.stick_damping * contact.arm;
         friction_rate = friction.stick_stiffness * now.surface + friction.stick_damping * surface_acceleration;
       } else if (!(friction.rule == Friction::Rule::rigid && phase.slip == SlipPhase::stick)) {
         const Slide slide = this->slide(friction, phase.slip, now.slip);
         const double mu = friction.coefficient;
         friction_by_d = mu * slide.share * normal_by_d + mu * normal.force * slide.slope * slip_by_d;
         friction_by_v = mu * slide.share * normal_by_v + mu * normal.force * slide.slope * u.transpose();
+        friction_by_turning = mu * normal.force * slide.slope * contact.arm;
         friction_rate = mu * normal.force * slide.slope * surface_acceleration;
       }
     }
-    Tangent tangent{i, n * normal_by_d + u * friction_by_d, n * normal_by_v + u * friction_by_v, -friction_rate * u};
-    if (group.shape != nullptr)
-      tangent.stiffness += normal.force * bend * u * u.transpose() - force * bend * n * u.transpose();
-    if (group.directions.size() == 1) {
-      tangent.stiffness(0, 1) = tangent.stiffness(1, 0) = tangent.stiffness(1, 1) = 0.0;
-      tangent.damping(0, 1) = tangent.damping(1, 0) = tangent.damping(1, 1) = 0.0;
-      tangent.rate[1] = 0.0;
-    }
+    Eigen::Matrix2d stiffness = n * normal_by_d + u * friction_by_d;
+    if (group.shape != nullptr) stiffness += normal.force * bend * u * u.transpose() - force * bend * n * u.transpose();
+    const auto whole = [&](const Eigen::Matrix2d& plane, const Eigen::RowVector2d& friction_by, double by_rotation) {
+      Block block;
+      block << plane, by_rotation * u, contact.arm * friction_by, contact.arm * by_rotation;
+      if (group.directions.size() == 1) {
+        block.row(1).setZero();
+        block.col(1).setZero();
+      }
+      return block;
+    };
+    Tangent tangent{i, whole(stiffness, friction_by_d, friction_by_angle),
+                    whole(n * normal_by_v + u * friction_by_v, friction_by_v, friction_by_turning),
+                    -friction_rate * Coordinates(u[0], group.directions.size() == 1 ? 0.0 : u[1], contact.arm)};
     if (!tangent.stiffness.isZero(0.0) || !tangent.damping.isZero(0.0)) tangents_.push_back(tangent);
   }
   return tangents_;

@@ -15,6 +15,13 @@ bool stops_rubbing(const model::ObstacleGroup& group) {
   return group.damping.pulls && group.friction.rule != Friction::Rule::none;
 }
 
+/// Approach and rebound are phases of their own.
+bool tells_rebound(const model::ObstacleGroup& group) {
+  return group.damping.kind == ImpactDamping::Kind::jankowski ||
+         (group.damping.kind == ImpactDamping::Kind::law &&
+          group.law->rate_dependence() == model::ContactLaw::RateDependence::by_sense);
+}
+
 }  // namespace
 
 ContactPhase Obstacles::live_phase(const Contact& contact, const Kinematics& now) const {
@@ -24,7 +31,7 @@ ContactPhase Obstacles::live_phase(const Contact& contact, const Kinematics& now
     phase.normal = NormalPhase::pressed;
   } else if (now.approach.penetration > 0.0) {
     phase.normal = NormalPhase::pressed;
-    if (group.damping.kind == ImpactDamping::Kind::jankowski && now.rate < 0.0) phase.normal = NormalPhase::receding;
+    if (tells_rebound(group) && now.rate < 0.0) phase.normal = NormalPhase::receding;
     if (group.damping.kind != ImpactDamping::Kind::none && !group.damping.pulls &&
         normal(contact, phase.normal, now.approach.penetration, now.rate).force < 0.0)
       phase.normal = NormalPhase::released;
@@ -41,7 +48,12 @@ ContactPhase Obstacles::live_phase(const Contact& contact, const Kinematics& now
     case Friction::Rule::rigid:
       phase.slip = now.slip == 0.0 ? SlipPhase::stick : now.slip > 0.0 ? SlipPhase::forward : SlipPhase::backward;
       break;
-    default:
+    case Friction::Rule::sqrt:
+    case Friction::Rule::tanh:
+      if (std::abs(now.slip) > ContactPhase::kSteep * group.friction.slip_speed)
+        phase.slip = now.slip > 0.0 ? SlipPhase::ahead : SlipPhase::behind;
+      break;
+    case Friction::Rule::none:
       break;
   }
   return phase;
@@ -52,7 +64,8 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
   ContactPhase phase = live_phase(at(i), now);
   const Friction& friction = at(i).group->friction;
   if (friction.rule == Friction::Rule::spring) {
-    phase.anchor = path(i, t, now);
+    phase.angle = angle_of(i, now);
+    phase.anchor = path(i, t, now, phase.angle);
     // Where slip begins with contact the force is still 0: whether the spring or the limit grows faster decides.
     const double limit =
         at(i).group->shape == nullptr
@@ -76,7 +89,7 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
   const ContactPhase phase = phases_[static_cast<std::size_t>(i)];
   std::size_t count = 0;
   const auto add = [&](double value, NormalPhase normal, SlipPhase slip, double anchor) {
-    out[count++] = {value, {normal, slip, anchor}};
+    out[count++] = {value, {normal, slip, anchor, phase.angle}};
   };
   if (group.shape != nullptr && phase.normal == NormalPhase::apart) {
     add(-penetration(contact, gather(i, x)), NormalPhase::pressed, phase.slip, phase.anchor);
@@ -84,6 +97,7 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
   }
   const Kinematics now = kinematics(i, t, x, v);
   const double g = now.approach.penetration;
+  const bool is_of_law = group.damping.kind == ImpactDamping::Kind::law;
   const bool dissipates = group.damping.kind != ImpactDamping::Kind::none;
   if (group.shape != nullptr) {
     switch (phase.normal) {
@@ -91,6 +105,11 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
         break;
       case NormalPhase::released: {
         add(g, NormalPhase::apart, phase.slip, phase.anchor);
+        if (is_of_law) {
+          const auto branch = tells_rebound(group) && now.rate < 0.0 ? NormalPhase::receding : NormalPhase::pressed;
+          add(-pressing_share(contact, branch, g, now.rate), branch, phase.slip, phase.anchor);
+          return count;
+        }
         const double pull = group.damping.kind == ImpactDamping::Kind::hunt_crossley
                                 ? 1.0 + group.damping.coefficient * now.rate
                                 : normal(contact, NormalPhase::pressed, g, now.rate).force;
@@ -99,10 +118,12 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
       }
       case NormalPhase::pressed:
         add(g, NormalPhase::apart, phase.slip, phase.anchor);
-        if (group.damping.kind == ImpactDamping::Kind::jankowski)
+        if (tells_rebound(group))
           add(now.rate, NormalPhase::receding, phase.slip, phase.anchor);
         else if (group.damping.kind == ImpactDamping::Kind::hunt_crossley)
           add(1.0 + group.damping.coefficient * now.rate, NormalPhase::released, phase.slip, phase.anchor);
+        else if (is_of_law)
+          add(pressing_share(contact, phase.normal, g, now.rate), NormalPhase::released, phase.slip, phase.anchor);
         else if (dissipates && !group.damping.pulls)
           add(normal(contact, phase.normal, g, now.rate).force, NormalPhase::released, phase.slip, phase.anchor);
         else if (stops_rubbing(group))
@@ -115,6 +136,8 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
       case NormalPhase::receding:
         add(g, NormalPhase::apart, phase.slip, phase.anchor);
         add(-now.rate, NormalPhase::pressed, phase.slip, phase.anchor);
+        if (is_of_law)
+          add(pressing_share(contact, phase.normal, g, now.rate), NormalPhase::released, phase.slip, phase.anchor);
         break;
     }
   }
@@ -127,6 +150,17 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
       add((phase.slip == SlipPhase::backward ? -1.0 : 1.0) * (now.slip + friction.slip_speed), phase.normal,
           phase.slip == SlipPhase::backward ? SlipPhase::stick : SlipPhase::backward, 0.0);
   }
+  if (friction.rule == Friction::Rule::sqrt || friction.rule == Friction::Rule::tanh) {
+    const double border = ContactPhase::kSteep * friction.slip_speed;
+    if (phase.slip == SlipPhase::ahead) {
+      add(now.slip - border, phase.normal, SlipPhase::smooth, 0.0);
+    } else if (phase.slip == SlipPhase::behind) {
+      add(-border - now.slip, phase.normal, SlipPhase::smooth, 0.0);
+    } else {
+      add(border - now.slip, phase.normal, SlipPhase::ahead, 0.0);
+      add(border + now.slip, phase.normal, SlipPhase::behind, 0.0);
+    }
+  }
   if (!friction.has_memory()) return count;
   const double force = normal(contact, phase.normal, g, now.rate).force;
   if (phase.slip == SlipPhase::stick) {
@@ -138,7 +172,7 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
     double anchor = 0.0;
     if (friction.rule == Friction::Rule::spring) {
       const double tension = sense * friction.coefficient * force - friction.stick_damping * now.slip;
-      anchor = path(i, t, now) - tension / friction.stick_stiffness;
+      anchor = path(i, t, now, phase.angle) - tension / friction.stick_stiffness;
     }
     add(sense * now.slip, phase.normal, SlipPhase::stick, anchor);
   }

@@ -38,7 +38,9 @@ Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
       rotation_(system.model != nullptr ? system.model->rotation.get() : nullptr) {
   for (const model::FreeObstacles& free : system.obstacles)
     for (std::size_t i = 0; i < free.ends.size(); ++i) {
-      Contact contact{free.group, &free.ends[i], &free.names[i], {}, 0.0};
+      const double radius = free.group->sense_about_x() * free.group->radius;
+      Contact contact{
+          free.group, &free.ends[i], &free.names[i], {}, 0.0, radius, free.ends[i].a[2] >= 0 ? radius : 0.0};
       if (free.group->shape != nullptr) {
         contact.form = free.group->shape->form();
         contact.reach = reach_of(contact.form);
@@ -69,7 +71,7 @@ void Obstacles::follow(ConstVectorRef phases) {
   for (Index i = 0; i < size(); ++i) {
     const auto entry = phases.segment(kStateSize * i, kStateSize);
     used(i) = {static_cast<NormalPhase>(static_cast<int>(entry[0])), static_cast<SlipPhase>(static_cast<int>(entry[1])),
-               entry[2]};
+               entry[2], entry[3]};
   }
 }
 
@@ -77,23 +79,23 @@ void Obstacles::write_phases(VectorRef phases) const {
   for (Index i = 0; i < size(); ++i) {
     const ContactPhase& phase = phases_[static_cast<std::size_t>(i)];
     phases.segment(kStateSize * i, kStateSize) << static_cast<double>(phase.normal), static_cast<double>(phase.slip),
-        phase.anchor;
+        phase.anchor, phase.angle;
   }
 }
 
-Eigen::Vector2d Obstacles::gather(Index i, ConstVectorRef y) const {
+Obstacles::Coordinates Obstacles::gather(Index i, ConstVectorRef y) const {
   const model::FreeObstacles::Ends& ends = *at(i).ends;
-  Eigen::Vector2d value(0.0, 0.0);
-  for (std::size_t k = 0; k < 2; ++k) {
+  Coordinates value = Coordinates::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
     if (ends.a[k] >= 0) value[static_cast<Index>(k)] += y[ends.a[k]];
     if (ends.b[k] >= 0) value[static_cast<Index>(k)] -= y[ends.b[k]];
   }
   return value;
 }
 
-void Obstacles::scatter(Index i, const Eigen::Vector2d& value, VectorRef force) const {
+void Obstacles::scatter(Index i, const Coordinates& value, VectorRef force) const {
   const model::FreeObstacles::Ends& ends = *at(i).ends;
-  for (std::size_t k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     if (ends.a[k] >= 0) force[ends.a[k]] += value[static_cast<Index>(k)];
     if (ends.b[k] >= 0) force[ends.b[k]] -= value[static_cast<Index>(k)];
   }
@@ -131,7 +133,8 @@ bool Obstacles::may_touch(Index i, const Motion& from, const Motion& to, double 
 }
 
 Obstacles::Motion Obstacles::motion(Index i, ConstVectorRef x, ConstVectorRef v) const {
-  return {gather(i, x), gather(i, v)};
+  const Coordinates d = gather(i, x), speed = gather(i, v);
+  return {d.head<2>(), speed.head<2>(), d[2], speed[2]};
 }
 
 Obstacles::Kinematics Obstacles::kinematics(Index i, double t, ConstVectorRef x, ConstVectorRef v) const {
@@ -145,8 +148,8 @@ Obstacles::Kinematics Obstacles::kinematics(Index i, double t, ConstVectorRef x,
   }
   if (group.friction.rule == Friction::Rule::none) return now;
   now.surface = -group.friction.surface_speed;
-  if (group.radius != 0.0 && rotation_ != nullptr) now.surface += group.radius * rotation_->speed(t);
-  now.slip = now.tangent.dot(now.motion.v) + now.surface;
+  if (contact.radius != 0.0 && rotation_ != nullptr) now.surface += contact.radius * rotation_->speed(t);
+  now.slip = now.tangent.dot(now.motion.v) + contact.arm * now.motion.rotation_speed + now.surface;
   return now;
 }
 
@@ -165,13 +168,14 @@ ContactForces Obstacles::forces(Index i, double t, ConstVectorRef x, ConstVector
   result.normal = normal.force;
   result.friction = friction_force(i, t, now, phase, normal.force);
   result.force = -result.friction * now.tangent;
+  result.torque = -result.friction * contact.arm;
   if (group.shape != nullptr) {
     result.force -= result.normal * now.approach.normal;
     result.stored = group.law->energy(now.approach.penetration) - contact.rest_energy;
     if (phase.normal == NormalPhase::released) result.stored = 0.0;
   }
   if (group.friction.rule == Friction::Rule::spring) {
-    const double stretched = phase.slip == SlipPhase::stick ? stretch(i, t, now, phase.anchor)
+    const double stretched = phase.slip == SlipPhase::stick ? path(i, t, now, phase.angle) - phase.anchor
                                                             : result.friction / group.friction.stick_stiffness;
     if (phase.touches()) result.stored += 0.5 * group.friction.stick_stiffness * stretched * stretched;
   }
@@ -183,7 +187,7 @@ void Obstacles::add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRe
   for (Index i = 0; i < size(); ++i) {
     if (is_idle(i, x)) continue;
     const ContactForces now = forces(i, t, x, v);
-    if (now.normal != 0.0 || now.friction != 0.0) scatter(i, now.force, force);
+    if (now.normal != 0.0 || now.friction != 0.0) scatter(i, {now.force[0], now.force[1], now.torque}, force);
   }
 }
 
@@ -205,14 +209,15 @@ std::vector<Index> Obstacles::rigid_sticks() const {
   return all;
 }
 
-Eigen::Vector2d Obstacles::tangent_of(Index i) const {
+Obstacles::Coordinates Obstacles::tangent_of(Index i) const {
   const Contact& contact = at(i);
-  return contact.group->shape == nullptr ? Eigen::Vector2d(1.0, 0.0) : tangent_to(contact.form.place);
+  const Eigen::Vector2d along =
+      contact.group->shape == nullptr ? Eigen::Vector2d(1.0, 0.0) : tangent_to(contact.form.place);
+  return {along[0], along[1], contact.arm};
 }
 
 double Obstacles::surface_acceleration(Index i, double t) const {
-  const model::ObstacleGroup& group = *at(i).group;
-  return group.radius != 0.0 && rotation_ != nullptr ? group.radius * rotation_->acceleration(t) : 0.0;
+  return rotation_ != nullptr ? at(i).radius * rotation_->acceleration(t) : 0.0;
 }
 
 double Obstacles::closed_stiffness(Index i) const {

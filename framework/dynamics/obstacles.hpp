@@ -21,14 +21,19 @@ struct ContactPhase {
     pulling    ///< F_n < 0 of a dashpot that may pull, in a contact with friction: none acts
   };
   enum class Slip : std::uint8_t {
-    smooth,   ///< no friction, or one that is smooth in the slip speed
+    smooth,   ///< no friction, or the steep part |w| <= kSteep slip_speed of a law that is smooth in the slip speed
     stick,    ///< or, of a clipped law, the linear part
     forward,  ///< slip with w > 0
-    backward
+    backward,
+    ahead,  ///< the flat part w > kSteep slip_speed of a smooth law
+    behind  ///< that of w < -kSteep slip_speed
   };
+  /// A step that passes the steep part of a smooth law in one goes may not see it: it ends where that part begins.
+  static constexpr double kSteep = 4.0;
   Normal normal = Normal::apart;
   Slip slip = Slip::smooth;
   double anchor = 0.0;  ///< m: the path at which a stick spring is unstressed
+  double angle = 0.0;   ///< rad: of the arm in a ring, from which the path is measured
 
   bool touches() const { return normal == Normal::pressed || normal == Normal::receding; }
   friend bool operator==(const ContactPhase&, const ContactPhase&) = default;
@@ -44,6 +49,7 @@ struct ContactForces {
   double surface = 0.0;                ///< the part of w that is not the motion of the nodes, m/s
   double stored = 0.0;                 ///< J, elastic, in the normal law and a stick spring
   Eigen::Vector2d force = {0.0, 0.0};  ///< on node a along its directions, N
+  double torque = 0.0;                 ///< of friction on node a about x, N m
 };
 
 /// The contacts of a system that have two directions, dissipation or friction, one after the other.
@@ -53,10 +59,15 @@ struct ContactForces {
 /// forms in tests/models/obstacle_test.cpp and by differences in tests/unit/obstacles_test.cpp.
 class BUTEE_EXPORT Obstacles {
  public:
+  /// The coordinates of a contact: its two directions and the rotation of node a that friction twists.
+  using Coordinates = Eigen::Vector3d;
+  using Block = Eigen::Matrix3d;
   /// Entries of State::contact for each contact.
-  static constexpr Index kStateSize = 3;
+  static constexpr Index kStateSize = 4;
+  /// Entries of memory() for each contact.
+  static constexpr Index kMemorySize = 3;
   /// The most switching functions of a contact.
-  static constexpr std::size_t kMostSwitches = 4;
+  static constexpr std::size_t kMostSwitches = 5;
 
   /// `system` and `counters` must outlive it.
   Obstacles(const model::System& system, linalg::Counters& counters);
@@ -105,9 +116,13 @@ class BUTEE_EXPORT Obstacles {
   };
   std::size_t switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, double held,
                        std::array<Switch, kMostSwitches>& out) const;
-  /// d_i and its velocity.
+  /// A phase as it goes on from an instant: a stick spring's arc is measured from where the arm is then, so that it may
+  /// go round the ring any number of times.
+  ContactPhase rebased(Index i, const ContactPhase& phase, ConstVectorRef x) const;
+  /// d_i and its velocity, and those of the rotation that friction twists.
   struct Motion {
     Eigen::Vector2d d, v;
+    double rotation, rotation_speed;
   };
   Motion motion(Index i, ConstVectorRef x, ConstVectorRef v) const;
   /// True where a contact is apart at x by more than rounding; false for shapes of other forms than lines and circles.
@@ -119,30 +134,32 @@ class BUTEE_EXPORT Obstacles {
   /// -dF/dd, -dF/dd' and dF/dt of a contact, N/m, N s/m, N/s.
   struct Tangent {
     Index contact;
-    Eigen::Matrix2d stiffness, damping;
-    Eigen::Vector2d rate;
+    Block stiffness, damping;
+    Coordinates rate;
   };
   /// Of the contacts that exert a force, in their phases.
   const std::vector<Tangent>& tangents(double t, ConstVectorRef x, ConstVectorRef v);
 
   /// Contacts that stick rigidly now, and the row T of the constraint T v = b(t) of each: t along its directions.
   std::vector<Index> rigid_sticks() const;
-  /// The tangent of a line or a friction support.
-  Eigen::Vector2d tangent_of(Index i) const;
+  /// What the slip of a line or a friction support is made of: its tangent, and the arm of the rotation, m.
+  Coordinates tangent_of(Index i) const;
   /// db/dt, m/s2
   double surface_acceleration(Index i, double t) const;
+  /// The arm of the rotation that friction twists, m: 0 where there is none.
+  double arm_of(Index i) const { return at(i).arm; }
   /// force += value T^T
-  void scatter(Index i, const Eigen::Vector2d& value, VectorRef force) const;
-  Eigen::Vector2d gather(Index i, ConstVectorRef y) const;
+  void scatter(Index i, const Coordinates& value, VectorRef force) const;
+  Coordinates gather(Index i, ConstVectorRef y) const;
   /// Calls entry(i, j, value) for the places of S^T block S on the free DOFs.
   template <class Entry>
-  void visit(Index contact, const Eigen::Matrix2d& block, Entry entry) const {
+  void visit(Index contact, const Block& block, Entry entry) const {
     const model::FreeObstacles::Ends& ends = ends_of(contact);
-    for (std::size_t p = 0; p < 4; ++p)
-      for (std::size_t q = 0; q < 4; ++q) {
-        const Index i = p < 2 ? ends.a[p] : ends.b[p - 2], j = q < 2 ? ends.a[q] : ends.b[q - 2];
-        const double sign = (p < 2) == (q < 2) ? 1.0 : -1.0;
-        const double value = sign * block(static_cast<Index>(p % 2), static_cast<Index>(q % 2));
+    for (std::size_t p = 0; p < 6; ++p)
+      for (std::size_t q = 0; q < 6; ++q) {
+        const Index i = p < 3 ? ends.a[p] : ends.b[p - 3], j = q < 3 ? ends.a[q] : ends.b[q - 3];
+        const double sign = (p < 3) == (q < 3) ? 1.0 : -1.0;
+        const double value = sign * block(static_cast<Index>(p % 3), static_cast<Index>(q % 3));
         if (i >= 0 && j >= 0 && value != 0.0) entry(i, j, value);
       }
   }
@@ -156,6 +173,8 @@ class BUTEE_EXPORT Obstacles {
     const std::string* name;
     model::ContactShape::Form form;
     double rest_energy;            ///< of the law at d = 0, J
+    double radius;                 ///< m, negative where the directions turn against x
+    double arm;                    ///< m, `radius` where friction twists a free rotation, else 0
     double reach = 0.0;            ///< m: nearer than that it is apart, whatever the rounding
     bool is_silent_apart = false;  ///< no force acts while apart
   };
@@ -178,11 +197,14 @@ class BUTEE_EXPORT Obstacles {
   Kinematics kinematics(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
   Normal normal(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;
   ContactPhase live_phase(const Contact& contact, const Kinematics& at) const;
+  /// The normal force of a closed contact over the sum of what it is made of: its sign, and regular at g = 0.
+  double pressing_share(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;
   static Slide slide(const model::Friction& friction, ContactPhase::Slip phase, double w);
   /// The path of the slip since some origin: a function of the motion, of which w is the rate (of a ring, at its gap).
-  double path(Index i, double t, const Kinematics& at) const;
-  /// How far a stick spring is stretched, m.
-  double stretch(Index i, double t, const Kinematics& at, double anchor) const;
+  /// In a ring it holds the arc from `angle`, by the shorter way round.
+  double path(Index i, double t, const Kinematics& at, double angle) const;
+  /// The angle of the arm in a ring, rad; 0 of other contacts.
+  double angle_of(Index i, const Kinematics& at) const;
   double friction_force(Index i, double t, const Kinematics& at, const ContactPhase& phase, double normal) const;
   /// True where no force acts since the contact is apart.
   bool is_idle(Index i, ConstVectorRef x) const {

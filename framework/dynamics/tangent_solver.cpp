@@ -15,32 +15,37 @@ bool TangentSolver::set(double on_v, double on_x, ConstVectorRef kappa, std::spa
   }
   if (contacts_.empty()) return true;
   const auto count = static_cast<Index>(contacts_.size());
-  const Index n = obstacles_->system_size();
-  motion_.setZero(n, 2 * count);
+  width_ = 2;
+  for (const Index contact : contacts_)
+    if (obstacles_->arm_of(contact) != 0.0) width_ = 3;
+  motion_.setZero(obstacles_->system_size(), width_ * count);
   for (Index j = 0; j < count; ++j)
-    for (Index k = 0; k < 2; ++k) {
-      auto column = motion_.col(2 * j + k);
-      obstacles_->scatter(contacts_[static_cast<std::size_t>(j)], Eigen::Vector2d::Unit(k), column);
+    for (Index k = 0; k < width_; ++k) {
+      auto column = motion_.col(width_ * j + k);
+      obstacles_->scatter(contacts_[static_cast<std::size_t>(j)], Obstacles::Coordinates::Unit(k), column);
       if (!column.isZero(0.0) && !effective_.solve(kappa_, column)) return false;
     }
-  Eigen::MatrixXd small = Eigen::MatrixXd::Identity(2 * count, 2 * count);
+  Eigen::MatrixXd small = Eigen::MatrixXd::Identity(width_ * count, width_ * count);
   for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < 2 * count; ++j)
-      small.block<2, 1>(2 * i, j) += blocks_[static_cast<std::size_t>(i)] *
-                                     obstacles_->gather(contacts_[static_cast<std::size_t>(i)], motion_.col(j));
+    for (Index j = 0; j < width_ * count; ++j)
+      small.col(j).segment(width_ * i, width_) += along(i, motion_.col(j)).head(width_);
   small_.compute(small);
-  right_.resize(2 * count);
+  right_.resize(width_ * count);
   return std::isfinite(small.sum());
 }
 
 bool TangentSolver::solve(VectorRef b) {
   if (!effective_.solve(kappa_, b)) return false;
   if (contacts_.empty()) return true;
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    right_.segment<2>(2 * static_cast<Index>(i)) = blocks_[i] * obstacles_->gather(contacts_[i], b);
+  for (Index i = 0; i < static_cast<Index>(contacts_.size()); ++i)
+    right_.segment(width_ * i, width_) = along(i, b).head(width_);
   right_ = small_.solve(right_).eval();
   b -= motion_ * right_;
   return true;
+}
+
+Obstacles::Coordinates TangentSolver::along(Index i, ConstVectorRef y) const {
+  return blocks_[static_cast<std::size_t>(i)] * obstacles_->gather(contacts_[static_cast<std::size_t>(i)], y);
 }
 
 }  // namespace butee::dynamics

@@ -27,11 +27,15 @@ class BUTEE_EXPORT TangentSolver {
   [[nodiscard]] bool solve(VectorRef b);
 
  private:
+  /// B_i S_i y
+  Obstacles::Coordinates along(Index i, ConstVectorRef y) const;
+
   EffectiveSolver& effective_;
   const Obstacles* obstacles_;
   Vector kappa_;
   std::vector<Index> contacts_;
-  std::vector<Eigen::Matrix2d> blocks_;
+  std::vector<Obstacles::Block> blocks_;
+  Index width_ = 2;         ///< coordinates of a contact that are in use
   Eigen::MatrixXd motion_;  ///< Z
   Eigen::PartialPivLU<Eigen::MatrixXd> small_;
   Vector right_;

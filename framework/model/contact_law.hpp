@@ -37,6 +37,25 @@ class BUTEE_EXPORT ContactLaw {
   /// The stiffness of the closed stop, N/m, for step-size bounds.
   virtual double closed_stiffness() const = 0;
 
+  /// Of a law that dissipates by itself: how its force depends on the rate of penetration g'.
+  enum class RateDependence {
+    none,     ///< F = K_c(g) g
+    smooth,   ///< smooth in g' while closed
+    by_sense  ///< smooth in approach (g' >= 0) and in rebound (g' < 0) each; steps end where g' changes its sign
+  };
+  virtual RateDependence rate_dependence() const { return RateDependence::none; }
+
+  /// F and its derivatives, N, N/m, N s/m.
+  struct RatedForce {
+    double force, by_penetration, by_rate;
+  };
+  /// F(g, g') of a closed stop, g > 0, of a law with rate_dependence(); K_c(g) g is then the part of it that energy()
+  /// stores, F(g, 0) = K_c(g) g, and (F - K_c g) g' >= 0 is dissipated. Where F < 0 no force acts. `recedes` takes the
+  /// branch of rebound of a law by_sense, which is continued beyond g' = 0 in both senses.
+  virtual RatedForce rated_force(double g, double /*rate*/, bool /*recedes*/) const {
+    return {secant(g) * g, tangent(g), 0.0};
+  }
+
   /// True for F = k_c max(g, 0), whose kink methods may locate.
   virtual bool is_piecewise_linear() const { return false; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,7 +41,8 @@ struct ImpactDamping {
     none,
     kelvin_voigt,   ///< F = K_c(g) g + c g', c in N s/m
     hunt_crossley,  ///< F = K_c(g) g (1 + a g'), a in s/m
-    jankowski       ///< F = K_c(g) g + 2 xi sqrt(K_c(g) m) g' while g' > 0; xi = c
+    jankowski,      ///< F = K_c(g) g + 2 xi sqrt(K_c(g) m) g' while g' > 0; xi = c
+    law             ///< F = ContactLaw::rated_force(g, g')
   };
   Kind kind = Kind::none;
   double coefficient = 0.0;  ///< c, a or xi
@@ -71,10 +73,11 @@ struct Friction {
 ///
 /// On node a (against ground, or against node b: d = d_a - d_b) acts
 ///
-///     F = -F_n n - F_t t,    F_t = mu F_n s(w),    w = t . d' + radius Omega - surface_speed
+///     F = -F_n n - F_t t,    F_t = mu F_n s(w),    w = t . d' + radius (Omega + rx') - surface_speed
 ///
 /// with the normal n and the tangent t = (-n_2, n_1) of the shape. A friction support has no shape: F_n is
-/// `normal_force` and t its one direction.
+/// `normal_force` and t its one direction. Where node a has the rotation rx, friction twists it by the torque
+/// -radius F_t.
 struct ObstacleGroup {
   std::string kind;                     ///< as the scene names it, "ring"
   std::unique_ptr<ContactLaw> law;      ///< null without a shape
@@ -86,6 +89,17 @@ struct ObstacleGroup {
   double radius = 0.0;  ///< m, of the body where it touches; 0 where it does not turn
   std::vector<NodeId> a;
   std::vector<NodeId> b;  ///< empty: against ground; else as long as `a`
+
+  /// -1 where the directions are (uz, uy), which turn against a rotation about x; else 1.
+  double sense_about_x() const {
+    return directions.size() == 2 && directions[0] == DofKind::uz && directions[1] == DofKind::uy ? -1.0 : 1.0;
+  }
+  /// Whether friction twists node a about x.
+  bool twists() const {
+    if (radius == 0.0 || friction.rule == Friction::Rule::none) return false;
+    return std::all_of(directions.begin(), directions.end(),
+                       [](DofKind along) { return along == DofKind::uy || along == DofKind::uz; });
+  }
 };
 
 }  // namespace butee::model

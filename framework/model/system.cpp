@@ -172,7 +172,9 @@ FreeObstacles reduce(const ObstacleGroup& group, const DofTable& dofs, const Nod
   FreeObstacles free;
   free.group = &group;
   for (std::size_t i = 0; i < group.a.size(); ++i) {
-    FreeObstacles::Ends ends{{FreeStops::kGround, FreeStops::kGround}, {FreeStops::kGround, FreeStops::kGround}};
+    FreeObstacles::Ends ends;
+    ends.a.fill(FreeStops::kGround);
+    ends.b.fill(FreeStops::kGround);
     bool moves = false;
     for (std::size_t k = 0; k < group.directions.size(); ++k) {
       ends.a[k] = std::max(dofs.index({group.a[i], group.directions[k]}), FreeStops::kGround);
@@ -183,6 +185,7 @@ FreeObstacles reduce(const ObstacleGroup& group, const DofTable& dofs, const Nod
       ++skipped;
       continue;
     }
+    if (group.twists()) ends.a[2] = std::max(dofs.index({group.a[i], DofKind::rx}), FreeStops::kGround);
     free.ends.push_back(ends);
     free.names.push_back(nodes.name(group.a[i]) + (group.b.empty() ? "" : "|" + nodes.name(group.b[i])));
   }

@@ -23,9 +23,10 @@ struct FreeStops {
 
 /// Obstacles of one group on free DOFs.
 struct FreeObstacles {
-  /// Free DOFs of a contact along its directions, or FreeStops::kGround.
+  /// Free DOFs of a contact along its directions, or FreeStops::kGround. The third of `a` is the rotation rx of a node
+  /// that friction at a radius twists.
   struct Ends {
-    std::array<Index, 2> a, b;
+    std::array<Index, 3> a, b;
   };
 
   const ObstacleGroup* group = nullptr;

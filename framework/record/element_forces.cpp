@@ -143,6 +143,7 @@ double ElementForces::sum_of_obstacles(const Sum& of) const {
           if (of.dof >= 0 && ends.a[k] == of.dof) sum += now.force[static_cast<Index>(k)];
           if (of.dof >= 0 && ends.b[k] == of.dof) sum -= now.force[static_cast<Index>(k)];
         }
+        if (of.dof >= 0 && ends.a[2] == of.dof) sum += now.torque;
     }
   }
   return sum;

@@ -19,7 +19,7 @@ void SlipWatch::start(const time::State& state) {
 
 void SlipWatch::take(const time::State& state) {
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    largest_[i] = std::max(largest_[i], obstacles_.gather(contacts_[i], state.v).norm());
+    largest_[i] = std::max(largest_[i], obstacles_.gather(contacts_[i], state.v).head<2>().norm());
 }
 
 std::string SlipWatch::complaint(double tolerance) const {

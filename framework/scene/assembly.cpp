@@ -7,6 +7,16 @@
 namespace butee::scene {
 namespace {
 
+/// The message of a method that refuses the scene, "integrator.type: ...", with the line of the key.
+std::string located(const config::Document& document, const std::string& message) {
+  const config::Table* root = document.root.table();
+  const config::Value* integrator = root != nullptr ? root->find("integrator") : nullptr;
+  if (!message.starts_with("integrator.type: ") || integrator == nullptr || integrator->table() == nullptr)
+    return message;
+  const config::Value* type = integrator->table()->find("type");
+  return describe(document, type != nullptr ? type->at : integrator->at) + ": " + message;
+}
+
 model::System assemble_changed(const model::Model& model, const std::function<void(model::System&)>& change) {
   model::System system = assemble(model);
   dynamics::make_modal_damping_explicit(model, system);
@@ -22,7 +32,14 @@ model::System assemble_changed(const model::Model& model, const std::function<vo
 
 std::unique_ptr<time::Integrator> make_integrator(Scene& scene, dynamics::Dynamics& dynamics) {
   const IntegratorChoice& choice = scene.integrator;
-  auto made = scene.catalogue.load(choice.name).make(choice.parameters, dynamics);
+  const auto made_or_located = [&] {
+    try {
+      return scene.catalogue.load(choice.name).make(choice.parameters, dynamics);
+    } catch (const InputError& error) {
+      throw InputError(located(scene.document, error.what()));
+    }
+  };
+  auto made = made_or_located();
   if (made == nullptr)
     throw RunError(scene.catalogue.find(choice.name)->module + ": made no method for \"" + choice.name + "\"");
   return made;

@@ -149,7 +149,11 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
   for (std::size_t i = 0; i < gaps->size(); ++i) {
     auto made_law = law != nullptr ? law->make(*p, diagnostics_) : nullptr;
     if (!is_support && made_law == nullptr) return;
-    if (is_stop && damping->kind == ImpactDamping::Kind::none) {
+    const bool dissipates = made_law != nullptr && made_law->rate_dependence() != ContactLaw::RateDependence::none;
+    if (dissipates && damping->kind != ImpactDamping::Kind::none)
+      return p->complain(diagnostics_, "damping",
+                         "stands beside law = \"" + *law_name + "\", which dissipates by itself");
+    if (is_stop && !dissipates && damping->kind == ImpactDamping::Kind::none) {
       StopGroup group;
       group.law = std::move(made_law);
       group.gap = (*gaps)[i];
@@ -164,15 +168,28 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
     group.law = std::move(made_law);
     if (is_stop) group.shape = std::make_unique<StopShape>((*gaps)[i], sides_of(p->text("sides")));
     if (shape != nullptr && (group.shape = shape->make(*p, (*gaps)[i], diagnostics_)) == nullptr) return;
+    if (group.shape != nullptr && !check_stick(*p, friction->rule, group.shape->form())) return;
     if (is_support) group.normal_force = p->number("normal_force");
     group.directions = directions;
     group.damping = *damping;
+    if (dissipates) group.damping.kind = ImpactDamping::Kind::law;
     group.friction = *friction;
     if (p->has("radius")) group.radius = p->number("radius");
     ends_of(group, i);
     model_.obstacles.push_back(std::move(group));
   }
   read_frame(*p);
+}
+
+bool SceneReader::check_stick(const Parameters& p, Friction::Rule rule, const ContactShape::Form& form) {
+  using Kind = ContactShape::Form::Kind;
+  const char* why = nullptr;
+  if (rule == Friction::Rule::rigid && form.kind != Kind::line)
+    why = "stick = \"rigid\" needs a straight obstacle, such as a plane; take stick_stiffness or slip_speed";
+  else if (rule == Friction::Rule::spring && form.kind == Kind::circle && form.distance == 0.0)
+    why = "a stick spring is stretched along the circumference of the gap, which is 0 here; take slip_speed";
+  if (why != nullptr) p.complain(diagnostics_, "friction", why);
+  return why == nullptr;
 }
 
 std::optional<std::vector<double>> SceneReader::read_gaps(const Parameters& p, std::size_t count) {

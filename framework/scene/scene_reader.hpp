@@ -53,6 +53,8 @@ class SceneReader {
   void read_contact(const config::Value& entry, const std::string& path);
   /// The free play of each contact, or one for all.
   std::optional<std::vector<double>> read_gaps(const config::Parameters& parameters, std::size_t count);
+  /// False after a complaint that an obstacle of this form does not take friction with stick of this kind.
+  bool check_stick(const config::Parameters& p, Friction::Rule rule, const ContactShape::Form& form);
   /// False after a complaint that friction on a turning part lacks its radius.
   bool check_radius(const config::Parameters& parameters, bool has_friction, const std::vector<NodeId>& a,
                     const std::vector<NodeId>& b);

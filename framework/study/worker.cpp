@@ -68,7 +68,7 @@ Motion motion_at(const time::State& state, dynamics::Dynamics& dynamics) {
 
 void begin_with(const Motion& motion, dynamics::Dynamics& dynamics, time::Simulation& simulation) {
   const Index contacts = dynamics.obstacles() != nullptr ? dynamics.obstacles()->size() : 0;
-  if (motion.contact.size() != 0 && motion.contact.size() != dynamics::Obstacles::kStateSize * contacts)
+  if (motion.contact.size() != 0 && motion.contact.size() != dynamics::Obstacles::kMemorySize * contacts)
     throw InputError("study.follow: the run before has other contacts than this one");
   simulation.begin_with(motion.x, motion.v, motion.contact);
 }

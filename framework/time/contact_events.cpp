@@ -83,7 +83,7 @@ ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
 }
 
 void ContactEvents::start(State& state, ConstVectorRef memory) {
-  constexpr Index kSize = Obstacles::kStateSize;
+  constexpr Index kSize = Obstacles::kMemorySize;
   require(memory.size() == 0 || memory.size() == kSize * obstacles_.size(), "the memory of every contact");
   state.contact = Vector::Zero(kEntries * obstacles_.size());
   follow(state);
@@ -106,7 +106,7 @@ void ContactEvents::follow(const State& state) {
 void ContactEvents::enter(Index contact, const ContactPhase& next, State& state) {
   obstacles_.set_phase(contact, next);
   state.contact.segment<kEntries>(kEntries * contact) << static_cast<double>(next.normal),
-      static_cast<double>(next.slip), next.anchor, 0.0;
+      static_cast<double>(next.slip), next.anchor, next.angle, 0.0;
 }
 
 void ContactEvents::place(Sample& at, double t, const Vector& x, const Vector& v) {
@@ -176,6 +176,9 @@ void ContactEvents::settle(State& state, double h) {
     if (!again) break;
   }
   if (changed) dynamics_.acceleration(state.t, state.x, state.v, state.a);
+  for (Index i = 0; i < obstacles_.size(); ++i)
+    if (const ContactPhase next = obstacles_.rebased(i, obstacles_.phase(i), state.x); next != obstacles_.phase(i))
+      enter(i, next, state);
 }
 
 void ContactEvents::add_dofs(Index contact, std::vector<Index>& dofs) const {
@@ -336,13 +339,13 @@ void ContactEvents::mark(const Event& event, State& to) {
 
 Vector contact_memory(dynamics::Dynamics& dynamics, const State& state) {
   if (dynamics.obstacles() == nullptr || state.contact.size() == 0) return {};
-  constexpr Index kSize = Obstacles::kStateSize;
+  constexpr Index kSize = Obstacles::kMemorySize;
   const Obstacles& obstacles = *dynamics.obstacles();
   Vector memory(kSize * obstacles.size());
   for (Index i = 0; i < obstacles.size(); ++i) {
     const auto entry = state.contact.segment<ContactEvents::kEntries>(ContactEvents::kEntries * i);
     const ContactPhase phase{static_cast<ContactPhase::Normal>(static_cast<int>(entry[0])),
-                             static_cast<ContactPhase::Slip>(static_cast<int>(entry[1])), entry[2]};
+                             static_cast<ContactPhase::Slip>(static_cast<int>(entry[1])), entry[2], entry[3]};
     memory.segment<kSize>(kSize * i) = obstacles.memory(i, phase, state.t, state.x, state.v);
   }
   return memory;

@@ -87,7 +87,7 @@ class BUTEE_EXPORT ContactEvents {
 };
 
 /// The memory of the contacts of a state, from which a run with other values or at another time can start:
-/// Obstacles::kStateSize numbers each; empty where no phases are followed.
+/// Obstacles::kMemorySize numbers each; empty where no phases are followed.
 BUTEE_EXPORT Vector contact_memory(dynamics::Dynamics& dynamics, const State& state);
 
 }  // namespace butee::time

@@ -47,6 +47,7 @@ TEST(SuiteOfOtherKinds, DemandsAreMet) {
       {"linear", "stiffness = 1e6\n"},
       {"arctan", "stiffness = 1e6\nregularization = 7e7\n"},
       {"smooth", "stiffness = 1e6\nwidth = 1e-4\n"},
+      {"viscoelastic", "stiffness = 1e9\nrelaxation = 1e-4\n"},
       {"ring", "centre = [0.002, -0.001]\n"},
       {"plane", "normal = [0.6, 0.8]\n"},
       {"harmonic", "amplitude = 3.0\nangular_frequency = 7.0\nphase = 0.4\n"},

@@ -103,6 +103,22 @@ std::vector<BadScene> bad_contact_scenes() {
       {"friction that neither creeps nor sticks",
        {{stop, "type = \"friction\"\nnodes = \"rotor\"\nnormal_force = 5.0\nfriction = { coefficient = 0.3 } #!"}},
        {"contact[0].friction: give one of slip_speed (regularised), stick_stiffness"}},
+      {"rigid stick in a ring",
+       {{"[[element]]\ntype = \"spring\"",
+         "[[element]]\ntype = \"spring\"\nname = \"more\"\nnode = \"rotor\"\ndof = \"uz\"\nstiffness = "
+         "1.0\n\n[[element]]\ntype = \"spring\""},
+        {stop,
+         "type = \"ring\"\nnodes = \"rotor\"\ngap = 0.01\nstiffness = 1e6\nfriction = { coefficient = 0.3, stick = "
+         "\"rigid\" } #!"}},
+       {"stick = \"rigid\" needs a straight obstacle, such as a plane; take stick_stiffness or slip_speed"}},
+      {"stick spring in a ring without a gap",
+       {{"[[element]]\ntype = \"spring\"",
+         "[[element]]\ntype = \"spring\"\nname = \"more\"\nnode = \"rotor\"\ndof = \"uz\"\nstiffness = "
+         "1.0\n\n[[element]]\ntype = \"spring\""},
+        {stop,
+         "type = \"ring\"\nnodes = \"rotor\"\ngap = 0.0\nstiffness = 1e6\nfriction = { coefficient = 0.3, "
+         "stick_stiffness = 1e3 } #!"}},
+       {"a stick spring is stretched along the circumference of the gap, which is 0 here"}},
       {"gaps of another number than the contacts",
        {{"gap = 0.01", "gaps = [0.01, 0.02] #!"}},
        {"contact[0].gaps = [0.01, 0.02]: holds 2 gaps for 1 contacts"}},

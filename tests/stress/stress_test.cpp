@@ -151,6 +151,23 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
   EXPECT_EQ(tally.count(Verdict::correct), static_cast<std::int64_t>(scenes.size()));
 }
 
+/// Scenes with friction that methods with error control got wrong, with what was wrong.
+TEST(Stress, RubbingScenesThatWereWrongOnce) {
+  const std::vector<std::string> names = {"rubbing 85",   // friction changes its sense within a small part of a step
+                                          "rubbing 246",  // the same with tanh
+                                          "rubbing 418"};
+  std::vector<Method> chosen;
+  for (const Method& method : methods())
+    for (const char* name : {"dopri5", "extrapolation8", "rodas4"})
+      if (method.name == name) chosen.push_back(method);
+  std::vector<Scene> scenes;
+  for (std::size_t i = 0; i < names.size(); i += kEvery) scenes.push_back(*random_scene_of(names[i]));
+  Tally tally;
+  run_all(scenes, chosen, kWork, tally);
+  EXPECT_TRUE(tally.failures().empty()) << tally.failures().front().scene << tally.failures().front().outcome.message;
+  EXPECT_EQ(tally.count(Verdict::correct), static_cast<std::int64_t>(scenes.size() * chosen.size()));
+}
+
 TEST(Stress, LongRunsStayWithinTheirMotion) {
   for (const Method& method : methods()) {
     const LongRun run = run_long(method, 12500);

@@ -71,7 +71,7 @@ struct Jacobians {
 Jacobians from_tangents(dynamics::Dynamics& dynamics) {
   Jacobians sum{Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 4)};
   for (const auto& tangent : dynamics.obstacles()->tangents(0.0, motion_x(), motion_v())) {
-    const auto add = [&](const Eigen::Matrix2d& block, Eigen::MatrixXd& to) {
+    const auto add = [&](const dynamics::Obstacles::Block& block, Eigen::MatrixXd& to) {
       dynamics.obstacles()->visit(tangent.contact, block, [&](Index i, Index j, double value) { to(i, j) += value; });
     };
     add(tangent.stiffness, sum.by_x);
@@ -100,6 +100,60 @@ TEST(Obstacles, have_the_tangents_that_differences_give) {
       EXPECT_LT((by_v - exact.by_v.col(j)).norm(), 1e-6 * (1.0 + exact.by_v.norm())) << contacts << j;
     }
     EXPECT_GT(exact.by_x.norm() + exact.by_v.norm(), 1e-3) << "exerts nothing: " << contacts;
+  }
+}
+
+/// A node with rx is twisted by friction at a radius: the tangents hold the torque and what rx does to the slip.
+TEST(Obstacles, twist_a_node_that_turns) {
+  const std::string body =
+      "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"a\"\nmass = 2.0\ndiametral_inertia = 0.1\npolar_inertia = "
+      "0.2\n[[support]]\nnodes = \"a\"\nfix = [\"ry\", \"rz\"]\n";
+  std::string springs;
+  for (const char* dof : {"uy", "uz", "rx"})
+    springs += "[[element]]\ntype = \"spring\"\nnode = \"a\"\ndof = \"" + std::string(dof) + "\"\nstiffness = 50.0\n";
+  const std::string ring = "[[contact]]\ntype = \"ring\"\nnodes = \"a\"\ngap = 0.1\nradius = 0.3\nstiffness = 100.0\n";
+  const Vector x = (Vector(3) << 0.31, 0.22, -0.4).finished(), v = (Vector(3) << 0.5, -0.3, 1.7).finished();
+  for (const std::string& contact :
+       {ring + "friction = { coefficient = 0.3, slip_speed = 0.9 }\n",
+        ring + "dofs = [\"uz\", \"uy\"]\nfriction = { coefficient = 0.3, slip_speed = 0.9 }\n",
+        ring +
+            "damping = { type = \"kelvin_voigt\", coefficient = 7.0 }\nfriction = { coefficient = 0.3, stick_stiffness "
+            "= 20.0, stick_damping = 2.0 }\n",
+        std::string("[[contact]]\ntype = \"friction\"\nnodes = \"a\"\ndof = \"uz\"\nnormal_force = 5.0\nradius = 0.3\n"
+                    "friction = { coefficient = 0.3, slip_speed = 0.9 }\n")}) {
+    SceneRun run(body + springs + contact + "[integrator]\ntype = \"dopri5\"\nend_time = 1.0\n");
+    dynamics::Obstacles& obstacles = *run.dynamics().obstacles();
+    ASSERT_EQ(run.system().size(), 3);
+    ASSERT_EQ(run.dof("a", DofKind::rx), 2);
+    dynamics::ContactPhase phase = obstacles.phase_at(0, 0.0, x, v);
+    Vector phases(dynamics::Obstacles::kStateSize);
+    if (contact.find("stick_stiffness") != std::string::npos) {
+      phase.slip = dynamics::ContactPhase::Slip::stick;
+      phase.anchor -= 0.02;
+    }
+    obstacles.follow(phases.setZero());
+    obstacles.set_phase(0, phase);
+    const auto force = [&](const Vector& at, const Vector& speed) {
+      Vector f = Vector::Zero(3);
+      run.dynamics().add_obstacle_force(0.0, at, speed, f);
+      return f;
+    };
+    const dynamics::ContactForces now = obstacles.forces(0, 0.0, x, v);
+    EXPECT_GT(std::abs(now.friction), 0.1);
+    const double sense = contact.find("dofs") != std::string::npos ? -1.0 : 1.0;
+    EXPECT_NEAR(force(x, v)[2], -0.3 * sense * now.friction, 1e-14);
+    Eigen::Matrix3d by_x = Eigen::Matrix3d::Zero(), by_v = by_x;
+    for (const auto& tangent : obstacles.tangents(0.0, x, v)) {
+      obstacles.visit(0, tangent.stiffness, [&](Index i, Index j, double value) { by_x(i, j) += value; });
+      obstacles.visit(0, tangent.damping, [&](Index i, Index j, double value) { by_v(i, j) += value; });
+    }
+    const double step = 1e-6;
+    for (Index j = 0; j < 3; ++j) {
+      const Vector shift = step * Vector::Unit(3, j);
+      EXPECT_LT(((force(x - shift, v) - force(x + shift, v)) / (2 * step) - by_x.col(j)).norm(), 1e-7) << contact << j;
+      EXPECT_LT(((force(x, v - shift) - force(x, v + shift)) / (2 * step) - by_v.col(j)).norm(), 1e-7) << contact << j;
+    }
+    EXPECT_GT(std::abs(by_v(2, 2)), 1e-3) << contact;
   }
 }
 

@@ -99,8 +99,7 @@ std::string limits_text(const plugin::Catalogue&) {
                axial forces that change with the motion (a preload is a constant)
   Large motion large rotations, stress stiffening, motion after buckling
   Materials    plasticity, creep, fatigue; damping beyond Rayleigh's, modal damping, bearings and dashpots
-  Contact      in three directions at once; at places that move along a beam, or between surfaces; friction of a turning part
-               acts on its translation, not on its torsion; rigid stick in a ring
+  Contact      in three directions at once; at places that move along a beam, or between surfaces; rigid stick in a ring
   Loads        forces that depend on the motion, moving loads
   Results      stresses of transverse shear, of torsion in sections that are not round; fatigue; optimal parameters; static
                solutions without a run

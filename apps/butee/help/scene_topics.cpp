@@ -146,8 +146,9 @@ damping = { type = ... }, with the rate of penetration g':
                  F = 0; with pull = true at g = 0, without friction where it pulls
   hunt_crossley  F = K_c g (1 + a g'): factor a (s/m), or restitution with impact_speed (m/s)
   jankowski      restitution and mass, with law = "hertz": dissipates in approach alone; what comes out is said
-friction = { coefficient, ... }: the force is mu F_n against the slip speed w = t . v + radius Omega - surface_speed, with the
-tangent t = (-normal_z, normal_y), in a ring the sense of rotation from y to z; one of
+A law from a module may dissipate by itself (butee plugins); damping is then refused beside it.
+friction = { coefficient, ... }: the force is mu F_n against the slip speed w = t . v + radius (Omega + rx_v) - surface_speed, and
+twists a node that has rx by -radius mu F_n, with the tangent t = (-normal_z, normal_y), in a ring the sense of rotation from y to z; one of
   slip_speed       m/s: regularised, smoothing = "sqrt" (where not given), "tanh" or "clip"; it creeps where it should stick
   stick_stiffness  N/m: a stick spring with memory, beside it stick_damping (N s/m); static_coefficient
   stick = "rigid"  no motion while it sticks (not in rings); static_coefficient
@@ -157,8 +158,7 @@ rodas4, dopri5, extrapolation8 and exact end their steps where a contact touches
 regularisation alone is left as an error; rk4 and its kin take rings, planes, dissipation and regularised friction as the
 instant has them. exponential takes them with law = "linear" and a constant speed of rotation, but no stick springs. exact takes law = "linear";
 piecewise takes linear stops, elastic or with kelvin_voigt, of up to 24 DOFs; rigid stick is for dopri5, extrapolation8 and
-exact; jankowski is not for rodas4. auto chooses among them; other methods refuse. A stick spring in a ring must not be
-stretched by more than half the circumference. A visit that is shorter than an eighth of a step may pass unseen, but not by
+exact; jankowski is not for rodas4. auto chooses among them; other methods refuse. A visit that is shorter than an eighth of a step may pass unseen, but not by
 piecewise.
 )" + listed(catalogue.types().laws) +
          "\nThe linear law is the exact unilateral spring; arctan is smooth, but pulls open stops a little (butee "

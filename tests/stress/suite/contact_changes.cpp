@@ -96,11 +96,12 @@ std::pair<double, double> CourseWatch::motion_of(const time::AcceptedStep& step,
     Vector x = Vector::Zero(static_cast<Index>(all_.size())), v = x, a = x;
     step.integrator.interpolate(step.from, step.to, t, all_,
                                 {{x.data(), all_.size()}, {v.data(), all_.size()}, {a.data(), all_.size()}});
-    const Eigen::Vector2d place = obstacles_->gather(obstacle, x);
+    const Eigen::Vector2d place = obstacles_->gather(obstacle, x).head<2>();
     const auto& shape = obstacles_->group_of(obstacle).shape;
     if (shape == nullptr) return {0.0, 0.0};
     const Eigen::Vector2d normal = shape->at(place).normal;
-    return {normal.dot(obstacles_->gather(obstacle, v)), normal.dot(obstacles_->gather(obstacle, a))};
+    return {normal.dot(obstacles_->gather(obstacle, v).head<2>()),
+            normal.dot(obstacles_->gather(obstacle, a).head<2>())};
   }
   const double signs[] = {1.0, -1.0};
   const Index dofs[] = {contact_.dof_a(contact), contact_.dof_b(contact)};

@@ -57,8 +57,7 @@ std::string friction(const Body& body, double stiffness, Stick stick, bool may_t
     text += ", slip_speed = " + to_text(body.speed() * random.decades(-2.5, 0.0)) + ", smoothing = \"" +
             names[static_cast<std::size_t>(random.integer(0, 2))] + "\"";
   else if (kind < 0.8 || stick == Stick::not_rigid)
-    // In a ring it is stretched by less than half of the circumference.
-    text += ", stick_stiffness = " + to_text(stiffness * random.decades(stick == Stick::any ? -1.0 : 0.5, 1.0)) + more +
+    text += ", stick_stiffness = " + to_text(stiffness * random.decades(-1.0, 1.0)) + more +
             (random.chance(0.5)
                  ? ", stick_damping = " + to_text(random.decades(-2.0, 0.0) * std::sqrt(stiffness * body.mass))
                  : "");
