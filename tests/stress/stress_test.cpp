@@ -153,9 +153,12 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
 
 /// Scenes with friction that methods with error control got wrong, with what was wrong.
 TEST(Stress, RubbingScenesThatWereWrongOnce) {
-  const std::vector<std::string> names = {"rubbing 85",   // friction changes its sense within a small part of a step
-                                          "rubbing 246",  // the same with tanh
-                                          "rubbing 418"};
+  const std::vector<std::string> names = {
+      "rubbing 85",   // friction changes its sense within a small part of a step
+      "rubbing 246",  // the same with tanh
+      "rubbing 837",  // a step that begins where a contact of Hertz closes
+      "rubbing 769"   // a start from rest against friction that is steep
+  };
   std::vector<Method> chosen;
   for (const Method& method : methods())
     for (const char* name : {"dopri5", "extrapolation8", "rodas4"})
