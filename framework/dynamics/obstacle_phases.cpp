@@ -92,7 +92,7 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
     out[count++] = {value, {normal, slip, anchor, phase.angle}};
   };
   if (group.shape != nullptr && phase.normal == NormalPhase::apart) {
-    add(-penetration(contact, gather(i, x)), NormalPhase::pressed, phase.slip, phase.anchor);
+    add(-penetration(contact, gather(i, x).head<2>()), NormalPhase::pressed, phase.slip, phase.anchor);
     return count;
   }
   const Kinematics now = kinematics(i, t, x, v);

@@ -126,7 +126,7 @@ class BUTEE_EXPORT Obstacles {
   };
   Motion motion(Index i, ConstVectorRef x, ConstVectorRef v) const;
   /// True where a contact is apart at x by more than rounding; false for shapes of other forms than lines and circles.
-  bool is_apart(Index i, ConstVectorRef x) const { return is_apart(at(i), gather(i, x)); }
+  bool is_apart(Index i, ConstVectorRef x) const { return is_apart(at(i), gather(i, x).head<2>()); }
   /// False where a motion that goes from one to the other within h seconds stays apart: where both ends are farther
   /// away than the speeds of both cover, which a cubic through them exceeds by 4/27 at most.
   bool may_touch(Index i, const Motion& from, const Motion& to, double h) const;
@@ -210,7 +210,7 @@ class BUTEE_EXPORT Obstacles {
   bool is_idle(Index i, ConstVectorRef x) const {
     const Contact& contact = at(i);
     if (!contact.is_silent_apart) return false;
-    return is_live_ ? is_apart(contact, gather(i, x))
+    return is_live_ ? is_apart(contact, gather(i, x).head<2>())
                     : phases_[static_cast<std::size_t>(i)].normal == ContactPhase::Normal::apart;
   }
   static bool is_apart(const Contact& contact, const Eigen::Vector2d& d);
