@@ -44,6 +44,7 @@ def test_bad_plans(rotor):
         ({"contact[0].gap": gaps}, {"plan": "sobol"}, ValueError),
         ({"contact[0].gap": gaps}, {"threads": 0}, ValueError),
         ({"contact[0].gap": 1e-4}, {}, TypeError),
+        ({"contact[0].gap": range(10000), "load[0].amplitude": range(10000)}, {}, ValueError),
         ({"contact[0].law": "linear"}, {}, TypeError),
         ({"contact[0].gap": [1e-4, -1.0, 2e-4]}, {"threads": 2}, butee.InputError),
         ({"contact[0].gpa": gaps}, {}, butee.InputError),

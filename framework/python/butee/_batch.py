@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple
 
@@ -10,6 +11,9 @@ import numpy as np
 
 from . import _butee
 from ._result import Result
+
+#: All points are held in memory.
+MOST_POINTS = 10_000_000
 
 
 class Batch(Sequence[Any]):
@@ -61,6 +65,9 @@ def points_of(values: Mapping[str, Sequence[Any]], plan: str) -> Tuple[Tuple[str
             raise TypeError(f"{key}: give a sequence of values, one for each run")
         columns.append(list(given))
     if plan == "grid":
+        points = math.prod(map(len, columns))
+        if points > MOST_POINTS:
+            raise ValueError(f"the grid has {points:.3g} points, and {MOST_POINTS:.0e} is the most of a batch; take fewer values, or study")
         return keys, list(itertools.product(*columns))
     if plan != "list":
         raise ValueError(f'plan = {plan!r}: "grid" (every combination) or "list" (value by value) is allowed')
