@@ -141,6 +141,9 @@ def test_pictures_of_a_study(rotor):
     grid = rotor.study({"contact[0].gap": gaps, "load[0].amplitude": amplitudes}, "peak rotor.u", periods=2)
     mesh = grid.plot("peak rotor.u").collections[0].get_array()
     assert np.array_equal(np.asarray(mesh).reshape(2, 3), grid["peak rotor.u"].reshape(3, 2).T)
+    listed = rotor.study({"contact[0].gap": [2e-4, -1.0, 4e-4], "load[0].amplitude": [1e5, 2e5, 3e5]}, "peak rotor.u", plan="list", periods=2)
+    points = listed.plot("peak rotor.u").collections[0]
+    assert points.get_offsets().shape == (3, 2) and list(np.ma.getmaskarray(points.get_array())) == [False, True, False]
     with pytest.raises(ValueError, match="status"):
         rows.plot("status")
 

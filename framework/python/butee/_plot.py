@@ -47,7 +47,7 @@ def plot_rows(study, result, axes):
                 axes.plot(x[chosen], values[chosen], ".-", label=name)
         axes.legend()
     elif len(keys) == 2 and study[keys[1]].dtype.kind != "U":
-        mesh = axes.tripcolor(x, study[keys[1]], values) if _is_spread(x) else _map(axes, x, study[keys[1]], values)
+        mesh = axes.scatter(x, study[keys[1]], c=values) if _is_spread(x) else _map(axes, x, study[keys[1]], values)
         axes.figure.colorbar(mesh, label=label)
         axes.set_ylabel(keys[1])
         return axes
