@@ -162,7 +162,8 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
     }
   }
   if (!friction.has_memory()) return count;
-  const double force = normal(contact, phase.normal, g, now.rate).force;
+  const Normal pressing = normal(contact, phase.normal, g, now.rate);
+  const double force = pressing.force;
   if (phase.slip == SlipPhase::stick) {
     const double tension = friction.rule == Friction::Rule::rigid ? held : friction_force(i, t, now, phase, force);
     add(friction.static_coefficient * force - tension, phase.normal, SlipPhase::forward, 0.0);
@@ -174,7 +175,12 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
       const double tension = sense * friction.coefficient * force - friction.stick_damping * now.slip;
       anchor = path(i, t, now, phase.angle) - tension / friction.stick_stiffness;
     }
-    add(sense * now.slip, phase.normal, SlipPhase::stick, anchor);
+    // The slider moves by the slip less what the spring is stretched by, mu F_n/k: where the limit falls faster than
+    // the spring relaxes, it goes on to slip although the body moves back.
+    const double stretching = friction.rule == Friction::Rule::spring
+                                  ? friction.coefficient * pressing.by_penetration * now.rate / friction.stick_stiffness
+                                  : 0.0;
+    add(sense * now.slip - stretching, phase.normal, SlipPhase::stick, anchor);
   }
   return count;
 }
