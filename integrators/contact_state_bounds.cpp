@@ -9,7 +9,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Terms of a power series whose argument is at most 1, to rounding.
-constexpr int kTerms = 22;
+constexpr int kBoundTerms = 22;
 
 /// e^z - 1 without cancellation.
 Complex expm1(Complex z) {
@@ -42,7 +42,7 @@ void ContactStateFlow::respond_slowly(const Piece& piece, const Block& block, do
   const auto place = static_cast<Index>(2 * with_extras_[static_cast<std::size_t>(block.extra)]);
   for (Index i = 0; i < 2; ++i) {
     if (!block.slow[static_cast<std::size_t>(i)]) continue;
-    std::array<double, kTerms + 1> f{};  // Taylor coefficients of the load, times s^k
+    std::array<double, kBoundTerms + 1> f{};  // Taylor coefficients of the load, times s^k
     double scale = 1.0;
     for (std::size_t k = 0; k < 3; ++k, scale *= s) f[k] = scale * parabola[static_cast<std::size_t>(3 * i) + k];
     double now = parabola[3 * i] + s * (parabola[3 * i + 1] + s * parabola[3 * i + 2]);
@@ -58,7 +58,7 @@ void ContactStateFlow::respond_slowly(const Piece& piece, const Block& block, do
       curve -= omega * omega * (gc * c + gs * sine);
       double even = gc * piece.phases[p] + gs * piece.phases[p + 1],
              odd = gs * piece.phases[p] - gc * piece.phases[p + 1];
-      for (int k = 0; k <= kTerms; ++k) {
+      for (int k = 0; k <= kBoundTerms; ++k) {
         f[static_cast<std::size_t>(k)] += even;
         const double next = odd * omega * s / (k + 1), after = -even * omega * s / (k + 1);
         even = next;
@@ -69,7 +69,7 @@ void ContactStateFlow::respond_slowly(const Piece& piece, const Block& block, do
     if (block.kind == Kind::reals) {
       const double rate = block.rates[static_cast<std::size_t>(i)];
       double term = 0.0, sum = 0.0;
-      for (int k = 0; k <= kTerms; ++k) {
+      for (int k = 0; k <= kBoundTerms; ++k) {
         term = (rate * s * term + s * f[static_cast<std::size_t>(k)]) / (k + 1);
         sum += term;
       }
@@ -87,7 +87,7 @@ void ContactStateFlow::respond_slowly(const Piece& piece, const Block& block, do
       out[1] = s * (u1 + s * u2) - u0 * std::expm1(-2.0 * d * s);
     } else {
       double before = 0.0, latest = 0.0, q = 0.0, v = 0.0;
-      for (int k = 0; k + 2 <= kTerms; ++k) {
+      for (int k = 0; k + 2 <= kBoundTerms; ++k) {
         const double next =
             (s * s * f[static_cast<std::size_t>(k)] - (k + 1) * 2.0 * d * s * latest - block.square * s * s * before) /
             ((k + 1) * (k + 2));
