@@ -95,6 +95,8 @@ void SmallSystem::add_stops(dynamics::Dynamics& dynamics) {
 
 void SmallSystem::add_loads(const model::System& system) {
   const Index n = system.size();
+  cosine.resize(n, 0);
+  sine.resize(n, 0);
   for (const model::FreeLoad& load : system.loads) {
     const auto harmonic = load.in_time->harmonic();
     if (!harmonic || harmonic->angular_frequency == 0.0) {
