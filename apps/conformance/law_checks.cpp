@@ -143,7 +143,7 @@ Finding check_rebound(const Subject& subject) {
 
 }  // namespace
 
-/// Of a law that dissipates: rated_force() and its derivatives in both branches, and the sense of the dissipation.
+/// Checks rated_force() and its derivatives in both branches, and that a law which dissipates takes energy.
 Finding check_rate(const Subject& subject) {
   using Dependence = model::ContactLaw::RateDependence;
   const auto law = make_law(subject);

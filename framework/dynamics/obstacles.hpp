@@ -142,7 +142,7 @@ class BUTEE_EXPORT Obstacles {
 
   /// Contacts that stick rigidly now, and the row T of the constraint T v = b(t) of each: t along its directions.
   std::vector<Index> rigid_sticks() const;
-  /// What the slip of a line or a friction support is made of: its tangent, and the arm of the rotation, m.
+  /// The slip speed of a line or a friction support per unit velocity: its tangent, and the arm of the rotation, m.
   Coordinates tangent_of(Index i) const;
   /// db/dt, m/s2
   double surface_acceleration(Index i, double t) const;

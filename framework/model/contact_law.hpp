@@ -37,7 +37,7 @@ class BUTEE_EXPORT ContactLaw {
   /// The stiffness of the closed stop, N/m, for step-size bounds.
   virtual double closed_stiffness() const = 0;
 
-  /// Of a law that dissipates by itself: how its force depends on the rate of penetration g'.
+  /// How the force of a law that dissipates by itself depends on the rate of penetration g'.
   enum class RateDependence {
     none,     ///< F = K_c(g) g
     smooth,   ///< smooth in g' while closed

@@ -13,7 +13,6 @@ namespace {
 
 using dynamics::ContactPhase;
 using dynamics::Obstacles;
-using Look = ContactEvents::Look;
 
 /// The first look into a step, as a part of it.
 constexpr double kAhead = 1e-4;
@@ -22,9 +21,6 @@ constexpr double kAtEnd = 1e-6;
 /// Changes of phase at one instant; more are no motion.
 constexpr int kMostAtOnce = 50;
 constexpr int kBisections = 60;
-/// Parabolas through a dip, and how many times its error there the last one must lie above zero.
-constexpr int kMostInDip = 8;
-constexpr double kDipError = 4.0;
 /// Fall into a dip, relative to its lowest look, that rounding does not cause.
 constexpr double kRounding = 1e-9;
 
@@ -36,40 +32,6 @@ int samples_of_loads(const model::System& system, double h) {
     if (const auto harmonic = load.in_time->harmonic())
       turns = std::max(turns, std::abs(harmonic->angular_frequency) * h / 6.283);
   return static_cast<int>(std::min(kPerTurn * turns, kMost));
-}
-
-/// The lowest point of the parabola through three looks, the middle one of which is lowest; none where rounding hides
-/// its bend.
-std::optional<Look> lowest_of(const std::array<Look, 3>& looks) {
-  const auto& [first, second, third] = looks;
-  const double rise = (second.value - first.value) / (second.t - first.t),
-               next = (third.value - second.value) / (third.t - second.t), bend = (next - rise) / (third.t - first.t);
-  if (!(bend > 0.0)) return std::nullopt;
-  const double slope = rise + bend * (second.t - first.t), way = -0.5 * slope / bend;
-  const Look lowest{second.t + way, second.value + 0.5 * slope * way};
-  if (lowest.t <= first.t || lowest.t >= third.t || lowest.t == second.t) return std::nullopt;
-  return lowest;
-}
-
-/// An instant within a dip at which the function is negative, and the last look before it at which it is not; none
-/// where the dip ends above zero. `function` gives the value at an instant; `looks` as for lowest_of.
-template <typename Function>
-std::optional<std::pair<Look, Look>> below_zero(std::array<Look, 3> looks, const Function& function) {
-  for (int i = 0; i < kMostInDip; ++i) {
-    const std::optional<Look> expected = lowest_of(looks);
-    if (!expected) return std::nullopt;
-    const Look found{expected->t, function(expected->t)};
-    auto& [first, second, third] = looks;
-    if (found.value < 0.0) return std::pair{found, found.t > second.t ? second : first};
-    // The parabola is as wrong elsewhere in the dip as it is here.
-    if (found.value > kDipError * std::abs(found.value - expected->value)) return std::nullopt;
-    if (found.t > second.t) {
-      found.value < second.value ? first = second, second = found : third = found;
-    } else {
-      found.value < second.value ? third = second, second = found : first = found;
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace

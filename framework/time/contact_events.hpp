@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "butee/dynamics/dynamics.hpp"
+#include "butee/time/dip.hpp"
 #include "butee/time/state.hpp"
 
 namespace butee::time {
@@ -34,10 +35,6 @@ class BUTEE_EXPORT ContactEvents {
   /// Has the contacts keep the phases of a state.
   void follow(const State& state);
 
-  /// A switching function at an instant.
-  struct Look {
-    double t = 0.0, value = 0.0;
-  };
   /// A change of phase.
   struct Event {
     double t;  ///< s
