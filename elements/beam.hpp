@@ -26,7 +26,7 @@ struct BeamOptions {
 /// In the plane (x, z) theta is -ry. Frequencies are too high by O(l^4) without shear, O(l^2) with it and in axial and
 /// torsional motion. Of a turning round shaft with rotary inertia G = 2 M_r couples the planes, so that forward whirl
 /// (in the sense of the rotation) goes up with the speed. Checked against closed forms in tests/unit/beam_test.cpp and
-/// tests/verification/space_test.cpp.
+/// tests/verification/beam_modes_test.cpp.
 class Beam final : public model::Element {
  public:
   /// `nodes` along the beam at ascending `coordinates`, m. The section and the material know what `options` need.

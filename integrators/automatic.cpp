@@ -8,7 +8,7 @@
 #include "butee/core/text.hpp"
 #include "integrators/active_part.hpp"
 #include "integrators/dormand_prince.hpp"
-#include "integrators/exponential.hpp"
+#include "integrators/exponential/exponential.hpp"
 #include "integrators/methods.hpp"
 #include "integrators/piecewise.hpp"
 #include "integrators/rodas4.hpp"
@@ -120,6 +120,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     if (!load.in_time->harmonic() && !load.in_time->is_piecewise_parabolic())
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
+  if (tolerance < kSmallestWithStops)
+    return {Method::rodas4, "the tolerance is below what exponential promises where stops act"};
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
     if (cost.rodas4 < cost.exponential)

@@ -184,7 +184,13 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
                contact.root[static_cast<std::size_t>(k - j)];
         y /= friction.slip_speed * static_cast<double>(k);
       }
-      contact.root[at] = (k == 0 ? 1.0 : 0.0) - product(contact.share, contact.share, k);  // 1 - y^2
+      // 1 - y^2, where y = 1 to rounding as well.
+      if (k == 0) {
+        const double inverse = 1.0 / std::cosh(contact.slip[0] / friction.slip_speed);
+        contact.root[0] = inverse * inverse;
+      } else {
+        contact.root[at] = -product(contact.share, contact.share, k);
+      }
       break;
     }
     case Friction::Rule::clip:

@@ -60,7 +60,9 @@ inline const Value* Table::find(std::string_view key) const {
   return nullptr;
 }
 inline Value* Table::find(std::string_view key) {
-  return const_cast<Value*>(std::as_const(*this).find(key));
+  for (Entry& entry : entries)
+    if (entry.first == key) return &entry.second;
+  return nullptr;
 }
 
 /// A parsed model file with the overrides applied to it. sources[0] is the file's path, the rest are overrides.

@@ -17,7 +17,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Entries below this part of the largest are rounding.
+/// Entries below this part of the geometric mean of the largest in their row and column are rounding.
 constexpr double kUncoupled = 1e-12;
 /// |V| |V^-1| of a basis beyond which it is no basis.
 constexpr double kDefective = 1e6, kHopeless = 1e8;
@@ -45,11 +45,12 @@ class Parts {
   std::vector<Index> parent_;
 };
 
-/// Entries of a full matrix that do not vanish beside the largest.
-void join_entries(const Eigen::MatrixXd& matrix, double smallest, Parts& parts) {
+/// Entries of a full matrix that do not vanish beside the largest ones of their row and their column.
+void join_entries(const Eigen::MatrixXd& matrix, Parts& parts) {
+  const Eigen::ArrayXd rows = matrix.cwiseAbs().rowwise().maxCoeff(), columns = matrix.cwiseAbs().colwise().maxCoeff();
   for (Index j = 0; j < matrix.cols(); ++j)
     for (Index i = 0; i < matrix.rows(); ++i)
-      if (i != j && std::abs(matrix(i, j)) > smallest) parts.join(i, j);
+      if (i != j && std::abs(matrix(i, j)) > kUncoupled * std::sqrt(rows[i] * columns[j])) parts.join(i, j);
 }
 
 }  // namespace
@@ -114,8 +115,8 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
     stiffness.noalias() = shapes.transpose() * (odd * shapes);
   }
   Parts parts(n);
-  join_entries(damping, kUncoupled * damping.cwiseAbs().maxCoeff(), parts);
-  join_entries(stiffness, kUncoupled * stiffness.cwiseAbs().maxCoeff(), parts);
+  join_entries(damping, parts);
+  join_entries(stiffness, parts);
   stiffness.diagonal() += natural->values.cwiseMax(0.0);
 
   std::vector<Block> blocks;
@@ -131,8 +132,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
         k(i, j) = stiffness(block.modes[static_cast<std::size_t>(i)], block.modes[static_cast<std::size_t>(j)]);
         c(i, j) = damping(block.modes[static_cast<std::size_t>(i)], block.modes[static_cast<std::size_t>(j)]);
       }
-    const Eigen::ArrayXd largest =
-        k.diagonal().array().abs().max(0.25 * c.diagonal().array().square()).max(1.0 / (run_time * run_time));
+    const Eigen::ArrayXd largest = k.diagonal().array().abs().max(1.0 / (run_time * run_time));
     block.scale = largest.sqrt();
     if (!solve(k, c, block)) {
       for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];

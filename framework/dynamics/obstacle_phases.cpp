@@ -15,6 +15,12 @@ bool stops_rubbing(const model::ObstacleGroup& group) {
   return group.damping.pulls && group.friction.rule != Friction::Rule::none;
 }
 
+/// Where regularised friction becomes steep, m/s.
+double steep_border(const Friction& friction) {
+  const bool is_tanh = friction.rule == Friction::Rule::tanh;
+  return (is_tanh ? ContactPhase::kSteepOfTanh : ContactPhase::kSteep) * friction.slip_speed;
+}
+
 /// Approach and rebound are phases of their own.
 bool tells_rebound(const model::ObstacleGroup& group) {
   return group.damping.kind == ImpactDamping::Kind::jankowski ||
@@ -50,7 +56,7 @@ ContactPhase Obstacles::live_phase(const Contact& contact, const Kinematics& now
       break;
     case Friction::Rule::sqrt:
     case Friction::Rule::tanh:
-      if (std::abs(now.slip) > ContactPhase::kSteep * group.friction.slip_speed)
+      if (std::abs(now.slip) > steep_border(group.friction))
         phase.slip = now.slip > 0.0 ? SlipPhase::ahead : SlipPhase::behind;
       break;
     case Friction::Rule::none:
@@ -151,7 +157,7 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
           phase.slip == SlipPhase::backward ? SlipPhase::stick : SlipPhase::backward, 0.0);
   }
   if (friction.rule == Friction::Rule::sqrt || friction.rule == Friction::Rule::tanh) {
-    const double border = ContactPhase::kSteep * friction.slip_speed;
+    const double border = steep_border(friction);
     if (phase.slip == SlipPhase::ahead) {
       add(now.slip - border, phase.normal, SlipPhase::smooth, 0.0);
     } else if (phase.slip == SlipPhase::behind) {

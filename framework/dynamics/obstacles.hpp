@@ -21,15 +21,16 @@ struct ContactPhase {
     pulling    ///< F_n < 0 of a dashpot that may pull, in a contact with friction: none acts
   };
   enum class Slip : std::uint8_t {
-    smooth,   ///< no friction, or the steep part |w| <= kSteep slip_speed of a law that is smooth in the slip speed
+    smooth,   ///< no friction, or the steep part of a law that is smooth in the slip speed, |w| <= k slip_speed
     stick,    ///< or, of a clipped law, the linear part
     forward,  ///< slip with w > 0
     backward,
-    ahead,  ///< the flat part w > kSteep slip_speed of a smooth law
-    behind  ///< that of w < -kSteep slip_speed
+    ahead,  ///< the flat part w > k slip_speed of a smooth law
+    behind  ///< that of w < -k slip_speed
   };
-  /// A step that passes the steep part of a smooth law in one goes may not see it: it ends where that part begins.
-  static constexpr double kSteep = 4.0;
+  /// k for sqrt and for tanh. A step that passes the steep part in one goes may not see it: it ends where that part
+  /// begins. A series of tanh that begins where it is 1 to rounding sees nothing of its other side.
+  static constexpr double kSteep = 4.0, kSteepOfTanh = 20.0;
   Normal normal = Normal::apart;
   Slip slip = Slip::smooth;
   double anchor = 0.0;  ///< m: the path at which a stick spring is unstressed

@@ -110,6 +110,12 @@ class BUTEE_EXPORT Integrator {
     do_trace(from, to, t, dofs, out);
   }
 
+  /// The parts of a step that those who look for changes of contact look at one by one: those between knots, unless
+  /// trace() is smoother.
+  virtual int trace_parts(const State& from, const State& to) const {
+    return static_cast<int>(1 + knots(from, to).size());
+  }
+
   /// True where steps best end at the instants that observers ask for, since any length is as good.
   virtual bool lands_on_outputs() const { return false; }
 

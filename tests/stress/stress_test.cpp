@@ -134,11 +134,15 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
       "wide 638",     // a pulse that ends within the rounding of a step's length
       "wide 608",     // a light body between a stop and a far faster one
       "wide 2086",    // a stop whose motion is a thousandth of the largest
-      "wide 1940",    // a pull that changes its side in a step with a knot in the middle
       "wide 3632",    // the pull on a body that hardly moves
-      "wide 4678",    // bends of the law at a tolerance of 1e-9
       "wide 1916",    // a body that is at rest until its stop to another closes
-      "wide 3061"     // a start from rest on a closed stop
+      "wide 3061",    // a start from rest on a closed stop
+      "wide 58727",   // a stop that the forces of others alone carry to its gap
+      "wide 50152",   // a residual force that jumps, unseen by fast modes
+      "wide 5498",    // a residual force between a light body and one that moves far more
+      "wide 20320",   // coupled modes: a step that ends before a kink
+      "wide 51490",   // loads that are faster than slow modes
+      "wide 59590"    // a light part on a dashpot
   };
   std::vector<Method> chosen;
   for (const Method& method : methods())
@@ -157,7 +161,8 @@ TEST(Stress, RubbingScenesThatWereWrongOnce) {
       "rubbing 85",   // friction changes its sense within a small part of a step
       "rubbing 246",  // the same with tanh
       "rubbing 837",  // a step that begins where a contact of Hertz closes
-      "rubbing 769"   // a start from rest against friction that is steep
+      "rubbing 769",  // a start from rest against friction that is steep
+      "rubbing 573"   // the error of the integral of friction with tanh
   };
   std::vector<Method> chosen;
   for (const Method& method : methods())
@@ -173,9 +178,9 @@ TEST(Stress, RubbingScenesThatWereWrongOnce) {
 
 TEST(Stress, LongRunsStayWithinTheirMotion) {
   for (const Method& method : methods()) {
-    const LongRun run = run_long(method, 12500);
+    const LongRun run = run_long(method, 12500 / static_cast<int>(kEvery));
     EXPECT_TRUE(run.is_sound) << method.name << ": " << run.message;
-    EXPECT_GT(run.steps, 1000) << method.name;
+    EXPECT_GT(run.steps, 1000 / static_cast<int>(kEvery)) << method.name;
   }
 }
 

@@ -23,6 +23,7 @@ const std::map<int, std::uint64_t> kDigests = {
     {9, 0xbefe495462ff291b},
     {10, 0xd8555c349d44de36},
     {11, 0x6e3a3920419a9a1e},
+    {12, 0xd26b3f2cbf556dcd},
 };
 
 /// The rooms whose types modules derive from, hold or pass; what scenes, records and embedding have stays on one side.

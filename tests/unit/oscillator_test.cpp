@@ -1,4 +1,4 @@
-#include "integrators/oscillator.hpp"
+#include "integrators/exponential/oscillator.hpp"
 
 #include <butee/dynamics/modal_flow.hpp>
 #include <gtest/gtest.h>

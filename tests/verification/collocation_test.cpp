@@ -5,50 +5,18 @@
 
 #include "butee/core/error.hpp"
 #include "support/scene_run.hpp"
+#include "support/small_scenes.hpp"
 
 namespace butee::test::collocation_test {
 namespace {
 
 /// A turning pipe with gyroscopic terms that strikes rings and rubs.
-const std::string kPipe = R"(
-schema = 1
-[material.steel]
-young_modulus = 2.03e11
-density = 7900.0
-[section.pipe]
-shape = "tube"
-outer_radius = 0.06
-inner_radius = 0.04
-[[element]]
-type = "beam"
-name = "b"
-motion = "lateral"
-theory = "rayleigh"
-material = "steel"
-section = "pipe"
-length = 20.0
-elements = 8
-[rotation]
-speed = 30.0
-[[support]]
-nodes = ["b:first", "b:last"]
-fix = ["uy", "uz"]
-[[contact]]
-type = "ring"
-nodes = "b:all"
-gap = 0.004
-stiffness = 1e6
-radius = 0.06
-friction = { coefficient = 0.2, slip_speed = 0.05 }
-[[load]]
-type = "unbalance"
-node = "b:middle"
-moment = 1.0
+const std::string kPipe = TurningPipe{"b", "lateral", "20.0", 8, "0.004", "0.05", "1.0"}.scene(R"(
 [damping]
 mass_proportional = 0.5
 [integrator]
 end_time = 0.6
-)";
+)");
 
 /// A planar beam with a dashpot, a table load and stops on both sides.
 const std::string kBeam = R"(

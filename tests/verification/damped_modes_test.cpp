@@ -6,7 +6,7 @@
 #include <butee/dynamics/damped_modes.hpp>
 #include <gtest/gtest.h>
 
-#include "integrators/modal_response.hpp"
+#include "integrators/exponential/modal_response.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::damped_modes_test {
@@ -96,6 +96,39 @@ damping = 50.0
 end_time = 1.0
 )";
 
+/// A light part on a dashpot, whose motion dies out within a microsecond.
+const std::string kLight = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 2.0
+[[element]]
+type = "spring"
+node = "a"
+stiffness = 4e4
+damping = 0.3
+[[element]]
+type = "mass"
+name = "light"
+mass = 5e-7
+[[element]]
+type = "spring"
+nodes = ["a", "light"]
+stiffness = 0.2
+[[element]]
+type = "mass"
+name = "b"
+mass = 1.5
+[[element]]
+type = "spring"
+nodes = ["light", "b"]
+stiffness = 3e3
+damping = 20.0
+[integrator]
+end_time = 1.0
+)";
+
 /// Displacements are taken times this, 1/s, so that the matrix is balanced and its exponential loses few digits.
 constexpr double kScale = 1e5;
 
@@ -170,7 +203,7 @@ TEST_P(DampedModesOf, give_the_motion_of_the_matrix_exponential) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies));
+INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight));
 
 TEST(StepNodes, interpolate_polynomials_of_degree_six) {
   using integrators::StepNodes;
@@ -188,6 +221,31 @@ TEST(StepNodes, interpolate_polynomials_of_degree_six) {
     for (Index r = 6; r >= 0; --r) sum = sum * s + powers[r];
     EXPECT_NEAR(sum, exact, 1e-12);
   }
+}
+
+TEST(StepNodes, estimate_the_error_of_their_quadrature) {
+  using integrators::StepNodes;
+  const auto smooth_step = [](double s, double at, double width) { return std::tanh((s - at) / width); };
+  int estimates = 0, generous = 0;
+  for (const double at : {-0.4, 0.0, 0.3, 0.5, 0.8, 1.2})
+    for (const double width : {0.15, 0.3, 0.6, 1.0, 1.5}) {
+      // Lobatto's weights are the integrals of the polynomials without the middle.
+      Eigen::Matrix<double, 1, 7> values;
+      for (Index j = 0; j < 7; ++j) values[j] = smooth_step(StepNodes::kPlaces[static_cast<std::size_t>(j)], at, width);
+      const Eigen::Matrix<double, 1, 7> powers = values * StepNodes::without_middle();
+      double got = 0.0;
+      for (Index r = 0; r < 7; ++r) got += powers[r] / static_cast<double>(r + 1);
+      const double wanted = width * std::log(std::cosh((1.0 - at) / width) / std::cosh(at / width)),
+                   error = std::abs(got - wanted),
+                   estimate = StepNodes::quadrature_error(values * StepNodes::legendre());
+      if (error < 1e-13) continue;
+      ++estimates;
+      if (estimate > error) ++generous;
+      EXPECT_GT(estimate, 0.02 * error) << at << " " << width;
+      EXPECT_LT(estimate, 500.0 * error) << at << " " << width;
+    }
+  EXPECT_GT(estimates, 20);
+  EXPECT_GT(generous, estimates / 2);
 }
 
 }  // namespace

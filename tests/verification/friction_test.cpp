@@ -141,6 +141,18 @@ TEST(RegularisedFriction, has_the_bias_of_its_smoothing) {
   }
 }
 
+/// The slip speed falls through the range in which tanh is 1 to rounding, where its series sees no other side.
+TEST(RegularisedFriction, is_the_same_by_its_series_and_by_extrapolation) {
+  const std::string scene =
+      block(1.0, 1e4, "coefficient = 0.1, slip_speed = 1e-4, smoothing = \"tanh\"", 0.2, kSliding);
+  SceneRun series(scene, {"integrator.type=exact", "integrator.tolerance="}),
+      other(scene, {"integrator.type=extrapolation8", "integrator.tolerance=1e-12"});
+  ASSERT_TRUE(series.run().completed);
+  ASSERT_TRUE(other.run().completed);
+  EXPECT_NEAR(series.simulation().state().x[0], other.simulation().state().x[0], 1e-10 * 0.85e-3);
+  EXPECT_NEAR(series.simulation().state().v[0], other.simulation().state().v[0], 1e-10 * 0.085);
+}
+
 /// The phases and anchors of contacts are part of a snapshot: a run taken up elsewhere ends with the same bits.
 TEST(StickSpring, remembers_across_a_restart) {
   const std::string toml =

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
+#include "support/small_scenes.hpp"
 
 namespace butee::test::whirling_pipe_test {
 namespace {
@@ -12,46 +13,13 @@ namespace {
 /// A pipe that turns, strikes rings all along and rubs: methods of three families agree, the tighter the better, and
 /// the energy balance closes.
 TEST(WhirlingPipe, is_the_same_for_methods_of_different_families) {
-  const std::string toml = R"(
-schema = 1
-[material.steel]
-young_modulus = 2.03e11
-density = 7900.0
-[section.pipe]
-shape = "tube"
-outer_radius = 0.06
-inner_radius = 0.04
-[[element]]
-type = "beam"
-name = "string"
-motion = "lateral"
-theory = "rayleigh"
-material = "steel"
-section = "pipe"
-length = 35.0
-elements = 10
-[rotation]
-speed = 30.0
-[[support]]
-nodes = ["string:first", "string:last"]
-fix = ["uy", "uz"]
-[[contact]]
-type = "ring"
-nodes = "string:all"
-gap = 0.01
-stiffness = 1.0e6
-friction = { coefficient = 0.2, slip_speed = 0.01 }
-radius = 0.06
-[[load]]
-type = "unbalance"
-node = "string:middle"
-moment = 3.0
+  const std::string toml = TurningPipe{"string", "lateral", "35.0", 10, "0.01", "0.01", "3.0"}.scene(R"(
 [damping]
 mass_proportional = 0.03
 [integrator]
 type = "exact"
 end_time = 0.3
-)";
+)");
   SceneRun exact(toml);
   ASSERT_TRUE(exact.run().completed) << exact.simulation().report().message;
   const Vector& wanted = exact.simulation().state().x;
@@ -72,51 +40,17 @@ end_time = 0.3
 /// A string in space that is driven at its upper end: rubbing along its rings sets off torsion. Series,
 /// Rosenbrock's method, an explicit one and collocation of damped modes agree in the torsion.
 TEST(WhirlingPipe, is_twisted_by_friction) {
-  const std::string toml = R"(
-schema = 1
-[material.steel]
-young_modulus = 2.03e11
-density = 7900.0
-poisson_ratio = 0.3
-[section.pipe]
-shape = "tube"
-outer_radius = 0.06
-inner_radius = 0.04
-[[element]]
-type = "beam"
-name = "string"
-motion = "spatial"
-theory = "rayleigh"
-material = "steel"
-section = "pipe"
-length = 35.0
-elements = 4
-[rotation]
-speed = 30.0
-[[support]]
-nodes = ["string:first", "string:last"]
-fix = ["uy", "uz"]
+  const std::string toml = TurningPipe{"string", "spatial", "35.0", 4, "0.01", "0.01", "3.0"}.scene(R"(
 [[support]]
 nodes = "string:first"
 fix = ["ux", "rx"]
-[[contact]]
-type = "ring"
-nodes = "string:all"
-gap = 0.01
-stiffness = 1.0e6
-friction = { coefficient = 0.2, slip_speed = 0.01 }
-radius = 0.06
-[[load]]
-type = "unbalance"
-node = "string:middle"
-moment = 3.0
 [damping]
 mass_proportional = 0.5
 stiffness_proportional = 1.0e-4
 [integrator]
 type = "exact"
 end_time = 0.3
-)";
+)");
   SceneRun exact(toml);
   ASSERT_TRUE(exact.run().completed) << exact.simulation().report().message;
   const Vector& wanted = exact.simulation().state().x;

@@ -22,7 +22,7 @@ constexpr double kTimeLimit = 600.0;
 constexpr double kSameRow = 1e-9;
 
 /// Of exponential, where exact refuses a scene.
-constexpr double kTight = 1e-9;
+constexpr double kTight = 1e-8;
 
 /// Relative to the peak: the start of the second computation differs by this.
 constexpr double kRounding = 1e-16;

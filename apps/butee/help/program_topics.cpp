@@ -39,9 +39,9 @@ velocities:
 
 Velocities near a change of contact are meant within 10 tolerance S/|w'| of time. Steps become shorter where end_time is
 longer, since errors of the period add up. Beyond end_time, in a structure that another program advances, the error goes on
-to grow at the same rate. The smallest tolerances are 1e-6 for methods of order 2, 1e-10 for auto, exponential and
-rodas4, 1e-11 for dopri5 and 1e-12 for extrapolation8; below them rounding or the number of steps leaves no use, and a
-scene is refused.
+to grow at the same rate. The smallest tolerances are 1e-6 for methods of order 2, 1e-8 for exponential where stops
+act on modes that no damping couples, else 1e-10 as for auto and rodas4, 1e-11 for dopri5 and 1e-12 for extrapolation8;
+below them rounding or the number of steps leaves no use, or errors of many impacts add up, and a scene is refused.
 
 Exceptions: structures of more than 600 DOFs are measured as a whole, in the norm of the mass matrix, and every step is
 held to the tolerance, whatever their number. exact and piecewise have no truncation error. newmark_adaptive,

@@ -27,7 +27,7 @@ struct Candidate {
   bool is_implicit = false;
 };
 constexpr Candidate kCandidates[] = {{"exact", 0.0, kQuick},
-                                     {"exponential", 1e-9},
+                                     {"exponential", 1e-8},
                                      {"exact", 0.0, kLong},
                                      {"extrapolation8", 1e-10},
                                      {"rodas4", 1e-8, kUsual, true},

@@ -1,0 +1,200 @@
+#include "integrators/exponential/collocation_outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/local_error.hpp"
+
+namespace butee::integrators {
+namespace {
+
+using time::State;
+
+constexpr Index kCount = StepNodes::kCount;
+/// Modes may be missed by this part of the tolerance in outputs between nodes.
+constexpr double kOutput = 0.1;
+/// Between knots the fastest motion turns by this at most, rad: a quintic misses 4e-4 of it, and 6e-4 of its speed.
+constexpr double kMostTurn = 1.5;
+/// The longest part of a step between two nodes.
+constexpr double kLongestPart = 0.24;
+constexpr double kMostKnots = 4096.0;
+
+}  // namespace
+
+FastModes::FastModes(const dynamics::DampedModes& modes, double tolerance)
+    : modes_(modes), tolerance_(tolerance), highest_(modes.count() > 0 ? modes.speed()[modes.count() - 1] : 0.0) {
+  const Index p = modes.count();
+  const auto magnitude = [p](const Eigen::MatrixXd& shapes) -> Eigen::MatrixXd {
+    return (shapes.topRows(p).array().square() + shapes.bottomRows(p).array().square()).sqrt().matrix().transpose();
+  };
+  shape_ = magnitude(modes.displacement());
+  speed_shape_ = magnitude(modes.velocity());
+}
+
+double FastModes::find(const State& from, const State& to, double slow, const Eigen::ArrayXd& turning) const {
+  const Eigen::ArrayXd scale_x = tolerance_ * LocalErrorControl::scales_x(to),
+                       scale_v = tolerance_ * LocalErrorControl::scales_v(to),
+                       scale_a = tolerance_ * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs());
+  Eigen::ArrayXd x = Eigen::ArrayXd::Zero(scale_x.size()), v = x, a = x;
+  for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k) {
+    const double speed = modes_.speed()[k];
+    x += turning[k] * shape_.col(k).array();
+    v += turning[k] * speed_shape_.col(k).array();
+    a += turning[k] * speed * speed_shape_.col(k).array();
+    if ((x > scale_x).any() || (v > scale_v).any() || (a > scale_a).any()) return speed;
+  }
+  return slow;
+}
+
+NodeTraces::NodeTraces(const dynamics::DampedModes& modes) : modes_(modes) {
+  const Index n = modes.displacement().cols();
+  found_.resize(static_cast<std::size_t>(n));
+  x_.resize(kCount, n);
+  v_.resize(kCount, n);
+}
+
+std::pair<NodeTraces::Trace, NodeTraces::Trace> NodeTraces::of(Index dof, const Eigen::MatrixXd& nodes) {
+  if (auto& found = found_[static_cast<std::size_t>(dof)]; found != step_) {
+    found = step_;
+    x_.col(dof).noalias() = nodes.transpose() * modes_.displacement().col(dof);
+    v_.col(dof).noalias() = nodes.transpose() * modes_.velocity().col(dof);
+  }
+  return {std::as_const(x_).col(dof), std::as_const(v_).col(dof)};
+}
+
+CollocationOutputs::CollocationOutputs(const dynamics::DampedModes& modes, const ModalLoads& loads, double tolerance,
+                                       Index memory_begin)
+    : modes_(modes),
+      loads_(loads),
+      tolerance_(tolerance),
+      memory_begin_(memory_begin),
+      fast_(modes, tolerance),
+      traces_(modes) {
+  z_.setZero(2 * modes.count());
+}
+
+void CollocationOutputs::accept(double begin, double end, const Eigen::MatrixXd& nodes) {
+  begin_ = begin;
+  end_ = end;
+  nodes_ = &nodes;
+  traces_.reset();
+  instant_ = std::numeric_limits<double>::quiet_NaN();
+  is_parted_ = false;
+}
+
+void CollocationOutputs::reset() {
+  end_ = std::numeric_limits<double>::quiet_NaN();
+}
+
+std::optional<Index> CollocationOutputs::node_at(const State& from, const State& to, double t) const {
+  if (!holds(from, to)) return std::nullopt;
+  for (Index j = 0; j < kCount; ++j)
+    if (t == from.t + StepNodes::kPlaces[static_cast<std::size_t>(j)] * (to.t - from.t)) return j;
+  return std::nullopt;
+}
+
+void CollocationOutputs::move_to(const State& from, const State& to, double place, Eigen::VectorXd& z) const {
+  const Index p = modes_.count();
+  const double h = to.t - from.t;
+  Index slow = 0;
+  if (holds(from, to)) {
+    // Slow modes by the polynomial through the nodes, which misses them by StepNodes::kMiss (|lambda| h)^7 of their
+    // size, if loads move them no faster.
+    const double most = std::pow(kOutput * tolerance_ / StepNodes::kMiss, 1.0 / 7.0) / h;
+    if (loads_.highest_frequency() <= most)
+      while (slow < p && modes_.speed()[slow] <= most) ++slow;
+    const auto weights = StepNodes::lagrange(place);
+    z.head(slow).noalias() = nodes_->topRows(slow) * weights;
+    z.segment(p, slow).noalias() = nodes_->middleRows(p, slow) * weights;
+  }
+  if (slow < p) PlaceResponse(modes_, loads_.turning(), place, h, slow).move(from.t, modal(from), modal(to) + 2 * p, z);
+}
+
+void CollocationOutputs::find_rate(double t, double place, const double* forces, const Eigen::VectorXd& z,
+                                   Eigen::VectorXd& rate) const {
+  const Index p = modes_.count();
+  const Eigen::Map<const Eigen::MatrixXd> polynomial(forces, 2 * p, kCount);
+  rate.resize(2 * p);
+  rate.head(p).array() = modes_.decay() * z.head(p).array() - modes_.turn() * z.tail(p).array();
+  rate.tail(p).array() = modes_.decay() * z.tail(p).array() + modes_.turn() * z.head(p).array();
+  double power = 1.0;
+  for (Index r = 0; r < kCount; ++r, power *= place) rate += power * polynomial.col(r);
+  loads_.add_turning(t, rate);
+}
+
+void CollocationOutputs::find(const State& from, const State& to, double t, bool wants_rate) {
+  const double place = (t - from.t) / (to.t - from.t);
+  const bool is_held = holds(from, to);
+  if (!is_held || instant_ != t) {
+    instant_ = is_held ? t : std::numeric_limits<double>::quiet_NaN();
+    has_rate_ = false;
+    if (const auto node = node_at(from, to, t))
+      z_ = nodes_->col(*node);
+    else if (place <= 0.0)
+      z_ = Eigen::Map<const Eigen::VectorXd>(modal(from), z_.size());
+    else
+      move_to(from, to, place, z_);
+  }
+  if (!wants_rate || has_rate_) return;
+  has_rate_ = true;
+  find_rate(t, place, modal(to) + z_.size(), z_, rate_);
+}
+
+void CollocationOutputs::interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
+                                     time::Interpolated out) {
+  find(from, to, t, !out.a.empty());
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (!out.x.empty()) out.x[i] = modes_.displacement().col(dofs[i]).dot(z_);
+    if (!out.v.empty()) out.v[i] = modes_.velocity().col(dofs[i]).dot(z_);
+    if (!out.a.empty()) out.a[i] = modes_.velocity().col(dofs[i]).dot(rate_);
+  }
+}
+
+void CollocationOutputs::trace(const State& from, const State& to, double t, std::span<const Index> dofs,
+                               time::Interpolated out) {
+  if (!holds(from, to) || !out.a.empty()) return interpolate(from, to, t, dofs, out);
+  const auto weights = StepNodes::lagrange((t - from.t) / (to.t - from.t));
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto [x, v] = traces_.of(dofs[i], *nodes_);
+    if (!out.x.empty()) out.x[i] = weights.dot(x);
+    if (!out.v.empty()) out.v[i] = weights.dot(v);
+  }
+}
+
+double CollocationOutputs::find_fastest(const State& from, const State& to, double slow) const {
+  const Index p = modes_.count();
+  // A mode that does not follow its forces at rest turns with |dz/dt|/|lambda|.
+  Eigen::VectorXd rate;
+  Eigen::ArrayXd turning = Eigen::ArrayXd::Zero(p);
+  for (const double place : {0.0, 1.0}) {
+    const State& at = place > 0.0 ? to : from;
+    find_rate(at.t, place, modal(to) + 2 * p, Eigen::Map<const Eigen::VectorXd>(modal(at), 2 * p), rate);
+    turning = turning.max((rate.head(p).array().square() + rate.tail(p).array().square()).sqrt());
+  }
+  return fast_.find(from, to, slow, turning / modes_.speed());
+}
+
+double CollocationOutputs::longest(const State& from, const State& to) const {
+  const double turns = kMostKnots * kMostTurn, slow = turns / (to.t - from.t);
+  if (std::max(fast_.highest(), loads_.highest_frequency()) <= slow) return std::numeric_limits<double>::infinity();
+  return turns / std::max(loads_.highest_frequency(), find_fastest(from, to, slow));
+}
+
+std::span<const double> CollocationOutputs::knots(const State& from, const State& to) {
+  if (holds(from, to) && is_parted_) return knots_;
+  is_parted_ = holds(from, to);
+  const double h = to.t - from.t, slow = kMostTurn / (kLongestPart * h);
+  double fastest = std::max(slow, loads_.highest_frequency());
+  if (fast_.highest() > fastest) fastest = find_fastest(from, to, fastest);
+  const int parts = static_cast<int>(std::ceil(fastest / slow));
+  knots_.clear();
+  for (std::size_t j = 0; j + 1 < StepNodes::kPlaces.size(); ++j) {
+    const double begin = from.t + StepNodes::kPlaces[j] * h, end = from.t + StepNodes::kPlaces[j + 1] * h;
+    if (j > 0) knots_.push_back(begin);
+    for (int i = 1; i < parts; ++i) knots_.push_back(begin + (end - begin) * i / parts);
+  }
+  return knots_;
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,92 @@
+#include "integrators/exponential/contact_dofs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "butee/core/error.hpp"
+
+namespace butee::integrators {
+namespace {
+
+[[noreturn]] void refuse_law() {
+  throw InputError(
+      "integrator.type: the law of a contact is not piecewise linear; the form of exponential for coupled modes and "
+      "contacts in the plane would not see where it bends; take rodas4, dopri5, extrapolation8 or exact, or auto, "
+      "which chooses among them");
+}
+
+void sort_once(std::vector<Index>& dofs) {
+  std::sort(dofs.begin(), dofs.end());
+  dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+}
+
+}  // namespace
+
+ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes)
+    : inverse_mass_(Vector::Zero(dynamics.size())) {
+  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
+    for (Index i = 0; i < obstacles->size(); ++i) {
+      const model::ObstacleGroup& group = obstacles->group_of(i);
+      if (group.law != nullptr && !group.law->is_piecewise_linear()) refuse_law();
+      for (const auto& side : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
+        for (const Index dof : side) take(dof, obstacles->closed_stiffness(i), modes);
+      need_velocity_ = need_velocity_ || group.damping.kind != model::ImpactDamping::Kind::none ||
+                       group.friction.rule != model::Friction::Rule::none;
+    }
+  const dynamics::Contact& contact = dynamics.contact();
+  const Vector closed = contact.closed_stiffness();
+  for (Index i = 0; i < contact.size(); ++i) {
+    if (!contact.law_of(i).is_piecewise_linear()) refuse_law();
+    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) take(dof, closed[i], modes);
+  }
+  sort_once(dofs_);
+  const Index p = modes.count();
+  reach_ = Eigen::ArrayXd::Zero(p);
+  for (const Index dof : dofs_) {
+    const auto shape = modes.displacement().col(dof).array();
+    reach_ = reach_.max((shape.head(p).square() + shape.tail(p).square()).sqrt());
+  }
+}
+
+void ContactDofs::take(Index dof, double stiffness, const dynamics::DampedModes& modes) {
+  if (dof < 0) return;
+  dofs_.push_back(dof);
+  // All modes together answer an impulse of 1 N s with it.
+  inverse_mass_[dof] = std::max(0.0, modes.velocity().col(dof).dot(modes.input().col(dof)));
+  highest_frequency_ = std::max(highest_frequency_, std::sqrt(stiffness * inverse_mass_[dof]));
+}
+
+bool ActiveDofs::find(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes) {
+  std::vector<Index> found;
+  const auto take = [&](Index dof) {
+    if (dof >= 0) found.push_back(dof);
+  };
+  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
+    for (Index i = 0; i < obstacles->size(); ++i) {
+      const bool is_apart = obstacles->group_of(i).shape != nullptr &&
+                            obstacles->phase(i).normal == dynamics::ContactPhase::Normal::apart;
+      if (is_apart) continue;
+      for (const auto& side : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
+        for (const Index dof : side) take(dof);
+    }
+  const dynamics::Contact& contact = dynamics.contact();
+  for (Index i = 0; i < contact.size(); ++i)
+    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) take(dof);
+  sort_once(found);
+  if (found == dofs) return false;
+  dofs = std::move(found);
+  for (Eigen::MatrixXd* columns : {&input, &displacement, &velocity}) columns->resize(2 * modes.count(), count());
+  for (Index k = 0; k < count(); ++k) {
+    const Index dof = dofs[static_cast<std::size_t>(k)];
+    input.col(k) = modes.input().col(dof);
+    displacement.col(k) = modes.displacement().col(dof);
+    velocity.col(k) = modes.velocity().col(dof);
+  }
+  return true;
+}
+
+Index ActiveDofs::place(Index dof) const {
+  return std::lower_bound(dofs.begin(), dofs.end(), dof) - dofs.begin();
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,45 @@
+#include "integrators/exponential/contact_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace butee::integrators {
+
+double ContactError::of_step(dynamics::StepFlow& flow, const TriedStep& step, double displacement) const {
+  const ContactPaths& paths = iteration_.paths();
+  double largest = 0.0;
+  for (const Index i : step.iterated) {
+    const double quartic = paths.quartic()[i];
+    const bool is_near = bounds_.is_near(i);
+    double error = is_near ? std::abs(quartic) : residual_.jump_error(flow, i, quartic, paths.motion().end[i]);
+    if (is_near && iteration_.is_touched(i)) {
+      error = of_touched(flow, i, error, displacement);
+    } else if (const double depth = paths.excess()[i] + kPathError * std::abs(quartic); is_near && depth > 0.0) {
+      const double impulse = iteration_.influence().stiff(flow, i) * depth;
+      const ContactScale scale = scales_.of(i, paths.reached(i), displacement);
+      error = std::max(error, missed_contact_error(goal_, impulse, step.h, scale.speed) * displacement);
+    }
+    if (residual_.any() && step.from.w[i] * paths.motion().end[i] < 0.0)
+      error = std::max(
+          error, of_jump(flow, i, scales_.of(i, paths.reached(i), displacement).speed) * goal_.middle * displacement);
+    if (goal_.orders == 1) error += std::abs(flow.own_coupling(i)[0][1] * iteration_.moments(1)[i]);
+    largest = std::max(largest, error);
+  }
+  return largest;
+}
+
+double ContactError::of_touched(dynamics::StepFlow& flow, Index stop, double quartic, double displacement) const {
+  const ContactPaths& paths = iteration_.paths();
+  const double h = flow.h(), stiffness = contacts_[static_cast<std::size_t>(stop)].stiffness();
+  const ContactInfluence::Known& known = iteration_.influence().of(flow, stop);
+  const ContactScale scale = scales_.of(stop, paths.reached(stop), displacement);
+  const bool stays_closed = paths.stays_closed(stop);
+  double error = path_error(quartic, stiffness * known.coupling[1][0], h, scale, stays_closed);
+  if (!stays_closed) {
+    const double kink = h * h * stiffness * known.unresolved * paths.largest_speed(stop) / (h * scale.speed);
+    error = std::max(error, kink * goal_.middle * scale.displacement / (kUnresolved * goal_.outputs));
+  }
+  return error * (displacement / scale.displacement);
+}
+
+}  // namespace butee::integrators

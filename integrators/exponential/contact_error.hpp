@@ -1,0 +1,44 @@
+#pragma once
+
+#include "integrators/exponential/contact_iteration.hpp"
+#include "integrators/exponential/residual_forces.hpp"
+
+namespace butee::integrators {
+
+/// The error of a step with contact: indicators 1 to 7 of plugins/exponential/THEORY.md, section 8.1, of which the
+/// largest of all stops counts.
+class ContactError {
+ public:
+  /// All must outlive it.
+  ContactError(const StepGoal& goal, const std::vector<ContactForce>& contacts, const DisplacementBounds& bounds,
+               const ContactScales& scales, const ContactIteration& iteration, const ResidualErrors& residual)
+      : goal_(goal),
+        contacts_(contacts),
+        bounds_(bounds),
+        scales_(scales),
+        iteration_(iteration),
+        residual_(residual) {}
+
+  /// The error of the step with its forces, m; `displacement` is the largest of all stops.
+  double of_step(dynamics::StepFlow& flow, const TriedStep& step, double displacement) const;
+  /// Indicator 7, relative to the bound of the speed: the residual force of a stop jumps in the step.
+  double of_jump(const dynamics::StepFlow& flow, Index stop, double speed) const {
+    const double hidden = 2.0 * residual_.force(stop).largest() * iteration_.influence().hidden_by_jump(flow, stop);
+    return hidden / (kUnresolved * goal_.outputs * flow.h() * speed);
+  }
+
+ private:
+  /// Bound of the speed error that the projection hides, over the error bound of outputs.
+  static constexpr double kUnresolved = 1.0;
+
+  double of_touched(dynamics::StepFlow& flow, Index stop, double quartic, double displacement) const;
+
+  const StepGoal& goal_;
+  const std::vector<ContactForce>& contacts_;
+  const DisplacementBounds& bounds_;
+  const ContactScales& scales_;
+  const ContactIteration& iteration_;
+  const ResidualErrors& residual_;
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,179 @@
+#include "integrators/exponential/contact_iteration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace butee::integrators {
+
+using dynamics::StepFlow;
+using Eigen::ArrayXd;
+
+ContactIteration::ContactIteration(const dynamics::ModalSystem& modal, const StepGoal& goal,
+                                   std::vector<ContactForce>& contacts, const ContactGaps& gaps,
+                                   const ContactScales& scales, const TriedStep& step)
+    : modal_(modal),
+      goal_(goal),
+      contacts_(contacts),
+      gaps_(gaps),
+      scales_(scales),
+      step_(step),
+      influence_(modal, contacts, goal.orders),
+      paths_(step, gaps, goal.orders) {
+  for (ArrayXd* array : {&noted_.end, &noted_.speed, &noted_.middle, &moments_[0], &moments_[1], &moments_[2]})
+    array->setZero(gaps.gaps().size());
+  for (ArrayXd& sum : sums_) sum.setZero(modal.size());
+  touched_.reserve(contacts.size());
+  is_touched_.assign(contacts.size(), false);
+}
+
+std::optional<double> ContactIteration::solve(StepFlow& flow) {
+  begin();
+  guess(flow);
+  double last = 0.0;
+  const auto displacement = [&] {
+    return std::max(scales_.largest().displacement, paths_.motion().end.abs().maxCoeff());
+  };
+  for (int i = 0; i < kMostSweeps; ++i) {
+    const double change = sweep(flow, displacement(), i > 0);
+    if (!std::isfinite(change)) return std::nullopt;
+    const double next = change * (change / last);
+    const bool is_expected = i > 0 && change < last && next <= kExpected * kConverged;
+    last = change;
+    if (change <= kConverged || is_expected) return displacement();
+  }
+  return std::nullopt;
+}
+
+void ContactIteration::begin() {
+  paths_.begin(modal_.stop_shapes());
+  for (ArrayXd& moment : moments_) moment.setZero();
+  for (const Index i : touched_) is_touched_[static_cast<std::size_t>(i)] = false;
+  touched_.clear();
+  choose_registers();
+}
+
+void ContactIteration::choose_registers() {
+  near_registers_.clear();
+  far_registers_.clear();
+  std::size_t next = 0;
+  for (Index begin = 0, end = 0; begin < gaps_.gaps().size(); begin = end) {
+    end = StepFlow::next_register(begin);
+    const std::size_t first = next;
+    while (next < step_.iterated.size() && step_.iterated[next] < end) ++next;
+    (next > first ? near_registers_ : far_registers_).push_back(begin);
+  }
+}
+
+void ContactIteration::guess(StepFlow& flow) {
+  for (const Index i : step_.iterated) {
+    const double w = step_.from.w[i], side = gaps_.closed_side(i, w);
+    if (side == 0.0) continue;
+    const double stiffness = contacts_[static_cast<std::size_t>(i)].stiffness();
+    const double at_start = stiffness * (side * gaps_.gaps()[i] - w),
+                 half_rise = -0.5 * stiffness * paths_.start_speed()[i];
+    moments_[0][i] = at_start + half_rise;
+    if (goal_.orders > 1) moments_[1][i] = half_rise;
+    touch(i);
+  }
+  flow.add_forces(touched_, moments_, near_registers_, paths_.motion());
+}
+
+double ContactIteration::sweep(StepFlow& flow, double displacement, bool may_skip) {
+  paths_.find_bounds();
+  double change = 0.0;
+  for (const Index i : step_.iterated) {
+    ContactForce& contact = contacts_[static_cast<std::size_t>(i)];
+    if (contact.is_linear() && !is_touched(i) && paths_.excess()[i] <= 0.0) continue;
+    if (may_skip && is_touched(i) && moved_since(flow, i) <= kSettled * allowed_change(flow, i, displacement)) continue;
+    const ContactPath path = paths_.of(i);
+    const ContactStatus status = contact.status(path);
+    const ForceMoments old = {moments_[0][i], moments_[1][i], moments_[2][i]};
+    const ContactInfluence::Known& known = influence_.of(flow, i);
+    const ContactNewton& newton = influence_.newton(i);
+    const bool was_spring = contact.is_spring(path, status);
+    note_path(i);
+    ForceMoments projected, more;
+    if (was_spring) {
+      projected = contact.of_spring(path);
+      more = newton.correction(known.inverse, projected, old);
+    } else {
+      const Projection projection = contact.project(path, status);
+      projected = projection.force;
+      more = newton.correction(
+          status == ContactStatus::closed ? known.inverse : newton.inverse(projection.closed, known.coupling),
+          projected, old);
+    }
+    if (goal_.orders == 1) moments_[1][i] = projected[1];  // for the error indicator alone
+    const bool stays = more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0;
+    const double moved = stays ? 0.0 : add_force(flow, i, more);
+    if (!std::isfinite(moved)) return moved;
+    // The linear equations of a spring are solved for the path that its force leads to.
+    if (was_spring && is_spring(i)) note_path(i);
+    // At a start from rest the force itself makes the scale.
+    if (moved > 0.0)
+      change =
+          std::max(change, moved / allowed_change(flow, i, std::max(displacement, std::abs(paths_.motion().end[i]))));
+  }
+  return change;
+}
+
+double ContactIteration::allowed_change(StepFlow& flow, Index stop, double displacement) const {
+  const ContactScale scale = scales_.of(stop, paths_.reached(stop), displacement);
+  return std::max(integrators::allowed_change(goal_.middle, influence_.stiff(flow, stop), flow.h(), scale),
+                  kRoundingChange / kConverged * displacement);
+}
+
+bool ContactIteration::is_spring(Index stop) const {
+  const ContactForce& contact = contacts_[static_cast<std::size_t>(stop)];
+  const ContactPath path = paths_.of(stop);
+  return contact.is_spring(path, contact.status(path));
+}
+
+void ContactIteration::note_path(Index stop) {
+  const dynamics::StopMotion& now = paths_.motion();
+  noted_.end[stop] = now.end[stop];
+  noted_.speed[stop] = now.speed[stop];
+  noted_.middle[stop] = now.middle[stop];
+}
+
+double ContactIteration::moved_since(StepFlow& flow, Index stop) const {
+  const dynamics::StopMotion& now = paths_.motion();
+  const double path = std::abs(now.end[stop] - noted_.end[stop]) +
+                      kBump * std::abs(now.speed[stop] - noted_.speed[stop]) +
+                      std::abs(now.middle[stop] - noted_.middle[stop]);
+  return path * (1.0 + std::abs(influence_.stiff(flow, stop)));
+}
+
+void ContactIteration::touch(Index stop) {
+  if (!is_touched(stop)) touched_.push_back(stop);
+  is_touched_[static_cast<std::size_t>(stop)] = true;
+}
+
+double ContactIteration::add_force(StepFlow& flow, Index stop, const ForceMoments& more) {
+  touch(stop);
+  for (std::size_t k = 0; k < 3; ++k) moments_[k][stop] += more[k];
+  return flow.add_force(stop, more, kBump, near_registers_, paths_.motion());
+}
+
+void ContactIteration::complete_paths(StepFlow& flow) {
+  for (std::size_t k = goal_.orders; k < moments_.size(); ++k) moments_[k].setZero();  // for the error indicator alone
+  flow.add_forces(touched_, moments_, far_registers_, paths_.motion());
+}
+
+void ContactIteration::apply(StepFlow& flow, TriedStep& step) {
+  const std::size_t orders = goal_.orders;
+  step.to.w = paths_.motion().end;
+  step.to.wv = paths_.motion().speed * (1.0 / flow.h());
+  if (touched_.empty()) return;
+  for (std::size_t k = 0; k < orders; ++k) modal_.stop_shapes().force(touched_, moments_[k].data(), sums_[k].data());
+  if (orders == 3) {
+    const dynamics::ModalFlow& whole = flow.whole;
+    step.to.q += sums_[0] * whole.force_q(0) + sums_[1] * whole.force_q(1) + sums_[2] * whole.force_q(2);
+    step.to.v += sums_[0] * whole.force_v(0) + sums_[1] * whole.force_v(1) + sums_[2] * whole.force_v(2);
+  } else {
+    for (std::size_t k = 0; k < orders; ++k) step.add_to_end(flow.whole, static_cast<int>(k), sums_[k]);
+  }
+  for (std::size_t k = 0; k < (step.breakpoint > 0.0 ? orders : 0); ++k) step.add_to_middle(flow.half, k, sums_[k]);
+}
+
+}  // namespace butee::integrators

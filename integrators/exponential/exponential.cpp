@@ -1,0 +1,237 @@
+#include "integrators/exponential/exponential.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "butee/core/error.hpp"
+#include "integrators/local_error.hpp"
+
+namespace butee::integrators {
+namespace {
+
+using dynamics::ModalSystem;
+using time::State;
+using time::StepReport;
+using time::StepStatus;
+
+/// Steps in a macro step.
+constexpr int kMacroStep = 32;
+/// The state ends with the index of the step size, the largest displacement and speed of a stop, whether the last step
+/// was without contact, by how many indices those are longer, and the end that the last macro step was given, without
+/// which it cannot be repeated.
+constexpr Index kExtras = 6;
+/// The error of outputs between two steps without contact, in tolerances; the steps go on from the exact state.
+constexpr double kOutputs = 2.0;
+
+/// The bound of a path's departure from the cubic in the middle of a step, relative to the displacement scale. At
+/// order 4 the error is made of it; at order 2 the error is of a lower power of h. At order 6, whose path contains the
+/// departure, the error falls with its power 3/2 in smooth motion and 1 where stops open and close. Below
+/// kProportional, where impacts are all that is left of the error, the bound is proportional to the tolerance.
+/// Calibrated on beams and oscillators: tests/models/exponential_test.cpp.
+double middle_tolerance(const ExponentialOptions& options) {
+  constexpr double kProportional = 1e-4;
+  switch (options.order) {
+    case 2:
+      return 0.1 * std::pow(options.tolerance, 1.5);
+    case 4:
+      return 0.03 * options.tolerance;
+    default:
+      return 0.12 * std::min(std::pow(options.tolerance, 0.8), std::pow(kProportional, -0.2) * options.tolerance);
+  }
+}
+
+StepGoal step_goal(const ExponentialOptions& options) {
+  return {static_cast<std::size_t>(options.order / 2), middle_tolerance(options), kOutputs * options.tolerance,
+          options.tolerance, options.run_time};
+}
+
+void put_extras(State& state, const StepSizeControl::Memory& sizes, ContactScale scale, double end) {
+  state.memory.tail(kExtras) << sizes.index, scale.displacement, scale.speed, sizes.is_contact_free, sizes.longer, end;
+}
+
+}  // namespace
+
+template <class Step>
+Exponential<Step>::Exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options)
+    : Integrator(dynamics),
+      options_(options),
+      modal_(dynamics.modal(options.modes)),
+      load_kinks_(dynamics.load_kinks()),
+      step_(dynamics, modal_, step_goal(options), kMacroStep),
+      sizes_(first_index()) {}
+
+template <class Step>
+int Exponential<Step>::first_index() const {
+  if (!step_.has_stops()) return 0;
+  const Vector stiffness = dynamics().contact().closed_stiffness();
+  double square = 0.0;
+  for (Index i = 0; i < modal_.stop_count(); ++i)
+    square = std::max(square, stiffness[i] * modal_.stop_shapes().of(i).squaredNorm());
+  const double h = std::pow(options_.tolerance, options_.order == 2 ? 0.5 : 0.25) * 4.0 / std::sqrt(square);
+  // At most the time scale of the slowest motion
+  const double lowest = modal_.frequencies().minCoeff();
+  const double most = std::min(1.0 / std::sqrt(square), lowest > 0.0 ? 1.0 / lowest : h);
+  return static_cast<int>(std::floor(2.0 * std::log2(std::min(h, most))));
+}
+
+template <class Step>
+double Exponential<Step>::first_step(const State&) const {
+  return step_.has_stops() ? kMacroStep * ModalSystem::ladder_step(sizes_.first())
+                           : std::numeric_limits<double>::infinity();
+}
+
+template <class Step>
+void Exponential<Step>::do_start(State& state) {
+  const Index n = modal_.size();
+  state.memory.resize(step_.memory_size() + kExtras);
+  modal_.to_modal(state.x, state.memory.head(n));
+  modal_.to_modal(state.v, state.memory.segment(n, n));
+  step_.complete(state.memory.data());
+  ContactScale scale;
+  if (step_.has_stops()) {
+    Vector w(modal_.stop_count()), speed(modal_.stop_count());
+    modal_.stop_shapes().displacement(state.memory.data(), w.data());
+    modal_.stop_shapes().displacement(state.memory.data() + n, speed.data());
+    scale = {w.lpNorm<Eigen::Infinity>(), speed.lpNorm<Eigen::Infinity>()};
+  }
+  put_extras(state, sizes_.start(), scale, state.t);
+  if (modal_.is_complete()) return;
+  Vector kept(state.x.size());
+  for (const Vector* given : {&state.x, &state.v}) {
+    modal_.to_physical(state.memory.data() + (given == &state.v ? n : 0), kept);
+    if ((kept - *given).norm() > options_.tolerance * given->norm())
+      throw InputError("integrator.modes: " + std::to_string(n) +
+                       " modes do not hold the initial displacements and velocities to the tolerance; take more modes");
+  }
+}
+
+template <class Step>
+StepReport Exponential<Step>::do_step(const State& from, const time::Step& step, State& to) {
+  StepReport report = follow(from, step.t_end, step.single ? 1 : kMacroStep, std::numeric_limits<double>::infinity());
+  if (report.status != StepStatus::ok) return report;
+  to.t = step_.t();
+  step_.save(to.memory.data());
+  put_extras(to, sizes_.save(), step_.scale(), step.t_end);
+  modal_.to_physical(step_.q(), to.x);
+  modal_.to_physical(step_.v(), to.v);
+  dynamics().acceleration(to.t, to.x, to.v, to.a);
+  report.error = step_.has_stops() ? kMacroStep * ModalSystem::ladder_step(sizes_.contact_index())
+                                   : std::numeric_limits<double>::infinity();
+  return report;
+}
+
+template <class Step>
+StepReport Exponential<Step>::follow(const State& from, double end, int most, double until) const {
+  const auto extras = from.memory.tail(kExtras);
+  begin_t_ = from.t;
+  end_t_ = std::numeric_limits<double>::quiet_NaN();
+  begin_memory_ = from.memory;
+  step_.begin(from.t, from.memory.data(), {extras[1], extras[2]});
+  sizes_.load({extras[0], extras[3], extras[4]});
+  StepReport report;
+  report.inner_steps = 0;
+  while (report.inner_steps < most && step_.t() < std::min(end, until)) {
+    if (!advance(end, report)) break;
+  }
+  end_t_ = step_.t();
+  return report;
+}
+
+template <class Step>
+bool Exponential<Step>::advance(double end, StepReport& report) const {
+  const double t = step_.t(), kink = next_load_kink(t), last = std::min(end, kink);
+  int index = sizes_.next_index();
+  // A step without contact ends before the stop that it leads to: a longer one would be tried in vain.
+  if (index > sizes_.contact_index()) index = sizes_.next_index(step_.time_to_contact());
+  bool expects_motion = false;
+  while (true) {
+    const double h = ModalSystem::ladder_step(index);
+    if (!(t + h > t)) {
+      report.status = StepStatus::not_finite;
+      return false;
+    }
+    const bool fits = step_.has_stops() && t + h <= last;
+    // The rest of a macro step is shorter than a step: the next macro step takes it with whole ones.
+    if (!fits && kink >= end && report.inner_steps > 0) return false;
+    const Trial trial = fits ? step_.attempt_index(index) : step_.attempt_until(last);
+    const StepSizeControl::Outcome outcome = step_.outcome();
+    if (trial == Trial::accepted) {
+      step_.accept(fits ? t + h : last);
+      ++report.inner_steps;
+      sizes_.accept(outcome, fits);
+      return true;
+    }
+    if (trial == Trial::not_finite || sizes_.is_shortest(index)) {
+      report.status = StepStatus::not_finite;
+      return false;
+    }
+    ++report.inner_rejected;
+    const StepSizeControl::Retry retry = sizes_.reject(outcome, index, fits, last - t);
+    index = retry.index;
+    if (retry.was_contact && !expects_motion && sizes_.is_start_from_rest(index)) {
+      step_.expect_motion(sizes_.first());
+      expects_motion = true;
+    }
+  }
+}
+
+template <class Step>
+double Exponential<Step>::next_load_kink(double t) const {
+  const auto next = std::upper_bound(load_kinks_.begin(), load_kinks_.end(), t);
+  return next == load_kinks_.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+template <class Step>
+bool Exponential<Step>::holds(const State& from, double t_end) const {
+  return from.t == begin_t_ && t_end == end_t_ && from.memory == begin_memory_;
+}
+
+template <class Step>
+std::span<const double> Exponential<Step>::knots(const State& from, const State& to) const {
+  return recall(from, to).breakpoints();
+}
+
+template <class Step>
+Step& Exponential<Step>::recall(const State& from, const State& to) const {
+  if (!holds(from, to.t)) follow(from, to.memory.tail(1)[0], kMacroStep, to.t);
+  return step_;
+}
+
+template <class Step>
+std::span<const time::EnergyAt> Exponential<Step>::energies(const State& from, const State& to,
+                                                            std::span<const double> instants) const {
+  return recall(from, to).energies(instants);
+}
+
+template <class Step>
+void Exponential<Step>::departure(const State& from, const State& to, double begin, double end,
+                                  std::span<const Index> dofs, time::Interpolated out) const {
+  if constexpr (std::is_same_v<Step, ExponentialStep>) {
+    if (!step_.has_stops()) recall(from, to).departure(begin, end, dofs, out);
+  }
+}
+
+template <class Step>
+void Exponential<Step>::do_interpolate_all(const State& from, const State& to, std::span<const double> times,
+                                           std::span<const Index> dofs, time::Interpolated out) const {
+  std::size_t first = 0, last = times.size();
+  const auto copy = [&](const State& end, std::size_t instant) {
+    for (std::size_t i = 0, place = instant * dofs.size(); i < dofs.size(); ++i, ++place) {
+      if (!out.x.empty()) out.x[place] = end.x[dofs[i]];
+      if (!out.v.empty()) out.v[place] = end.v[dofs[i]];
+      if (!out.a.empty()) out.a[place] = end.a[dofs[i]];
+    }
+  };
+  for (; first < last && times[first] == from.t; ++first) copy(from, first);
+  for (; last > first && times[last - 1] == to.t; --last) copy(to, last - 1);
+  if (first == last) return;
+  const auto rest = [&](std::span<double> all) { return all.empty() ? all : all.subspan(first * dofs.size()); };
+  recall(from, to).interpolate(times.subspan(first, last - first), dofs, {rest(out.x), rest(out.v), rest(out.a)});
+}
+
+template class Exponential<ExponentialStep>;
+template class Exponential<SingleStep>;
+
+}  // namespace butee::integrators

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "integrators/exponential/contact_error.hpp"
+#include "integrators/exponential/interpolation_check.hpp"
+#include "integrators/exponential/macro_step.hpp"
+#include "integrators/exponential/step_size.hpp"
+
+namespace butee::integrators {
+
+/// The steps of the method `exponential` within a macro step: propagates the modes, finds the stops that may touch,
+/// iterates for their forces and judges the error. The parts are classes of their own; this one puts them in order.
+/// Checked in tests/unit/exponential_step_test.cpp and tests/models/exponential_test.cpp.
+class ExponentialStep {
+ public:
+  /// Macro steps are of up to `most` steps. Both references must outlive it.
+  ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, const StepGoal& goal, std::size_t most);
+
+  /// A state holds q, v, displacements and speeds of the stops, and ContactScales. complete() fills in all after q and
+  /// v.
+  Index memory_size() const { return 2 * modal_.size() + 2 * modal_.stop_count() + scales_.memory_size(); }
+  void complete(double* memory) const;
+  /// Begins a macro step with the state at t.
+  void begin(double t, const double* memory, ContactScale scale);
+  void save(double* memory) const;
+
+  /// Tries a step of the grid, or one until t; accept() takes it, to end at t.
+  Trial attempt_index(int index) {
+    return attempt(modal_.ladder(index), t() + dynamics::ModalSystem::ladder_step(index));
+  }
+  Trial attempt_until(double t);
+  StepSizeControl::Outcome outcome() const {
+    return {!step_.is_near, {error_, goal_.middle * scales_.largest().displacement}, interpolation_.error()};
+  }
+  void accept(double t);
+  /// Raises the scales to the motion of the stops in a step of the grid without contact.
+  void expect_motion(int index);
+
+  double t() const { return record_.breakpoints().last(); }
+  const double* q() const { return step_.from.q.data(); }
+  const double* v() const { return step_.from.v.data(); }
+  ContactScale scale() const { return scales_.largest(); }
+  /// ContactGaps::time_to_contact()
+  double time_to_contact() const { return bounds_.gaps().time_to_contact(step_.from); }
+  bool has_stops() const { return !contacts_.empty(); }
+
+  std::span<const double> breakpoints() const { return record_.breakpoints().inner(); }
+  /// The motion within the macro step, which does not change the state.
+  void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
+    record_.interpolate(times, dofs, out);
+  }
+  /// time::Integrator::energies() of the macro step; none without stops, whose steps are of any length.
+  std::span<const time::EnergyAt> energies(std::span<const double> instants) {
+    return has_stops() ? record_.energies(instants) : std::span<const time::EnergyAt>();
+  }
+  /// Without stops: time::Integrator::departure()
+  void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
+    record_.departure(begin, end, dofs, out);
+  }
+
+ private:
+  Trial attempt(dynamics::StepFlow& flow, double t_end);
+  /// The same with step_.carried among the iterated stops; nothing if that has grown, so that it has to be done again.
+  std::optional<Trial> attempt(dynamics::StepFlow& flow);
+  /// Adds the forces of stops that cross w = 0; false if the step is too long for them.
+  bool add_jumps(dynamics::StepFlow& flow);
+  /// To t_end without contact; `v` only where it is given.
+  void propagate(const dynamics::ModalFlow& flow, double t_end, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
+  /// Propagates to the end of the step; false if that is not finite.
+  bool propagate_to_end(const dynamics::ModalFlow& flow);
+  const Eigen::ArrayXd* residual_force() const { return errors_.any() ? &residual_.modal() : nullptr; }
+  /// Divides the stops into those whose forces are found by iteration and all others.
+  void choose_stops(dynamics::StepFlow& flow);
+  /// Moves stops that the residual forces bring near their gaps to the iterated ones; false if there is none.
+  bool choose_more_stops(dynamics::StepFlow& flow);
+  /// Outputs on a quintic through the ends are good enough, if need be with a breakpoint in the middle.
+  bool is_smooth(dynamics::StepFlow& flow);
+  bool shows_jump() const;
+  /// Keeps the forces of the step from the last breakpoint.
+  void record_forces();
+  void record_contacts(StepForces& forces, bool has_contact) const;
+
+  dynamics::ModalSystem& modal_;
+  StepGoal goal_;
+  std::vector<ContactForce> contacts_;
+  MacroStep record_;
+  TriedStep step_;
+  DisplacementBounds bounds_;
+  ContactScales scales_;
+  ResidualErrors errors_;
+  ResidualForces residual_;
+  ResidualJumps jumps_;
+  ContactIteration iteration_;
+  ContactError contact_error_;
+  InterpolationCheck interpolation_;
+  double error_ = 0.0;  ///< by contact_error_, m
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,71 @@
+// The method's parameters, and the choice between its forms.
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
+#include "integrators/exponential/exponential.hpp"
+#include "integrators/exponential/modal_collocation.hpp"
+#include "integrators/local_error.hpp"
+#include "integrators/methods.hpp"
+
+namespace butee::integrators {
+namespace {
+
+/// Tells the user which modes a truncated basis leaves out.
+std::string describe_basis(const dynamics::ModalSystem& modal, Index dofs) {
+  std::string text = "exponential with the lowest " + std::to_string(modal.size() - modal.static_count()) + " of " +
+                     std::to_string(dofs) + " modes";
+  if (modal.static_count() > 0)
+    text += " and " + std::to_string(modal.static_count()) + " static shapes: the modes left out hold up to " +
+            to_short_text(100.0 * modal.truncation()) +
+            " % of what a stop or a load moves itself by; they follow forces slower than " +
+            to_short_text(modal.highest_mode()) + " rad/s, and what faster ones lose no tolerance makes good";
+  else
+    text += ": what the others hold is left out, whatever the tolerance";
+  return text + "; give more modes, or another type, where that is too much";
+}
+
+/// Something couples the modes, or contacts act in the plane.
+bool is_coupled(const model::System& system) {
+  return !system.is_symmetric || system.rotation != nullptr || !system.obstacles.empty() ||
+         (system.size() > 1 && system.dashpots.size() > 0);
+}
+
+}  // namespace
+
+std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options) {
+  if (is_coupled(dynamics.system()))
+    return std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
+  if (dynamics.stop_count() > 0 && options.tolerance < kSmallestWithStops)
+    throw InputError("integrator.tolerance: must be at least " + to_short_text(kSmallestWithStops) +
+                     " for exponential where stops act: below it the errors of many impacts add up to more than it "
+                     "promises; take rodas4, extrapolation8, exact or piecewise, or auto, which chooses among them");
+  if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
+  auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
+  const dynamics::ModalSystem& modal = dynamics.modal(options.modes);
+  if (!modal.is_complete()) integrator->set_choice(describe_basis(modal, dynamics.size()));
+  return integrator;
+}
+
+time::IntegratorType exponential_type() {
+  return {.name = "exponential",
+          .aliases = {"EXP"},
+          .summary = "the linear part exactly, mode by mode; the stops by the projection of their force; adaptive",
+          .parameters = {LocalErrorControl::parameter(1e-4, 1e-10),
+                         config::integer("order", "2, 4 or 6").at_least(2).at_most(6).or_else(std::int64_t{6}),
+                         config::integer(
+                             "modes", "the lowest modes to take; 0: all up to 600 DOFs, 300 above, with static shapes")
+                             .at_least(0)
+                             .or_else(std::int64_t{0})},
+          .finds_first_step = true,
+          .contacts = time::ContactSupport::without_memory,
+          .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+            return make_exponential(dynamics,
+                                    {p.number("tolerance"), p.number("end_time"), static_cast<int>(p.integer("order")),
+                                     static_cast<Index>(p.integer("modes"))});
+          },
+          .check =
+              [](const config::Parameters& p, config::Diagnostics& diagnostics) {
+                if (p.integer("order") % 2 != 0) p.complain(diagnostics, "order", "must be 2, 4 or 6");
+              }};
+}
+
+}  // namespace butee::integrators

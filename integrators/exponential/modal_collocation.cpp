@@ -1,0 +1,159 @@
+#include "integrators/exponential/modal_collocation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace butee::integrators {
+namespace {
+
+using time::State;
+using time::StepReport;
+using time::StepStatus;
+
+constexpr Index kCount = StepNodes::kCount;
+/// The estimate is the local error of a method of order 10: it falls with h^11.
+constexpr LocalErrorControl::Orders kOrders = {.estimate = 11.0, .method = 10.0, .constant = 1.0, .kink = 1.0};
+/// Sweeps end where they change velocities by this part of what a step may be wrong by.
+constexpr double kSettled = 0.05;
+/// The motion of contacts between nodes is resolved to this part of the tolerance.
+constexpr double kResolved = 0.1;
+/// Responses that are kept; those of steps that were cut short are used once or twice.
+constexpr std::size_t kKept = 12;
+/// A step is redone so often because a stop opens or closes within it. It must end as near to that as kCut tolerances,
+/// and kCoarsestCut, parts of its length.
+constexpr int kMostCuts = 5;
+constexpr double kCut = 1e-3, kCoarsestCut = 1e-6;
+/// Behind the end of a step that was cut a kink is looked for in this part of its length.
+constexpr double kBeyond = 0.02;
+
+/// The longest step of the ladder 2^(k/4) s that is no longer than h.
+double on_ladder(double h) {
+  return std::exp2(std::floor(4.0 * std::log2(h)) / 4.0);
+}
+
+/// The factor by which a step changes whose motion between nodes is `coarse` times as coarse as it may be.
+double by_resolution(double coarse) {
+  return 0.9 * std::pow(coarse, -1.0 / 7.0);
+}
+
+}  // namespace
+
+ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal)
+    : Integrator(dynamics),
+      control_(dynamics, goal, kOrders, LocalErrorControl::Steps::ladder),
+      modes_(dynamics, goal.run_time),
+      loads_(modes_, dynamics.system()),
+      forces_(dynamics, modes_),
+      tolerance_(goal.tolerance),
+      rate_(ErrorAccount(goal).rate()),
+      memory_begin_(LocalErrorControl::memory_size(dynamics.size())),
+      outputs_(modes_, loads_, goal.tolerance, memory_begin_) {}
+
+double ModalCollocation::first_step(const State&) const {
+  constexpr double kOfContact = 0.3;
+  const double frequency = std::max({forces_.dofs().highest_frequency() / kOfContact, loads_.highest_frequency(),
+                                     modes_.count() > 0 ? modes_.speed()[0] : 0.0});
+  return frequency > 0.0 ? on_ladder(1.0 / frequency) : std::numeric_limits<double>::infinity();
+}
+
+void ModalCollocation::do_start(State& state) {
+  const Index p = modes_.count();
+  state.memory.setZero(memory_begin_ + 2 * p * (1 + kCount));
+  control_.start(state);
+  modes_.to_modal(state.x, state.v, state.memory.segment(memory_begin_, 2 * p));
+  step_end_ = std::numeric_limits<double>::quiet_NaN();
+  outputs_.reset();
+}
+
+const StepResponse& ModalCollocation::response(double h) {
+  const auto found =
+      std::find_if(responses_.begin(), responses_.end(), [h](const StepResponse& kept) { return kept.h() == h; });
+  if (found != responses_.end()) {
+    responses_.splice(responses_.begin(), responses_, found);
+    return responses_.front();
+  }
+  if (responses_.size() >= kKept) responses_.pop_back();
+  return responses_.emplace_front(modes_, loads_.turning(), h);
+}
+
+StepReport ModalCollocation::do_step(const State& from, const time::Step& step, State& to) {
+  StepReport report;
+  if (step.is_part && from.t == step_begin_ && to.t <= solved_end_ && end_at(from, to, report)) return report;
+  step_end_ = std::numeric_limits<double>::quiet_NaN();
+  outputs_.reset();
+  const auto redo_with = [&report](double h) {
+    report.error = 2.0;
+    report.proposal = on_ladder(h);
+    return report;
+  };
+  const double wanted = to.t - from.t,
+               coarse = forces_.unresolved(from, modal(from), loads_, wanted) / (kResolved * tolerance_);
+  if (coarse > 1.0) return redo_with(wanted * std::max(0.1, by_resolution(coarse)));
+  double h = wanted;
+  for (int cut = 0;; ++cut) {
+    const StepResponse& response = this->response(h);
+    const double* const loads = loads_.has_others() ? loads_.polynomial(from.t, h).data() : nullptr;
+    response.move(from.t, modal(from), loads, forces_.free_nodes());
+    const auto outcome = forces_.find(from, response, kSettled * rate_ * h);
+    if (outcome == NodeForces::Outcome::diverged) return redo_with(0.5 * h);
+    if (outcome == NodeForces::Outcome::not_finite) {
+      report.status = StepStatus::not_finite;
+      return report;
+    }
+    if (dynamics().stop_count() == 0 || cut == kMostCuts) break;
+    // The forces of a step that goes on behind a kink misplace it: a step that was cut may end before it.
+    const double beyond = cut > 0 ? std::min(1.0 + kBeyond, wanted / h) : 1.0, kink = forces_.first_kink(beyond);
+    if (kink >= beyond || std::abs(kink - 1.0) <= std::min(kCoarsestCut, kCut * tolerance_) ||
+        !(from.t + kink * h > from.t))
+      break;
+    h *= kink;
+    to.t = from.t + h;
+    ++report.inner_rejected;
+  }
+  accept(from, h, to);
+  if (const double most = outputs_.longest(from, to); h > most) return redo_with(most);
+  solved_end_ = to.t;
+  judge(from, to, h, report);
+  if (report.error > 1.0) return report;
+  if (coarse > 0.0) report.proposal = std::min(report.proposal, on_ladder(h * by_resolution(coarse)));
+  // A step that a stop cut short says nothing against longer ones.
+  if (h < wanted) report.proposal = std::max(report.proposal, wanted);
+  return report;
+}
+
+bool ModalCollocation::end_at(const State& from, State& to, StepReport& report) {
+  const double h = to.t - from.t;
+  const StepResponse response(modes_, loads_.turning(), h);
+  response.move(from.t, modal(from), loads_.has_others() ? loads_.polynomial(from.t, h).data() : nullptr,
+                forces_.free_nodes());
+  forces_.end_at(h / (step_end_ - step_begin_), response);
+  accept(from, h, to);
+  judge(from, to, h, report);
+  if (report.error <= 1.0) return true;
+  report = {};
+  return false;
+}
+
+void ModalCollocation::judge(const State& from, State& to, double h, StepReport& report) {
+  const Vector error_x = modes_.displacement().transpose() * forces_.error(),
+               error_v = modes_.velocity().transpose() * forces_.error();
+  control_.judge(from, to, h, error_x, error_v, report);
+}
+
+void ModalCollocation::accept(const State& from, double h, State& to) {
+  const Index p = modes_.count();
+  step_begin_ = from.t;
+  step_end_ = to.t;
+  outputs_.accept(from.t, to.t, forces_.nodes());
+  const auto end = forces_.nodes().col(StepNodes::kEnd);
+  to.memory.segment(memory_begin_, 2 * p) = end;
+  Eigen::Map<Eigen::MatrixXd> polynomial(to.memory.data() + memory_begin_ + 2 * p, 2 * p, kCount);
+  polynomial = forces_.polynomial();
+  if (loads_.has_others()) polynomial += loads_.polynomial(from.t, h);
+  to.x.noalias() = modes_.displacement().transpose() * end;
+  to.v.noalias() = modes_.velocity().transpose() * end;
+  dynamics().acceleration(to.t, to.x, to.v, to.a);
+}
+
+}  // namespace butee::integrators

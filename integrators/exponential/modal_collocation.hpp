@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <list>
+#include <span>
+
+#include "integrators/exponential/collocation_outputs.hpp"
+#include "integrators/exponential/modal_loads.hpp"
+#include "integrators/exponential/node_forces.hpp"
+
+namespace butee::integrators {
+
+/// exponential for structures whose modes are coupled (dashpots, parts that turn, bearings with cross terms) and for
+/// contacts in the plane, with dissipation or friction.
+///
+/// The linear part is exact, in damped modes (dynamics::DampedModes), harmonic loads included. Contact forces, and
+/// loads that are no harmonics, are polynomials over a step through their values at Lobatto's six points, found by
+/// sweeps: forces, motion of the contacts, forces. With the value in the middle as a seventh point one more sweep
+/// follows; what it changes at the end is the error of the step. The motion of a smooth step has order 10. Steps end
+/// where a contact changes its phase and where a stop with a kinked law opens or closes.
+/// plugins/exponential/COLLOCATION.md derives it.
+class ModalCollocation final : public time::Integrator {
+ public:
+  ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal);
+
+  const time::StepController* controller() const override { return &control_.controller(); }
+  double first_step(const time::State& state) const override;
+  bool follows_contact_phases() const override { return true; }
+  double event_precision() const override { return std::min(1e-7, 1e-4 * tolerance_); }
+  time::DenseOutput dense_output() const override { return time::DenseOutput::near_quintic; }
+  std::span<const double> knots(const time::State& from, const time::State& to) const override {
+    return outputs_.knots(from, to);
+  }
+  int trace_parts(const time::State&, const time::State&) const override { return StepNodes::kCount - 1; }
+
+ private:
+  void do_start(time::State& state) override;
+  time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                      time::Interpolated out) const override {
+    outputs_.interpolate(from, to, t, dofs, out);
+  }
+  void do_trace(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                time::Interpolated out) const override {
+    outputs_.trace(from, to, t, dofs, out);
+  }
+
+  /// The response over a step of length h, made at its first use.
+  const StepResponse& response(double h);
+  /// Ends the step that forces_ holds elsewhere, at to.t, with the same forces; false where these are too far off
+  /// there.
+  bool end_at(const time::State& from, time::State& to, time::StepReport& report);
+  /// Fills `to` with the end of the step that forces_ holds.
+  void accept(const time::State& from, double h, time::State& to);
+  /// Errors of displacements and velocities at the end.
+  void judge(const time::State& from, time::State& to, double h, time::StepReport& report);
+  const double* modal(const time::State& state) const { return state.memory.data() + memory_begin_; }
+
+  LocalErrorControl control_;
+  dynamics::DampedModes modes_;
+  ModalLoads loads_;
+  NodeForces forces_;
+  double tolerance_, rate_;
+  Index memory_begin_;  ///< of z and the force polynomials in State::memory
+  std::list<StepResponse> responses_;
+  double step_begin_ = 0.0, step_end_ = -1.0;  ///< s, of the step that forces_ holds
+  double solved_end_ = -1.0;                   ///< s: to which its forces were found
+  mutable CollocationOutputs outputs_;
+};
+
+}  // namespace butee::integrators

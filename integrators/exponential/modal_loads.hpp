@@ -1,0 +1,40 @@
+#pragma once
+
+#include "butee/model/system.hpp"
+#include "integrators/exponential/modal_response.hpp"
+
+namespace butee::integrators {
+
+/// The loads of a system on its damped modes: harmonic ones, which are integrated exactly, and piecewise parabolic
+/// ones, which are polynomials over a step between their kinks.
+class ModalLoads {
+ public:
+  /// Throws InputError for any other load. `modes` and `system` must outlive it.
+  ModalLoads(const dynamics::DampedModes& modes, const model::System& system);
+
+  const std::vector<TurningLoad>& turning() const { return turning_; }
+  /// The highest frequency of a harmonic load, rad/s; 0 without one.
+  double highest_frequency() const;
+  /// By how much the motion that harmonic loads keep up departs at most from the polynomial through its values at the
+  /// nodes of a step of length h, where mode k at |z| = 1 moves by reach[k].
+  double unresolved(double h, const Eigen::ArrayXd& reach) const;
+  bool has_others() const { return !others_.empty(); }
+  /// The factors of 1, s, ..., s^6 of the other loads over a step of length h from t, 2p x 7.
+  const Eigen::MatrixXd& polynomial(double t, double h);
+  /// rate += what the harmonic loads add to dz/dt at an instant.
+  void add_turning(double t, Eigen::VectorXd& rate) const;
+
+ private:
+  struct Other {
+    const model::TimeFunction* in_time;
+    Eigen::VectorXd shape;  ///< 2p
+  };
+  void add_harmonic(const model::Harmonic& harmonic, const Eigen::VectorXd& shape);
+
+  const dynamics::DampedModes& modes_;
+  std::vector<TurningLoad> turning_;
+  std::vector<Other> others_;
+  Eigen::MatrixXd polynomial_;
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,169 @@
+#include "integrators/exponential/modal_response.hpp"
+
+#include <cmath>
+#include <complex>
+
+namespace butee::integrators {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr int kPowers = static_cast<int>(StepNodes::kCount);
+/// |lambda c h| up to which the series is taken, and its terms, of which the last is below rounding there.
+constexpr double kSmall = 7.0;
+constexpr int kMostTerms = 34;
+constexpr double kRounding = 1e-18;
+
+/// (e^w - 1)/w for |w| <= 1/2.
+Complex phi(Complex w) {
+  Complex sum = 1.0, term = 1.0;
+  for (int k = 2; k < 18; ++k) sum += term *= w / static_cast<double>(k);
+  return sum;
+}
+
+}  // namespace
+
+PlaceResponse::PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place,
+                             double h, Index first)
+    : first_(first), count_(modes.count()) {
+  const Index rest = count_ - first;
+  const double length = place * h;
+  propagator_.resize(rest, 2);
+  const auto decay = modes.decay().tail(rest), turn = modes.turn().tail(rest);
+  for (Index k = 0; k < rest; ++k) {
+    const double size = std::exp(decay[k] * length), angle = turn[k] * length;
+    propagator_(k, 0) = size * std::cos(angle);
+    propagator_(k, 1) = size * std::sin(angle);
+  }
+  find_moments(decay, turn, modes.speed().tail(rest), place, h);
+  for (const TurningLoad& load : loads) add_harmonics(decay, turn, load, length);
+}
+
+void PlaceResponse::find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstArrayRef speed, double place, double h) {
+  const Index p = decay.size();
+  moments_.resize(p, 2 * kPowers);
+  std::array<double, kPowers + 1> power{};  // h c^r
+  power[0] = h;
+  for (std::size_t r = 1; r < power.size(); ++r) power[r] = power[r - 1] * place;
+  Index slow = 0;
+  while (slow < p && speed[slow] * place * h <= kSmall) ++slow;
+  // In w = lambda c h: moment_r = h c^(r+1) sum_k w^k r!/(r+k+1)!, here for the highest r.
+  constexpr int top = kPowers - 1;
+  if (slow > 0) {
+    const Eigen::ArrayXd wr = decay.head(slow) * (place * h), wi = turn.head(slow) * (place * h);
+    Eigen::ArrayXd tr = Eigen::ArrayXd::Constant(slow, power[kPowers] / kPowers), ti = Eigen::ArrayXd::Zero(slow),
+                   sr = tr, si = ti;
+    const double largest = speed[slow - 1] * place * h;
+    double bound = 1.0;
+    for (int k = 1; k < kMostTerms && bound > kRounding; ++k) {
+      const double factor = 1.0 / (top + k + 1);
+      bound *= largest * factor;
+      for (Index i = 0; i < slow; ++i) {
+        const double re = factor * (tr[i] * wr[i] - ti[i] * wi[i]);
+        ti[i] = factor * (tr[i] * wi[i] + ti[i] * wr[i]);
+        tr[i] = re;
+        sr[i] += re;
+        si[i] += ti[i];
+      }
+    }
+    moments_.col(2 * top).head(slow) = sr;
+    moments_.col(2 * top + 1).head(slow) = si;
+    // moment_(r-1) = (lambda h moment_r + h c^r)/r
+    const Eigen::ArrayXd dr = decay.head(slow) * h, di = turn.head(slow) * h;
+    for (int r = top; r > 0; --r) {
+      const auto re = moments_.col(2 * r).head(slow), im = moments_.col(2 * r + 1).head(slow);
+      moments_.col(2 * r - 2).head(slow) = (dr * re - di * im + power[static_cast<std::size_t>(r)]) / r;
+      moments_.col(2 * r - 1).head(slow) = (dr * im + di * re) / r;
+    }
+  }
+  if (slow == p) return;
+  // moment_r = (r moment_(r-1) - h c^r)/(lambda h), from moment_0 = h (e^w - 1)/(lambda h)
+  const Index fast = p - slow;
+  const Eigen::ArrayXd dr = decay.tail(fast) * h, di = turn.tail(fast) * h, square = dr.square() + di.square(),
+                       on_dr = dr / square, on_di = di / square;
+  Eigen::ArrayXd re = h * (propagator_.col(0).tail(fast) - 1.0), im = h * propagator_.col(1).tail(fast);
+  for (int r = 0; r < kPowers; ++r) {
+    if (r > 0) {
+      re = r * moments_.col(2 * r - 2).tail(fast) - power[static_cast<std::size_t>(r)];
+      im = r * moments_.col(2 * r - 1).tail(fast);
+    }
+    moments_.col(2 * r).tail(fast) = re * on_dr + im * on_di;
+    moments_.col(2 * r + 1).tail(fast) = im * on_dr - re * on_di;
+  }
+}
+
+void PlaceResponse::add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const TurningLoad& load, double length) {
+  const Index p = decay.size();
+  Harmonic& harmonic = harmonics_.emplace_back();
+  harmonic.angular_frequency = load.angular_frequency;
+  const double c = std::cos(load.angular_frequency * length), s = std::sin(load.angular_frequency * length);
+  for (const double sense : {1.0, -1.0}) {
+    const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
+    Eigen::VectorXd& out = sense > 0.0 ? harmonic.forth : harmonic.back;
+    out.resize(2 * p);
+    const double* const of_re = force.data() + first_;
+    const double* const of_im = of_re + count_;
+    const double *const pr = propagator_.col(0).data(), *const pi = propagator_.col(1).data();
+    // w = (i Omega - lambda) length: (e^(i Omega length) - e^(lambda length)) length/w
+    for (Index k = 0; k < p; ++k) {
+      const double wr = -decay[k] * length, wi = (sense * load.angular_frequency - turn[k]) * length,
+                   factor = length / (wr * wr + wi * wi), ar = c - pr[k], ai = sense * s - pi[k],
+                   re = factor * (ar * wr + ai * wi), im = factor * (ai * wr - ar * wi);
+      out[k] = re * of_re[k] - im * of_im[k];
+      out[p + k] = re * of_im[k] + im * of_re[k];
+    }
+    // Where that cancels, e^(lambda length) length phi(w).
+    for (Index k = 0; k < p; ++k) {
+      const Complex w(-decay[k] * length, (sense * load.angular_frequency - turn[k]) * length);
+      if (std::norm(w) > 0.25) continue;
+      const Complex part = Complex(pr[k], pi[k]) * length * phi(w) * Complex(of_re[k], of_im[k]);
+      out[k] = part.real();
+      out[p + k] = part.imag();
+    }
+  }
+}
+
+void PlaceResponse::move(double t, const double* z, const double* g, Eigen::Ref<Eigen::VectorXd> out) const {
+  const Index rest = propagator_.rows();
+  const Eigen::Map<const Eigen::ArrayXd> zr(z + first_, rest), zi(z + count_ + first_, rest);
+  auto re = out.segment(first_, rest), im = out.segment(count_ + first_, rest);
+  re.array() = propagator_.col(0) * zr - propagator_.col(1) * zi;
+  im.array() = propagator_.col(0) * zi + propagator_.col(1) * zr;
+  for (const Harmonic& load : harmonics_) {
+    const double c = std::cos(load.angular_frequency * t), s = std::sin(load.angular_frequency * t);
+    re += c * (load.forth.head(rest) + load.back.head(rest)) - s * (load.forth.tail(rest) - load.back.tail(rest));
+    im += c * (load.forth.tail(rest) + load.back.tail(rest)) + s * (load.forth.head(rest) - load.back.head(rest));
+  }
+  if (g != nullptr) add_force(g, out);
+}
+
+void PlaceResponse::add_force(const double* g, Eigen::Ref<Eigen::VectorXd> out) const {
+  const Index rest = propagator_.rows();
+  double* const re = out.data() + first_;
+  double* const im = re + count_;
+  for (Index r = 0; r < kPowers; ++r) {
+    const double *gr = g + 2 * count_ * r + first_, *gi = gr + count_, *mr = moments_.col(2 * r).data(),
+                 *mi = moments_.col(2 * r + 1).data();
+    for (Index k = 0; k < rest; ++k) {
+      re[k] += mr[k] * gr[k] - mi[k] * gi[k];
+      im[k] += mr[k] * gi[k] + mi[k] * gr[k];
+    }
+  }
+}
+
+StepResponse::StepResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double h)
+    : h_(h) {
+  for (Index j = 1; j < StepNodes::kCount; ++j)
+    places_.emplace_back(modes, loads, StepNodes::kPlaces[static_cast<std::size_t>(j)], h);
+}
+
+void StepResponse::move(double t, const double* z, const double* g, Eigen::MatrixXd& nodes) const {
+  nodes.col(0) = Eigen::Map<const Eigen::VectorXd>(z, nodes.rows());
+  for (std::size_t j = 0; j < places_.size(); ++j) places_[j].move(t, z, g, nodes.col(static_cast<Index>(j) + 1));
+}
+
+void StepResponse::add_force(const double* g, Eigen::MatrixXd& nodes) const {
+  for (std::size_t j = 0; j < places_.size(); ++j) places_[j].add_force(g, nodes.col(static_cast<Index>(j) + 1));
+}
+
+}  // namespace butee::integrators

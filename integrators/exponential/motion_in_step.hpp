@@ -1,0 +1,59 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "butee/dynamics/dynamics.hpp"
+#include "butee/dynamics/modal_motion.hpp"
+#include "integrators/exponential/breakpoints.hpp"
+#include "integrators/exponential/contact_force.hpp"
+
+namespace butee::integrators {
+
+/// The motion of all modes at any instant of a step, under the loads and the projected forces of the step. The force of
+/// a stop that changes its status, or whose residual force jumps, is projected anew up to that instant where outputs
+/// would show the difference (plugins/exponential/THEORY.md, section 10).
+class MotionInStep {
+ public:
+  /// All must outlive it.
+  MotionInStep(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts,
+               const Breakpoints& breakpoints);
+
+  /// At a new macro step.
+  void begin() { begun_ = kNone; }
+  /// Finds q and v at t in the step from a breakpoint.
+  void find(std::size_t from, double t);
+  const double* q() const { return motion_.q(); }
+  const double* v() const { return motion_.v(); }
+  std::array<double, 3> products(const Vector& shape, const Vector& weight) const {
+    return motion_.products(shape, weight);
+  }
+
+  /// cos and sin of the harmonic loads at t.
+  std::span<const Phase> find_phases(double t);
+  /// The forces of the stops at t, N, after find() for it; nullptr: there are none.
+  const Vector* find_forces(std::size_t from, double t);
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  struct Contact {
+    Index stop;
+    ContactPath path;
+    ForceMoments moments;
+  };
+  void find_contacts(std::size_t from);
+
+  dynamics::Dynamics& dynamics_;
+  const dynamics::ModalSystem& modal_;
+  std::vector<ContactForce>& contacts_;
+  const Breakpoints& breakpoints_;
+  dynamics::ModalMotion motion_;
+  std::size_t begun_ = kNone;      ///< the breakpoint that motion_ begins at
+  std::vector<Contact> closed_;    ///< whose moments are their force
+  std::vector<Contact> changing_;  ///< whose force is projected anew
+  Vector compliances_;             ///< of each stop for short times, |phi|^2, 1/kg
+  Vector forces_;
+  std::vector<Phase> phases_;
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,175 @@
+#include "integrators/exponential/node_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace butee::integrators {
+namespace {
+
+using time::State;
+
+constexpr Index kCount = StepNodes::kCount, kEnd = StepNodes::kEnd;
+constexpr int kMostSweeps = 25;
+/// A sweep that changes the forces by more than this part of what the one before did will not come to an end soon.
+constexpr double kContraction = 0.6;
+/// Changes of a force below this part of it are rounding.
+constexpr double kRounding = 1e-13;
+/// The same of what contacts do to the end of a step, from which the polynomials' coefficients lose further digits.
+constexpr double kRoundingOfEnd = 1e-12;
+
+}  // namespace
+
+NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes)
+    : dynamics_(dynamics), modes_(modes), dofs_(dynamics, modes) {
+  instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
+  const Index p = modes.count();
+  free_ = nodes_ = polynomial_ = missed_ = Eigen::MatrixXd::Zero(2 * p, kCount);
+  error_ = Vector::Zero(2 * p);
+}
+
+double NodeForces::unresolved(const State& from, const double* z, const ModalLoads& loads, double h) const {
+  double scale = 0.0, sum = loads.unresolved(h, dofs_.reach());
+  const auto scales = LocalErrorControl::scales_x(from);
+  for (const Index dof : dofs_.all()) scale = std::max(scale, scales[dof]);
+  if (scale == 0.0) return 0.0;
+  const Index p = modes_.count();
+  for (Index k = 0; k < p; ++k)
+    sum += dofs_.reach()[k] * std::hypot(z[k], z[p + k]) * StepNodes::missed_part(modes_.speed()[k] * h);
+  return sum / scale;
+}
+
+void NodeForces::find_forces(double t, double h, Index node) {
+  auto& [x, v, force] = instant_;
+  for (Index k = 0; k < active_.count(); ++k) {
+    const Index dof = active_.dofs[static_cast<std::size_t>(k)];
+    x[dof] = moved_(k, node);
+    if (dofs_.need_velocity()) v[dof] = moved_velocity_(k, node);
+    force[dof] = 0.0;
+  }
+  dynamics_.add_contact_force(x, force);
+  dynamics_.add_obstacle_force(t + StepNodes::kPlaces[static_cast<std::size_t>(node)] * h, x, v, force);
+  for (Index k = 0; k < active_.count(); ++k) forces_(k, node) = force[active_.dofs[static_cast<std::size_t>(k)]];
+}
+
+void NodeForces::find_forces(double t, double h) {
+  moved_.rightCols(kCount - 1).noalias() = active_.displacement.transpose() * nodes_.rightCols(kCount - 1);
+  if (dofs_.need_velocity())
+    moved_velocity_.rightCols(kCount - 1).noalias() = active_.velocity.transpose() * nodes_.rightCols(kCount - 1);
+  for (Index j = 1; j < kCount; ++j) find_forces(t, h, j);
+}
+
+void NodeForces::move(const StepResponse& response, const StepNodes::Matrix& coefficients) {
+  coefficients_.noalias() = forces_ * coefficients;
+  polynomial_.noalias() = active_.input * coefficients_;
+  nodes_ = free_;
+  response.add_force(polynomial_.data(), nodes_);
+}
+
+double NodeForces::change(const State& from, double h) const {
+  const auto scale_x = LocalErrorControl::scales_x(from), scale_v = LocalErrorControl::scales_v(from);
+  const double time = dofs_.highest_frequency() > 0.0 ? 1.0 / dofs_.highest_frequency() : h;
+  double largest = 0.0;
+  for (Index k = 0; k < active_.count(); ++k) {
+    const auto now = forces_.row(k), before = forces_before_.row(k);
+    const double difference = (now - before).cwiseAbs().maxCoeff();
+    if (std::isnan(difference)) return difference;
+    if (difference <= kRounding * now.cwiseAbs().maxCoeff()) continue;
+    // At a start from rest: the speed that the acceleration makes within 1/omega of the contact.
+    const Index dof = active_.dofs[static_cast<std::size_t>(k)];
+    const double speed = std::max(scale_v[dof], time * std::abs(from.a[dof])),
+                 way = std::max(scale_x[dof], time * speed), change = h * dofs_.inverse_mass(dof) * difference;
+    largest = std::max({largest, change / std::max(speed, change), h * change / std::max(way, h * change)});
+  }
+  return largest;
+}
+
+NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& response, double settled) {
+  if (active_.find(dynamics_, modes_))
+    for (AtNodes* rows : {&forces_, &moved_, &moved_velocity_}) rows->resize(active_.count(), kCount);
+  error_.setZero();
+  if (active_.count() == 0) {
+    polynomial_.setZero();
+    missed_.setZero();
+    nodes_ = free_;
+    return nodes_.allFinite() ? Outcome::converged : Outcome::not_finite;
+  }
+  start(from);
+  const double t = from.t, h = response.h();
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostSweeps; ++round) {
+    move(response, StepNodes::with_middle());
+    forces_before_ = forces_;
+    find_forces(t, h);
+    const double now = change(from, h);
+    if (std::isnan(now)) return Outcome::not_finite;
+    if (now <= settled) {
+      estimate(t, response);
+      return nodes_.allFinite() ? Outcome::converged : Outcome::not_finite;
+    }
+    if (round > 2 && now > kContraction * before) return Outcome::diverged;
+    before = now;
+  }
+  return Outcome::diverged;
+}
+
+void NodeForces::start(const State& from) {
+  for (Index k = 0; k < active_.count(); ++k) {
+    const Index dof = active_.dofs[static_cast<std::size_t>(k)];
+    moved_(k, 0) = from.x[dof];
+    moved_velocity_(k, 0) = from.v[dof];
+  }
+  instant_.x.setZero();
+  instant_.v.setZero();
+  find_forces(from.t, 0.0, 0);
+  for (Index j = 1; j < kCount; ++j) forces_.col(j) = forces_.col(0);
+}
+
+void NodeForces::estimate(double t, const StepResponse& response) {
+  const Eigen::MatrixXd nodes = nodes_, polynomial = polynomial_;
+  const AtNodes moved = moved_, legendre = forces_ * StepNodes::legendre();
+  move(response, StepNodes::without_middle());
+  // This alone moves the end hardly at all where the linear part is slow; what matters is how the contacts answer.
+  find_forces(t, response.h());
+  move(response, StepNodes::without_middle());
+  error_ = nodes_.col(kEnd) - nodes.col(kEnd);
+  // With and without the middle the polynomials have the same integral: its error is another.
+  for (Index k = 0; k < legendre.rows(); ++k)
+    error_ += response.h() * StepNodes::quadrature_error(legendre.row(k)) * active_.input.col(k);
+  // In equilibrium nothing but rounding is left.
+  if (error_.norm() <= kRoundingOfEnd * (nodes.col(kEnd) - free_.col(kEnd)).norm()) error_.setZero();
+  missed_ = polynomial_ - polynomial;
+  nodes_ = nodes;
+  polynomial_ = polynomial;
+  moved_ = moved;
+}
+
+void NodeForces::end_at(double part, const StepResponse& response) {
+  double power = 1.0;
+  for (Index r = 0; r < kCount; ++r, power *= part) {
+    polynomial_.col(r) *= power;
+    missed_.col(r) *= power;
+  }
+  nodes_ = free_;
+  response.add_force(polynomial_.data(), nodes_);
+  error_.setZero();
+  response.add_force_at_end(missed_.data(), error_);
+}
+
+double NodeForces::first_kink(double last) const {
+  const dynamics::Contact& contact = dynamics_.contact();
+  const auto row = [&](Index dof) -> StepNodes::Row {
+    if (dof < 0) return StepNodes::Row::Zero();
+    return moved_.row(active_.place(dof));
+  };
+  double first = last;
+  for (Index i = 0; i < contact.size(); ++i) {
+    const StepNodes::Row motion = (row(contact.dof_a(i)) - row(contact.dof_b(i))) * StepNodes::with_middle();
+    const model::Sides sides = contact.sides_of(i);
+    if (sides != model::Sides::negative) first = StepNodes::first_crossing(motion, contact.gap_of(i), first);
+    if (sides != model::Sides::positive) first = StepNodes::first_crossing(motion, -contact.gap_of(i), first);
+  }
+  return first;
+}
+
+}  // namespace butee::integrators

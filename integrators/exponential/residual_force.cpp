@@ -1,0 +1,31 @@
+#include "integrators/exponential/residual_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace butee::integrators {
+
+ResidualForce::ResidualForce(const dynamics::Contact& contact, Index stop)
+    : largest_(contact.law_of(stop).far_force()),
+      bend_(contact.law_of(stop).bend_width()),
+      gap_(contact.gap_of(stop)),
+      jumps_(contact.sides_of(stop) == model::Sides::both) {}
+
+double ResidualForce::constant_error(double w0, double w1, double bound, double compliance, double steps) const {
+  // The next term of the arctan's series about infinity.
+  const double part = bend_ / (gap_ - bound), varying = part * part / 3.0 * steps * steps;
+  const double shift = largest_ * compliance, on_the_way = std::abs(w1 - w0);
+  const bool stays = (w0 > 0.0) == (w1 > 0.0) && std::min(std::abs(w0), std::abs(w1)) > shift;
+  const double jump = !jumps_ || stays ? 0.0 : 2.0 * (shift < on_the_way ? shift / on_the_way : 1.0);
+  return largest_ * compliance * (varying + jump * steps);
+}
+
+double constant_force_limit(const dynamics::Contact& contact, Index stop) {
+  constexpr double kBends = 10.0, kHuge = 1e100, kBlunt = 100.0;
+  const model::ContactLaw& law = contact.law_of(stop);
+  const double bend = std::min(law.bend_width(), kHuge), gap = contact.gap_of(stop);
+  if (law.far_force() > 0.0 && gap < kBlunt * bend) return -kHuge;
+  return gap - kBends * bend;
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "integrators/exponential/contact_force.hpp"
+#include "integrators/exponential/contact_gaps.hpp"
+#include "integrators/exponential/contact_scales.hpp"
+#include "integrators/exponential/residual_force.hpp"
+
+namespace butee::integrators {
+
+/// The errors of taking residual forces as constant over a step, and of passing over their jumps
+/// (plugins/exponential/THEORY.md, section 9).
+class ResidualErrors {
+ public:
+  /// All must outlive it.
+  ResidualErrors(const dynamics::Contact& contact, const StepGoal& goal, const DisplacementBounds& bounds,
+                 const ContactScales& scales, const TriedStep& step);
+
+  /// Some law has a residual force.
+  bool any() const { return any_; }
+  const ResidualForce& force(Index stop) const { return forces_[static_cast<std::size_t>(stop)]; }
+  /// The scale of each stop as a fraction of the largest.
+  void find_shares();
+  const Eigen::ArrayXd& shares() const { return shares_; }
+  /// Finds the stops whose force surely is constant, and raises step.reached to the speed that the forces make.
+  void find_constant(dynamics::StepFlow& flow, TriedStep& step);
+  /// The force of a stop may be taken as constant.
+  bool is_constant(dynamics::StepFlow& flow, Index stop) const { return is_constant_[stop] || may_be(flow, stop); }
+  /// The same of a stop after the end of the step has changed.
+  bool may_be(dynamics::StepFlow& flow, Index stop) const;
+
+  /// The bound of all these errors over one characteristic time of the motion, m.
+  double allowed() const {
+    const double steps = this->steps();
+    return kResidualError * goal_.outputs * step_.reached.displacement * share_of_run(step_.h, steps, goal_.run_time);
+  }
+  /// The characteristic time of the motion in steps.
+  double steps() const { return characteristic_steps(step_.reached, step_.h); }
+  /// The largest displacement of a stop in the step by its residual force, m, over shares().
+  double largest_scaled_shift() const { return largest_scaled_shift_; }
+
+  /// Indicator 6: the error of the displacement, m, by a jump of the force where the path crosses w = 0.
+  double jump_error(dynamics::StepFlow& flow, Index stop, double quartic, double end) const;
+  /// Outputs would show the jump of the force of a stop that crosses w = 0 in the step.
+  bool shows_jump(Index stop, double compliance) const;
+
+ private:
+  const StepGoal& goal_;
+  const DisplacementBounds& bounds_;
+  const ContactScales& scales_;
+  const TriedStep& step_;
+  std::vector<ResidualForce> forces_;
+  bool any_ = false;
+  Eigen::ArrayXd largest_, bends_;  ///< N; width of the law's bend, m
+  Eigen::ArrayXd shares_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> is_constant_;
+  double largest_scaled_shift_ = 0.0;
+};
+
+/// The residual forces that the propagator carries as constants from step to step.
+class ResidualForces {
+ public:
+  /// Both must outlive it.
+  ResidualForces(const dynamics::ModalSystem& modal, dynamics::Contact& contact);
+
+  void begin();  ///< at the start of a macro step: zero
+  /// Replaces them by the law at the middle of the step if that moves a stop by more than is allowed, with the end of
+  /// the step. True if it did.
+  bool update(dynamics::StepFlow& flow, const ResidualErrors& errors, TriedStep& step);
+
+  const Vector& forces() const { return forces_; }  ///< N; 0 of iterated stops
+  const Eigen::ArrayXd& modal() const { return modal_force_; }
+
+ private:
+  const dynamics::ModalSystem& modal_;
+  dynamics::Contact& contact_;
+  Vector forces_, next_forces_;
+  Eigen::ArrayXd modal_force_, old_modal_force_, w_middle_;
+};
+
+/// The stops that cross w = 0 in a step, where their residual force changes sign, and the moments of their forces.
+class ResidualJumps {
+ public:
+  /// All must outlive it.
+  ResidualJumps(const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts);
+
+  /// Finds them among step.constant; true if there are any.
+  bool find(dynamics::StepFlow& flow, const ResidualErrors& errors, const TriedStep& step);
+  /// Adds the moments of their forces, beyond the `constants`, to the step, whose middle is known.
+  void add(dynamics::StepFlow& flow, const Vector& constants, TriedStep& step);
+
+  const std::vector<Index>& stops() const { return stops_; }
+  const ForceMoments& moments(std::size_t place) const { return moments_[place]; }
+  /// The quartic coefficient of the path that they were found for.
+  double quartic(std::size_t place) const { return quartics_[place]; }
+  const Eigen::ArrayXd& modal_moments(std::size_t k) const { return sums_[k]; }
+
+ private:
+  const dynamics::ModalSystem& modal_;
+  std::vector<ContactForce>& contacts_;
+  std::vector<Index> stops_;
+  std::vector<ForceMoments> moments_;
+  std::vector<double> quartics_;
+  std::array<Eigen::ArrayXd, 3> by_stop_, sums_;
+};
+
+}  // namespace butee::integrators

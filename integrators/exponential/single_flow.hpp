@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "integrators/exponential/contact_newton.hpp"
+#include "integrators/exponential/single_mode.hpp"
+
+namespace butee::integrators {
+
+/// A dynamics::StepFlow of one mode and one stop, in plain numbers.
+struct SingleFlow {
+  int index = 0;
+  double h = 0.0;  ///< s; 0: not filled yet
+  double qq, qv, vq, vv, half_qq, half_qv;
+  double hermite_q, hermite_v, hermite_loads;  ///< Hermite interpolation errors by q, v and the loads
+  std::array<double, 3> force_q, force_v;
+  PathCoupling coupling;
+  ContactNewton::Matrix closed_inverse;
+  struct Harmonic {
+    std::array<double, 6> load;  ///< q, v and half_q by its cosine and its sine
+    Phase turn;                  ///< over the step
+  };
+  std::vector<Harmonic> harmonics;
+};
+
+/// The flows over the steps of the grid, of which the last ones used are kept, and over a step of any length.
+class SingleFlows {
+ public:
+  /// All must outlive it.
+  SingleFlows(dynamics::ModalSystem& modal, const SingleMode& mode, const ContactNewton& newton)
+      : modal_(modal), mode_(mode), newton_(newton) {}
+
+  const SingleFlow& on_grid(int index) {
+    SingleFlow& flow = flows_[static_cast<std::size_t>(index & 7)];
+    if (flow.h == 0.0 || flow.index != index) {
+      fill(modal_.ladder(index), flow);
+      flow.index = index;
+    }
+    return flow;
+  }
+  const SingleFlow& odd(double h) {
+    fill(modal_.odd(h), odd_);
+    return odd_;
+  }
+
+ private:
+  void fill(dynamics::StepFlow& from, SingleFlow& flow) const;
+
+  dynamics::ModalSystem& modal_;
+  const SingleMode& mode_;
+  const ContactNewton& newton_;
+  std::array<SingleFlow, 8> flows_;  ///< by the last three bits of the index
+  SingleFlow odd_;
+};
+
+}  // namespace butee::integrators

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "integrators/exponential/residual_force.hpp"
+#include "integrators/exponential/single_record.hpp"
+#include "integrators/exponential/step_size.hpp"
+
+namespace butee::integrators {
+
+/// ExponentialStep for a single DOF with a single stop under harmonic loads: the same arithmetic in plain numbers.
+class SingleStep {
+ public:
+  /// A system of that kind.
+  static bool can_take(const dynamics::Dynamics& dynamics);
+
+  SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, const StepGoal& goal, std::size_t most);
+
+  /// q, v and LoadPhases
+  Index memory_size() const { return 2 + record_.phases().memory_size(); }
+  void complete(double* memory) const { record_.phases().start(memory + 2); }
+  void begin(double t, const double* memory, ContactScale scale);
+  void save(double* memory) const;
+
+  Trial attempt_index(int index) { return attempt(flows_.on_grid(index)); }
+  Trial attempt_until(double t) { return attempt(flows_.odd(t - record_.last())); }
+  StepSizeControl::Outcome outcome() const {
+    return {tried_.is_contact_free, {tried_.error, goal_.middle * scale_.displacement}, tried_.interpolation_error};
+  }
+  void accept(double t);
+  /// Nothing: one DOF starts from rest as t^2 or t^3, which a cubic holds.
+  void expect_motion(int) {}
+
+  double t() const { return record_.last(); }
+  const double* q() const { return &now_.q; }
+  const double* v() const { return &now_.v; }
+  ContactScale scale() const { return scale_; }
+  double time_to_contact() const;
+  static constexpr bool has_stops() { return true; }
+
+  std::span<const double> breakpoints() const { return record_.inner(); }
+  void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
+    if (!dofs.empty()) record_.interpolate(times, scale_, out);
+  }
+  std::span<const time::EnergyAt> energies(std::span<const double> instants) { return record_.energies(instants); }
+
+ private:
+  /// Where the stop acts, infinite where it does not, and constant_force_limit(), m.
+  struct Gap {
+    double upper, lower, limit;
+    explicit Gap(const dynamics::Contact& contact);
+  };
+  struct Tried {
+    const SingleFlow* flow = nullptr;
+    Oscillator::Point to{};
+    bool is_contact_free = false;
+    double error = 0.0, interpolation_error = 0.0;
+    std::array<double, 3> path{};  ///< end, speed times h, middle, with the forces found so far
+    ForceMoments force{};
+  };
+
+  Trial attempt(const SingleFlow& flow);
+  /// Finds the force along the path that begins at w, hv and would end at tried_.path without it.
+  Trial iterate(const SingleFlow& flow, double w, double hv);
+  /// Bound of |w| over the step, with and without the residual force.
+  double displacement_bound(const SingleFlow& flow, double w, double hv);
+  /// Outputs on a quintic through the ends are good enough.
+  bool is_smooth(const SingleFlow& flow, double w);
+  /// The residual force is constant within its error bound.
+  bool is_constant(const SingleFlow& flow, double w, double bound) const;
+  /// By how much a path exceeds the gap; negative if it does not.
+  double beyond(const ContactPath& path) const {
+    return std::max(path.highest() - gap_.upper, gap_.lower - path.lowest());
+  }
+
+  StepGoal goal_;
+  SingleMode mode_;
+  ContactForce contact_;
+  ContactNewton newton_;
+  ResidualForce residual_;
+  Gap gap_;
+  double longest_near_;  ///< longest_near_stops(), s
+  SingleFlows flows_;
+  SingleRecord record_;
+  Oscillator::Point now_{};
+  ContactScale scale_;
+  Tried tried_;
+};
+
+}  // namespace butee::integrators

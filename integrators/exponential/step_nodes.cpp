@@ -1,0 +1,107 @@
+#include "integrators/exponential/step_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/LU>
+
+namespace butee::integrators {
+namespace {
+
+using Square = StepNodes::Matrix;
+
+constexpr int kLooks = 32;
+/// A start that is nearer to a border than this part of the distance at the first look lies on it.
+constexpr double kOnBorder = 1e-3;
+
+Square interpolation(bool has_middle) {
+  std::vector<Index> used;
+  for (Index j = 0; j < StepNodes::kCount; ++j)
+    if (has_middle || j != StepNodes::kMiddle) used.push_back(j);
+  const auto n = static_cast<Index>(used.size());
+  Eigen::MatrixXd powers(n, n);
+  for (Index j = 0; j < n; ++j)
+    for (Index r = 0; r < n; ++r)
+      powers(j, r) = std::pow(StepNodes::kPlaces[static_cast<std::size_t>(used[static_cast<std::size_t>(j)])],
+                              static_cast<double>(r));
+  const Eigen::MatrixXd inverse = powers.fullPivLu().inverse();  // coefficient r from value j
+  Square all = Square::Zero();
+  for (Index j = 0; j < n; ++j)
+    for (Index r = 0; r < n; ++r) all(used[static_cast<std::size_t>(j)], r) = inverse(r, j);
+  return all;
+}
+
+}  // namespace
+
+const std::array<double, StepNodes::kCount> StepNodes::kPlaces = {
+    0.0, 0.5 - 0.5 * 0.76505532392946469, 0.5 - 0.5 * 0.28523151648064510,
+    0.5, 0.5 + 0.5 * 0.28523151648064510, 0.5 + 0.5 * 0.76505532392946469,
+    1.0};
+
+const Square& StepNodes::with_middle() {
+  static const Square matrix = interpolation(true);
+  return matrix;
+}
+
+const Square& StepNodes::without_middle() {
+  static const Square matrix = interpolation(false);
+  return matrix;
+}
+
+const Square& StepNodes::legendre() {
+  static const Square matrix = [] {
+    // Row n holds the shifted P_n in powers: n P_n = (2n - 1)(2s - 1) P_(n-1) - (n - 1) P_(n-2).
+    Square powers = Square::Zero();
+    powers(0, 0) = 1.0;
+    powers.row(1) << -1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0;
+    for (Index n = 2; n < kCount; ++n) {
+      Row shifted = Row::Zero();
+      shifted.tail(kCount - 1) = 2.0 * powers.row(n - 1).head(kCount - 1);
+      shifted -= powers.row(n - 1);
+      const auto degree = static_cast<double>(n);
+      powers.row(n) = ((2.0 * degree - 1.0) * shifted - (degree - 1.0) * powers.row(n - 2)) / degree;
+    }
+    return Square(with_middle() * powers.inverse());
+  }();
+  return matrix;
+}
+
+double StepNodes::quadrature_error(const Row& coefficients) {
+  const double low = std::abs(coefficients[3]) + std::abs(coefficients[4]),
+               high = std::abs(coefficients[5]) + std::abs(coefficients[6]),
+               decay = high < low ? high / low : 1.0;  // of two degrees
+  return kRule * high * decay * decay;
+}
+
+Eigen::Matrix<double, StepNodes::kCount, 1> StepNodes::lagrange(double place) {
+  Eigen::Matrix<double, kCount, 1> powers;
+  powers[0] = 1.0;
+  for (Index r = 1; r < kCount; ++r) powers[r] = powers[r - 1] * place;
+  return with_middle() * powers;
+}
+
+double StepNodes::first_crossing(const Row& coefficients, double border, double last) {
+  const auto at = [&](double s) {
+    double sum = 0.0;
+    for (Index r = kCount - 1; r >= 0; --r) sum = sum * s + coefficients[r];
+    return sum - border;
+  };
+  double begin = 0.0, at_begin = at(0.0);
+  for (int k = 1; begin < last; ++k) {
+    double end = k <= kLooks ? static_cast<double>(k) / kLooks : last, at_end = at(end);
+    if (k == 1 && std::abs(at_begin) <= kOnBorder * std::abs(at_end)) at_begin = at_end;
+    if (at_begin * at_end < 0.0) {
+      while (true) {
+        const double middle = 0.5 * (begin + end);
+        if (middle <= begin || middle >= end) return std::min(end, last);
+        (at(middle) * at_begin > 0.0 ? begin : end) = middle;
+      }
+    }
+    begin = end;
+    at_begin = at_end;
+  }
+  return last;
+}
+
+}  // namespace butee::integrators

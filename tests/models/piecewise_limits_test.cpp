@@ -1,0 +1,103 @@
+// piecewise in limits that have a closed form, on borders, from snapshots, and what it refuses.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <butee/core/error.hpp>
+#include <gtest/gtest.h>
+
+#include "integrators/piecewise.hpp"
+#include "models/piecewise_scenes.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::piecewise_limits_test {
+namespace {
+
+TEST(Piecewise, RefusesOtherScenesBeforeTheFirstStep) {
+  const std::string scene = one_mass(0.0);
+  const auto message_of = [](const std::string& toml, const std::vector<std::string>& overrides) -> std::string {
+    try {
+      SceneRun run(toml, overrides);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(message_of(scene, {}), "taken");
+  EXPECT_NE(message_of(scene, {"contact[0].law=arctan", "contact[0].regularization=7e7"}).find("law = \"linear\""),
+            std::string::npos);
+  EXPECT_NE(message_of(with_linear_law("beam1"), {"integrator.type=piecewise"}).find("68 DOFs are more than the 24"),
+            std::string::npos);
+  EXPECT_NE(message_of(scene, {"contact[0].damping={type=\"hunt_crossley\",factor=0.1}"}).find("Kelvin-Voigt"),
+            std::string::npos);
+}
+
+/// x'' + omega^2 x = f cos(omega t) from rest is f t sin(omega t)/(2 omega); so near to resonance the closed form of
+/// the driven motion would lose all digits.
+TEST(Piecewise, FollowsResonance) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 9.0\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 2.0\n[integrator]\ntype = "
+      "\"piecewise\"\nend_time = 50.0\n";
+  for (const double detuning : {0.0, 1e-13, 1e-9, 1e-6, 1e-4, 1e-2}) {
+    const double omega = 3.0 * (1.0 + detuning);
+    SceneRun run(scene, {"load[0].angular_frequency=" + to_text(omega)});
+    ASSERT_TRUE(run.run().completed);
+    // 2 sin(a) sin(b)/((omega - 3)(omega + 3)) with the half difference and sum of the phases.
+    const long double half = 0.5L * 3.0L * detuning * 50.0L, sum = 3.0L * 50.0L + half;
+    const long double beat = half == 0.0L ? 1.0L : std::sin(half) / half;
+    const long double x = 2.0L * 50.0L * beat * std::sin(sum) / (static_cast<long double>(omega) + 3.0L);
+    // The load's frequency as a double is the largest error: 50 omega eps of the phase.
+    EXPECT_NEAR(run.simulation().state().x[0], static_cast<double>(x), 2e-12 * 50.0) << detuning;
+  }
+}
+
+/// A free mass under a constant force, with so little damping that m g/c is a million times its way, strikes a stop.
+TEST(Piecewise, FallsFreelyWithNextToNoDamping) {
+  for (const double rate : {0.0, 1e-12, 1e-6, 1e-3, 10.0}) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[load]]\ntype = "
+        "\"constant\"\nnode = \"m\"\nvalue = -20.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = "
+        "100.0\nlaw = \"linear\"\nstiffness = 1e6\n[damping]\nmass_proportional = " +
+        to_text(rate) + "\n[integrator]\ntype = \"piecewise\"\nend_time = 3.0\n");
+    ASSERT_TRUE(run.run().completed);
+    const long double c = rate, t = 3.0L;
+    // x = -g (t - (1 - e^(-c t))/c)/c, or its series.
+    const long double x = rate < 1e-4 ? -10.0L * t * t * (0.5L - c * t / 6.0L + c * c * t * t / 24.0L)
+                                      : -10.0L * (t + std::expm1(-c * t) / c) / c;
+    EXPECT_NEAR(run.simulation().state().x[0] / static_cast<double>(x), 1.0, 1e-13) << rate;
+  }
+}
+
+/// A start on the border of the stop, at rest: the first derivative that is not zero decides.
+TEST(Piecewise, DecidesStartsOnTheBorder) {
+  for (const char* load : {"type = \"constant\"\nvalue = 3.0\n", "type = \"constant\"\nvalue = -3.0\n",
+                           "type = \"ramp\"\nto = 3.0\nend = 0.5\n", "type = \"ramp\"\nto = -3.0\nend = 0.5\n",
+                           "type = \"constant\"\nvalue = 0.0\n"}) {
+    const std::string scene =
+        std::string(
+            "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = "
+            "\"stop\"\nnodes = \"m\"\ngap = 0.125\nsides = \"positive\"\nlaw = \"linear\"\nstiffness = "
+            "1e4\n[initial]\ndisplacement = [{ nodes = \"m\", value = 0.125 }]\n[[load]]\nnode = \"m\"\n") +
+        load + "[integrator]\nend_time = 0.9\n";
+    SceneRun ours(scene, {"integrator.type=piecewise"}), reference(scene, {"integrator.type=exact"});
+    ASSERT_TRUE(ours.run().completed);
+    ASSERT_TRUE(reference.run().completed);
+    EXPECT_NEAR(ours.simulation().state().x[0], reference.simulation().state().x[0], 1e-13) << load;
+    EXPECT_LT(ours.simulation().report().steps, 200) << load;
+  }
+}
+
+/// A run whose steps end elsewhere, as with other outputs, and one that is taken up in its middle.
+TEST(Piecewise, GoesOnFromASnapshotToTheSameBits) {
+  const std::string scene = one_mass(50.0);
+  SceneRun whole(scene), parts(scene, {"integrator.end_time=0.4"});
+  ASSERT_TRUE(whole.run().completed);
+  parts.simulation().set_end_time(0.4);
+  ASSERT_TRUE(parts.run().completed);
+  EXPECT_TRUE(whole.simulation().state().x == parts.simulation().state().x);
+  EXPECT_GE(dynamic_cast<integrators::Piecewise&>(whole.integrator()).states_made(), 2);
+}
+
+}  // namespace
+}  // namespace butee::test::piecewise_limits_test

@@ -1,0 +1,85 @@
+#include "integrators/exponential/contact_newton.hpp"
+
+#include <gtest/gtest.h>
+
+#include "integrators/exponential/contact_force.hpp"
+#include "support/scene_run.hpp"
+#include "support/small_scenes.hpp"
+
+namespace butee::test::contact_newton_test {
+namespace {
+
+using integrators::ContactForce;
+using integrators::ContactNewton;
+using integrators::ContactPath;
+using integrators::ContactStatus;
+using integrators::ForceMoments;
+using integrators::PathCoupling;
+using integrators::Projection;
+
+constexpr double kStiffness = 3.0;
+const std::string kScene = mass_on_spring("1.0", R"(
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 0.5
+stiffness = 3.0
+)");
+/// End, speed and middle of a path by P_0, P_1 and P_2, as of a mass in a step of h = 0.6.
+constexpr PathCoupling kCoupling = {{{0.18, -0.06, 0.0}, {0.36, 0.0, 0.0}, {0.045, -0.0375, 0.0225}}};
+
+/// The path from w = w0 with h w' = hv0 that ends at 0.7 with -0.4 without the stop, moved by the force.
+ContactPath moved_path(double w0, double hv0, const ForceMoments& f, std::size_t orders) {
+  std::array<double, 3> end = {0.7, -0.4, 0.75};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t k = 0; k < 3; ++k) end[row] += kCoupling[row][k] * f[k];
+  const double quartic = end[2] - 0.5 * (w0 + end[0]) - 0.125 * (hv0 - end[1]);
+  return {w0, hv0, end[0], end[1], orders == 3 ? quartic : 0.0};
+}
+
+TEST(ContactNewton, SolvesAClosedStopInOneStep) {
+  SceneRun run(kScene);
+  ContactForce force(run.dynamics().contact(), 0);
+  for (const std::size_t orders : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
+    const ContactNewton newton(kStiffness, orders);
+    const ContactPath start = moved_path(0.9, -0.1, {}, orders);
+    const ForceMoments f = newton.correction(newton.closed_inverse(kCoupling), force.of_spring(start), {});
+    const ContactPath path = moved_path(0.9, -0.1, f, orders);
+    ASSERT_EQ(force.status(path), ContactStatus::closed);
+    const ForceMoments projected = force.of_spring(path);
+    for (std::size_t k = 0; k < orders; ++k) EXPECT_NEAR(f[k], projected[k], 1e-14) << orders << " " << k;
+    for (std::size_t k = orders; k < 3; ++k) EXPECT_EQ(f[k], 0.0);
+  }
+}
+
+/// The border of the closed part moves with the path, but the force is zero there: the inverse that takes the part as
+/// fixed is that of the derivative.
+TEST(ContactNewton, HasTheDerivativeOfAStopThatCloses) {
+  SceneRun run(kScene);
+  ContactForce force(run.dynamics().contact(), 0);
+  const ContactNewton newton(kStiffness, 3);
+  const ForceMoments f = {-0.2, 0.1, 0.05};
+  const auto project = [&](const ForceMoments& at) {
+    const ContactPath path = moved_path(0.2, 0.9, at, 3);
+    EXPECT_EQ(force.status(path), ContactStatus::changing);
+    return force.project(path, ContactStatus::changing);
+  };
+  const ContactNewton::Matrix inverse = newton.inverse(project(f).closed, kCoupling);
+  // The place where the stop closes is found to some 1e-14, which the difference quotient divides by the step.
+  constexpr double kStep = 1e-5;
+  for (std::size_t column = 0; column < 3; ++column) {
+    ForceMoments more = f, less = f;
+    more[column] += kStep;
+    less[column] -= kStep;
+    const ForceMoments high = project(more).force, low = project(less).force;
+    for (std::size_t row = 0; row < 3; ++row) {
+      double product = 0.0;  // inverse (1 - dP/df) = 1
+      for (std::size_t k = 0; k < 3; ++k)
+        product += inverse[3 * row + k] * ((k == column ? 1.0 : 0.0) - (high[k] - low[k]) / (2.0 * kStep));
+      EXPECT_NEAR(product, row == column ? 1.0 : 0.0, 1e-8) << row << " " << column;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace butee::test::contact_newton_test

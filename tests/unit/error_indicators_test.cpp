@@ -1,0 +1,52 @@
+#include "integrators/exponential/error_indicators.hpp"
+
+#include <gtest/gtest.h>
+
+namespace butee::test::error_indicators_test {
+namespace {
+
+using namespace integrators;
+
+TEST(ErrorIndicators, CountTheStepsOfACharacteristicTime) {
+  EXPECT_EQ(characteristic_steps({2.0, 0.0}, 0.1), 1.0);  // nothing moves
+  EXPECT_DOUBLE_EQ(characteristic_steps({2.0, 4.0}, 0.1), 5.0);
+  EXPECT_EQ(characteristic_steps({2.0, 4.0}, 3.0), 1.0);  // a step is longer
+  EXPECT_DOUBLE_EQ(ContactScale({2.0, 4.0}).characteristic_time(), 0.5);
+  EXPECT_EQ(share_of_run(0.1, 5.0, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(share_of_run(0.1, 5.0, 50.0), 0.1);
+}
+
+/// A path wrong by the allowed change is wrong in its displacement by the tolerance at most, and so is the speed that a
+/// stop makes of it, sigma times the change over h.
+TEST(ErrorIndicators, AllowChangesWithinTheToleranceOfDisplacementAndSpeed) {
+  constexpr double kTolerance = 1e-4;
+  for (const double stiff : {1e-6, 0.1, 3.0, 1e4})
+    for (const double h : {1e-6, 1e-2, 1.0})
+      for (const double speed : {1e-3, 1.0, 1e3}) {
+        const ContactScale scale = {0.02, speed};
+        const double change = allowed_change(kTolerance, stiff, h, scale);
+        EXPECT_GT(change, 0.0);
+        EXPECT_LE(change, kTolerance * scale.displacement * (1.0 + 1e-15));
+        const double floor = kLeastPart * stiff * scale.displacement;
+        EXPECT_LE(stiff * change, kTolerance * std::max(h * speed, floor) * (1.0 + 1e-15));
+      }
+  EXPECT_GT(allowed_change(kTolerance, 1.0, 1e-3, {0.02, 0.0}), 0.0);  // A stop at rest converges as well.
+}
+
+TEST(ErrorIndicators, WeighTheQuarticTermByTheSpeedThatAStiffStopMakesOfIt) {
+  const ContactScale scale = {1.0, 10.0};
+  EXPECT_EQ(path_error(1e-3, 0.1, 0.1, scale, false), 1e-3);                       // a soft stop
+  EXPECT_DOUBLE_EQ(path_error(1e-3, 100.0, 0.1, scale, false), 1e-3 * 0.1 * 1e4);  // 0.1 sigma^2
+  EXPECT_DOUBLE_EQ(path_error(1e-3, 100.0, 0.1, scale, true), 1e-3 * 0.5 * 1e4);
+}
+
+TEST(ErrorIndicators, AskForALongerStepFarBelowTheirBoundAlone) {
+  EXPECT_TRUE((StepError{0.0, 1.0}.is_below_growth_limit()));
+  EXPECT_TRUE((StepError{0.09, 1.0}.is_below_growth_limit()));
+  EXPECT_FALSE((StepError{0.11, 1.0}.is_below_growth_limit()));
+  EXPECT_FALSE((StepError{0.0, 0.0}.is_below_growth_limit()));  // nothing known
+  EXPECT_EQ((StepError{3.0, 2.0}.ratio()), 1.5);
+}
+
+}  // namespace
+}  // namespace butee::test::error_indicators_test

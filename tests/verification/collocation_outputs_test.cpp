@@ -1,0 +1,95 @@
+// Outputs and peaks of exponential on coupled modes, against the closed form of piecewise.
+#include <cmath>
+
+#include <butee/record/history.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::collocation_outputs_test {
+namespace {
+
+/// A light mass between two others, driven faster than the slow modes turn; nothing is approximated.
+const std::string kLight = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 0.7
+[[element]]
+type = "spring"
+node = "a"
+stiffness = 2000.0
+damping = 2.4
+[[element]]
+type = "mass"
+name = "light"
+mass = 3e-5
+[[element]]
+type = "spring"
+nodes = ["a", "light"]
+stiffness = 7.0
+damping = 0.006
+[[element]]
+type = "mass"
+name = "b"
+mass = 1.4
+[[element]]
+type = "spring"
+nodes = ["light", "b"]
+stiffness = 1400.0
+[[load]]
+node = "a"
+type = "harmonic"
+amplitude = 15.0
+angular_frequency = 97.0
+[[load]]
+node = "light"
+type = "harmonic"
+amplitude = 32.0
+angular_frequency = 65.0
+phase = -1.5
+[initial]
+displacement = [{ nodes = "b", dof = "u", value = 0.013 }]
+[integrator]
+end_time = 0.2
+)";
+
+/// Steps are longer than the light mass swings and the loads turn.
+TEST(CollocationOutputs, give_values_and_peaks_of_fast_motion) {
+  std::vector<double> times;
+  for (int i = 1; i < 100; ++i) times.push_back(0.00199 * i);
+  SceneRun closed(kLight, {"integrator.type=piecewise"}),
+      run(kLight, {"integrator.type=exponential", "integrator.tolerance=1e-8"});
+  Sampler wanted(closed.dof("b"), times), got(run.dof("b"), times);
+  closed.simulation().add(wanted);
+  run.simulation().add(got);
+  const auto peaks_of = [](SceneRun& scene) {
+    model::OutputRequest request;
+    request.interval = 0.1;
+    request.probes = {{"p",
+                       scene.model().nodes.select("light").nodes.front(),
+                       {model::Quantity::u, model::Quantity::v, model::Quantity::a},
+                       ""}};
+    return std::make_unique<record::HistoryRecorder>(request, 0.2, scene.dynamics(), nullptr);
+  };
+  const auto wanted_peaks = peaks_of(closed), got_peaks = peaks_of(run);
+  closed.simulation().add(*wanted_peaks);
+  run.simulation().add(*got_peaks);
+  ASSERT_TRUE(closed.run().completed);
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_LT(run.simulation().report().steps, 30);
+  double size_x = 0.0, size_v = 0.0;
+  for (const double x : wanted.x) size_x = std::max(size_x, std::abs(x));
+  for (const double v : wanted.v) size_v = std::max(size_v, std::abs(v));
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_NEAR(got.x[i], wanted.x[i], 1e-7 * size_x) << times[i];
+    EXPECT_NEAR(got.v[i], wanted.v[i], 1e-7 * size_v) << times[i];
+  }
+  ASSERT_EQ(wanted_peaks->peaks().size(), 3u);
+  for (const auto& [column, peak] : wanted_peaks->peaks())
+    EXPECT_NEAR(got_peaks->peaks().at(column), peak, 1e-7 * peak) << column;
+}
+
+}  // namespace
+}  // namespace butee::test::collocation_outputs_test

@@ -1,0 +1,99 @@
+// Preload, gravity, static starts and accelerated bases against closed forms.
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/SparseCholesky>
+#include <gtest/gtest.h>
+
+#include "support/cantilever.hpp"
+#include "support/scene_run.hpp"
+
+namespace butee::test::tied_bar_test {
+namespace {
+
+using std::numbers::pi;
+
+std::string tied_bar(double preload, int elements, const std::string& more = "") {
+  return R"(
+schema = 1
+[material.steel]
+young_modulus = 2e11
+density       = 7800.0
+[section.round]
+shape  = "circle"
+radius = 0.005
+[integrator]
+type = "newmark"
+time_step = 1e-4
+end_time = 1e-3
+[[element]]
+type = "beam"
+name = "bar"
+material = "steel"
+section = "round"
+length = 2.0
+preload = )" +
+         std::to_string(preload) + "\nelements = " + std::to_string(elements) +
+         "\n[[support]]\nnodes = [\"bar:first\", \"bar:last\"]\nfix = [\"u\"]\n" + more;
+}
+
+/// code_aster's SDLL101: f_n = n^2 pi/(2 L^2) sqrt(E I/m) sqrt(1 + P L^2/(n^2 pi^2 E I)).
+TEST(TiedBar, stiffens_with_tension) {
+  expect_all(frequencies(tied_bar(1000.0, 20), 5), {11.2577073, 28.3462835, 54.0382821, 89.2209917, 134.1811141}, 5e-9);
+  expect_all(frequencies(tied_bar(-100.0, 80), 3), {3.809372, 18.831035, 43.703291}, 5e-7);
+}
+
+TEST(TiedBar, sags_under_gravity) {
+  const auto sag = [](double preload) {
+    SceneRun run(tied_bar(preload, 40, "[gravity]\nacceleration = [0.0, -9.81, 0.0]\n"));
+    Vector force(run.system().size());
+    run.dynamics().external_force(0.0, force);
+    const Eigen::SimplicialLDLT<SparseMatrix> factor(run.system().stiffness);
+    return -Vector(factor.solve(force))[run.dof("bar:middle")];
+  };
+  EXPECT_NEAR(sag(0.0), .0127530000, 1e-10);
+  EXPECT_NEAR(sag(100.0), .0090145068, 5e-8 * .009);
+  EXPECT_NEAR(sag(1000.0), .0024632794, 5e-8 * .0025);
+  EXPECT_NEAR(sag(-30.0), .0145618950, 5e-8 * .0146);
+}
+
+/// Started in its static position on a stop, a bar stays there; the stop carries what the sag beyond it asks for.
+TEST(TiedBar, rests_where_gravity_and_a_stop_hold_it) {
+  const std::string stop =
+      "[[contact]]\ntype = \"stop\"\nnodes = \"bar:middle\"\ngap = 0.005\nlaw = \"linear\"\nstiffness = 1e4\n";
+  SceneRun run(tied_bar(0.0, 20, "[gravity]\nacceleration = [0.0, -9.81, 0.0]\nstatic = true\n" + stop));
+  // u = sag - F L^3/(48 E I) with F = k (u - gap), elements with cubic shape functions being exact at nodes.
+  constexpr double kBar = 48.0 * 2e11 * (pi / 4 * 0.005 * 0.005 * 0.005 * 0.005) / 8.0;
+  const double wanted = (.0127530000 + 1e4 * 0.005 / kBar) / (1.0 + 1e4 / kBar);
+  const Index middle = run.dof("bar:middle");
+  const double start = run.system().initial_displacement[middle];
+  EXPECT_NEAR(-start, wanted, 1e-9 * wanted);
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_NEAR(run.simulation().state().x[middle], start, 1e-9 * wanted);
+}
+
+/// A base that accelerates is a force -M r a: of one mass the closed form.
+TEST(Base, accelerates_every_mass) {
+  SceneRun run(R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 2.5
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 1000.0
+[base]
+acceleration = { direction = [0, 2, 0], type = "constant", value = 3.0 }
+[integrator]
+type = "exact"
+end_time = 1.0
+)");
+  ASSERT_TRUE(run.run().completed);
+  const double omega = 20.0, wanted = -3.0 / (omega * omega) * (1.0 - std::cos(omega));
+  EXPECT_NEAR(run.simulation().state().x[0], wanted, 1e-13);
+}
+
+}  // namespace
+}  // namespace butee::test::tied_bar_test
