@@ -3,6 +3,7 @@
 #include "butee/core/error.hpp"
 #include "butee/python/batch.hpp"
 #include "butee/python/bindings.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/values.hpp"
 
 namespace py = pybind11;
@@ -18,7 +19,7 @@ constexpr auto kPatience = 50ms;
 /// Joins the threads without the interpreter's lock.
 struct Joined {
   void operator()(Batch* batch) const {
-    const py::gil_scoped_release unlocked;
+    const WithoutInterpreter unlocked;
     delete batch;
   }
 };
@@ -40,7 +41,7 @@ py::object next(Batch& batch) {
   while (!done) {
     if (batch.taken() == batch.size()) return py::none();
     {
-      const py::gil_scoped_release unlocked;
+      const WithoutInterpreter unlocked;
       done = batch.next(kPatience);
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();

@@ -5,6 +5,7 @@
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/python/bindings.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/python_laws.hpp"
 #include "butee/python/python_loads.hpp"
 #include "butee/python/values.hpp"
@@ -40,7 +41,7 @@ py::list conformance(const std::string& name, const py::dict& keys) {
   for (const conformance::Check& check : checks) {
     conformance::Finding finding{false, ""};
     {
-      const py::gil_scoped_release unlocked;
+      const WithoutInterpreter unlocked;
       finding = check.run(subject);
     }
     findings.append(py::make_tuple(check.name, check.demand, finding.passed, finding.details));

@@ -6,6 +6,7 @@
 #include "butee/dynamics/modal_damping.hpp"
 #include "butee/dynamics/mode_analysis.hpp"
 #include "butee/python/bindings.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/session.hpp"
 #include "butee/scene/assembly.hpp"
 
@@ -76,7 +77,7 @@ class Equations {
   /// Dynamics serves one thread at a time. Whoever waits does not hold the interpreter's lock, which loads may want.
   template <class Compute>
   Vector alone(const Compute& compute) {
-    const py::gil_scoped_release unlocked;
+    const WithoutInterpreter unlocked;
     const std::lock_guard lock(mutex_);
     Vector result = Vector::Zero(system().size());
     compute(result);
@@ -92,7 +93,7 @@ py::dict modes_of(const Session& session, Index count, const std::vector<std::st
   const auto scene = session.shared();
   dynamics::ModeAnalysis found;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutInterpreter unlocked;
     const model::System system = assemble(scene->model);
     if (!system.stiffness_is_symmetric)
       throw InputError(

@@ -6,6 +6,7 @@
 #include "butee/core/error.hpp"
 #include "butee/python/bindings.hpp"
 #include "butee/python/document_bytes.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/python_loads.hpp"
 #include "butee/python/session.hpp"
 #include "butee/python/values.hpp"
@@ -20,7 +21,7 @@ using Strings = std::vector<std::string>;
 
 Session load(const std::string& path, const Strings& overrides, const Strings& plugins) {
   const plugin::Catalogue catalogue = catalogue_with(plugins);
-  const py::gil_scoped_release unlocked;
+  const WithoutInterpreter unlocked;
   config::Document document = config::load_toml(path);
   for (const std::string& assignment : overrides) config::apply_override(document, assignment);
   return {std::move(document), plugins, catalogue};
@@ -28,7 +29,7 @@ Session load(const std::string& path, const Strings& overrides, const Strings& p
 
 Session from_toml(const std::string& text, const std::string& name, const Strings& plugins) {
   const plugin::Catalogue catalogue = catalogue_with(plugins);
-  const py::gil_scoped_release unlocked;
+  const WithoutInterpreter unlocked;
   return {config::parse_toml(text, name), plugins, catalogue};
 }
 
@@ -36,7 +37,7 @@ Session from_dict(py::handle dict, const std::string& name, const Strings& plugi
   config::Document document{{name}, to_value(dict)};
   if (document.root.table() == nullptr) throw py::type_error("a scene is a dict of its tables");
   const plugin::Catalogue catalogue = catalogue_with(plugins);
-  const py::gil_scoped_release unlocked;
+  const WithoutInterpreter unlocked;
   return {std::move(document), plugins, catalogue};
 }
 
@@ -54,7 +55,7 @@ std::vector<Assignment> to_assignments(const py::dict& values) {
 Session with(const Session& session, const py::dict& values) {
   const auto assignments = to_assignments(values);
   const Session copy = session;
-  const py::gil_scoped_release unlocked;
+  const WithoutInterpreter unlocked;
   return copy.with(assignments);
 }
 
@@ -64,7 +65,7 @@ std::shared_ptr<Outcome> run(const Session& session, py::object progress, bool p
   const auto scene = session.shared();
   std::shared_ptr<Outcome> outcome;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutInterpreter unlocked;
     outcome = perform(*scene, {progress_bar, folder, resume}, watch);
   }
   watch.rethrow();

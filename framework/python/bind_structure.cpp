@@ -2,6 +2,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/python/bindings.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/part.hpp"
 #include "butee/python/watch.hpp"
 
@@ -33,7 +34,7 @@ void advance_to(Part& part, double t) {
   PythonWatch watch{py::none()};
   bool done = false;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutInterpreter unlocked;
     const auto locked = part.use();
     done = locked->advance_to(t, [&] { return watch.look(t) == nullptr; });
   }
@@ -41,7 +42,7 @@ void advance_to(Part& part, double t) {
 }
 
 double advance_step(Part& part, double limit) {
-  const py::gil_scoped_release unlocked;
+  const WithoutInterpreter unlocked;
   return part.use()->advance_step(limit);
 }
 
@@ -117,7 +118,7 @@ Snapshot snapshot_of(const py::bytes& bytes) {
 
 void bind_structure(py::module_& module) {
   module.def("part", [](const Session& session, std::vector<std::string> forced) {
-    const py::gil_scoped_release unlocked;
+    const WithoutInterpreter unlocked;
     return std::make_unique<Part>(session, std::move(forced));
   });
   module.def("snapshot", &snapshot_of);

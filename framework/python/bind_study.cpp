@@ -3,6 +3,7 @@
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
 #include "butee/python/bindings.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/memory_rows.hpp"
 #include "butee/python/session.hpp"
 #include "butee/python/values.hpp"
@@ -22,7 +23,7 @@ class StudyWatch {
   explicit StudyWatch(py::object progress) : progress_(std::move(progress)) {}
 
   void report(const study::Progress& now) {
-    const py::gil_scoped_acquire lock;
+    const WithInterpreter lock;
     if (error_) return;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -100,7 +101,7 @@ py::tuple table_of(const study::Layout& layout, const Bytes& rows) {
 /// For the result "trust": what a function of Python says of a scene, from any thread.
 std::optional<double> horizon_of(const scene::Scene& scene, const Session& session, const py::function& horizon) {
   const Session judged(scene.document, session.plugins(), scene.catalogue);
-  const py::gil_scoped_acquire lock;
+  const WithInterpreter lock;
   try {
     return horizon(judged).cast<double>();
   } catch (py::error_already_set& error) {
@@ -121,7 +122,7 @@ py::tuple run_study(const Session& session, py::handle tables, int threads, cons
   std::optional<study::Layout> layout;
   Bytes rows;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutInterpreter unlocked;
     study::StudyOptions study_options;
     study_options.horizon = [&](scene::Scene& judged) { return horizon_of(judged, session, horizon); };
     study::Study study = study::read_study(document, scene_document, study_options);
@@ -139,7 +140,7 @@ py::tuple study_rows(const std::string& folder) {
   std::optional<study::Layout> layout;
   Bytes rows;
   {
-    const py::gil_scoped_release unlocked;
+    const WithoutInterpreter unlocked;
     const study::Study study = study::Store::read(folder);
     layout.emplace(layout_of(study));
     const auto format = study::row_format(study::Store::extension_in(folder) == ".csv" ? "csv" : "hdf5");

@@ -6,6 +6,7 @@
 
 #include "butee/plugin/catalogue.hpp"
 #include "butee/python/bindings.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/shared_function.hpp"
 #include "butee/record/quadrature.hpp"
 
@@ -64,7 +65,7 @@ class PythonLaw final : public model::BatchedLaw<PythonLaw> {
 
  private:
   double call(const Function& function, double g) const {
-    const py::gil_scoped_acquire lock;
+    const WithInterpreter lock;
     py::tuple arguments(parameters_.size() + 1);
     arguments[0] = g;
     for (std::size_t i = 0; i < parameters_.size(); ++i) arguments[i + 1] = parameters_[i];

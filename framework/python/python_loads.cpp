@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "butee/python/bindings.hpp"
+#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/python_laws.hpp"
 #include "butee/python/shared_function.hpp"
 
@@ -18,7 +19,7 @@ class PythonLoad final : public model::TimeFunction {
       : function_(std::move(function)), parameters_(std::move(parameters)) {}
 
   double value(double t) const override {
-    const py::gil_scoped_acquire lock;
+    const WithInterpreter lock;
     py::tuple arguments(parameters_.size() + 1);
     arguments[0] = t;
     for (std::size_t i = 0; i < parameters_.size(); ++i) arguments[i + 1] = parameters_[i];

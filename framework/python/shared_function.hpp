@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "butee/config/parameter.hpp"
+#include "butee/python/interpreter_lock.hpp"
 
 namespace butee::python {
 
 /// A function of Python, whose last reference any thread may drop.
 inline std::shared_ptr<pybind11::function> shared_function(const pybind11::function& function) {
   return {new pybind11::function(function), [](pybind11::function* held) {
-            const pybind11::gil_scoped_acquire lock;
+            const WithInterpreter lock;
             delete held;
           }};
 }

@@ -1,7 +1,8 @@
 #include "butee/python/watch.hpp"
 
 #include <algorithm>
-#include <thread>
+
+#include "butee/python/interpreter_lock.hpp"
 
 namespace py = pybind11;
 
@@ -31,10 +32,7 @@ const char* PythonWatch::look(double t) {
 }
 
 bool PythonWatch::has_raised(double t) {
-  // A daemon thread that asks for the lock of an interpreter at its end is ended by unwinding, which no C++ frame
-  // bears.
-  while (_Py_IsFinalizing() != 0) std::this_thread::sleep_for(kBetweenCalls);
-  const py::gil_scoped_acquire lock;
+  const WithInterpreter lock;
   try {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (!progress_.is_none()) progress_(t);
