@@ -44,8 +44,8 @@ class Arctan final : public model::ContactLaw {
 
   double closed_stiffness() const override { return stiffness_; }
   std::unique_ptr<model::ForceSeries> force_series() const override;
-  double bend_width() const override { return 1.0 / slope_; }
-  double far_force() const override { return stiffness_ / (std::numbers::pi * slope_); }
+  double transition_width() const override { return 1.0 / slope_; }
+  double asymptotic_force() const override { return stiffness_ / (std::numbers::pi * slope_); }
 
  private:
   /// Beyond this |x| the series below are exact to rounding: their first dropped terms are 1/(13 x^12) and 7/(15 x^12).

@@ -15,7 +15,7 @@ class Linear final : public model::BatchedLaw<Linear> {
   double energy(double g) const override { return g > 0.0 ? 0.5 * stiffness_ * g * g : 0.0; }
   double closed_stiffness() const override { return stiffness_; }
   bool is_piecewise_linear() const override { return true; }
-  double bend_width() const override { return 0.0; }
+  double transition_width() const override { return 0.0; }
 
  private:
   double stiffness_;

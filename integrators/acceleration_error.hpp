@@ -12,9 +12,9 @@ namespace butee::integrators {
 /// memory of a state holds LocalErrorControl's part, then h, lag, d (0 where s is not known), s and a_n.
 class AccelerationError {
  public:
-  /// `kink`: LocalErrorControl::Orders::kink.
-  AccelerationError(dynamics::Dynamics& dynamics, const Goal& goal, double kink = 10.0)
-      : control_(dynamics, goal, {3.0, 2.0, kConstant, kink}, LocalErrorControl::Steps::ladder) {}
+  /// `contact_change`: LocalErrorControl::Orders::contact_change.
+  AccelerationError(dynamics::Dynamics& dynamics, const Goal& goal, double contact_change = 10.0)
+      : control_(dynamics, goal, {3.0, 2.0, kConstant, contact_change}, LocalErrorControl::Steps::geometric) {}
 
   const time::StepController& controller() const { return control_.controller(); }
   double first_step() const { return control_.first_step(); }

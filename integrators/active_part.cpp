@@ -14,7 +14,7 @@ constexpr double kFirstRadius = 32.0;
 constexpr double kGrowth = 1.5, kInner = 0.75;
 /// Of what closes a stop's gap, over the tolerance: a law that pulls by more as soon as anything moves counts as
 /// moving.
-constexpr double kUnfelt = 0.005;
+constexpr double kNegligible = 0.005;
 /// So much of the tolerance may be in the outer part.
 constexpr double kNegligible = 0.1;
 /// Entries of the memory before the scales.
@@ -32,7 +32,7 @@ std::vector<Index> moving_first(dynamics::Dynamics& dynamics, double tolerance) 
   const dynamics::Contact& contact = dynamics.contact();
   for (Index i = 0; i < contact.size(); ++i) {
     const model::ContactLaw& law = contact.law_of(i);
-    if (law.far_force() <= kUnfelt * tolerance * law.closed_stiffness() * contact.gap_of(i)) continue;
+    if (law.asymptotic_force() <= kNegligible * tolerance * law.closed_stiffness() * contact.gap_of(i)) continue;
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
       if (dof >= 0) moves[dof] = 1.0;
   }

@@ -7,7 +7,7 @@ namespace butee::integrators {
 namespace {
 
 /// Impulses below this part of the tolerance times m S_v are ignored.
-constexpr double kUnfeltImpulse = 0.1;
+constexpr double kNegligibleImpulse = 0.1;
 /// Penetrations below this part of the displacement are rounding.
 constexpr double kRounding = 1e-13;
 
@@ -45,8 +45,8 @@ double ContactOnTheWay::impulse_rate(Index stop, ConstVectorRef scale_v) const {
   return rate;
 }
 
-bool ContactOnTheWay::is_felt(Index stop, double h, ConstVectorRef scale_v) const {
-  return jumps_[stop] > 0.0 && jumps_[stop] * h * impulse_rate(stop, scale_v) > kUnfeltImpulse * tolerance_;
+bool ContactOnTheWay::is_noticeable(Index stop, double h, ConstVectorRef scale_v) const {
+  return jumps_[stop] > 0.0 && jumps_[stop] * h * impulse_rate(stop, scale_v) > kNegligibleImpulse * tolerance_;
 }
 
 bool ContactOnTheWay::changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
@@ -61,7 +61,8 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to, do
     return 0;
   };
   for (Index i = 0; i < w0_.size(); ++i)
-    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i]) || (has_passed_middle(i) && is_felt(i, h, scale_v))) return true;
+    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i]) || (has_passed_middle(i) && is_noticeable(i, h, scale_v)))
+      return true;
   return false;
 }
 
@@ -97,9 +98,9 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
     };
     const double depth = depth_beyond(gap);
     if (depth > tolerance_ * size) return true;
-    if (depth > kRounding * size && closed_[i] * depth * h * impulse_rate(i, scale_v) > kUnfeltImpulse * tolerance_)
+    if (depth > kRounding * size && closed_[i] * depth * h * impulse_rate(i, scale_v) > kNegligibleImpulse * tolerance_)
       return true;
-    if (is_felt(i, h, scale_v) && depth_beyond(0.0) > tolerance_ * size) return true;
+    if (is_noticeable(i, h, scale_v) && depth_beyond(0.0) > tolerance_ * size) return true;
   }
   return false;
 }

@@ -15,15 +15,16 @@ class ContactOnTheWay {
 
   /// True where a stop is open at one end of the step and closed at the other, or where the force of one with two sides
   /// jumped from one side to the other between them: a law that is blunt against the gap, such as arctan with a lambda
-  /// of a few gaps, pulls at the middle already. Jumps whose impulse within the step, J h, is less than kUnfeltImpulse
-  /// times the tolerance of m S_v are ignored.
+  /// of a few gaps, pulls at the middle already. Jumps whose impulse within the step, J h, is less than
+  /// kNegligibleImpulse times the tolerance of m S_v are ignored.
   bool changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
   /// The largest such jump between them, as the acceleration of its DOF over that DOF's velocity scale, 1/s; 0 where
   /// there is none. An estimate does not see a jump in the middle of a step, where the errors of all stages cancel.
   double jump(const time::State& from, const time::State& to, ConstVectorRef scale_v);
   /// True where a stop is open at both ends and was closed on the way, or beyond such a jump, as far as the cubic
   /// through displacements and speeds at both ends can tell. Smaller penetrations than the tolerance times displacement
-  /// or gap are ignored if their impulse, at most k depth h, is less than kUnfeltImpulse times the tolerance of m S_v.
+  /// or gap are ignored if their impulse, at most k depth h, is less than kNegligibleImpulse times the tolerance of m
+  /// S_v.
   bool was_missed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
 
  private:
@@ -33,7 +34,7 @@ class ContactOnTheWay {
   }
 
   /// True where the jump of a stop within a step of h counts.
-  bool is_felt(Index stop, double h, ConstVectorRef scale_v) const;
+  bool is_noticeable(Index stop, double h, ConstVectorRef scale_v) const;
 
   dynamics::Contact* contact_;
   double tolerance_;

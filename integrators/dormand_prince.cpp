@@ -17,7 +17,7 @@ constexpr double kA[7][6] = {{},
 constexpr std::array<double, 7> kError = {71.0 / 57600,      0.0,        -71.0 / 16695, 71.0 / 1920,
                                           -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 /// Measured in tests/conformance/error_constant_test.cpp.
-constexpr double kConstant = 1.5, kKink = 40.0;
+constexpr double kConstant = 1.5, kContactChange = 40.0;
 /// Of h omega on the imaginary axis beyond which undamped motion grows at once.
 constexpr double kLimit = 1.0;
 /// Where |R| = 1 for R(z) = 1 + z + ... + z^5/120 + z^6/600, and h c/m on the negative real axis.
@@ -27,7 +27,8 @@ constexpr double kStabilityLimit = 0.99718900, kDampingLimit = 3.30656789;
 
 DormandPrince::DormandPrince(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, goal, {.estimate = 5.0, .method = 5.0, .constant = kConstant, .kink = kKink, .share = 0.05},
+      control_(dynamics, goal,
+               {.estimate = 5.0, .method = 5.0, .constant = kConstant, .contact_change = kContactChange, .share = 0.05},
                LocalErrorControl::Steps::any),
       stiffness_("dopri5", kLimit) {
   for (std::size_t i = 0; i < kStages; ++i) v_[i] = a_[i] = Vector::Zero(dynamics.size());

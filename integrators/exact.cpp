@@ -52,7 +52,7 @@ Exact::Exact(dynamics::Dynamics& dynamics, int order, double series_tolerance)
     : Integrator(dynamics),
       expander_(dynamics, order, series_tolerance),
       branches_(dynamics.contact(), order),
-      kinks_(dynamics.load_kinks()),
+      discontinuities_(dynamics.load_discontinuities()),
       first_length_(natural_time(dynamics)),
       stops_(dynamics.stop_count()) {}
 
@@ -103,8 +103,8 @@ StepStatus Exact::follow(const State& from, const time::Step& step) {
   while (done < h) {
     if (used_ == kMostPieces || !expand_piece(t, length)) return StepStatus::not_finite;
     TaylorExpansion& piece = pieces_[used_ - 1];
-    const double rest = (h - done) / piece.length, kink = (next_kink(t) - t) / piece.length;
-    piece.end = std::min({piece.reach, rest, kink});
+    const double rest = (h - done) / piece.length, jump = (next_discontinuity(t) - t) / piece.length;
+    piece.end = std::min({piece.reach, rest, jump});
     const bool is_last = piece.end == rest;
     const auto change = branches_.first_change(expander_.stop_displacement(), piece.end);
     if (change) piece.end = change->at;
@@ -141,9 +141,9 @@ bool Exact::expand_piece(double t, double length) {
   return false;
 }
 
-double Exact::next_kink(double t) const {
-  const auto next = std::upper_bound(kinks_.begin(), kinks_.end(), t);
-  return next == kinks_.end() ? std::numeric_limits<double>::infinity() : *next;
+double Exact::next_discontinuity(double t) const {
+  const auto next = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), t);
+  return next == discontinuities_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
 bool Exact::holds(const State& from, double t_end) const {
@@ -161,7 +161,7 @@ const TaylorExpansion& Exact::piece_at(double t) const {
   return pieces_[i];
 }
 
-std::span<const double> Exact::knots(const State& from, const State& to) const {
+std::span<const double> Exact::breakpoints(const State& from, const State& to) const {
   recall(from, to);
   return knots_;
 }

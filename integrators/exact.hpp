@@ -25,11 +25,11 @@ class Exact final : public time::Integrator {
   /// `series_tolerance` is the size of the last terms of a series relative to the largest.
   Exact(dynamics::Dynamics& dynamics, int order, double series_tolerance);
 
-  bool minds_load_kinks() const override { return true; }
+  bool handles_load_discontinuities() const override { return true; }
   bool follows_contact_phases() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
   /// Where one series ends and the next begins.
-  std::span<const double> knots(const time::State& from, const time::State& to) const override;
+  std::span<const double> breakpoints(const time::State& from, const time::State& to) const override;
   time::DenseOutput dense_output() const override { return time::DenseOutput::other; }
   /// By the derivatives of the series, term by term.
   void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
@@ -53,7 +53,7 @@ class Exact final : public time::Integrator {
   /// Expands at (t, x_, v_) into pieces_[used_]; shortens its length where it overflows.
   bool expand_piece(double t, double length);
   void place_branches();
-  double next_kink(double t) const;
+  double next_discontinuity(double t) const;
   bool holds(const time::State& from, double t_end) const;
   /// Sees that the pieces are those of this step.
   void recall(const time::State& from, const time::State& to) const;
@@ -62,7 +62,7 @@ class Exact final : public time::Integrator {
   Controller controller_;
   TaylorExpander expander_;
   ContactBranches branches_;
-  std::vector<double> kinks_;  ///< of the loads
+  std::vector<double> discontinuities_;  ///< of the loads
   // The pieces of the last step, kept for its interpolation.
   std::vector<TaylorExpansion> pieces_;
   std::size_t used_ = 0;

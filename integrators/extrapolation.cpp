@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
 /// Measured in tests/conformance/error_constant_test.cpp.
-constexpr double kConstant = 7.6, kKink = 40.0;
+constexpr double kConstant = 7.6, kContactChange = 40.0;
 /// Of h omega and h c/m of the whole step, where the stability polynomial leaves the unit circle.
 constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
@@ -16,10 +16,14 @@ constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
 Extrapolation::Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(
-          dynamics, goal,
-          {.estimate = 7.0, .method = 8.0, .constant = kConstant, .kink = kKink, .stability = kLimit, .share = 0.002},
-          LocalErrorControl::Steps::any) {
+      control_(dynamics, goal,
+               {.estimate = 7.0,
+                .method = 8.0,
+                .constant = kConstant,
+                .contact_change = kContactChange,
+                .stability = kLimit,
+                .share = 0.002},
+               LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
   a_ = Vector::Zero(dynamics.size());
 }

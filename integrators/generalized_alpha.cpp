@@ -12,8 +12,8 @@ using config::Parameters;
 using time::State;
 using time::StepReport;
 
-/// LocalErrorControl::Orders::kink
-constexpr double kKink = 25.0;
+/// LocalErrorControl::Orders::contact_change
+constexpr double kContactChange = 25.0;
 /// The part of a step over which the rate of an acceleration is found.
 constexpr double kPart = 0.05;
 
@@ -31,8 +31,8 @@ GeneralizedAlpha::GeneralizedAlpha(dynamics::Dynamics& dynamics, AlphaParameters
                                    const std::optional<Goal>& goal)
     : Integrator(dynamics), parameters_(parameters), stage_(dynamics, kNewton) {
   if (!goal) return;
-  control_.emplace(dynamics, *goal, kKink);
-  kinks_ = dynamics.load_kinks();
+  control_.emplace(dynamics, *goal, kContactChange);
+  discontinuities_ = dynamics.load_discontinuities();
   contact_.emplace(dynamics, goal->tolerance);
 }
 
@@ -49,8 +49,8 @@ void GeneralizedAlpha::take_acceleration(const State& from, double h) {
 }
 
 void GeneralizedAlpha::take_slope(const time::Step& step, State& to) {
-  const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), step.t_end);
-  const double d = kPart * (kink == kinks_.end() ? step.h : std::min(step.h, *kink - step.t_end));
+  const auto jump = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), step.t_end);
+  const double d = kPart * (jump == discontinuities_.end() ? step.h : std::min(step.h, *jump - step.t_end));
   x_ = to.x + d * to.v;
   v_ = to.v + d * to.a;
   dynamics().acceleration(step.t_end + d, x_, v_, a_);
@@ -68,14 +68,15 @@ StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, 
   x_ = on_f * to.x + alpha_f * from.x;
   v_ = on_f * to.v + alpha_f * from.v;
   a_ = old_a_;
-  const double t = step.t_end - alpha_f * h, on_v = on_f * gamma * h / on_m, on_x = on_f * beta * h * h / on_m;
-  StepReport report = stage_.solve(t, on_v, on_x, x_, v_, a_);
+  const double t = step.t_end - alpha_f * h, velocity_factor = on_f * gamma * h / on_m,
+               displacement_factor = on_f * beta * h * h / on_m;
+  StepReport report = stage_.solve(t, velocity_factor, displacement_factor, x_, v_, a_);
   if (report.status != time::StepStatus::ok) return report;
   to.a = (a_ - alpha_m * old_a_) / on_m;
   to.x += beta * h * h * (to.a - old_a_);
   to.v += gamma * h * (to.a - old_a_);
   if (!control_) return report;
-  const bool load_jumps = std::binary_search(kinks_.begin(), kinks_.end(), step.t_end);
+  const bool load_jumps = std::binary_search(discontinuities_.begin(), discontinuities_.end(), step.t_end);
   v_ = LocalErrorControl::scales_v(from).cwiseMax(to.v.cwiseAbs());
   if (!load_jumps && !contact_->changed(from, to, h, v_)) {
     control_->judge(from, to, h, a_, alpha_f * h, report);

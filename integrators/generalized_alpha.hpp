@@ -52,7 +52,7 @@ class GeneralizedAlpha final : public time::Integrator {
   StageSolver stage_;
   std::optional<AccelerationError> control_;
   std::optional<ContactOnTheWay> contact_;
-  std::vector<double> kinks_;  ///< instants at which a load or its slope jumps, s
+  std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s
   Vector x_, v_, a_, old_a_;
 };
 

@@ -12,7 +12,7 @@ constexpr double kProportional = 0.7, kIntegral = 0.4;
 /// r_old is taken for no better than this.
 constexpr double kSmallest = 1e-4;
 /// Steps of the ladder within a factor of two; one is gone up where the estimate would allow for kReserve.
-constexpr double kRungs = 4.0;
+constexpr double kStepsPerDoubling = 4.0;
 constexpr double kReserve = 3.0;
 constexpr double kMostDown = 9.0, kMostUp = 9.0;
 /// The error of a step that went through a stop unseen: enough to be redone, by a ladder with about half its length.
@@ -60,7 +60,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       power_(orders.estimate / (orders.method + 1.0)),
       steps_(steps),
       scales_(dynamics.system()),
-      kinks_(dynamics.load_kinks()),
+      discontinuities_(dynamics.load_discontinuities()),
       whole_(orders.share * std::pow(goal.tolerance, orders.estimate / orders.method)),
       as_a_whole_(goal.as_a_whole || dynamics.size() > kLargest),
       scale_x_(dynamics.size()),
@@ -158,8 +158,8 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   if (!as_a_whole_ && epsilon > smooth && omega_ > 0.0) {
     // At a start from rest: relative to the velocities that the accelerations make within 1/omega, or until a load's
     // slope jumps, and to the displacements that those make within 1/omega.
-    const auto kink = std::upper_bound(kinks_.begin(), kinks_.end(), from.t);
-    const double time = kink == kinks_.end() ? 1.0 / omega_ : std::min(1.0 / omega_, *kink - from.t);
+    const auto jump = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), from.t);
+    const double time = jump == discontinuities_.end() ? 1.0 / omega_ : std::min(1.0 / omega_, *jump - from.t);
     work_ = time * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs()).cwiseMax((to.v - from.v).cwiseAbs() / h);
     scales_.raise(work_, scale_v_);
     work_ = (1.0 / omega_) * scale_v_;
@@ -169,9 +169,9 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const bool has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to);
   double r = epsilon / smooth, charge = 0.0;
   if (as_a_whole_) {
-    if (has_changed) r *= orders_.kink;
+    if (has_changed) r *= orders_.contact_change;
   } else if (has_changed) {
-    charge = std::max(orders_.kink * epsilon, kOfJump * h * contact_.jump(from, to, scale_v_));
+    charge = std::max(orders_.contact_change * epsilon, kOfJump * h * contact_.jump(from, to, scale_v_));
     r = charge / (ErrorAccount::kSpend * balance);
   } else if (r > 1.0) {
     charge = orders_.constant * std::pow(epsilon, 1.0 / power_);
@@ -186,13 +186,13 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const bool is_unstable = r <= 1.0 && has_changed && h * omega_ > orders_.stability;
   if (r <= 1.0 && (is_unstable || contact_.was_missed(from, to, h, scale_v_))) {
     report.error = kMissed;
-    report.proposal = steps_ == Steps::any ? 0.5 * h : ladder_step(h, kMissed, orders_.estimate);
+    report.proposal = steps_ == Steps::any ? 0.5 * h : grid_step(h, kMissed, orders_.estimate);
     return;
   }
   report.error = r;
   const double order = has_changed && r > 1.0 ? kKinkOrder : power_ * orders_.method;
   const double next = has_changed && r <= 1.0 ? to.memory[kOld] : r;
-  report.proposal = steps_ == Steps::any ? any_step(h, next, from.memory[kOld], order) : ladder_step(h, next, order);
+  report.proposal = steps_ == Steps::any ? any_step(h, next, from.memory[kOld], order) : grid_step(h, next, order);
 }
 
 double LocalErrorControl::any_step(double h, double r, double old, double order) const {
@@ -202,12 +202,12 @@ double LocalErrorControl::any_step(double h, double r, double old, double order)
                         kMost);
 }
 
-double LocalErrorControl::ladder_step(double h, double r, double order) const {
-  const double rungs = std::log2(kSafety / std::max(r, kSmallest)) * kRungs / order;
-  if (r <= 1.0 && rungs < kReserve) return h;
-  const double rung =
-      kRungs * std::log2(h) + std::clamp(rungs - (r <= 1.0 ? kReserve - 1.0 : 0.0), -kMostDown, kMostUp);
-  return std::exp2(std::floor(rung + 1e-6) / kRungs);
+double LocalErrorControl::grid_step(double h, double r, double order) const {
+  const double shift = std::log2(kSafety / std::max(r, kSmallest)) * kStepsPerDoubling / order;
+  if (r <= 1.0 && shift < kReserve) return h;
+  const double index =
+      kStepsPerDoubling * std::log2(h) + std::clamp(shift - (r <= 1.0 ? kReserve - 1.0 : 0.0), -kMostDown, kMostUp);
+  return std::exp2(std::floor(index + 1e-6) / kStepsPerDoubling);
 }
 
 config::Parameter LocalErrorControl::parameter(double fallback, double smallest) {

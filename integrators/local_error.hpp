@@ -34,10 +34,10 @@ namespace butee::integrators {
 class LocalErrorControl {
  public:
   struct Orders {
-    double estimate;  ///< q
-    double method;    ///< p
-    double constant;  ///< kappa, of undamped oscillation
-    double kink;      ///< k: the local error across a change of contact over the estimate
+    double estimate;        ///< q
+    double method;          ///< p
+    double constant;        ///< kappa, of undamped oscillation
+    double contact_change;  ///< k: the local error across a change of contact over the estimate
     /// Of an explicit method, the h omega at which it is stable within a closed stop: a longer step in which one closes
     /// or opens is redone, whatever its estimate says.
     double stability = std::numeric_limits<double>::infinity();
@@ -45,7 +45,7 @@ class LocalErrorControl {
     double share = 1.0;
   };
   /// Whether steps are taken from a ladder of ratio 2^(1/4), so that factorizations are found again.
-  enum class Steps { any, ladder };
+  enum class Steps { any, geometric };
   /// `dynamics` must outlive it.
   LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps);
 
@@ -97,7 +97,7 @@ class LocalErrorControl {
   double whole_error(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
                      double smooth);
   double any_step(double h, double r, double old, double order) const;
-  double ladder_step(double h, double r, double order) const;
+  double grid_step(double h, double r, double order) const;
 
   const dynamics::Dynamics& dynamics_;
   const dynamics::Obstacles* obstacles_;  ///< null where there are none
@@ -110,8 +110,8 @@ class LocalErrorControl {
   double omega_ = 0.0;  ///< 1/s, with all stops closed and supports slipping; 0 where nothing has a stiffness
   Steps steps_;
   ComponentScales scales_;
-  std::vector<double> kinks_;  ///< instants at which a load or its slope jumps, s
-  double whole_;               ///< bound of epsilon of structures measured as a whole
+  std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s
+  double whole_;                         ///< bound of epsilon of structures measured as a whole
   bool as_a_whole_;
   Vector scale_x_, scale_v_, work_;
 };

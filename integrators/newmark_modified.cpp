@@ -19,7 +19,7 @@ ModifiedNewmark::ModifiedNewmark(dynamics::Dynamics& dynamics, NewmarkParameters
 
 StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, State& to) {
   const double h = step.h, beta = parameters_.beta, gamma = parameters_.gamma;
-  const double on_v = gamma * h, on_x = beta * h * h;
+  const double velocity_factor = gamma * h, displacement_factor = beta * h * h;
   const double *x0 = from.x.data(), *v0 = from.v.data(), *a0 = from.a.data();
   double *x = to.x.data(), *v = to.v.data(), *a = to.a.data();
   for_rows(to.x.size(), [=](Index i) {
@@ -28,13 +28,13 @@ StepReport ModifiedNewmark::do_step(const State& from, const time::Step& step, S
   });
   if (dynamics().stop_count() > 0) dynamics().secant_contact(from.x, secant_, offset_);
   StepReport report;
-  if (!dynamics().solve_secant(step.t_end, on_v, on_x, secant_, offset_, to.x, to.v, to.a)) {
+  if (!dynamics().solve_secant(step.t_end, velocity_factor, displacement_factor, secant_, offset_, to.x, to.v, to.a)) {
     report.status = time::StepStatus::singular;
     return report;
   }
   for_rows(to.x.size(), [=](Index i) {
-    x[i] += on_x * a[i];
-    v[i] += on_v * a[i];
+    x[i] += displacement_factor * a[i];
+    v[i] += velocity_factor * a[i];
   });
   if (controller_ != nullptr) report.error = controller_->error(from, to, h);
   return report;

@@ -20,7 +20,7 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 constexpr std::size_t kMostPieces = 256;
 /// So many changes of each stop at one instant are chatter by rounding.
 constexpr std::size_t kMostAtOnce = 6;
-/// The turn between two knots, rad.
+/// The turn between two breakpoints, rad.
 constexpr double kTurn = 1.5;
 constexpr std::size_t kMostKnots = 100000;
 
@@ -31,7 +31,7 @@ Piecewise::Piecewise(dynamics::Dynamics& dynamics, double end_time)
       system_(dynamics),
       first_change_(system_),
       end_time_(end_time),
-      kinks_(dynamics.load_kinks()),
+      discontinuities_(dynamics.load_discontinuities()),
       status_(static_cast<std::size_t>(system_.stop_count())),
       closed_(status_.size()),
       x_(static_cast<std::size_t>(system_.size())),
@@ -97,7 +97,7 @@ void Piecewise::follow(const time::State& from, const time::Step& step) {
   changed_ = static_cast<Index>(from.memory[system_.stop_count()]);
   while (true) {
     const ContactStateFlow& flow = begin_piece(t);
-    const double landing = std::min(step.t_end, next_kink(t)), rest = landing - t,
+    const double landing = std::min(step.t_end, next_discontinuity(t)), rest = landing - t,
                  until = std::min(rest, flow.longest());
     const auto found =
         first_change_.find(flow, piece_, status_, until, changed_, at_once > kMostAtOnce * (status_.size() + 1));
@@ -162,14 +162,14 @@ const ContactStateFlow& Piecewise::begin_piece(double t) {
     if (stop.b >= 0) force_(stop.b, 0) -= push;
     has_force = true;
   }
-  now.begin(t, x_.data(), v_.data(), force_, has_force, next_kink(t) - t, piece_);
+  now.begin(t, x_.data(), v_.data(), force_, has_force, next_discontinuity(t) - t, piece_);
   flow_ = &now;
   return now;
 }
 
-double Piecewise::next_kink(double t) const {
-  const auto next = std::upper_bound(kinks_.begin(), kinks_.end(), t);
-  return next == kinks_.end() ? kNever : *next;
+double Piecewise::next_discontinuity(double t) const {
+  const auto next = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), t);
+  return next == discontinuities_.end() ? kNever : *next;
 }
 
 void Piecewise::recall(const time::State& from, const time::State& to) {
@@ -196,7 +196,7 @@ void Piecewise::take_to(double t) {
   flow_->go(piece_, t - piece_.t);
 }
 
-std::span<const double> Piecewise::knots(const time::State& from, const time::State& to) const {
+std::span<const double> Piecewise::breakpoints(const time::State& from, const time::State& to) const {
   auto& self = const_cast<Piecewise&>(*this);  // Recomputing a step that is no longer the last changes nothing visible.
   self.recall(from, to);
   if (!has_knots_) self.find_knots();

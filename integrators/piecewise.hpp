@@ -20,11 +20,12 @@ class Piecewise final : public time::Integrator {
   /// `end_time`, s. Throws InputError, which names methods that can, where the scene is of another kind.
   Piecewise(dynamics::Dynamics& dynamics, double end_time);
 
-  bool minds_load_kinks() const override { return true; }
+  bool handles_load_discontinuities() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
   double first_step(const time::State&) const override { return std::numeric_limits<double>::infinity(); }
-  /// Where contacts change, loads have kinks, and instants so near to each other that the motion turns little between.
-  std::span<const double> knots(const time::State& from, const time::State& to) const override;
+  /// Where contacts change, loads have discontinuities, and instants so near to each other that the motion turns little
+  /// between.
+  std::span<const double> breakpoints(const time::State& from, const time::State& to) const override;
   time::DenseOutput dense_output() const override { return time::DenseOutput::other; }
   void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
                  time::Interpolated out) const override;
@@ -80,13 +81,13 @@ class Piecewise final : public time::Integrator {
   void follow_pieces(const time::State& from, const time::State& to, Jump jump, Propagate propagate);
   /// The jump of v by x, M^-1 r^T c, of a stop with w = r x, n.
   Vector jump_of(Index stop) const;
-  double next_kink(double t) const;
+  double next_discontinuity(double t) const;
 
   Controller controller_;
   SmallSystem system_;
   FirstChange first_change_;
   double end_time_;
-  std::vector<double> kinks_;  ///< of the loads
+  std::vector<double> discontinuities_;  ///< of the loads
   std::vector<State> states_;
   std::size_t current_ = 0;
   std::int64_t uses_ = 0, states_made_ = 0;

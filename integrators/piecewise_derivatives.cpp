@@ -66,8 +66,8 @@ Vector Piecewise::derivative_by_loads(const time::State& from, const time::State
       [&](double s) {
         force.setZero();
         const bool has_force = system_.add_polynomials(piece_.t, force);
-        flow_->begin(piece_.t, by_loads.data(), by_loads.data() + n, force, has_force, next_kink(piece_.t) - piece_.t,
-                     response);
+        flow_->begin(piece_.t, by_loads.data(), by_loads.data() + n, force, has_force,
+                     next_discontinuity(piece_.t) - piece_.t, response);
         flow_->go(response, s);
         for (Index i = 0; i < n; ++i) {
           const Jet jet = flow_->dof(response, i);

@@ -14,7 +14,7 @@ using namespace rodas4_coefficients;
 namespace {
 
 /// Measured in tests/conformance/error_constant_test.cpp.
-constexpr double kConstant = 0.57, kKink = 10.0;
+constexpr double kConstant = 0.57, kContactChange = 10.0;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ bool has_infinite_slope(const dynamics::Obstacles& obstacles) {
 
 Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, goal, {4.0, 4.0, kConstant, kKink}, LocalErrorControl::Steps::ladder),
+      control_(dynamics, goal, {4.0, 4.0, kConstant, kContactChange}, LocalErrorControl::Steps::geometric),
       solver_(dynamics.effective(), dynamics.obstacles()) {
   if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
     throw InputError(

@@ -23,7 +23,7 @@ struct LinearStop {
 };
 
 /// A system of few DOFs in dense matrices: M a + C v + K x = F(t) + F_c with piecewise linear stops and loads that are
-/// harmonic or parabolas in time between kinks.
+/// harmonic or parabolas in time between discontinuities.
 class SmallSystem {
  public:
   static constexpr Index kMostDofs = 24;

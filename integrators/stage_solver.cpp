@@ -24,10 +24,11 @@ StageSolver::StageSolver(dynamics::Dynamics& dynamics, NewtonOptions options) : 
   stop_displacement_ = stop_force_ = stop_tangent_ = Vector::Zero(dynamics.stop_count());
 }
 
-StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) {
+StepReport StageSolver::solve(double t, double velocity_factor, double displacement_factor, VectorRef x, VectorRef v,
+                              VectorRef a) {
   dynamics_.external_force(t, load_);
   dynamics::EffectiveSolver& effective = dynamics_.effective();
-  effective.set_factors(on_v, on_x);
+  effective.set_factors(velocity_factor, displacement_factor);
   const bool has_stops = dynamics_.stop_count() > 0;
   StepReport report;
   Change last{};
@@ -41,7 +42,8 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
       return report;
     }
     const bool is_balanced = balance.residual() <= options_.residual_tolerance * scale;
-    if (is_balanced && (first || on_x * last.correction <= options_.increment_tolerance * last.x)) return report;
+    if (is_balanced && (first || displacement_factor * last.correction <= options_.increment_tolerance * last.x))
+      return report;
     if (report.newton_iterations == options_.max_iterations) break;
     if (!first && has_stops) contact(stop_displacement_, true, stop_force_, stop_tangent_);
     if (!effective.solve(stop_tangent_, residual_)) {
@@ -49,7 +51,7 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
       return report;
     }
     ++report.newton_iterations;
-    last = add_correction(on_v, on_x, x, v, a);
+    last = add_correction(velocity_factor, displacement_factor, x, v, a);
     if (!has_stops && !options_.checks_linear_too) return report;
   }
   residual_.cwiseAbs().maxCoeff(&report.worst_dof);
@@ -58,15 +60,16 @@ StepReport StageSolver::solve(double t, double on_v, double on_x, VectorRef x, V
   return report;
 }
 
-StageSolver::Change StageSolver::add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a) {
+StageSolver::Change StageSolver::add_correction(double velocity_factor, double displacement_factor, VectorRef x,
+                                                VectorRef v, VectorRef a) {
   double square = 0.0, x_square = 0.0;
   in_blocks(a.size(), [&](Index begin, Index count) {
     const double* correction = residual_.data() + begin;
     double *x_end = x.data() + begin, *v_end = v.data() + begin, *a_end = a.data() + begin;
     for_rows(count, [=](Index i) {
       a_end[i] += correction[i];
-      v_end[i] += on_v * correction[i];
-      x_end[i] += on_x * correction[i];
+      v_end[i] += velocity_factor * correction[i];
+      x_end[i] += displacement_factor * correction[i];
     });
     square += square_of(residual_, begin, count);
     x_square += square_of(x, begin, count);

@@ -14,10 +14,11 @@ struct NewtonOptions {
 
 /// Solves the equations of motion of one stage of an implicit method by Newton's iteration,
 ///
-///     M a + C v + K x = F(t) + F_c(x),    x = x* + on_x a,    v = v* + on_v a
+///     M a + C v + K x = F(t) + F_c(x),    x = x* + displacement_factor a,    v = v* + velocity_factor a
 ///
-/// with A da = r, A = M + on_v C + on_x (K + K_tangent), until |r| <= eps_r (|F| + |F_c| + |M a| + |C v| + |K x|) and,
-/// after the first solve, |dx| <= eps_delta |x|. Whatever the stage stands for, it is a system of the size of K.
+/// with A da = r, A = M + velocity_factor C + displacement_factor (K + K_tangent), until |r| <= eps_r (|F| + |F_c| + |M
+/// a| + |C v| + |K x|) and, after the first solve, |dx| <= eps_delta |x|. Whatever the stage stands for, it is a system
+/// of the size of K.
 class StageSolver {
  public:
   StageSolver(dynamics::Dynamics& dynamics, NewtonOptions options);
@@ -26,7 +27,8 @@ class StageSolver {
   StageSolver& operator=(const StageSolver&) = delete;
 
   /// x, v and a come as a guess that fulfils the two relations, and leave as the solution.
-  time::StepReport solve(double t, double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a);
+  time::StepReport solve(double t, double velocity_factor, double displacement_factor, VectorRef x, VectorRef v,
+                         VectorRef a);
 
  protected:
   dynamics::Dynamics& dynamics() const { return dynamics_; }
@@ -39,7 +41,7 @@ class StageSolver {
     double correction, x;
   };
   /// a += correction, and v and x with their factors, by the solution in residual_.
-  Change add_correction(double on_v, double on_x, VectorRef x, VectorRef v, VectorRef a);
+  Change add_correction(double velocity_factor, double displacement_factor, VectorRef x, VectorRef v, VectorRef a);
   linalg::ForceBalance evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
 
   dynamics::Dynamics& dynamics_;

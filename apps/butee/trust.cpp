@@ -80,8 +80,8 @@ double tolerance_of(const scene::Scene& session, const std::string& method) {
 
 double peak_of(const FollowedRun& run) {
   double peak = 0.0;
-  for (const auto& course : run.courses.values)
-    for (const double value : course) peak = std::max(peak, std::abs(value));
+  for (const auto& history : run.histories.values)
+    for (const double value : history) peak = std::max(peak, std::abs(value));
   return peak;
 }
 
@@ -110,20 +110,20 @@ class Judgement {
     run_again();
     add(run_);
     record::TrustRuns runs;
-    runs.run = run_.courses;
+    runs.run = run_.histories;
     std::string tightened;
     if (auto tight = tighten(session_, tightened)) {
       const FollowedRun run = follow_or_throw(*tight, 0.0, kNumbers);
-      runs.tightened = run.courses;
+      runs.tightened = run.histories;
       add(run);
     } else {
       tightened.clear();
     }
     if (other_) {
-      runs.other = other_->run.courses;
+      runs.other = other_->run.histories;
       runs.is_exact = other_->is_exact;
       add(other_->run);
-      runs.again = again_.courses;
+      runs.again = again_.histories;
     }
     runs.growth = growth();
     record::Trust trust = record::judge(runs, session_.output.trust_accuracy);
@@ -162,9 +162,10 @@ class Judgement {
     const double start = size * peak_of(run);
     for (const double sign : {1.0, -1.0})
       if (start > 0.0)
-        growth.displaced = std::max(
-            growth.displaced, record::largest_difference(run.courses, follow_or_throw(by, sign * start, {}).courses) /
-                                  (start * largest_perturbation(run.size)));
+        growth.displaced =
+            std::max(growth.displaced,
+                     record::largest_difference(run.histories, follow_or_throw(by, sign * start, {}).histories) /
+                         (start * largest_perturbation(run.size)));
     return growth;
   }
 
@@ -178,7 +179,7 @@ class Judgement {
       for (const double sign : {1.0, -1.0}) add(follow_or_throw(session_, sign * kElsewhere * peak_of(run_), kNumbers));
     const double factor = trust.to_the_end ? kAgreeing : kScattering;
     // Extremes are found to a part of them.
-    const double rounding = std::max(record::Course::kGood, 1e-14 * std::min(1e6, trust.amplification));
+    const double rounding = std::max(record::StepPath::kGood, 1e-14 * std::min(1e6, trust.amplification));
     for (std::size_t i = 0; i < values_.size(); ++i)
       trust.statistics.push_back(record::bracket(run_.numbers[i].name, values_[i], run_.numbers[i].is_count, factor,
                                                  rounding * std::abs(values_[i].front())));

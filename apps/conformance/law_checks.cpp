@@ -90,9 +90,9 @@ Finding check_bounds(const Subject& subject) {
       return {false, "not finite at g = " + to_short_text(g) + " m"};
     if (g > 0.0 && force(*law, g) < 0.0) return {false, "pulls at a penetration of " + to_short_text(g) + " m"};
   }
-  if (const double pull = std::abs(force(*law, -1.0)); pull > law->far_force() * (1.0 + 1e-6) + 1e-300)
-    return {false, "acts with " + to_short_text(pull) + " N on a stop that is open by 1 m; far_force() says " +
-                       to_short_text(law->far_force())};
+  if (const double pull = std::abs(force(*law, -1.0)); pull > law->asymptotic_force() * (1.0 + 1e-6) + 1e-300)
+    return {false, "acts with " + to_short_text(pull) + " N on a stop that is open by 1 m; asymptotic_force() says " +
+                       to_short_text(law->asymptotic_force())};
   for (const double g : {0.0, -0.0})
     if (!std::isfinite(law->secant(g) + law->tangent(g))) return {false, "not finite at g = 0"};
   return {true,

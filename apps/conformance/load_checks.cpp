@@ -36,10 +36,11 @@ double largest(const model::TimeFunction& load) {
   return value;
 }
 
-/// True where no kink lies in [t, t + h].
+/// True where no instant lies in [t, t + h].
 bool is_smooth(const model::TimeFunction& load, double t, double h) {
-  const auto kinks = load.kinks();
-  return std::none_of(kinks.begin(), kinks.end(), [&](double kink) { return kink >= t && kink <= t + h; });
+  const auto instants = load.discontinuities();
+  return std::none_of(instants.begin(), instants.end(),
+                      [&](double instant) { return instant >= t && instant <= t + h; });
 }
 
 Finding check_values(const Subject& subject) {
@@ -56,15 +57,15 @@ Finding check_values(const Subject& subject) {
       jump = step, at = t;
   }
   if (jump > 1e-3 * largest(*load))
-    return {false, "jumps at t = " + to_short_text(at) + " s, which kinks() does not say"};
+    return {false, "jumps at t = " + to_short_text(at) + " s, which discontinuities() does not say"};
   return {true, "finite, largest value " + to_short_text(largest(*load)) + " in 10 s"};
 }
 
-Finding check_kinks(const Subject& subject) {
-  const auto kinks = make_load(subject)->kinks();
-  for (const double kink : kinks)
-    if (!std::isfinite(kink)) return {false, "one of the kinks is not finite"};
-  return {std::is_sorted(kinks.begin(), kinks.end()), std::to_string(kinks.size()) + " kinks, ascending"};
+Finding check_discontinuities(const Subject& subject) {
+  const auto instants = make_load(subject)->discontinuities();
+  for (const double instant : instants)
+    if (!std::isfinite(instant)) return {false, "one of the instants is not finite"};
+  return {std::is_sorted(instants.begin(), instants.end()), std::to_string(instants.size()) + " instants, ascending"};
 }
 
 Finding check_taylor(const Subject& subject) {
@@ -121,8 +122,8 @@ Finding check_motion(const Subject& subject) {
 }  // namespace
 
 std::vector<Check> load_checks() {
-  return {{"values", "finite, and jumps only where kinks() says so", check_values},
-          {"kinks", "the kinks are ascending", check_kinks},
+  return {{"values", "finite, and jumps only where discontinuities() says so", check_values},
+          {"discontinuities", "the discontinuities are ascending", check_discontinuities},
           {"series", "the Taylor series, where there is one, sums to the value", check_taylor},
           {"harmonic", "harmonic(), where it says something, is the value", check_harmonic},
           {"motion", "two methods agree on the motion under the load", check_motion}};

@@ -162,15 +162,15 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
     for (Index i = 0; i < b; ++i) {
       const auto shape = shapes.col(block.modes[static_cast<std::size_t>(i)]);
       const Complex x = weight / block.scale[i] * block.vectors(i, k), v = weight * block.vectors(b + i, k),
-                    on_q = block.scale[i] * block.inverse(k, i), on_v = block.inverse(k, b + i);
+                    on_q = block.scale[i] * block.inverse(k, i), velocity_factor = block.inverse(k, b + i);
       of_x.col(m) += x.real() * shape;
       of_x.col(p + m) -= x.imag() * shape;
       of_v.col(m) += v.real() * shape;
       of_v.col(p + m) -= v.imag() * shape;
       from_q.col(m) += on_q.real() * shape;
       from_q.col(p + m) += on_q.imag() * shape;
-      from_v.col(m) += on_v.real() * shape;
-      from_v.col(p + m) += on_v.imag() * shape;
+      from_v.col(m) += velocity_factor.real() * shape;
+      from_v.col(p + m) += velocity_factor.imag() * shape;
     }
   }
   speed_ = (decay_.square() + turn_.square()).sqrt();

@@ -166,7 +166,7 @@ void Dynamics::subtract_internal_force(ConstVectorRef x, ConstVectorRef v, Vecto
   r -= modal_force_;
 }
 
-void Dynamics::subtract_products(From from, const double* x, double on_v, ConstVectorRef v, VectorRef r) {
+void Dynamics::subtract_products(From from, const double* x, double velocity_factor, ConstVectorRef v, VectorRef r) {
   in_blocks(size(), [&](Index begin, Index count) {
     auto rows = r.segment(begin, count);
     const auto product = work_.head(count);
@@ -177,9 +177,9 @@ void Dynamics::subtract_products(From from, const double* x, double on_v, ConstV
       rows -= product;
     if (system_.dashpots.size() == 0) return;
     dashpot_product_.multiply(v.data(), begin, count, work_.data());
-    rows -= on_v * product;
+    rows -= velocity_factor * product;
   });
-  if (turning_) turning_->subtract_forces(x, on_v, v, r);
+  if (turning_) turning_->subtract_forces(x, velocity_factor, v, r);
 }
 
 const double* Dynamics::shifted(ConstVectorRef x, double shift, ConstVectorRef v) {
@@ -272,7 +272,7 @@ const Vector& Dynamics::stick_forces(double t, ConstVectorRef x, ConstVectorRef 
   return stick_force_;
 }
 
-void Dynamics::respond(ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+void Dynamics::solve_acceleration(ConstVectorRef x, ConstVectorRef v, VectorRef a) {
   subtract_from(From::given, x, v, a);
   solve_mass(v, a);
 }
@@ -312,15 +312,15 @@ ModalSystem& Dynamics::modal(Index count) {
   return *modal_system_;
 }
 
-std::vector<double> Dynamics::load_kinks() const {
+std::vector<double> Dynamics::load_discontinuities() const {
   std::vector<double> all;
   for (const model::FreeLoad& load : system_.loads) {
-    const auto kinks = load.in_time->kinks();
-    all.insert(all.end(), kinks.begin(), kinks.end());
+    const auto instants = load.in_time->discontinuities();
+    all.insert(all.end(), instants.begin(), instants.end());
   }
   if (system_.rotation != nullptr) {
-    const auto kinks = system_.rotation->kinks();
-    all.insert(all.end(), kinks.begin(), kinks.end());
+    const auto instants = system_.rotation->discontinuities();
+    all.insert(all.end(), instants.begin(), instants.end());
   }
   std::sort(all.begin(), all.end());
   return all;

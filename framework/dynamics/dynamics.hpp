@@ -80,11 +80,11 @@ class BUTEE_EXPORT Dynamics {
 
   /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that meets F_c at x
   void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
-  /// a := the solution of (M + on_v C + on_x (K + S^T kappa S)) a = F(t) + S^T (c - kappa S x) - C v - K x, so that the
-  /// equations of motion with those stops hold at x + on_x a and v + on_v a. False where the matrix is not positive
-  /// definite.
-  [[nodiscard]] bool solve_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
-                                  ConstVectorRef x, ConstVectorRef v, VectorRef a);
+  /// a := the solution of (M + velocity_factor C + displacement_factor (K + S^T kappa S)) a = F(t) + S^T (c - kappa S
+  /// x) - C v - K x, so that the equations of motion with those stops hold at x + displacement_factor a and v +
+  /// velocity_factor a. False where the matrix is not positive definite.
+  [[nodiscard]] bool solve_secant(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
+                                  ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a);
 
   /// r := F + F_c - M a - C v - K x with the forces of `load`, zero where no load acts,
   /// and, in stop space, of `stop_force`; returns |r| and
@@ -95,7 +95,7 @@ class BUTEE_EXPORT Dynamics {
   /// a := M^-1 (F(t) + F_c(x) - C v - K x)
   void acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a);
   /// a := M^-1 (a - C v - K x), with the forces given in a
-  void respond(ConstVectorRef x, ConstVectorRef v, VectorRef a);
+  void solve_acceleration(ConstVectorRef x, ConstVectorRef v, VectorRef a);
 
   /// The effective equations of an implicit method.
   EffectiveSolver& effective();
@@ -103,7 +103,7 @@ class BUTEE_EXPORT Dynamics {
   /// The system in its `count` lowest modes (0: as ModalSystem chooses), computed at the first call. Throws InputError.
   ModalSystem& modal(Index count = 0);
   /// The instants at which a load or one of its derivatives jumps, ascending.
-  std::vector<double> load_kinks() const;
+  std::vector<double> load_discontinuities() const;
 
   /// "u of string:17"
   std::string dof_name(Index dof) const;
@@ -125,16 +125,16 @@ class BUTEE_EXPORT Dynamics {
   void add_external_force(double t, VectorRef force);
   /// x + shift v
   const double* shifted(ConstVectorRef x, double shift, ConstVectorRef v);
-  bool solve_secant_of_many(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
-                            ConstVectorRef x, ConstVectorRef v, VectorRef a);
-  bool solve_single_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c, ConstVectorRef x,
-                           ConstVectorRef v, VectorRef a);
+  bool solve_secant_of_many(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
+                            ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a);
+  bool solve_single_secant(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
+                           ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a);
   /// r -= C v + K x
   void subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r);
   /// r -= what of C v + K x is no multiple of M v, and no modal damping; from nothing, r was 0.
   void subtract_from(From from, ConstVectorRef x, ConstVectorRef v, VectorRef r);
-  /// r -= K x + on_v D v with the dashpots D
-  void subtract_products(From from, const double* x, double on_v, ConstVectorRef v, VectorRef r);
+  /// r -= K x + velocity_factor D v with the dashpots D
+  void subtract_products(From from, const double* x, double velocity_factor, ConstVectorRef v, VectorRef r);
   /// a := M^-1 a, less the deceleration by damping that subtract_from() left out
   void solve_mass(ConstVectorRef v, VectorRef a);
   /// y := a block of the rows of C v, but for modal damping

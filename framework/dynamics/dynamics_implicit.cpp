@@ -9,25 +9,26 @@ void Dynamics::secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c) {
   contact_.secant(stop_displacement_, kappa, c);
 }
 
-bool Dynamics::solve_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
-                            ConstVectorRef x, ConstVectorRef v, VectorRef a) {
-  return size() == 1 ? solve_single_secant(t, on_v, on_x, kappa, c, x, v, a)
-                     : solve_secant_of_many(t, on_v, on_x, kappa, c, x, v, a);
+bool Dynamics::solve_secant(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
+                            ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+  return size() == 1 ? solve_single_secant(t, velocity_factor, displacement_factor, kappa, c, x, v, a)
+                     : solve_secant_of_many(t, velocity_factor, displacement_factor, kappa, c, x, v, a);
 }
 
-bool Dynamics::solve_secant_of_many(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
-                                    ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+bool Dynamics::solve_secant_of_many(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
+                                    ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
   // The solution for a + s v instead of a lacks the product M v: what C v asks for is then a shift of x in K x.
   set_time(t);
   const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
-  const double s = on_mass / (1.0 + on_v * on_mass), shift = on_stiffness - s * (on_x + on_v * on_stiffness);
-  subtract_products(From::nothing, shifted(x, shift, v), 1.0 - s * on_v, v, a);
+  const double s = on_mass / (1.0 + velocity_factor * on_mass),
+               shift = on_stiffness - s * (displacement_factor + velocity_factor * on_stiffness);
+  subtract_products(From::nothing, shifted(x, shift, v), 1.0 - s * velocity_factor, v, a);
   add_external_force(t, a);
   if (stop_count() > 0) {
     contact_.displacement(x, stop_displacement_);
     if (s != 0.0) {
       contact_.displacement(v, stop_velocity_);
-      stop_displacement_ -= s * on_x * stop_velocity_;
+      stop_displacement_ -= s * displacement_factor * stop_velocity_;
     }
     stop_force_ = c - kappa.cwiseProduct(stop_displacement_);
     contact_.scatter(stop_force_, a);
@@ -37,14 +38,14 @@ bool Dynamics::solve_secant_of_many(double t, double on_v, double on_x, ConstVec
     modal_->add_force(v, modal_force_);
     a -= modal_force_;
   }
-  effective().set_factors(on_v, on_x);
+  effective().set_factors(velocity_factor, displacement_factor);
   if (!effective().solve(kappa, a)) return false;
   if (s != 0.0) a -= s * v;
   return true;
 }
 
-bool Dynamics::solve_single_secant(double t, double on_v, double on_x, ConstVectorRef kappa, ConstVectorRef c,
-                                   ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+bool Dynamics::solve_single_secant(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
+                                   ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
   a[0] = 0.0;
   add_external_force(t, a);
   double stiffness = stiffness_product_.first(), force = a[0];
@@ -54,7 +55,7 @@ bool Dynamics::solve_single_secant(double t, double on_v, double on_x, ConstVect
   }
   ++counters_.factorizations;
   ++counters_.solves;
-  const double matrix = mass_product_.first() + on_v * single_damping_ + on_x * stiffness;
+  const double matrix = mass_product_.first() + velocity_factor * single_damping_ + displacement_factor * stiffness;
   a[0] = (force - single_damping_ * v[0] - stiffness * x[0]) / matrix;
   return matrix > 0.0;
 }

@@ -21,7 +21,7 @@ constexpr double kLostInRounding = 1e-17;
 
 LocalContact::LocalContact(const Contact& contact)
     : contact_(contact), compliance_(contact.size(), contact.size()), near_matrix_(compliance_) {
-  reach_ = free_ = force_ = sum_ = near_ = Vector::Zero(contact.size());
+  contraction_bound_ = free_ = force_ = sum_ = near_ = Vector::Zero(contact.size());
   near_places_.resize(static_cast<std::size_t>(contact.size()));
   far_places_ = all_places_ = near_places_;
   std::iota(all_places_.begin(), all_places_.end(), 0);
@@ -58,26 +58,26 @@ bool LocalContact::correct(linalg::LinearSolver& base, double stiffness_factor, 
 }
 
 void LocalContact::divide(double k, ConstVectorRef kappa) {
-  reach_ = k * kappa.cwiseProduct(row_sums_);
+  contraction_bound_ = k * kappa.cwiseProduct(row_sums_);
   near_stops_ = far_stops_ = {};
   contraction_ = 0.0;
-  const double largest = reach_.maxCoeff();
+  const double largest = contraction_bound_.maxCoeff();
   if (largest <= kHidden) return;
-  if (largest <= kNear && reach_.minCoeff() > kHidden) {
+  if (largest <= kNear && contraction_bound_.minCoeff() > kHidden) {
     far_stops_ = all_places_;
     contraction_ = largest;
     return;
   }
   std::size_t near = 0, far = 0;
-  for (Index i = 0; i < reach_.size(); ++i) {
-    if (reach_[i] > kNear)
+  for (Index i = 0; i < contraction_bound_.size(); ++i) {
+    if (contraction_bound_[i] > kNear)
       near_places_[near++] = i;
-    else if (reach_[i] > kHidden)
+    else if (contraction_bound_[i] > kHidden)
       far_places_[far++] = i;
   }
   near_stops_ = std::span(near_places_).first(near);
   far_stops_ = std::span(far_places_).first(far);
-  for (const Index stop : far_stops_) contraction_ = std::max(contraction_, reach_[stop]);
+  for (const Index stop : far_stops_) contraction_ = std::max(contraction_, contraction_bound_[stop]);
 }
 
 bool LocalContact::factorize_near(double k, ConstVectorRef kappa) {

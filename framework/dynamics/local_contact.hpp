@@ -49,11 +49,11 @@ class BUTEE_EXPORT LocalContact {
   Vector row_sums_;                       ///< of |G|
   Eigen::MatrixXd near_matrix_;           ///< G_NN + diag(1/(k kappa_N)) and its factor
   Vector free_, force_, sum_, near_, work_;
-  Vector reach_;  ///< of every stop: k kappa_i sum_j |G_ij|
+  Vector contraction_bound_;  ///< of every stop: k kappa_i sum_j |G_ij|
   std::vector<Index> near_places_, far_places_, all_places_;
   std::span<const Index> near_stops_, far_stops_;  ///< those of this solve, within the ones above
   bool far_is_spread_ = false;                     ///< work_ holds the far forces' part
-  double contraction_ = 0.0;                       ///< of a sweep over the far stops: their largest reach
+  double contraction_ = 0.0;                       ///< of a sweep over the far stops: their largest bound
 };
 
 }  // namespace butee::dynamics

@@ -251,7 +251,7 @@ void ModalMotion::Parts::find_other(Index i, double tau) {
     if (load.angular_frequency != 0.0 && !is_kept)
       loads.push_back({load.angular_frequency, load.cosine.segment(i, 1), load.sine.segment(i, 1)});
   }
-  ModalFlow flow(of_omega, of_delta, loads, tau);
+  ModalPropagator flow(of_omega, of_delta, loads, tau);
   flow.refine(of_omega, of_delta);
   const double c0 = force_[0][i], c1 = tau * force_[1][i], c2 = tau * tau * force_[2][i];
   const double f[] = {c0 + c1 / 2.0 + c2 / 3.0, (c1 + c2) / 2.0, c2 / 6.0};

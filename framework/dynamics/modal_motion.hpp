@@ -12,10 +12,11 @@ namespace butee::dynamics {
 ///
 ///     q'' + 2 delta q' + omega^2 q = f_0 P_0 + f_1 P_1 + f_2 P_2 + loads
 ///
-/// with the Legendre polynomials P_k of the step. It is the motion that ModalFlow gives at the end of a step, without
-/// its tables: slow modes by a Taylor series, decaying oscillations by sine, cosine and exponential, the few others
-/// (overdamped and fast, in resonance with a load without damping, or turning thousands of times a step) by a ModalFlow
-/// of their own. Its error is rounding. Checked against ModalFlow in tests/unit/modal_motion_test.cpp.
+/// with the Legendre polynomials P_k of the step. It is the motion that ModalPropagator gives at the end of a step,
+/// without its tables: slow modes by a Taylor series, decaying oscillations by sine, cosine and exponential, the few
+/// others (overdamped and fast, in resonance with a load without damping, or turning thousands of times a step) by a
+/// ModalPropagator of their own. Its error is rounding. Checked against ModalPropagator in
+/// tests/unit/modal_motion_test.cpp.
 class BUTEE_EXPORT ModalMotion {
  public:
   /// `modal` must outlive it.

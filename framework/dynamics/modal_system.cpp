@@ -124,7 +124,7 @@ void ModalSystem::replace_loads(const Dynamics& dynamics) {
   other_loads_.clear();
   project_loads(dynamics);
   // Flows hold the harmonics, and what methods derived from the laws.
-  rungs_.clear();
+  grid_.clear();
   odd_.clear();
   oldest_ = 0;
 }
@@ -155,48 +155,49 @@ void ModalSystem::add_load(double t, Eigen::Ref<Eigen::ArrayXd> r) const {
   for (const OtherLoad& load : other_loads_) r += load.in_time->value(t) * load.shape;
 }
 
-double ModalSystem::ladder_step(int level) {
+double ModalSystem::grid_step(int level) {
   const int whole = level >= 0 ? level / 2 : -((1 - level) / 2);
   const double step = std::ldexp(1.0, whole);
   return level % 2 == 0 ? step : step * std::numbers::sqrt2;
 }
 
-const ModalFlow& ModalSystem::raw_ladder(int level) {
-  if (const auto& known = rungs_[level].raw) return *known;
-  const double h = ladder_step(level);
-  auto flow = h > ModalFlow::longest_series(frequencies_, decay_, harmonics_)
-                  ? std::make_unique<ModalFlow>(raw_ladder(level - 2).doubled())
-                  : std::make_unique<ModalFlow>(frequencies_, decay_, harmonics_, h);
-  return *(rungs_[level].raw = std::move(flow));
+const ModalPropagator& ModalSystem::raw_propagator(int level) {
+  if (const auto& known = grid_[level].raw) return *known;
+  const double h = grid_step(level);
+  auto flow = h > ModalPropagator::longest_series(frequencies_, decay_, harmonics_)
+                  ? std::make_unique<ModalPropagator>(raw_propagator(level - 2).doubled())
+                  : std::make_unique<ModalPropagator>(frequencies_, decay_, harmonics_, h);
+  return *(grid_[level].raw = std::move(flow));
 }
 
-ModalFlow ModalSystem::refined_ladder(int level) {
-  ModalFlow flow = raw_ladder(level);
+ModalPropagator ModalSystem::refined_propagator(int level) {
+  ModalPropagator flow = raw_propagator(level);
   flow.refine(frequencies_, decay_);
   return flow;
 }
 
-StepFlow& ModalSystem::ladder(int level) {
-  std::unique_ptr<StepFlow>& step = rungs_[level].step;
+ContactPropagator& ModalSystem::propagator(int level) {
+  std::unique_ptr<ContactPropagator>& step = grid_[level].step;
   if (!step) {
-    ModalFlow half = refined_ladder(level - 2);
-    step = std::make_unique<StepFlow>(refined_ladder(level), std::move(half), stop_shapes_, frequencies_, harmonics_);
+    ModalPropagator half = refined_propagator(level - 2);
+    step = std::make_unique<ContactPropagator>(refined_propagator(level), std::move(half), stop_shapes_, frequencies_,
+                                               harmonics_);
   }
   return *step;
 }
 
-StepFlow& ModalSystem::odd(double h) {
+ContactPropagator& ModalSystem::odd(double h) {
   for (const auto& known : odd_)
     if (known->h() == h) return *known;
   if (odd_.size() < kOddFlows) {
     oldest_ = odd_.size();
     odd_.emplace_back();
   }
-  ModalFlow half(frequencies_, decay_, harmonics_, 0.5 * h), whole = half.doubled();
+  ModalPropagator half(frequencies_, decay_, harmonics_, 0.5 * h), whole = half.doubled();
   half.refine(frequencies_, decay_);
   whole.refine(frequencies_, decay_);
-  std::unique_ptr<StepFlow>& slot = odd_[oldest_];
-  slot = std::make_unique<StepFlow>(std::move(whole), std::move(half), stop_shapes_, frequencies_, harmonics_);
+  std::unique_ptr<ContactPropagator>& slot = odd_[oldest_];
+  slot = std::make_unique<ContactPropagator>(std::move(whole), std::move(half), stop_shapes_, frequencies_, harmonics_);
   oldest_ = (oldest_ + 1) % kOddFlows;
   return *slot;
 }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "butee/dynamics/contact_propagator.hpp"
 #include "butee/dynamics/frequencies.hpp"
-#include "butee/dynamics/step_flow.hpp"
 #include "butee/model/system.hpp"
 
 namespace butee::dynamics {
@@ -63,19 +63,19 @@ class BUTEE_EXPORT ModalSystem {
   /// Takes the loads and laws that the system of `dynamics` has now; the modes stay.
   void replace_loads(const Dynamics& dynamics);
 
-  static double ladder_step(int level);
-  /// The flow over ladder_step(level).
-  StepFlow& ladder(int level);
+  static double grid_step(int level);
+  /// The flow over grid_step(level).
+  ContactPropagator& propagator(int level);
   /// The flow over any other length. Kept until several others have been asked for.
-  StepFlow& odd(double h);
+  ContactPropagator& odd(double h);
 
  private:
   void add_static(const model::System& system, Modes& modes);
   void find_decay(Dynamics& dynamics);
   void project_loads(const Dynamics& dynamics);
   void project_stops(const Contact& contact);
-  ModalFlow refined_ladder(int level);
-  const ModalFlow& raw_ladder(int level);
+  ModalPropagator refined_propagator(int level);
+  const ModalPropagator& raw_propagator(int level);
 
   Eigen::ArrayXd frequencies_, decay_;
   Eigen::MatrixXd shapes_, rows_, weighted_;
@@ -86,12 +86,12 @@ class BUTEE_EXPORT ModalSystem {
   Index static_count_ = 0;
   double truncation_ = 0.0;
 
-  struct Rung {
-    std::unique_ptr<ModalFlow> raw;
-    std::unique_ptr<StepFlow> step;
+  struct GridStep {
+    std::unique_ptr<ModalPropagator> raw;
+    std::unique_ptr<ContactPropagator> step;
   };
-  std::map<int, Rung> rungs_;
-  std::vector<std::unique_ptr<StepFlow>> odd_;
+  std::map<int, GridStep> grid_;
+  std::vector<std::unique_ptr<ContactPropagator>> odd_;
   std::size_t oldest_ = 0;
 };
 

@@ -4,14 +4,15 @@
 
 namespace butee::dynamics {
 
-bool TangentSolver::set(double on_v, double on_x, ConstVectorRef kappa, std::span<const Obstacles::Tangent> tangents) {
-  effective_.set_factors(on_v, on_x);
+bool TangentSolver::set(double velocity_factor, double displacement_factor, ConstVectorRef kappa,
+                        std::span<const Obstacles::Tangent> tangents) {
+  effective_.set_factors(velocity_factor, displacement_factor);
   kappa_ = kappa;
   contacts_.clear();
   blocks_.clear();
   for (const Obstacles::Tangent& tangent : tangents) {
     contacts_.push_back(tangent.contact);
-    blocks_.push_back(on_v * tangent.damping + on_x * tangent.stiffness);
+    blocks_.push_back(velocity_factor * tangent.damping + displacement_factor * tangent.stiffness);
   }
   if (contacts_.empty()) return true;
   const auto count = static_cast<Index>(contacts_.size());
@@ -27,8 +28,10 @@ bool TangentSolver::set(double on_v, double on_x, ConstVectorRef kappa, std::spa
     }
   Eigen::MatrixXd small = Eigen::MatrixXd::Identity(width_ * count, width_ * count);
   for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < width_ * count; ++j)
-      small.col(j).segment(width_ * i, width_) += along(i, motion_.col(j)).head(width_);
+    for (Index j = 0; j < width_ * count; ++j) {
+      const Obstacles::Coordinates force = along(i, motion_.col(j));
+      for (Index k = 0; k < width_; ++k) small(width_ * i + k, j) += force[k];
+    }
   small_.compute(small);
   right_.resize(width_ * count);
   return std::isfinite(small.sum());
@@ -37,8 +40,10 @@ bool TangentSolver::set(double on_v, double on_x, ConstVectorRef kappa, std::spa
 bool TangentSolver::solve(VectorRef b) {
   if (!effective_.solve(kappa_, b)) return false;
   if (contacts_.empty()) return true;
-  for (Index i = 0; i < static_cast<Index>(contacts_.size()); ++i)
-    right_.segment(width_ * i, width_) = along(i, b).head(width_);
+  for (Index i = 0; i < static_cast<Index>(contacts_.size()); ++i) {
+    const Obstacles::Coordinates force = along(i, b);
+    for (Index k = 0; k < width_; ++k) right_[width_ * i + k] = force[k];
+  }
   right_ = small_.solve(right_).eval();
   b -= motion_ * right_;
   return true;

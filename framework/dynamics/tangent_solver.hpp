@@ -9,8 +9,8 @@ namespace butee::dynamics {
 
 /// Solves effective equations with the tangents of obstacles beside the stops,
 ///
-///     (A + sum_i S_i^T B_i S_i) x = b,    B_i = on_v C_i + on_x K_i,    x = y - Z (1 + B G)^-1 B S y,
-///     A y = b,    Z = A^-1 S^T,    G = S Z
+///     (A + sum_i S_i^T B_i S_i) x = b,    B_i = velocity_factor C_i + displacement_factor K_i,    x = y - Z (1 + B
+///     G)^-1 B S y, A y = b,    Z = A^-1 S^T,    G = S Z
 ///
 /// where A is what an EffectiveSolver solves and the sum goes over the obstacles that exert a force: two solves for
 /// each in set(). B need not be symmetric. Checked against a full factorization in tests/unit/obstacles_test.cpp.
@@ -22,7 +22,8 @@ class BUTEE_EXPORT TangentSolver {
 
   /// Takes A, by the factors and stops given, and the tangents. False where A is not positive definite or the sum is
   /// singular.
-  [[nodiscard]] bool set(double on_v, double on_x, ConstVectorRef kappa, std::span<const Obstacles::Tangent> tangents);
+  [[nodiscard]] bool set(double velocity_factor, double displacement_factor, ConstVectorRef kappa,
+                         std::span<const Obstacles::Tangent> tangents);
   /// b := x
   [[nodiscard]] bool solve(VectorRef b);
 

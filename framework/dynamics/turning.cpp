@@ -25,11 +25,11 @@ void Turning::set_time(double t) {
   ++revision_;
 }
 
-void Turning::subtract_forces(const double* x, double on_v, ConstVectorRef v, VectorRef y) const {
-  const double on_k = on_v * system_.damping.stiffness_proportional;
+void Turning::subtract_forces(const double* x, double velocity_factor, ConstVectorRef v, VectorRef y) const {
+  const double on_k = velocity_factor * system_.damping.stiffness_proportional;
   add_product(system_.circulatory, -speed_, x, y);
   add_product(system_.gyroscopic, -acceleration_, x, y);
-  add_product(system_.gyroscopic, -on_v * speed_ + on_k * acceleration_, v.data(), y);
+  add_product(system_.gyroscopic, -velocity_factor * speed_ + on_k * acceleration_, v.data(), y);
   add_product(system_.circulatory, on_k * speed_, v.data(), y);
 }
 
@@ -43,7 +43,7 @@ void Turning::add_elastic_force(ConstVectorRef x, VectorRef y) const {
 }
 
 void Turning::subtract_rate(ConstVectorRef x, ConstVectorRef v, VectorRef y) const {
-  // Omega'' is zero between the kinks of a speed that is piecewise linear.
+  // Omega'' is zero between the discontinuities of a speed that is piecewise linear.
   add_product(system_.gyroscopic, -acceleration_, v.data(), y);
   add_product(system_.circulatory, -acceleration_, x.data(), y);
 }

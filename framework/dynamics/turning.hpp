@@ -20,8 +20,8 @@ class BUTEE_EXPORT Turning {
   /// Counts the instants whose speed or acceleration differed from those of the one before.
   int revision() const { return revision_; }
 
-  /// y -= its part of K x + on_v D v
-  void subtract_forces(const double* x, double on_v, ConstVectorRef v, VectorRef y) const;
+  /// y -= its part of K x + velocity_factor D v
+  void subtract_forces(const double* x, double velocity_factor, ConstVectorRef v, VectorRef y) const;
   /// y += its part of C v
   void add_damping_force(ConstVectorRef v, VectorRef y) const;
   /// y += its part of K x

@@ -62,12 +62,12 @@ class BUTEE_EXPORT ContactLaw {
   /// The series of a smooth law; nullptr where it has none to give.
   virtual std::unique_ptr<ForceSeries> force_series() const { return nullptr; }
 
-  /// The |g| up to which the force departs from that of a linear stop by more than far_force(), m; infinite where that
-  /// is not known.
-  virtual double bend_width() const { return std::numeric_limits<double>::infinity(); }
+  /// The |g| up to which the force departs from that of a linear stop by more than asymptotic_force(), m; infinite
+  /// where that is not known.
+  virtual double transition_width() const { return std::numeric_limits<double>::infinity(); }
 
   /// The largest force that a stop further open than a few boundary layers still exerts, N (0: none).
-  virtual double far_force() const { return 0.0; }
+  virtual double asymptotic_force() const { return 0.0; }
 };
 
 /// Gives a law its loops over many stops: `class Mine final : public BatchedLaw<Mine>`.

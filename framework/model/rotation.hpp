@@ -18,7 +18,7 @@ class BUTEE_EXPORT Rotation {
   double angle(double t) const;         ///< the integral of Omega since t = 0, rad
   bool is_constant() const { return times_.size() == 1; }
   /// The instants at which the acceleration jumps, ascending.
-  std::vector<double> kinks() const { return is_constant() ? std::vector<double>{} : times_; }
+  std::vector<double> discontinuities() const { return is_constant() ? std::vector<double>{} : times_; }
   double largest_speed() const;  ///< the largest |Omega|, rad/s
 
  private:
@@ -43,7 +43,7 @@ class BUTEE_EXPORT TurningUnbalance final : public TimeFunction {
   bool vanishes() const override;
   bool taylor(double t, double h, std::span<double> coefficients) const override;
   std::optional<Harmonic> harmonic() const override;
-  std::vector<double> kinks() const override { return rotation_.kinks(); }
+  std::vector<double> discontinuities() const override { return rotation_.discontinuities(); }
 
  private:
   const Rotation& rotation_;

@@ -72,7 +72,7 @@ bool PiecewisePolynomial::is_piecewise_parabolic() const {
                      [](const Piece& piece) { return piece.coefficients[3] == 0.0 && piece.coefficients[4] == 0.0; });
 }
 
-std::vector<double> PiecewisePolynomial::kinks() const {
+std::vector<double> PiecewisePolynomial::discontinuities() const {
   std::vector<double> starts;
   for (std::size_t i = 1; i < pieces_.size(); ++i) starts.push_back(pieces_[i].start);
   return starts;
@@ -143,7 +143,7 @@ SmoothMotion SmoothMotion::of(const TimeFunction& function, std::string& problem
     return motion;
   }
   std::vector<double> starts = {0.0};
-  for (const double t : function.kinks())
+  for (const double t : function.discontinuities())
     if (t > 0.0) starts.push_back(t);
   std::vector<PiecewisePolynomial::Piece> pieces;
   for (const double start : starts) {

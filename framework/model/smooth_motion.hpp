@@ -30,7 +30,7 @@ class BUTEE_EXPORT PiecewisePolynomial final : public TimeFunction {
   bool vanishes() const override;
   bool taylor(double t, double h, std::span<double> coefficients) const override;
   bool is_piecewise_parabolic() const override;
-  std::vector<double> kinks() const override;
+  std::vector<double> discontinuities() const override;
 
   PiecewisePolynomial derivative() const;
   /// The integral that is `at_zero` at t = 0; pieces of degree kDegree - 1 or less.
@@ -48,8 +48,8 @@ struct BUTEE_EXPORT SmoothMotion {
   Harmonic wave{0.0, 0.0, 0.0};
   PiecewisePolynomial line;
 
-  /// Of a harmonic function or one that is a polynomial of degree two or less between kinks; `problem` says what is
-  /// wrong with all others.
+  /// Of a harmonic function or one that is a polynomial of degree two or less between discontinuities; `problem` says
+  /// what is wrong with all others.
   static SmoothMotion of(const TimeFunction& function, std::string& problem);
 
   double value(double t) const;

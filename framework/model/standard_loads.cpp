@@ -64,7 +64,7 @@ class PiecewiseLinear final : public TimeFunction {
     return std::all_of(values_.begin(), values_.end(), [](double v) { return v == 0.0; });
   }
   bool is_piecewise_parabolic() const override { return true; }
-  std::vector<double> kinks() const override { return times_.size() > 1 ? times_ : std::vector<double>{}; }
+  std::vector<double> discontinuities() const override { return times_.size() > 1 ? times_ : std::vector<double>{}; }
 
  private:
   std::vector<double> times_, values_;

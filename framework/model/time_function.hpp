@@ -34,12 +34,12 @@ class BUTEE_EXPORT TimeFunction {
   /// Of a pure harmonic, so that methods may integrate it exactly; nothing for all others.
   virtual std::optional<Harmonic> harmonic() const { return std::nullopt; }
 
-  /// True where it is a polynomial of degree two or less between kinks(); methods that need that refuse all others but
-  /// pure harmonics.
+  /// True where it is a polynomial of degree two or less between discontinuities(); methods that need that refuse all
+  /// others but pure harmonics.
   virtual bool is_piecewise_parabolic() const { return false; }
 
   /// The instants at which the value or one of its derivatives jumps, ascending.
-  virtual std::vector<double> kinks() const { return {}; }
+  virtual std::vector<double> discontinuities() const { return {}; }
 };
 
 }  // namespace butee::model

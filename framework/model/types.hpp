@@ -103,7 +103,7 @@ std::vector<std::string> type_names(const std::vector<Type>& types) {
   return names;
 }
 
-/// The courses in time that the framework brings along: harmonic, constant, ramp, table, unbalance.
+/// The histories in time that the framework brings along: harmonic, constant, ramp, table, unbalance.
 BUTEE_EXPORT std::vector<LoadType> standard_load_types();
 
 }  // namespace butee::model

@@ -37,7 +37,7 @@ class PythonLaw final : public model::BatchedLaw<PythonLaw> {
   PythonLaw(Functions functions, std::vector<double> parameters)
       : functions_(std::move(functions)), parameters_(std::move(parameters)) {
     for (const double g : kClosed) stiffness_ = std::max(stiffness_, tangent(g));
-    far_force_ = std::abs(force(kFar));
+    asymptotic_force_ = std::abs(force(kFar));
   }
 
   double force(double g) const { return call(functions_.force, g); }
@@ -61,7 +61,7 @@ class PythonLaw final : public model::BatchedLaw<PythonLaw> {
     return sum;
   }
   double closed_stiffness() const override { return stiffness_; }
-  double far_force() const override { return far_force_; }
+  double asymptotic_force() const override { return asymptotic_force_; }
 
  private:
   double call(const Function& function, double g) const {
@@ -74,7 +74,7 @@ class PythonLaw final : public model::BatchedLaw<PythonLaw> {
 
   Functions functions_;
   std::vector<double> parameters_;
-  double stiffness_ = 0.0, far_force_ = 0.0;
+  double stiffness_ = 0.0, asymptotic_force_ = 0.0;
 };
 
 std::vector<model::LawType>& known_laws() {

@@ -54,9 +54,9 @@ bool ContactPeaks::is_active() const {
 void ContactPeaks::step(const time::AcceptedStep& step) {
   if (!probes_ || !is_active()) return;
   double begin = step.from.t;
-  for (const double knot : step.integrator.knots(step.from, step.to)) {
-    follow_piece(step, begin, knot);
-    begin = knot;
+  for (const double breakpoint : step.integrator.breakpoints(step.from, step.to)) {
+    follow_piece(step, begin, breakpoint);
+    begin = breakpoint;
   }
   follow_piece(step, begin, step.to.t);
 }

@@ -118,13 +118,14 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
     const Sampled begin{step.from.t, first[i].normal};
     watches_[i].last = {begin, begin};
   }
-  // Steps of methods that follow phases end where these change; in others contacts may touch and part between knots.
+  // Steps of methods that follow phases end where these change; in others contacts may touch and part between
+  // breakpoints.
   double begin = step.from.t;
   if (dynamics_.obstacles()->is_live()) {
-    const auto knots = step.integrator.knots(step.from, step.to);
-    for (const double knot : std::vector<double>(knots.begin(), knots.end())) {
-      in_parts(step, begin, knot);
-      begin = knot;
+    const auto breakpoints = step.integrator.breakpoints(step.from, step.to);
+    for (const double breakpoint : std::vector<double>(breakpoints.begin(), breakpoints.end())) {
+      in_parts(step, begin, breakpoint);
+      begin = breakpoint;
     }
   }
   in_parts(step, begin, step.to.t);

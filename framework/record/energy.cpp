@@ -110,12 +110,12 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
   }
   if (!told.empty()) return;
   double begin = step.from.t;
-  for (const double knot : step.integrator.knots(step.from, step.to)) {
-    add_piece(step, begin, knot);
-    begin = knot;
-    if (!is_due(knot)) continue;
-    look_within(step, knot);
-    write_row(knot);
+  for (const double breakpoint : step.integrator.breakpoints(step.from, step.to)) {
+    add_piece(step, begin, breakpoint);
+    begin = breakpoint;
+    if (!is_due(breakpoint)) continue;
+    look_within(step, breakpoint);
+    write_row(breakpoint);
   }
   add_piece(step, begin, step.to.t);
   now_ = energy_of(step.to, dynamics_);

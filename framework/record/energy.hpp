@@ -23,14 +23,15 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 ///
 ///     work = int v.F dt,   dissipated = int v.C v dt
 ///
-/// where the method does not tell them itself (Integrator::energies), by Simpson's rule from knot to knot of every
-/// accepted step, its middle from the method's own interpolant: fourth order, so that the balance shows the method's
-/// error and not the quadrature's. Pieces as long as the motion allows (DenseOutput::other) are halved until Gauss'
-/// rule with five points gives the same for both. The balance error is (change + dissipated - work) / largest energy.
+/// where the method does not tell them itself (Integrator::energies), by Simpson's rule from breakpoint to breakpoint
+/// of every accepted step, its middle from the method's own interpolant: fourth order, so that the balance shows the
+/// method's error and not the quadrature's. Pieces as long as the motion allows (DenseOutput::other) are halved until
+/// Gauss' rule with five points gives the same for both. The balance error is (change + dissipated - work) / largest
+/// energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
-  /// `dynamics` must outlive it. Where there is a `writer`, it gets a row at the start, at the first end or knot of a
-  /// step at or after each of `times`, and at the last step.
+  /// `dynamics` must outlive it. Where there is a `writer`, it gets a row at the start, at the first end or breakpoint
+  /// of a step at or after each of `times`, and at the last step.
   explicit EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer = nullptr,
                           std::optional<OutputTimes> times = std::nullopt);
 
@@ -74,7 +75,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   Power gauss(const time::AcceptedStep& step, double begin, double end);
   /// `whole`: what gauss() gives for it.
   void add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings);
-  /// Adds what is done between two instants that no knot parts.
+  /// Adds what is done between two instants that no breakpoint parts.
   void add_piece(const time::AcceptedStep& step, double begin, double end);
   void find_due(const time::AcceptedStep& step);
   void look_within(const time::AcceptedStep& step, double t);

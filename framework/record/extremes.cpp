@@ -105,7 +105,7 @@ void Range::restore(ByteReader& from) {
   for (double* number : {&least, &greatest, &t_least, &t_greatest}) from.take(*number);
 }
 
-Point Course::at(double t) const {
+Point StepPath::at(double t) const {
   Point point{t, {0.0, 0.0, 0.0}};
   double sign = 1.0;
   for (const Index& dof : dofs_) {
@@ -118,17 +118,18 @@ Point Course::at(double t) const {
   return point;
 }
 
-std::pair<double, double> Course::enclose(std::size_t order, const Point& from, const Point& to) const {
+std::pair<double, double> StepPath::enclose(std::size_t order, const Point& from, const Point& to) const {
   return enclose(order, from, to, departure(order, from, to));
 }
 
-std::pair<double, double> Course::enclose(std::size_t order, const Point& from, const Point& to, double departs) const {
+std::pair<double, double> StepPath::enclose(std::size_t order, const Point& from, const Point& to,
+                                            double departs) const {
   const auto [least, greatest] = bounds_within(order, from, to);
   return {std::min({from.of[order], to.of[order], least}) - departs,
           std::max({from.of[order], to.of[order], greatest}) + departs};
 }
 
-double Course::departure(std::size_t order, const Point& from, const Point& to) const {
+double StepPath::departure(std::size_t order, const Point& from, const Point& to) const {
   if (kind_ != time::DenseOutput::other) return 0.0;
   double sum = 0.0;
   for (const Index dof : dofs_) {
@@ -141,12 +142,12 @@ double Course::departure(std::size_t order, const Point& from, const Point& to) 
   return sum;
 }
 
-void Course::search(std::size_t order, const Point& from, const Point& to, Range& range) const {
+void StepPath::search(std::size_t order, const Point& from, const Point& to, Range& range) const {
   int samples = 0;
   halve(order, from, to, samples, range);
 }
 
-void Course::halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const {
+void StepPath::halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const {
   const double h = to.t - from.t, middle = from.t + 0.5 * h;
   if (!(middle > from.t && middle < to.t)) return;
   const double good = kGood * range.size(), departs = departure(order, from, to);

@@ -36,14 +36,14 @@ struct Range {
 /// The displacement of one DOF, or of one relative to another, over an accepted step, and its extremes on the method's
 /// dense output.
 ///
-/// Between two points that no knot parts the dense output is a polynomial through both, or, of DenseOutput::other, as
-/// near to the quintic as Integrator::departure() says; of DenseOutput::near_quintic extremes of v are looked for
-/// wherever the quintic comes within kMargin of the largest so far, and all are values of the dense output itself. The
-/// hull of its Bernstein coefficients tells whether anything in between goes beyond a range by more than kGood of it.
-/// If so, halves are looked at: of the polynomial, or of the interval while the dense output departs from it by more
-/// than that. After kMostSamples of an interval it is left as it is: so many are not enough only where a step spans
-/// hundreds of turns. Checked in tests/verification/peaks_test.cpp.
-class BUTEE_EXPORT Course {
+/// Between two points that no breakpoint parts the dense output is a polynomial through both, or, of
+/// DenseOutput::other, as near to the quintic as Integrator::departure() says; of DenseOutput::near_quintic extremes of
+/// v are looked for wherever the quintic comes within kMargin of the largest so far, and all are values of the dense
+/// output itself. The hull of its Bernstein coefficients tells whether anything in between goes beyond a range by more
+/// than kGood of it. If so, halves are looked at: of the polynomial, or of the interval while the dense output departs
+/// from it by more than that. After kMostSamples of an interval it is left as it is: so many are not enough only where
+/// a step spans hundreds of turns. Checked in tests/verification/peaks_test.cpp.
+class BUTEE_EXPORT StepPath {
  public:
   /// What an extreme may be wrong by, relative to the largest |value|.
   static constexpr double kGood = 1e-10;
@@ -52,7 +52,7 @@ class BUTEE_EXPORT Course {
   static constexpr double kMargin = 0.005;
 
   /// Index b < 0: DOF a alone, and 0 where that is fixed too. `kind`: of the step's integrator. `step` must outlive it.
-  Course(const time::AcceptedStep& step, time::DenseOutput kind, Index a, Index b)
+  StepPath(const time::AcceptedStep& step, time::DenseOutput kind, Index a, Index b)
       : step_(step), kind_(kind), dofs_{a, b} {}
 
   static Point point(const time::State& state, Index a, Index b) {
@@ -62,11 +62,11 @@ class BUTEE_EXPORT Course {
     return point;
   }
   Point at(double t) const;
-  /// Bounds of derivative `order` between two instants that no knot parts.
+  /// Bounds of derivative `order` between two instants that no breakpoint parts.
   std::pair<double, double> enclose(std::size_t order, const Point& from, const Point& to) const;
 
-  /// Takes all values of derivative `order` (0, 1 or 2) after an instant up to another that no knot parts from it into
-  /// the range, which holds that at the first instant.
+  /// Takes all values of derivative `order` (0, 1 or 2) after an instant up to another that no breakpoint parts from it
+  /// into the range, which holds that at the first instant.
   void extend(std::size_t order, const Point& from, const Point& to, Range& range) const {
     range.take(to.t, to.of[order]);
     const auto [least, greatest] = bounds_within(order, from, to);

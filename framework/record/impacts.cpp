@@ -77,38 +77,38 @@ void ImpactRecorder::start(const time::State& state) {
 void ImpactRecorder::step(const time::AcceptedStep& step) {
   tracks_.visit(step, [&] {
     for (Watch& watch : watches_)
-      follow(watch, tracks_.course(step, watch.track), tracks_.from(watch.track), tracks_.to(watch.track));
+      follow(watch, tracks_.path(step, watch.track), tracks_.from(watch.track), tracks_.to(watch.track));
   });
 }
 
-void ImpactRecorder::follow(Watch& watch, const Course& course, const Point& from, const Point& to) {
+void ImpactRecorder::follow(Watch& watch, const StepPath& path, const Point& from, const Point& to) {
   if (!watch.closed) {
-    const auto [least, greatest] = course.enclose(0, from, to);
+    const auto [least, greatest] = path.enclose(0, from, to);
     if (!((watch.side > 0.0 ? greatest : -least) > watch.gap)) return;
   }
   Range range;
   range.take(from.t, from.of[0]);
-  course.extend(0, from, to, range);
+  path.extend(0, from, to, range);
   const auto [first, second] = std::minmax(range.t_least, range.t_greatest);
   Point last = from;
   for (const double t : {first, second}) {
     if (!(t > last.t && t < to.t)) continue;
-    const Point next = course.at(t);
-    follow_part(watch, course, last, next);
+    const Point next = path.at(t);
+    follow_part(watch, path, last, next);
     last = next;
   }
-  follow_part(watch, course, last, to);
+  follow_part(watch, path, last, to);
 }
 
-void ImpactRecorder::follow_part(Watch& watch, const Course& course, const Point& from, const Point& to) {
+void ImpactRecorder::follow_part(Watch& watch, const StepPath& path, const Point& from, const Point& to) {
   const bool closed_at_end = watch.penetration(to) > 0.0;
   if (closed_at_end == watch.closed) {
-    if (watch.closed) accumulate(watch, course, from, to);
+    if (watch.closed) accumulate(watch, path, from, to);
     return;
   }
-  const Point change = crossing(watch, course, from.t, to.t);
+  const Point change = crossing(watch, path, from.t, to.t);
   if (watch.closed) {
-    accumulate(watch, course, from, change);
+    accumulate(watch, path, from, change);
     watch.current.t_out = change.t;
     done_.push_back(watch.current);
   } else {
@@ -116,27 +116,26 @@ void ImpactRecorder::follow_part(Watch& watch, const Course& course, const Point
     watch.current.t_out.reset();
     watch.current.impact_speed = watch.speed(change);
     watch.current.peak_force = watch.current.impulse = 0.0;
-    accumulate(watch, course, change, to);
+    accumulate(watch, path, change, to);
   }
   watch.closed = closed_at_end;
 }
 
-Point ImpactRecorder::crossing(const Watch& watch, const Course& course, double begin, double end) const {
+Point ImpactRecorder::crossing(const Watch& watch, const StepPath& path, double begin, double end) const {
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (begin + end);
     if (middle <= begin || middle >= end) break;
-    ((watch.penetration(course.at(middle)) > 0.0) == watch.closed ? begin : end) = middle;
+    ((watch.penetration(path.at(middle)) > 0.0) == watch.closed ? begin : end) = middle;
   }
-  return course.at(end);
+  return path.at(end);
 }
 
-void ImpactRecorder::accumulate(Watch& watch, const Course& course, const Point& from, const Point& to) {
+void ImpactRecorder::accumulate(Watch& watch, const StepPath& path, const Point& from, const Point& to) {
   if (!(to.t > from.t)) return;
   for (const Point* end : {&from, &to})
     if (watch.penetration(*end) > 0.0)
       watch.current.peak_force = std::max(watch.current.peak_force, force(watch, *end));
-  for (const auto& [t, weight] : gauss_points(from.t, to.t))
-    watch.current.impulse += weight * force(watch, course.at(t));
+  for (const auto& [t, weight] : gauss_points(from.t, to.t)) watch.current.impulse += weight * force(watch, path.at(t));
 }
 
 void ImpactRecorder::save(ByteWriter& to) const {

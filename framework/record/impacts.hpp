@@ -27,7 +27,7 @@ void put_impact(const Impact& impact, ByteWriter& to);
 void take_impact(Impact& impact, ByteReader& from);
 
 /// Finds every closing of a stop on the method's dense output: instants by root finding, the largest force at the
-/// largest penetration (Course), the impulse by Gauss' rule with five points between such instants.
+/// largest penetration (StepPath), the impulse by Gauss' rule with five points between such instants.
 ///
 /// A contact shorter than a step is seen as well: it reaches its largest penetration within the step.
 class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
@@ -58,12 +58,12 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
     double speed(const Point& point) const { return side * point.of[1]; }
   };
 
-  /// Over a piece between two neighbouring knots.
-  void follow(Watch& watch, const Course& course, const Point& from, const Point& to);
+  /// Over a piece between two neighbouring breakpoints.
+  void follow(Watch& watch, const StepPath& path, const Point& from, const Point& to);
   /// Over a part of it within which the stop opens or closes at most once.
-  void follow_part(Watch& watch, const Course& course, const Point& from, const Point& to);
-  void accumulate(Watch& watch, const Course& course, const Point& from, const Point& to);
-  Point crossing(const Watch& watch, const Course& course, double begin, double end) const;
+  void follow_part(Watch& watch, const StepPath& path, const Point& from, const Point& to);
+  void accumulate(Watch& watch, const StepPath& path, const Point& from, const Point& to);
+  Point crossing(const Watch& watch, const StepPath& path, double begin, double end) const;
   double force(const Watch& watch, const Point& point);
 
   dynamics::Dynamics& dynamics_;

@@ -12,7 +12,7 @@ double largest_force(dynamics::Contact& contact, Index stop, double least, doubl
   const auto size_at = [&](double w) { return std::abs(contact.force_of(stop, w)); };
   double largest = std::max(size_at(least), size_at(greatest));
   if (contact.sides_of(stop) == model::Sides::both && least < 0.0 && greatest > 0.0 &&
-      contact.law_of(stop).far_force() > 0.0)
+      contact.law_of(stop).asymptotic_force() > 0.0)
     largest = std::max(largest, size_at(std::numeric_limits<double>::min()));
   return largest;
 }
@@ -70,9 +70,9 @@ void Peaks::step(const time::AcceptedStep& step) {
   tracks_.visit(step, [&] {
     for (std::size_t i = 0; i < followed_.size(); ++i) {
       Followed& followed = followed_[i];
-      const Course course = tracks_.course(step, i);
+      const StepPath path = tracks_.path(step, i);
       for (std::size_t order = 0; order < 3; ++order)
-        if (followed.is_followed[order]) course.extend(order, tracks_.from(i), tracks_.to(i), followed.ranges[order]);
+        if (followed.is_followed[order]) path.extend(order, tracks_.from(i), tracks_.to(i), followed.ranges[order]);
     }
     for (Column& column : columns_)
       if (column.stops.size() > 1) {
@@ -93,14 +93,14 @@ void Peaks::follow_sum(const time::AcceptedStep& step, Column& column, const std
                        const std::vector<Point>& to, int& halvings) {
   double bound = 0.0;
   for (std::size_t i = 0; i < column.stops.size(); ++i) {
-    const auto [least, greatest] = tracks_.course(step, column.stops[i].track).enclose(0, from[i], to[i]);
+    const auto [least, greatest] = tracks_.path(step, column.stops[i].track).enclose(0, from[i], to[i]);
     bound += largest_force(dynamics_.contact(), column.stops[i].index, least, greatest);
   }
   const double t = 0.5 * (from.front().t + to.front().t);
   if (!(bound > (1.0 + kGoodSum) * column.largest) || halvings == kMostHalvingsOfSum || !(t > from.front().t)) return;
   ++halvings;
   std::vector<Point> middle;
-  for (const Stop& stop : column.stops) middle.push_back(tracks_.course(step, stop.track).at(t));
+  for (const Stop& stop : column.stops) middle.push_back(tracks_.path(step, stop.track).at(t));
   column.largest = std::max(column.largest, sum_at(column, middle));
   follow_sum(step, column, from, middle, halvings);
   follow_sum(step, column, middle, to, halvings);

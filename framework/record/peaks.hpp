@@ -11,11 +11,11 @@
 namespace butee::record {
 
 /// Follows the largest |value| of probes over the whole motion, on the method's dense output: t = 0, stationary points,
-/// ends and knots of steps.
+/// ends and breakpoints of steps.
 ///
-/// Displacements, speeds and accelerations are followed as ranges (Course). The force of a single stop on a node is the
-/// largest where its displacement is. The sum of several is bounded over an interval by the sum of their largest; where
-/// that exceeds the peak by more than kGoodSum of it, the interval is halved.
+/// Displacements, speeds and accelerations are followed as ranges (StepPath). The force of a single stop on a node is
+/// the largest where its displacement is. The sum of several is bounded over an interval by the sum of their largest;
+/// where that exceeds the peak by more than kGoodSum of it, the interval is halved.
 class BUTEE_EXPORT Peaks final : public time::Observer {
  public:
   static constexpr double kGoodSum = 1e-6;

@@ -25,15 +25,15 @@ std::size_t Tracks::add(Index a, Index b) {
   return pairs_.size() - 1;
 }
 
-void Tracks::sample(const time::AcceptedStep& step, std::span<const double> knots) {
-  const std::size_t room = knots.size() * dofs_.size();
+void Tracks::sample(const time::AcceptedStep& step, std::span<const double> breakpoints) {
+  const std::size_t room = breakpoints.size() * dofs_.size();
   for (std::vector<double>* values : {&x_, &v_, &a_})
     if (values->size() < room) values->resize(room);
-  step.integrator.interpolate(step.from, step.to, knots, dofs_, {x_, v_, a_});
+  step.integrator.interpolate(step.from, step.to, breakpoints, dofs_, {x_, v_, a_});
 }
 
-void Tracks::load(std::size_t knot, double t) {
-  const std::size_t begin = knot * dofs_.size();
+void Tracks::load(std::size_t breakpoint, double t) {
+  const std::size_t begin = breakpoint * dofs_.size();
   for (std::size_t i = 0; i < size(); ++i) {
     Point& point = to_[i];
     point = {t, {0.0, 0.0, 0.0}};

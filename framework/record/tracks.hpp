@@ -7,7 +7,7 @@
 
 namespace butee::record {
 
-/// The displacements that an observer follows from knot to knot: of a DOF, or of one relative to another.
+/// The displacements that an observer follows from breakpoint to breakpoint: of a DOF, or of one relative to another.
 class BUTEE_EXPORT Tracks {
  public:
   /// The number of the displacement u_a - u_b, each of which may be negative, for what is fixed. Before the first step.
@@ -15,21 +15,21 @@ class BUTEE_EXPORT Tracks {
   std::size_t size() const { return pairs_.size(); }
 
   Point at(const time::State& state, std::size_t track) const {
-    return Course::point(state, pairs_[track].first, pairs_[track].second);
+    return StepPath::point(state, pairs_[track].first, pairs_[track].second);
   }
-  Course course(const time::AcceptedStep& step, std::size_t track) const {
+  StepPath path(const time::AcceptedStep& step, std::size_t track) const {
     return {step, kind_, pairs_[track].first, pairs_[track].second};
   }
 
-  /// Calls `look()` for every piece of the step between two neighbouring knots, whose ends are from() and to().
+  /// Calls `look()` for every piece of the step between two neighbouring breakpoints, whose ends are from() and to().
   template <class Look>
   void visit(const time::AcceptedStep& step, Look look) {
     kind_ = step.integrator.dense_output();
     for (std::size_t i = 0; i < size(); ++i) from_[i] = at(step.from, i);
-    const std::span<const double> knots = step.integrator.knots(step.from, step.to);
-    if (!knots.empty()) sample(step, knots);
-    for (std::size_t k = 0; k < knots.size(); ++k) {
-      load(k, knots[k]);
+    const std::span<const double> breakpoints = step.integrator.breakpoints(step.from, step.to);
+    if (!breakpoints.empty()) sample(step, breakpoints);
+    for (std::size_t k = 0; k < breakpoints.size(); ++k) {
+      load(k, breakpoints[k]);
       look();
       std::swap(from_, to_);
     }
@@ -40,15 +40,15 @@ class BUTEE_EXPORT Tracks {
   const Point& to(std::size_t track) const { return to_[track]; }
 
  private:
-  void sample(const time::AcceptedStep& step, std::span<const double> knots);
-  void load(std::size_t knot, double t);
+  void sample(const time::AcceptedStep& step, std::span<const double> breakpoints);
+  void load(std::size_t breakpoint, double t);
 
   std::vector<std::pair<Index, Index>> pairs_;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< of those in dofs_
   std::vector<Point> from_, to_;
   time::DenseOutput kind_ = time::DenseOutput::cubic;  ///< of the step last visited
   std::vector<Index> dofs_;
-  std::vector<double> x_, v_, a_;  ///< of dofs_ at the knots
+  std::vector<double> x_, v_, a_;  ///< of dofs_ at the breakpoints
 };
 
 }  // namespace butee::record

@@ -14,15 +14,15 @@ constexpr double kOfExact = 1.5, kOfAnother = 3.0, kOfNone = 10.0, kOfNoise = 3.
 constexpr double kMeaningless = 1.0;
 constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
 
-double peak_of(const Courses& courses) {
+double peak_of(const Histories& histories) {
   double peak = 0.0;
-  for (const auto& course : courses.values)
-    for (const double value : course) peak = std::max(peak, std::abs(value));
+  for (const auto& history : histories.values)
+    for (const double value : history) peak = std::max(peak, std::abs(value));
   return peak;
 }
 
 /// The largest difference over the probes at instant i; infinite where one of the runs did not come so far.
-double difference_at(const Courses& a, const Courses& b, std::size_t i) {
+double difference_at(const Histories& a, const Histories& b, std::size_t i) {
   if (a.times.empty() || b.times.empty()) return 0.0;
   double largest = 0.0;
   for (std::size_t probe = 0; probe < a.values.size(); ++probe) {
@@ -76,7 +76,7 @@ Trust judge(const TrustRuns& runs, double accuracy) {
   return trust;
 }
 
-double largest_difference(const Courses& a, const Courses& b) {
+double largest_difference(const Histories& a, const Histories& b) {
   double largest = 0.0;
   for (std::size_t probe = 0; probe < a.values.size(); ++probe)
     for (std::size_t i = 0; i < std::min(a.values[probe].size(), b.values[probe].size()); ++i)

@@ -37,17 +37,17 @@ struct Trust {
 };
 
 /// The displacements of the probes at the output times: a row an instant, a column a probe.
-struct Courses {
+struct Histories {
   std::vector<double> times;                ///< s
   std::vector<std::vector<double>> values;  ///< by probe
 };
 
 /// The runs of one scene that a judgement rests on. Those that there are not have no times.
 struct TrustRuns {
-  Courses run;            ///< that is to be judged
-  Courses tightened;      ///< its method, with a smaller step or tolerance
-  Courses other;          ///< another family's method
-  Courses again;          ///< that method, with another order or tolerance, from a start that differs by rounding
+  Histories run;          ///< that is to be judged
+  Histories tightened;    ///< its method, with a smaller step or tolerance
+  Histories other;        ///< another family's method
+  Histories again;        ///< that method, with another order or tolerance, from a start that differs by rounding
   bool is_exact = false;  ///< the other method has no truncation error
   Growth growth;          ///< of small disturbances
 };
@@ -64,7 +64,7 @@ struct TrustRuns {
 BUTEE_EXPORT Trust judge(const TrustRuns& runs, double accuracy);
 
 /// The largest difference of two runs in any probe at any instant that both came to.
-BUTEE_EXPORT double largest_difference(const Courses& a, const Courses& b);
+BUTEE_EXPORT double largest_difference(const Histories& a, const Histories& b);
 
 /// Sets least and greatest of a statistic from its values in all runs, the judged one first. Counts take the range of
 /// the runs; other quantities get `factor` times that range to both sides, and not less than `floor`.

@@ -22,7 +22,7 @@ constexpr double kMoreThanPull = 1.1;
 /// The largest force of an open stop, N: of the arctan law that is not 0.
 double largest_pull(const dynamics::Contact& contact) {
   double largest = 0.0;
-  for (Index i = 0; i < contact.size(); ++i) largest = std::max(largest, contact.law_of(i).far_force());
+  for (Index i = 0; i < contact.size(); ++i) largest = std::max(largest, contact.law_of(i).asymptotic_force());
   return largest;
 }
 

@@ -14,7 +14,7 @@ std::string complaint_about(const std::string& type, const TimeFunction& displac
   if (type == "ramp")
     return "a ramp of displacement has jumps of velocity; give a table of the displacement, through which a smooth "
            "curve goes, or the acceleration";
-  if (type == "table" && !displacement.kinks().empty() && displacement.kinks().front() > 0.0)
+  if (type == "table" && !displacement.discontinuities().empty() && displacement.discontinuities().front() > 0.0)
     return "a table of displacement begins at t = 0 or before";
   return "";
 }
@@ -133,8 +133,8 @@ bool SceneReader::differentiate_base(const Value& motion, const std::string& pat
   const Value* type = motion.table()->find("type");
   std::string problem = complaint_about(*type->text(), displacement);
   SmoothMotion d;
-  if (problem.empty() && *type->text() == "table" && !displacement.kinks().empty()) {
-    const std::vector<double> times = displacement.kinks();
+  if (problem.empty() && *type->text() == "table" && !displacement.discontinuities().empty()) {
+    const std::vector<double> times = displacement.discontinuities();
     std::vector<double> values;
     for (const double t : times) values.push_back(displacement.value(t));
     d.line = PiecewisePolynomial::spline(times, values);

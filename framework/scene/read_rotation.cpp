@@ -50,7 +50,7 @@ std::unique_ptr<Rotation> SceneReader::read_speed(const Value& rotation) {
   const auto type = type_of(*given, "rotation.speed", "type", {"constant", "ramp", "table"});
   auto in_time = type ? read_in_time(*given, "rotation.speed", {}) : nullptr;
   if (in_time == nullptr) return nullptr;
-  std::vector<double> times = in_time->kinks(), speeds;
+  std::vector<double> times = in_time->discontinuities(), speeds;
   if (times.empty()) times = {0.0};
   for (const double t : times) speeds.push_back(in_time->value(t));
   return std::make_unique<Rotation>(std::move(times), std::move(speeds));

@@ -108,7 +108,7 @@ void MeanPart::step(const time::AcceptedStep& step) {
           integrate(step, begin + k * length, begin + (k + 1.0) * length), 0);
     begin = end;
   };
-  for (const double knot : step.integrator.knots(step.from, step.to)) piece(knot);
+  for (const double breakpoint : step.integrator.breakpoints(step.from, step.to)) piece(breakpoint);
   piece(step.to.t);
   probes_.evaluate(step, step.to.t, last_);
 }

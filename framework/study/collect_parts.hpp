@@ -68,7 +68,7 @@ class RangePart final : public CollectorPart {
   void step(const time::AcceptedStep& step) override {
     all_.visit(step, [&] {
       for (std::size_t i = 0; i < ranges_.size(); ++i)
-        all_.course(step, tracks_[i]).extend(orders_[i], all_.from(tracks_[i]), all_.to(tracks_[i]), ranges_[i]);
+        all_.path(step, tracks_[i]).extend(orders_[i], all_.from(tracks_[i]), all_.to(tracks_[i]), ranges_[i]);
     });
   }
   std::vector<double> values(std::size_t item) const override {
@@ -82,8 +82,8 @@ class RangePart final : public CollectorPart {
   std::vector<record::Range> ranges_;
 };
 
-/// Means, by Gauss' rule with five points between the knots of each step, and values at the end. Where the dense output
-/// is no polynomial, intervals are halved until the rule over both halves is that over the whole.
+/// Means, by Gauss' rule with five points between the breakpoints of each step, and values at the end. Where the dense
+/// output is no polynomial, intervals are halved until the rule over both halves is that over the whole.
 class MeanPart final : public CollectorPart {
  public:
   MeanPart(const std::vector<model::ProbeRequest>& probes, const std::vector<Item::Kind>& kinds,

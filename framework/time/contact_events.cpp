@@ -189,7 +189,7 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
   std::sort(watched_dofs_.begin(), watched_dofs_.end());
   watched_dofs_.erase(std::unique(watched_dofs_.begin(), watched_dofs_.end()), watched_dofs_.end());
   const double h = to.t - from.t;
-  // A method that has knots within a step takes the longer steps.
+  // A method that has breakpoints within a step takes the longer steps.
   const int looks = kSamples * integrator.trace_parts(from, to);
   const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;

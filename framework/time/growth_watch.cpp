@@ -18,7 +18,7 @@ const double kTooMuch = std::log(100.0);
 /// with good displacements at the end.
 const double kTooMuchUnseen = std::log(1e5);
 constexpr double kNoGrowth = 0.01;
-/// Instants within a span at which loads are looked at, apart from their kinks.
+/// Instants within a span at which loads are looked at, apart from their discontinuities.
 constexpr int kInstants = 16;
 constexpr double kGoldenRatio = 0.6180339887498949;
 /// The error of one step by the trapezoidal rule, relative to the largest displacement: that of h omega = 1.
@@ -49,7 +49,7 @@ GrowthWatch::GrowthWatch(dynamics::Dynamics& dynamics, const MethodLimits& limit
     : dynamics_(dynamics),
       limits_(limits),
       has_fixed_steps_(integrator.controller() == nullptr),
-      may_be_coarse_(has_fixed_steps_ || (!limits.keeps_tolerance && !integrator.minds_load_kinks())),
+      may_be_coarse_(has_fixed_steps_ || (!limits.keeps_tolerance && !integrator.handles_load_discontinuities())),
       is_watching_((limits.is_bounded() || dynamics.stop_count() > 0) && !is_driven(dynamics)),
       too_much_(!has_fixed_steps_ && !limits.keeps_tolerance && limits.is_bounded() ? kTooMuchUnseen : kTooMuch) {}
 
@@ -68,7 +68,7 @@ void GrowthWatch::prepare() {
   work_ = zero_ = stored_ = Vector::Zero(dynamics_.size());
   stops_ = Vector::Zero(dynamics_.stop_count());
   load_norms_.reserve(dynamics_.system().loads.size());
-  kinks_ = dynamics_.load_kinks();
+  discontinuities_ = dynamics_.load_discontinuities();
 }
 
 void GrowthWatch::save(ByteWriter& to) const {
@@ -109,7 +109,7 @@ void GrowthWatch::find_load_norms() {
   for (const model::FreeLoad& load : dynamics_.system().loads) {
     work_.setZero();
     for (std::size_t i = 0; i < load.dofs.size(); ++i) work_[load.dofs[i]] += load.weights[i];
-    dynamics_.respond(zero_, zero_, work_);
+    dynamics_.solve_acceleration(zero_, zero_, work_);
     double square = 0.0;
     for (std::size_t i = 0; i < load.dofs.size(); ++i) square += load.weights[i] * work_[load.dofs[i]];
     load_norms_.push_back(std::sqrt(std::max(0.0, square)));
@@ -125,7 +125,8 @@ double GrowthWatch::push(double from, double to) {
     return sum;
   };
   double largest = std::max(at(from), at(to));
-  // Not evenly, since that could meet every zero of a harmonic load; and between any two kinks, where a pulse may lie.
+  // Not evenly, since that could meet every zero of a harmonic load; and between any two discontinuities, where a pulse
+  // may lie.
   const auto look_between = [&](double begin, double end) {
     for (int i = 1; i <= kInstants; ++i) {
       const double turns = kGoldenRatio * i;
@@ -134,10 +135,11 @@ double GrowthWatch::push(double from, double to) {
   };
   look_between(from, to);
   double begin = from;
-  for (auto kink = std::lower_bound(kinks_.begin(), kinks_.end(), from); kink != kinks_.end() && *kink <= to; ++kink) {
-    largest = std::max({largest, at(*kink), at(std::nextafter(*kink, from))});
-    look_between(begin, *kink);
-    begin = *kink;
+  for (auto jump = std::lower_bound(discontinuities_.begin(), discontinuities_.end(), from);
+       jump != discontinuities_.end() && *jump <= to; ++jump) {
+    largest = std::max({largest, at(*jump), at(std::nextafter(*jump, from))});
+    look_between(begin, *jump);
+    begin = *jump;
   }
   return largest * (to - from) / std::sqrt(2.0);
 }

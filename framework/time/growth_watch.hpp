@@ -59,7 +59,7 @@ class BUTEE_EXPORT GrowthWatch {
   MethodLimits limits_;
   bool has_fixed_steps_, may_be_coarse_, is_watching_;
   double too_much_;  ///< the logarithm of what ends a run
-  std::vector<double> kinks_;
+  std::vector<double> discontinuities_;
   std::vector<double> load_norms_;  ///< sqrt(p.M^-1 p) of each load's pattern p; empty until it is asked for
   Vector work_, zero_, stops_, stored_;
 

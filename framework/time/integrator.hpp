@@ -27,7 +27,7 @@ struct EnergyAt {
   double work = 0.0, dissipated = 0.0;
 };
 
-/// The dense output of a method between two neighbouring knots of a step.
+/// The dense output of a method between two neighbouring breakpoints of a step.
 enum class DenseOutput {
   cubic,         ///< x the cubic through x and v at both, v the one through v and a, a the straight line
   quintic,       ///< x the quintic through x, v and a at both, or the cubic by x and v; v and a its derivatives
@@ -85,8 +85,9 @@ class BUTEE_EXPORT Integrator {
   /// The largest stable h omega where its parameters narrow what its IntegratorType declares.
   virtual double stability_limit() const { return std::numeric_limits<double>::infinity(); }
 
-  /// The energies at the first knots of an accepted step at or after each of `instants`, ascending, and at its end,
-  /// where the method knows them for less than the motion of all DOFs would cost; else none. Valid until the next call.
+  /// The energies at the first breakpoints of an accepted step at or after each of `instants`, ascending, and at its
+  /// end, where the method knows them for less than the motion of all DOFs would cost; else none. Valid until the next
+  /// call.
   virtual std::span<const EnergyAt> energies(const State& from, const State& to,
                                              std::span<const double> instants) const {
     (void)from, (void)to, (void)instants;
@@ -95,7 +96,7 @@ class BUTEE_EXPORT Integrator {
 
   /// True where the method itself minds the instants at which a load or its derivative jumps. Steps of all other
   /// adaptive methods end there: a load that lasts shorter than a step could pass unseen.
-  virtual bool minds_load_kinks() const { return false; }
+  virtual bool handles_load_discontinuities() const { return false; }
 
   /// True where steps that the method takes may end at changes of phase of contacts (ContactEvents), between which it
   /// integrates; else contacts act by the motion of the instant alone, and laws with memory are refused.
@@ -110,10 +111,10 @@ class BUTEE_EXPORT Integrator {
     do_trace(from, to, t, dofs, out);
   }
 
-  /// The parts of a step that those who look for changes of contact look at one by one: those between knots, unless
-  /// trace() is smoother.
+  /// The parts of a step that those who look for changes of contact look at one by one: those between breakpoints,
+  /// unless trace() is smoother.
   virtual int trace_parts(const State& from, const State& to) const {
-    return static_cast<int>(1 + knots(from, to).size());
+    return static_cast<int>(1 + breakpoints(from, to).size());
   }
 
   /// True where steps best end at the instants that observers ask for, since any length is as good.
@@ -121,7 +122,7 @@ class BUTEE_EXPORT Integrator {
 
   /// The instants, ascending and strictly within an accepted step, between which the method took steps of its own; its
   /// dense output is smooth between them.
-  virtual std::span<const double> knots(const State& from, const State& to) const {
+  virtual std::span<const double> breakpoints(const State& from, const State& to) const {
     (void)from, (void)to;
     return {};
   }
@@ -130,7 +131,7 @@ class BUTEE_EXPORT Integrator {
   virtual DenseOutput dense_output() const { return DenseOutput::cubic; }
 
   /// Of DenseOutput::other alone: bounds, for each DOF, of how far x, v and a between two instants of an accepted step
-  /// that no knot parts depart from the quintic through x, v and a at both and its derivatives.
+  /// that no breakpoint parts depart from the quintic through x, v and a at both and its derivatives.
   virtual void departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
                          Interpolated out) const {
     (void)from, (void)to, (void)begin, (void)end, (void)dofs, (void)out;

@@ -51,13 +51,14 @@ Simulation::Simulation(dynamics::Dynamics& dynamics, Integrator& integrator, Sim
   state_.t = report_.t_end = origin_ = stall_t_ = dynamics.system().initial_time;
   state_.x = dynamics.system().initial_displacement;
   state_.v = dynamics.system().initial_velocity;
-  if (controller_ != nullptr && !integrator.minds_load_kinks()) kinks_ = dynamics.load_kinks();
+  if (controller_ != nullptr && !integrator.handles_load_discontinuities())
+    discontinuities_ = dynamics.load_discontinuities();
 }
 
 Step Simulation::propose() const {
   const double end = options_.end_time;
   if (controller_ != nullptr) {
-    double landing = std::min(next_kink(), end);
+    double landing = std::min(next_discontinuity(), end);
     if (integrator_.lands_on_outputs()) landing = std::min(landing, next_landing());
     if (state_.t + next_h_ >= landing) return {landing - state_.t, landing, watched_};
     return {next_h_, state_.t + next_h_, watched_};
@@ -69,9 +70,9 @@ Step Simulation::propose() const {
   return {divides ? h : end - state_.t, end};
 }
 
-double Simulation::next_kink() const {
-  const auto next = std::upper_bound(kinks_.begin(), kinks_.end(), state_.t);
-  return next == kinks_.end() ? std::numeric_limits<double>::infinity() : *next;
+double Simulation::next_discontinuity() const {
+  const auto next = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), state_.t);
+  return next == discontinuities_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
 double Simulation::next_landing() const {
@@ -178,7 +179,7 @@ bool Simulation::advance() {
     }
     StepDecision decision{false, 0.5 * step.h};
     if (result.status == StepStatus::ok) decision = controller_->decide(step.h, result);
-    // A step that a kink of the loads cut short says nothing against the length that was wanted.
+    // A step that a discontinuity of the loads cut short says nothing against the length that was wanted.
     const double wanted = decision.accept && step.h < next_h_ ? next_h_ : 0.0;
     next_h_ = std::min(std::max(decision.next_h, wanted), options_.end_time);
     if (decision.accept) {

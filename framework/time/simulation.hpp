@@ -133,7 +133,7 @@ class BUTEE_EXPORT Simulation {
   void start_anew();
   Step propose() const;
   double next_landing() const;
-  double next_kink() const;
+  double next_discontinuity() const;
   void accept(const Step& step, const StepReport& result);
   /// True where the steps of an adaptive method have become so short that it would never end.
   bool has_stalled();
@@ -148,7 +148,7 @@ class BUTEE_EXPORT Simulation {
   Vector contact_memory_;  ///< to begin with
   GrowthWatch growth_;
   RunReport report_;
-  std::vector<double> kinks_;  ///< of the loads, at which steps end
+  std::vector<double> discontinuities_;  ///< of the loads, at which steps end
   double next_h_;
   double origin_ = 0.0;        ///< s, from which steps of a fixed length are counted
   std::int64_t accepted_ = 0;  ///< steps of a fixed length

@@ -27,7 +27,7 @@ Breakpoints::Breakpoints(const dynamics::ModalSystem& modal, std::size_t most) :
   forces_.resize(most + 1);
   for (StepForces& forces : forces_) {
     forces.constant.setZero(modal.stop_count());
-    forces.paths.setZero(dynamics::StepFlow::padded(modal.stop_count()), StepForces::kColumns);
+    forces.paths.setZero(dynamics::ContactPropagator::padded(modal.stop_count()), StepForces::kColumns);
     for (Vector& moment : forces.moments) moment.setZero(room);
   }
 }

@@ -14,7 +14,8 @@ using time::State;
 constexpr Index kCount = StepNodes::kCount;
 /// Modes may be missed by this part of the tolerance in outputs between nodes.
 constexpr double kOutput = 0.1;
-/// Between knots the fastest motion turns by this at most, rad: a quintic misses 4e-4 of it, and 6e-4 of its speed.
+/// Between breakpoints the fastest motion turns by this at most, rad: a quintic misses 4e-4 of it, and 6e-4 of its
+/// speed.
 constexpr double kMostTurn = 1.5;
 /// The longest part of a step between two nodes.
 constexpr double kLongestPart = 0.24;
@@ -181,7 +182,7 @@ double CollocationOutputs::longest(const State& from, const State& to) const {
   return turns / std::max(loads_.highest_frequency(), find_fastest(from, to, slow));
 }
 
-std::span<const double> CollocationOutputs::knots(const State& from, const State& to) {
+std::span<const double> CollocationOutputs::breakpoints(const State& from, const State& to) {
   if (holds(from, to) && is_parted_) return knots_;
   is_parted_ = holds(from, to);
   const double h = to.t - from.t, slow = kMostTurn / (kLongestPart * h);

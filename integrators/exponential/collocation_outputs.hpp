@@ -64,8 +64,8 @@ class CollocationOutputs {
   void trace(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
              time::Interpolated out);
   /// The nodes of the step and, if modes or loads turn fast between them, instants that part these turns.
-  std::span<const double> knots(const time::State& from, const time::State& to);
-  /// The longest step whose knots are few enough, s, if the fastest motion turns as in this one.
+  std::span<const double> breakpoints(const time::State& from, const time::State& to);
+  /// The longest step whose breakpoints are few enough, s, if the fastest motion turns as in this one.
   double longest(const time::State& from, const time::State& to) const;
 
  private:

@@ -5,7 +5,7 @@
 
 namespace butee::integrators {
 
-double ContactError::of_step(dynamics::StepFlow& flow, const TriedStep& step, double displacement) const {
+double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement) const {
   const ContactPaths& paths = iteration_.paths();
   double largest = 0.0;
   for (const Index i : step.iterated) {
@@ -28,7 +28,8 @@ double ContactError::of_step(dynamics::StepFlow& flow, const TriedStep& step, do
   return largest;
 }
 
-double ContactError::of_touched(dynamics::StepFlow& flow, Index stop, double quartic, double displacement) const {
+double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, double quartic,
+                                double displacement) const {
   const ContactPaths& paths = iteration_.paths();
   const double h = flow.h(), stiffness = contacts_[static_cast<std::size_t>(stop)].stiffness();
   const ContactInfluence::Known& known = iteration_.influence().of(flow, stop);
@@ -36,8 +37,8 @@ double ContactError::of_touched(dynamics::StepFlow& flow, Index stop, double qua
   const bool stays_closed = paths.stays_closed(stop);
   double error = path_error(quartic, stiffness * known.coupling[1][0], h, scale, stays_closed);
   if (!stays_closed) {
-    const double kink = h * h * stiffness * known.unresolved * paths.largest_speed(stop) / (h * scale.speed);
-    error = std::max(error, kink * goal_.middle * scale.displacement / (kUnresolved * goal_.outputs));
+    const double by_slope = h * h * stiffness * known.unresolved * paths.largest_speed(stop) / (h * scale.speed);
+    error = std::max(error, by_slope * goal_.middle * scale.displacement / (kUnresolved * goal_.outputs));
   }
   return error * (displacement / scale.displacement);
 }

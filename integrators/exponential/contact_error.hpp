@@ -20,9 +20,9 @@ class ContactError {
         residual_(residual) {}
 
   /// The error of the step with its forces, m; `displacement` is the largest of all stops.
-  double of_step(dynamics::StepFlow& flow, const TriedStep& step, double displacement) const;
+  double of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement) const;
   /// Indicator 7, relative to the bound of the speed: the residual force of a stop jumps in the step.
-  double of_jump(const dynamics::StepFlow& flow, Index stop, double speed) const {
+  double of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed) const {
     const double hidden = 2.0 * residual_.force(stop).largest() * iteration_.influence().hidden_by_jump(flow, stop);
     return hidden / (kUnresolved * goal_.outputs * flow.h() * speed);
   }
@@ -31,7 +31,7 @@ class ContactError {
   /// Bound of the speed error that the projection hides, over the error bound of outputs.
   static constexpr double kUnresolved = 1.0;
 
-  double of_touched(dynamics::StepFlow& flow, Index stop, double quartic, double displacement) const;
+  double of_touched(dynamics::ContactPropagator& flow, Index stop, double quartic, double displacement) const;
 
   const StepGoal& goal_;
   const std::vector<ContactForce>& contacts_;

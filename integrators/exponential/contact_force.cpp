@@ -75,13 +75,13 @@ ContactForce::ContactForce(dynamics::Contact& contact, Index stop)
       stop_(stop),
       gap_(contact.gap_of(stop)),
       stiffness_(contact.law_of(stop).closed_stiffness()),
-      bend_width_(contact.law_of(stop).bend_width()),
-      residual_(contact.law_of(stop).far_force()),
+      transition_width_(contact.law_of(stop).transition_width()),
+      residual_(contact.law_of(stop).asymptotic_force()),
       is_linear_(contact.law_of(stop).is_piecewise_linear()),
       on_upper_(contact.sides_of(stop) != model::Sides::negative),
       on_lower_(contact.sides_of(stop) != model::Sides::positive) {
   places_.reserve(2 + 3 * kDegree);
-  const double far = kFarOff * bend_width_;
+  const double far = kFarOff * transition_width_;
   knows_limits_ = !is_linear_ && std::isfinite(far) && (gap_ > far || !on_upper_ || !on_lower_);
   if (!knows_limits_) return;
   upper_limits_ = {rest_at(gap_ - far, 0.0), rest_at(gap_ + far, 1.0)};
@@ -177,7 +177,7 @@ ForceMoments ContactForce::of_graded_rest(const ContactPath& path, double graded
   const double bend = path.value(graded);
   for (int panel = 1; panel <= panels && outer != graded; ++panel) {
     const bool is_last =
-        panel == panels || (is_finest_ && std::abs(path.value(outer) - bend) <= kInnermost * bend_width_);
+        panel == panels || (is_finest_ && std::abs(path.value(outer) - bend) <= kInnermost * transition_width_);
     const double inner = is_last ? graded : graded + grading * (outer - graded);
     add(sum, of_rest(path, std::min(inner, outer), std::max(inner, outer), side));
     outer = inner;
@@ -190,11 +190,11 @@ bool ContactForce::stays_on_a_side(const ContactPath& path) const {
 }
 
 bool ContactForce::is_constant_beside_bends(const ContactPath& path) const {
-  return !is_precise_ && (bend_width_ <= kSharp * (path.highest() - path.lowest()) || is_off_bends(path));
+  return !is_precise_ && (transition_width_ <= kSharp * (path.highest() - path.lowest()) || is_off_bends(path));
 }
 
 bool ContactForce::is_off_bends(const ContactPath& path) const {
-  const double off = kOffBend * bend_width_;
+  const double off = kOffBend * transition_width_;
   const auto is_off = [&](double border) { return path.highest() < border - off || path.lowest() > border + off; };
   return (!on_upper_ || is_off(gap_)) && (!on_lower_ || is_off(-gap_));
 }

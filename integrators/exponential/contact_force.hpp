@@ -101,7 +101,7 @@ class ContactForce {
 
   dynamics::Contact& contact_;
   Index stop_;
-  double gap_, stiffness_, bend_width_, residual_;
+  double gap_, stiffness_, transition_width_, residual_;
   bool is_precise_ = false, is_finest_ = false;
   bool is_linear_, on_upper_, on_lower_;
   struct RestLimits {

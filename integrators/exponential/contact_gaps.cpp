@@ -16,7 +16,7 @@ constexpr double kNoContact = 1e100;
 }  // namespace
 
 ContactGaps::ContactGaps(const dynamics::Contact& contact) {
-  const Index padded = dynamics::StepFlow::padded(contact.size());
+  const Index padded = dynamics::ContactPropagator::padded(contact.size());
   gaps_.setConstant(padded, kNoGap);
   limits_ = gaps_;
   upper_ = gaps_;
@@ -69,7 +69,7 @@ bool DisplacementBounds::find_carried(const Eigen::ArrayXd& start_speed, const d
   return step.carried.size() > before;
 }
 
-void DisplacementBounds::find(const dynamics::StepFlow& flow, const TriedStep& step) {
+void DisplacementBounds::find(const dynamics::ContactPropagator& flow, const TriedStep& step) {
   of_loads_ = flow.swing_harmonics;
   for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads())
     of_loads_ += std::max(std::abs(load.in_time->value(step.t)), std::abs(load.in_time->value(step.t + step.h))) *

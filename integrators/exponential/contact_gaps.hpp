@@ -51,7 +51,7 @@ class DisplacementBounds {
   /// longest_near_stops(), s
   double longest_near() const { return longest_near_; }
 
-  void find(const dynamics::StepFlow& flow, const TriedStep& step);
+  void find(const dynamics::ContactPropagator& flow, const TriedStep& step);
   /// Again, with another end of the step.
   void update(const TriedStep& step);
   /// Adds stops to step.carried whose gap is within the bounds of their path with the forces of others, `speed` being

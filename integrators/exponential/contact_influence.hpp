@@ -21,7 +21,8 @@ inline double unresolved_jump(double x) {
 }
 
 /// The influence of a stop's force on its own path, which follows from the step size alone: the coupling, the inverse
-/// of Newton's method while closed, and what the projection hides from the modes. Kept with the step size (StepFlow).
+/// of Newton's method while closed, and what the projection hides from the modes. Kept with the step size
+/// (ContactPropagator).
 class ContactInfluence {
  public:
   /// Both must outlive it; `orders` is the number of force moments.
@@ -33,18 +34,18 @@ class ContactInfluence {
     }
   }
 
-  using Known = dynamics::StepFlow::Derived;
-  const Known& of(dynamics::StepFlow& flow, Index stop) const {
+  using Known = dynamics::ContactPropagator::Derived;
+  const Known& of(dynamics::ContactPropagator& flow, Index stop) const {
     const Known& known = flow.derived(stop);
     return known.is_known ? known : find(flow, stop);
   }
   /// sigma = (h omega_c)^2 of the stop alone.
-  double stiff(dynamics::StepFlow& flow, Index stop) const {
+  double stiff(dynamics::ContactPropagator& flow, Index stop) const {
     return stiffness_[static_cast<std::size_t>(stop)] * of(flow, stop).coupling[1][0];
   }
   /// h times the change of the speed of a stop that the projection of a force with a jump of 1 N hides from modes whose
   /// phases are independent, m/N.
-  double hidden_by_jump(const dynamics::StepFlow& flow, Index stop) const {
+  double hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop) const {
     const auto shape = modal_.stop_shapes().of(stop).array();
     const auto angles = flow.h() * (modal_.frequencies().square() + 4.0 * modal_.decay().square()).sqrt();
     const auto parts = shape.square() * angles.unaryExpr([](double x) { return unresolved_jump(x); });
@@ -53,7 +54,7 @@ class ContactInfluence {
   const ContactNewton& newton(Index stop) const { return newton_[static_cast<std::size_t>(stop)]; }
 
  private:
-  const Known& find(dynamics::StepFlow& flow, Index stop) const {
+  const Known& find(dynamics::ContactPropagator& flow, Index stop) const {
     Known& known = flow.derived(stop);
     known.coupling = flow.own_coupling(stop);
     known.inverse = newton(stop).closed_inverse(known.coupling);

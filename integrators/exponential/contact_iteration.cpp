@@ -5,7 +5,7 @@
 
 namespace butee::integrators {
 
-using dynamics::StepFlow;
+using dynamics::ContactPropagator;
 using Eigen::ArrayXd;
 
 ContactIteration::ContactIteration(const dynamics::ModalSystem& modal, const StepGoal& goal,
@@ -26,7 +26,7 @@ ContactIteration::ContactIteration(const dynamics::ModalSystem& modal, const Ste
   is_touched_.assign(contacts.size(), false);
 }
 
-std::optional<double> ContactIteration::solve(StepFlow& flow) {
+std::optional<double> ContactIteration::solve(ContactPropagator& flow) {
   begin();
   guess(flow);
   double last = 0.0;
@@ -57,14 +57,14 @@ void ContactIteration::choose_registers() {
   far_registers_.clear();
   std::size_t next = 0;
   for (Index begin = 0, end = 0; begin < gaps_.gaps().size(); begin = end) {
-    end = StepFlow::next_register(begin);
+    end = ContactPropagator::next_register(begin);
     const std::size_t first = next;
     while (next < step_.iterated.size() && step_.iterated[next] < end) ++next;
     (next > first ? near_registers_ : far_registers_).push_back(begin);
   }
 }
 
-void ContactIteration::guess(StepFlow& flow) {
+void ContactIteration::guess(ContactPropagator& flow) {
   for (const Index i : step_.iterated) {
     const double w = step_.from.w[i], side = gaps_.closed_side(i, w);
     if (side == 0.0) continue;
@@ -78,7 +78,7 @@ void ContactIteration::guess(StepFlow& flow) {
   flow.add_forces(touched_, moments_, near_registers_, paths_.motion());
 }
 
-double ContactIteration::sweep(StepFlow& flow, double displacement, bool may_skip) {
+double ContactIteration::sweep(ContactPropagator& flow, double displacement, bool may_skip) {
   paths_.find_bounds();
   double change = 0.0;
   for (const Index i : step_.iterated) {
@@ -117,7 +117,7 @@ double ContactIteration::sweep(StepFlow& flow, double displacement, bool may_ski
   return change;
 }
 
-double ContactIteration::allowed_change(StepFlow& flow, Index stop, double displacement) const {
+double ContactIteration::allowed_change(ContactPropagator& flow, Index stop, double displacement) const {
   const ContactScale scale = scales_.of(stop, paths_.reached(stop), displacement);
   return std::max(integrators::allowed_change(goal_.middle, influence_.stiff(flow, stop), flow.h(), scale),
                   kRoundingChange / kConverged * displacement);
@@ -136,7 +136,7 @@ void ContactIteration::note_path(Index stop) {
   noted_.middle[stop] = now.middle[stop];
 }
 
-double ContactIteration::moved_since(StepFlow& flow, Index stop) const {
+double ContactIteration::moved_since(ContactPropagator& flow, Index stop) const {
   const dynamics::StopMotion& now = paths_.motion();
   const double path = std::abs(now.end[stop] - noted_.end[stop]) +
                       kBump * std::abs(now.speed[stop] - noted_.speed[stop]) +
@@ -149,25 +149,25 @@ void ContactIteration::touch(Index stop) {
   is_touched_[static_cast<std::size_t>(stop)] = true;
 }
 
-double ContactIteration::add_force(StepFlow& flow, Index stop, const ForceMoments& more) {
+double ContactIteration::add_force(ContactPropagator& flow, Index stop, const ForceMoments& more) {
   touch(stop);
   for (std::size_t k = 0; k < 3; ++k) moments_[k][stop] += more[k];
   return flow.add_force(stop, more, kBump, near_registers_, paths_.motion());
 }
 
-void ContactIteration::complete_paths(StepFlow& flow) {
+void ContactIteration::complete_paths(ContactPropagator& flow) {
   for (std::size_t k = goal_.orders; k < moments_.size(); ++k) moments_[k].setZero();  // for the error indicator alone
   flow.add_forces(touched_, moments_, far_registers_, paths_.motion());
 }
 
-void ContactIteration::apply(StepFlow& flow, TriedStep& step) {
+void ContactIteration::apply(ContactPropagator& flow, TriedStep& step) {
   const std::size_t orders = goal_.orders;
   step.to.w = paths_.motion().end;
   step.to.wv = paths_.motion().speed * (1.0 / flow.h());
   if (touched_.empty()) return;
   for (std::size_t k = 0; k < orders; ++k) modal_.stop_shapes().force(touched_, moments_[k].data(), sums_[k].data());
   if (orders == 3) {
-    const dynamics::ModalFlow& whole = flow.whole;
+    const dynamics::ModalPropagator& whole = flow.whole;
     step.to.q += sums_[0] * whole.force_q(0) + sums_[1] * whole.force_q(1) + sums_[2] * whole.force_q(2);
     step.to.v += sums_[0] * whole.force_v(0) + sums_[1] * whole.force_v(1) + sums_[2] * whole.force_v(2);
   } else {

@@ -20,11 +20,11 @@ class ContactIteration {
                    const ContactGaps& gaps, const ContactScales& scales, const TriedStep& step);
 
   /// Finds the forces of step.iterated; the largest displacement of a stop, or nothing if it does not converge.
-  std::optional<double> solve(dynamics::StepFlow& flow);
+  std::optional<double> solve(dynamics::ContactPropagator& flow);
   /// Completes the paths of all other stops with the forces.
-  void complete_paths(dynamics::StepFlow& flow);
+  void complete_paths(dynamics::ContactPropagator& flow);
   /// Adds the forces, after complete_paths(), to the end of the step, and to its middle if outputs are to know of it.
-  void apply(dynamics::StepFlow& flow, TriedStep& step);
+  void apply(dynamics::ContactPropagator& flow, TriedStep& step);
 
   const ContactPaths& paths() const { return paths_; }
   const ContactInfluence& influence() const { return influence_; }
@@ -44,18 +44,18 @@ class ContactIteration {
   /// Fills near_registers_ and far_registers_.
   void choose_registers();
   /// Starts with the forces of the stops that are closed at the start, at constant speed.
-  void guess(dynamics::StepFlow& flow);
+  void guess(dynamics::ContactPropagator& flow);
   /// The largest change of a path over allowed_change(). `may_skip`: as by kSettled.
-  double sweep(dynamics::StepFlow& flow, double displacement, bool may_skip);
-  double allowed_change(dynamics::StepFlow& flow, Index stop, double displacement) const;
+  double sweep(dynamics::ContactPropagator& flow, double displacement, bool may_skip);
+  double allowed_change(dynamics::ContactPropagator& flow, Index stop, double displacement) const;
   bool is_spring(Index stop) const;
   /// Notes the path of a stop that its force was found for.
   void note_path(Index stop);
   /// By how much the path of a stop differs from that, with what a stiff stop makes of it in h times its speed, m.
-  double moved_since(dynamics::StepFlow& flow, Index stop) const;
+  double moved_since(dynamics::ContactPropagator& flow, Index stop) const;
   void touch(Index stop);
   /// Adds to the force of a stop; the largest change of a path.
-  double add_force(dynamics::StepFlow& flow, Index stop, const ForceMoments& more);
+  double add_force(dynamics::ContactPropagator& flow, Index stop, const ForceMoments& more);
 
   const dynamics::ModalSystem& modal_;
   const StepGoal& goal_;

@@ -58,7 +58,7 @@ Exponential<Step>::Exponential(dynamics::Dynamics& dynamics, const ExponentialOp
     : Integrator(dynamics),
       options_(options),
       modal_(dynamics.modal(options.modes)),
-      load_kinks_(dynamics.load_kinks()),
+      load_kinks_(dynamics.load_discontinuities()),
       step_(dynamics, modal_, step_goal(options), kMacroStep),
       sizes_(first_index()) {}
 
@@ -78,7 +78,7 @@ int Exponential<Step>::first_index() const {
 
 template <class Step>
 double Exponential<Step>::first_step(const State&) const {
-  return step_.has_stops() ? kMacroStep * ModalSystem::ladder_step(sizes_.first())
+  return step_.has_stops() ? kMacroStep * ModalSystem::grid_step(sizes_.first())
                            : std::numeric_limits<double>::infinity();
 }
 
@@ -117,7 +117,7 @@ StepReport Exponential<Step>::do_step(const State& from, const time::Step& step,
   modal_.to_physical(step_.q(), to.x);
   modal_.to_physical(step_.v(), to.v);
   dynamics().acceleration(to.t, to.x, to.v, to.a);
-  report.error = step_.has_stops() ? kMacroStep * ModalSystem::ladder_step(sizes_.contact_index())
+  report.error = step_.has_stops() ? kMacroStep * ModalSystem::grid_step(sizes_.contact_index())
                                    : std::numeric_limits<double>::infinity();
   return report;
 }
@@ -141,20 +141,20 @@ StepReport Exponential<Step>::follow(const State& from, double end, int most, do
 
 template <class Step>
 bool Exponential<Step>::advance(double end, StepReport& report) const {
-  const double t = step_.t(), kink = next_load_kink(t), last = std::min(end, kink);
+  const double t = step_.t(), jump = next_load_discontinuity(t), last = std::min(end, jump);
   int index = sizes_.next_index();
   // A step without contact ends before the stop that it leads to: a longer one would be tried in vain.
   if (index > sizes_.contact_index()) index = sizes_.next_index(step_.time_to_contact());
   bool expects_motion = false;
   while (true) {
-    const double h = ModalSystem::ladder_step(index);
+    const double h = ModalSystem::grid_step(index);
     if (!(t + h > t)) {
       report.status = StepStatus::not_finite;
       return false;
     }
     const bool fits = step_.has_stops() && t + h <= last;
     // The rest of a macro step is shorter than a step: the next macro step takes it with whole ones.
-    if (!fits && kink >= end && report.inner_steps > 0) return false;
+    if (!fits && jump >= end && report.inner_steps > 0) return false;
     const Trial trial = fits ? step_.attempt_index(index) : step_.attempt_until(last);
     const StepSizeControl::Outcome outcome = step_.outcome();
     if (trial == Trial::accepted) {
@@ -178,7 +178,7 @@ bool Exponential<Step>::advance(double end, StepReport& report) const {
 }
 
 template <class Step>
-double Exponential<Step>::next_load_kink(double t) const {
+double Exponential<Step>::next_load_discontinuity(double t) const {
   const auto next = std::upper_bound(load_kinks_.begin(), load_kinks_.end(), t);
   return next == load_kinks_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
@@ -189,7 +189,7 @@ bool Exponential<Step>::holds(const State& from, double t_end) const {
 }
 
 template <class Step>
-std::span<const double> Exponential<Step>::knots(const State& from, const State& to) const {
+std::span<const double> Exponential<Step>::breakpoints(const State& from, const State& to) const {
   return recall(from, to).breakpoints();
 }
 

@@ -24,7 +24,7 @@ struct ExponentialOptions {
 /// to output. Over a step the force of a stop is projected onto the Legendre polynomials P_0, P_1, P_2 along its path
 /// w(s), a quartic through the displacements and speeds at both ends and the displacement in the middle, of which the
 /// forces are a part: f is found by iteration over the stops near their gaps alone, which contracts by
-/// (h omega_c)^2/26 or faster, omega_c^2 = k_c S M^-1 S^T. Kinks of the law within a step are integrated piece by
+/// (h omega_c)^2/26 or faster, omega_c^2 = k_c S M^-1 S^T. Changes of contact within a step are integrated piece by
 /// piece, so that they do not cost the order and need no event location.
 ///
 /// Order 2 (f_0), 4 (f_0, f_1, a cubic path) or 6 away from contact changes and 4 with small constants across them.
@@ -41,11 +41,11 @@ class Exponential final : public time::Integrator {
  public:
   Exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options);
 
-  bool minds_load_kinks() const override { return true; }
+  bool handles_load_discontinuities() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
   double first_step(const time::State& state) const override;
   bool lands_on_outputs() const override { return !step_.has_stops(); }
-  std::span<const double> knots(const time::State& from, const time::State& to) const override;
+  std::span<const double> breakpoints(const time::State& from, const time::State& to) const override;
   std::span<const time::EnergyAt> energies(const time::State& from, const time::State& to,
                                            std::span<const double> instants) const override;
   time::DenseOutput dense_output() const override {
@@ -69,7 +69,7 @@ class Exponential final : public time::Integrator {
   time::StepReport follow(const time::State& from, double end, int most, double until) const;
   /// Takes a single one, to `end` at the latest; false where none fits or none can be taken.
   bool advance(double end, time::StepReport& report) const;
-  double next_load_kink(double t) const;
+  double next_load_discontinuity(double t) const;
   int first_index() const;
   /// The cache holds the macro step.
   bool holds(const time::State& from, double t_end) const;

@@ -9,8 +9,8 @@
 namespace butee::integrators {
 namespace {
 
-using dynamics::ModalFlow;
-using dynamics::StepFlow;
+using dynamics::ContactPropagator;
+using dynamics::ModalPropagator;
 using Eigen::ArrayXd;
 
 std::vector<ContactForce> contact_forces(dynamics::Contact& contact) {
@@ -85,7 +85,7 @@ Trial ExponentialStep::attempt_until(double t) {
   return attempt(modal_.odd(has_stops() ? h : rounded(h, t)), t);
 }
 
-void ExponentialStep::propagate(const ModalFlow& flow, double t_end, ArrayXd& q, ArrayXd* v) {
+void ExponentialStep::propagate(const ModalPropagator& flow, double t_end, ArrayXd& q, ArrayXd* v) {
   Breakpoints& breakpoints = record_.breakpoints();
   integrators::propagate(
       modal_, flow,
@@ -93,14 +93,14 @@ void ExponentialStep::propagate(const ModalFlow& flow, double t_end, ArrayXd& q,
       t_end, q, v);
 }
 
-bool ExponentialStep::propagate_to_end(const ModalFlow& flow) {
+bool ExponentialStep::propagate_to_end(const ModalPropagator& flow) {
   propagate(flow, step_.t_end, step_.to.q, &step_.to.v);
   if (!has_stops()) return step_.to.q.allFinite() && step_.to.v.allFinite();
   step_.to.find_stops(modal_.stop_shapes());
   return std::isfinite(step_.to.w.sum() + step_.to.wv.sum());
 }
 
-Trial ExponentialStep::attempt(StepFlow& flow, double t_end) {
+Trial ExponentialStep::attempt(ContactPropagator& flow, double t_end) {
   step_.t = t();
   step_.t_end = t_end;
   step_.h = flow.h();
@@ -109,7 +109,7 @@ Trial ExponentialStep::attempt(StepFlow& flow, double t_end) {
     if (const std::optional<Trial> trial = attempt(flow)) return *trial;
 }
 
-std::optional<Trial> ExponentialStep::attempt(StepFlow& flow) {
+std::optional<Trial> ExponentialStep::attempt(ContactPropagator& flow) {
   step_.iterated.clear();
   step_.is_near = false;
   step_.breakpoint = error_ = 0.0;
@@ -136,7 +136,7 @@ std::optional<Trial> ExponentialStep::attempt(StepFlow& flow) {
   return Trial::accepted;
 }
 
-void ExponentialStep::choose_stops(StepFlow& flow) {
+void ExponentialStep::choose_stops(ContactPropagator& flow) {
   step_.reached = {std::max(scales_.largest().displacement, step_.to.largest_w()),
                    std::max(scales_.largest().speed, step_.to.largest_wv())};
   const bool has_residual = errors_.any();
@@ -156,7 +156,7 @@ void ExponentialStep::choose_stops(StepFlow& flow) {
   }
 }
 
-bool ExponentialStep::choose_more_stops(StepFlow& flow) {
+bool ExponentialStep::choose_more_stops(ContactPropagator& flow) {
   std::vector<Index>& iterated = step_.iterated;
   const std::size_t before = iterated.size();
   step_.reached.displacement = std::max(step_.reached.displacement, step_.to.largest_w());
@@ -173,7 +173,7 @@ bool ExponentialStep::choose_more_stops(StepFlow& flow) {
   return true;
 }
 
-bool ExponentialStep::add_jumps(StepFlow& flow) {
+bool ExponentialStep::add_jumps(ContactPropagator& flow) {
   if (!jumps_.find(flow, errors_, step_)) return true;
   for (const Index i : jumps_.stops()) {
     const ContactScale at_end = {std::abs(step_.to.w[i]), std::abs(step_.to.wv[i])};
@@ -184,7 +184,7 @@ bool ExponentialStep::add_jumps(StepFlow& flow) {
   return true;
 }
 
-bool ExponentialStep::is_smooth(StepFlow& flow) {
+bool ExponentialStep::is_smooth(ContactPropagator& flow) {
   if (interpolation_.is_bounded(flow, step_, bounds_.of_loads())) return true;
   propagate(flow.half, 0.5 * (step_.t + step_.t_end), step_.middle.q, &step_.middle.v);
   step_.middle.find_stops(modal_.stop_shapes());
@@ -199,7 +199,7 @@ bool ExponentialStep::shows_jump() const {
 }
 
 void ExponentialStep::expect_motion(int index) {
-  const ModalFlow& flow = modal_.ladder(index).whole;
+  const ModalPropagator& flow = modal_.propagator(index).whole;
   step_.t_end = t() + flow.h();
   if (propagate_to_end(flow)) scales_.raise_largest(step_.to);
 }

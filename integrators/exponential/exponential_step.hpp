@@ -28,7 +28,7 @@ class ExponentialStep {
 
   /// Tries a step of the grid, or one until t; accept() takes it, to end at t.
   Trial attempt_index(int index) {
-    return attempt(modal_.ladder(index), t() + dynamics::ModalSystem::ladder_step(index));
+    return attempt(modal_.propagator(index), t() + dynamics::ModalSystem::grid_step(index));
   }
   Trial attempt_until(double t);
   StepSizeControl::Outcome outcome() const {
@@ -61,22 +61,22 @@ class ExponentialStep {
   }
 
  private:
-  Trial attempt(dynamics::StepFlow& flow, double t_end);
+  Trial attempt(dynamics::ContactPropagator& flow, double t_end);
   /// The same with step_.carried among the iterated stops; nothing if that has grown, so that it has to be done again.
-  std::optional<Trial> attempt(dynamics::StepFlow& flow);
+  std::optional<Trial> attempt(dynamics::ContactPropagator& flow);
   /// Adds the forces of stops that cross w = 0; false if the step is too long for them.
-  bool add_jumps(dynamics::StepFlow& flow);
+  bool add_jumps(dynamics::ContactPropagator& flow);
   /// To t_end without contact; `v` only where it is given.
-  void propagate(const dynamics::ModalFlow& flow, double t_end, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
+  void propagate(const dynamics::ModalPropagator& flow, double t_end, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
   /// Propagates to the end of the step; false if that is not finite.
-  bool propagate_to_end(const dynamics::ModalFlow& flow);
+  bool propagate_to_end(const dynamics::ModalPropagator& flow);
   const Eigen::ArrayXd* residual_force() const { return errors_.any() ? &residual_.modal() : nullptr; }
   /// Divides the stops into those whose forces are found by iteration and all others.
-  void choose_stops(dynamics::StepFlow& flow);
+  void choose_stops(dynamics::ContactPropagator& flow);
   /// Moves stops that the residual forces bring near their gaps to the iterated ones; false if there is none.
-  bool choose_more_stops(dynamics::StepFlow& flow);
+  bool choose_more_stops(dynamics::ContactPropagator& flow);
   /// Outputs on a quintic through the ends are good enough, if need be with a breakpoint in the middle.
-  bool is_smooth(dynamics::StepFlow& flow);
+  bool is_smooth(dynamics::ContactPropagator& flow);
   bool shows_jump() const;
   /// Keeps the forces of the step from the last breakpoint.
   void record_forces();

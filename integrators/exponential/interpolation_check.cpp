@@ -20,10 +20,10 @@ InterpolationCheck::InterpolationCheck(const dynamics::ModalSystem& modal, doubl
       tolerance_(tolerance),
       squares_(modal.frequencies().square()),
       is_strongly_damped_((4.0 * modal.decay() > modal.frequencies()).any()) {
-  for (ArrayXd* array : {&a_, &a_end_}) array->setZero(dynamics::StepFlow::padded(modal.stop_count()));
+  for (ArrayXd* array : {&a_, &a_end_}) array->setZero(dynamics::ContactPropagator::padded(modal.stop_count()));
 }
 
-bool InterpolationCheck::is_bounded(const dynamics::StepFlow& flow, const TriedStep& step, double of_loads) {
+bool InterpolationCheck::is_bounded(const dynamics::ContactPropagator& flow, const TriedStep& step, double of_loads) {
   const double square = step.h * step.h * kQuintic;
   const double bound =
       of_loads +

@@ -14,7 +14,7 @@ class InterpolationCheck {
   InterpolationCheck(const dynamics::ModalSystem& modal, double tolerance);
 
   /// The bound is small enough. `of_loads`: the part of the Hermite interpolation error that loads cause, m.
-  bool is_bounded(const dynamics::StepFlow& flow, const TriedStep& step, double of_loads);
+  bool is_bounded(const dynamics::ContactPropagator& flow, const TriedStep& step, double of_loads);
   /// The quintic is good enough by the middle of the step, if need be with a breakpoint there, which it sets.
   /// `constant_force`: modal; nullptr: none.
   bool is_close(TriedStep& step, const Eigen::ArrayXd* constant_force);

@@ -10,7 +10,7 @@ MacroStep::MacroStep(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& 
       output_(dynamics, modal, breakpoints_, motion_),
       energy_(dynamics, modal),
       bounds_(modal, breakpoints_) {
-  w_middle_.setZero(dynamics::StepFlow::padded(modal.stop_count()));
+  w_middle_.setZero(dynamics::ContactPropagator::padded(modal.stop_count()));
 }
 
 void MacroStep::begin(double t, const ModalState& state) {

@@ -13,7 +13,8 @@ using time::StepStatus;
 
 constexpr Index kCount = StepNodes::kCount;
 /// The estimate is the local error of a method of order 10: it falls with h^11.
-constexpr LocalErrorControl::Orders kOrders = {.estimate = 11.0, .method = 10.0, .constant = 1.0, .kink = 1.0};
+constexpr LocalErrorControl::Orders kOrders = {
+    .estimate = 11.0, .method = 10.0, .constant = 1.0, .contact_change = 1.0};
 /// Sweeps end where they change velocities by this part of what a step may be wrong by.
 constexpr double kSettled = 0.05;
 /// The motion of contacts between nodes is resolved to this part of the tolerance.
@@ -24,11 +25,11 @@ constexpr std::size_t kKept = 12;
 /// and kCoarsestCut, parts of its length.
 constexpr int kMostCuts = 5;
 constexpr double kCut = 1e-3, kCoarsestCut = 1e-6;
-/// Behind the end of a step that was cut a kink is looked for in this part of its length.
+/// Behind the end of a step that was cut a change is looked for in this part of its length.
 constexpr double kBeyond = 0.02;
 
 /// The longest step of the ladder 2^(k/4) s that is no longer than h.
-double on_ladder(double h) {
+double on_grid(double h) {
   return std::exp2(std::floor(4.0 * std::log2(h)) / 4.0);
 }
 
@@ -41,7 +42,7 @@ double by_resolution(double coarse) {
 
 ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, goal, kOrders, LocalErrorControl::Steps::ladder),
+      control_(dynamics, goal, kOrders, LocalErrorControl::Steps::geometric),
       modes_(dynamics, goal.run_time),
       loads_(modes_, dynamics.system()),
       forces_(dynamics, modes_),
@@ -54,7 +55,7 @@ double ModalCollocation::first_step(const State&) const {
   constexpr double kOfContact = 0.3;
   const double frequency = std::max({forces_.dofs().highest_frequency() / kOfContact, loads_.highest_frequency(),
                                      modes_.count() > 0 ? modes_.speed()[0] : 0.0});
-  return frequency > 0.0 ? on_ladder(1.0 / frequency) : std::numeric_limits<double>::infinity();
+  return frequency > 0.0 ? on_grid(1.0 / frequency) : std::numeric_limits<double>::infinity();
 }
 
 void ModalCollocation::do_start(State& state) {
@@ -84,7 +85,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   outputs_.reset();
   const auto redo_with = [&report](double h) {
     report.error = 2.0;
-    report.proposal = on_ladder(h);
+    report.proposal = on_grid(h);
     return report;
   };
   const double wanted = to.t - from.t,
@@ -102,12 +103,13 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
       return report;
     }
     if (dynamics().stop_count() == 0 || cut == kMostCuts) break;
-    // The forces of a step that goes on behind a kink misplace it: a step that was cut may end before it.
-    const double beyond = cut > 0 ? std::min(1.0 + kBeyond, wanted / h) : 1.0, kink = forces_.first_kink(beyond);
-    if (kink >= beyond || std::abs(kink - 1.0) <= std::min(kCoarsestCut, kCut * tolerance_) ||
-        !(from.t + kink * h > from.t))
+    // The forces of a step that goes on behind a change misplace it: a step that was cut may end before it.
+    const double beyond = cut > 0 ? std::min(1.0 + kBeyond, wanted / h) : 1.0,
+                 change = forces_.first_contact_change(beyond);
+    if (change >= beyond || std::abs(change - 1.0) <= std::min(kCoarsestCut, kCut * tolerance_) ||
+        !(from.t + change * h > from.t))
       break;
-    h *= kink;
+    h *= change;
     to.t = from.t + h;
     ++report.inner_rejected;
   }
@@ -116,7 +118,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   solved_end_ = to.t;
   judge(from, to, h, report);
   if (report.error > 1.0) return report;
-  if (coarse > 0.0) report.proposal = std::min(report.proposal, on_ladder(h * by_resolution(coarse)));
+  if (coarse > 0.0) report.proposal = std::min(report.proposal, on_grid(h * by_resolution(coarse)));
   // A step that a stop cut short says nothing against longer ones.
   if (h < wanted) report.proposal = std::max(report.proposal, wanted);
   return report;

@@ -28,8 +28,8 @@ class ModalCollocation final : public time::Integrator {
   bool follows_contact_phases() const override { return true; }
   double event_precision() const override { return std::min(1e-7, 1e-4 * tolerance_); }
   time::DenseOutput dense_output() const override { return time::DenseOutput::near_quintic; }
-  std::span<const double> knots(const time::State& from, const time::State& to) const override {
-    return outputs_.knots(from, to);
+  std::span<const double> breakpoints(const time::State& from, const time::State& to) const override {
+    return outputs_.breakpoints(from, to);
   }
   int trace_parts(const time::State&, const time::State&) const override { return StepNodes::kCount - 1; }
 

@@ -6,7 +6,7 @@
 namespace butee::integrators {
 
 /// The loads of a system on its damped modes: harmonic ones, which are integrated exactly, and piecewise parabolic
-/// ones, which are polynomials over a step between their kinks.
+/// ones, which are polynomials over a step between their discontinuities.
 class ModalLoads {
  public:
   /// Throws InputError for any other load. `modes` and `system` must outlive it.

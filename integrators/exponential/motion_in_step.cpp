@@ -28,9 +28,10 @@ void MotionInStep::find_contacts(std::size_t from) {
                              {breakpoints_.w(from)[i], hv0, breakpoints_.w(from + 1)[i], hv1, at(StepForces::kQuartic)},
                              {at(StepForces::kMoments), at(StepForces::kMoments + 1), at(StepForces::kMoments + 2)}};
     const double allowed = at(StepForces::kAllowedSpeed);
-    const double kink = kSlopeImpulse * stop.stiffness() * h * std::max(std::abs(hv0), std::abs(hv1));
-    const bool is_seen = (compliances_[i] * kink > allowed && stop.status(contact.path) == ContactStatus::changing) ||
-                         (compliances_[i] * kJumpImpulse * h * stop.jump(contact.path) > allowed);
+    const double by_slope = kSlopeImpulse * stop.stiffness() * h * std::max(std::abs(hv0), std::abs(hv1));
+    const bool is_seen =
+        (compliances_[i] * by_slope > allowed && stop.status(contact.path) == ContactStatus::changing) ||
+        (compliances_[i] * kJumpImpulse * h * stop.jump(contact.path) > allowed);
     (is_seen ? changing_ : closed_).push_back(contact);
   }
 }

@@ -156,7 +156,7 @@ void NodeForces::end_at(double part, const StepResponse& response) {
   response.add_force_at_end(missed_.data(), error_);
 }
 
-double NodeForces::first_kink(double last) const {
+double NodeForces::first_contact_change(double last) const {
   const dynamics::Contact& contact = dynamics_.contact();
   const auto row = [&](Index dof) -> StepNodes::Row {
     if (dof < 0) return StepNodes::Row::Zero();

@@ -38,7 +38,7 @@ class NodeForces {
   const Eigen::VectorXd& error() const { return error_; }
   /// The part of the step after which a stop opens or closes; `last`, which may be a little more than 1, where none
   /// does.
-  double first_kink(double last) const;
+  double first_contact_change(double last) const;
 
  private:
   using AtNodes = Eigen::Matrix<double, Eigen::Dynamic, StepNodes::kCount>;

@@ -9,7 +9,7 @@ constexpr double kShortest = 2e-7;
 
 }  // namespace
 
-void propagate(const dynamics::ModalSystem& modal, const dynamics::ModalFlow& flow, const PropagationStart& start,
+void propagate(const dynamics::ModalSystem& modal, const dynamics::ModalPropagator& flow, const PropagationStart& start,
                double t_end, Eigen::ArrayXd& q, Eigen::ArrayXd* v) {
   const double t = start.t;
   q = flow.qq() * start.q + flow.qv() * start.v;

@@ -17,7 +17,7 @@ struct PropagationStart {
 /// Propagates the modes to t_end, under all loads and a constant force but without contact; `v` only where it is given.
 /// Exact for constant, linear and harmonic loads; any other is the parabola through its values at the start, in the
 /// middle and at the end. Checked in tests/unit/propagation_test.cpp.
-void propagate(const dynamics::ModalSystem& modal, const dynamics::ModalFlow& flow, const PropagationStart& start,
+void propagate(const dynamics::ModalSystem& modal, const dynamics::ModalPropagator& flow, const PropagationStart& start,
                double t_end, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
 
 }  // namespace butee::integrators

@@ -6,8 +6,8 @@
 namespace butee::integrators {
 
 ResidualForce::ResidualForce(const dynamics::Contact& contact, Index stop)
-    : largest_(contact.law_of(stop).far_force()),
-      bend_(contact.law_of(stop).bend_width()),
+    : largest_(contact.law_of(stop).asymptotic_force()),
+      bend_(contact.law_of(stop).transition_width()),
       gap_(contact.gap_of(stop)),
       jumps_(contact.sides_of(stop) == model::Sides::both) {}
 
@@ -23,8 +23,8 @@ double ResidualForce::constant_error(double w0, double w1, double bound, double 
 double constant_force_limit(const dynamics::Contact& contact, Index stop) {
   constexpr double kBends = 10.0, kHuge = 1e100, kBlunt = 100.0;
   const model::ContactLaw& law = contact.law_of(stop);
-  const double bend = std::min(law.bend_width(), kHuge), gap = contact.gap_of(stop);
-  if (law.far_force() > 0.0 && gap < kBlunt * bend) return -kHuge;
+  const double bend = std::min(law.transition_width(), kHuge), gap = contact.gap_of(stop);
+  if (law.asymptotic_force() > 0.0 && gap < kBlunt * bend) return -kHuge;
   return gap - kBends * bend;
 }
 

@@ -6,7 +6,7 @@
 namespace butee::integrators {
 namespace {
 
-using dynamics::StepFlow;
+using dynamics::ContactPropagator;
 using Eigen::ArrayXd;
 
 }  // namespace
@@ -25,7 +25,7 @@ ResidualErrors::ResidualErrors(const dynamics::Contact& contact, const StepGoal&
   }
   for (Index i = 0; i < contact.size() && any_; ++i) {
     largest_[i] = forces_[static_cast<std::size_t>(i)].largest();
-    bends_[i] = contact.law_of(i).bend_width();
+    bends_[i] = contact.law_of(i).transition_width();
   }
 }
 
@@ -33,7 +33,7 @@ void ResidualErrors::find_shares() {
   scales_.find_shares(step_.to.w, step_.reached.displacement, shares_);
 }
 
-void ResidualErrors::find_constant(StepFlow& flow, TriedStep& step) {
+void ResidualErrors::find_constant(ContactPropagator& flow, TriedStep& step) {
   const Index m = static_cast<Index>(forces_.size());
   const auto shift = largest_.head(m) * flow.mobilities().abs();
   largest_scaled_shift_ = (shift / shares_.head(m)).maxCoeff();
@@ -46,13 +46,13 @@ void ResidualErrors::find_constant(StepFlow& flow, TriedStep& step) {
                          shift * part.square() * (steps * steps / 3.0) <= most * shares_.head(m);
 }
 
-bool ResidualErrors::may_be(StepFlow& flow, Index stop) const {
+bool ResidualErrors::may_be(ContactPropagator& flow, Index stop) const {
   const double compliance = std::abs(flow.mobilities()[stop]);
   return force(stop).constant_error(step_.from.w[stop], step_.to.w[stop], bounds_.all()[stop], compliance, steps()) <=
          shares_[stop] * allowed();
 }
 
-double ResidualErrors::jump_error(StepFlow& flow, Index stop, double quartic, double end) const {
+double ResidualErrors::jump_error(ContactPropagator& flow, Index stop, double quartic, double end) const {
   const double off = std::abs(quartic), on_the_way = std::abs(end - step_.from.w[stop]);
   if (off == 0.0) return 0.0;
   const double part = off < on_the_way ? off / on_the_way : 1.0;
@@ -77,7 +77,7 @@ void ResidualForces::begin() {
   modal_force_.setZero();
 }
 
-bool ResidualForces::update(StepFlow& flow, const ResidualErrors& errors, TriedStep& step) {
+bool ResidualForces::update(ContactPropagator& flow, const ResidualErrors& errors, TriedStep& step) {
   const Index m = modal_.stop_count();
   const double steps = errors.steps(), most = errors.allowed();
   // Even if the forces of all stops changed their sides
@@ -98,13 +98,13 @@ bool ResidualForces::update(StepFlow& flow, const ResidualErrors& errors, TriedS
 
 ResidualJumps::ResidualJumps(const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts)
     : modal_(modal), contacts_(contacts) {
-  for (ArrayXd& force : by_stop_) force.setZero(StepFlow::padded(static_cast<Index>(contacts.size())));
+  for (ArrayXd& force : by_stop_) force.setZero(ContactPropagator::padded(static_cast<Index>(contacts.size())));
   for (ArrayXd& sum : sums_) sum.setZero(modal.size());
   stops_.reserve(contacts.size());
   moments_.reserve(contacts.size());
 }
 
-bool ResidualJumps::find(StepFlow& flow, const ResidualErrors& errors, const TriedStep& step) {
+bool ResidualJumps::find(ContactPropagator& flow, const ResidualErrors& errors, const TriedStep& step) {
   const double h = step.h, steps = errors.steps(), most = errors.allowed();
   stops_.clear();
   if (errors.largest_scaled_shift() * steps <= most) return false;
@@ -118,7 +118,7 @@ bool ResidualJumps::find(StepFlow& flow, const ResidualErrors& errors, const Tri
   return !stops_.empty();
 }
 
-void ResidualJumps::add(StepFlow& flow, const Vector& constants, TriedStep& step) {
+void ResidualJumps::add(ContactPropagator& flow, const Vector& constants, TriedStep& step) {
   moments_.clear();
   quartics_.clear();
   for (ArrayXd& force : by_stop_) force.setZero();

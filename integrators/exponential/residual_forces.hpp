@@ -25,11 +25,13 @@ class ResidualErrors {
   void find_shares();
   const Eigen::ArrayXd& shares() const { return shares_; }
   /// Finds the stops whose force surely is constant, and raises step.reached to the speed that the forces make.
-  void find_constant(dynamics::StepFlow& flow, TriedStep& step);
+  void find_constant(dynamics::ContactPropagator& flow, TriedStep& step);
   /// The force of a stop may be taken as constant.
-  bool is_constant(dynamics::StepFlow& flow, Index stop) const { return is_constant_[stop] || may_be(flow, stop); }
+  bool is_constant(dynamics::ContactPropagator& flow, Index stop) const {
+    return is_constant_[stop] || may_be(flow, stop);
+  }
   /// The same of a stop after the end of the step has changed.
-  bool may_be(dynamics::StepFlow& flow, Index stop) const;
+  bool may_be(dynamics::ContactPropagator& flow, Index stop) const;
 
   /// The bound of all these errors over one characteristic time of the motion, m.
   double allowed() const {
@@ -42,7 +44,7 @@ class ResidualErrors {
   double largest_scaled_shift() const { return largest_scaled_shift_; }
 
   /// Indicator 6: the error of the displacement, m, by a jump of the force where the path crosses w = 0.
-  double jump_error(dynamics::StepFlow& flow, Index stop, double quartic, double end) const;
+  double jump_error(dynamics::ContactPropagator& flow, Index stop, double quartic, double end) const;
   /// Outputs would show the jump of the force of a stop that crosses w = 0 in the step.
   bool shows_jump(Index stop, double compliance) const;
 
@@ -68,7 +70,7 @@ class ResidualForces {
   void begin();  ///< at the start of a macro step: zero
   /// Replaces them by the law at the middle of the step if that moves a stop by more than is allowed, with the end of
   /// the step. True if it did.
-  bool update(dynamics::StepFlow& flow, const ResidualErrors& errors, TriedStep& step);
+  bool update(dynamics::ContactPropagator& flow, const ResidualErrors& errors, TriedStep& step);
 
   const Vector& forces() const { return forces_; }  ///< N; 0 of iterated stops
   const Eigen::ArrayXd& modal() const { return modal_force_; }
@@ -87,9 +89,9 @@ class ResidualJumps {
   ResidualJumps(const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts);
 
   /// Finds them among step.constant; true if there are any.
-  bool find(dynamics::StepFlow& flow, const ResidualErrors& errors, const TriedStep& step);
+  bool find(dynamics::ContactPropagator& flow, const ResidualErrors& errors, const TriedStep& step);
   /// Adds the moments of their forces, beyond the `constants`, to the step, whose middle is known.
-  void add(dynamics::StepFlow& flow, const Vector& constants, TriedStep& step);
+  void add(dynamics::ContactPropagator& flow, const Vector& constants, TriedStep& step);
 
   const std::vector<Index>& stops() const { return stops_; }
   const ForceMoments& moments(std::size_t place) const { return moments_[place]; }

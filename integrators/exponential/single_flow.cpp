@@ -2,8 +2,8 @@
 
 namespace butee::integrators {
 
-void SingleFlows::fill(dynamics::StepFlow& from, SingleFlow& flow) const {
-  const dynamics::ModalFlow &whole = from.whole, &half = from.half;
+void SingleFlows::fill(dynamics::ContactPropagator& from, SingleFlow& flow) const {
+  const dynamics::ModalPropagator &whole = from.whole, &half = from.half;
   flow.h = from.h();
   flow.qq = whole.qq()[0];
   flow.qv = whole.qv()[0];

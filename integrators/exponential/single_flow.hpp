@@ -8,7 +8,7 @@
 
 namespace butee::integrators {
 
-/// A dynamics::StepFlow of one mode and one stop, in plain numbers.
+/// A dynamics::ContactPropagator of one mode and one stop, in plain numbers.
 struct SingleFlow {
   int index = 0;
   double h = 0.0;  ///< s; 0: not filled yet
@@ -34,7 +34,7 @@ class SingleFlows {
   const SingleFlow& on_grid(int index) {
     SingleFlow& flow = flows_[static_cast<std::size_t>(index & 7)];
     if (flow.h == 0.0 || flow.index != index) {
-      fill(modal_.ladder(index), flow);
+      fill(modal_.propagator(index), flow);
       flow.index = index;
     }
     return flow;
@@ -45,7 +45,7 @@ class SingleFlows {
   }
 
  private:
-  void fill(dynamics::StepFlow& from, SingleFlow& flow) const;
+  void fill(dynamics::ContactPropagator& from, SingleFlow& flow) const;
 
   dynamics::ModalSystem& modal_;
   const SingleMode& mode_;

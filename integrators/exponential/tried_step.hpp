@@ -13,7 +13,7 @@ struct ModalState {
 
   void resize(const dynamics::ModalSystem& modal) {
     for (Eigen::ArrayXd* array : {&q, &v}) array->setZero(modal.size());
-    for (Eigen::ArrayXd* array : {&w, &wv}) array->setZero(dynamics::StepFlow::padded(modal.stop_count()));
+    for (Eigen::ArrayXd* array : {&w, &wv}) array->setZero(dynamics::ContactPropagator::padded(modal.stop_count()));
   }
   /// w and wv of q and v.
   void find_stops(const dynamics::StopShapes& shapes) { shapes.displacement(q.data(), v.data(), w.data(), wv.data()); }
@@ -38,12 +38,12 @@ struct TriedStep {
   std::vector<Index> constant;
 
   /// Adds a modal force P_k to the end of the step.
-  void add_to_end(const dynamics::ModalFlow& whole, int k, const Eigen::ArrayXd& force) {
+  void add_to_end(const dynamics::ModalPropagator& whole, int k, const Eigen::ArrayXd& force) {
     to.q += force * whole.force_q(k);
     to.v += force * whole.force_v(k);
   }
   /// Adds it to the middle: P_k of the step, written in the polynomials of its first half.
-  void add_to_middle(const dynamics::ModalFlow& half, std::size_t k, const Eigen::ArrayXd& force) {
+  void add_to_middle(const dynamics::ModalPropagator& half, std::size_t k, const Eigen::ArrayXd& force) {
     const auto add = [&](Eigen::ArrayXd& sum, const auto& by) {
       if (k == 0) sum += force * by(0);
       if (k == 1) sum += 0.5 * force * (by(1) - by(0));

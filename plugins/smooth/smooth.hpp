@@ -35,7 +35,7 @@ class Smooth final : public model::BatchedLaw<Smooth> {
     return unit * s * s * s * s * (0.25 - 0.1 * s);
   }
   double closed_stiffness() const override { return stiffness_; }
-  double bend_width() const override { return width_; }
+  double transition_width() const override { return width_; }
 
  private:
   double stiffness_, width_;

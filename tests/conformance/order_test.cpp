@@ -114,7 +114,7 @@ double order_across_contact(const std::string& name, const std::string& law, int
 
 // A law that steps resolve: its transition is 1/(pi 30) = 11 mm wide.
 const char* const kSmooth = "law = \"arctan\"\nregularization = 30.0\n";
-const char* const kKink = "law = \"linear\"\n";
+const char* const kContactChange = "law = \"linear\"\n";
 
 TEST(OrderAcrossContact, IsFourForRungeKuttaWhereTheLawIsResolved) {
   EXPECT_NEAR(order_across_contact("rk4", kSmooth, 200), 4.0, 0.1);
@@ -123,7 +123,7 @@ TEST(OrderAcrossContact, IsFourForRungeKuttaWhereTheLawIsResolved) {
 TEST(OrderAcrossContact, IsTwoForNewmark) {
   EXPECT_NEAR(order_across_contact("newmark", kSmooth, 200), 2.0, 0.05);
   // Where in a step a kink falls scatters the error of single runs; six halvings average that.
-  EXPECT_NEAR(order_across_contact("newmark", kKink, 200), 2.0, 0.35);
+  EXPECT_NEAR(order_across_contact("newmark", kContactChange, 200), 2.0, 0.35);
 }
 
 TEST(OrderAcrossContact, OfModifiedNewmarkIsOneWhereTheLawIsResolvedAndAboveItAtAKink) {
@@ -131,7 +131,7 @@ TEST(OrderAcrossContact, OfModifiedNewmarkIsOneWhereTheLawIsResolvedAndAboveItAt
   // O(1).
   EXPECT_NEAR(order_across_contact("newmark_modified", kSmooth, 200), 1.0, 0.05);
   // At a kink it is wrong in the one step that holds it: O(h) for a time O(h), the second order with scatter.
-  EXPECT_NEAR(order_across_contact("newmark_modified", kKink, 200), 2.0, 0.35);
+  EXPECT_NEAR(order_across_contact("newmark_modified", kContactChange, 200), 2.0, 0.35);
 }
 
 }  // namespace

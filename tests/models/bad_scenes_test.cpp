@@ -152,7 +152,7 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(BadScenes, say_where_what_and_what_is_allowed) {
+TEST(BadScenes, SayWhereWhatAndWhatIsAllowed) {
   std::size_t scenes = 0;
   for (const BadScene& scene : all_bad_scenes()) {
     SCOPED_TRACE(scene.name);
@@ -169,7 +169,7 @@ TEST(BadScenes, say_where_what_and_what_is_allowed) {
   EXPECT_EQ(scenes, 230U);
 }
 
-TEST(BadScenes, end_the_program_with_2_and_nothing_written) {
+TEST(BadScenes, EndTheProgramWith2AndNothingWritten) {
   constexpr std::size_t kStride = 9;
   const auto all = all_bad_scenes();
   std::size_t runs = 0;
@@ -190,7 +190,7 @@ TEST(BadScenes, end_the_program_with_2_and_nothing_written) {
   EXPECT_EQ(runs, 26U);
 }
 
-TEST(GoodScenes, near_the_border_are_accepted) {
+TEST(GoodScenes, NearTheBorderAreAccepted) {
   std::size_t scenes = 0;
   for (const GoodScene& scene : good_scenes()) {
     SCOPED_TRACE(scene.name);

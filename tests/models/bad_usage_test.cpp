@@ -23,7 +23,7 @@ void expect_refusal(const Names& arguments, const TemporaryFolder& folder, const
   EXPECT_EQ(folder.entries(), before);
 }
 
-TEST(BadUsage, of_the_command_line) {
+TEST(BadUsage, OfTheCommandLine) {
   const TemporaryFolder folder;
   folder.write(kFile, kGoodScene);
   expect_refusal({}, folder, {"subcommand"});
@@ -38,7 +38,7 @@ TEST(BadUsage, of_the_command_line) {
   expect_refusal({"run", kFile, "--plugin", "nowhere.so"}, folder, {"nowhere.so: there is no such module"});
 }
 
-TEST(BadUsage, of_files) {
+TEST(BadUsage, OfFiles) {
   const TemporaryFolder folder;
   folder.write("empty.toml", "");
   expect_refusal({"run", "nowhere.toml"}, folder, {"nowhere.toml: cannot be read"});
@@ -48,7 +48,7 @@ TEST(BadUsage, of_files) {
       {"empty.toml:1: schema: missing", "empty.toml:1: element: missing", "empty.toml:1: integrator: missing"});
 }
 
-TEST(BadUsage, of_result_folders) {
+TEST(BadUsage, OfResultFolders) {
   const TemporaryFolder folder;
   folder.write(kFile, kGoodScene);
   folder.write("file", "");
@@ -68,7 +68,7 @@ TEST(BadUsage, of_result_folders) {
   EXPECT_EQ(read_file(folder.file("scene-results/model.toml")), "mine\n");
 }
 
-TEST(BadUsage, leaves_earlier_results_alone) {
+TEST(BadUsage, LeavesEarlierResultsAlone) {
   const TemporaryFolder folder;
   folder.write(kFile, kGoodScene);
   ASSERT_EQ(run_program({"run", kFile, "-q", "--set", "integrator.end_time=1e-3"}, folder.path()).status, 0);

@@ -36,7 +36,7 @@ std::string beam1() {
   return model_path("beam1");
 }
 
-TEST(CheckAdvice, says_nothing_of_a_sound_scene) {
+TEST(CheckAdvice, SaysNothingOfASoundScene) {
   const Json json = check(beam1(), {"contact[0].law=linear", "contact[0].regularization="});
   EXPECT_EQ(json["warnings"].size(), 0U) << json["warnings"];
 }
@@ -46,7 +46,7 @@ struct Mistake {
   std::vector<std::string> overrides;
 };
 
-TEST(CheckAdvice, finds_likely_mistakes_that_the_sound_scene_has_not) {
+TEST(CheckAdvice, FindsLikelyMistakesThatTheSoundSceneHasNot) {
   const std::vector<Mistake> mistakes = {
       {"regularization", "take at least", {"contact[0].regularization=200.0"}},
       {"output-interval", "a row every 0.1 s", {"output={interval=0.1}"}},
@@ -82,7 +82,7 @@ std::vector<std::string> random_load(double mean) {
   return {"load=[{type=\"table\",node=\"string:middle\",times=[" + times + "],values=[" + values + "]}]"};
 }
 
-TEST(CheckAdvice, takes_what_lasts_of_a_load_for_its_static_part) {
+TEST(CheckAdvice, TakesWhatLastsOfALoadForItsStaticPart) {
   EXPECT_EQ(advice(check(beam1(), random_load(0.0)), "gap"), "");
   EXPECT_EQ(advice(check(beam1(), random_load(500.0)), "gap"), "") << "it opens them again";
   EXPECT_NE(advice(check(beam1(), random_load(3000.0)), "gap"), "");
@@ -96,7 +96,7 @@ TEST(CheckAdvice, takes_what_lasts_of_a_load_for_its_static_part) {
   EXPECT_NE(gap("type=\"harmonic\",amplitude=900.0,angular_frequency=0.0"), "");
 }
 
-TEST(CheckAdvice, knows_stiffness_ratio_and_duration_of_an_impact) {
+TEST(CheckAdvice, KnowsStiffnessRatioAndDurationOfAnImpact) {
   // K = 1e9 N/m behind a stop of 1e10; pi sqrt(100/1e10) s.
   const Json json = check(model_path("oscillator"));
   EXPECT_NEAR(json["contact"]["least_stiffness_ratio"].get<double>(), 10.0, 1e-9);
@@ -124,7 +124,7 @@ Written run(const std::string& model, const std::vector<std::string>& settings) 
 /// Estimates hold within this factor, or are not given.
 constexpr double kFactor = 1.5;
 
-TEST(CheckAdvice, estimates_steps_and_size) {
+TEST(CheckAdvice, EstimatesStepsAndSize) {
   const std::string casing = std::string(BUTEE_TEST_SOURCE) + "/apps/templates/rotor-casing.toml";
   const std::vector<std::pair<std::string, std::vector<std::string>>> scenes = {
       {beam1(), {"integrator.type=newmark", "output={interval=1e-3}"}},
@@ -157,7 +157,7 @@ TEST(CheckAdvice, estimates_steps_and_size) {
   EXPECT_EQ(fixed["whole"], false);
 }
 
-TEST(CheckAdvice, estimates_nothing_that_a_trial_cannot_tell) {
+TEST(CheckAdvice, EstimatesNothingThatATrialCannotTell) {
   // The beam does not reach its stops within a trial, and the steps of an adaptive method over months are anybody's
   // guess.
   const Json open =
@@ -169,7 +169,7 @@ TEST(CheckAdvice, estimates_nothing_that_a_trial_cannot_tell) {
   EXPECT_TRUE(adaptive["steps"].is_null());
 }
 
-TEST(CheckAdvice, leaves_no_trace_of_its_trial) {
+TEST(CheckAdvice, LeavesNoTraceOfItsTrial) {
   const TemporaryFolder folder;
   const Outcome outcome = run_program({"check", model_path("oscillator"), "--set", "output.impacts=true"},
                                       folder.path(), {"TMPDIR=" + folder.path()});
@@ -177,7 +177,7 @@ TEST(CheckAdvice, leaves_no_trace_of_its_trial) {
   EXPECT_TRUE(folder.entries().empty());
 }
 
-TEST(CheckPicture, shows_a_scene_as_text_in_plain_or_line_drawing_characters) {
+TEST(CheckPicture, ShowsASceneAsTextInPlainOrLineDrawingCharacters) {
   const TemporaryFolder folder;
   const std::string plain = run_program({"check", beam1()}, folder.path(), {"LC_ALL=C"}).output;
   EXPECT_NE(plain.find("string  +===="), std::string::npos) << plain;
@@ -195,7 +195,7 @@ TEST(CheckPicture, shows_a_scene_as_text_in_plain_or_line_drawing_characters) {
   EXPECT_EQ(std::count(between.begin(), between.end(), ':'), 5) << between;
 }
 
-TEST(CheckPicture, is_drawn_as_svg) {
+TEST(CheckPicture, IsDrawnAsSvg) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_program({"check", beam1(), "--picture", "beam.svg", "--set", "title=a < b & c"}, folder.path()).status,
             0);

@@ -59,7 +59,7 @@ std::vector<std::string> topics() {
   return names;
 }
 
-TEST(Help, explains_every_topic_and_command) {
+TEST(Help, ExplainsEveryTopicAndCommand) {
   for (const std::string& topic : topics()) {
     const std::string text = printed({"help", topic});
     EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 3) << topic;
@@ -72,7 +72,7 @@ TEST(Help, explains_every_topic_and_command) {
   EXPECT_TRUE(holds(wrong.errors, "did you mean \"contact\"?")) << wrong.errors;
 }
 
-TEST(Help, knows_what_is_declared) {
+TEST(Help, KnowsWhatIsDeclared) {
   EXPECT_TRUE(holds(printed({"help", "contact"}), "regularization"));
   EXPECT_TRUE(holds(printed({"help", "loads"}), "unbalance"));
   EXPECT_TRUE(holds(printed({"help", "elements"}), "outer_radius"));
@@ -80,7 +80,7 @@ TEST(Help, knows_what_is_declared) {
 }
 
 /// Where a topic lists keys by hand, the reader's own list, from its message about an unknown key, has to be in it.
-TEST(Help, lists_every_key_that_the_reader_takes) {
+TEST(Help, ListsEveryKeyThatTheReaderTakes) {
   const std::vector<std::pair<std::string, std::string>> places = {
       {"model", "nonsense"},           {"damping", "damping.nonsense"},
       {"output", "output.nonsense"},   {"contact", "contact[0].nonsense"},
@@ -101,7 +101,7 @@ TEST(Help, lists_every_key_that_the_reader_takes) {
   }
 }
 
-TEST(Help, names_every_file_that_a_run_writes) {
+TEST(Help, NamesEveryFileThatARunWrites) {
   const std::string text = printed({"help", "results"});
   for (const char* name : {"history.csv", "summary.json", "model.toml", "impacts.csv", "energy.csv", "fields.h5",
                            "fields.xdmf", "plots/", "checkpoint.bin", ".butee-lock"})
@@ -111,7 +111,7 @@ TEST(Help, names_every_file_that_a_run_writes) {
 }
 
 /// The scene that the README shows first, as someone would save it.
-TEST(Readme, its_scene_runs_without_a_warning) {
+TEST(Readme, ItsSceneRunsWithoutAWarning) {
   const std::string readme = read_file(BUTEE_TEST_SOURCE "/README.md");
   const std::string fence = "```toml\n";
   const auto begin = readme.find(fence) + fence.size();
@@ -124,7 +124,7 @@ TEST(Readme, its_scene_runs_without_a_warning) {
   }
 }
 
-TEST(Help, manual_page_has_every_command_and_option) {
+TEST(Help, ManualPageHasEveryCommandAndOption) {
   const std::string page = printed({"help", "--man"});
   for (const std::string& command : commands()) EXPECT_TRUE(holds(page, ".SS \"butee " + command)) << command;
   for (const char* part : {"\\-\\-set KEY=VALUE", "\\-n, \\-\\-number N", ".SH EXIT STATUS", "BUTEE_PLUGIN_PATH"})
@@ -139,7 +139,7 @@ TEST(Help, manual_page_has_every_command_and_option) {
   EXPECT_TRUE(holds(read_file(folder.file("out")), "butee modes"));
 }
 
-TEST(Plugins, are_listed_as_json) {
+TEST(Plugins, AreListedAsJson) {
   const Json all = Json::parse(printed({"plugins", "--json"}));
   std::set<std::string> kinds;
   for (const Json& entry : all) kinds.insert(entry["kind"].get<std::string>());
@@ -158,7 +158,7 @@ TEST(Plugins, are_listed_as_json) {
   EXPECT_TRUE(found);
 }
 
-TEST(Completion, of_bash_knows_commands_options_values_and_scenes) {
+TEST(Completion, OfBashKnowsCommandsOptionsValuesAndScenes) {
   const TemporaryFolder folder;
   folder.write("butee.bash", printed({"completion", "bash"}));
   folder.write("scene.toml", "");
@@ -182,7 +182,7 @@ TEST(Completion, of_bash_knows_commands_options_values_and_scenes) {
   EXPECT_TRUE(holds(completed("completion z"), "zsh"));
 }
 
-TEST(Completion, of_other_shells_is_valid_and_whole) {
+TEST(Completion, OfOtherShellsIsValidAndWhole) {
   const TemporaryFolder folder;
   for (const char* shell : {"zsh", "fish"}) {
     const std::string script = printed({"completion", shell});
@@ -196,7 +196,7 @@ TEST(Completion, of_other_shells_is_valid_and_whole) {
   EXPECT_EQ(run_program({"completion", "csh"}, folder.path()).status, 2);
 }
 
-TEST(Init, every_kind_is_checked_and_runs) {
+TEST(Init, EveryKindIsCheckedAndRuns) {
   const TemporaryFolder folder;
   std::istringstream lines(printed({"init"}));
   int count = 0;
@@ -217,7 +217,7 @@ TEST(Init, every_kind_is_checked_and_runs) {
   EXPECT_GE(count, 8);
 }
 
-TEST(Init, overwrites_nothing) {
+TEST(Init, OverwritesNothing) {
   const TemporaryFolder folder;
   folder.write("beam.toml", "mine");
   const Outcome refused = run_program({"init", "beam"}, folder.path());
@@ -245,7 +245,7 @@ TEST(Run, SaysWhereRowsAreTooFarApartForAnImpact) {
   EXPECT_FALSE(holds(errors("1e-3", "load[0].amplitude=1e-3"), mark));  // It never strikes.
 }
 
-TEST(Colours, are_for_terminals_and_can_be_refused) {
+TEST(Colours, AreForTerminalsAndCanBeRefused) {
   const TemporaryFolder folder;
   const Outcome piped = run_program({"check", model_path("beam1")}, folder.path(), {"TERM=xterm-256color"});
   EXPECT_TRUE(holds(piped.errors, "butee: warning:")) << piped.errors;

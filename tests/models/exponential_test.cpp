@@ -175,7 +175,7 @@ TEST(Exponential, WithoutStopsGoesFromOutputToOutputWithoutError) {
     // Rounding of the modes, relative to the highest of them.
     constexpr double kRounding = 1e-10;
     EXPECT_LE(relative_rms(x, reference), kRounding) << damping;
-    EXPECT_LE(steps, 14);  // ten outputs and the kinks of the load
+    EXPECT_LE(steps, 14);  // ten outputs and the discontinuities of the load
   }
 }
 

@@ -52,7 +52,7 @@ class Faults : public testing::Test {
 };
 
 /// A limit on the size of files stands for a disk that is full: the write that goes beyond it fails half done.
-TEST_F(Faults, a_full_disk_leaves_whole_lines_and_a_summary) {
+TEST_F(Faults, AFullDiskLeavesWholeLinesAndASummary) {
   const Outcome outcome = shell(folder_, "ulimit -f 16; exec $BUTEE run scene.toml -q");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.errors.find("history.csv: cannot be written: File too large"), std::string::npos) << outcome.errors;
@@ -67,7 +67,7 @@ TEST_F(Faults, a_full_disk_leaves_whole_lines_and_a_summary) {
 }
 
 /// Then the disk has room again, and the run goes on.
-TEST_F(Faults, a_run_that_filled_the_disk_can_go_on) {
+TEST_F(Faults, ARunThatFilledTheDiskCanGoOn) {
   ASSERT_EQ(shell(folder_, "$BUTEE run scene.toml -q -o whole").status, 0);
   const Outcome full = shell(folder_, "ulimit -f 16; exec $BUTEE run scene.toml -q --set output.checkpoint=100");
   EXPECT_EQ(full.status, 1);
@@ -76,7 +76,7 @@ TEST_F(Faults, a_run_that_filled_the_disk_can_go_on) {
   EXPECT_EQ(result("history.csv"), read_file(folder_.file("whole/history.csv")));
 }
 
-TEST_F(Faults, a_folder_that_cannot_be_made_is_told) {
+TEST_F(Faults, AFolderThatCannotBeMadeIsTold) {
   folder_.write("file", "");
   const Outcome outcome = shell(folder_, "$BUTEE run scene.toml -o file/deeper");
   EXPECT_NE(outcome.status, 0);
@@ -86,7 +86,7 @@ TEST_F(Faults, a_folder_that_cannot_be_made_is_told) {
   EXPECT_NE(device.errors.find("/proc/butee-results: cannot be made"), std::string::npos) << device.errors;
 }
 
-TEST_F(Faults, a_reader_that_goes_away_ends_the_output_and_not_the_run) {
+TEST_F(Faults, AReaderThatGoesAwayEndsTheOutputAndNotTheRun) {
   const Outcome outcome = shell(folder_, "{ $BUTEE run scene.toml 2>&1; echo $? >status; } | :");
   EXPECT_EQ(read_file(folder_.file("status")), "0\n") << outcome.errors;
   EXPECT_EQ(Json::parse(result("summary.json"))["status"], "completed");
@@ -94,7 +94,7 @@ TEST_F(Faults, a_reader_that_goes_away_ends_the_output_and_not_the_run) {
   EXPECT_EQ(read_file(folder_.file("status")), "0\n");
 }
 
-TEST_F(Faults, output_that_finds_no_room_is_a_failure_of_every_command) {
+TEST_F(Faults, OutputThatFindsNoRoomIsAFailureOfEveryCommand) {
   // The first is longer than any buffer of the standard library.
   for (const std::string command :
        {"plugins --json", "plugins", "plugins rk4", "help", "help loads", "help --man", "--help", "--version",
@@ -113,7 +113,7 @@ TEST_F(Faults, output_that_finds_no_room_is_a_failure_of_every_command) {
 }
 
 /// Files that a run opens would have their numbers, and hold its messages.
-TEST_F(Faults, closed_standard_streams_spoil_no_result) {
+TEST_F(Faults, ClosedStandardStreamsSpoilNoResult) {
   ASSERT_EQ(shell(folder_, "$BUTEE run scene.toml -q -o whole").status, 0);
   for (const char* closed : {">&-", "<&- >&-", ">&- 2>&-", "<&- >&- 2>&-", "2>&-"}) {
     const Outcome outcome = shell(folder_, std::string("$BUTEE run scene.toml -v --progress always ") + closed);
@@ -134,7 +134,7 @@ std::string beams(int count, const std::string& elements) {
 }
 
 /// What could never fit is refused before memory is asked for, with what it would take.
-TEST_F(Faults, an_absurd_scene_is_refused_with_its_size) {
+TEST_F(Faults, AnAbsurdSceneIsRefusedWithItsSize) {
   folder_.write("absurd.toml", beams(1, "2000000000"));
   const Outcome absurd = shell(folder_, "$BUTEE run absurd.toml");
   EXPECT_EQ(absurd.status, 2);
@@ -147,14 +147,14 @@ TEST_F(Faults, an_absurd_scene_is_refused_with_its_size) {
 }
 
 #ifndef __SANITIZE_ADDRESS__  // which reserves more address space than any limit leaves
-TEST_F(Faults, the_limit_is_that_of_the_process) {
+TEST_F(Faults, TheLimitIsThatOfTheProcess) {
   folder_.write("large.toml", beams(1, "1000000"));
   const Outcome outcome = shell(folder_, "ulimit -v 1000000; exec $BUTEE run large.toml");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.errors.find("more than the 1.024 GB"), std::string::npos) << outcome.errors;
 }
 
-TEST_F(Faults, modes_that_never_fit_are_refused) {
+TEST_F(Faults, ModesThatNeverFitAreRefused) {
   std::string scene = beams(1, "8000");
   scene.replace(scene.find("\"rk4\""), 5, "\"exponential\"\nmodes = 8000");
   folder_.write("modes.toml", scene);

@@ -33,7 +33,7 @@ Outcome run_confined(const TemporaryFolder& folder, const std::string& scene) {
 }
 
 /// A scene names methods, laws and elements; no name is ever a file.
-TEST(HostileScenes, cannot_make_butee_load_a_file) {
+TEST(HostileScenes, CannotMakeButeeLoadAFile) {
   const std::string module = std::string(BUTEE_TEST_BROKEN) + "/static_crash.so";
   ASSERT_TRUE(fs::exists(module));
   int refused = 0;
@@ -60,7 +60,7 @@ TEST(HostileScenes, cannot_make_butee_load_a_file) {
   EXPECT_EQ(refused, 30);
 }
 
-TEST(HostileScenes, cannot_write_outside_their_folder) {
+TEST(HostileScenes, CannotWriteOutsideTheirFolder) {
   int tried = 0;
   for (const std::string name : {"../../escaped", "/tmp/butee-escaped", "..", "a/b", "nul\\u0000", "new\\nline"}) {
     const std::string quoted = "\"" + name + "\"";
@@ -79,7 +79,7 @@ TEST(HostileScenes, cannot_write_outside_their_folder) {
 }
 
 /// What a scene holds is shown, never obeyed, by the terminal.
-TEST(HostileScenes, do_not_reach_the_terminal) {
+TEST(HostileScenes, DoNotReachTheTerminal) {
   const TemporaryFolder folder;
   const std::string title = "title = \"\\u001B]0;owned\\u0007 \\u009B31m\"\n";
   const Outcome titled = run_confined(folder, title + scene_with("rk4"));
@@ -95,7 +95,7 @@ TEST(HostileScenes, do_not_reach_the_terminal) {
 }
 
 /// The title goes into a script for gnuplot, which is able to run commands.
-TEST(HostileScenes, cannot_give_gnuplot_commands) {
+TEST(HostileScenes, CannotGiveGnuplotCommands) {
   const TemporaryFolder folder;
   folder.write("scene.toml", "title = \"it's `touch backquoted`\\n' ; system 'touch quoted' #\"\n" +
                                  scene_with("rk4",
@@ -113,7 +113,7 @@ TEST(HostileScenes, cannot_give_gnuplot_commands) {
 }
 
 /// Where a title stands within double quotes, a backquote would begin a command.
-TEST(HostileScenes, cannot_give_plots_commands) {
+TEST(HostileScenes, CannotGivePlotsCommands) {
   const TemporaryFolder folder;
   folder.write("scene.toml", "title = \"`touch backquoted` \\\" ; system 'touch quoted' #\"\n" + scene_with("rk4"));
   ASSERT_EQ(run_program({"run", "scene.toml", "-q"}, folder.path()).status, 0);
@@ -129,7 +129,7 @@ TEST(HostileScenes, cannot_give_plots_commands) {
 }
 
 /// Texts on which the parser would take minutes or all of the stack are refused at once.
-TEST(HostileScenes, of_great_depth_are_refused_before_they_are_parsed) {
+TEST(HostileScenes, OfGreatDepthAreRefusedBeforeTheyAreParsed) {
   const auto repeated = [](const std::string& text, int times) {
     std::string all;
     for (int i = 0; i < times; ++i) all += text;
@@ -155,7 +155,7 @@ TEST(HostileScenes, of_great_depth_are_refused_before_they_are_parsed) {
 }
 
 /// A table of twenty thousand instants is none of them, and what is written of it can be read again.
-TEST(HostileScenes, long_arrays_over_many_lines_are_not_refused) {
+TEST(HostileScenes, LongArraysOverManyLinesAreNotRefused) {
   std::string times = "times = [\n", values = "values = [\n";
   for (int i = 0; i < 20000; ++i) {
     times += std::to_string(i) + (i % 10 == 9 ? ",\n" : ",");
@@ -171,7 +171,7 @@ TEST(HostileScenes, long_arrays_over_many_lines_are_not_refused) {
   EXPECT_EQ(read_file(folder.file("again/history.csv")), history);
 }
 
-TEST(HostileScenes, a_hundred_levels_are_not_too_many) {
+TEST(HostileScenes, AHundredLevelsAreNotTooMany) {
   const TemporaryFolder folder;
   const Outcome outcome =
       run_confined(folder, scene_with("rk4", "[output]\n# " + std::string(1000, '[') +
@@ -180,7 +180,7 @@ TEST(HostileScenes, a_hundred_levels_are_not_too_many) {
 }
 
 /// Devices and pipes may never end; a pipe that ends is a file like any other.
-TEST(HostileFiles, that_never_end_are_refused_and_pipes_are_read) {
+TEST(HostileFiles, ThatNeverEndAreRefusedAndPipesAreRead) {
   const TemporaryFolder folder;
   folder.write("scene.toml", scene_with("rk4"));
   for (const std::string file : {"/dev/zero", "endless"}) {

@@ -31,7 +31,7 @@ Followed follow(const std::string& scene, const std::string& method) {
 /// `exact`, which are integrated in physical coordinates.
 class ModalEnergy : public testing::TestWithParam<std::string> {};
 
-TEST_P(ModalEnergy, is_that_of_the_motion_in_physical_coordinates) {
+TEST_P(ModalEnergy, IsThatOfTheMotionInPhysicalCoordinates) {
   const std::string scene = with_linear_law(GetParam());
   const Followed modal = follow(scene, "exponential"), physical = follow(scene, "exact");
   EXPECT_NEAR(modal.work, physical.work, kOfWork * std::abs(physical.work));

@@ -34,7 +34,7 @@ class ModesCommand : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ModesCommand, pinned_beam_has_its_frequencies_ratios_and_effective_masses) {
+TEST_F(ModesCommand, PinnedBeamHasItsFrequenciesRatiosAndEffectiveMasses) {
   const Json found = json({model_path("beam1"), "-n", "5"});
   ASSERT_EQ(found["modes"].size(), 5U);
   const double bending = 2.03e11 * pi / 4.0 * (std::pow(0.06, 4) - std::pow(0.04, 4));
@@ -53,7 +53,7 @@ TEST_F(ModesCommand, pinned_beam_has_its_frequencies_ratios_and_effective_masses
   }
 }
 
-TEST_F(ModesCommand, all_effective_masses_together_are_the_mass_that_can_move) {
+TEST_F(ModesCommand, AllEffectiveMassesTogetherAreTheMassThatCanMove) {
   double sum = 0.0;
   const Json found = json({model_path("beam1"), "-n", "68"});
   for (const Json& mode : found["modes"]) sum += mode["effective_part"].get<double>();
@@ -62,7 +62,7 @@ TEST_F(ModesCommand, all_effective_masses_together_are_the_mass_that_can_move) {
   EXPECT_GT(sum, 1.0 - 1.0 / 34.0);
 }
 
-TEST_F(ModesCommand, oscillator_with_open_and_closed_stops) {
+TEST_F(ModesCommand, OscillatorWithOpenAndClosedStops) {
   const Json open = json({model_path("oscillator")});
   ASSERT_EQ(open["modes"].size(), 1U);
   EXPECT_NEAR(open["modes"][0]["angular_frequency"].get<double>(), std::sqrt(1e9 / 100.0), 1e-8);
@@ -76,7 +76,7 @@ TEST_F(ModesCommand, oscillator_with_open_and_closed_stops) {
   }
 }
 
-TEST_F(ModesCommand, stops_close_where_a_selector_says) {
+TEST_F(ModesCommand, StopsCloseWhereASelectorSays) {
   const Json some = json({model_path("beam1"), "--closed", "string:3..5", "--closed", "string:9", "-n", "1"});
   EXPECT_EQ(some["closed_stops"], 4);
   const double one = json({model_path("beam1"), "-n", "1"})["modes"][0]["angular_frequency"];
@@ -85,7 +85,7 @@ TEST_F(ModesCommand, stops_close_where_a_selector_says) {
   EXPECT_LT(some["modes"][0]["angular_frequency"].get<double>(), all);
 }
 
-TEST_F(ModesCommand, modal_damping_is_what_the_scene_says) {
+TEST_F(ModesCommand, ModalDampingIsWhatTheSceneSays) {
   const Json every = json({model_path("beam1"), "--set", "damping={modal=0.02}", "-n", "2"});
   EXPECT_NEAR(every["modes"][1]["damping"].get<double>(), 0.02, 1e-15);
   const Json list = json({model_path("beam1"), "--set", "damping={modal=[0.03]}", "-n", "2"});
@@ -98,7 +98,7 @@ TEST_F(ModesCommand, modal_damping_is_what_the_scene_says) {
   EXPECT_NEAR(closed["modes"][1]["damping"].get<double>(), 0.0, 1e-8);
 }
 
-TEST_F(ModesCommand, writes_frequencies_and_shapes) {
+TEST_F(ModesCommand, WritesFrequenciesAndShapes) {
   ASSERT_EQ(run({model_path("beam1"), "-n", "3", "-o", "out"}).status, 0);
   const CsvTable frequencies(folder_.file("out/frequencies.csv"));
   EXPECT_EQ(frequencies.rows(), 3U);
@@ -116,7 +116,7 @@ TEST_F(ModesCommand, writes_frequencies_and_shapes) {
   EXPECT_EQ(run({model_path("beam1"), "-o", "out"}).status, 0);  // ours, and written again
 }
 
-TEST_F(ModesCommand, draws_shapes_or_says_what_is_missing) {
+TEST_F(ModesCommand, DrawsShapesOrSaysWhatIsMissing) {
   const Outcome outcome = run({model_path("beam1"), "-n", "3", "--plot"});
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_TRUE(std::filesystem::exists(folder_.file("beam1-modes/modes.gp")));
@@ -127,7 +127,7 @@ TEST_F(ModesCommand, draws_shapes_or_says_what_is_missing) {
   }
 }
 
-TEST_F(ModesCommand, refuses_what_it_cannot_do) {
+TEST_F(ModesCommand, RefusesWhatItCannotDo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{model_path("oscillator"), "-n", "2"}, "no more modes than free DOFs: 1"},
       {{model_path("beam1"), "--closed", "string:99"}, "--closed string:99"},
@@ -147,7 +147,7 @@ TEST_F(ModesCommand, refuses_what_it_cannot_do) {
   EXPECT_TRUE(std::filesystem::exists(folder_.file("results/history.csv")));
 }
 
-TEST_F(ModesCommand, takes_the_long_string) {
+TEST_F(ModesCommand, TakesTheLongString) {
   const Json found = json({model_path("long-string"), "-n", "3"});
   EXPECT_EQ(found["solver"], "lanczos");
   const double ratio =

@@ -29,7 +29,7 @@ struct Job {
 
 class Practice : public testing::TestWithParam<Job> {};
 
-TEST_P(Practice, gives_what_its_page_says) {
+TEST_P(Practice, GivesWhatItsPageSays) {
   const TemporaryFolder folder;
   const Job& job = GetParam();
   const Outcome run = run_program({"run", model_path(job.name), "-o", "results", "-q"}, folder.path());
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 /// The record is that of its formula, to the digits that are printed.
-TEST(Record, is_made_by_its_script) {
+TEST(Record, IsMadeByItsScript) {
   const std::string folder = std::filesystem::path(model_path("tower")).parent_path();
   std::FILE* pipe = popen(("awk -f '" + folder + "/make-quake'").c_str(), "r");
   ASSERT_NE(pipe, nullptr);

@@ -119,7 +119,7 @@ class Checkpointed : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Checkpointed, a_signal_ends_a_run_after_its_step) {
+TEST_F(Checkpointed, ASignalEndsARunAfterItsStep) {
   for (const int signal : {SIGINT, SIGTERM}) {
     interrupt(signal);
     EXPECT_EQ(summary()["status"], "failed");
@@ -134,7 +134,7 @@ TEST_F(Checkpointed, a_signal_ends_a_run_after_its_step) {
 
 /// A run of a hundred seconds that was interrupted, with the horizon drawn in by hand: refused, since it is no longer
 /// the same model.
-TEST_F(Checkpointed, another_model_is_refused) {
+TEST_F(Checkpointed, AnotherModelIsRefused) {
   interrupt(SIGINT);
   std::string model = read_file(folder_.file("broken/model.toml"));
   const auto at = model.find("end_time = 100");
@@ -145,7 +145,7 @@ TEST_F(Checkpointed, another_model_is_refused) {
   EXPECT_NE(outcome.errors.find("is not the model"), std::string::npos) << outcome.errors;
 }
 
-TEST_F(Checkpointed, damaged_checkpoints_are_told_and_passed_over) {
+TEST_F(Checkpointed, DamagedCheckpointsAreToldAndPassedOver) {
   folder_.write("scene.toml", scene_of(kMethod, 2e-2, 50));
   ASSERT_EQ(run({"run", "scene.toml", "-o", "whole", "-q"}).status, 0);
   for (const bool both : {false, true}) {
@@ -168,7 +168,7 @@ TEST_F(Checkpointed, damaged_checkpoints_are_told_and_passed_over) {
 }
 
 /// A kill before the model was in its place: the folder is as good as empty.
-TEST_F(Checkpointed, the_draft_of_a_model_is_no_hindrance) {
+TEST_F(Checkpointed, TheDraftOfAModelIsNoHindrance) {
   fs::create_directory(folder_.file("broken"));
   folder_.write("broken/model.toml.part", "# but");
   folder_.write("scene.toml", scene_of(kMethod, 1e-3, 5));
@@ -180,7 +180,7 @@ TEST_F(Checkpointed, the_draft_of_a_model_is_no_hindrance) {
   EXPECT_EQ(run({"run", "scene.toml", "-o", "other", "-q"}).status, 2);
 }
 
-TEST_F(Checkpointed, what_cannot_go_on_says_so) {
+TEST_F(Checkpointed, WhatCannotGoOnSaysSo) {
   EXPECT_EQ(run({"run", "--resume", "nowhere"}).status, 2);
   folder_.write("scene.toml", scene_of(kMethod, 1e-3, 0));
   ASSERT_EQ(run({"run", "scene.toml", "-o", "broken", "-q"}).status, 0);
@@ -195,7 +195,7 @@ TEST_F(Checkpointed, what_cannot_go_on_says_so) {
   EXPECT_EQ(run({"run", "--resume", "broken", "--set", "integrator.end_time=2.0"}).status, 2);
 }
 
-TEST_F(Checkpointed, a_method_with_a_history_of_its_own_is_refused) {
+TEST_F(Checkpointed, AMethodWithAHistoryOfItsOwnIsRefused) {
   if (!fs::exists(std::string(BUTEE_TEST_PLUGINS) + "/sundials.so")) GTEST_SKIP() << "built without SUNDIALS";
   for (const char* method : {"cvode_bdf", "cvode_adams", "arkode_erk", "arkode_dirk"}) {
     folder_.write("scene.toml", scene_of({method, "", 0.0}, 1e-3, 5));
@@ -206,7 +206,7 @@ TEST_F(Checkpointed, a_method_with_a_history_of_its_own_is_refused) {
   }
 }
 
-TEST_F(Checkpointed, a_completed_run_leaves_none) {
+TEST_F(Checkpointed, ACompletedRunLeavesNone) {
   folder_.write("scene.toml", scene_of(kMethod, 5e-3, 5));
   ASSERT_EQ(run({"run", "scene.toml", "-o", "broken", "-q", "--repeat", "2"}).status, 0);
   for (const auto& entry : fs::directory_iterator(folder_.file("broken")))

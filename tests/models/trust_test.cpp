@@ -277,8 +277,8 @@ TEST_P(Trust, BoundsTheErrorHoldsThePeaksAndKnowsChaos) {
   double peak = 0.0, horizon_error = 0.0, end_error = 0.0;
   for (std::size_t dof = 0; dof < scene.mass.size(); ++dof)
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const double error = static_cast<double>(std::abs(run.courses.values[dof][i] - truth.rows[dof][i]));
-      peak = std::max(peak, std::abs(run.courses.values[dof][i]));
+      const double error = static_cast<double>(std::abs(run.histories.values[dof][i] - truth.rows[dof][i]));
+      peak = std::max(peak, std::abs(run.histories.values[dof][i]));
       end_error = std::max(end_error, error);
       if (times[i] <= trust.horizon) horizon_error = std::max(horizon_error, error);
     }

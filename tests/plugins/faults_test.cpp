@@ -28,7 +28,7 @@ struct Case {
 };
 
 /// Whatever a method does after its fifth step, the rows before it are kept and the summary says what happened.
-TEST(FaultyModules, a_method_that_breaks_in_a_step_fails_the_run) {
+TEST(FaultyModules, AMethodThatBreaksInAStepFailsTheRun) {
   for (const Case& one : {Case{"throws_in_step", "the oracle is out"}, Case{"gives_nan", "no longer finite"},
                           Case{"goes_back", "a step ends where it was to end"},
                           Case{"throws_a_number", "no exception of the standard library"}}) {
@@ -46,7 +46,7 @@ TEST(FaultyModules, a_method_that_breaks_in_a_step_fails_the_run) {
   }
 }
 
-TEST(FaultyModules, a_method_that_cannot_be_made_leaves_nothing) {
+TEST(FaultyModules, AMethodThatCannotBeMadeLeavesNothing) {
   for (const Case& one :
        {Case{"throws_in_make", "no licence for this scene"}, Case{"makes_nothing", "made no method"}}) {
     SCOPED_TRACE(one.method);
@@ -60,7 +60,7 @@ TEST(FaultyModules, a_method_that_cannot_be_made_leaves_nothing) {
 }
 
 /// Nothing can catch it, but the last line names the module.
-TEST(FaultyModules, one_that_crashes_while_it_is_loaded_is_named) {
+TEST(FaultyModules, OneThatCrashesWhileItIsLoadedIsNamed) {
   for (const char* name : {"static_crash", "static_throw"}) {
     const TemporaryFolder folder;
     const Outcome outcome = run_program({"plugins", "--plugin", broken(name)}, folder.path());
@@ -71,7 +71,7 @@ TEST(FaultyModules, one_that_crashes_while_it_is_loaded_is_named) {
   }
 }
 
-TEST(FaultyModules, one_that_was_built_for_another_version_is_refused_with_the_difference) {
+TEST(FaultyModules, OneThatWasBuiltForAnotherVersionIsRefusedWithTheDifference) {
   const TemporaryFolder folder;
   folder.write("scene.toml", scene_with("rk4"));
   const Outcome outcome = run_program({"run", "scene.toml", "--plugin", broken("other_interface")}, folder.path());

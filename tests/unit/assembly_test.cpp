@@ -22,7 +22,7 @@ Vector some_vector(Index size, double seed) {
   return v;
 }
 
-TEST(Assembly, nodes_get_only_the_dofs_that_are_used) {
+TEST(Assembly, NodesGetOnlyTheDofsThatAreUsed) {
   const SceneRun scene(kHeader + kSteelBar + mass("ball", "2.0") + beam("arm", "length = 1.0\nelements = 1") +
                        "\n[[element]]\ntype = \"mass\"\nname = \"wheel\"\nmass = 0\nrotary_inertia = 3.0\n");
   EXPECT_EQ(scene.system().size(), 1 + 4 + 1);
@@ -33,7 +33,7 @@ TEST(Assembly, nodes_get_only_the_dofs_that_are_used) {
   EXPECT_EQ(scene.system().mass.coeff(scene.dof("wheel", DofKind::theta), scene.dof("wheel", DofKind::theta)), 3.0);
 }
 
-TEST(Assembly, supports_take_dofs_away) {
+TEST(Assembly, SupportsTakeDofsAway) {
   const SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 1.0\nelements = 2") +
                        support("\"arm:first\"", R"(["u", "theta"])") + support("\"arm:last\"", R"(["u"])"));
   EXPECT_EQ(scene.system().size(), 3);
@@ -42,7 +42,7 @@ TEST(Assembly, supports_take_dofs_away) {
   EXPECT_EQ(scene.dof("arm:last", DofKind::theta), 2);
 }
 
-TEST(Assembly, mass_spring_and_dashpot) {
+TEST(Assembly, MassSpringAndDashpot) {
   const SceneRun scene(kHeader + mass("ball", "2.0") + spring("node = \"ball\"\nstiffness = 50.0\ndamping = 0.7"));
   ASSERT_EQ(scene.system().size(), 1);
   EXPECT_EQ(scene.system().mass.coeff(0, 0), 2.0);
@@ -50,12 +50,12 @@ TEST(Assembly, mass_spring_and_dashpot) {
   EXPECT_EQ(scene.system().dashpots.coeff(0, 0), 0.7);
 }
 
-TEST(Assembly, without_dashpots_there_is_no_matrix_for_them) {
+TEST(Assembly, WithoutDashpotsThereIsNoMatrixForThem) {
   const SceneRun scene(kHeader + mass("ball", "2.0") + spring("node = \"ball\"\nstiffness = 50.0"));
   EXPECT_EQ(scene.system().dashpots.size(), 0);
 }
 
-TEST(Assembly, mass_on_a_beam_adds_to_its_node) {
+TEST(Assembly, MassOnABeamAddsToItsNode) {
   const std::string arm = kHeader + kSteelBar + beam("arm", "length = 1.0\nelements = 2");
   const SceneRun bare(arm);
   const SceneRun loaded(arm + "\n[[element]]\ntype = \"mass\"\nnode = \"arm:1\"\nmass = 5.0\nrotary_inertia = 0.25\n");
@@ -66,7 +66,7 @@ TEST(Assembly, mass_on_a_beam_adds_to_its_node) {
   EXPECT_NEAR(added.lpNorm<1>(), 5.25, kRounding);
 }
 
-TEST(Assembly, spring_between_nodes_couples_them) {
+TEST(Assembly, SpringBetweenNodesCouplesThem) {
   SceneRun scene(kHeader + mass("a", "1.0") + mass("b", "2.0") +
                  spring("nodes = [\"a\", \"b\"]\nstiffness = 30.0\ndamping = 4.0"));
   const Eigen::MatrixXd pattern = (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
@@ -74,7 +74,7 @@ TEST(Assembly, spring_between_nodes_couples_them) {
   EXPECT_EQ(Eigen::MatrixXd(scene.system().dashpots), 4.0 * pattern);
 }
 
-TEST(Assembly, spring_between_ranges_joins_them_pair_by_pair) {
+TEST(Assembly, SpringBetweenRangesJoinsThemPairByPair) {
   SceneRun scene(kHeader + kSteelBar + beam("a", "length = 2.0\nelements = 2") +
                  beam("b", "length = 2.0\nelements = 2") +
                  spring("nodes = [\"a:1..2\", \"b:0..1\"]\nstiffness = 30.0\ndof = \"theta\""));
@@ -86,7 +86,7 @@ TEST(Assembly, spring_between_ranges_joins_them_pair_by_pair) {
   EXPECT_EQ(stiffness.coeff(scene.dof("a:1"), scene.dof("b:0")), 0.0);
 }
 
-TEST(Assembly, matrices_share_one_pattern_with_places_for_stops_between_nodes) {
+TEST(Assembly, MatricesShareOnePatternWithPlacesForStopsBetweenNodes) {
   const SceneRun scene(
       kHeader + kSteelBar + beam("a", "length = 2.0\nelements = 2") + beam("b", "length = 2.0\nelements = 2") +
       spring("node = \"a:first\"\nstiffness = 1.0\ndamping = 2.0") +
@@ -101,7 +101,7 @@ TEST(Assembly, matrices_share_one_pattern_with_places_for_stops_between_nodes) {
   EXPECT_EQ(system.mass.nonZeros(), 2 * 28 + 2 * 3);
 }
 
-TEST(Assembly, rayleigh_damping_and_dashpots_make_the_damping_force) {
+TEST(Assembly, RayleighDampingAndDashpotsMakeTheDampingForce) {
   SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 2.0\nelements = 3") +
                  spring("node = \"arm:1\"\nstiffness = 100.0\ndamping = 33.0") +
                  "\n[damping]\nmass_proportional = 0.7\nstiffness_proportional = 2.0e-4\n");
@@ -114,7 +114,7 @@ TEST(Assembly, rayleigh_damping_and_dashpots_make_the_damping_force) {
   EXPECT_TRUE(scene.dynamics().has_damping());
 }
 
-TEST(Assembly, acceleration_solves_the_equation_of_motion) {
+TEST(Assembly, AccelerationSolvesTheEquationOfMotion) {
   SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 2.0\nelements = 3") +
                  support("\"arm:first\"", R"(["u"])") + spring("node = \"arm:1\"\nstiffness = 1e5\ndamping = 33.0") +
                  "\n[[load]]\ntype = \"constant\"\nnode = \"arm:last\"\nvalue = 700.0\n" +
@@ -136,7 +136,7 @@ TEST(Assembly, acceleration_solves_the_equation_of_motion) {
   EXPECT_EQ(scene.dynamics().counters().force_evaluations, 1);
 }
 
-TEST(Assembly, initial_values_come_by_selector) {
+TEST(Assembly, InitialValuesComeBySelector) {
   const SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 2.0\nelements = 2") +
                        "\n[initial]\ndisplacement = [{ nodes = \"arm:1..2\", value = 0.5 }]\n"
                        "velocity = [{ nodes = \"arm:first\", dof = \"theta\", value = -2 }]\n");
@@ -146,7 +146,7 @@ TEST(Assembly, initial_values_come_by_selector) {
   EXPECT_EQ(scene.system().initial_velocity[scene.dof("arm:first", DofKind::theta)], -2.0);
 }
 
-TEST(Assembly, a_free_dof_without_mass_is_an_error_that_names_it) {
+TEST(Assembly, AFreeDofWithoutMassIsAnErrorThatNamesIt) {
   const std::string message =
       refusal(kHeader + mass("ball", "1.0") + spring("node = \"ball\"\ndof = \"theta\"\nstiffness = 2"));
   EXPECT_TRUE(holds(message, "theta of ball has no mass")) << message;
@@ -154,7 +154,7 @@ TEST(Assembly, a_free_dof_without_mass_is_an_error_that_names_it) {
 
 /// A rotor in a flexible casing: two beams, bearing springs and stops between them. Nothing holds them to the ground,
 /// so that they can be shifted together without a force.
-TEST(Assembly, rotor_in_a_flexible_casing) {
+TEST(Assembly, RotorInAFlexibleCasing) {
   SceneRun scene(
       kHeader + kSteelBar + beam("rotor", "length = 2.0\nelements = 8") + beam("casing", "length = 2.0\nelements = 8") +
       spring("nodes = [\"rotor:first\", \"casing:first\"]\nstiffness = 1e6\ndamping = 10.0") +

@@ -18,7 +18,7 @@ SparseMatrix band_matrix(Index size, Index band, double diagonal) {
   return dense.sparseView();
 }
 
-TEST(BandFactor, solves_what_the_dense_matrix_says) {
+TEST(BandFactor, SolvesWhatTheDenseMatrixSays) {
   // Both are direct solutions; the matrices have condition numbers below 100.
   constexpr double kSolved = 1e-13;
   int cases = 0;
@@ -42,7 +42,7 @@ TEST(BandFactor, solves_what_the_dense_matrix_says) {
   EXPECT_EQ(cases, 8 * 12);
 }
 
-TEST(BandFactor, forgets_the_matrix_before) {
+TEST(BandFactor, ForgetsTheMatrixBefore) {
   linalg::BandFactor factor(30, 3);
   ASSERT_TRUE(factor.factorize(band_matrix(30, 3, 8.0)));
   const SparseMatrix matrix = band_matrix(30, 3, 20.0);
@@ -53,7 +53,7 @@ TEST(BandFactor, forgets_the_matrix_before) {
   EXPECT_LE((right - expected).norm(), 1e-13 * expected.norm());
 }
 
-TEST(BandFactor, refuses_what_is_not_positive_definite_wherever_it_shows) {
+TEST(BandFactor, RefusesWhatIsNotPositiveDefiniteWhereverItShows) {
   for (const Index row : {0, 14, 15, 29}) {
     SparseMatrix matrix = band_matrix(30, 3, 8.0);
     matrix.coeffRef(row, row) = -1.0;

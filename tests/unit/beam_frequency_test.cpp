@@ -72,7 +72,7 @@ double exact_frequency(double root) {
 
 class BeamFrequency : public testing::TestWithParam<Ends> {};
 
-TEST_P(BeamFrequency, a_fine_mesh_meets_the_closed_form_from_above) {
+TEST_P(BeamFrequency, AFineMeshMeetsTheClosedFormFromAbove) {
   const Vector values = eigenvalues(GetParam().supports, 32);
   for (std::size_t i = 0; i < GetParam().roots.size(); ++i) {
     const double error = std::sqrt(values[static_cast<Index>(i)]) / exact_frequency(GetParam().roots[i]) - 1.0;
@@ -81,7 +81,7 @@ TEST_P(BeamFrequency, a_fine_mesh_meets_the_closed_form_from_above) {
   }
 }
 
-TEST_P(BeamFrequency, the_error_falls_as_the_fourth_power_of_the_element_length) {
+TEST_P(BeamFrequency, TheErrorFallsAsTheFourthPowerOfTheElementLength) {
   for (std::size_t i = 0; i < GetParam().roots.size(); ++i) {
     const double exact = exact_frequency(GetParam().roots[i]);
     const int coarse = 4 * (static_cast<int>(i) + 2);
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(ends, BeamFrequency, testing::Values(pinned(), cantilev
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 /// A free beam has two rigid motions, and above them the frequencies of the clamped one.
-TEST(FreeBeam, has_two_rigid_modes_and_then_those_of_the_clamped_one) {
+TEST(FreeBeam, HasTwoRigidModesAndThenThoseOfTheClampedOne) {
   const Vector values = eigenvalues("", 32);
   const double lowest = std::pow(exact_frequency(clamped().roots[0]), 2);
   EXPECT_NEAR(values[0], 0.0, 1e2 * kEigenRounding * lowest);

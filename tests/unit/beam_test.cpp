@@ -42,13 +42,13 @@ std::string line_load(const std::string& name, double value) {
 
 class BeamElement : public testing::TestWithParam<double> {};
 
-TEST_P(BeamElement, matrices_are_symmetric) {
+TEST_P(BeamElement, MatricesAreSymmetric) {
   const auto matrices = bending(GetParam());
   EXPECT_EQ(matrices.mass, matrices.mass.transpose());
   EXPECT_EQ(matrices.stiffness, matrices.stiffness.transpose());
 }
 
-TEST_P(BeamElement, rigid_motion_has_no_elastic_force) {
+TEST_P(BeamElement, RigidMotionHasNoElasticForce) {
   const double l = GetParam();
   const auto matrices = bending(l);
   for (const Eigen::Vector4d& motion : {Eigen::Vector4d(1, 0, 1, 0), Eigen::Vector4d(0, 1, l, 1)}) {
@@ -58,7 +58,7 @@ TEST_P(BeamElement, rigid_motion_has_no_elastic_force) {
   }
 }
 
-TEST_P(BeamElement, rigid_motion_has_the_inertia_of_a_thin_rod) {
+TEST_P(BeamElement, RigidMotionHasTheInertiaOfAThinRod) {
   const double l = GetParam(), m = kMassPerLength * l;
   const auto matrices = bending(l);
   const auto twice_kinetic = [&](const Eigen::Vector4d& v) { return v.dot(matrices.mass * v); };
@@ -69,7 +69,7 @@ TEST_P(BeamElement, rigid_motion_has_the_inertia_of_a_thin_rod) {
 
 INSTANTIATE_TEST_SUITE_P(lengths, BeamElement, testing::Values(1e-3, 0.37, 1.0, 25.0));
 
-TEST(Beam, uneven_free_beam_has_the_inertia_of_a_thin_rod) {
+TEST(Beam, UnevenFreeBeamHasTheInertiaOfAThinRod) {
   SceneRun scene(kHeader + kSteelBar + beam("rod", "coordinates = [0.0, 0.1, 0.5, 1.7, 2.0]"));
   constexpr double kLength = 2.0, kMass = kMassPerLength * kLength;
   Vector shift = Vector::Zero(scene.system().size()), turn = shift;
@@ -87,7 +87,7 @@ TEST(Beam, uneven_free_beam_has_the_inertia_of_a_thin_rod) {
 }
 
 /// F L^3/(3 EI) and F L^2/(2 EI): any textbook of strength of materials.
-TEST(Beam, cantilever_under_a_tip_load_bends_by_the_closed_form) {
+TEST(Beam, CantileverUnderATipLoadBendsByTheClosedForm) {
   constexpr double kForce = -1000.0, kLength = 3.0;
   SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 3.0\nelements = 7") +
                  support("\"arm:first\"", R"(["u", "theta"])") + constant_load("arm:last", kForce));
@@ -100,7 +100,7 @@ TEST(Beam, cantilever_under_a_tip_load_bends_by_the_closed_form) {
 
 /// u = q x (L^3 - 2 L x^2 + x^3)/(24 EI), the middle at 5 q L^4/(384 EI). Hermite cubics with consistent loads are
 /// exact at the nodes of any mesh.
-TEST(Beam, pinned_beam_under_a_line_load_is_exact_at_the_nodes_of_any_mesh) {
+TEST(Beam, PinnedBeamUnderALineLoadIsExactAtTheNodesOfAnyMesh) {
   constexpr double kLoad = 750.0, kLength = 4.0;
   const std::vector<double> uneven = {0.0, 0.2, 0.3, 1.1, 2.0, 3.7, 4.0}, even = {0.0, 1.0, 2.0, 3.0, 4.0};
   const std::string ends = support(R"(["string:first", "string:last"])", R"(["u"])") + line_load("string", kLoad);
@@ -120,7 +120,7 @@ TEST(Beam, pinned_beam_under_a_line_load_is_exact_at_the_nodes_of_any_mesh) {
   }
 }
 
-TEST(Beam, symmetric_scene_moves_symmetrically) {
+TEST(Beam, SymmetricSceneMovesSymmetrically) {
   SceneRun scene(kHeader + kSteelBar + beam("string", "length = 4.0\nelements = 6") +
                      support(R"(["string:first", "string:last"])", R"(["u"])") + constant_load("string:middle", 500.0),
                  {"integrator.end_time=0.05"});
@@ -138,7 +138,7 @@ TEST(Beam, symmetric_scene_moves_symmetrically) {
   }
 }
 
-TEST(Beam, two_beams_that_share_a_node_are_one_beam) {
+TEST(Beam, TwoBeamsThatShareANodeAreOneBeam) {
   const std::string hold = support("\"left:first\"", R"(["u", "theta"])");
   const SceneRun one(kHeader + kSteelBar + beam("left", "coordinates = [0.0, 0.4, 1.0, 1.25, 2.0]") + hold);
   const SceneRun by_start(kHeader + kSteelBar + beam("left", "coordinates = [0.0, 0.4, 1.0]") +
@@ -150,7 +150,7 @@ TEST(Beam, two_beams_that_share_a_node_are_one_beam) {
 }
 
 /// Tip deflection F/(3E) [(L^3 - b^3)/I_1 + b^3/I_2] with b the length of the thin part, by Castigliano's theorem.
-TEST(Beam, stepped_cantilever_bends_by_the_closed_form) {
+TEST(Beam, SteppedCantileverBendsByTheClosedForm) {
   constexpr double kForce = 100.0, kLength = 3.0, kThin = 1.0, kThinMoment = 5.0e-7;
   const std::string thin_part = R"(
 [section.thin]
@@ -187,7 +187,7 @@ model::Section section(const std::string& shape, const std::vector<std::pair<std
   return type->make(config::make_parameters(type->parameters, table), diagnostics).value();
 }
 
-TEST(Section, shapes_have_their_area_and_second_moment) {
+TEST(Section, ShapesHaveTheirAreaAndSecondMoment) {
   using std::numbers::pi;
   const auto expect = [](const model::Section& got, double area, double second_moment) {
     EXPECT_NEAR(got.area, area, kRounding * area);
@@ -200,7 +200,7 @@ TEST(Section, shapes_have_their_area_and_second_moment) {
   EXPECT_EQ(elements::section_types().size(), 4U);
 }
 
-TEST(Section, tube_without_a_wall_is_refused) {
+TEST(Section, TubeWithoutAWallIsRefused) {
   const std::string tube = "\n[section.pipe]\nshape = \"tube\"\nouter_radius = 0.1\ninner_radius = 0.1\n";
   const std::string message = refusal(kHeader + kSteelBar + tube + beam("rod", "length = 1.0\nelements = 1"));
   EXPECT_TRUE(holds(message, "section.pipe.inner_radius")) << message;

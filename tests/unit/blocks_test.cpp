@@ -98,22 +98,23 @@ TEST_P(LargeScene, AcceleratesAsItsForcesSay) {
   const double scale = inertia.norm() + damping.norm() + elastic.norm() + contact.norm() + load.norm();
   EXPECT_LE((load + contact - inertia - damping - elastic).norm(), 1e-12 * scale);
   given = load + contact;
-  dynamics().respond(x, v, given);
+  dynamics().solve_acceleration(x, v, given);
   expect_near(given, a, 1e-11);
 }
 
 TEST_P(LargeScene, FulfilsItsEquationsAfterASecantSolve) {
   const Index stops = dynamics().stop_count();
-  const double t = 0.3, on_v = 5e-5, on_x = 2.5e-9;
+  const double t = 0.3, velocity_factor = 5e-5, displacement_factor = 2.5e-9;
   const Vector x = 1e-3 * wave(size(), 0.0), v = wave(size(), 1.0), kappa = Vector::Constant(stops, 1e7),
                c = 1e4 * wave(stops, 2.0);
   Vector a(size()), load(size()), w(stops), contact = Vector::Zero(size());
-  ASSERT_TRUE(dynamics().solve_secant(t, on_v, on_x, kappa, c, x, v, a));
-  const Vector end = x + on_x * a;
+  ASSERT_TRUE(dynamics().solve_secant(t, velocity_factor, displacement_factor, kappa, c, x, v, a));
+  const Vector end = x + displacement_factor * a;
   dynamics().external_force(t, load);
   dynamics().contact().displacement(end, w);
   dynamics().contact().scatter(c - kappa.cwiseProduct(w), contact);
-  const Vector inertia = system().mass * a, damping = damping_force(v + on_v * a), elastic = system().stiffness * end;
+  const Vector inertia = system().mass * a, damping = damping_force(v + velocity_factor * a),
+               elastic = system().stiffness * end;
   const double scale = inertia.norm() + damping.norm() + elastic.norm() + contact.norm() + load.norm();
   EXPECT_LE((load + contact - inertia - damping - elastic).norm(), 1e-12 * scale);
 }

@@ -5,7 +5,7 @@
 namespace butee::test::bytes_test {
 namespace {
 
-TEST(Bytes, come_back_as_they_went) {
+TEST(Bytes, ComeBackAsTheyWent) {
   std::vector<std::byte> bytes;
   ByteWriter writer(bytes);
   const Vector vector = Vector::LinSpaced(5, -0.1, 1e300);
@@ -31,7 +31,7 @@ TEST(Bytes, come_back_as_they_went) {
 }
 
 /// A length that the bytes cannot hold is refused before memory is asked for.
-TEST(Bytes, that_end_early_are_refused) {
+TEST(Bytes, ThatEndEarlyAreRefused) {
   std::vector<std::byte> bytes;
   ByteWriter writer(bytes);
   writer.put(~std::uint64_t{0} / 8);
@@ -43,7 +43,7 @@ TEST(Bytes, that_end_early_are_refused) {
 }
 
 /// The check value of CRC-64/XZ in the catalogue of parametrised CRC algorithms.
-TEST(Bytes, checksum_is_the_one_it_says) {
+TEST(Bytes, ChecksumIsTheOneItSays) {
   const std::string text = "123456789";
   EXPECT_EQ(checksum(std::as_bytes(std::span(text))), 0x995DC9BBDF1939FAU);
 }

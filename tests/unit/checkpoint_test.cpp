@@ -44,7 +44,7 @@ class Checkpoints : public testing::Test {
   record::CheckpointFolder checkpoints_{folder_};
 };
 
-TEST_F(Checkpoints, come_back_as_they_went) {
+TEST_F(Checkpoints, ComeBackAsTheyWent) {
   EXPECT_FALSE(checkpoints_.newest());
   checkpoints_.write(at(1.0));
   checkpoints_.write(at(2.0));
@@ -59,7 +59,7 @@ TEST_F(Checkpoints, come_back_as_they_went) {
   EXPECT_EQ(temporary_.entries(), (std::vector<std::string>{"history.csv", "model.toml"}));
 }
 
-TEST_F(Checkpoints, a_damaged_one_is_taken_away_and_the_one_before_it_is_used) {
+TEST_F(Checkpoints, ADamagedOneIsTakenAwayAndTheOneBeforeItIsUsed) {
   checkpoints_.write(at(1.0));
   checkpoints_.write(at(2.0));
   damage("checkpoint.bin");
@@ -73,7 +73,7 @@ TEST_F(Checkpoints, a_damaged_one_is_taken_away_and_the_one_before_it_is_used) {
 }
 
 /// A kill between the two renames, or while the draft is written.
-TEST_F(Checkpoints, a_half_written_one_is_no_hindrance) {
+TEST_F(Checkpoints, AHalfWrittenOneIsNoHindrance) {
   checkpoints_.write(at(1.0));
   fs::rename(temporary_.file("checkpoint.bin"), temporary_.file("checkpoint-before.bin"));
   temporary_.write("checkpoint-next.bin", "half");
@@ -82,19 +82,19 @@ TEST_F(Checkpoints, a_half_written_one_is_no_hindrance) {
   EXPECT_EQ(checkpoints_.newest()->snapshot.state.t, 2.0);
 }
 
-TEST_F(Checkpoints, one_beyond_the_history_is_not_used) {
+TEST_F(Checkpoints, OneBeyondTheHistoryIsNotUsed) {
   checkpoints_.write(at(1.0, 8));
   checkpoints_.write(at(2.0, 1000));
   EXPECT_EQ(checkpoints_.newest()->snapshot.state.t, 1.0);
 }
 
-TEST_F(Checkpoints, another_model_is_bad_input) {
+TEST_F(Checkpoints, AnotherModelIsBadInput) {
   checkpoints_.write(at(1.0));
   temporary_.write("model.toml", "another model");
   EXPECT_THROW(checkpoints_.newest(), InputError);
 }
 
-TEST_F(Checkpoints, another_instruction_set_is_bad_input) {
+TEST_F(Checkpoints, AnotherInstructionSetIsBadInput) {
   Checkpoint other = at(1.0);
   EXPECT_EQ(other.target, target());
   const auto refused = [&] {
@@ -118,7 +118,7 @@ TEST_F(Checkpoints, another_instruction_set_is_bad_input) {
 }
 
 /// Any single byte that changed, and any end that is missing, is noticed.
-TEST_F(Checkpoints, no_damage_passes) {
+TEST_F(Checkpoints, NoDamagePasses) {
   const std::vector<std::byte> whole = to_bytes(at(1.0));
   EXPECT_NO_THROW(record::to_checkpoint(whole));
   for (std::size_t i = 0; i < whole.size(); ++i) {

@@ -66,7 +66,7 @@ gap = 2
 label = "mid"
 )";
 
-TEST(Toml, written_and_read_again_is_the_same) {
+TEST(Toml, WrittenAndReadAgainIsTheSame) {
   const Document first = parse_toml(kText, "first");
   const std::string text = write_toml(*first.root.table());
   const Document second = parse_toml(text, "second");
@@ -79,7 +79,7 @@ TEST(Toml, written_and_read_again_is_the_same) {
   EXPECT_EQ(first.root.table()->entries.size(), second.root.table()->entries.size());
 }
 
-TEST(Toml, scenes_of_the_repository_survive_a_round_trip) {
+TEST(Toml, ScenesOfTheRepositorySurviveARoundTrip) {
   for (const char* stem : {"oscillator", "beam1", "beam4"}) {
     const Document scene = config::load_toml(model_path(stem));
     const Document again = parse_toml(write_toml(*scene.root.table()), stem);
@@ -88,7 +88,7 @@ TEST(Toml, scenes_of_the_repository_survive_a_round_trip) {
   }
 }
 
-TEST(Toml, numbers_keep_every_bit_and_their_kind) {
+TEST(Toml, NumbersKeepEveryBitAndTheirKind) {
   for (const double x : {0.1, 1.0, -0.0, 1e300, 5e-324, 2.0 / 3.0, 7.0e7, 1.7e308}) {
     const auto value = config::parse_toml_value(to_text(x));
     ASSERT_TRUE(value.has_value()) << to_text(x);
@@ -99,7 +99,7 @@ TEST(Toml, numbers_keep_every_bit_and_their_kind) {
   EXPECT_TRUE(std::holds_alternative<std::int64_t>(config::parse_toml_value("7")->data));
 }
 
-TEST(Toml, values_know_their_lines) {
+TEST(Toml, ValuesKnowTheirLines) {
   const Document document = parse_toml(kText, "scene.toml");
   const Value& contact = (*document.root.table()->find("contact")->array())[1];
   EXPECT_EQ(describe(document, contact.table()->find("gap")->at), "scene.toml:19");
@@ -111,7 +111,7 @@ TEST(Toml, values_know_their_lines) {
     ASSERT_EQ(number.at.line, std::get<std::int64_t>(number.data));
 }
 
-TEST(Toml, mistakes_name_file_and_line) {
+TEST(Toml, MistakesNameFileAndLine) {
   for (const char* text : {"a = 1\nb = \n", "a = 1\nb = [1,\n", "a = 1\na = 2\n", "a = 1\n[b\n"}) {
     try {
       parse_toml(text, "scene.toml");
@@ -131,13 +131,13 @@ class Override : public testing::Test {
   Document document_ = parse_toml(kText, "scene.toml");
 };
 
-TEST_F(Override, changes_a_key_of_a_table) {
+TEST_F(Override, ChangesAKeyOfATable) {
   apply_override(document_, "integrator.time_step=1e-6");
   EXPECT_EQ(std::get<double>(at("integrator").table()->find("time_step")->data), 1e-6);
   EXPECT_EQ(describe(document_, at("integrator").table()->find("time_step")->at), "--set integrator.time_step=1e-6");
 }
 
-TEST_F(Override, changes_an_entry_of_an_array_of_tables) {
+TEST_F(Override, ChangesAnEntryOfAnArrayOfTables) {
   apply_override(document_, "contact[0].gap=0.5");
   apply_override(document_, "numbers[1]=9");
   EXPECT_EQ(std::get<double>((*at("contact").array())[0].table()->find("gap")->data), 0.5);
@@ -145,7 +145,7 @@ TEST_F(Override, changes_an_entry_of_an_array_of_tables) {
   EXPECT_EQ(std::get<std::int64_t>((*at("numbers").array())[1].data), 9);
 }
 
-TEST_F(Override, takes_what_is_not_toml_as_a_string) {
+TEST_F(Override, TakesWhatIsNotTomlAsAString) {
   apply_override(document_, "integrator.type=NM2");
   apply_override(document_, "title=a=b");
   apply_override(document_, "flag=true");
@@ -154,25 +154,25 @@ TEST_F(Override, takes_what_is_not_toml_as_a_string) {
   EXPECT_EQ(std::get<bool>(at("flag").data), true);
 }
 
-TEST_F(Override, makes_tables_on_the_way) {
+TEST_F(Override, MakesTablesOnTheWay) {
   apply_override(document_, "damping.mass_proportional=0.5");
   EXPECT_EQ(std::get<double>(at("damping").table()->find("mass_proportional")->data), 0.5);
 }
 
-TEST_F(Override, takes_out_a_key_without_a_value) {
+TEST_F(Override, TakesOutAKeyWithoutAValue) {
   apply_override(document_, "integrator.type=");
   EXPECT_EQ(at("integrator").table()->find("type"), nullptr);
   EXPECT_THROW(apply_override(document_, "integrator.type="), InputError);
   EXPECT_THROW(apply_override(document_, "contact[0]="), InputError);
 }
 
-TEST_F(Override, refuses_what_it_cannot_follow) {
+TEST_F(Override, RefusesWhatItCannotFollow) {
   for (const char* wrong : {"contact[2].gap=1", "contact[x].gap=1", "contact[0.gap=1", "contact[0]gap=1", "title.x=1",
                             "title[0]=1", "no_equals", "=1", ".a=1", "a..b=1"})
     EXPECT_THROW(apply_override(document_, wrong), InputError) << wrong;
 }
 
-TEST(Parameter, complains_about_kind_bounds_and_choices) {
+TEST(Parameter, ComplainsAboutKindBoundsAndChoices) {
   using std::string;
   const Parameter gap = config::number("gap", "m", "free play").at_least(0);
   EXPECT_EQ(gap.complaint(Value(0.0)), "");
@@ -202,7 +202,7 @@ TEST(Parameter, complains_about_kind_bounds_and_choices) {
   EXPECT_EQ(config::table("probe", "").complaint(Value(1.0)), "must be a table, not a number");
 }
 
-TEST(Parameter, all_mistakes_of_a_table_come_in_one_go) {
+TEST(Parameter, AllMistakesOfATableComeInOneGo) {
   const Document document = parse_toml("gap = -1\nstifness = 3.0\n", "scene.toml");
   config::Diagnostics diagnostics(document);
   const std::vector<Parameter> declared = {config::number("gap", "m", "free play").at_least(0),
@@ -220,7 +220,7 @@ TEST(Parameter, all_mistakes_of_a_table_come_in_one_go) {
   }
 }
 
-TEST(Parameter, defaults_are_told_from_what_was_given) {
+TEST(Parameter, DefaultsAreToldFromWhatWasGiven) {
   Table given;
   given["beta"] = Value(0.3);
   const auto p =
@@ -236,7 +236,7 @@ TEST(Parameter, defaults_are_told_from_what_was_given) {
   EXPECT_THROW(config::make_parameters({config::number("beta", "1", "")}), InputError);
 }
 
-TEST(Text, closest_name_is_near_or_nothing) {
+TEST(Text, ClosestNameIsNearOrNothing) {
   const std::vector<std::string> known = {"newmark", "newmark_adaptive", "rk4", "stiffness"};
   EXPECT_EQ(closest_name("newmrak", known), "newmark");
   EXPECT_EQ(closest_name("stifness", known), "stiffness");

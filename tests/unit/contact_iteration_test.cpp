@@ -56,7 +56,7 @@ TEST(ContactIteration, FindsForcesAndPathsThatBelongTogether) {
   modal.to_modal(v, step.from.v.matrix());
   step.from.find_stops(modal.stop_shapes());
   step.h = step.t_end = kStep;
-  dynamics::StepFlow& flow = modal.odd(kStep);
+  dynamics::ContactPropagator& flow = modal.odd(kStep);
   const PropagationStart start = {0.0, step.from.q, step.from.v, {}, nullptr};
   propagate(modal, flow.whole, start, kStep, step.to.q, &step.to.v);
   propagate(modal, flow.half, start, 0.5 * kStep, step.middle.q, &step.middle.v);

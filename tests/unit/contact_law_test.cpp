@@ -75,7 +75,7 @@ class ArctanLaw : public testing::TestWithParam<Case> {
   Textbook textbook_{GetParam().stiffness, GetParam().regularization};
 };
 
-TEST_P(ArctanLaw, is_the_textbook_formula_at_every_distance) {
+TEST_P(ArctanLaw, IsTheTextbookFormulaAtEveryDistance) {
   std::size_t cases = 0;
   for (const double g : penetrations(GetParam().regularization)) {
     const auto expect = [g](double got, long double wanted, const char* what) {
@@ -95,7 +95,7 @@ double derivative(const Function& f, double g) {
   return (8.0 * (f(g + h) - f(g - h)) - (f(g + 2 * h) - f(g - 2 * h))) / (12.0 * h);
 }
 
-TEST_P(ArctanLaw, tangent_and_force_are_the_derivatives_of_force_and_energy) {
+TEST_P(ArctanLaw, TangentAndForceAreTheDerivativesOfForceAndEnergy) {
   const auto force = [this](double g) { return law_.secant(g) * g; };
   for (const double g : penetrations(GetParam().regularization)) {
     EXPECT_NEAR(derivative(force, g), law_.tangent(g), kDifference * law_.secant(g)) << g;
@@ -104,7 +104,7 @@ TEST_P(ArctanLaw, tangent_and_force_are_the_derivatives_of_force_and_energy) {
   }
 }
 
-TEST_P(ArctanLaw, open_and_closed_add_up_to_the_full_stiffness) {
+TEST_P(ArctanLaw, OpenAndClosedAddUpToTheFullStiffness) {
   const double k = GetParam().stiffness;
   for (const double g : penetrations(GetParam().regularization)) {
     EXPECT_NEAR(law_.secant(g) + law_.secant(-g), k, kFormula * k);
@@ -113,9 +113,9 @@ TEST_P(ArctanLaw, open_and_closed_add_up_to_the_full_stiffness) {
   EXPECT_EQ(law_.closed_stiffness(), k);
 }
 
-TEST_P(ArctanLaw, an_open_stop_pulls_with_its_far_force) {
+TEST_P(ArctanLaw, AnOpenStopPullsWithItsFarForce) {
   const double far = GetParam().stiffness / (std::numbers::pi * std::numbers::pi * GetParam().regularization);
-  EXPECT_NEAR(law_.far_force(), far, kFormula * far);
+  EXPECT_NEAR(law_.asymptotic_force(), far, kFormula * far);
   for (const double g : {0.01, 0.1, 1.0}) {
     const double y = std::numbers::pi * GetParam().regularization * g;
     // F = -far (1 - 1/(3 y^2) + ...), never more than far.
@@ -124,7 +124,7 @@ TEST_P(ArctanLaw, an_open_stop_pulls_with_its_far_force) {
   }
 }
 
-TEST_P(ArctanLaw, at_the_gap_half_the_stiffness_acts) {
+TEST_P(ArctanLaw, AtTheGapHalfTheStiffnessActs) {
   EXPECT_EQ(law_.secant(0.0), 0.5 * GetParam().stiffness);
   EXPECT_EQ(law_.tangent(0.0), 0.5 * GetParam().stiffness);
   EXPECT_EQ(law_.energy(0.0), 0.0);
@@ -133,7 +133,7 @@ TEST_P(ArctanLaw, at_the_gap_half_the_stiffness_acts) {
 INSTANTIATE_TEST_SUITE_P(parameters, ArctanLaw, testing::Values(Case{1e6, 7e7}, Case{1e10, 7e7}, Case{3e4, 1e6}),
                          [](const auto& instance) { return "set_" + std::to_string(instance.index); });
 
-TEST_P(ArctanLaw, the_series_is_the_force_along_a_path) {
+TEST_P(ArctanLaw, TheSeriesIsTheForceAlongAPath) {
   // Paths that pass the gap and paths on either side of it, within the radius of convergence |g|/|g'| of each.
   const auto series = law_.force_series();
   for (const double start : {-1e-2, -1e-5, 1e-5, 1e-2}) {
@@ -153,7 +153,7 @@ TEST_P(ArctanLaw, the_series_is_the_force_along_a_path) {
   }
 }
 
-TEST(LinearLaw, acts_on_penetration_alone) {
+TEST(LinearLaw, ActsOnPenetrationAlone) {
   constexpr double kStiffness = 3e5;
   const contact::Linear law(kStiffness);
   for (const double g : {1e-9, 1e-4, 0.3, 1.0}) {
@@ -166,11 +166,11 @@ TEST(LinearLaw, acts_on_penetration_alone) {
   }
   EXPECT_EQ(law.energy(0.0), 0.0);
   EXPECT_EQ(law.closed_stiffness(), kStiffness);
-  EXPECT_EQ(law.far_force(), 0.0);
+  EXPECT_EQ(law.asymptotic_force(), 0.0);
 }
 
 /// Equal to 4 units in the last place: a vectorised loop may contract products and sums in another way.
-TEST(ContactLaw, batches_are_the_scalar_functions) {
+TEST(ContactLaw, BatchesAreTheScalarFunctions) {
   const contact::Arctan arctan(1e6, 7e7);
   const contact::Linear linear(2e6);
   const std::vector<double> g = penetrations(7e7);

@@ -38,7 +38,7 @@ class OneStop {
   SceneRun scene_;
 };
 
-TEST(Contact, linear_stop_acts_on_the_sides_it_has) {
+TEST(Contact, LinearStopActsOnTheSidesItHas) {
   OneStop both("linear", "gap = 0.01"), positive("linear", "gap = 0.01\nsides = \"positive\""),
       negative("linear", "gap = 0.01\nsides = \"negative\"");
   const double deep = kStiffness * (0.03 - kGap);
@@ -52,7 +52,7 @@ TEST(Contact, linear_stop_acts_on_the_sides_it_has) {
     for (const double w : {-0.00999, 0.0, 0.00999}) EXPECT_EQ(open->force(w), 0.0);
 }
 
-TEST(Contact, arctan_stop_on_one_side_acts_everywhere) {
+TEST(Contact, ArctanStopOnOneSideActsEverywhere) {
   OneStop positive("arctan", "gap = 0.01\nsides = \"positive\""),
       negative("arctan", "gap = 0.01\nsides = \"negative\"");
   const contact::Arctan law(kStiffness, kLambda);
@@ -64,7 +64,7 @@ TEST(Contact, arctan_stop_on_one_side_acts_everywhere) {
 }
 
 /// With stops on both sides the nearer one acts, towards which an open arctan stop pulls; at w = 0 neither does.
-TEST(Contact, arctan_stop_on_both_sides_has_no_force_at_zero) {
+TEST(Contact, ArctanStopOnBothSidesHasNoForceAtZero) {
   OneStop both("arctan", "gap = 0.01");
   const contact::Arctan law(kStiffness, kLambda);
   const double pull = law.secant(-kGap) * kGap;
@@ -72,17 +72,17 @@ TEST(Contact, arctan_stop_on_both_sides_has_no_force_at_zero) {
   EXPECT_EQ(both.force(0.0), 0.0);
   EXPECT_NEAR(both.force(1e-12), pull, 1e-6 * pull);  // 1e-12 m is 1e-10 of the gap.
   EXPECT_NEAR(both.force(-1e-12), -pull, 1e-6 * pull);
-  EXPECT_LE(pull, law.far_force());
+  EXPECT_LE(pull, law.asymptotic_force());
 }
 
-TEST(Contact, zero_gap_is_a_spring) {
+TEST(Contact, ZeroGapIsASpring) {
   OneStop both("linear", "gap = 0.0");
   for (const double w : {-0.2, -1e-9, 0.0, 1e-9, 0.2}) EXPECT_DOUBLE_EQ(both.force(w), -kStiffness * w);
 }
 
 class ContactDerivative : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
-TEST_P(ContactDerivative, tangent_secant_and_energy_fit_the_force) {
+TEST_P(ContactDerivative, TangentSecantAndEnergyFitTheForce) {
   const auto [law, sides] = GetParam();
   OneStop one(law, std::string("gap = 0.01\nsides = \"") + sides + "\"");
   const auto slope = [](const auto& f, double w) {
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(laws_and_sides, ContactDerivative,
                          testing::Combine(testing::Values("linear", "arctan"),
                                           testing::Values("both", "positive", "negative")));
 
-TEST(Contact, stop_between_two_nodes_acts_on_both_with_opposite_forces) {
+TEST(Contact, StopBetweenTwoNodesActsOnBothWithOppositeForces) {
   SceneRun scene(kHeader + mass("rotor", "2.0") + mass("casing", "9.0") +
                  stop("between = [\"rotor\", \"casing\"]\ngap = 0.01", "linear"));
   ASSERT_EQ(scene.dynamics().stop_count(), 1);
@@ -128,7 +128,7 @@ TEST(Contact, stop_between_two_nodes_acts_on_both_with_opposite_forces) {
   EXPECT_EQ(scene.dynamics().contact().dof_b(0), casing);
 }
 
-TEST(Contact, stops_on_one_node_add_up) {
+TEST(Contact, StopsOnOneNodeAddUp) {
   SceneRun scene(kHeader + mass("ball", "2.0") + stop("nodes = \"ball\"\ngap = 0.01", "linear") +
                  stop("nodes = \"ball\"\ngap = 0.03\nsides = \"positive\"", "linear"));
   Vector force = Vector::Zero(1);
@@ -138,7 +138,7 @@ TEST(Contact, stops_on_one_node_add_up) {
   EXPECT_EQ(scene.dynamics().contact().sides_of(1), model::Sides::positive);
 }
 
-TEST(Contact, stops_on_supports_are_skipped_and_never_evaluated) {
+TEST(Contact, StopsOnSupportsAreSkippedAndNeverEvaluated) {
   SceneRun scene(kHeader + kSteelBar + beam("string", "length = 4.0\nelements = 4") +
                  support(R"(["string:first", "string:last"])", R"(["u"])") +
                  stop("nodes = \"string:all\"\ngap = 0.01", "arctan"));
@@ -154,7 +154,7 @@ TEST(Contact, stops_on_supports_are_skipped_and_never_evaluated) {
   EXPECT_EQ(counters.law_evaluations, 4);
 }
 
-TEST(Contact, stop_against_a_support_is_a_stop_to_ground) {
+TEST(Contact, StopAgainstASupportIsAStopToGround) {
   SceneRun scene(kHeader + kSteelBar + beam("wall", "length = 1.0\nelements = 1") + mass("ball", "2.0") +
                  support("\"wall:first\"", R"(["u"])") +
                  stop("between = [\"wall:first\", \"ball\"]\ngap = 0.01", "linear"));

@@ -55,7 +55,7 @@ struct Steps {
       int index = -11;
       while (index > -40 && step.attempt_index(index) != Trial::accepted) --index;
       ++(step.outcome().is_contact_free ? flights : contacts);
-      step.accept(step.t() + dynamics::ModalSystem::ladder_step(index));
+      step.accept(step.t() + dynamics::ModalSystem::grid_step(index));
     }
   }
 };

@@ -69,7 +69,7 @@ void expect_parabola(const Recorded& recorded, const std::vector<double>& times)
   }
 }
 
-TEST(History, output_times_do_not_depend_on_the_steps) {
+TEST(History, OutputTimesDoNotDependOnTheSteps) {
   const std::string end = "\nend_time = 1.0";
   std::vector<double> times;
   for (int i = 0; i < 10; ++i) times.push_back(i * 0.1);
@@ -84,49 +84,49 @@ TEST(History, output_times_do_not_depend_on_the_steps) {
   }
 }
 
-TEST(History, last_row_is_at_the_end_where_the_interval_does_not_divide) {
+TEST(History, LastRowIsAtTheEndWhereTheIntervalDoesNotDivide) {
   const Recorded recorded(falling_mass("type = \"rk4\"\ntime_step = 0.02\nend_time = 0.1", "interval = 0.03"));
   expect_parabola(recorded, {0.0, 0.03, 2 * 0.03, 3 * 0.03, 0.1});
 }
 
-TEST(History, an_interval_that_divides_but_for_rounding_has_no_double_row) {
+TEST(History, AnIntervalThatDividesButForRoundingHasNoDoubleRow) {
   const Recorded recorded(falling_mass("type = \"rk4\"\ntime_step = 0.01\nend_time = 0.3", "interval = 0.1"));
   expect_parabola(recorded, {0.0, 0.1, 0.2, 0.3});
 }
 
-TEST(History, an_interval_beyond_the_end_gives_first_and_last_row) {
+TEST(History, AnIntervalBeyondTheEndGivesFirstAndLastRow) {
   const Recorded recorded(falling_mass("type = \"rk4\"\ntime_step = 0.1\nend_time = 0.5", "interval = 7"));
   expect_parabola(recorded, {0.0, 0.5});
 }
 
-TEST(History, every_nth_step_and_the_last) {
+TEST(History, EveryNthStepAndTheLast) {
   const Recorded recorded(falling_mass("type = \"newmark_modified\"\ntime_step = 0.125\nend_time = 1.25", "every = 4"));
   expect_parabola(recorded, {0.0, 0.5, 1.0, 1.25});
 }
 
-TEST(History, every_step_has_its_row) {
+TEST(History, EveryStepHasItsRow) {
   const Recorded recorded(falling_mass("type = \"rk4\"\ntime_step = 0.25\nend_time = 0.75", "every = 1"));
   expect_parabola(recorded, {0.0, 0.25, 0.5, 0.75});
 }
 
-TEST(History, without_an_interval_there_are_a_thousand) {
+TEST(History, WithoutAnIntervalThereAreAThousand) {
   const Recorded recorded(falling_mass("type = \"rk4\"\ntime_step = 0.25\nend_time = 2.0", ""));
   EXPECT_EQ(recorded.table->rows(), 1001U);
 }
 
-TEST(History, columns_keep_the_order_of_the_file) {
+TEST(History, ColumnsKeepTheOrderOfTheFile) {
   const Recorded recorded(falling_mass("type = \"rk4\"\ntime_step = 0.1\nend_time = 0.5", "interval = 0.1"));
   EXPECT_EQ(recorded.text.substr(0, recorded.text.find('\n')), "t,fall.v,fall.u,fall.a,fall.contact_force,h");
   EXPECT_EQ(recorded.text.back(), '\n');
 }
 
-TEST(History, column_h_is_the_step_that_holds_the_row) {
+TEST(History, ColumnHIsTheStepThatHoldsTheRow) {
   const Recorded recorded(falling_mass("type = \"rk4\"\ntime_step = 0.25\nend_time = 0.625", "interval = 0.125"));
   // Steps end at 0.25, 0.5 and, shorter, at 0.625. A row at the end of a step belongs to that step.
   EXPECT_EQ(recorded.column("h"), (std::vector<double>{0.25, 0.25, 0.25, 0.25, 0.25, 0.125}));
 }
 
-TEST(History, peaks_run_over_all_steps_and_hold_u_unasked) {
+TEST(History, PeaksRunOverAllStepsAndHoldUUnasked) {
   const std::string scene = R"(
 schema = 1
 
@@ -158,7 +158,7 @@ quantities = ["v"]
   EXPECT_EQ(recorded.table->header(), (std::vector<std::string>{"t", "swing.v", "h"}));
 }
 
-TEST(History, peaks_of_element_forces_are_those_of_the_rows) {
+TEST(History, PeaksOfElementForcesAreThoseOfTheRows) {
   // A soft spring: its force is a thousandth of the displacement, so that one cannot pass for the other.
   const std::string scene = R"(
 schema = 1
@@ -190,7 +190,7 @@ quantities = ["spring_force"]
 }
 
 /// The probe adds up all stops on the node: F = -k (u - gap) to ground, and the pair's share with its sign.
-TEST(History, contact_force_is_the_sum_over_the_stops_of_a_node) {
+TEST(History, ContactForceIsTheSumOverTheStopsOfANode) {
   const std::string scene = R"(
 schema = 1
 

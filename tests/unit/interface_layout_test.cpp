@@ -77,8 +77,8 @@ std::string layout() {
           line_of<StepController>("StepController") + line_of<MethodLimits>("MethodLimits");
   text += line_of<dynamics::Dynamics>("Dynamics") + line_of<dynamics::Contact>("Contact") +
           line_of<dynamics::EffectiveSolver>("EffectiveSolver") + line_of<dynamics::ModalSystem>("ModalSystem") +
-          line_of<dynamics::ModalFlow>("ModalFlow") + line_of<dynamics::StepFlow>("StepFlow") +
-          line_of<dynamics::StopShapes>("StopShapes");
+          line_of<dynamics::ModalPropagator>("ModalPropagator") +
+          line_of<dynamics::ContactPropagator>("ContactPropagator") + line_of<dynamics::StopShapes>("StopShapes");
   text += line_of<linalg::Counters>("Counters") + line_of<linalg::ForceBalance>("ForceBalance") +
           line_of<linalg::DenseProduct>("DenseProduct") + line_of<linalg::SymmetricProduct>("SymmetricProduct");
   text += line_of<model::System>("System") + line_of<model::Model>("Model") + line_of<model::Damping>("Damping") +

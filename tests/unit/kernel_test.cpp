@@ -5,7 +5,7 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/target.hpp>
-#include <butee/dynamics/step_flow.hpp>
+#include <butee/dynamics/contact_propagator.hpp>
 #include <butee/linalg/band_factor.hpp>
 #include <butee/linalg/dense_product.hpp>
 #include <butee/linalg/force_balance.hpp>
@@ -56,12 +56,12 @@ class Kernels : public testing::Test {
   std::size_t targets_ = 0;
 };
 
-TEST_F(Kernels, another_name_is_bad_input) {
+TEST_F(Kernels, AnotherNameIsBadInput) {
   EXPECT_THROW(choose_target("mmx"), InputError);
   EXPECT_NO_THROW(choose_target(targets().front()));
 }
 
-TEST_F(Kernels, dense_products) {
+TEST_F(Kernels, DenseProducts) {
   on_every_target([] {
     for (Index rows = 1; rows <= linalg::DenseProduct::kMostRows; ++rows) {
       const Index columns = 1 + (7 * rows) % 97;
@@ -100,7 +100,7 @@ SparseMatrix band_matrix(Index size, Index band, bool uniform) {
   return matrix;
 }
 
-TEST_F(Kernels, products_by_diagonals) {
+TEST_F(Kernels, ProductsByDiagonals) {
   on_every_target([] {
     const auto check = [](Index size, Index band, bool uniform) {
       const SparseMatrix matrix = band_matrix(size, band, uniform);
@@ -124,7 +124,7 @@ TEST_F(Kernels, products_by_diagonals) {
   });
 }
 
-TEST_F(Kernels, solutions_with_a_narrow_band) {
+TEST_F(Kernels, SolutionsWithANarrowBand) {
   on_every_target([] {
     for (Index band = 1; band <= linalg::BandFactor::kWidestBand; ++band)
       for (Index size = 3 * band + 1; size <= 3 * band + 20; ++size) {
@@ -141,7 +141,7 @@ TEST_F(Kernels, solutions_with_a_narrow_band) {
   });
 }
 
-TEST_F(Kernels, sums_of_forces) {
+TEST_F(Kernels, SumsOfForces) {
   on_every_target([] {
     for (Index count = 1; count <= 40; ++count)
       for (int present = 0; present < 8; ++present) {
@@ -168,16 +168,17 @@ TEST_F(Kernels, sums_of_forces) {
 constexpr double kStep = 0.01;
 
 /// Modes 0 ... n-1 rad/s, the first of them rigid, without damping.
-dynamics::ModalFlow modes_over(double h, Index count, const std::vector<dynamics::ModalHarmonic>& harmonics = {}) {
+dynamics::ModalPropagator modes_over(double h, Index count,
+                                     const std::vector<dynamics::ModalHarmonic>& harmonics = {}) {
   return {ArrayXd::LinSpaced(count, 0.0, static_cast<double>(count - 1)), ArrayXd::Zero(count), harmonics, h};
 }
 
-TEST_F(Kernels, series_of_modes) {
+TEST_F(Kernels, SeriesOfModes) {
   on_every_target([] {
     for (const Index count : {1, 7, 8, 21}) {
       const dynamics::ModalHarmonic load{2.5, ArrayXd::LinSpaced(count, 1.0, 2.0),
                                          ArrayXd::LinSpaced(count, -1.0, 1.0)};
-      const dynamics::ModalFlow flow = modes_over(kStep, count, {load});
+      const dynamics::ModalPropagator flow = modes_over(kStep, count, {load});
       for (Index i = 1; i < count; ++i) {
         const double omega = static_cast<double>(i), angle = omega * kStep, h = kStep;
         EXPECT_NEAR(flow.qq()[i], std::cos(angle), kRounding);
@@ -201,18 +202,20 @@ TEST_F(Kernels, series_of_modes) {
   });
 }
 
-TEST_F(Kernels, what_forces_do_to_stops) {
+TEST_F(Kernels, WhatForcesDoToStops) {
   on_every_target([] {
     constexpr Index kModes = 21, kStops = 19;
     const MatrixXd shapes = waves(kModes, kStops);
     const dynamics::StopShapes stops(shapes);
-    dynamics::StepFlow flow(modes_over(kStep, kModes), modes_over(0.5 * kStep, kModes), stops,
-                            ArrayXd::LinSpaced(kModes, 0.0, kModes - 1.0), {});
-    const Index padded = dynamics::StepFlow::padded(kStops), second = dynamics::StepFlow::next_register(0);
+    dynamics::ContactPropagator flow(modes_over(kStep, kModes), modes_over(0.5 * kStep, kModes), stops,
+                                     ArrayXd::LinSpaced(kModes, 0.0, kModes - 1.0), {});
+    const Index padded = dynamics::ContactPropagator::padded(kStops),
+                second = dynamics::ContactPropagator::next_register(0);
     const auto at_rest = [&] {
       return dynamics::StopMotion{ArrayXd::Zero(padded), ArrayXd::Zero(padded), ArrayXd::Zero(padded)};
     };
-    const std::vector<Index> stop = {4, 17}, registers = {0, second, dynamics::StepFlow::next_register(second)};
+    const std::vector<Index> stop = {4, 17},
+                             registers = {0, second, dynamics::ContactPropagator::next_register(second)};
     std::array<ArrayXd, 3> force;
     for (double phase = 0.0; ArrayXd & f : force) f = wave(kStops, ++phase).array();
     dynamics::StopMotion expected = at_rest(), together = at_rest(), apart = at_rest();
@@ -263,7 +266,7 @@ std::string taken(const std::string& path) {
   return "loaded";
 }
 
-TEST_F(Kernels, a_module_for_the_chosen_set_or_a_lower_one_comes_first) {
+TEST_F(Kernels, AModuleForTheChosenSetOrALowerOneComesFirst) {
   namespace fs = std::filesystem;
   const TemporaryFolder folder;
   fs::copy_file(std::string(BUTEE_TEST_PLUGINS) + "/smooth.so", folder.file("law.so"));

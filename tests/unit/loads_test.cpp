@@ -30,22 +30,22 @@ class LoadedMass {
   SceneRun scene_;
 };
 
-TEST(Load, harmonic_is_a_cosine_with_a_phase) {
+TEST(Load, HarmonicIsACosineWithAPhase) {
   LoadedMass ball(load("type = \"harmonic\"\nnode = \"ball\"\namplitude = 30.0\nangular_frequency = 7.0\nphase = 0.4"));
   for (const double t : {0.0, 0.1, 3.7}) EXPECT_NEAR(ball.at(t), 30.0 * std::cos(7.0 * t + 0.4), 30.0 * kRounding);
 }
 
-TEST(Load, unbalance_grows_with_the_square_of_the_speed) {
+TEST(Load, UnbalanceGrowsWithTheSquareOfTheSpeed) {
   LoadedMass ball(load("type = \"unbalance\"\nnode = \"ball\"\nmoment = 0.02\nspeed = 50\nphase = -1.0"));
   for (const double t : {0.0, 0.1, 3.7}) EXPECT_NEAR(ball.at(t), 50.0 * std::cos(50.0 * t - 1.0), 50.0 * kRounding);
 }
 
-TEST(Load, constant_stays) {
+TEST(Load, ConstantStays) {
   LoadedMass ball(load("type = \"constant\"\nnode = \"ball\"\nvalue = -12.5"));
   for (const double t : {0.0, 0.1, 1e6}) EXPECT_EQ(ball.at(t), -12.5);
 }
 
-TEST(Load, ramp_is_linear_between_two_plateaus) {
+TEST(Load, RampIsLinearBetweenTwoPlateaus) {
   LoadedMass ball(load("type = \"ramp\"\nnode = \"ball\"\nfrom = 2.0\nto = 10.0\nstart = 1.0\nend = 3.0"));
   EXPECT_EQ(ball.at(0.0), 2.0);
   EXPECT_EQ(ball.at(1.0), 2.0);
@@ -53,10 +53,10 @@ TEST(Load, ramp_is_linear_between_two_plateaus) {
   EXPECT_DOUBLE_EQ(ball.at(2.75), 9.0);
   EXPECT_EQ(ball.at(3.0), 10.0);
   EXPECT_EQ(ball.at(1e3), 10.0);
-  EXPECT_EQ(ball.system().loads.front().in_time->kinks(), (std::vector<double>{1.0, 3.0}));
+  EXPECT_EQ(ball.system().loads.front().in_time->discontinuities(), (std::vector<double>{1.0, 3.0}));
 }
 
-TEST(Load, table_is_piecewise_linear_and_constant_outside) {
+TEST(Load, TableIsPiecewiseLinearAndConstantOutside) {
   LoadedMass ball(load("type = \"table\"\nnode = \"ball\"\ntimes = [1, 2, 4]\nvalues = [5, -5, 0]"));
   EXPECT_EQ(ball.at(0.0), 5.0);
   EXPECT_DOUBLE_EQ(ball.at(1.25), 2.5);
@@ -65,7 +65,7 @@ TEST(Load, table_is_piecewise_linear_and_constant_outside) {
   EXPECT_EQ(ball.at(9.0), 0.0);
 }
 
-TEST(Load, two_on_one_node_add) {
+TEST(Load, TwoOnOneNodeAdd) {
   LoadedMass ball(load("type = \"constant\"\nnode = \"ball\"\nvalue = 3.0") +
                   load("type = \"ramp\"\nnode = \"ball\"\nto = 8.0\nend = 2.0"));
   EXPECT_EQ(ball.at(0.0), 3.0);
@@ -73,7 +73,7 @@ TEST(Load, two_on_one_node_add) {
   EXPECT_EQ(ball.system().loads.size(), 2U);
 }
 
-TEST(Load, zero_ones_vanish) {
+TEST(Load, ZeroOnesVanish) {
   LoadedMass ball(load("type = \"harmonic\"\nnode = \"ball\"\namplitude = 0.0\nangular_frequency = 7.0") +
                   load("type = \"table\"\nnode = \"ball\"\ntimes = [0, 1]\nvalues = [0, 0]") +
                   load("type = \"unbalance\"\nnode = \"ball\"\nmoment = 1.0\nspeed = 0") +
@@ -83,7 +83,7 @@ TEST(Load, zero_ones_vanish) {
   EXPECT_EQ(ball.at(0.5), 1.0);
 }
 
-TEST(Load, on_theta_is_a_moment) {
+TEST(Load, OnThetaIsAMoment) {
   SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 1.0\nelements = 2") +
                  load("type = \"constant\"\nnode = \"arm:1\"\ndof = \"theta\"\nvalue = 40.0"));
   Vector force(scene.system().size());
@@ -94,7 +94,7 @@ TEST(Load, on_theta_is_a_moment) {
 
 /// q l/2 and q l^2/12 at the ends of every element, times the course in time. They do the
 /// same work as the load on the Hermite cubics.
-TEST(Load, distributed_has_consistent_nodal_loads_in_time) {
+TEST(Load, DistributedHasConsistentNodalLoadsInTime) {
   constexpr double kLoad = -600.0;
   SceneRun scene(kHeader + kSteelBar + beam("arm", "coordinates = [0.0, 0.5, 2.0]") +
                  load("type = \"distributed\"\nbeam = \"arm\"\nvalue = -600.0\nin_time = {type = \"ramp\", from = 1.0, "
@@ -113,7 +113,7 @@ TEST(Load, distributed_has_consistent_nodal_loads_in_time) {
   }
 }
 
-TEST(Load, distributed_without_a_course_is_constant_and_zero_vanishes) {
+TEST(Load, DistributedWithoutACourseIsConstantAndZeroVanishes) {
   const std::string on_arm = "type = \"distributed\"\nbeam = \"arm\"\nvalue = ";
   SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 3.0\nelements = 3") + load(on_arm + "10.0") +
                  load(on_arm + "0.0"));
@@ -125,7 +125,7 @@ TEST(Load, distributed_without_a_course_is_constant_and_zero_vanishes) {
   EXPECT_DOUBLE_EQ(sum, 30.0);
 }
 
-TEST(Load, mistakes_are_named) {
+TEST(Load, MistakesAreNamed) {
   const std::string beginning = kHeader + mass("ball", "2.0");
   const auto expect = [&](const std::string& keys, const std::string& part) {
     const std::string message = refusal(beginning + load(keys));

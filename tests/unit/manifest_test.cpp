@@ -45,7 +45,7 @@ void expect_same(const time::IntegratorType& got, const time::IntegratorType& wa
   for (std::size_t i = 0; i < got.parameters.size(); ++i) expect_same(got.parameters[i], wanted.parameters[i]);
 }
 
-TEST(Manifest, written_and_read_again_is_the_same) {
+TEST(Manifest, WrittenAndReadAgainIsTheSame) {
   const TemporaryFolder folder;
   const std::vector<time::IntegratorType> types = {integrators::rk4_type(),
                                                    integrators::rk4_fixed_factors_type(),
@@ -64,7 +64,7 @@ TEST(Manifest, written_and_read_again_is_the_same) {
   }
 }
 
-TEST(Manifest, keeps_every_kind_of_parameter) {
+TEST(Manifest, KeepsEveryKindOfParameter) {
   const TemporaryFolder folder;
   time::IntegratorType type;
   type.name = "mine";
@@ -86,11 +86,11 @@ TEST(Manifest, keeps_every_kind_of_parameter) {
   EXPECT_EQ(*manifest.integrators[0].parameters[3].fallback->text(), "x");
 }
 
-TEST(Manifest, stands_beside_its_module) {
+TEST(Manifest, StandsBesideItsModule) {
   EXPECT_EQ(plugin::manifest_path("/some/where/method.so"), "/some/where/method.toml");
 }
 
-TEST(Manifest, what_is_none_is_refused) {
+TEST(Manifest, WhatIsNoneIsRefused) {
   const TemporaryFolder folder;
   for (const char* text : {"", "manifest = 1\n[[law]]\nname = \"a\"\nsummary = \"\"\nparameter = []\n",
                            "manifest = 6\n", "manifest = 6\nintegrator = []\n", "manifest = 6\nintegrator = [3]\n",

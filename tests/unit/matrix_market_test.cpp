@@ -12,7 +12,7 @@ Eigen::MatrixXd dense(const std::string& text) {
   return Eigen::MatrixXd(read_matrix_market(text));
 }
 
-TEST(MatrixMarket, fills_the_other_triangle_in) {
+TEST(MatrixMarket, FillsTheOtherTriangleIn) {
   Eigen::Matrix3d expected;
   expected << 1.5, -2.0, 0.0, -2.0, 0.0, 3e-4, 0.0, 3e-4, 7.0;
   EXPECT_EQ(dense("%%MatrixMarket matrix coordinate real symmetric\n% a comment\n\n3 3 4\n"
@@ -33,7 +33,7 @@ struct Mistake {
 
 class BadMatrix : public testing::TestWithParam<Mistake> {};
 
-TEST_P(BadMatrix, is_refused_with_its_line) {
+TEST_P(BadMatrix, IsRefusedWithItsLine) {
   try {
     read_matrix_market(GetParam().text);
     FAIL() << "was read";

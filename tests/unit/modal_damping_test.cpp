@@ -124,7 +124,7 @@ class ModalDamping : public testing::TestWithParam<Case> {
   }
 };
 
-TEST_P(ModalDamping, force_is_that_of_the_dense_matrix) {
+TEST_P(ModalDamping, ForceIsThatOfTheDenseMatrix) {
   ASSERT_TRUE(scene_.dynamics().has_damping());
   const Vector v = some_vector(system_.size());
   Vector force(v.size());
@@ -132,14 +132,14 @@ TEST_P(ModalDamping, force_is_that_of_the_dense_matrix) {
   expect_near(force, damping() * v);
 }
 
-TEST_P(ModalDamping, deceleration_is_that_of_the_dense_matrix) {
+TEST_P(ModalDamping, DecelerationIsThatOfTheDenseMatrix) {
   const Vector v = some_vector(system_.size()), rest = Vector::Zero(v.size());
   Vector a(v.size());
   scene_.dynamics().acceleration(0.0, rest, v, a);
   expect_near(a, -Eigen::MatrixXd(system_.mass).ldlt().solve(damping() * v));
 }
 
-TEST_P(ModalDamping, effective_equations_are_solved_with_stops_open_and_closed) {
+TEST_P(ModalDamping, EffectiveEquationsAreSolvedWithStopsOpenAndClosed) {
   const dynamics::Contact& contact = scene_.dynamics().contact();
   Eigen::MatrixXd pick = Eigen::MatrixXd::Zero(contact.size(), system_.size());
   for (Index i = 0; i < contact.size(); ++i) {
@@ -167,7 +167,7 @@ TEST_P(ModalDamping, effective_equations_are_solved_with_stops_open_and_closed) 
   }
 }
 
-TEST_P(ModalDamping, effective_solver_of_the_dynamics_has_it) {
+TEST_P(ModalDamping, EffectiveSolverOfTheDynamicsHasIt) {
   const double h = 1e-4;
   Vector y = some_vector(system_.size());
   const Eigen::MatrixXd full =
@@ -181,7 +181,7 @@ TEST_P(ModalDamping, effective_solver_of_the_dynamics_has_it) {
 INSTANTIATE_TEST_SUITE_P(ways, ModalDamping, testing::ValuesIn(cases()),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST(ModalDampingOfOneMass, is_a_dashpot_of_2_zeta_sqrt_k_m) {
+TEST(ModalDampingOfOneMass, IsADashpotOf2ZetaSqrtKM) {
   for (const std::string stops :
        {"", "\n[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 1.0\nstiffness = 1e3\n"}) {
     SceneRun scene(kHeader + mass("ball", "2.0") +
@@ -203,7 +203,7 @@ TEST(ModalDampingOfOneMass, is_a_dashpot_of_2_zeta_sqrt_k_m) {
   }
 }
 
-TEST(ModalDampingOfAFreeBeam, leaves_rigid_motion_alone) {
+TEST(ModalDampingOfAFreeBeam, LeavesRigidMotionAlone) {
   for (const int elements : {10, 150})
     for (const std::string modal : {"0.05", "[0, 0, 0.05]"}) {
       SceneRun scene(kHeader + kSteelBar + beam("rod", "length = 2.0\nelements = " + std::to_string(elements)) +
@@ -216,14 +216,14 @@ TEST(ModalDampingOfAFreeBeam, leaves_rigid_motion_alone) {
     }
 }
 
-TEST(ModalDampingOfAFreeBeam, refuses_a_ratio_for_rigid_motion) {
+TEST(ModalDampingOfAFreeBeam, RefusesARatioForRigidMotion) {
   const std::string text = refusal(kHeader + kSteelBar + beam("rod", "length = 2.0\nelements = 10") +
                                    "\n[damping]\nmodal = [0, 0.05, 0.05]\n");
   EXPECT_TRUE(holds(text, "[damping] modal gives a ratio to mode 2, whose frequency is zero")) << text;
   EXPECT_TRUE(holds(text, "write 0 for rigid motion, or use longer elements")) << text;
 }
 
-TEST(LowestModes, are_found_also_where_two_are_equal) {
+TEST(LowestModes, AreFoundAlsoWhereTwoAreEqual) {
   // Two beams that know nothing of each other: every frequency is there twice.
   const std::string mesh = "length = 2.0\nelements = 80";
   const SceneRun scene(kHeader + kSteelBar + beam("a", mesh) + beam("b", mesh) +
@@ -238,7 +238,7 @@ TEST(LowestModes, are_found_also_where_two_are_equal) {
   }
 }
 
-TEST(NoModalDamping, is_no_damping) {
+TEST(NoModalDamping, IsNoDamping) {
   for (const std::string modal : {"0", "[0, 0.0]"}) {
     SceneRun scene(kHeader + mass("ball", "2.0") + mass("other", "1.0") + "\n[damping]\nmodal = " + modal + "\n");
     EXPECT_FALSE(scene.dynamics().has_damping());

@@ -8,9 +8,9 @@
 namespace butee::test::modal_motion_test {
 namespace {
 
-using dynamics::ModalFlow;
 using dynamics::ModalHarmonic;
 using dynamics::ModalMotion;
+using dynamics::ModalPropagator;
 using Eigen::ArrayXd;
 
 /// Relative to the largest of what makes up the motion: rounding of that and of the flow's doublings.
@@ -32,8 +32,8 @@ struct Modes {
   }
 };
 
-/// The largest difference between q and v from ModalMotion and from a ModalFlow over the same time, each mode relative
-/// to the size of what it is made of.
+/// The largest difference between q and v from ModalMotion and from a ModalPropagator over the same time, each mode
+/// relative to the size of what it is made of.
 double difference(const Modes& modes, double h, double part) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
@@ -58,7 +58,7 @@ double difference(const Modes& modes, double h, double part) {
   motion.find(part);
   const Eigen::Map<const ArrayXd> found_q(motion.q(), q.size()), found_v(motion.v(), v.size());
 
-  ModalFlow flow(modes.omega, modes.delta, modes.loads, tau);
+  ModalPropagator flow(modes.omega, modes.delta, modes.loads, tau);
   flow.refine(modes.omega, modes.delta);
   ArrayXd x = flow.qq() * q + flow.qv() * v, speed = flow.vq() * q + flow.vv() * v;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -66,7 +66,7 @@ std::vector<Ends> all_ends() {
           {"free", "", 2, {refined(4.730041, 1), refined(7.853205, 1), refined(10.995608, 1)}}};
 }
 
-TEST(Modes, meet_closed_forms_with_order_four_by_both_solvers) {
+TEST(Modes, MeetClosedFormsWithOrderFourByBothSolvers) {
   int checked = 0;
   for (const Ends& ends : all_ends())
     for (const int coarse : {20, 70}) {  // dense, and Lanczos
@@ -89,7 +89,7 @@ TEST(Modes, meet_closed_forms_with_order_four_by_both_solvers) {
   EXPECT_GE(checked, 14);
 }
 
-TEST(Modes, are_orthonormal_and_solve_the_eigenvalue_problem) {
+TEST(Modes, AreOrthonormalAndSolveTheEigenvalueProblem) {
   const SceneRun scene(kHeader + kSteelBar + rod("rod", 150) + pinned("rod"));
   const auto modes = modes_of(scene, 12);
   const Eigen::MatrixXd mass = modes.shapes.transpose() * scene.system().mass * modes.shapes;
@@ -105,7 +105,7 @@ TEST(Modes, are_orthonormal_and_solve_the_eigenvalue_problem) {
 }
 
 /// Numbered along the beam or any other way, which fills the mass matrix's factor.
-TEST(DensePairs, of_sparse_matrices_solve_the_eigenvalue_problem) {
+TEST(DensePairs, OfSparseMatricesSolveTheEigenvalueProblem) {
   const SceneRun scene(kHeader + kSteelBar + rod("rod", 17) + pinned("rod"));
   const Index n = scene.system().mass.rows();
   Eigen::PermutationMatrix<Eigen::Dynamic> mixed(n);
@@ -131,7 +131,7 @@ TEST(DensePairs, of_sparse_matrices_solve_the_eigenvalue_problem) {
   EXPECT_FALSE(linalg::dense_pairs(scene.system().stiffness, indefinite));
 }
 
-TEST(Modes, find_every_copy_of_equal_frequencies) {
+TEST(Modes, FindEveryCopyOfEqualFrequencies) {
   constexpr int kBeams = 7;
   std::string scene = kHeader + kSteelBar;
   for (int i = 0; i < kBeams; ++i) {
@@ -148,7 +148,7 @@ TEST(Modes, find_every_copy_of_equal_frequencies) {
   EXPECT_LT((mass - Eigen::MatrixXd::Identity(mass.rows(), mass.cols())).cwiseAbs().maxCoeff(), kOrthogonal);
 }
 
-TEST(Modes, count_the_rigid_motions_of_all_bodies) {
+TEST(Modes, CountTheRigidMotionsOfAllBodies) {
   const SceneRun two(kHeader + kSteelBar + rod("one", 60) + rod("two", 45));
   const auto modes = modes_of(two, 6);
   EXPECT_FALSE(modes.dense);
@@ -159,7 +159,7 @@ TEST(Modes, count_the_rigid_motions_of_all_bodies) {
 }
 
 /// A body on a spring so soft that its frequency is 1e-7 of the first bending frequency is no rigid motion.
-TEST(Modes, tell_a_soft_spring_from_rigid_motion) {
+TEST(Modes, TellASoftSpringFromRigidMotion) {
   const std::string soft = "\n[[element]]\ntype = \"spring\"\nnode = \"ball\"\nstiffness = 2.0e-14\n";
   for (const int elements : {20, 100}) {
     const SceneRun scene(kHeader + kSteelBar + rod("rod", elements) + pinned("rod") + mass("ball", "2.0") + soft);
@@ -170,7 +170,7 @@ TEST(Modes, tell_a_soft_spring_from_rigid_motion) {
 }
 
 /// In double precision the factor of this K has lost most of the lowest frequency (N^4 eps = 0.1).
-TEST(Modes, hold_a_beam_of_ten_thousand_degrees_of_freedom) {
+TEST(Modes, HoldABeamOfTenThousandDegreesOfFreedom) {
   for (const Ends& ends : all_ends()) {
     const SceneRun scene(kHeader + kSteelBar + rod("rod", 5000) + ends.supports);
     const auto modes = modes_of(scene, 2 + ends.rigid);
@@ -185,7 +185,7 @@ TEST(Modes, hold_a_beam_of_ten_thousand_degrees_of_freedom) {
 }
 
 /// K with a closed stop is the same structure with a spring there.
-TEST(Modes, take_a_closed_stop_as_a_spring) {
+TEST(Modes, TakeAClosedStopAsASpring) {
   const std::string plain = kHeader + kSteelBar + rod("rod", 20) + pinned("rod");
   const SceneRun with_spring(plain + "\n[[element]]\ntype = \"spring\"\nnode = \"rod:7\"\nstiffness = 3.0e4\n");
   const SceneRun open(plain);

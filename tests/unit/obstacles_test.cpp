@@ -80,7 +80,7 @@ Jacobians from_tangents(dynamics::Dynamics& dynamics) {
   return sum;
 }
 
-TEST(Obstacles, have_the_tangents_that_differences_give) {
+TEST(Obstacles, HaveTheTangentsThatDifferencesGive) {
   for (const std::string& contacts : all_contacts()) {
     SceneRun run(bodies(contacts));
     dynamics::Dynamics& dynamics = run.dynamics();
@@ -104,7 +104,7 @@ TEST(Obstacles, have_the_tangents_that_differences_give) {
 }
 
 /// A node with rx is twisted by friction at a radius: the tangents hold the torque and what rx does to the slip.
-TEST(Obstacles, twist_a_node_that_turns) {
+TEST(Obstacles, TwistANodeThatTurns) {
   const std::string body =
       "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"a\"\nmass = 2.0\ndiametral_inertia = 0.1\npolar_inertia = "
       "0.2\n[[support]]\nnodes = \"a\"\nfix = [\"ry\", \"rz\"]\n";
@@ -157,17 +157,19 @@ TEST(Obstacles, twist_a_node_that_turns) {
   }
 }
 
-TEST(TangentSolver, solves_as_a_full_factorization_does) {
+TEST(TangentSolver, SolvesAsAFullFactorizationDoes) {
   for (const std::string& contacts : all_contacts()) {
     SceneRun run(bodies(contacts));
     dynamics::Dynamics& dynamics = run.dynamics();
     dynamics.obstacles()->follow_live();
     const Jacobians sum = from_tangents(dynamics);
-    const double on_v = 0.1, on_x = 0.02;
-    const Eigen::MatrixXd full = Eigen::MatrixXd(run.system().mass) + on_x * Eigen::MatrixXd(run.system().stiffness) +
-                                 on_x * sum.by_x + on_v * sum.by_v;
+    const double velocity_factor = 0.1, displacement_factor = 0.02;
+    const Eigen::MatrixXd full = Eigen::MatrixXd(run.system().mass) +
+                                 displacement_factor * Eigen::MatrixXd(run.system().stiffness) +
+                                 displacement_factor * sum.by_x + velocity_factor * sum.by_v;
     dynamics::TangentSolver solver(dynamics.effective(), dynamics.obstacles());
-    ASSERT_TRUE(solver.set(on_v, on_x, Vector(), dynamics.obstacles()->tangents(0.0, motion_x(), motion_v())));
+    ASSERT_TRUE(solver.set(velocity_factor, displacement_factor, Vector(),
+                           dynamics.obstacles()->tangents(0.0, motion_x(), motion_v())));
     Vector b = (Vector(4) << 1.0, -2.0, 0.5, 3.0).finished();
     const Vector wanted = full.partialPivLu().solve(b);
     ASSERT_TRUE(solver.solve(b));
@@ -176,7 +178,7 @@ TEST(TangentSolver, solves_as_a_full_factorization_does) {
 }
 
 /// The closed forms of C1, C2 and C4, which impact_damping_test checks by integration.
-TEST(ContactTables, invert_the_restitution) {
+TEST(ContactTables, InvertTheRestitution) {
   EXPECT_NEAR(scene::kelvin_voigt_ratio(0.4, true), 0.2799979933, 1e-9);
   EXPECT_NEAR(scene::kelvin_voigt_ratio(0.7440793977, false), 0.1, 1e-9);
   EXPECT_NEAR(scene::hunt_crossley_product(0.5), 1.4327505333, 1e-9);

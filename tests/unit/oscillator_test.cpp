@@ -1,6 +1,6 @@
 #include "integrators/exponential/oscillator.hpp"
 
-#include <butee/dynamics/modal_flow.hpp>
+#include <butee/dynamics/modal_propagator.hpp>
 #include <gtest/gtest.h>
 
 namespace butee::test::oscillator_test {
@@ -23,7 +23,7 @@ TEST(Oscillator, AgreesWithTheFlowInSeriesAndClosedForm) {
         if (!oscillator.can_move(t)) continue;
         ++moved;
         const ArrayXd frequency = ArrayXd::Constant(1, omega), decay = ArrayXd::Constant(1, delta);
-        dynamics::ModalFlow flow(frequency, decay, {}, t);
+        dynamics::ModalPropagator flow(frequency, decay, {}, t);
         flow.refine(frequency, decay);
         const double f[] = {c0 + c1 / 2.0 + c2 / 3.0, (c1 + c2) / 2.0, c2 / 6.0};
         double x = flow.qq()[0] * q + flow.qv()[0] * v, speed = flow.vq()[0] * q + flow.vv()[0] * v;

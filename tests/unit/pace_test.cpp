@@ -1,4 +1,4 @@
-// Foretelling a run from its beginning: even courses are extrapolated, others are not.
+// Foretelling a run from its beginning: even histories are extrapolated, others are not.
 #include "apps/butee/check/pace.hpp"
 
 #include <cmath>

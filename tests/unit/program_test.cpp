@@ -65,7 +65,7 @@ class Program : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Program, run_writes_its_results) {
+TEST_F(Program, RunWritesItsResults) {
   const Outcome outcome = run({"swing.toml"});
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_TRUE(holds(outcome.output, "swing-results")) << outcome.output;
@@ -88,7 +88,7 @@ TEST_F(Program, run_writes_its_results) {
 }
 
 /// On every instruction set that there is, with stops that are hit.
-TEST_F(Program, instruction_sets_differ_in_last_digits_alone) {
+TEST_F(Program, InstructionSetsDifferInLastDigitsAlone) {
   // 400 steps, each of which keeps rounding of 1e-16 or so, through a few impacts
   constexpr double kSame = 1e-10;
   std::vector<double> first;
@@ -112,7 +112,7 @@ TEST_F(Program, instruction_sets_differ_in_last_digits_alone) {
   }
 }
 
-TEST_F(Program, an_instruction_set_that_is_not_there_is_bad_input) {
+TEST_F(Program, AnInstructionSetThatIsNotThereIsBadInput) {
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"run", "swing.toml"}, {"plugins"}}) {
     const Outcome outcome = run_program(arguments, folder_.path(), {"BUTEE_TARGET=mmx"});
@@ -125,7 +125,7 @@ TEST_F(Program, an_instruction_set_that_is_not_there_is_bad_input) {
   EXPECT_TRUE(holds(version.output, "instruction set: " + targets().back() + " of ")) << version.output;
 }
 
-TEST_F(Program, the_model_as_run_is_a_model_with_the_same_results) {
+TEST_F(Program, TheModelAsRunIsAModelWithTheSameResults) {
   ASSERT_EQ(run({"swing.toml", "--set", "integrator.type=NMM1", "--set", "contact[0].gap=0.02"}).status, 0);
   const std::string model = result("model.toml"), history = result("history.csv");
   EXPECT_TRUE(holds(model, "gap = 0.02")) << model;
@@ -136,13 +136,13 @@ TEST_F(Program, the_model_as_run_is_a_model_with_the_same_results) {
   EXPECT_EQ(result("model.toml"), model);
 }
 
-TEST_F(Program, overrides_change_the_run) {
+TEST_F(Program, OverridesChangeTheRun) {
   ASSERT_EQ(run({"swing.toml", "--set", "integrator.time_step=0.01", "--set", "output.impacts=false"}).status, 0);
   EXPECT_EQ(summary()["steps"], 50);
   EXPECT_FALSE(exists("swing-results/impacts.csv"));
 }
 
-TEST_F(Program, repeat_leaves_results_and_counters_of_one_run) {
+TEST_F(Program, RepeatLeavesResultsAndCountersOfOneRun) {
   ASSERT_EQ(run({"swing.toml"}).status, 0);
   const std::string history = result("history.csv");
   const Json once = summary();
@@ -152,7 +152,7 @@ TEST_F(Program, repeat_leaves_results_and_counters_of_one_run) {
     EXPECT_EQ(summary()[key], once[key]) << key;
 }
 
-TEST_F(Program, running_again_replaces_its_own_files_and_keeps_others) {
+TEST_F(Program, RunningAgainReplacesItsOwnFilesAndKeepsOthers) {
   ASSERT_EQ(run({"swing.toml"}).status, 0);
   folder_.write("swing-results/notes.txt", "mine");
   ASSERT_EQ(run({"swing.toml", "--set", "output.impacts=false"}).status, 0);
@@ -161,7 +161,7 @@ TEST_F(Program, running_again_replaces_its_own_files_and_keeps_others) {
   EXPECT_EQ(summary()["status"], "completed");
 }
 
-TEST_F(Program, a_folder_that_is_not_ours_is_left_alone) {
+TEST_F(Program, AFolderThatIsNotOursIsLeftAlone) {
   std::filesystem::create_directory(folder_.file("home"));
   folder_.write("home/model.toml", "schema = 1\n");
   const Outcome outcome = run({"swing.toml", "-o", "home"});
@@ -175,13 +175,13 @@ TEST_F(Program, a_folder_that_is_not_ours_is_left_alone) {
   EXPECT_EQ(read_file(folder_.file("swing.toml")), kScene);
 }
 
-TEST_F(Program, an_empty_folder_is_taken) {
+TEST_F(Program, AnEmptyFolderIsTaken) {
   std::filesystem::create_directories(folder_.file("deep/er"));
   EXPECT_EQ(run({"swing.toml", "-o", "deep/er"}).status, 0);
   EXPECT_TRUE(exists("deep/er/history.csv"));
 }
 
-TEST_F(Program, bad_input_is_status_2_and_writes_nothing) {
+TEST_F(Program, BadInputIsStatus2AndWritesNothing) {
   const std::vector<std::vector<std::string>> wrong = {{"absent.toml"},
                                                        {"swing.toml", "--set", "integrator.type=rk5"},
                                                        {"swing.toml", "--set", "contact[7].gap=1"},
@@ -199,7 +199,7 @@ TEST_F(Program, bad_input_is_status_2_and_writes_nothing) {
 }
 
 /// A step far beyond the stability limit: the run fails, and what was computed is kept in whole lines.
-TEST_F(Program, a_run_that_fails_is_status_1_and_keeps_its_rows) {
+TEST_F(Program, ARunThatFailsIsStatus1AndKeepsItsRows) {
   const Outcome outcome = run({"swing.toml", "--set", "element[1].stiffness=1e12", "--set", "output.interval=1e-3"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(holds(outcome.errors, "grows without a cause")) << outcome.errors;
@@ -209,7 +209,7 @@ TEST_F(Program, a_run_that_fails_is_status_1_and_keeps_its_rows) {
   EXPECT_GE(CsvTable(folder_.file("swing-results/history.csv")).rows(), 1U);
 }
 
-TEST_F(Program, energy_is_followed_where_asked_for) {
+TEST_F(Program, EnergyIsFollowedWhereAskedFor) {
   ASSERT_EQ(run({"swing.toml", "--set", "output.energy=true"}).status, 0);
   const Json energy = summary()["energy"];
   EXPECT_TRUE(energy["work"].is_number());

@@ -32,7 +32,7 @@ std::string written(bool bar, std::chrono::steady_clock::duration silence, int w
   return text;
 }
 
-TEST(Progress, a_bar_says_where_the_run_is_and_takes_itself_away) {
+TEST(Progress, ABarSaysWhereTheRunIsAndTakesItselfAway) {
   const std::string text = written(true, 0ms);
   for (const char* part : {"\r[", " %  t = ", " of 1 s", "h = 1.0e-03 s", " left"})
     EXPECT_TRUE(holds(text, part)) << part << " in " << text;
@@ -42,7 +42,7 @@ TEST(Progress, a_bar_says_where_the_run_is_and_takes_itself_away) {
   EXPECT_EQ(text.substr(text.size() - wiped.size()), wiped);
 }
 
-TEST(Progress, a_bar_fits_the_terminal) {
+TEST(Progress, ABarFitsTheTerminal) {
   for (const int width : {40, 60, 80, 200}) {
     const std::string text = written(true, 0ms, width);
     for (std::size_t begin = text.find("\r["); begin != std::string::npos; begin = text.find("\r[", begin + 1))
@@ -51,11 +51,11 @@ TEST(Progress, a_bar_fits_the_terminal) {
   EXPECT_TRUE(holds(written(true, 0ms, 200), "0 of 1 stops closed"));
 }
 
-TEST(Progress, says_nothing_of_a_short_run) {
+TEST(Progress, SaysNothingOfAShortRun) {
   EXPECT_EQ(written(true, 1h), "");
 }
 
-TEST(Progress, a_log_gets_whole_lines_and_the_end) {
+TEST(Progress, ALogGetsWholeLinesAndTheEnd) {
   const std::string text = written(false, 1h);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
   EXPECT_TRUE(holds(text, "100 %  t = 1 of 1 s")) << text;
@@ -66,7 +66,7 @@ TEST(Progress, a_log_gets_whole_lines_and_the_end) {
 }
 
 /// The step is far beyond the stability limit, so that the run fails half-way.
-TEST(Progress, a_failed_run_leaves_no_bar) {
+TEST(Progress, AFailedRunLeavesNoBar) {
   const std::string text = written(true, 0ms, 80, {"integrator.type=rk4", "element[1].stiffness=1e9"});
   const std::string wiped = "\r\033[K";
   ASSERT_GE(text.size(), wiped.size());

@@ -16,7 +16,7 @@ model::NodeTable table() {
   return nodes;
 }
 
-TEST(Selector, names_the_nodes_of_a_beam) {
+TEST(Selector, NamesTheNodesOfABeam) {
   const model::NodeTable nodes = table();
   const auto expect = [&](const char* selector, const std::vector<NodeId>& wanted) {
     const model::Selection selection = nodes.select(selector);
@@ -37,7 +37,7 @@ TEST(Selector, names_the_nodes_of_a_beam) {
   expect("rotor", {13});
 }
 
-TEST(Selector, says_why_it_names_none) {
+TEST(Selector, SaysWhyItNamesNone) {
   const model::NodeTable nodes = table();
   const auto expect = [&](const char* selector, const std::vector<std::string>& parts) {
     const model::Selection selection = nodes.select(selector);
@@ -63,14 +63,14 @@ TEST(Selector, says_why_it_names_none) {
   expect("", {"no node or beam"});
 }
 
-TEST(Selector, nodes_have_names) {
+TEST(Selector, NodesHaveNames) {
   const model::NodeTable nodes = table();
   EXPECT_EQ(nodes.name(4), "string:4");
   EXPECT_EQ(nodes.name(7), "even:0");
   EXPECT_EQ(nodes.name(13), "rotor");
 }
 
-TEST(Selector, joined_nodes_are_one) {
+TEST(Selector, JoinedNodesAreOne) {
   model::NodeTable nodes = table();
   nodes.join(6, 7);
   nodes.join(13, 7);
@@ -79,7 +79,7 @@ TEST(Selector, joined_nodes_are_one) {
   EXPECT_EQ(nodes.canonical(5), 5);
 }
 
-TEST(Selector, mistakes_in_a_scene_carry_their_key) {
+TEST(Selector, MistakesInASceneCarryTheirKey) {
   const std::string scene = kHeader + kSteelBar + beam("string", "length = 6.0\nelements = 5");
   const auto expect = [&](const std::string& more, const std::string& part) {
     const std::string message = refusal(scene + more);

@@ -56,7 +56,7 @@ Eigen::MatrixXd dense_effective(const SceneRun& scene, dynamics::Contact& contac
   return mass + c * damping + k * (stiffness + pick.transpose() * kappa.asDiagonal() * pick);
 }
 
-TEST(EffectiveSolver, solves_what_the_dense_matrix_says) {
+TEST(EffectiveSolver, SolvesWhatTheDenseMatrixSays) {
   SceneRun scene(coupled_scene());
   dynamics::Contact& contact = scene.dynamics().contact();
   ASSERT_EQ(contact.size(), 10);
@@ -79,7 +79,7 @@ TEST(EffectiveSolver, solves_what_the_dense_matrix_says) {
   EXPECT_EQ(scene.dynamics().counters().solves, 9 + 2 * contact.size());
 }
 
-TEST(EffectiveSolver, gives_the_same_with_local_contact_as_with_full_factorization) {
+TEST(EffectiveSolver, GivesTheSameWithLocalContactAsWithFullFactorization) {
   // Relative to the largest entry; both are direct solutions of one system.
   // Rounding is magnified by the condition of the matrix, which grows with h: 1.4e-12 in the worst of the 128 cases.
   constexpr double kSame = 5e-12;
@@ -110,7 +110,7 @@ TEST(EffectiveSolver, gives_the_same_with_local_contact_as_with_full_factorizati
   EXPECT_EQ(full_counters.factorizations, 128);
 }
 
-TEST(EffectiveSolver, says_where_the_matrix_is_not_positive_definite) {
+TEST(EffectiveSolver, SaysWhereTheMatrixIsNotPositiveDefinite) {
   SceneRun scene(coupled_scene());
   dynamics::EffectiveSolver& solver = scene.dynamics().effective();
   solver.set_factors(5e-4, 2.5e-7);
@@ -126,7 +126,7 @@ TEST(EffectiveSolver, says_where_the_matrix_is_not_positive_definite) {
   EXPECT_LE((right - expected).norm(), kSolved * expected.norm());
 }
 
-TEST(EffectiveSolver, without_stops_factorizes_once_for_a_step) {
+TEST(EffectiveSolver, WithoutStopsFactorizesOnceForAStep) {
   SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 2.0\nelements = 4"));
   dynamics::EffectiveSolver& solver = scene.dynamics().effective();
   const Vector none(0);
@@ -142,7 +142,7 @@ TEST(EffectiveSolver, without_stops_factorizes_once_for_a_step) {
   EXPECT_EQ(scene.dynamics().counters().factorizations, 2);
 }
 
-TEST(EffectiveSolver, wants_its_factors_first) {
+TEST(EffectiveSolver, WantsItsFactorsFirst) {
   SceneRun scene(kHeader + mass("ball", "1.0"));
   Vector y = Vector::Ones(1);
   EXPECT_THROW((void)scene.dynamics().effective().solve(Vector(0), y), LogicError);
@@ -162,7 +162,7 @@ SparseMatrix banded(Index size, Index half, double diagonal) {
 /// Half bandwidths on both sides of the one up to which the natural order is kept.
 class SymmetricFactor : public testing::TestWithParam<int> {};
 
-TEST_P(SymmetricFactor, solves_several_right_hand_sides) {
+TEST_P(SymmetricFactor, SolvesSeveralRightHandSides) {
   linalg::Counters counters;
   const SparseMatrix matrix = banded(60, GetParam(), 2.0 * GetParam() + 0.5);
   linalg::SymmetricFactor factor(matrix, counters);
@@ -177,7 +177,7 @@ TEST_P(SymmetricFactor, solves_several_right_hand_sides) {
   EXPECT_EQ(counters.solves, 3);
 }
 
-TEST_P(SymmetricFactor, rejects_an_indefinite_matrix_and_recovers) {
+TEST_P(SymmetricFactor, RejectsAnIndefiniteMatrixAndRecovers) {
   linalg::Counters counters;
   const double definite = 2.0 * GetParam() + 0.5;
   const SparseMatrix matrix = banded(60, GetParam(), definite);
@@ -195,7 +195,7 @@ TEST_P(SymmetricFactor, rejects_an_indefinite_matrix_and_recovers) {
   EXPECT_LE((b - Vector::Ones(60)).norm(), kSolved * std::sqrt(60.0));
 }
 
-TEST_P(SymmetricFactor, rejects_a_singular_matrix) {
+TEST_P(SymmetricFactor, RejectsASingularMatrix) {
   linalg::Counters counters;
   SparseMatrix matrix = banded(60, GetParam(), 2.0 * GetParam() + 0.5);
   linalg::SymmetricFactor factor(matrix, counters);

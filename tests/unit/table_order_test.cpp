@@ -14,7 +14,7 @@ using config::Value;
 
 /// The same document with tables behind their parts, which is TOML as well: equal, and lines are those of the text
 /// given.
-TEST(TableOrder, a_table_may_come_after_its_parts) {
+TEST(TableOrder, ATableMayComeAfterItsParts) {
   struct Pair {
     const char *given, *usual, *key;
     int line;
@@ -55,7 +55,7 @@ TEST(TableOrder, a_table_may_come_after_its_parts) {
   }
 }
 
-TEST(TableOrder, mistakes_are_told_with_the_line_of_the_file) {
+TEST(TableOrder, MistakesAreToldWithTheLineOfTheFile) {
   const auto complaint = [](const std::string& text) {
     try {
       parse_toml(text, "scene.toml");

@@ -53,7 +53,7 @@ double closed_form(double u) {
   return kStop * (y * y / 4 + (y * y / 2 * angle - y / (2 * s) + angle / (2 * s * s)) / std::numbers::pi);
 }
 
-TEST(ArctanEnergy, is_the_closed_form_and_zero_at_rest) {
+TEST(ArctanEnergy, IsTheClosedFormAndZeroAtRest) {
   SceneRun scene(kScene);
   Vector w(1);
   for (const double u : {0.0, 1e-4, 9e-4, 1e-3, 1.1e-3, 2e-3, 5e-3, -1e-3}) {
@@ -63,7 +63,7 @@ TEST(ArctanEnergy, is_the_closed_form_and_zero_at_rest) {
   }
 }
 
-TEST(ArctanEnergy, is_kept_with_the_rest_over_many_impacts) {
+TEST(ArctanEnergy, IsKeptWithTheRestOverManyImpacts) {
   SceneRun scene(kScene);
   record::ImpactRecorder impacts(scene.dynamics());
   scene.simulation().add(impacts);

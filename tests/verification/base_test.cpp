@@ -79,7 +79,7 @@ const std::string kExact = "[integrator]\ntype = \"exact\"\nend_time = 1.0\n";
 
 /// SDND102: an oscillator on a base with acceleration sin(20 pi t), displacement -sin/Om^2, at rest relative to it,
 /// strikes a wall that is fixed in space. Absolute displacements by event-exact marching.
-TEST(Pounding, meets_a_wall_fixed_in_space) {
+TEST(Pounding, MeetsAWallFixedInSpace) {
   SceneRun run("schema = 1\n" + oscillator("m", "") +
                wall("nodes = \"m\"\nsides = \"positive\"\nframe = \"space\"", 5e-4, 5.76e7) +
                "[base]\nacceleration = " + sine(1) + "\ninitial_velocity = " + text(-1.0 / kOmega) + "\n" + kExact);
@@ -107,7 +107,7 @@ TEST(Pounding, meets_a_wall_fixed_in_space) {
 }
 
 /// Two mirror oscillators on two bases pound as the one meets the wall: the same numbers to rounding.
-TEST(Pounding, of_twins_is_that_of_one_at_a_wall) {
+TEST(Pounding, OfTwinsIsThatOfOneAtAWall) {
   const auto supports = [](const std::string& nodes) {
     return "[[support]]\nnodes = [" + nodes + "]\nfix = [\"u\"]\n";
   };
@@ -178,7 +178,7 @@ double steady_midspan(int elements, double frequency) {
   return Vector(dynamic.partialPivLu().solve(force))[run.dof("bar:middle")];
 }
 
-TEST(MovedSupport, moves_the_midspan_as_the_closed_form_says) {
+TEST(MovedSupport, MovesTheMidspanAsTheClosedFormSays) {
   EXPECT_NEAR(steady_midspan(10, 3.0), .86372866, 5e-9);
   EXPECT_NEAR(steady_midspan(20, 3.0), .86373130, 5e-9);
   // Rounding of a dense solution; the fourth order leaves 1e-9 of 80 elements.
@@ -192,7 +192,7 @@ TEST(MovedSupport, moves_the_midspan_as_the_closed_form_says) {
 
 /// One motion of all supports, said by its acceleration, its displacement, or support by support, and seen from the
 /// base or from space: the same motion.
-TEST(MovedBase, is_the_same_however_it_is_said) {
+TEST(MovedBase, IsTheSameHoweverItIsSaid) {
   const std::string bar = [] {
     std::string scene = moved_bar(8, 3.0);
     return scene.substr(0, scene.find("[[base]]"));
@@ -234,7 +234,7 @@ TEST(MovedBase, is_the_same_however_it_is_said) {
 }
 
 /// A spline through samples of a smooth motion: accelerations as good as h^2.
-TEST(MovedBase, goes_smoothly_through_a_table) {
+TEST(MovedBase, GoesSmoothlyThroughATable) {
   std::vector<double> times, values;
   for (int i = 0; i <= 200; ++i) {
     times.push_back(0.01 * i);
@@ -261,7 +261,7 @@ struct Mistake {
 
 class BadBase : public testing::TestWithParam<Mistake> {};
 
-TEST_P(BadBase, is_said_with_its_remedy) {
+TEST_P(BadBase, IsSaidWithItsRemedy) {
   try {
     read_scene(GetParam().scene);
     FAIL() << "was read";

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPrinted = 1e-8;
 
 /// Bending in both planes, torsion and axial motion, of an independent program with the same elements.
-TEST(Cantilever, has_the_modes_of_all_six_motions) {
+TEST(Cantilever, HasTheModesOfAllSixMotions) {
   const auto found = frequencies(cantilever("[[0, 0, 0], [1, 0, 0]]", ""), 12);
   expect_all(found, {25.06549917, 50.13099836, 157.08312306, 314.16624612}, kPrinted);
   for (const double wanted : {594.49678676, 1293.38090440})
@@ -23,7 +23,7 @@ TEST(Cantilever, has_the_modes_of_all_six_motions) {
     })) << wanted;
 }
 
-TEST(Cantilever, has_the_same_modes_in_every_direction) {
+TEST(Cantilever, HasTheSameModesInEveryDirection) {
   const auto along_x = frequencies(cantilever("[[0, 0, 0], [1, 0, 0]]", ""), 10);
   const double a = 1.0 / std::sqrt(3.0);
   std::ostringstream diagonal;
@@ -37,7 +37,7 @@ TEST(Cantilever, has_the_same_modes_in_every_direction) {
 }
 
 /// Timoshenko's theory with kappa = 5/6, exact frequencies; elements with static shape functions converge as l^2.
-TEST(Cantilever, converges_with_shear_to_timoshenko) {
+TEST(Cantilever, ConvergesWithShearToTimoshenko) {
   const auto error = [](int elements) {
     std::string scene = cantilever("[[0, 0, 0], [1, 0, 0]]", "", "timoshenko");
     scene.replace(scene.find("elements = 20"), 13, "elements = " + std::to_string(elements));
@@ -50,7 +50,7 @@ TEST(Cantilever, converges_with_shear_to_timoshenko) {
 
 /// A stubby cantilever, 5 times as long as it is high: Euler and Bernoulli's second frequency is 20 % too high. Errors
 /// of order l^2, so that two meshes give the limit.
-TEST(StubbyCantilever, has_the_exact_frequencies_of_timoshenko) {
+TEST(StubbyCantilever, HasTheExactFrequenciesOfTimoshenko) {
   const auto strong = [](const std::string& theory, int elements) {
     std::string scene = cantilever("[[0, 0, 0], [0.3, 0, 0]]", "", theory);
     scene.replace(scene.find("elements = 20"), 13, "elements = " + std::to_string(elements));
@@ -69,7 +69,7 @@ TEST(StubbyCantilever, has_the_exact_frequencies_of_timoshenko) {
 }
 
 /// NAFEMS test 5, a deep pinned beam: a w^4 - b w^2 + c = 0 in Timoshenko's theory.
-TEST(DeepBeam, has_the_frequencies_of_timoshenko) {
+TEST(DeepBeam, HasTheFrequenciesOfTimoshenko) {
   const std::string scene = R"(
 schema = 1
 [material.steel]
@@ -111,7 +111,7 @@ end_time = 1e-3
 }
 
 /// The same bar clamped and free along its axis: sqrt(E/rho)/(4 L).
-TEST(DeepBeam, has_the_axial_frequency_of_a_bar) {
+TEST(DeepBeam, HasTheAxialFrequencyOfABar) {
   std::string scene = cantilever("[[0, 0, 0], [10, 0, 0]]", "");
   scene.replace(scene.find("young_modulus"),
                 scene.find("\n", scene.find("young_modulus")) - scene.find("young_modulus"), "young_modulus = 2e11");

@@ -43,7 +43,7 @@ std::ostream& operator<<(std::ostream& stream, const Table& table) {
 
 class Chopra : public testing::TestWithParam<Table> {};
 
-TEST_P(Chopra, displacements_are_those_of_the_same_scheme) {
+TEST_P(Chopra, DisplacementsAreThoseOfTheSameScheme) {
   std::vector<double> times;
   for (int i = 1; i <= 10; ++i) times.push_back(0.1 * i);
   for (const std::string method : {"newmark", "newmark_modified"}) {

@@ -57,7 +57,7 @@ max_iterations      = 20
 
 class Collision : public testing::TestWithParam<const char*> {};
 
-TEST_P(Collision, of_two_free_masses_is_that_of_elastic_bodies) {
+TEST_P(Collision, OfTwoFreeMassesIsThatOfElasticBodies) {
   SceneRun scene(kCollision, {std::string("integrator.type=") + GetParam()});
   record::ImpactRecorder recorder(scene.dynamics());
   scene.simulation().add(recorder);
@@ -119,7 +119,7 @@ max_iterations      = 20
 
 class Bouncing : public testing::TestWithParam<const char*> {};
 
-TEST_P(Bouncing, period_and_depth_are_those_of_the_closed_form) {
+TEST_P(Bouncing, PeriodAndDepthAreThoseOfTheClosedForm) {
   // A kink of the force within a step costs a part of (omega h)^2 = 1e-5 of the energy, and the period follows.
   constexpr double kPeriodError = 5e-6, kDepthError = 1e-5;
   SceneRun scene(kBouncing, {std::string("integrator.type=") + GetParam()});

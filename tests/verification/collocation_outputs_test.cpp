@@ -56,7 +56,7 @@ end_time = 0.2
 )";
 
 /// Steps are longer than the light mass swings and the loads turn.
-TEST(CollocationOutputs, give_values_and_peaks_of_fast_motion) {
+TEST(CollocationOutputs, GiveValuesAndPeaksOfFastMotion) {
   std::vector<double> times;
   for (int i = 1; i < 100; ++i) times.push_back(0.00199 * i);
   SceneRun closed(kLight, {"integrator.type=piecewise"}),

@@ -194,7 +194,7 @@ double distance(const time::State& a, const time::State& b) {
 }
 
 /// Disturbances grow at most 30 times in these scenes (start displaced by 1e-6 of itself, exact).
-TEST_P(CoupledScenes, meet_exact_the_nearer_the_smaller_the_tolerance) {
+TEST_P(CoupledScenes, MeetExactTheNearerTheSmallerTheTolerance) {
   SceneRun exact(GetParam(), {"integrator.type=exact"});
   ASSERT_TRUE(exact.run().completed) << exact.simulation().report().message;
   const time::State& wanted = exact.simulation().state();
@@ -210,7 +210,7 @@ TEST_P(CoupledScenes, meet_exact_the_nearer_the_smaller_the_tolerance) {
 }
 
 /// What a step makes of a state depends on nothing else.
-TEST_P(CoupledScenes, go_on_from_a_state_with_the_same_bits) {
+TEST_P(CoupledScenes, GoOnFromAStateWithTheSameBits) {
   SceneRun run(GetParam(), {"integrator.type=exponential"}), other(GetParam(), {"integrator.type=exponential"});
   time::State from, to, again;
   from.x = run.system().initial_displacement;
@@ -233,7 +233,7 @@ TEST_P(CoupledScenes, go_on_from_a_state_with_the_same_bits) {
 }
 
 /// Outputs are the motion itself: the closed form of the step meets the end of shorter steps.
-TEST_P(CoupledScenes, have_the_same_outputs_for_any_steps) {
+TEST_P(CoupledScenes, HaveTheSameOutputsForAnySteps) {
   const std::vector<double> times = {0.0313, 0.1002, 0.177, 0.2811, 0.33};
   SceneRun exact(GetParam(), {"integrator.type=exact"}),
       run(GetParam(), {"integrator.type=exponential", "integrator.tolerance=1e-8"});
@@ -253,7 +253,7 @@ TEST_P(CoupledScenes, have_the_same_outputs_for_any_steps) {
 
 INSTANTIATE_TEST_SUITE_P(Collocation, CoupledScenes, testing::Values(kPipe, kBeam, kFlight, kRest));
 
-TEST(Collocation, stays_in_equilibrium) {
+TEST(Collocation, StaysInEquilibrium) {
   // 128 x + 64 (x - 1/2) = 80
   SceneRun run(kBalance);
   const double begin = run.system().initial_displacement[0];
@@ -271,7 +271,7 @@ std::string complaint(const std::string& toml) {
   return "";
 }
 
-TEST(Collocation, refuses_a_varying_speed_and_names_the_others) {
+TEST(Collocation, RefusesAVaryingSpeedAndNamesTheOthers) {
   std::string varying = kPipe;
   varying.replace(varying.find("speed = 30.0"), 12, "speed = { type = \"ramp\", from = 10.0, to = 30.0, end = 0.5 }");
   const std::string message = complaint(varying);
@@ -279,7 +279,7 @@ TEST(Collocation, refuses_a_varying_speed_and_names_the_others) {
   EXPECT_NE(message.find("rodas4"), std::string::npos) << message;
 }
 
-TEST(Collocation, refuses_rigid_stick_and_names_the_others) {
+TEST(Collocation, RefusesRigidStickAndNamesTheOthers) {
   std::string rigid = kFlight;
   rigid.replace(rigid.find("slip_speed = 0.05"), 17, "stick = \"rigid\"");
   const std::string message = complaint(rigid);

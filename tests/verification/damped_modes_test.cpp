@@ -153,7 +153,7 @@ MatrixXd first_order(SceneRun& run, MatrixXd& compliance) {
 
 class DampedModesOf : public testing::TestWithParam<std::string> {};
 
-TEST_P(DampedModesOf, give_the_motion_of_the_matrix_exponential) {
+TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
   SceneRun run(GetParam());
   const Index n = run.dynamics().size();
   MatrixXd compliance;
@@ -205,7 +205,7 @@ TEST_P(DampedModesOf, give_the_motion_of_the_matrix_exponential) {
 
 INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight));
 
-TEST(StepNodes, interpolate_polynomials_of_degree_six) {
+TEST(StepNodes, InterpolatePolynomialsOfDegreeSix) {
   using integrators::StepNodes;
   Eigen::Matrix<double, 1, 7> values, fifth;
   for (Index j = 0; j < 7; ++j) {
@@ -223,7 +223,7 @@ TEST(StepNodes, interpolate_polynomials_of_degree_six) {
   }
 }
 
-TEST(StepNodes, estimate_the_error_of_their_quadrature) {
+TEST(StepNodes, EstimateTheErrorOfTheirQuadrature) {
   using integrators::StepNodes;
   const auto smooth_step = [](double s, double at, double width) { return std::tanh((s - at) / width); };
   int estimates = 0, generous = 0;

@@ -57,7 +57,7 @@ struct ClosedForm {
 
 class DampedOscillator : public testing::TestWithParam<Method> {};
 
-TEST_P(DampedOscillator, vibrates_by_the_closed_form) {
+TEST_P(DampedOscillator, VibratesByTheClosedForm) {
   SceneRun scene(kScene, GetParam().overrides());
   std::vector<double> times, x, v;
   const ClosedForm exact;

@@ -45,7 +45,7 @@ class FrictionMethods : public testing::TestWithParam<const char*> {};
 constexpr const char* kSliding = "[initial]\ndisplacement = [{ nodes = \"block\", value = 0.85e-3 }]\n";
 
 /// SDND100: turning points 0.85 - 0.2 n mm, stopped for good at the fourth; each turn takes 0.2 mm off.
-TEST_P(FrictionMethods, a_sliding_block_stops_where_friction_holds_it) {
+TEST_P(FrictionMethods, ASlidingBlockStopsWhereFrictionHoldsIt) {
   SceneRun run(block(1.0, 1e4, "coefficient = 0.1, stick = \"rigid\"", 0.2, kSliding), {GetParam()});
   Sampler sampler(0, {pi / 100, 2 * pi / 100, 3 * pi / 100, 4 * pi / 100, 0.2});
   record::EnergyRecorder energy(run.dynamics());
@@ -59,7 +59,7 @@ TEST_P(FrictionMethods, a_sliding_block_stops_where_friction_holds_it) {
 }
 
 /// F3: the stick-slip oscillator on a belt, period 2 D/v + (2/w)(pi - atan(D w/v)) with D = (mu_s - mu_d) N/k.
-TEST_P(FrictionMethods, a_block_on_a_belt_sticks_and_slips_with_its_period) {
+TEST_P(FrictionMethods, ABlockOnABeltSticksAndSlipsWithItsPeriod) {
   const std::string friction = "coefficient = 0.3, static_coefficient = 0.4, stick = \"rigid\", surface_speed = 0.1";
   const double w = 10.0, d = 0.01, v = 0.1, slip = 2 / w * (pi - std::atan(d * w / v)), period = 2 * d / v + slip;
   EXPECT_NEAR(period, 0.6712388980, 1e-10);
@@ -76,7 +76,7 @@ TEST_P(FrictionMethods, a_block_on_a_belt_sticks_and_slips_with_its_period) {
 }
 
 /// F2 (SDND104): mean of N |v| over 4 ... 12 s of a block on a shaken floor, friction power over mu.
-TEST_P(FrictionMethods, a_shaken_block_has_the_wear_power_of_the_event_solution) {
+TEST_P(FrictionMethods, AShakenBlockHasTheWearPowerOfTheEventSolution) {
   for (const auto& [amplitude, power] :
        {std::pair(15.0, 15.267099589), {1.5, 0.40906245102}, {1.01, 2.261641213e-4}, {0.99, 0.0}}) {
     const std::string toml =
@@ -100,7 +100,7 @@ TEST_P(FrictionMethods, a_shaken_block_has_the_wear_power_of_the_event_solution)
 }
 
 /// F4: Den Hartog's amplitude of forced motion without stops, f = 0.3.
-TEST_P(FrictionMethods, forced_motion_has_den_hartogs_amplitude) {
+TEST_P(FrictionMethods, ForcedMotionHasDenHartogsAmplitude) {
   // At r = 0.5 the middle of the motion comes to 0 as 1/t alone, with rests below; half the way down is 4/3 to 1e-7 by
   // then, and does not depend on friction.
   for (const auto& [ratio, amplitude, tolerance] : {std::tuple(0.7, 1.8856998504, 1e-7),
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Exact, FrictionMethods,
                                          "integrator.type=exact"));
 
 /// F1 with regularised friction: the published bias of the turning points, of order 2 in slip_speed for tanh.
-TEST(RegularisedFriction, has_the_bias_of_its_smoothing) {
+TEST(RegularisedFriction, HasTheBiasOfItsSmoothing) {
   for (const auto& [smoothing, bias] : {std::pair("tanh", 6.0e-4), {"clip", 2.6e-4}}) {
     SceneRun run(block(1.0, 1e4, "coefficient = 0.1, slip_speed = 1e-3, smoothing = \"" + std::string(smoothing) + "\"",
                        0.13, kSliding));
@@ -142,7 +142,7 @@ TEST(RegularisedFriction, has_the_bias_of_its_smoothing) {
 }
 
 /// The slip speed falls through the range in which tanh is 1 to rounding, where its series sees no other side.
-TEST(RegularisedFriction, is_the_same_by_its_series_and_by_extrapolation) {
+TEST(RegularisedFriction, IsTheSameByItsSeriesAndByExtrapolation) {
   const std::string scene =
       block(1.0, 1e4, "coefficient = 0.1, slip_speed = 1e-4, smoothing = \"tanh\"", 0.2, kSliding);
   SceneRun series(scene, {"integrator.type=exact", "integrator.tolerance="}),
@@ -154,7 +154,7 @@ TEST(RegularisedFriction, is_the_same_by_its_series_and_by_extrapolation) {
 }
 
 /// The phases and anchors of contacts are part of a snapshot: a run taken up elsewhere ends with the same bits.
-TEST(StickSpring, remembers_across_a_restart) {
+TEST(StickSpring, RemembersAcrossARestart) {
   const std::string toml =
       block(1.0, 100.0, "coefficient = 0.3, static_coefficient = 0.4, stick_stiffness = 1e4, surface_speed = 0.1", 3.0,
             "[initial]\nvelocity = [{ nodes = \"block\", value = 0.1 }]\n");
@@ -170,7 +170,7 @@ TEST(StickSpring, remembers_across_a_restart) {
 }
 
 /// Jenkins: a spring k_t in series with a slider dissipates 4 mu N (A - mu N/k_t) in a cycle of amplitude A.
-TEST(StickSpring, dissipates_what_jenkins_element_does) {
+TEST(StickSpring, DissipatesWhatJenkinsElementDoes) {
   // A heavy mass on a stiff spring is moved with a given amplitude by its initial motion, friction hardly slows it.
   const double stiffness = 1e8, amplitude = 1e-3, limit = 1.0, stick = 5e3;
   const std::string toml = block(1.0, stiffness, "coefficient = 0.1, stick_stiffness = 5e3", 4 * pi / 1e4,
@@ -203,7 +203,7 @@ std::string spinning_disc(const std::string& rest, const std::string& friction) 
          rest;
 }
 
-TEST(SpinningDisc, rolls_with_a_third_of_its_speed) {
+TEST(SpinningDisc, RollsWithAThirdOfItsSpeed) {
   const double radius = 0.2, speed = 9.0;
   // Pressed with 20 N from the start: 2e3 N/m closed by 0.01 m.
   const std::string pressed = "{ nodes = \"disc\", dof = \"uz\", value = 0.01 }";
@@ -232,7 +232,7 @@ TEST(SpinningDisc, rolls_with_a_third_of_its_speed) {
 }
 
 /// F5: an oblique impact with slip throughout: v_n' = -e v_n, v_t' = v_t - mu (1 + e) v_n.
-TEST(ObliqueImpact, takes_the_tangential_impulse_of_slip) {
+TEST(ObliqueImpact, TakesTheTangentialImpulseOfSlip) {
   const auto after = [](double mu, double slide, const std::string& damping) {
     const std::string toml =
         "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\n"
@@ -260,7 +260,7 @@ TEST(ObliqueImpact, takes_the_tangential_impulse_of_slip) {
 
 /// A dashpot with pull = true presses nothing while it pulls: v_t' = v_t - mu (1 + e) v_n with the restitution e of a
 /// contact that ends at F = 0, although this one ends at g = 0.
-TEST(ObliqueImpact, does_not_rub_while_the_dashpot_pulls) {
+TEST(ObliqueImpact, DoesNotRubWhileTheDashpotPulls) {
   for (const char* method : {"dopri5", "extrapolation8", "rodas4", "exact"}) {
     SceneRun run(
         "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\n"
@@ -278,7 +278,7 @@ TEST(ObliqueImpact, does_not_rub_while_the_dashpot_pulls) {
 }
 
 /// A slip speed that the tolerance does not resolve is said with the values that would do; others are not.
-TEST(RegularisedFriction, tells_a_slip_speed_that_the_tolerance_does_not_resolve) {
+TEST(RegularisedFriction, TellsASlipSpeedThatTheToleranceDoesNotResolve) {
   SceneRun run(block(1.0, 1e4, "coefficient = 0.1, slip_speed = 1e-6", 0.02, kSliding));
   record::SlipWatch watch(run.dynamics());
   run.simulation().add(watch);

@@ -37,7 +37,7 @@ Outcome bounce(double mass, double speed, const std::string& contact, double end
 class ImpactMethods : public testing::TestWithParam<const char*> {};
 
 /// C1: m = 1, k = 1e4: the contact ends at F = 0 or, where it may pull, at g = 0.
-TEST_P(ImpactMethods, kelvin_and_voigts_dashpot_gives_its_restitution) {
+TEST_P(ImpactMethods, KelvinAndVoigtsDashpotGivesItsRestitution) {
   struct Row {
     double zeta, pulls, released;
   };
@@ -54,7 +54,7 @@ TEST_P(ImpactMethods, kelvin_and_voigts_dashpot_gives_its_restitution) {
   }
 }
 
-TEST_P(ImpactMethods, a_wanted_restitution_comes_out) {
+TEST_P(ImpactMethods, AWantedRestitutionComesOut) {
   for (const double e : {0.4, 0.8, 0.95}) {
     const std::string number = "restitution = " + std::to_string(e);
     const std::string law = "gap = 1e-3\nstiffness = 1e4\ndamping = { type = \"kelvin_voigt\", mass = 2.0, " + number;
@@ -64,7 +64,7 @@ TEST_P(ImpactMethods, a_wanted_restitution_comes_out) {
 }
 
 /// C2: s (1 + e) = ln((1 + s)/(1 - s e)) with s = a v_i, for any n, k and m.
-TEST_P(ImpactMethods, hunt_and_crossleys_law_gives_its_restitution) {
+TEST_P(ImpactMethods, HuntAndCrossleysLawGivesItsRestitution) {
   for (const auto& [s, e] : {std::pair(0.1, 0.937475579950), {0.5, 0.748434931597}, {2.0, 0.410719686061}})
     for (const char* law : {"law = \"hertz\"\nstiffness = 1e8\n", "stiffness = 1e5\n"}) {
       const std::string contact = std::string("gap = 1e-3\n") + law +
@@ -78,7 +78,7 @@ TEST_P(ImpactMethods, hunt_and_crossleys_law_gives_its_restitution) {
 }
 
 /// C3: a steel ball of 10 mm on steel at 1 m/s.
-TEST_P(ImpactMethods, hertz_law_has_the_duration_and_force_of_its_closed_form) {
+TEST_P(ImpactMethods, HertzLawHasTheDurationAndForceOfItsClosedForm) {
   const Outcome ball = bounce(0.0326725636, 1.0,
                               "gap = 1e-5\nlaw = \"hertz\"\nstiffness = 1.5384615385e10\n"
                               "damping = { type = \"hunt_crossley\", factor = 0.0 }\n",
@@ -89,7 +89,7 @@ TEST_P(ImpactMethods, hertz_law_has_the_duration_and_force_of_its_closed_form) {
 }
 
 /// C4: what Jankowski's approximate formula really gives.
-TEST_P(ImpactMethods, jankowskis_law_gives_the_restitution_that_the_message_states) {
+TEST_P(ImpactMethods, JankowskisLawGivesTheRestitutionThatTheMessageStates) {
   for (const auto& [wanted, real] : {std::pair(0.5, 0.4945878), {0.65, 0.6470290}, {0.8, 0.7989438}}) {
     const std::string contact =
         "gap = 1e-3\nlaw = \"hertz\"\nstiffness = 1e8\ndamping = { type = \"jankowski\", mass = 2.0, restitution = " +
@@ -99,7 +99,7 @@ TEST_P(ImpactMethods, jankowskis_law_gives_the_restitution_that_the_message_stat
 }
 
 /// The dashpot of jankowski has an infinite slope where the contact closes, which Rosenbrock's stages cannot follow.
-TEST(Jankowski, is_refused_by_rodas4_and_taken_by_auto) {
+TEST(Jankowski, IsRefusedByRodas4AndTakenByAuto) {
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[contact]]\ntype = \"stop\"\nnodes = "
       "\"ball\"\ngap = 1e-3\nlaw = \"hertz\"\nstiffness = 1e8\ndamping = { type = \"jankowski\", mass = 2.0, "
@@ -116,7 +116,7 @@ TEST(Jankowski, is_refused_by_rodas4_and_taken_by_auto) {
 
 /// The peak of normal_force in a summary is that between rows and steps, and equals the one in wear.csv: an elastic
 /// impact of m = 2 at k = 1e6 with 0.5 m/s has v sqrt(k m).
-TEST_P(ImpactMethods, the_peak_of_the_normal_force_is_found_between_rows) {
+TEST_P(ImpactMethods, ThePeakOfTheNormalForceIsFoundBetweenRows) {
   SceneRun run(
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\n"
       "node = \"ball\"\ndof = \"uz\"\nstiffness = 1e-9\n[[contact]]\ntype = \"ring\"\nnodes = \"ball\"\n"

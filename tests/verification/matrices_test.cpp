@@ -68,7 +68,7 @@ std::string run_of(const std::string& middle, const std::string& end) {
 }
 
 /// Half of a beam by its matrices, its first node that of an ordinary beam: modes and motion are those of the whole.
-TEST_F(MatricesOfABeam, are_joined_to_a_beam_at_a_shared_node) {
+TEST_F(MatricesOfABeam, AreJoinedToABeamAtASharedNode) {
   const std::string whole = kHead + beam("string", 10.0, 8) + run_of("string:6", "string:last");
   const std::string keys = exported(kHead + beam("half", 5.0, 4) +
                                     "[integrator]\ntype = \"newmark\"\ntime_step = "
@@ -91,7 +91,7 @@ TEST_F(MatricesOfABeam, are_joined_to_a_beam_at_a_shared_node) {
 }
 
 /// The rows may be named by a file, in any order that the matrices have, and the nodes be all its own.
-TEST_F(MatricesOfABeam, take_their_rows_from_a_file) {
+TEST_F(MatricesOfABeam, TakeTheirRowsFromAFile) {
   const std::string pinned = kHead + beam("string", 10.0, 8) +
                              "[[support]]\nnodes = [\"string:first\", \"string:last\"]\nfix = [\"u\"]\n" +
                              "[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 1e-3\n";
@@ -109,7 +109,7 @@ TEST_F(MatricesOfABeam, take_their_rows_from_a_file) {
 }
 
 /// A turning shaft by M, K and G: whirling modes and those with damping that turns are the shaft's.
-TEST_F(MatricesOfABeam, turn_with_their_gyroscopic_matrix) {
+TEST_F(MatricesOfABeam, TurnWithTheirGyroscopicMatrix) {
   const std::string disc =
       "[[element]]\ntype = \"disc\"\nnode = \"NAME:3\"\nmass = 10.0\ndiametral_inertia = "
       "0.2\npolar_inertia = 0.39\n";
@@ -188,7 +188,7 @@ class Membrane : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Membrane, has_the_frequencies_of_its_closed_form) {
+TEST_F(Membrane, HasTheFrequenciesOfItsClosedForm) {
   const std::string toml = scene("[integrator]\ntype = \"exact\"\nend_time = 1.0\n");
   std::vector<double> expected;
   for (int i = 1; i <= kRows; ++i)
@@ -214,7 +214,7 @@ TEST_F(Membrane, has_the_frequencies_of_its_closed_form) {
               sum(down_, false) * sum(along_, true) + sum(down_, true) * sum(along_, false), 1e-10);
 }
 
-TEST_F(Membrane, answers_a_step_of_force_as_its_closed_form) {
+TEST_F(Membrane, AnswersAStepOfForceAsItsClosedForm) {
   const int loaded = 40, seen = 71;
   const double end = 0.37;
   double expected = 0.0;
@@ -235,7 +235,7 @@ TEST_F(Membrane, answers_a_step_of_force_as_its_closed_form) {
 }
 
 /// C of a file comes beside [damping] and need not be symmetric.
-TEST_F(MatricesOfABeam, add_their_damping) {
+TEST_F(MatricesOfABeam, AddTheirDamping) {
   folder_.write("m.mtx", "%%MatrixMarket matrix array real symmetric\n2 2\n2.0\n0\n3.0\n");
   folder_.write("k.mtx", "%%MatrixMarket matrix array real symmetric\n2 2\n200.0\n-50\n300.0\n");
   folder_.write("c.mtx", "%%MatrixMarket matrix array real general\n2 2\n1.0\n0.25\n-0.5\n2.0\n");

@@ -106,7 +106,7 @@ class ModalDecay : public testing::TestWithParam<Decay> {
 /// Rounding of the projections on the modes, over some 50 000 steps.
 constexpr double kProjection = 1e-9;
 
-TEST_P(ModalDecay, follows_the_closed_form_in_every_mode_by_runge_kutta) {
+TEST_P(ModalDecay, FollowsTheClosedFormInEveryModeByRungeKutta) {
   const Vector q = end("rk4");
   // (w h)^4/120 of each radian: 1.3e-9 of 1000 rad in the highest mode.
   for (Index i = 0; i < 8; ++i) {
@@ -115,7 +115,7 @@ TEST_P(ModalDecay, follows_the_closed_form_in_every_mode_by_runge_kutta) {
   }
 }
 
-TEST_P(ModalDecay, follows_the_closed_form_in_every_mode_by_newmark) {
+TEST_P(ModalDecay, FollowsTheClosedFormInEveryModeByNewmark) {
   const Vector q = end("newmark");
   // (w h)^2/12 of each radian.
   for (Index i = 0; i < 8; ++i) {
@@ -214,7 +214,7 @@ class Watch final : public time::Observer {
   Index dof_;
 };
 
-TEST(Nafems5t, closed_forms_are_the_recomputed_numbers) {
+TEST(Nafems5t, ClosedFormsAreTheRecomputedNumbers) {
   EXPECT_NEAR(std::numbers::pi / (2 * kLength * kLength) * std::sqrt(kBending / kMassPerLength), 45.34498,
               kFrequencyPrinted);
   EXPECT_NEAR(5.0 * kLoad * std::pow(kLength, 4) / (384.0 * kBending), 0.488281e-3, kStaticPrinted);
@@ -222,7 +222,7 @@ TEST(Nafems5t, closed_forms_are_the_recomputed_numbers) {
   EXPECT_NEAR(largest_of_modal_sum().t, 0.01103, kPeakTimePrinted);
 }
 
-TEST(Nafems5t, lowest_frequency_of_the_mesh) {
+TEST(Nafems5t, LowestFrequencyOfTheMesh) {
   const SceneRun scene(kNafems);
   const auto modes = dynamics::lowest_modes(scene.system(), 1);
   ASSERT_TRUE(modes.has_value());
@@ -232,7 +232,7 @@ TEST(Nafems5t, lowest_frequency_of_the_mesh) {
 
 class Nafems : public testing::TestWithParam<const char*> {};
 
-TEST_P(Nafems, peak_and_its_time_are_those_of_the_modal_sum) {
+TEST_P(Nafems, PeakAndItsTimeAreThoseOfTheModalSum) {
   SceneRun scene(kNafems, {std::string("integrator.type=") + GetParam()});
   Watch middle(scene.dof("deep:middle"));
   record::EnergyRecorder energy(scene.dynamics());

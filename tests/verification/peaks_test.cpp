@@ -140,7 +140,7 @@ class PeaksOf : public testing::TestWithParam<MethodCase> {
   TemporaryFolder folder;
 };
 
-TEST_P(PeaksOf, oscillator_at_a_stop_are_those_of_its_energy_in_all_places) {
+TEST_P(PeaksOf, OscillatorAtAStopAreThoseOfItsEnergyInAllPlaces) {
   const std::string scene = integrator(GetParam(), "4.0") + kStop;
   const bool is_exact = GetParam().name == "exact";
   const Json summary = run(scene, closed_form_at_stop(), is_exact ? kSame : kMethod);
@@ -156,7 +156,7 @@ TEST_P(PeaksOf, oscillator_at_a_stop_are_those_of_its_energy_in_all_places) {
   }
 }
 
-TEST_P(PeaksOf, driven_oscillator_lie_between_rows_and_steps) {
+TEST_P(PeaksOf, DrivenOscillatorLieBetweenRowsAndSteps) {
   const bool is_exact = GetParam().name == "exact" || GetParam().name == "exponential";
   run(integrator(GetParam(), "8.0") + kDriven, closed_form_driven(8.0),
       is_exact                      ? 1e-8
@@ -167,7 +167,7 @@ TEST_P(PeaksOf, driven_oscillator_lie_between_rows_and_steps) {
 INSTANTIATE_TEST_SUITE_P(AllMethods, PeaksOf, testing::ValuesIn(method_cases()),
                          [](const auto& method) { return method.param.name; });
 
-TEST(PeaksOfTrust, hold_the_true_force_of_a_stop) {
+TEST(PeaksOfTrust, HoldTheTrueForceOfAStop) {
   TemporaryFolder folder;
   folder.write("scene.toml", "schema = 1\n[integrator]\ntype = \"exact\"\ntime_step = 1e-3\nend_time = 4.0\n" + kStop);
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "results", "--trust"}, folder.path()).status, 0);
@@ -180,7 +180,7 @@ TEST(PeaksOfTrust, hold_the_true_force_of_a_stop) {
 }
 
 /// Two stops on one node: their forces add up, and their sum is the largest where neither may be.
-TEST(PeaksOfSums, are_those_of_the_rows_of_a_fine_history) {
+TEST(PeaksOfSums, AreThoseOfTheRowsOfAFineHistory) {
   const std::string scene = R"(
 schema = 1
 [integrator]

@@ -11,7 +11,7 @@ namespace butee::test::planes_test {
 namespace {
 
 /// The same motion, whichever way a scene says it: along z of a lateral beam as along y of a planar one.
-TEST(Planes, are_alike) {
+TEST(Planes, AreAlike) {
   const auto run = [](const std::string& motion, const std::string& dof, DofKind kind) {
     const std::string fixed = dof == "u" ? "theta" : "ry", rest = motion == "planar" ? "" : ", \"u\", \"theta\"";
     SceneRun scene(steel_bar() +
@@ -34,7 +34,7 @@ TEST(Planes, are_alike) {
 
 /// Round beams have equal frequencies in both planes, whose modes must not mix: beside a stop in the plane that stays
 /// at rest rounding would be motion, and no step short enough for it.
-TEST(Planes, a_load_in_one_leaves_the_other_at_rest) {
+TEST(Planes, ALoadInOneLeavesTheOtherAtRest) {
   const std::string scene =
       steel_bar() + std::string(
                         "[section.round]\nshape = \"circle\"\nradius = 0.047\n[[element]]\ntype = \"beam\"\n"
@@ -54,7 +54,7 @@ TEST(Planes, a_load_in_one_leaves_the_other_at_rest) {
   EXPECT_NEAR(run("exponential"), wanted, 1e-3 * std::abs(wanted));
 }
 
-TEST(Planes, forces_that_would_be_incomplete_are_refused) {
+TEST(Planes, ForcesThatWouldBeIncompleteAreRefused) {
   const auto why = [](const std::string& toml, model::Quantity quantity, const std::string& node) {
     SceneRun run(toml);
     const model::NodeId id = run.model().nodes.select(node).nodes.front();

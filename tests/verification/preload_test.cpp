@@ -48,7 +48,7 @@ void expect_all(const std::vector<double>& found, const std::vector<double>& wan
 }
 
 /// Euler's cases, and the same elements in an independent program; the error falls as the fourth power of the mesh.
-TEST(Buckling, happens_at_eulers_loads) {
+TEST(Buckling, HappensAtEulersLoads) {
   const struct {
     std::string first, last;
     double exact, of_eight;
@@ -69,7 +69,7 @@ TEST(Buckling, happens_at_eulers_loads) {
   EXPECT_EQ(tied.model.elements.front()->preload(), std::vector<double>(8, 5.0));
 }
 
-TEST(Buckling, is_refused_with_the_critical_load) {
+TEST(Buckling, IsRefusedWithTheCriticalLoad) {
   const auto says = [](const std::string& scene) -> std::string {
     try {
       read_scene(scene);
@@ -90,7 +90,7 @@ TEST(Buckling, is_refused_with_the_critical_load) {
 }
 
 /// Published frequencies of SDLL101, and of the clamped bar by the exact equation.
-TEST(TiedBar, has_the_published_frequencies) {
+TEST(TiedBar, HasThePublishedFrequencies) {
   constexpr double kPrinted = 6e-5;
   // Published with 4 decimals; 80 elements are good to 1e-5 Hz of the third.
   expect_all(frequencies(bar("0.0", 80, kPinned, kPinned), 5), {4.9713, 19.8851, 44.7414, 79.5403, 124.2818}, 7e-4);
@@ -118,7 +118,7 @@ std::string hanging(const std::string& preload, const std::string& more = "") {
 const std::string kWeight = "[gravity]\nacceleration = [9.81, 0.0, 0.0]\n";
 
 /// The weight below each part is its tension, and the frequencies are those of a hanging chain, j_(0,n) sqrt(g/L)/2.
-TEST(Gravity, tightens_what_hangs) {
+TEST(Gravity, TightensWhatHangs) {
   SceneRun run(hanging("\"gravity\"", kWeight));
   const auto tension = run.model().elements.front()->preload();
   const double weight = 7800.0 * pi * 4e-6 * 9.81;
@@ -134,7 +134,7 @@ TEST(Gravity, tightens_what_hangs) {
   }
 }
 
-TEST(Gravity, is_refused_where_there_is_none) {
+TEST(Gravity, IsRefusedWhereThereIsNone) {
   const auto says = [](const std::string& scene) -> std::string {
     try {
       read_scene(scene);

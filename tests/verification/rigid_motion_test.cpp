@@ -70,7 +70,7 @@ class RigidMotion : public testing::TestWithParam<Method> {
   }
 };
 
-TEST_P(RigidMotion, a_uniform_force_moves_the_beam_without_bending_it) {
+TEST_P(RigidMotion, AUniformForceMovesTheBeamWithoutBendingIt) {
   constexpr double kLoad = 500.0;
   SceneRun scene(free_beam("type = \"distributed\"\nbeam = \"rod\"\nvalue = 500.0\n"), overrides());
   const RigidModes modes(scene);
@@ -82,7 +82,7 @@ TEST_P(RigidMotion, a_uniform_force_moves_the_beam_without_bending_it) {
   EXPECT_LE((state.v - speed * modes.shift).lpNorm<Eigen::Infinity>(), kRigid * speed);
 }
 
-TEST_P(RigidMotion, a_force_at_the_end_moves_the_centre_of_mass_and_turns_the_beam) {
+TEST_P(RigidMotion, AForceAtTheEndMovesTheCentreOfMassAndTurnsTheBeam) {
   constexpr double kForce = 300.0;
   SceneRun scene(free_beam("type = \"constant\"\nnode = \"rod:last\"\nvalue = 300.0\n"), overrides());
   const RigidModes modes(scene);

@@ -55,7 +55,7 @@ class RingMethods : public testing::TestWithParam<const char*> {};
 class StickMethods : public RingMethods {};
 
 /// S1: a forward rub of constant amplitude A, stable: it stays for 100 units of time.
-TEST_P(RingMethods, a_synchronous_rub_keeps_its_amplitude) {
+TEST_P(RingMethods, ASynchronousRubKeepsItsAmplitude) {
   struct Row {
     double mu, speed, amplitude;
   };
@@ -80,7 +80,7 @@ TEST_P(RingMethods, a_synchronous_rub_keeps_its_amplitude) {
 /// S1: the rub loses its stability by friction beyond mu_c (a Hopf bifurcation in the rotating frame): of runs that
 /// start a little off the closed form, those with less friction come back to it and those with more leave. Bisection to
 /// 1e-3.
-TEST(SynchronousRub, loses_its_stability_at_its_threshold) {
+TEST(SynchronousRub, LosesItsStabilityAtItsThreshold) {
   const double zeta = 0.05, b = 0.04, gap = 1.05;
   const auto amplitude = [&](double w, double mu) {
     // [(b + 1 - W^2) A - R0]^2 + [(2 z W + mu) A - mu R0]^2 = W^4, the larger root, which is the rub.
@@ -125,7 +125,7 @@ TEST(SynchronousRub, loses_its_stability_at_its_threshold) {
 }
 
 /// Frequencies with contacts closed hold rings, planes along their normal and stick springs.
-TEST(ClosedContacts, stiffen_the_structure) {
+TEST(ClosedContacts, StiffenTheStructure) {
   const auto highest = [](const std::string& contact) {
     SceneRun run("schema = 1\n" + body("m", 2.0, 100.0, 0.0) + contact +
                  "[integrator]\ntype = \"dopri5\"\nend_time = 1.0\n");
@@ -145,7 +145,7 @@ TEST(ClosedContacts, stiffen_the_structure) {
 
 /// S3: without unbalance, a start above the threshold of backward whirl ends in it, one below comes to rest. A wrong
 /// sense of friction lets both grow without bound.
-TEST_P(RingMethods, dry_whirl_has_its_threshold_and_its_end_state) {
+TEST_P(RingMethods, DryWhirlHasItsThresholdAndItsEndState) {
   const double w = 0.5701562119, a = 1.4686919071;
   for (const double factor : {1.05, 0.95}) {
     const Complex r = factor * a, v = Complex(0, -w) * r;
@@ -167,7 +167,7 @@ TEST_P(RingMethods, dry_whirl_has_its_threshold_and_its_end_state) {
 
 /// A stick spring that is carried around its ring three times and a half, unstressed at the start, pulls back with
 /// k_t gap times the whole angle.
-TEST_P(StickMethods, a_stick_spring_follows_around_the_ring) {
+TEST_P(StickMethods, AStickSpringFollowsAroundTheRing) {
   const double gap = 0.01, stick = 50.0, w = 7.0 * pi;  // 3.5 turns in 1 s
   // Pressed with about 200 N, far more than k_t gap 7 pi = 11 N at mu = 10.
   std::string toml = "schema = 1\n" + body("m", 1.0, 1e4, 50.0) +
@@ -199,7 +199,7 @@ TEST_P(StickMethods, a_stick_spring_follows_around_the_ring) {
 }
 
 /// A shaft's surface that turns by many circumferences of a narrow ring winds the stick spring of a body that it holds.
-TEST_P(StickMethods, a_turning_surface_winds_a_stick_spring) {
+TEST_P(StickMethods, ATurningSurfaceWindsAStickSpring) {
   // The surface goes 0.4 m, gap 2 pi is 6 mm; the force is 20 N of 100 N.
   const double stick = 50.0, path = 0.4;
   const std::string toml =
@@ -219,7 +219,7 @@ TEST_P(StickMethods, a_turning_surface_winds_a_stick_spring) {
 }
 
 /// S2: a rotor that rubs on an elastic stator, both bodies free to move, at four speeds.
-TEST_P(RingMethods, a_rotor_and_its_stator_whirl_together) {
+TEST_P(RingMethods, ARotorAndItsStatorWhirlTogether) {
   const double m = 10, k = 986960.4401, c = 125.6637061, ms = 5, ks = 2842446.0675, cs = 376.9911184, kc = 2e6,
                gap = 2e-4, mu = 0.1, e = 1e-4;
   struct Row {

@@ -21,7 +21,7 @@ std::vector<double> speeds_of(const std::vector<dynamics::CriticalSpeed>& found)
 }
 
 /// Friswell's examples 5.9.4, cross stiffness of 5e5 N/m, and the critical speeds of 5.9.9.
-TEST(FriswellsOthers, cross_coupled_bearings_and_critical_speeds_of_the_overhung_disc) {
+TEST(FriswellsOthers, CrossCoupledBearingsAndCriticalSpeedsOfTheOverhungDisc) {
   const auto cross = [](const std::string& at) {
     return "[[element]]\ntype = \"bearing\"\nnode = \"shaft" + at + "\"\nstiffness = [[1e6, 5e5], [5e5, 1e6]]\n";
   };
@@ -51,7 +51,7 @@ class ThreeDiscs : public testing::Test {
   }
 };
 
-TEST_F(ThreeDiscs, has_its_modes_at_rest_and_published_ones) {
+TEST_F(ThreeDiscs, HasItsModesAtRestAndPublishedOnes) {
   SceneRun run(rotor("timoshenko", 1.0));
   const dynamics::Whirl whirl(run.model());
   const auto rest = whirl.modes(0.0, 6);
@@ -66,7 +66,7 @@ TEST_F(ThreeDiscs, has_its_modes_at_rest_and_published_ones) {
              2e-8);
 }
 
-TEST_F(ThreeDiscs, has_its_undamped_critical_speeds) {
+TEST_F(ThreeDiscs, HasItsUndampedCriticalSpeeds) {
   SceneRun run(rotor("timoshenko", 0.0));
   expect_all(speeds_of(dynamics::Whirl(run.model()).critical_speeds(0.0, 2900.0, 30, 1.0, 16)),
              {3620.359, 3798.069, 10016.900, 11278.247, 16768.908, 24398.844, 26602.668}, kRpm, 2e-7);
@@ -74,7 +74,7 @@ TEST_F(ThreeDiscs, has_its_undamped_critical_speeds) {
 
 /// The example rotor of ROSS at 500 rpm, consistent matrices and masses lumped at seven stations, as the commercial
 /// program RAPPID has them: from the fifth mode on they differ by 8 to 13 %.
-TEST(RossExample, has_the_modes_of_consistent_and_of_lumped_masses) {
+TEST(RossExample, HasTheModesOfConsistentAndOfLumpedMasses) {
   const double mass = 32.58972765, diametral = 0.1780892826, polar = 0.3295636209;
   const std::string rest = disc("@0.5", mass, diametral, polar) + disc("@1.0", mass, diametral, polar) +
                            bearing(":first", 1e6, 8e5) + bearing(":last", 1e6, 8e5);
@@ -98,7 +98,7 @@ TEST(RossExample, has_the_modes_of_consistent_and_of_lumped_masses) {
 }
 
 /// (rho A -+ rho I b^2) W^2 = E I b^4: where a pinned shaft with rotary inertia turns as fast as it whirls.
-TEST(RayleighShaft, has_the_exact_critical_speeds_of_rayleigh) {
+TEST(RayleighShaft, HasTheExactCriticalSpeedsOfRayleigh) {
   const auto mesh = [](int elements) {
     SceneRun run(steel("rayleigh", elements, 1.0, 0.05, "young_modulus = 2.1e11\ndensity = 7800.0") +
                  "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
@@ -121,7 +121,7 @@ TEST(RayleighShaft, has_the_exact_critical_speeds_of_rayleigh) {
 }
 
 /// An overhung disc on a cantilever without mass: every speed of the table, forward whirl goes up.
-TEST(OverhungDisc, one_element_is_exact_at_every_speed) {
+TEST(OverhungDisc, OneElementIsExactAtEverySpeed) {
   SceneRun run(steel("euler", 1, 0.5, 0.01, "young_modulus = 2e11\ndensity = 1e-9") + disc(":last", 10, 0.05, 0.1) +
                "[[support]]\nnodes = \"shaft:first\"\nfix = [\"uy\", \"uz\", \"ry\", \"rz\"]\n" + turning(1.0));
   const dynamics::Whirl whirl(run.model());

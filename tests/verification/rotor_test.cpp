@@ -38,7 +38,7 @@ class Friswell : public testing::Test {
   }
 };
 
-TEST_F(Friswell, isotropic_bearings) {
+TEST_F(Friswell, IsotropicBearings) {
   const std::string timoshenko = scene("timoshenko", two_discs(1e6)), euler = scene("euler", two_discs(1e6));
   expect_all(at(timoshenko, 0, 6), {86.658114, 86.658114, 274.312854, 274.312854, 716.786312, 716.786312}, 1, kPrinted);
   // A wrong sense of the shaft's gyroscopic matrix beside the discs' is 3e-4 off.
@@ -47,7 +47,7 @@ TEST_F(Friswell, isotropic_bearings) {
   expect_all(at(euler, 4000, 6), {85.460304, 87.840900, 252.215047, 295.237007, 601.248663, 827.702816}, 1, kPrinted);
 }
 
-TEST_F(Friswell, orthotropic_and_damped_bearings) {
+TEST_F(Friswell, OrthotropicAndDampedBearings) {
   expect_all(at(scene("timoshenko", two_discs(8e5)), 4000, 5),
              {82.325474, 86.863699, 239.642284, 287.249581, 583.487829}, 1, kPrinted);
   expect_all(at(scene("timoshenko", two_discs(2e5)), 4000, 6),
@@ -59,7 +59,7 @@ TEST_F(Friswell, orthotropic_and_damped_bearings) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(modes[i].damping_ratio(), ratios[i], 6e-7);
 }
 
-TEST_F(Friswell, overhung_disc) {
+TEST_F(Friswell, OverhungDisc) {
   const std::string rest =
       disc("@1.5", 51.52526111, 0.4235805841, 0.8050822049) + bearing("@0.0", 1e7, 1e7) + bearing("@1.0", 1e7, 1e7);
   expect_all(at(scene("timoshenko", rest), 4000, 6),
@@ -67,7 +67,7 @@ TEST_F(Friswell, overhung_disc) {
   expect_all(at(scene("euler", rest), 0, 5), {90.250349, 90.250349, 632.456179, 632.456179, 832.184374}, 1, kPrinted);
 }
 
-TEST_F(Friswell, critical_speeds) {
+TEST_F(Friswell, CriticalSpeeds) {
   SceneRun run(scene("timoshenko", two_discs(1e6)));
   const auto found = dynamics::Whirl(run.model()).critical_speeds(0.0, 350.0, 10, 1.0, 10);
   std::vector<double> speeds;
@@ -80,7 +80,7 @@ TEST_F(Friswell, critical_speeds) {
 
 /// Damping that makes most modes overdamped: the two equal modes of a disc in the middle of its shaft, which does not
 /// tilt, meet the speed once each, at w sqrt(1 - zeta^2), and no other mode does.
-TEST(OverdampedShaft, has_two_critical_speeds) {
+TEST(OverdampedShaft, HasTwoCriticalSpeeds) {
   SceneRun run(R"(
 schema = 1
 [material.steel]
@@ -124,7 +124,7 @@ end_time = 1.0
 
 /// M. Lalanne, G. Ferraris, Rotordynamics Prediction in Engineering, 1998: the rotor with three discs, code_aster's
 /// SDLL124. Digits of an independent program with the same elements.
-TEST(LalanneFerraris, modes_at_speed) {
+TEST(LalanneFerraris, ModesAtSpeed) {
   const std::string scene =
       steel("timoshenko", 13, 1.3, 0.05, "young_modulus = 2e11\ndensity = 7800.0\npoisson_ratio = 0.3") +
       disc("@0.2", 14.58013, .06463858, .1232021) + disc("@0.5", 45.94579, .4977461, .9763481) +
@@ -138,7 +138,7 @@ TEST(LalanneFerraris, modes_at_speed) {
 }
 
 /// A spinning pinned shaft with rotary inertia: (rho A + rho I b^2) w^2 -+ 2 rho I b^2 W w - E I b^4 = 0, b = n pi/L.
-TEST(PinnedShaft, converges_with_order_4_to_the_rayleigh_beam) {
+TEST(PinnedShaft, ConvergesWithOrder4ToTheRayleighBeam) {
   constexpr double kSpeed = 30000 * kRpm, kLength = 1.0, kRadius = 0.05, kE = 2.1e11, kRho = 7800.0;
   constexpr double kArea = pi * kRadius * kRadius, kMoment = kArea * kRadius * kRadius / 4, b = pi / kLength;
   constexpr double m = kRho * kArea + kRho * kMoment * b * b, g = kRho * kMoment * b * b * kSpeed;
@@ -157,7 +157,7 @@ TEST(PinnedShaft, converges_with_order_4_to_the_rayleigh_beam) {
 }
 
 /// Beyond Whirl::kDense DOFs Arnoldi's method finds the same modes.
-TEST(PinnedShaft, has_the_same_modes_by_arnoldi) {
+TEST(PinnedShaft, HasTheSameModesByArnoldi) {
   SceneRun run(steel("rayleigh", 120, 1.0, 0.05, "young_modulus = 2.1e11\ndensity = 7800.0") +
                "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
   const dynamics::Whirl whirl(run.model());
@@ -168,7 +168,7 @@ TEST(PinnedShaft, has_the_same_modes_by_arnoldi) {
 }
 
 /// An overhung disc on a cantilever without mass: (K11 - m w^2)(K22 - I_d w^2 + I_p W w) = K12^2; one element is exact.
-TEST(OverhungDisc, one_element_is_exact) {
+TEST(OverhungDisc, OneElementIsExact) {
   SceneRun run(steel("euler", 1, 0.5, 0.01, "young_modulus = 2e11\ndensity = 1e-9") + disc(":last", 10, 0.05, 0.1) +
                "[[support]]\nnodes = \"shaft:first\"\nfix = [\"uy\", \"uz\", \"ry\", \"rz\"]\n" + turning(1.0));
   const dynamics::Whirl whirl(run.model());
@@ -177,7 +177,7 @@ TEST(OverhungDisc, one_element_is_exact) {
 }
 
 /// A mass on springs with damping at rest c_e and turning c_i: unstable from W = w0 (1 + c_e/c_i) on.
-TEST(InternalDamping, is_unstable_from_its_threshold_on) {
+TEST(InternalDamping, IsUnstableFromItsThresholdOn) {
   constexpr const char* kScene = R"(
 schema = 1
 [[element]]
@@ -224,7 +224,7 @@ end_time = 1.0
 
 /// Modal damping of a shaft that turns is that of the modes at rest: free motion is a sum of the damped modes that
 /// Whirl finds, those of the start by least squares.
-TEST(ModalDamping, of_a_turning_shaft_is_that_of_the_modes_at_rest) {
+TEST(ModalDamping, OfATurningShaftIsThatOfTheModesAtRest) {
   const std::string shaft = steel("rayleigh", 4, 1.0, 0.02, "young_modulus = 2.1e11\ndensity = 7800.0") +
                             disc(":1", 10.0, 0.2, 0.39) +
                             "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"u\", \"w\"]\n"
@@ -277,7 +277,7 @@ end_time = 1.0
 )";
 
 /// A bearing with cross terms: lambda^2 + 20 lambda + 1e4 -+ 3e3 i = 0, one mode unstable.
-TEST(CrossCoupling, has_the_modes_of_the_whole_matrix) {
+TEST(CrossCoupling, HasTheModesOfTheWholeMatrix) {
   SceneRun run(kCrossCoupled);
   EXPECT_FALSE(run.system().stiffness_is_symmetric);
   const auto modes = dynamics::Whirl(run.model()).modes(0.0, 4);
@@ -293,7 +293,7 @@ TEST(CrossCoupling, has_the_modes_of_the_whole_matrix) {
   EXPECT_NEAR(range->highest, 100.0, 1e-9);
 }
 
-TEST(CrossCoupling, moves_a_static_position_across_the_force) {
+TEST(CrossCoupling, MovesAStaticPositionAcrossTheForce) {
   SceneRun run(kCrossCoupled + std::string("[[load]]\ntype = \"constant\"\nnode = \"rotor\"\nvalue = 100.0\n"));
   const Vector x = dynamics::static_position(run.dynamics(), 0.0, Vector::Zero(2));
   EXPECT_NEAR(x[0], 100.0 * 1e4 / 1.09e8, 1e-15);
@@ -301,7 +301,7 @@ TEST(CrossCoupling, moves_a_static_position_across_the_force) {
 }
 
 /// `auto` holds what does not move yet of a long shaft, gyroscopic forces included.
-TEST(LongShaft, gets_the_same_answer_from_the_part_that_moves) {
+TEST(LongShaft, GetsTheSameAnswerFromThePartThatMoves) {
   const std::string scene = steel("rayleigh", 240, 6.0, 0.025, "young_modulus = 2.1e11\ndensity = 7800.0") +
                             "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"u\", \"w\"]\n"
                             "[damping]\nstiffness_proportional = 1e-6\n[rotation]\nspeed = 800.0\n"

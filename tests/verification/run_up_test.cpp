@@ -54,7 +54,7 @@ constexpr double kPeak = 12.1674717e-4, kPeakOfFast = 7.5681051e-4;  // m
 constexpr double kRunUp = 1e-7;
 
 /// By the Faddeeva function.
-TEST_P(RunUp, passes_the_resonance) {
+TEST_P(RunUp, PassesTheResonance) {
   const auto slow = radius(5.0, {1.0, 2.0, 2.2, 2.5, 3.0});
   const double of_slow[] = {3.3051780460e-5, 5.7474092598e-4, 1.0184387964e-3, 8.1198775103e-4, 5.4410342818e-4};
   for (std::size_t i = 0; i < slow.size(); ++i) EXPECT_NEAR(slow[i], of_slow[i], kRunUp * kPeak) << i;
@@ -63,7 +63,7 @@ TEST_P(RunUp, passes_the_resonance) {
   for (std::size_t i = 0; i < fast.size(); ++i) EXPECT_NEAR(fast[i], of_fast[i], kRunUp * kPeakOfFast) << i;
 }
 
-TEST_P(RunUp, has_its_peak_after_the_resonance) {
+TEST_P(RunUp, HasItsPeakAfterTheResonance) {
   for (const auto& [rate, peak, t] : {std::tuple(5.0, kPeak, 2.3427577), {20.0, kPeakOfFast, 0.6841809}}) {
     const auto times = around(t), found = radius(rate, times);
     const auto top = std::max_element(found.begin(), found.end());
@@ -85,7 +85,7 @@ std::string gyroscopic_run_up() {
 
 /// The equations of motion hold at the end of a long implicit step, at whatever speed the matrices were factorized
 /// before.
-TEST(RunUp, effective_equations_are_those_of_their_instant) {
+TEST(RunUp, EffectiveEquationsAreThoseOfTheirInstant) {
   SceneRun run(gyroscopic_run_up(), {"integrator.type=rodas4"});
   dynamics::Dynamics& dynamics = run.dynamics();
   const Index n = dynamics.size();
@@ -103,7 +103,7 @@ TEST(RunUp, effective_equations_are_those_of_their_instant) {
 
 /// With gyroscopic moments a run-up adds Omega' G to K, and rotating damping Omega W: methods of different families
 /// agree, and the energy balance holds with the work of the drive.
-TEST(RunUp, of_a_gyroscopic_shaft_agrees_between_methods) {
+TEST(RunUp, OfAGyroscopicShaftAgreesBetweenMethods) {
   const std::string scene = gyroscopic_run_up();
   std::vector<std::vector<double>> ends;
   for (const char* method : {"rodas4", "dopri5", "extrapolation8"}) {

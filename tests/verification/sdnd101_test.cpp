@@ -55,7 +55,7 @@ max_iterations      = 20
 
 class Sdnd101 : public testing::TestWithParam<std::pair<const char*, double>> {};
 
-TEST_P(Sdnd101, contacts_forces_and_peaks_are_the_published_ones) {
+TEST_P(Sdnd101, ContactsForcesAndPeaksAreThePublishedOnes) {
   const auto [method, tolerance] = GetParam();
   SceneRun scene(kScene, {std::string("integrator.type=") + method});
   record::ImpactRecorder recorder(scene.dynamics());
@@ -83,7 +83,7 @@ TEST_P(Sdnd101, contacts_forces_and_peaks_are_the_published_ones) {
   EXPECT_NEAR(impacts[1].t_in, std::numbers::pi * (1 / w0 + 1 / w1), tolerance);
 }
 
-TEST(Sdnd101File, impacts_csv_holds_the_published_numbers) {
+TEST(Sdnd101File, ImpactsCsvHoldsThePublishedNumbers) {
   const TemporaryFolder folder;
   folder.write("scene.toml", std::string(kScene) + "\n[output]\nimpacts = true\n");
   const Outcome outcome = run_program({"run", "scene.toml", "-o", "out"}, folder.path());

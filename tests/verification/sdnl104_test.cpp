@@ -56,7 +56,7 @@ increment_tolerance = 1.0e-10
 max_iterations      = 20
 )";
 
-TEST(Sdnl104, tip_and_kinetic_energy_are_those_of_the_same_scheme) {
+TEST(Sdnl104, TipAndKineticEnergyAreThoseOfTheSameScheme) {
   SceneRun scene(kScene);
   Sampler tip(scene.dof("arm:last"), {0.1315, 0.1566});
   scene.simulation().add(tip);

@@ -16,7 +16,7 @@ struct Mistake {
 
 class SpaceFaults : public testing::TestWithParam<Mistake> {};
 
-TEST_P(SpaceFaults, is_said_with_its_remedy) {
+TEST_P(SpaceFaults, IsSaidWithItsRemedy) {
   try {
     read_scene(GetParam().scene);
     FAIL() << "was read";

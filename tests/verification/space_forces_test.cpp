@@ -65,7 +65,7 @@ class Static {
 
 /// A cantilever along any direction under three forces and a moment at its tip: N, V, T and M of statics in its own
 /// axes, reactions in those of space.
-TEST(Cantilever, has_the_section_forces_of_statics) {
+TEST(Cantilever, HasTheSectionForcesOfStatics) {
   const Eigen::Vector3d x = Eigen::Vector3d(1.0, 2.0, -2.0) / 3.0, z = x.cross(Eigen::Vector3d(0, 1, 0)).normalized();
   const Eigen::Vector3d y = z.cross(x), force(300.0, -500.0, 700.0), moment(40.0, 50.0, -60.0);
   Static scene(kHead +
@@ -104,7 +104,7 @@ TEST(Cantilever, has_the_section_forces_of_statics) {
 }
 
 /// Two spans of 2 m under their weight along z: 3/8, 10/8 and 3/8 of q L, -q L^2/8 over the middle support.
-TEST(TwoSpans, carry_their_weight) {
+TEST(TwoSpans, CarryTheirWeight) {
   Static scene(kHead + std::string("[[element]]\ntype = \"beam\"\nname = \"bar\"\nmotion = \"lateral\"\nmaterial = "
                                    "\"steel\"\nsection = \"pipe\"\nlength = 4.0\nelements = 8\n[[support]]\nnodes = "
                                    "[\"bar:first\", \"bar:middle\", \"bar:last\"]\nfix = [\"u\", \"w\"]\n[gravity]\n"
@@ -123,7 +123,7 @@ TEST(TwoSpans, carry_their_weight) {
 }
 
 /// code_aster's bar under its weight: reactions q L/2, whatever the tension.
-TEST(TiedBar, hangs_on_its_supports) {
+TEST(TiedBar, HangsOnItsSupports) {
   for (const char* preload : {"0.0", "1000.0"}) {
     Static scene(std::string("schema = 1\n[material.steel]\nyoung_modulus = 2e11\ndensity = 7800.0\n[section.round]\n"
                              "shape = \"circle\"\nradius = 0.005\n[integrator]\ntype = \"newmark\"\ntime_step = "
@@ -142,7 +142,7 @@ TEST(TiedBar, hangs_on_its_supports) {
 
 /// A turning shaft with discs, bearings with cross terms, internal damping, weight and a base that moves, in a run-up:
 /// at every instant forces and rates of momentum balance, of the whole and of each disc with its gyroscopic moment.
-TEST(TurningShaft, balances_at_every_instant) {
+TEST(TurningShaft, BalancesAtEveryInstant) {
   const std::string scene = kHead + std::string(R"(
 [[element]]
 type = "beam"
@@ -251,7 +251,7 @@ rotating_stiffness_proportional = 2e-5
 }
 
 /// Where supports move, a reaction carries the stiffness and inertia of what is fixed to them.
-TEST(MovedSupport, pulls_at_what_it_moves) {
+TEST(MovedSupport, PullsAtWhatItMoves) {
   SceneRun run(
       std::string("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = "
                   "\"mass\"\nname = \"foot\"\nmass = 0.5\n[[element]]\ntype = \"spring\"\nnodes = [\"m\", "

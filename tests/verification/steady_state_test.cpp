@@ -53,7 +53,7 @@ struct SteadyState {
 
 class SteadyVibration : public testing::TestWithParam<Method> {};
 
-TEST_P(SteadyVibration, has_the_amplitude_and_the_phase_of_the_closed_form) {
+TEST_P(SteadyVibration, HasTheAmplitudeAndThePhaseOfTheClosedForm) {
   SceneRun scene(kScene, GetParam().overrides());
   std::vector<double> times;
   for (int i = 0; i <= 400; ++i) times.push_back(6.0 + 0.005 * i);

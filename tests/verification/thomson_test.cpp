@@ -43,7 +43,7 @@ time_step = 2.0e-6
 end_time  = 0.12
 )";
 
-TEST(Thomson, ball_on_a_spring) {
+TEST(Thomson, BallOnASpring) {
   SceneRun scene(kScene);
   record::ImpactRecorder recorder(scene.dynamics());
   TurningPoints peaks(scene.dof("ball"));

@@ -38,12 +38,12 @@ preload = )" +
 }
 
 /// code_aster's SDLL101: f_n = n^2 pi/(2 L^2) sqrt(E I/m) sqrt(1 + P L^2/(n^2 pi^2 E I)).
-TEST(TiedBar, stiffens_with_tension) {
+TEST(TiedBar, StiffensWithTension) {
   expect_all(frequencies(tied_bar(1000.0, 20), 5), {11.2577073, 28.3462835, 54.0382821, 89.2209917, 134.1811141}, 5e-9);
   expect_all(frequencies(tied_bar(-100.0, 80), 3), {3.809372, 18.831035, 43.703291}, 5e-7);
 }
 
-TEST(TiedBar, sags_under_gravity) {
+TEST(TiedBar, SagsUnderGravity) {
   const auto sag = [](double preload) {
     SceneRun run(tied_bar(preload, 40, "[gravity]\nacceleration = [0.0, -9.81, 0.0]\n"));
     Vector force(run.system().size());
@@ -58,7 +58,7 @@ TEST(TiedBar, sags_under_gravity) {
 }
 
 /// Started in its static position on a stop, a bar stays there; the stop carries what the sag beyond it asks for.
-TEST(TiedBar, rests_where_gravity_and_a_stop_hold_it) {
+TEST(TiedBar, RestsWhereGravityAndAStopHoldIt) {
   const std::string stop =
       "[[contact]]\ntype = \"stop\"\nnodes = \"bar:middle\"\ngap = 0.005\nlaw = \"linear\"\nstiffness = 1e4\n";
   SceneRun run(tied_bar(0.0, 20, "[gravity]\nacceleration = [0.0, -9.81, 0.0]\nstatic = true\n" + stop));
@@ -73,7 +73,7 @@ TEST(TiedBar, rests_where_gravity_and_a_stop_hold_it) {
 }
 
 /// A base that accelerates is a force -M r a: of one mass the closed form.
-TEST(Base, accelerates_every_mass) {
+TEST(Base, AcceleratesEveryMass) {
   SceneRun run(R"(
 schema = 1
 [[element]]

@@ -60,7 +60,7 @@ increment_tolerance = 1.0e-10
 max_iterations      = 20
 )";
 
-TEST(TwoStops, closed_form_is_the_recomputed_number) {
+TEST(TwoStops, ClosedFormIsTheRecomputedNumber) {
   EXPECT_NEAR(closed_form_period(), 0.1054996060, 5e-11);  // Half a unit in its last digit.
 }
 
@@ -82,16 +82,16 @@ void expect_period(const std::vector<std::string>& overrides, double period_tole
   EXPECT_NEAR(energy / kTotalEnergy, 1.0, energy_tolerance);
 }
 
-TEST(TwoStops, runge_kutta_keeps_the_period) {
+TEST(TwoStops, RungeKuttaKeepsThePeriod) {
   expect_period({}, kFixedSteps, kFixedSteps);
 }
 
-TEST(TwoStops, runge_kutta_with_small_steps_at_the_kinks_meets_the_closed_form) {
+TEST(TwoStops, RungeKuttaWithSmallStepsAtTheKinksMeetsTheClosedForm) {
   expect_period({"integrator.type=rk4_error_scaled", "integrator.tolerance=1e-13", "integrator.safety=0.9"}, kAdaptive,
                 kAdaptive);
 }
 
-TEST(TwoStops, newmark_keeps_the_period) {
+TEST(TwoStops, NewmarkKeepsThePeriod) {
   expect_period({"integrator.type=newmark", "integrator.time_step=1e-5"}, kNewmark, kNewmarkEnergy);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A pipe that turns, strikes rings all along and rubs: methods of three families agree, the tighter the better, and
 /// the energy balance closes.
-TEST(WhirlingPipe, is_the_same_for_methods_of_different_families) {
+TEST(WhirlingPipe, IsTheSameForMethodsOfDifferentFamilies) {
   const std::string toml = TurningPipe{"string", "lateral", "35.0", 10, "0.01", "0.01", "3.0"}.scene(R"(
 [damping]
 mass_proportional = 0.03
@@ -39,7 +39,7 @@ end_time = 0.3
 
 /// A string in space that is driven at its upper end: rubbing along its rings sets off torsion. Series,
 /// Rosenbrock's method, an explicit one and collocation of damped modes agree in the torsion.
-TEST(WhirlingPipe, is_twisted_by_friction) {
+TEST(WhirlingPipe, IsTwistedByFriction) {
   const std::string toml = TurningPipe{"string", "spatial", "35.0", 4, "0.01", "0.01", "3.0"}.scene(R"(
 [[support]]
 nodes = "string:first"

@@ -89,8 +89,8 @@ class Adviser {
     double pull = 0.0, smallest_gap = std::numeric_limits<double>::infinity();
     bool at_rest = false;
     for (const auto& stops : system_.stops) {
-      if (stops.law->far_force() == 0.0) continue;
-      pull = std::max(pull, stops.law->far_force());
+      if (stops.law->asymptotic_force() == 0.0) continue;
+      pull = std::max(pull, stops.law->asymptotic_force());
       smallest_gap = std::min(smallest_gap, stops.gap);
       for (std::size_t i = 0; i < stops.size() && stops.sides == model::Sides::both; ++i) {
         const double ua = stops.a[i] >= 0 ? system_.initial_displacement[stops.a[i]] : 0.0;

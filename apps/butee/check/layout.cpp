@@ -160,12 +160,12 @@ std::string describe(const model::TimeFunction& function, double weight, const c
     return to_short_text(weight * harmonic->amplitude) + " " + unit + " at " +
            to_short_text(harmonic->angular_frequency / 6.283185307179586) + " Hz";
   double largest = std::abs(function.value(0.0));
-  const std::vector<double> kinks = function.kinks();
-  for (const double t : kinks) largest = std::max(largest, std::abs(function.value(t)));
+  const std::vector<double> instants = function.discontinuities();
+  for (const double t : instants) largest = std::max(largest, std::abs(function.value(t)));
   const bool constant =
-      kinks.empty() && function.value(0.0) == function.value(1.0) && function.value(0.0) == function.value(17.3);
+      instants.empty() && function.value(0.0) == function.value(1.0) && function.value(0.0) == function.value(17.3);
   if (constant) return to_short_text(weight * function.value(0.0)) + " " + unit;
-  return (kinks.empty() ? "a force in " : "up to " + to_short_text(std::abs(weight) * largest) + " ") + unit +
+  return (instants.empty() ? "a force in " : "up to " + to_short_text(std::abs(weight) * largest) + " ") + unit +
          ", changing in time";
 }
 

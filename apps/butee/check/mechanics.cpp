@@ -74,7 +74,7 @@ Vector pattern(const model::FreeLoad& load, Index size) {
 double lasting_part(const model::TimeFunction& function, double end_time) {
   if (const auto harmonic = function.harmonic(); harmonic && harmonic->angular_frequency > 0.0) return 0.0;
   const double middle = 0.5 * end_time;
-  std::vector<double> instants = function.kinks();
+  std::vector<double> instants = function.discontinuities();
   std::erase_if(instants, [&](double t) { return !(t > middle && t < end_time); });
   for (int i = 0; i <= kInstants; ++i) instants.push_back(middle + (end_time - middle) * i / kInstants);
   std::sort(instants.begin(), instants.end());
@@ -147,8 +147,8 @@ std::optional<double> pull_displacement(const model::System& system) {
   Vector force = Vector::Zero(system.size());
   for (const auto& stops : system.stops)
     for (std::size_t i = 0; i < stops.size(); ++i) {
-      if (stops.a[i] >= 0) force[stops.a[i]] += stops.law->far_force();
-      if (stops.b[i] >= 0) force[stops.b[i]] -= stops.law->far_force();
+      if (stops.a[i] >= 0) force[stops.a[i]] += stops.law->asymptotic_force();
+      if (stops.b[i] >= 0) force[stops.b[i]] -= stops.law->asymptotic_force();
     }
   const Factor factor(system.stiffness);
   if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0.0) return std::nullopt;

@@ -24,7 +24,7 @@ struct Question {
 /// The question of a scene: these columns of its history, or the first one where none are named. Throws InputError.
 Question question_of(const scene::Scene& session, const std::vector<std::string>& columns);
 
-/// Courses of the columns at the times of a question: values[column][instant].
+/// Histories of the columns at the times of a question: values[column][instant].
 using Values = std::vector<std::vector<double>>;
 
 /// What a run answered.

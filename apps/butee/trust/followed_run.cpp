@@ -39,8 +39,8 @@ class Follower final : public time::Observer {
  public:
   Follower(const scene::Scene& session, dynamics::Dynamics& dynamics, FollowedRun& to, bool with_states)
       : probes_(displacement_probes(session), dynamics), to_(to), row_(probes_.columns().size()) {
-    to_.courses.values.resize(row_.size());
-    to_.courses.times = compared_times(session);
+    to_.histories.values.resize(row_.size());
+    to_.histories.times = compared_times(session);
     if (!with_states) return;
     to_.state_times = state_times(session, dynamics.size());
     to_.x.resize(dynamics.size(), static_cast<Index>(to_.state_times.size()));
@@ -59,7 +59,7 @@ class Follower final : public time::Observer {
   }
 
   void step(const time::AcceptedStep& step) override {
-    const std::vector<double>& times = to_.courses.times;
+    const std::vector<double>& times = to_.histories.times;
     while (next_row_ < times.size() && times[next_row_] <= step.to.t) {
       probes_.evaluate(step, times[next_row_], row_);
       take_row();
@@ -77,7 +77,7 @@ class Follower final : public time::Observer {
 
  private:
   void take_row() {
-    for (std::size_t i = 0; i < row_.size(); ++i) to_.courses.values[i].push_back(row_[i]);
+    for (std::size_t i = 0; i < row_.size(); ++i) to_.histories.values[i].push_back(row_[i]);
     ++next_row_;
   }
 
@@ -115,10 +115,10 @@ void sum_up(const scene::Scene& session, dynamics::Dynamics& dynamics, const std
             FollowedRun& run) {
   for (std::size_t i = 0; i < session.output.probes.size(); ++i) {
     double squares = 0.0;
-    for (const double u : run.courses.values[i]) squares += u * u;
+    for (const double u : run.histories.values[i]) squares += u * u;
     const std::string name = session.output.probes[i].label + ".u";
     run.numbers.push_back(
-        {"rms of " + name, std::sqrt(squares / static_cast<double>(run.courses.times.size())), false});
+        {"rms of " + name, std::sqrt(squares / static_cast<double>(run.histories.times.size())), false});
     run.numbers.push_back({"peak of " + name, std::max(paths[i].greatest, -paths[i].least), false});
   }
   if (dynamics.stop_count() == 0) return;

@@ -34,7 +34,7 @@ struct FollowedRun {
   std::string choice;   ///< the method that `auto` took
   Index size = 0;       ///< free DOFs
   double work = 0.0;    ///< evaluations and solutions, times the number of DOFs; the same on every machine
-  record::Courses courses;
+  record::Histories histories;
   std::vector<WholeNumber> numbers;
   Eigen::MatrixXd x, v;             ///< states, a column for each instant asked for
   std::vector<double> state_times;  ///< s

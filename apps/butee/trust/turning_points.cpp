@@ -35,9 +35,9 @@ void TurningPoints::start(const time::State& state) {
 void TurningPoints::step(const time::AcceptedStep& step) {
   if (dofs_.empty()) return;
   double begin = step.from.t;
-  for (const double knot : step.integrator.knots(step.from, step.to)) {
-    sample(step, begin, knot);
-    begin = knot;
+  for (const double breakpoint : step.integrator.breakpoints(step.from, step.to)) {
+    sample(step, begin, breakpoint);
+    begin = breakpoint;
   }
   sample(step, begin, step.to.t);
 }

@@ -35,7 +35,7 @@ struct ModalSeries {
   Values frequency, decay;  ///< omega and delta, 1/s
 };
 
-/// Writes the columns of a ModalFlow, one Values each: free motion, forces P_0, P_1, P_2, harmonics.
+/// Writes the columns of a ModalPropagator, one Values each: free motion, forces P_0, P_1, P_2, harmonics.
 using SumSeries = void (*)(const ModalSeries&, std::span<const HarmonicSeries>, Values* columns);
 
 /// Of the chosen instruction set.

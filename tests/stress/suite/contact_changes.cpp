@@ -13,8 +13,8 @@ constexpr int kPoints = 6;
 /// The ends of the pieces of a step.
 std::vector<double> ends_of(const time::AcceptedStep& step) {
   std::vector<double> ends = {step.from.t};
-  const auto knots = step.integrator.knots(step.from, step.to);
-  ends.insert(ends.end(), knots.begin(), knots.end());
+  const auto breakpoints = step.integrator.breakpoints(step.from, step.to);
+  ends.insert(ends.end(), breakpoints.begin(), breakpoints.end());
   ends.push_back(step.to.t);
   return ends;
 }

@@ -39,7 +39,7 @@ class Tenths final : public time::Observer {
     take(step.to.t, step.to.x[0]);
     // Some methods take much of a run in a step.
     const Index dof = 0;
-    for (const double t : step.integrator.knots(step.from, step.to)) {
+    for (const double t : step.integrator.breakpoints(step.from, step.to)) {
       double x = 0.0;
       step.integrator.interpolate(step.from, step.to, t, {&dof, 1}, {{&x, 1}, {}, {}});
       take(t, x);

@@ -1,15 +1,15 @@
 #include <cmath>
 #include <complex>
 
-#include <butee/dynamics/step_flow.hpp>
+#include <butee/dynamics/contact_propagator.hpp>
 #include <gtest/gtest.h>
 
 namespace butee::test::modal_flow_test {
 namespace {
 
 using Complex = std::complex<double>;
-using dynamics::ModalFlow;
 using dynamics::ModalHarmonic;
+using dynamics::ModalPropagator;
 using Eigen::ArrayXd;
 
 /// Relative to the size of each quantity; a hundred times rounding, for up to twenty doublings.
@@ -49,11 +49,11 @@ State integrate(double omega, double delta, double h, State s, Force force) {
   return s;
 }
 
-TEST(ModalFlow, AgreesWithManyRungeKuttaSteps) {
+TEST(ModalPropagator, AgreesWithManyRungeKuttaSteps) {
   // Fourth order with (omega d) of 1/1500 a step leaves about 1e-12 and the rounding of 1e5 additions.
   constexpr double kRungeKutta = 1e-10;
   const double h = 0.07, t = 0.31;
-  ModalFlow flow(kOmega, kDelta, kLoads, h);
+  ModalPropagator flow(kOmega, kDelta, kLoads, h);
   flow.refine(kOmega, kDelta);
   int checked = 0;
   for (Index i = 0; i < kOmega.size(); ++i) {
@@ -85,13 +85,13 @@ TEST(ModalFlow, AgreesWithManyRungeKuttaSteps) {
   EXPECT_EQ(checked, 8 * 7);
 }
 
-TEST(ModalFlow, ALongStepIsManyShortOnes) {
+TEST(ModalPropagator, ALongStepIsManyShortOnes) {
   const double h = 1.0 / 256;
-  ModalFlow step(kOmega, kDelta, kLoads, h), whole(kOmega, kDelta, kLoads, 1.0);
+  ModalPropagator step(kOmega, kDelta, kLoads, h), whole(kOmega, kDelta, kLoads, 1.0);
   step.refine(kOmega, kDelta);
   whole.refine(kOmega, kDelta);
   ArrayXd q = ArrayXd::Constant(8, 0.3), v = ArrayXd::Constant(8, -0.2);
-  const auto advance = [](const ModalFlow& flow, double t, ArrayXd& x, ArrayXd& y) {
+  const auto advance = [](const ModalPropagator& flow, double t, ArrayXd& x, ArrayXd& y) {
     ArrayXd next = flow.qq() * x + flow.qv() * y, speed = flow.vq() * x + flow.vv() * y;
     for (std::size_t j = 0; j < 2; ++j) {
       const double angle = flow.angular_frequencies()[j] * t;
@@ -110,8 +110,8 @@ TEST(ModalFlow, ALongStepIsManyShortOnes) {
   }
 }
 
-TEST(ModalFlow, RefiningChangesNothingButRounding) {
-  ModalFlow flow(kOmega, kDelta, {}, 0.5), refined = flow;
+TEST(ModalPropagator, RefiningChangesNothingButRounding) {
+  ModalPropagator flow(kOmega, kDelta, {}, 0.5), refined = flow;
   refined.refine(kOmega, kDelta);
   EXPECT_LT((flow.qq() - refined.qq()).abs().maxCoeff(), kTight);
   EXPECT_LT((flow.qv() - refined.qv()).abs().maxCoeff(), kTight);
@@ -120,14 +120,14 @@ TEST(ModalFlow, RefiningChangesNothingButRounding) {
 }
 
 /// The displacement of a stop by its own force, one way and the other.
-TEST(StepFlow, MobilitiesAreWhatAConstantForceDoes) {
+TEST(ContactPropagator, MobilitiesAreWhatAConstantForceDoes) {
   Eigen::MatrixXd shapes(8, 3);
   for (Index i = 0; i < 8; ++i)
     for (Index j = 0; j < 3; ++j) shapes(i, j) = std::cos(1.0 + static_cast<double>(3 * i + 2 * j));
   const dynamics::StopShapes stops(shapes);
   for (const double h : {1e-3, 0.4}) {
-    dynamics::StepFlow flow(ModalFlow(kOmega, kDelta, {}, h), ModalFlow(kOmega, kDelta, {}, 0.5 * h), stops, kOmega,
-                            {});
+    dynamics::ContactPropagator flow(ModalPropagator(kOmega, kDelta, {}, h),
+                                     ModalPropagator(kOmega, kDelta, {}, 0.5 * h), stops, kOmega, {});
     for (Index i = 0; i < 3; ++i) {
       const double own = flow.own_coupling(i)[0][0];
       EXPECT_GT(own, 0.0);

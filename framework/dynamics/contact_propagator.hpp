@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "butee/dynamics/modal_flow.hpp"
+#include "butee/dynamics/modal_propagator.hpp"
 #include "butee/linalg/dense_product.hpp"
 
 namespace butee::dynamics {
@@ -38,17 +38,17 @@ class BUTEE_EXPORT StopShapes {
 };
 
 /// What the stops do at the end and in the middle of a step, their forces included: displacement, speed times h,
-/// displacement in the middle; an entry a stop, padded with zeros to StepFlow::padded().
+/// displacement in the middle; an entry a stop, padded with zeros to ContactPropagator::padded().
 struct StopMotion {
   Eigen::ArrayXd end, speed, middle;
 };
 
 /// The flow over a step and over its first half, and with them how stops act on each other.
-class BUTEE_EXPORT StepFlow {
+class BUTEE_EXPORT ContactPropagator {
  public:
   /// `stops` must outlive it.
-  StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& stops, const Eigen::ArrayXd& frequencies,
-           const std::vector<ModalHarmonic>& harmonics);
+  ContactPropagator(ModalPropagator whole_flow, ModalPropagator half_flow, const StopShapes& stops,
+                    const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics);
 
   double h() const { return whole.h(); }
 
@@ -81,7 +81,7 @@ class BUTEE_EXPORT StepFlow {
   void add_forces(std::span<const Index> stops, const std::array<Eigen::ArrayXd, 3>& force,
                   std::span<const Index> registers, StopMotion& motion);
 
-  ModalFlow whole, half;
+  ModalPropagator whole, half;
   /// How far a mode with q and v at the start can carry any stop away from the cubic through both ends of its path.
   Eigen::ArrayXd swing_q, swing_v;
   /// The same of a modal force that does not change over the step, and of all harmonic loads together, m.

@@ -1,4 +1,4 @@
-#include "butee/dynamics/step_flow.hpp"
+#include "butee/dynamics/contact_propagator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +46,8 @@ void StopShapes::force(std::span<const Index> stops, const double* f, double* r)
   for (const Index i : stops) sum += f[i] * shapes_.col(i);
 }
 
-StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& stops,
-                   const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics)
+ContactPropagator::ContactPropagator(ModalPropagator whole_flow, ModalPropagator half_flow, const StopShapes& stops,
+                                     const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics)
     : whole(std::move(whole_flow)),
       half(std::move(half_flow)),
       kernels_(&kernel::stop_response()),
@@ -71,15 +71,15 @@ StepFlow::StepFlow(ModalFlow whole_flow, ModalFlow half_flow, const StopShapes& 
   }
 }
 
-Index StepFlow::padded(Index stops) {
+Index ContactPropagator::padded(Index stops) {
   return linalg::kernel::chunks_for(stops) * linalg::kernel::kChunk;
 }
 
-Index StepFlow::next_register(Index begin) {
+Index ContactPropagator::next_register(Index begin) {
   return begin + linalg::kernel::kChunk;
 }
 
-const Eigen::ArrayXXd& StepFlow::compute_columns(Index i) {
+const Eigen::ArrayXXd& ContactPropagator::compute_columns(Index i) {
   Eigen::ArrayXXd& columns = columns_[static_cast<std::size_t>(i)];
   columns.setZero(padded(stops_.count()), 9);
   const auto shape = stops_.of(i).array();
@@ -97,13 +97,13 @@ const Eigen::ArrayXXd& StepFlow::compute_columns(Index i) {
   return columns;
 }
 
-const Eigen::ArrayXd& StepFlow::mobilities() {
+const Eigen::ArrayXd& ContactPropagator::mobilities() {
   if (mobilities_.size() == 0)
     mobilities_ = (stops_.matrix().array().square().matrix().transpose() * whole.force_q(0).matrix()).array();
   return mobilities_;
 }
 
-StepFlow::Coupling StepFlow::own_coupling(Index i) {
+ContactPropagator::Coupling ContactPropagator::own_coupling(Index i) {
   const Eigen::ArrayXXd& all = columns(i);
   Coupling own{};
   for (Index row = 0; row < 3; ++row)
@@ -111,16 +111,16 @@ StepFlow::Coupling StepFlow::own_coupling(Index i) {
   return own;
 }
 
-double StepFlow::add_force(Index i, const std::array<double, 3>& force, double speed_weight,
-                           std::span<const Index> registers, StopMotion& motion) {
+double ContactPropagator::add_force(Index i, const std::array<double, 3>& force, double speed_weight,
+                                    std::span<const Index> registers, StopMotion& motion) {
   const Eigen::ArrayXXd& all = columns(i);
   const double most =
       kernels_->add_force({{all.data(), all.rows()}, force}, speed_weight, registers, to_add_to(motion));
   return std::isfinite(motion.end[i]) ? most : most + motion.end[i];
 }
 
-void StepFlow::add_forces(std::span<const Index> stops, const std::array<Eigen::ArrayXd, 3>& force,
-                          std::span<const Index> registers, StopMotion& motion) {
+void ContactPropagator::add_forces(std::span<const Index> stops, const std::array<Eigen::ArrayXd, 3>& force,
+                                   std::span<const Index> registers, StopMotion& motion) {
   std::array<kernel::StopForce, kTogether> some;
   for (std::size_t first = 0; first < stops.size(); first += kTogether) {
     const auto these = stops.subspan(first, std::min(kTogether, stops.size() - first));

@@ -24,18 +24,18 @@ struct ModalHarmonic {
 /// modes may be rigid, vibrating, or overdamped. Built from a Taylor series over a length that is short for every mode
 /// and doublings, both of which know no special cases; the free motion of the result can then be taken from its closed
 /// form. Checked against closed forms in tests/unit/modal_flow_test.cpp.
-class BUTEE_EXPORT ModalFlow {
+class BUTEE_EXPORT ModalPropagator {
  public:
   /// omega and delta in 1/s; `h` in s.
-  ModalFlow(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics,
-            double h);
+  ModalPropagator(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics,
+                  double h);
 
   /// The longest h that needs no doubling, s.
   static double longest_series(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta,
                                const std::vector<ModalHarmonic>& harmonics);
 
   /// The flow over 2 h.
-  ModalFlow doubled() const;
+  ModalPropagator doubled() const;
   /// Takes the free motion from its closed form, whose error does not grow with the number of doublings.
   void refine(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta);
 
@@ -61,7 +61,7 @@ class BUTEE_EXPORT ModalFlow {
   static constexpr Index kForce = 4, kHarmonic = 10;
   static Index harmonic_column(std::size_t j) { return kHarmonic + 4 * static_cast<Index>(j); }
 
-  ModalFlow() = default;
+  ModalPropagator() = default;
   void start_by_series(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta,
                        const std::vector<ModalHarmonic>& harmonics);
 

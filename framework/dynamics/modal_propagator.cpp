@@ -1,4 +1,4 @@
-#include "butee/dynamics/modal_flow.hpp"
+#include "butee/dynamics/modal_propagator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,15 @@ kernel::Values chunk_of(const ArrayXd& all, Index begin) {
 
 }  // namespace
 
-double ModalFlow::longest_series(const ArrayXd& omega, const ArrayXd& delta, const std::vector<ModalHarmonic>& all) {
+double ModalPropagator::longest_series(const ArrayXd& omega, const ArrayXd& delta,
+                                       const std::vector<ModalHarmonic>& all) {
   double fastest = (omega + delta).maxCoeff();
   for (const ModalHarmonic& harmonic : all) fastest = std::max(fastest, harmonic.angular_frequency);
   return kShort / fastest;
 }
 
-ModalFlow::ModalFlow(const ArrayXd& omega, const ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics, double h)
+ModalPropagator::ModalPropagator(const ArrayXd& omega, const ArrayXd& delta,
+                                 const std::vector<ModalHarmonic>& harmonics, double h)
     : h_(h) {
   require(h > 0.0 && omega.size() > 0, "a flow takes modes over a positive time");
   for (const ModalHarmonic& harmonic : harmonics) angular_frequencies_.push_back(harmonic.angular_frequency);
@@ -44,7 +46,8 @@ ModalFlow::ModalFlow(const ArrayXd& omega, const ArrayXd& delta, const std::vect
   for (int i = 0; i < doublings; ++i) *this = doubled();
 }
 
-void ModalFlow::start_by_series(const ArrayXd& omega, const ArrayXd& delta, const std::vector<ModalHarmonic>& all) {
+void ModalPropagator::start_by_series(const ArrayXd& omega, const ArrayXd& delta,
+                                      const std::vector<ModalHarmonic>& all) {
   columns_.resize(omega.size(), harmonic_column(all.size()));
   std::vector<kernel::HarmonicSeries> loads;
   for (const ModalHarmonic& harmonic : all) {
@@ -67,8 +70,8 @@ void ModalFlow::start_by_series(const ArrayXd& omega, const ArrayXd& delta, cons
   }
 }
 
-ModalFlow ModalFlow::doubled() const {
-  ModalFlow to;
+ModalPropagator ModalPropagator::doubled() const {
+  ModalPropagator to;
   to.h_ = 2.0 * h_;
   to.angular_frequencies_ = angular_frequencies_;
   to.columns_.resize(columns_.rows(), columns_.cols());
@@ -107,7 +110,7 @@ ModalFlow ModalFlow::doubled() const {
   return to;
 }
 
-void ModalFlow::refine(const ArrayXd& omega, const ArrayXd& delta) {
+void ModalPropagator::refine(const ArrayXd& omega, const ArrayXd& delta) {
   double decay = 1.0, decay_of = 0.0;  // often the same for all modes
   for (Index i = 0; i < omega.size(); ++i) {
     const double d = delta[i], square = omega[i] * omega[i] - d * d;
