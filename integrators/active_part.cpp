@@ -32,7 +32,7 @@ std::vector<Index> moving_first(dynamics::Dynamics& dynamics, double tolerance) 
   const dynamics::Contact& contact = dynamics.contact();
   for (Index i = 0; i < contact.size(); ++i) {
     const model::ContactLaw& law = contact.law_of(i);
-    if (law.asymptotic_force() <= kNegligible * tolerance * law.closed_stiffness() * contact.gap_of(i)) continue;
+    if (law.asymptotic_force() <= kNegligible * tolerance * law.closed_stiffness() * contact.play_of(i).gap) continue;
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
       if (dof >= 0) moves[dof] = 1.0;
   }

@@ -28,21 +28,17 @@ ContactBranches::ContactBranches(const dynamics::Contact& contact, int order)
       throw InputError(
           "integrator.type: exact needs stops whose law is piecewise linear or gives its Taylor series; "
           "take law = \"linear\" or \"arctan\", or another integrator");
-    gap_.push_back(contact.gap_of(i));
+    gap_.push_back(contact.play_of(i).gap);
     penetration_.emplace_back();
     penetration_.back().reserve(series_.back() ? terms : 0);
   }
-}
-
-bool ContactBranches::allows(Index i, double side) const {
-  return has_both_sides(i) || side == fixed_side(i);
 }
 
 void ContactBranches::place(ConstVectorRef w) {
   for (Index i = 0; i < w.size(); ++i) {
     Branch& branch = branches_[static_cast<std::size_t>(i)];
     const double gap = gap_[static_cast<std::size_t>(i)];
-    const double side = !has_both_sides(i) ? fixed_side(i) : w[i] > 0.0 ? 1.0 : w[i] < 0.0 ? -1.0 : 0.0;
+    const double side = contact_.play_of(i).side(w[i]);
     branch = {Status::open, side, kNone};
     if (series_[static_cast<std::size_t>(i)]) {
       branch.status = side == 0.0 ? Status::undecided : Status::smooth;
@@ -140,15 +136,15 @@ std::optional<ContactBranches::Change> ContactBranches::first_change(const Eigen
     const double gap = gap_[static_cast<std::size_t>(i)];
     switch (branch.status) {
       case Status::smooth:
-        if (has_both_sides(i)) watch(w, i, 0, branch.side, 0.0, until, first);
+        if (contact_.play_of(i).has_both()) watch(w, i, 0, branch.side, 0.0, until, first);
         watch_bend(w, i, until, first);
         break;
       case Status::closed:
         watch(w, i, static_cast<int>(branch.side), branch.side, -gap, until, first);
         break;
       case Status::open:
-        if (allows(i, 1.0)) watch(w, i, 1, -1.0, gap, until, first);
-        if (allows(i, -1.0)) watch(w, i, -1, 1.0, gap, until, first);
+        if (contact_.play_of(i).has_side(1.0)) watch(w, i, 1, -1.0, gap, until, first);
+        if (contact_.play_of(i).has_side(-1.0)) watch(w, i, -1, 1.0, gap, until, first);
         break;
       case Status::undecided:
         break;
@@ -167,7 +163,7 @@ void ContactBranches::apply(const Change& change) {
   } else if (branch.status == Status::open) {
     branch.status = Status::closed;
     branch.side = change.border;
-  } else if (gap_[static_cast<std::size_t>(change.stop)] == 0.0 && has_both_sides(change.stop)) {
+  } else if (gap_[static_cast<std::size_t>(change.stop)] == 0.0 && contact_.play_of(change.stop).has_both()) {
     branch.side = -branch.side;
     branch.crossed = -change.border;
   } else {

@@ -47,9 +47,6 @@ class ContactBranches {
     int crossed = 2;    ///< the border just crossed, on which w lies to rounding; 2: none
   };
 
-  bool has_both_sides(Index i) const { return contact_.sides_of(i) == model::Sides::both; }
-  bool allows(Index i, double side) const;
-  double fixed_side(Index i) const { return contact_.sides_of(i) == model::Sides::negative ? -1.0 : 1.0; }
   /// Looks for the sign change of offset + factor w and keeps it where it comes first.
   void watch(const Eigen::MatrixXd& w, Index stop, int border, double factor, double offset, double until,
              std::optional<Change>& first);

@@ -33,8 +33,8 @@ ContactOnTheWay::ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance)
   closed_ = contact_->closed_stiffness();
   mass_ = dynamics.system().mass.diagonal();
   for (Index i = 0; i < contact_->size(); ++i) {
-    const double gap = contact_->gap_of(i);
-    if (contact_->sides_of(i) == model::Sides::both) jumps_[i] = 2.0 * std::abs(contact_->law_of(i).secant(-gap)) * gap;
+    const double gap = contact_->play_of(i).gap;
+    if (contact_->play_of(i).has_both()) jumps_[i] = 2.0 * std::abs(contact_->law_of(i).secant(-gap)) * gap;
   }
 }
 
@@ -53,16 +53,11 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to, do
   if (contact_->size() == 0) return false;
   contact_->displacement(from.x, w0_);
   contact_->displacement(to.x, w1_);
-  const auto closed_on = [&](Index i, double w) {
-    const model::Sides sides = contact_->sides_of(i);
-    const double gap = contact_->gap_of(i);
-    if (w > gap) return sides == model::Sides::negative ? 0 : 1;
-    if (w < -gap) return sides == model::Sides::positive ? 0 : -1;
-    return 0;
-  };
-  for (Index i = 0; i < w0_.size(); ++i)
-    if (closed_on(i, w0_[i]) != closed_on(i, w1_[i]) || (has_passed_middle(i) && is_noticeable(i, h, scale_v)))
-      return true;
+  for (Index i = 0; i < w0_.size(); ++i) {
+    const model::FreePlay& play = contact_->play_of(i);
+    if (play.closed_side(w0_[i]) != play.closed_side(w1_[i])) return true;
+    if (has_passed_middle(i) && is_noticeable(i, h, scale_v)) return true;
+  }
   return false;
 }
 
@@ -88,9 +83,8 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
   for (Index i = 0; i < w0_.size(); ++i) {
     const double side = v0_[i] > 0.0 ? 1.0 : -1.0;
     if (!(side * v0_[i] > 0.0 && side * v1_[i] < 0.0)) continue;
-    const model::Sides sides = contact_->sides_of(i);
-    if (sides != model::Sides::both && (sides == model::Sides::positive) != (side > 0.0)) continue;
-    const double gap = contact_->gap_of(i), w0 = side * w0_[i], w1 = side * w1_[i];
+    if (!contact_->play_of(i).has_side(side)) continue;
+    const double gap = contact_->play_of(i).gap, w0 = side * w0_[i], w1 = side * w1_[i];
     const double size = std::max({gap, std::abs(w0), std::abs(w1)});
     const auto depth_beyond = [&](double border) {
       if (w0 >= border || w1 >= border) return 0.0;

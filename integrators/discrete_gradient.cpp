@@ -30,7 +30,7 @@ void DiscreteGradientStage::contact(ConstVectorRef w, bool, VectorRef f, VectorR
   contact.tangent(end_, force_end_, tangent_end_);
   for (Index i = 0; i < end_.size(); ++i) {
     const double step = end_[i] - start_[i];
-    if (std::abs(step) <= kClose * (std::abs(end_[i]) + std::abs(start_[i]) + contact.gap_of(i))) {
+    if (std::abs(step) <= kClose * (std::abs(end_[i]) + std::abs(start_[i]) + contact.play_of(i).gap)) {
       f[i] = 0.5 * (force_start_[i] + force_end_[i]);
       k[i] = tangent_end_[i];
     } else {

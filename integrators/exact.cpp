@@ -20,11 +20,6 @@ constexpr const char* kSeriesTolerance = "series_tolerance";
 /// Of a scene that other methods run as well.
 constexpr const char* kTolerance = "tolerance";
 
-/// So many changes of contact within one step are no motion of a structure.
-constexpr std::size_t kMostPieces = 20000;
-/// Lengths are shortened a thousandfold this often before a step is given up.
-constexpr int kMostTrials = 12;
-
 /// 1/omega of the stiffest DOF with its stops closed, s; 1 s where nothing has a stiffness.
 double natural_time(dynamics::Dynamics& dynamics) {
   Vector stiffness = dynamics.system().stiffness.diagonal();
@@ -49,127 +44,36 @@ time::StepDecision Exact::Controller::decide(double, const StepReport& report) c
 }
 
 Exact::Exact(dynamics::Dynamics& dynamics, int order, double series_tolerance)
-    : Integrator(dynamics),
-      expander_(dynamics, order, series_tolerance),
-      branches_(dynamics.contact(), order),
-      discontinuities_(dynamics.load_discontinuities()),
-      first_length_(natural_time(dynamics)),
-      stops_(dynamics.stop_count()) {}
+    : Integrator(dynamics), path_(dynamics, order, series_tolerance), first_length_(natural_time(dynamics)) {}
 
 void Exact::do_start(State& state) {
-  x_ = state.x;
-  v_ = state.v;
-  used_ = 0;
-  end_t_ = std::numeric_limits<double>::quiet_NaN();
-  place_branches();
-  first_step_ = first_length_;
-  if (!expand_piece(state.t, first_length_)) return;
-  const double reach = pieces_.front().reach * pieces_.front().length;
-  if (reach < std::numeric_limits<double>::max()) first_step_ = reach;
-}
-
-void Exact::place_branches() {
-  dynamics().contact().displacement(x_, stops_);
-  branches_.place(stops_);
+  first_step_ = path_.first_length(state, first_length_);
 }
 
 StepReport Exact::do_step(const State& from, const time::Step& step, State& to) {
   StepReport report;
-  report.status = follow(from, step);
+  report.status = path_.follow(from, step);
   if (report.status != StepStatus::ok) return report;
-  const TaylorExpansion& last = pieces_[used_ - 1];
+  const TaylorExpansion& last = path_.last();
   for (Index i = 0; i < to.x.size(); ++i) {
     to.x[i] = last.value(i, last.end);
     to.v[i] = last.velocity(i, last.end);
     to.a[i] = last.acceleration(i, last.end);
   }
-  to.t = end_t_;
+  to.t = path_.end();
   report.error = last.reach * last.length;
   return report;
 }
 
-StepStatus Exact::follow(const State& from, const time::Step& step) {
-  const double h = step.h;
-  // Phases of obstacles are those of a whole step, which ends where one of them changes.
-  const bool is_single = step.single || dynamics().obstacles() != nullptr;
-  end_t_ = std::numeric_limits<double>::quiet_NaN();
-  x_ = begin_x_ = from.x;
-  v_ = begin_v_ = from.v;
-  begin_t_ = from.t;
-  used_ = 0;
-  knots_.clear();
-  place_branches();
-  double t = from.t, done = 0.0, length = h;
-  while (done < h) {
-    if (used_ == kMostPieces || !expand_piece(t, length)) return StepStatus::not_finite;
-    TaylorExpansion& piece = pieces_[used_ - 1];
-    const double rest = (h - done) / piece.length, jump = (next_discontinuity(t) - t) / piece.length;
-    piece.end = std::min({piece.reach, rest, jump});
-    const bool is_last = piece.end == rest;
-    const auto change = branches_.first_change(expander_.stop_displacement(), piece.end);
-    if (change) piece.end = change->at;
-    length = piece.length * std::min(piece.reach, 1e3);
-    for (Index i = 0; i < x_.size(); ++i) {
-      const double x = piece.value(i, piece.end);
-      v_[i] = piece.velocity(i, piece.end);
-      x_[i] = x;
-    }
-    end_t_ = step.t_end;
-    if (!change && is_last) break;
-    done += piece.end * piece.length;
-    t = from.t + done;
-    if (is_single && t > from.t && t < step.t_end) {
-      end_t_ = t;
-      break;
-    }
-    if (t > (knots_.empty() ? from.t : knots_.back()) && t < step.t_end) knots_.push_back(t);
-    if (change) {
-      branches_.apply(*change);
-    } else {
-      place_branches();
-    }
-  }
-  return StepStatus::ok;
-}
-
-bool Exact::expand_piece(double t, double length) {
-  if (used_ == pieces_.size()) pieces_.emplace_back();
-  TaylorExpansion& piece = pieces_[used_++];
-  piece.length = length;
-  for (int trial = 0; trial < kMostTrials; ++trial, piece.length *= 1e-3)
-    if (expander_.expand(t, x_, v_, branches_, piece)) return true;
-  return false;
-}
-
-double Exact::next_discontinuity(double t) const {
-  const auto next = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), t);
-  return next == discontinuities_.end() ? std::numeric_limits<double>::infinity() : *next;
-}
-
-bool Exact::holds(const State& from, double t_end) const {
-  return from.t == begin_t_ && t_end == end_t_ && from.x == begin_x_ && from.v == begin_v_;
-}
-
-void Exact::recall(const State& from, const State& to) const {
-  // Recomputing the pieces of a step that is no longer the last changes nothing that anyone could see.
-  if (!holds(from, to.t)) const_cast<Exact*>(this)->follow(from, {to.t - from.t, to.t});
-}
-
-const TaylorExpansion& Exact::piece_at(double t) const {
-  std::size_t i = 0;
-  while (i + 1 < used_ && pieces_[i + 1].begin <= t) ++i;
-  return pieces_[i];
-}
-
 std::span<const double> Exact::breakpoints(const State& from, const State& to) const {
-  recall(from, to);
-  return knots_;
+  path_.recall(from, to);
+  return path_.breakpoints();
 }
 
 void Exact::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
                            time::Interpolated out) const {
-  recall(from, to);
-  const TaylorExpansion& piece = piece_at(t);
+  path_.recall(from, to);
+  const TaylorExpansion& piece = path_.piece_at(t);
   const double s = std::min((t - piece.begin) / piece.length, piece.end);
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     if (!out.x.empty()) out.x[k] = piece.value(dofs[k], s);
@@ -180,8 +84,8 @@ void Exact::do_interpolate(const State& from, const State& to, double t, std::sp
 
 void Exact::departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
                       time::Interpolated out) const {
-  recall(from, to);
-  const TaylorExpansion& piece = piece_at(begin);
+  path_.recall(from, to);
+  const TaylorExpansion& piece = path_.piece_at(begin);
   const double s = std::min((end - piece.begin) / piece.length, piece.end), h = (end - begin) / piece.length;
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     // A bound of the sixth derivative with respect to s.

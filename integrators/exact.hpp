@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "butee/time/integrator.hpp"
-#include "integrators/taylor_expansion.hpp"
+#include "integrators/taylor_path.hpp"
 
 namespace butee::integrators {
 
@@ -48,29 +48,10 @@ class Exact final : public time::Integrator {
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                       time::Interpolated out) const override;
-  /// Fills pieces_ from `from` to the end of the step, or with its first piece where it is to be a single one.
-  time::StepStatus follow(const time::State& from, const time::Step& step);
-  /// Expands at (t, x_, v_) into pieces_[used_]; shortens its length where it overflows.
-  bool expand_piece(double t, double length);
-  void place_branches();
-  double next_discontinuity(double t) const;
-  bool holds(const time::State& from, double t_end) const;
-  /// Sees that the pieces are those of this step.
-  void recall(const time::State& from, const time::State& to) const;
-  const TaylorExpansion& piece_at(double t) const;
 
   Controller controller_;
-  TaylorExpander expander_;
-  ContactBranches branches_;
-  std::vector<double> discontinuities_;  ///< of the loads
-  // The pieces of the last step, kept for its interpolation.
-  std::vector<TaylorExpansion> pieces_;
-  std::size_t used_ = 0;
-  std::vector<double> knots_;
-  Vector begin_x_, begin_v_;
-  double begin_t_ = 0.0, end_t_ = -1.0;
+  mutable TaylorPath path_;  ///< of the last step; outputs of an earlier one follow it again. Not thread-safe.
   double first_length_, first_step_ = 0.0;  ///< s
-  Vector x_, v_, stops_;
 };
 
 }  // namespace butee::integrators

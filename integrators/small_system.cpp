@@ -32,7 +32,7 @@ std::string SmallSystem::obstacle_to(dynamics::Dynamics& dynamics) {
   for (const model::FreeStops& stops : system.stops) {
     if (!stops.law->is_piecewise_linear())
       return std::string("piecewise needs stops with law = \"linear\"; ") + kOthers;
-    if (stops.sides == model::Sides::both && stops.gap < 0.0)
+    if (stops.play.has_both() && stops.play.gap < 0.0)
       return std::string("the force of a stop with two sides and a negative gap jumps; ") + kOthers;
   }
   for (const model::FreeObstacles& obstacles : system.obstacles)
@@ -69,12 +69,11 @@ SmallSystem::SmallSystem(dynamics::Dynamics& dynamics) {
 }
 
 void SmallSystem::add_stops(dynamics::Dynamics& dynamics) {
-  using model::Sides;
   const dynamics::Contact& contact = dynamics.contact();
   for (Index i = 0; i < contact.size(); ++i) {
-    LinearStop stop{contact.dof_a(i), contact.dof_b(i), contact.gap_of(i), contact.law_of(i).closed_stiffness()};
-    stop.positive = contact.sides_of(i) != Sides::negative;
-    stop.negative = contact.sides_of(i) != Sides::positive;
+    LinearStop stop{contact.dof_a(i), contact.dof_b(i), contact.play_of(i).gap, contact.law_of(i).closed_stiffness()};
+    stop.positive = contact.play_of(i).has_positive();
+    stop.negative = contact.play_of(i).has_negative();
     stop.always_closed = stop.positive && stop.negative && stop.gap == 0.0;
     stops.push_back(stop);
   }

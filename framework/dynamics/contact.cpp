@@ -7,24 +7,6 @@ namespace butee::dynamics {
 namespace {
 
 using model::FreeStops;
-using model::Sides;
-
-struct Place {
-  double penetration, side;
-};
-
-Place place(double w, double gap, Sides sides) {
-  switch (sides) {
-    case Sides::positive:
-      return {w - gap, 1.0};
-    case Sides::negative:
-      return {-w - gap, -1.0};
-    case Sides::both:
-      break;
-  }
-  return {std::abs(w) - gap, static_cast<double>(w > 0.0) - static_cast<double>(w < 0.0)};
-}
-
 std::span<const double> part(const Vector& v, Index begin, Index count) {
   return {v.data() + begin, static_cast<std::size_t>(count)};
 }
@@ -37,7 +19,7 @@ std::span<double> part(double* v, Index begin, Index count) {
 Contact::Contact(const model::System& system, linalg::Counters& counters)
     : counters_(&counters), system_size_(system.size()) {
   for (const FreeStops& stops : system.stops) {
-    groups_.push_back({stops.law, stops.gap, stops.sides, size(), static_cast<Index>(stops.size())});
+    groups_.push_back({stops.law, stops.play, size(), static_cast<Index>(stops.size())});
     a_.insert(a_.end(), stops.a.begin(), stops.a.end());
     b_.insert(b_.end(), stops.b.begin(), stops.b.end());
   }
@@ -63,22 +45,20 @@ void Contact::scatter_both(ConstVectorRef f, VectorRef force) const {
 
 void Contact::locate(ConstVectorRef w) {
   for (const Group& group : groups_) {
-    const double gap = group.gap, fixed_side = group.sides == Sides::positive ? 1.0 : -1.0;
+    const model::FreePlay play = group.play;
     const double* displacement = w.data() + group.begin;
     double* penetration = penetration_.data() + group.begin;
     double* side = side_.data() + group.begin;
-    if (group.sides == Sides::both) {
-      for (Index i = 0; i < group.count; ++i) {
-        penetration[i] = std::abs(displacement[i]) - gap;
-        side[i] = displacement[i] > 0.0 ? 1.0 : displacement[i] < 0.0 ? -1.0 : 0.0;
-      }
-    } else {
-      for (Index i = 0; i < group.count; ++i) {
-        penetration[i] = fixed_side * displacement[i] - gap;
-        side[i] = fixed_side;
-      }
+    for (Index i = 0; i < group.count; ++i) {
+      penetration[i] = play.penetration(displacement[i]);
+      side[i] = play.side(displacement[i]);
     }
   }
+}
+
+double Contact::force_at(const Group& group, double w) {
+  const double g = group.play.penetration(w);
+  return -group.play.side(w) * group.law->secant(g) * g;
 }
 
 void Contact::count_evaluation() {
@@ -90,8 +70,7 @@ void Contact::force(ConstVectorRef w, VectorRef f) {
   count_evaluation();
   if (size() == 1) {
     const Group& group = groups_.front();
-    const Place at = place(w[0], group.gap, group.sides);
-    f[0] = -at.side * group.law->secant(at.penetration) * at.penetration;
+    f[0] = force_at(group, w[0]);
     return;
   }
   locate(w);
@@ -104,9 +83,8 @@ void Contact::tangent(ConstVectorRef w, VectorRef f, VectorRef k) {
   count_evaluation();
   if (size() == 1) {
     const Group& group = groups_.front();
-    const Place at = place(w[0], group.gap, group.sides);
-    f[0] = -at.side * group.law->secant(at.penetration) * at.penetration;
-    k[0] = group.law->tangent(at.penetration);
+    f[0] = force_at(group, w[0]);
+    k[0] = group.law->tangent(group.play.penetration(w[0]));
     return;
   }
   locate(w);
@@ -120,16 +98,15 @@ void Contact::secant(ConstVectorRef w, VectorRef k, VectorRef c) {
   count_evaluation();
   if (size() == 1) {
     const Group& group = groups_.front();
-    const Place at = place(w[0], group.gap, group.sides);
-    k[0] = group.law->secant(at.penetration);
-    c[0] = group.gap * at.side * k[0];
+    k[0] = group.law->secant(group.play.penetration(w[0]));
+    c[0] = group.play.gap * group.play.side(w[0]) * k[0];
     return;
   }
   locate(w);
   for (const Group& group : groups_) {
     group.law->secants(part(penetration_, group.begin, group.count), part(k.data(), group.begin, group.count));
     c.segment(group.begin, group.count) =
-        group.gap * side_.segment(group.begin, group.count).cwiseProduct(k.segment(group.begin, group.count));
+        group.play.gap * side_.segment(group.begin, group.count).cwiseProduct(k.segment(group.begin, group.count));
   }
 }
 
@@ -142,14 +119,12 @@ const Contact::Group& Contact::group_of(Index i) const {
 
 double Contact::force_of(Index i, double w) {
   ++counters_->law_evaluations;
-  const Group& group = group_of(i);
-  const Place at = place(w, group.gap, group.sides);
-  return -at.side * group.law->secant(at.penetration) * at.penetration;
+  return force_at(group_of(i), w);
 }
 
 double Contact::energy_of(Index i, double w) const {
   const Group& group = group_of(i);
-  return group.law->energy(place(w, group.gap, group.sides).penetration) - group.law->energy(-group.gap);
+  return group.law->energy(group.play.penetration(w)) - group.law->energy(-group.play.gap);
 }
 
 double Contact::energy(ConstVectorRef w) const {
@@ -160,8 +135,7 @@ double Contact::energy(ConstVectorRef w) const {
 
 void Contact::penetration(ConstVectorRef w, VectorRef g) const {
   for (const Group& group : groups_)
-    for (Index i = group.begin; i < group.begin + group.count; ++i)
-      g[i] = place(w[i], group.gap, group.sides).penetration;
+    for (Index i = group.begin; i < group.begin + group.count; ++i) g[i] = group.play.penetration(w[i]);
 }
 
 Vector Contact::closed_stiffness() const {

@@ -42,10 +42,9 @@ class BUTEE_EXPORT Contact {
   double energy_of(Index i, double w) const;
   /// f(w) of stop i alone, N
   double force_of(Index i, double w);
-  /// The law, the gap and the sides of stop i
+  /// The law and the free play of stop i
   const model::ContactLaw& law_of(Index i) const { return *group_of(i).law; }
-  double gap_of(Index i) const { return group_of(i).gap; }
-  model::Sides sides_of(Index i) const { return group_of(i).sides; }
+  const model::FreePlay& play_of(Index i) const { return group_of(i).play; }
   /// The penetration g of every stop on its nearer side, m; negative while open
   void penetration(ConstVectorRef w, VectorRef g) const;
 
@@ -58,14 +57,14 @@ class BUTEE_EXPORT Contact {
  private:
   struct Group {
     const model::ContactLaw* law;
-    double gap;
-    model::Sides sides;
+    model::FreePlay play;
     Index begin, count;
   };
 
   void difference(ConstVectorRef x, VectorRef w) const;
   void scatter_both(ConstVectorRef f, VectorRef force) const;
   const Group& group_of(Index i) const;
+  static double force_at(const Group& group, double w);
   void count_evaluation();
   /// Fills penetration_ and side_ (+1, -1 or 0) of all stops.
   void locate(ConstVectorRef w);

@@ -9,6 +9,7 @@
 #include "butee/model/contact_law.hpp"
 #include "butee/model/dofs.hpp"
 #include "butee/model/element.hpp"
+#include "butee/model/free_play.hpp"
 #include "butee/model/nodes.hpp"
 #include "butee/model/obstacle.hpp"
 #include "butee/model/rotation.hpp"
@@ -16,15 +17,10 @@
 
 namespace butee::model {
 
-enum class Sides { both, positive, negative };
-
-/// Elastic stops of one law and gap. With displacement w (of node a to ground, or u_a - u_b):
-/// one side s = +1 or -1: g = s w - gap, F = -s K_c(g) g for every w;
-/// both sides: g = |w| - gap, F = -sign(w) K_c(g) g with sign(0) = 0.
+/// Elastic stops of one law and gap: F = -s K_c(g) g on node a with the side s and the penetration g of FreePlay.
 struct StopGroup {
   std::unique_ptr<ContactLaw> law;
-  double gap = 0.0;  ///< m (rad), free play on each side
-  Sides sides = Sides::both;
+  FreePlay play;
   DofKind dof = DofKind::uy;
   std::vector<NodeId> a;
   std::vector<NodeId> b;  ///< empty: stops to ground; else as long as `a`

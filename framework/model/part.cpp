@@ -24,8 +24,7 @@ SparseMatrix restricted(const SparseMatrix& whole, std::span<const Index> dofs, 
 FreeStops restricted(const FreeStops& whole, const std::vector<Index>& places) {
   FreeStops part;
   part.law = whole.law;
-  part.gap = whole.gap;
-  part.sides = whole.sides;
+  part.play = whole.play;
   const auto place = [&](Index dof) { return dof < 0 ? FreeStops::kGround : places[static_cast<std::size_t>(dof)]; };
   for (std::size_t i = 0; i < whole.size(); ++i) {
     const Index a = place(whole.a[i]), b = place(whole.b[i]);

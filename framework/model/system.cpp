@@ -153,8 +153,7 @@ void apply_rotation(const Model& model, System& system) {
 FreeStops reduce(const StopGroup& group, const DofTable& dofs, Index& skipped) {
   FreeStops stops;
   stops.law = group.law.get();
-  stops.gap = group.gap;
-  stops.sides = group.sides;
+  stops.play = group.play;
   for (std::size_t i = 0; i < group.a.size(); ++i) {
     const Index a = dofs.index({group.a[i], group.dof});
     const Index b = group.b.empty() ? FreeStops::kGround : dofs.index({group.b[i], group.dof});

@@ -13,8 +13,7 @@ struct FreeStops {
   static constexpr Index kGround = -1;
 
   const ContactLaw* law = nullptr;
-  double gap = 0.0;
-  Sides sides = Sides::both;
+  FreePlay play;
   std::vector<Index> a;  ///< index into x, or kGround where that end is fixed
   std::vector<Index> b;  ///< likewise
 

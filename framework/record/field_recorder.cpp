@@ -11,15 +11,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// On which side a stop with displacement w is closed: +1, -1, or 0 where it is open.
-double closed_side(const dynamics::Contact& contact, Index stop, double w) {
-  const model::Sides sides = contact.sides_of(stop);
-  const double gap = contact.gap_of(stop);
-  if (sides != model::Sides::negative && w > gap) return 1.0;
-  if (sides != model::Sides::positive && -w > gap) return -1.0;
-  return 0.0;
-}
-
 double at(std::span<const double> samples, std::int32_t place) {
   return place < 0 ? 0.0 : samples[static_cast<std::size_t>(place)];
 }
@@ -113,7 +104,7 @@ void FieldRecorder::evaluate_stops(std::span<const double> x) {
   for (const KeptStop& stop : stops_) {
     const double w = at(x, stop.a) - at(x, stop.b);
     const double force = dynamics_.contact().force_of(stop.stop, w);
-    const double side = closed_side(dynamics_.contact(), stop.stop, w);
+    const double side = dynamics_.contact().play_of(stop.stop).closed_side(w);
     for (const auto& [place, sign] : {std::pair(stop.a, 1.0), std::pair(stop.b, -1.0)}) {
       if (place < 0) continue;
       force_[static_cast<std::size_t>(place)] += sign * force;

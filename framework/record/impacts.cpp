@@ -43,9 +43,8 @@ ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamic
   };
   for (Index i = 0; i < contact.size(); ++i)
     for (const double side : {1.0, -1.0}) {
-      const model::Sides sides = contact.sides_of(i);
-      if (sides == (side > 0.0 ? model::Sides::negative : model::Sides::positive)) continue;
-      Watch watch{i, side, contact.gap_of(i), tracks_.add(contact.dof_a(i), contact.dof_b(i))};
+      if (!contact.play_of(i).has_side(side)) continue;
+      Watch watch{i, side, contact.play_of(i).gap, tracks_.add(contact.dof_a(i), contact.dof_b(i))};
       std::string name;
       for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) {
         if (dof < 0) continue;

@@ -11,7 +11,7 @@ constexpr int kMostHalvingsOfSum = 4000;
 double largest_force(dynamics::Contact& contact, Index stop, double least, double greatest) {
   const auto size_at = [&](double w) { return std::abs(contact.force_of(stop, w)); };
   double largest = std::max(size_at(least), size_at(greatest));
-  if (contact.sides_of(stop) == model::Sides::both && least < 0.0 && greatest > 0.0 &&
+  if (contact.play_of(stop).has_both() && least < 0.0 && greatest > 0.0 &&
       contact.law_of(stop).asymptotic_force() > 0.0)
     largest = std::max(largest, size_at(std::numeric_limits<double>::min()));
   return largest;

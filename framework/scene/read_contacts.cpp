@@ -24,19 +24,18 @@ Sides sides_of(const std::string& name) {
 /// A pair of stops, or one, in a single direction.
 class StopShape final : public ContactShape {
  public:
-  StopShape(double gap, Sides sides) : gap_(gap), sides_(sides) {}
+  explicit StopShape(const FreePlay& play) : play_(play) {}
   Approach at(const Eigen::Vector2d& d) const override {
-    const double side = sides_ == Sides::both ? (d[0] < 0.0 ? -1.0 : 1.0) : sides_ == Sides::positive ? 1.0 : -1.0;
-    return {side * d[0] - gap_, {side, 0.0}, 0.0};
+    const double side = play_.side(d[0]);
+    return {play_.penetration(d[0]), {side == 0.0 ? 1.0 : side, 0.0}, 0.0};
   }
   Form form() const override {
-    if (sides_ == Sides::both) return {Form::Kind::circle, {0.0, 0.0}, gap_, 1.0};
-    return {Form::Kind::line, {sides_ == Sides::positive ? 1.0 : -1.0, 0.0}, gap_, 1.0};
+    if (play_.has_both()) return {Form::Kind::circle, {0.0, 0.0}, play_.gap, 1.0};
+    return {Form::Kind::line, {play_.side(0.0), 0.0}, play_.gap, 1.0};
   }
 
  private:
-  double gap_;
-  Sides sides_;
+  FreePlay play_;
 };
 
 /// The keys that name the nodes of a contact.
@@ -156,8 +155,7 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
     if (is_stop && !dissipates && damping->kind == ImpactDamping::Kind::none) {
       StopGroup group;
       group.law = std::move(made_law);
-      group.gap = (*gaps)[i];
-      group.sides = sides_of(p->text("sides"));
+      group.play = {(*gaps)[i], sides_of(p->text("sides"))};
       group.dof = directions.front();
       ends_of(group, i);
       model_.stops.push_back(std::move(group));
@@ -166,7 +164,7 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
     ObstacleGroup group;
     group.kind = *kind;
     group.law = std::move(made_law);
-    if (is_stop) group.shape = std::make_unique<StopShape>((*gaps)[i], sides_of(p->text("sides")));
+    if (is_stop) group.shape = std::make_unique<StopShape>(FreePlay{(*gaps)[i], sides_of(p->text("sides"))});
     if (shape != nullptr && (group.shape = shape->make(*p, (*gaps)[i], diagnostics_)) == nullptr) return;
     if (group.shape != nullptr && !check_stick(*p, friction->rule, group.shape->form())) return;
     if (is_support) group.normal_force = p->number("normal_force");

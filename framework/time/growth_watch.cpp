@@ -100,7 +100,7 @@ double GrowthWatch::energy(const State& state) {
   contact.penetration(stops_, stops_);
   for (Index i = 0; i < stops_.size(); ++i) {
     sum += contact.law_of(i).energy(stops_[i]);
-    is_met_ = is_met_ || stops_[i] >= -kNear * contact.gap_of(i);
+    is_met_ = is_met_ || stops_[i] >= -kNear * contact.play_of(i).gap;
   }
   return sum;
 }

@@ -73,13 +73,13 @@ double root(const std::array<double, 5>& c, double low, double high) {
 ContactForce::ContactForce(dynamics::Contact& contact, Index stop)
     : contact_(contact),
       stop_(stop),
-      gap_(contact.gap_of(stop)),
+      gap_(contact.play_of(stop).gap),
       stiffness_(contact.law_of(stop).closed_stiffness()),
       transition_width_(contact.law_of(stop).transition_width()),
       residual_(contact.law_of(stop).asymptotic_force()),
       is_linear_(contact.law_of(stop).is_piecewise_linear()),
-      on_upper_(contact.sides_of(stop) != model::Sides::negative),
-      on_lower_(contact.sides_of(stop) != model::Sides::positive) {
+      on_upper_(contact.play_of(stop).has_positive()),
+      on_lower_(contact.play_of(stop).has_negative()) {
   places_.reserve(2 + 3 * kDegree);
   const double far = kFarOff * transition_width_;
   knows_limits_ = !is_linear_ && std::isfinite(far) && (gap_ > far || !on_upper_ || !on_lower_);

@@ -24,13 +24,13 @@ ContactGaps::ContactGaps(const dynamics::Contact& contact) {
   off_upper_.setZero(padded);
   off_lower_.setZero(padded);
   for (Index i = 0; i < contact.size(); ++i) {
-    gaps_[i] = contact.gap_of(i);
+    gaps_[i] = contact.play_of(i).gap;
     limits_[i] = constant_force_limit(contact, i);
-    if (contact.sides_of(i) != model::Sides::negative)
+    if (contact.play_of(i).has_positive())
       upper_[i] = gaps_[i];
     else
       off_upper_[i] = kNoContact;
-    if (contact.sides_of(i) != model::Sides::positive)
+    if (contact.play_of(i).has_negative())
       lower_[i] = -gaps_[i];
     else
       off_lower_[i] = kNoContact;

@@ -165,9 +165,9 @@ double NodeForces::first_contact_change(double last) const {
   double first = last;
   for (Index i = 0; i < contact.size(); ++i) {
     const StepNodes::Row motion = (row(contact.dof_a(i)) - row(contact.dof_b(i))) * StepNodes::with_middle();
-    const model::Sides sides = contact.sides_of(i);
-    if (sides != model::Sides::negative) first = StepNodes::first_crossing(motion, contact.gap_of(i), first);
-    if (sides != model::Sides::positive) first = StepNodes::first_crossing(motion, -contact.gap_of(i), first);
+    const model::FreePlay& play = contact.play_of(i);
+    if (play.has_positive()) first = StepNodes::first_crossing(motion, play.upper(), first);
+    if (play.has_negative()) first = StepNodes::first_crossing(motion, play.lower(), first);
   }
   return first;
 }

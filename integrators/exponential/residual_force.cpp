@@ -8,8 +8,8 @@ namespace butee::integrators {
 ResidualForce::ResidualForce(const dynamics::Contact& contact, Index stop)
     : largest_(contact.law_of(stop).asymptotic_force()),
       bend_(contact.law_of(stop).transition_width()),
-      gap_(contact.gap_of(stop)),
-      jumps_(contact.sides_of(stop) == model::Sides::both) {}
+      gap_(contact.play_of(stop).gap),
+      jumps_(contact.play_of(stop).has_both()) {}
 
 double ResidualForce::constant_error(double w0, double w1, double bound, double compliance, double steps) const {
   // The next term of the arctan's series about infinity.
@@ -23,7 +23,7 @@ double ResidualForce::constant_error(double w0, double w1, double bound, double 
 double constant_force_limit(const dynamics::Contact& contact, Index stop) {
   constexpr double kBends = 10.0, kHuge = 1e100, kBlunt = 100.0;
   const model::ContactLaw& law = contact.law_of(stop);
-  const double bend = std::min(law.transition_width(), kHuge), gap = contact.gap_of(stop);
+  const double bend = std::min(law.transition_width(), kHuge), gap = contact.play_of(stop).gap;
   if (law.asymptotic_force() > 0.0 && gap < kBlunt * bend) return -kHuge;
   return gap - kBends * bend;
 }

@@ -24,9 +24,7 @@ std::array<double, 3> move(std::array<double, 3>& path, const PathCoupling& coup
 }  // namespace
 
 SingleStep::Gap::Gap(const dynamics::Contact& contact)
-    : upper(contact.sides_of(0) == model::Sides::negative ? kInfinite : contact.gap_of(0)),
-      lower(contact.sides_of(0) == model::Sides::positive ? -kInfinite : -contact.gap_of(0)),
-      limit(constant_force_limit(contact, 0)) {}
+    : upper(contact.play_of(0).upper()), lower(contact.play_of(0).lower()), limit(constant_force_limit(contact, 0)) {}
 
 bool SingleStep::can_take(const dynamics::Dynamics& dynamics) {
   const auto& loads = dynamics.system().loads;

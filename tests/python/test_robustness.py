@@ -211,9 +211,25 @@ def test_empty_python_objects_raise():
             repr(empty)
 
 
-def test_an_interpreter_may_end_in_the_midst(tmp_path):
+PYTHON_LOAD = """
+@butee.load("nothing")
+def nothing(t):
+    return 0.0
+scene = butee.Scene({**scene.to_dict(), "load": [{"type": "nothing", "node": "rotor"}]})
+"""
+
+
+@pytest.mark.parametrize("setting", ["", PYTHON_LOAD], ids=["alone", "with_a_load_in_python"])
+def test_an_interpreter_may_end_in_the_midst(tmp_path, setting):
+    """Threads that compute then want its lock now and then, or nearly always."""
     code = textwrap.dedent(LONG.format(path=[str(pathlib.Path(__file__).parent)], method="rk4",
                                        options={"time_step": 1e-6, "tolerance": None, "end_time": 1.0e6}))
-    code += "import threading\nthreading.Thread(target=scene.run, daemon=True).start()\ntime.sleep(0.2)\nprint('bye')\n"
+    code += setting + textwrap.dedent("""
+        import threading
+        for _ in range(3):
+            threading.Thread(target=scene.run, daemon=True).start()
+        time.sleep(0.2)
+        print('bye')
+        """)
     process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert (process.returncode, process.stdout, process.stderr) == (0, "bye\n", "")

@@ -134,8 +134,8 @@ TEST(Contact, StopsOnOneNodeAddUp) {
   Vector force = Vector::Zero(1);
   scene.dynamics().add_contact_force(Vector::Constant(1, 0.04), force);
   EXPECT_NEAR(force[0], -kStiffness * (0.03 + 0.01), kRounding * kStiffness);
-  EXPECT_EQ(scene.dynamics().contact().gap_of(1), 0.03);
-  EXPECT_EQ(scene.dynamics().contact().sides_of(1), model::Sides::positive);
+  EXPECT_EQ(scene.dynamics().contact().play_of(1).gap, 0.03);
+  EXPECT_EQ(scene.dynamics().contact().play_of(1).sides, model::Sides::positive);
 }
 
 TEST(Contact, StopsOnSupportsAreSkippedAndNeverEvaluated) {

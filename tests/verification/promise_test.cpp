@@ -128,7 +128,8 @@ TEST_P(Promise, IsKeptForEveryComponent) {
       for (Index row = 0; row < kRows; ++row) {
         run.dynamics().contact().displacement(reference.x.col(row), w);
         for (Index i = 0; i < w.size(); ++i)
-          if (std::abs(std::abs(w[i]) - run.dynamics().contact().gap_of(i)) <= margin * scales.x.col(row).maxCoeff())
+          if (std::abs(std::abs(w[i]) - run.dynamics().contact().play_of(i).gap) <=
+              margin * scales.x.col(row).maxCoeff())
             is_near[row] = 1.0;
       }
       Vector gamma = Vector::Ones(kRows);

@@ -73,14 +73,14 @@ class Adviser {
 
   void judge_laws() {
     for (const model::FreeStops& stops : system_.stops) {
-      if (stops.gap <= 0.0) continue;
-      const double felt = stops.law->secant(-kNearPart * stops.gap) / stops.law->closed_stiffness();
-      if (felt > kSoftStart)
+      if (stops.play.gap <= 0.0) continue;
+      const double share = stops.law->secant(-kNearPart * stops.play.gap) / stops.law->closed_stiffness();
+      if (share > kSoftStart)
         add("regularization",
-            "a stop with the gap " + to_short_text(stops.gap) + " m has " + to_short_text(100.0 * felt) +
+            "a stop with the gap " + to_short_text(stops.play.gap) + " m has " + to_short_text(100.0 * share) +
                 " % of its stiffness while it is still open by a tenth of that: the regularization is too small for "
                 "the gap; take at least " +
-                to_short_text(1.0 / (std::numbers::pi * std::numbers::pi * kNearPart * stops.gap * kSoftStart)) +
+                to_short_text(1.0 / (std::numbers::pi * std::numbers::pi * kNearPart * stops.play.gap * kSoftStart)) +
                 " 1/m, or law = \"linear\"");
     }
   }
@@ -91,8 +91,8 @@ class Adviser {
     for (const auto& stops : system_.stops) {
       if (stops.law->asymptotic_force() == 0.0) continue;
       pull = std::max(pull, stops.law->asymptotic_force());
-      smallest_gap = std::min(smallest_gap, stops.gap);
-      for (std::size_t i = 0; i < stops.size() && stops.sides == model::Sides::both; ++i) {
+      smallest_gap = std::min(smallest_gap, stops.play.gap);
+      for (std::size_t i = 0; i < stops.size() && stops.play.has_both(); ++i) {
         const double ua = stops.a[i] >= 0 ? system_.initial_displacement[stops.a[i]] : 0.0;
         const double ub = stops.b[i] >= 0 ? system_.initial_displacement[stops.b[i]] : 0.0;
         at_rest = at_rest || ua == ub;

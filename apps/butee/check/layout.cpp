@@ -122,16 +122,16 @@ void add_supports(const model::Model& model, const Placer& placer, Layout& layou
 void add_stops(const model::Model& model, const Placer& placer, const std::vector<std::string>& laws, Layout& layout) {
   for (std::size_t g = 0; g < model.stops.size(); ++g) {
     const model::StopGroup& group = model.stops[g];
-    layout.stop_labels.push_back("gap " + to_short_text(group.gap) + " m, " +
+    layout.stop_labels.push_back("gap " + to_short_text(group.play.gap) + " m, " +
                                  to_short_text(group.law->closed_stiffness()) + " N/m" +
                                  (g < laws.size() ? ", " + laws[g] : ""));
     for (std::size_t i = 0; i < group.a.size(); ++i) {
       StopMark mark;
       mark.at = placer.of(group.a[i]);
       if (!group.b.empty()) mark.other = placer.of(group.b[i]);
-      mark.positive = group.sides != model::Sides::negative;
-      mark.negative = group.sides != model::Sides::positive;
-      mark.gap = group.gap;
+      mark.positive = group.play.has_positive();
+      mark.negative = group.play.has_negative();
+      mark.gap = group.play.gap;
       mark.group = static_cast<int>(g);
       layout.stops.push_back(mark);
     }

@@ -41,10 +41,7 @@ struct Stop {
     if (group.b[i] >= 0) s[group.b[i]] -= 1.0;
     return s;
   }
-  bool is_shut(double w) const {
-    if (group.sides == model::Sides::both) return std::abs(w) > group.gap;
-    return (group.sides == model::Sides::positive ? w : -w) > group.gap;
-  }
+  bool is_shut(double w) const { return group.play.penetration(w) > 0.0; }
 };
 
 std::vector<Stop> stops_of(const model::System& system) {
@@ -136,7 +133,7 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
     ++result.sampled;
   }
   for (const Stop& stop : stops) {
-    result.smallest_gap = std::min(result.smallest_gap, stop.group.gap);
+    result.smallest_gap = std::min(result.smallest_gap, stop.group.play.gap);
     result.closed_at_start += stop.is_shut(stop.at(system.initial_displacement)) ? 1 : 0;
   }
   if (held) add_statics(system, stiffness, stops, end_time, result);

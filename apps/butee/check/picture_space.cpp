@@ -142,7 +142,7 @@ class Drawing {
           continue;
         }
         for (const double side : {-1.0, 1.0}) {
-          if (side < 0.0 ? group.sides == model::Sides::negative : group.sides == model::Sides::positive) continue;
+          if (!group.play.has_side(side)) continue;
           const double tip = y + side * 8.0;
           svg.polygon({{x, tip}, {x - 5.0, tip + side * 8.0}, {x + 5.0, tip + side * 8.0}}, kStop);
         }

@@ -37,8 +37,8 @@ std::vector<double> gaps_of(const model::Model& model, model::NodeId node, DofKi
   std::vector<double> gaps;
   for (const model::StopGroup& stops : model.stops) {
     if (stops.dof != kind || !stops.b.empty() || !holds(model.nodes, stops.a, node)) continue;
-    if (stops.sides != model::Sides::positive) gaps.push_back(-stops.gap);
-    if (stops.sides != model::Sides::negative) gaps.push_back(stops.gap);
+    if (stops.play.has_negative()) gaps.push_back(stops.play.lower());
+    if (stops.play.has_positive()) gaps.push_back(stops.play.upper());
   }
   std::sort(gaps.begin(), gaps.end());
   gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());

@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "integrators/piecewise.hpp"
+#include "integrators/piecewise_motion.hpp"
 
 namespace butee::integrators {
 
 template <class Jump, class Propagate>
-void Piecewise::follow_pieces(const time::State& from, const time::State& to, Jump jump, Propagate propagate) {
+void PiecewiseMotion::follow_pieces(const time::State& from, const time::State& to, Jump jump, Propagate propagate) {
   recall(from, to);
   const std::size_t m = status_.size();
   std::vector<StopStatus> before(m), after(m);
@@ -27,7 +27,7 @@ void Piecewise::follow_pieces(const time::State& from, const time::State& to, Ju
   change();
 }
 
-Vector Piecewise::jump_of(Index i) const {
+Vector PiecewiseMotion::jump_of(Index i) const {
   const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
   LongVector force = LongVector::Zero(system_.size());
   if (stop.a >= 0) force[stop.a] += stop.damping;
@@ -35,10 +35,10 @@ Vector Piecewise::jump_of(Index i) const {
   return system_.mass.ldlt().solve(force).cast<double>();
 }
 
-Eigen::MatrixXd Piecewise::derivative(const time::State& from, const time::State& to) const {
+Eigen::MatrixXd PiecewiseMotion::derivative(const time::State& from, const time::State& to) {
   const Index n = system_.size();
   Eigen::MatrixXd product = Eigen::MatrixXd::Identity(2 * n, 2 * n);
-  const_cast<Piecewise&>(*this).follow_pieces(
+  follow_pieces(
       from, to,
       [&](Index i, double sign) {
         const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
@@ -51,13 +51,12 @@ Eigen::MatrixXd Piecewise::derivative(const time::State& from, const time::State
   return product;
 }
 
-Vector Piecewise::derivative_by_loads(const time::State& from, const time::State& to) const {
+Vector PiecewiseMotion::derivative_by_loads(const time::State& from, const time::State& to) {
   const Index n = system_.size();
   Vector by_loads = Vector::Zero(2 * n);
   ContactStateFlow::Piece response;
   Eigen::MatrixXd force(n, 3);
-  auto& self = const_cast<Piecewise&>(*this);
-  self.follow_pieces(
+  follow_pieces(
       from, to,
       [&](Index i, double sign) {
         const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
