@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "butee/core/error.hpp"
+#include "butee/linalg/dense_pairs.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -51,11 +52,10 @@ ContactStateFlow::ContactStateFlow(const SmallSystem& system, const std::vector<
     shapes(0, 0) = 1.0L / std::sqrt(system.mass(0, 0));
     squares[0] = stiffness(0, 0) / system.mass(0, 0);
   } else {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<LongMatrix> solver(stiffness, system.mass);
-    if (solver.info() != Eigen::Success)
-      throw RunError("piecewise: the modes of a contact state could not be computed; take exact or rodas4");
-    shapes = solver.eigenvectors();
-    squares = solver.eigenvalues();
+    const auto pairs = linalg::extended_pairs(stiffness, system.mass);
+    if (!pairs) throw RunError("piecewise: the modes of a contact state could not be computed; take exact or rodas4");
+    shapes = pairs->vectors;
+    squares = pairs->values;
   }
   const long double largest = squares.cwiseAbs().maxCoeff();
   for (Index i = 0; i < n_; ++i)

@@ -5,12 +5,12 @@
 #include <complex>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "butee/core/error.hpp"
 #include "butee/dynamics/dynamics.hpp"
 #include "butee/linalg/dense_pairs.hpp"
+#include "butee/linalg/general_pairs.hpp"
 
 namespace butee::dynamics {
 namespace {
@@ -78,10 +78,10 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
   motion.topRightCorner(b, b) = block.scale.matrix().asDiagonal();
   motion.bottomLeftCorner(b, b) = -stiffness * block.scale.inverse().matrix().asDiagonal();
   motion.bottomRightCorner(b, b) = -damping;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(motion);
-  if (solver.info() != Eigen::Success) return false;
-  block.values = solver.eigenvalues();
-  block.vectors = solver.eigenvectors();
+  auto pairs = linalg::general_pairs(motion);
+  if (!pairs) return false;
+  block.values = pairs->values;
+  block.vectors = std::move(pairs->vectors);
   block.inverse = block.vectors.inverse();
   return block.inverse.allFinite() && block.vectors.norm() * block.inverse.norm() < kDefective * static_cast<double>(b);
 }

@@ -84,7 +84,10 @@ struct RitzPairs {
 /// Coefficients C with C^T M C = 1 and C^T K C diagonal, ascending; empty where that failed.
 linalg::ExtendedColumns ritz(const linalg::ExtendedColumns& stiffness, const linalg::ExtendedColumns& mass) {
   const linalg::ExtendedColumns k = (stiffness + stiffness.transpose()) / 2.0L, m = (mass + mass.transpose()) / 2.0L;
-  if (k.cols() <= kExtendedRitz) return linalg::extended_vectors(k, m);
+  if (k.cols() <= kExtendedRitz) {
+    const auto pairs = linalg::extended_pairs(k, m);
+    return pairs ? pairs->vectors : linalg::ExtendedColumns();
+  }
   const auto pairs = linalg::dense_pairs(k.cast<double>(), m.cast<double>());
   return pairs ? linalg::ExtendedColumns(pairs->vectors.cast<long double>()) : linalg::ExtendedColumns();
 }

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "butee/core/error.hpp"
 #include "butee/dynamics/modal_damping.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/general_factor.hpp"
+#include "butee/linalg/general_pairs.hpp"
 
 namespace butee::dynamics {
 namespace {
@@ -75,21 +74,6 @@ void sort(std::vector<WhirlMode>& modes) {
 
 SparseMatrix or_zero(const SparseMatrix& matrix, Index n) {
   return matrix.size() > 0 ? matrix : SparseMatrix(n, n);
-}
-
-struct Pairs {
-  Eigen::VectorXcd values;
-  Eigen::MatrixXcd vectors;
-};
-
-/// Eigenvalues and eigenvectors. The real QR iteration gives up now and then where pairs lie close together; the
-/// complex one then finds them.
-Pairs pairs_of(const Eigen::MatrixXd& matrix) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
-  if (solver.info() == Eigen::Success) return {solver.eigenvalues(), solver.eigenvectors()};
-  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> complex(matrix.cast<Complex>());
-  if (complex.info() != Eigen::Success) throw RunError("the whirling modes could not be computed");
-  return {complex.eigenvalues(), complex.eigenvectors()};
 }
 
 }  // namespace
@@ -173,7 +157,9 @@ std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
   motion.bottomLeftCorner(n, n) = -(scale.cwiseInverse().asDiagonal() * stiffness);
   motion.bottomRightCorner(n, n) =
       -(scale.cwiseInverse().asDiagonal() * (modal_damping_ + speed * modal_gyroscopic_) * scale.asDiagonal());
-  const Pairs pairs = pairs_of(motion);
+  const auto found = linalg::general_pairs(motion);
+  if (!found) throw RunError("the whirling modes could not be computed");
+  const linalg::ComplexPairs& pairs = *found;
   std::vector<Index> places;
   for (Index i = 0; i < 2 * n; ++i)
     if (pairs.values[i].imag() >= 0.0) places.push_back(i);

@@ -151,16 +151,10 @@ std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& matrix) {
   return Pairs{solver.eigenvalues(), solver.eigenvectors()};
 }
 
-std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  return solver.eigenvalues();
-}
-
-ExtendedColumns extended_vectors(const ExtendedColumns& stiffness, const ExtendedColumns& mass) {
+std::optional<ExtendedPairs> extended_pairs(const ExtendedColumns& stiffness, const ExtendedColumns& mass) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<ExtendedColumns> solver(stiffness, mass);
-  if (solver.info() != Eigen::Success) return {};
-  return solver.eigenvectors();
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return ExtendedPairs{solver.eigenvalues(), solver.eigenvectors()};
 }
 
 }  // namespace butee::linalg

@@ -31,10 +31,10 @@ BUTEE_EXPORT std::optional<Vector> dense_values(const Eigen::MatrixXd& stiffness
 /// All pairs of a dense symmetric matrix.
 BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& matrix);
 
-/// The eigenvalues of any square matrix.
-BUTEE_EXPORT std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix);
-
-/// The vectors of K x = lambda M x in extended precision; none where that failed.
-ExtendedColumns extended_vectors(const ExtendedColumns& stiffness, const ExtendedColumns& mass);
+/// All pairs of K x = lambda M x in extended precision.
+struct ExtendedPairs {
+  ExtendedColumns values, vectors;  ///< n x 1 and n x n
+};
+BUTEE_EXPORT std::optional<ExtendedPairs> extended_pairs(const ExtendedColumns& stiffness, const ExtendedColumns& mass);
 
 }  // namespace butee::linalg

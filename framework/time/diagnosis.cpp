@@ -6,7 +6,7 @@
 #include "butee/core/text.hpp"
 #include "butee/dynamics/free_motion.hpp"
 #include "butee/dynamics/frequencies.hpp"
-#include "butee/linalg/dense_pairs.hpp"
+#include "butee/linalg/general_pairs.hpp"
 
 namespace butee::time {
 namespace {

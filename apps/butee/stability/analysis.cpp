@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <butee/linalg/dense_pairs.hpp>
+#include <butee/linalg/general_pairs.hpp>
 
 namespace butee::app::stability {
 namespace {

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include <butee/export.hpp>
+
+#include "butee/core/types.hpp"
+
+namespace butee::linalg {
+
+/// Eigenvalues in no order, and their vectors of length 1, one in each column.
+struct ComplexPairs {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+
+/// All pairs of any square matrix; nothing if the iterations do not converge. The real QR iteration gives up now and
+/// then where pairs lie close together; the complex one then finds them. Not installed.
+BUTEE_EXPORT std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix);
+
+/// The eigenvalues of any square matrix.
+BUTEE_EXPORT std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix);
+
+}  // namespace butee::linalg
