@@ -4,12 +4,14 @@
 
 namespace butee::integrators {
 
-/// Local errors of second-order methods from the accelerations of two steps: those of the trapezoidal rule,
+/// Estimates the local errors of second-order methods from the accelerations of two steps, as those
+/// of the trapezoidal rule:
 ///
 ///     e_x = h^3 s/12,    e_v = h^3 a''/12,    s = (a_{n+1} - a_n)/d,    a'' = 2 (s - s_old)/(d + d_old)
 ///
-/// where a_{n+1} is an acceleration that the equations gave at t_{n+1} - lag, and d the time from a_n to there. The
-/// memory of a state holds LocalErrorControl's part, then h, lag, d (0 where s is not known), s and a_n.
+/// a_{n+1} is an acceleration that satisfies the equations of motion at t_{n+1} - lag, and d is the
+/// time between a_n and a_{n+1}. The memory of a state holds LocalErrorControl's part, then h, lag,
+/// d (0 if s is not known), s and a_n.
 class AccelerationError {
  public:
   /// `contact_change`: LocalErrorControl::Orders::contact_change.
@@ -19,27 +21,28 @@ class AccelerationError {
   const time::StepController& controller() const { return control_.controller(); }
   double first_step() const { return control_.first_step(); }
   void start(time::State& state);
-  /// By the accelerations at the ends of steps.
+  /// The same with the acceleration at the end of the step (lag 0).
   void judge(const time::State& from, time::State& to, double h, time::StepReport& report) {
     judge(from, to, h, to.a, 0.0, report);
   }
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef a, double lag,
              time::StepReport& report);
-  /// Of a state from which another motion begins: the next step is judged as the first one is.
+  /// Discards the slope s at a state at which the motion is not smooth; the next step is judged as
+  /// a first step.
   static void forget_slope(time::State& state) { state.memory[place(state) + kDistance] = 0.0; }
-  /// Takes `slope` for the rate of the acceleration at a state behind which another motion begins.
+  /// Sets s, the rate of the acceleration, to `slope` at a state at which the motion is not smooth.
   static void take_slope(time::State& state, ConstVectorRef slope) {
     const Index at = place(state);
-    // A step and a distance of no length: the slope is that of an instant.
+    // h and d are practically zero, since the slope belongs to one instant.
     state.memory.segment(at + kStep, 3) << kInstant, 0.0, kInstant;
     state.memory.segment(at + kSlope, state.x.size()) = slope;
   }
 
-  /// The length of the step to a state, s; 0 where no slope is known.
+  /// The length of the step that ended at this state, s; 0 if no slope is known.
   static double last_step(const time::State& state) {
     return state.memory[place(state) + kDistance] > 0.0 ? state.memory[place(state) + kStep] : 0.0;
   }
-  /// The acceleration at t + offset along the last slope.
+  /// The acceleration at t + offset, extrapolated linearly with the last slope.
   static auto extrapolated(const time::State& state, double offset) {
     const Index n = state.x.size(), at = place(state);
     return state.memory.segment(at + kSlope + n, n) +
@@ -49,7 +52,7 @@ class AccelerationError {
  private:
   static constexpr double kConstant = 1.0;
   static constexpr double kInstant = 1e-100;
-  /// Places behind the control's memory.
+  /// Offsets behind the control's memory.
   static constexpr Index kStep = 0, kLag = 1, kDistance = 2, kSlope = 3;
   static Index place(const time::State& state) { return LocalErrorControl::memory_size(state.x.size()); }
 

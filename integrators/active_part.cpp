@@ -8,19 +8,20 @@
 namespace butee::integrators {
 namespace {
 
-/// In places of the pattern; in a chain of beams, elements.
+/// Radius of the first part in edges of the sparsity pattern; for a chain of beams, in elements.
 constexpr double kFirstRadius = 32.0;
-/// Of the radius: a part to the next one, and the inner part of one.
+/// Ratio of the radii of successive parts, and radius of the inner region over that of the part.
 constexpr double kGrowth = 1.5, kInner = 0.75;
-/// Of what closes a stop's gap, over the tolerance: a law that pulls by more as soon as anything moves counts as
-/// moving.
+/// Bound of a residual force, as a fraction of tolerance times the force that closes the gap. Open
+/// stops with a larger residual force belong to the start set.
 constexpr double kNegligible = 0.005;
-/// So much of the tolerance may be in the outer part.
+/// Fraction of the tolerance that the motion in the outer region may reach.
 constexpr double kNegligible = 0.1;
-/// Entries of the memory before the scales.
+/// Number of memory entries before the scales.
 const Index kBefore = LocalErrorControl::memory_size(0);
 
-/// The DOFs that loads, the initial motion, stops that push at rest, and laws that pull at open stops begin with.
+/// The start set: DOFs with loads, initial motion, stops that push at rest, or open stops with a
+/// residual force.
 std::vector<Index> moving_first(dynamics::Dynamics& dynamics, double tolerance) {
   const model::System& system = dynamics.system();
   Vector moves = system.initial_displacement.cwiseAbs() + system.initial_velocity.cwiseAbs();
@@ -42,7 +43,8 @@ std::vector<Index> moving_first(dynamics::Dynamics& dynamics, double tolerance) 
   return dofs;
 }
 
-/// From those, in places of the pattern; what nothing leads to is behind all else.
+/// The distance of each DOF from the start set, in edges of the sparsity pattern; unconnected DOFs
+/// are beyond all others.
 std::vector<Index> distances_of(dynamics::Dynamics& dynamics, double tolerance) {
   std::vector<Index> distances = model::distances(dynamics.system(), moving_first(dynamics, tolerance));
   const Index last = *std::max_element(distances.begin(), distances.end()) + 1;
@@ -150,7 +152,7 @@ time::StepReport ActivePart::step_on(Part& part, const time::State& from, const 
   part.from.a = from.a(part.dofs);
   restrict_memory(part, from.memory, part.from.memory);
   part.to.memory.resize(part.from.memory.size());
-  part.dynamics->loads_changed();  // Nobody tells it when they do.
+  part.dynamics->loads_changed();  // The part is not notified of changed loads.
   part.dynamics->counters() = {};
   const time::StepReport report = part.method->step(part.from, step, part.to);
   dynamics().counters() = dynamics().counters() + part.dynamics->counters();

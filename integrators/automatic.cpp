@@ -17,19 +17,19 @@ namespace butee::integrators {
 
 namespace {
 
-/// Systems up to this size have their modes within a millisecond.
+/// Up to this number of DOFs the modes are computed within a millisecond.
 constexpr Index kSmall = 96;
 
-/// Systems up to this size have their damped modes in less than a second, however they are coupled.
+/// Up to this number of DOFs the damped modes are computed in less than a second for any coupling.
 constexpr Index kQuickModes = 140;
 
 struct Cost {
   double exponential, rodas4;  ///< s
 };
 
-/// What a run to `end_time` would cost, to a factor of two or so. Step counts and times a step were measured on beams
-/// of 68 to 600 DOFs with a stop at every node, from 3 ms to 0.3 s at a tolerance of 1e-3; other machines differ in all
-/// of them alike.
+/// Estimated cost of a run to `end_time`, to about a factor of two. Step counts and times per step
+/// were measured on beams of 68 to 600 DOFs with a stop at every node, from 3 ms to 0.3 s at a
+/// tolerance of 1e-3. Another machine changes all of them by about the same factor.
 Cost estimate(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const auto& contact = dynamics.contact();
   const model::System& system = dynamics.system();
@@ -45,13 +45,14 @@ Cost estimate(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
           (0.8 * n + 4.0 * turns) * finer * (6e-8 * n + 1.1e-11 * m * m * m)};
 }
 
-/// Up to this size the motion between two changes of contact in closed form costs less than steps, at a tight
-/// tolerance somewhat beyond (plugins/auto/README.md).
+/// Up to this number of DOFs the closed form between two changes of contact costs less than steps;
+/// the limit is higher for tight tolerances (plugins/auto/README.md).
 constexpr Index kFew = 4, kFewAtTight = 6;
 constexpr double kTight = 1e-5;
 
-/// Whether the scene is one of few DOFs with linear stops whose contact states have modes: all of them where damping
-/// leaves modes alone, else those with none, one or all stops closed are looked at.
+/// True for few DOFs with linear stops whose contact states have modes. If damping does not couple
+/// modes, all contact states have them; otherwise those with none, one or all stops closed are
+/// checked.
 bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const Index contacts = dynamics.stop_count() + (dynamics.obstacles() != nullptr ? dynamics.obstacles()->size() : 0);
   if (dynamics.size() > (tolerance <= kTight ? kFewAtTight : kFew) || contacts == 0 ||
@@ -75,7 +76,7 @@ bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_
   return true;
 }
 
-/// Whether exponential takes the scene by its damped modes, and these are found quickly.
+/// True if `exponential` supports the scene with damped modes and these are computed quickly.
 bool suits_collocation(dynamics::Dynamics& dynamics) {
   const model::System& system = dynamics.system();
   const bool is_coupled =

@@ -13,7 +13,7 @@ constexpr double kMiddle = 1.0 / (kGamma * (2.0 - kGamma));
 constexpr double kOld = 1.0 - kMiddle;
 constexpr double kStage = 0.5 * kGamma;
 constexpr double kConstant = 1.0, kContactChange = 25.0;
-/// h times these of y' at the three points is the difference to the embedded formula of order 3.
+/// Weights of h y' at the three points in the difference from the embedded formula of order 3.
 constexpr double kWeight = std::numbers::sqrt2 / 4.0;
 constexpr double kError0 = (4.0 * kWeight - 1.0) / 3.0, kError1 = -1.0 / 3.0, kError2 = 2.0 * kStage / 3.0;
 

@@ -9,10 +9,11 @@ namespace butee::integrators {
 namespace {
 
 constexpr int kNone = 2;
-/// The border g = 0 of a smooth law, beside w = 0 (0) and the borders of a linear one (+1, -1).
+/// The border g = 0 of a smooth law, in addition to w = 0 (0) and the borders of a linear law (+1,
+/// -1).
 constexpr int kBend = 3;
-/// So close to a border, relative to the gap and to the motion of a piece, rounding does not tell the sides apart; the
-/// direction of the motion does.
+/// At this distance from a border, relative to the gap and to the motion of a piece, rounding hides
+/// the side; the direction of the motion determines it.
 constexpr double kOnBorder = 1e-14;
 
 }  // namespace
@@ -62,7 +63,7 @@ void ContactBranches::decide(const Eigen::MatrixXd& w) {
     double direction = 0.0;
     for (Index k = 1; k < w.cols() && direction == 0.0; ++k) direction = w(i, k);
     const double side = direction > 0.0 ? 1.0 : -1.0;
-    const bool on_both = branch.side == 0.0;  // w = 0, where either side may come
+    const bool on_both = branch.side == 0.0;  // at w = 0, from where either side may follow
     if (direction == 0.0) {
       branch.status = Status::open;
     } else if (series_[static_cast<std::size_t>(i)]) {
@@ -124,7 +125,7 @@ void ContactBranches::watch_bend(const Eigen::MatrixXd& w, Index stop, double un
   }
   const double g = side * w(stop, 0) - gap;
   const bool is_on_it = branch.crossed == kBend || std::abs(g) <= kOnBorder * (gap + moves);
-  // On the border, what it moves away to is where it is.
+  // On the border, the direction of the motion determines the side.
   const double where = (is_on_it ? direction : g) < 0.0 ? -1.0 : 1.0;
   watch(w, stop, kBend, where * side, -where * gap, until, first);
 }

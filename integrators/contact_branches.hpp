@@ -10,20 +10,24 @@
 
 namespace butee::integrators {
 
-/// The stops of a scene between two changes: on each branch its force is an analytic function of its displacement.
+/// The branches of the stops' force laws between two changes of contact. On a branch the force of a
+/// stop is an analytic function of its displacement.
 ///
-/// A piecewise linear stop is open or closed on one side; a smooth law changes its branch only where a stop with two
-/// sides passes w = 0, where the nearer side changes. Displacements are polynomials in s, 0 <= s <= 1 being the length
-/// of an expansion: column k of w holds the coefficients of s^k, one row a stop.
+/// A piecewise linear stop is open or closed on one side. A smooth law changes its branch only if a
+/// stop with two sides passes w = 0, where the nearer side changes. Displacements are polynomials
+/// in s; 0 <= s <= 1 spans the expansion. Column k of w holds the coefficients of s^k, with one row
+/// per stop.
 class ContactBranches {
  public:
-  /// Throws InputError for a law that is neither piecewise linear nor gives a series. `contact` must outlive it.
+  /// Throws InputError for a law that is not piecewise linear and gives no series. `contact` must
+  /// outlive it.
   ContactBranches(const dynamics::Contact& contact, int order);
 
-  /// The branches of displacements w; where w lies on a border, undecided.
+  /// Sets the branches at displacements w; a stop on a border is undecided.
   void place(ConstVectorRef w);
   bool any_undecided() const;
-  /// Decides from the first coefficient beyond the constant that is not zero; where there is none, the stop stays open.
+  /// Decides undecided stops by the first nonzero coefficient of w beyond the constant; if all are
+  /// zero, the stop is open.
   void decide(const Eigen::MatrixXd& w);
 
   /// Coefficient k of the forces, given the coefficients 0 ... k of w. An undecided stop exerts none.
@@ -35,7 +39,7 @@ class ContactBranches {
     Index stop;
     int border;  ///< -1, +1: the side of the border that is crossed; 0: w = 0
   };
-  /// The first change for 0 < s <= `until`.
+  /// The first change in 0 < s <= `until`.
   std::optional<Change> first_change(const Eigen::MatrixXd& w, double until);
   void apply(const Change& change);
 
@@ -43,15 +47,16 @@ class ContactBranches {
   enum class Status : std::int8_t { open, closed, smooth, undecided };
   struct Branch {
     Status status = Status::open;
-    double side = 1.0;  ///< of the closed or smooth branch
+    double side = 1.0;  ///< +1, -1: the side of a closed or smooth branch
     int crossed = 2;    ///< the border just crossed, on which w lies to rounding; 2: none
   };
 
   /// Looks for the sign change of offset + factor w and keeps it where it comes first.
   void watch(const Eigen::MatrixXd& w, Index stop, int border, double factor, double offset, double until,
              std::optional<Change>& first);
-  /// Of a smooth law: where the path meets g = 0. Its bend may be so narrow that the series of the far force does not
-  /// know of it, and would carry the path across.
+  /// Finds where the path of a stop with a smooth law meets g = 0. The transition there may be so
+  /// narrow that the series of the asymptotic force does not resolve it, so that the expansion must
+  /// end there.
   void watch_bend(const Eigen::MatrixXd& w, Index stop, double until, std::optional<Change>& first);
 
   const dynamics::Contact& contact_;
@@ -59,7 +64,7 @@ class ContactBranches {
   std::vector<std::unique_ptr<model::ForceSeries>> series_;  ///< nullptr for piecewise linear laws
   PolynomialRoot root_;
   std::vector<double> gap_, polynomial_;
-  std::vector<std::vector<double>> penetration_;  ///< coefficients of g, of smooth stops
+  std::vector<std::vector<double>> penetration_;  ///< series coefficients of g for stops with a smooth law
 };
 
 }  // namespace butee::integrators

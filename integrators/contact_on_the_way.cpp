@@ -6,20 +6,21 @@
 namespace butee::integrators {
 namespace {
 
-/// Impulses below this part of the tolerance times m S_v are ignored.
+/// Impulses below this fraction of the tolerance times m S_v are ignored.
 constexpr double kNegligibleImpulse = 0.1;
-/// Penetrations below this part of the displacement are rounding.
+/// Penetrations below this fraction of the displacement are rounding errors.
 constexpr double kRounding = 1e-13;
 
-/// The largest value that the motion through (w0, v0) and (w1, v1), a step of h apart, may have, which rises at first
-/// and falls at last: that of the cubic, and its error as its acceleration at the start tells it, where the true one is
-/// a0.
+/// Upper bound of a motion through (w0, v0) and (w1, v1), a step of h apart, that rises at the
+/// start and falls at the end: the peak of the cubic plus its error. The error is estimated from
+/// the difference between the cubic's acceleration at the start and the true one, a0.
 double peak(double h, double w0, double v0, double a0, double w1, double v1) {
   // dw/ds = h v0 + 2 b s + 3 c s^2
   const double rise = w1 - w0, b = 3.0 * rise - h * (2.0 * v0 + v1), c = h * (v0 + v1) - 2.0 * rise;
   const double root = std::sqrt(std::max(0.0, b * b - 3.0 * c * h * v0));
   const double s = std::clamp(h * v0 / (root - b), 0.0, 1.0);
-  // The fourth derivative times h^4/384 in the middle, and times h^2/12 in the acceleration at an end.
+  // The error of the cubic is the fourth derivative times h^4/384 in the middle, that of its
+  // acceleration at an end the fourth derivative times h^2/12.
   const double error = std::abs(2.0 * b - h * h * a0) / 32.0;
   return w0 + s * (h * v0 + s * (b + s * c)) + error;
 }
@@ -75,7 +76,7 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
   if (contact_->size() == 0) return false;
   contact_->displacement(from.v, v0_);
   contact_->displacement(to.v, v1_);
-  // Only where a motion turns can it go into a stop and come out again.
+  // Only a motion that reverses can enter a stop and leave it again.
   if (!((v0_.array() * v1_.array()) < 0.0).any()) return false;
   contact_->displacement(from.x, w0_);
   contact_->displacement(to.x, w1_);

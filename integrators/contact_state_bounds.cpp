@@ -8,7 +8,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Terms of a power series whose argument is at most 1, to rounding.
+/// Number of terms of a power series with argument at most 1 for accuracy to rounding.
 constexpr int kBoundTerms = 22;
 
 /// e^z - 1 without cancellation.
@@ -17,7 +17,7 @@ Complex expm1(Complex z) {
   return {std::expm1(z.real()) * std::cos(z.imag()) - 2.0 * half * half, std::exp(z.real()) * std::sin(z.imag())};
 }
 
-/// The response from rest of z' = lambda z + e^(i omega s), and three derivatives.
+/// The response from rest of z' = lambda z + e^(i omega s), with three derivatives.
 std::array<Complex, 4> response(Complex lambda, double omega, double s) {
   const Complex turn(0.0, omega), apart = turn - lambda, load = std::exp(turn * s);
   const Complex ratio = apart == Complex(0.0) ? Complex(s) : expm1(apart * s) / apart;
@@ -144,7 +144,7 @@ double ContactStateFlow::bound_of(const Block& block, const double* y, int k, do
     here = next;
     next = after;
   }
-  // |C + d S| <= 1 and S <= 1/(2 d) of heavily damped motion; S = s of a rigid one.
+  // |C + d S| <= 1 and S <= 1/(2 d) for heavily damped motion; S = s for rigid motion.
   return std::abs(here) + std::abs(next) * (d > 0.0 ? std::min(until, 0.5 / d) : until);
 }
 
@@ -155,7 +155,7 @@ double ContactStateFlow::extra_bound(const Piece& piece, const Block& block, int
   for (Index i = 0; i < 2; ++i) {
     const double* f = parabola + 3 * i;
     const bool is_slow = block.slow[static_cast<std::size_t>(i)];
-    // Bounds of the load and of its first derivatives.
+    // Bounds of the load and of its first two derivatives.
     double load = 0.0, rise = 0.0, bend = 0.0, fastest = 0.0, strength = 0.0;
     if (is_slow) {
       load = std::abs(f[0]) + until * (std::abs(f[1]) + until * std::abs(f[2]));
@@ -172,7 +172,8 @@ double ContactStateFlow::extra_bound(const Piece& piece, const Block& block, int
       fastest = std::max(fastest, omega);
     }
     if (is_slow) {
-      // From rest |q| <= s^2/2 max |f| and |q'| <= s max |f|, since damping only takes; |z| <= s max |f| likewise.
+      // From rest |q| <= s^2/2 max |f| and |q'| <= s max |f|, since damping only removes energy;
+      // likewise |z| <= s max |f|.
       const double rate = block.kind == Kind::mode ? std::sqrt(block.square) + 2.0 * block.decay : block.rate;
       const int lifted = block.kind == Kind::mode ? k - 2 : k - 1;
       if (lifted < 0)

@@ -13,12 +13,12 @@ namespace {
 using LongComplex = std::complex<long double>;
 using LongComplexMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Damping couples modes where an entry beside the diagonal is above this part of the largest: rounding of proportional
-/// damping, which is written in doubles, stays below.
+/// Damping couples modes if an off-diagonal entry exceeds this fraction of the largest entry.
+/// Rounding of proportional damping, which is given in doubles, stays below.
 constexpr long double kUncoupled = 1e-14L;
-/// Squares of frequencies below this part of the largest are rounding: the motion is rigid.
+/// Squared frequencies below this fraction of the largest are rounding errors: the motion is rigid.
 constexpr long double kRigid = 1e-17L;
-/// Eigenvectors whose matrix is worse conditioned lose six digits or more.
+/// Largest condition number of the eigenvector matrix; a larger one loses six digits or more.
 constexpr long double kParallel = 1e6L;
 LongMatrix closed_stiffness(const SmallSystem& system, const std::vector<bool>& closed, bool of_damping) {
   LongMatrix sum = of_damping ? system.damping : system.stiffness;
@@ -163,7 +163,7 @@ void ContactStateFlow::add_coupled(const LongMatrix& shapes, const LongVector& s
   for (Index m = 0; m < 2 * p; ++m) {
     const LongComplex lambda = solver.eigenvalues()[m];
     const LongMatrix of_q_re = inverse.row(m).head(p).real(), of_v_re = inverse.row(m).tail(p).real();
-    if (lambda.imag() < 0.0L) continue;  // the other one of a pair
+    if (lambda.imag() < 0.0L) continue;  // the conjugate eigenvalue of a pair
     if (lambda.imag() > 0.0L) {
       Block block;
       block.kind = Kind::pair;

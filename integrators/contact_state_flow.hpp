@@ -8,68 +8,70 @@
 
 namespace butee::integrators {
 
-/// A linear form of the motion and its first three derivatives in time.
+/// The value of a linear form of the motion and its first three time derivatives.
 using Jet = std::array<double, 4>;
 
 /// The motion of a SmallSystem while the same stops stay closed, in closed form.
 ///
-/// The equation of motion with the closed stops falls into blocks of two coordinates y. A mode that damping leaves
-/// alone is a block (q, q') with q'' + 2 d q' + omega^2 q = f; the modes that dashpots couple give complex pairs
-/// z' = lambda z + f, or two real ones, from the eigenvalues of their first-order system. So
+/// The equation of motion with the closed stops decouples into blocks of two coordinates y. A mode
+/// that damping does not couple is a block (q, q') with q'' + 2 d q' + omega^2 q = f. Modes that
+/// dashpots couple give, from the eigenvalues of their first-order system, blocks of one complex
+/// pair z' = lambda z + f or of two real eigenvalues. Then
 ///
 ///     x(t + s) = R y(s) + x_harmonic(t + s) + x_parabola(s)
 ///
-/// Blocks so slow that a parabola would be divided by next to nothing, and loads in resonance with a block, have their
-/// response from rest added to y instead. Theory: piecewise.md. Checked in tests/unit/contact_state_flow_test.cpp.
+/// For very slow blocks the particular parabola would be divided by a small number; for these, and
+/// for loads in resonance with a block, the response from rest is added to y instead. Theory:
+/// piecewise.md. Checked in tests/unit/contact_state_flow_test.cpp.
 class ContactStateFlow {
  public:
-  /// `system` must outlive it. `closed`: of each stop. `end_time`, s: the run's, which tells slow blocks. Throws
-  /// RunError where eigenvectors are too nearly parallel to be a basis.
+  /// `system` must outlive it. `closed`: for each stop. `end_time` of the run, s, determines which
+  /// blocks are slow. Throws RunError if eigenvectors are too nearly parallel to form a basis.
   ContactStateFlow(const SmallSystem& system, const std::vector<bool>& closed, double end_time);
 
   Index size() const { return n_; }
-  /// The longest piece that resonances allow, s.
+  /// The longest piece for which responses in resonance are accurate, s.
   double longest() const { return longest_; }
-  /// Of anything in it, 1/s.
+  /// The largest decay rate of any block, 1/s.
   double largest_decay() const { return largest_decay_; }
   /// The largest rate of change, 1/s.
   double fastest() const { return fastest_; }
 
-  /// A piece of the motion, and where in it one is.
+  /// A piece of the motion between two changes, and the current position s in it.
   struct Piece {
-    double t = 0.0;                          ///< s, of the start
-    double displacement = 0.0, speed = 0.0;  ///< the largest at the start
-    std::vector<double> start;               ///< y at the start without the responses to loads
-    std::vector<double> phases;              ///< cos and sin of W t, by harmonic
+    double t = 0.0;                          ///< start of the piece, s
+    double displacement = 0.0, speed = 0.0;  ///< largest |x_i|, m, and |v_i|, m/s, at the start
+    std::vector<double> start;               ///< y at the start, without the particular responses to loads
+    std::vector<double> phases;              ///< cos and sin of W t for each harmonic
     bool has_parabola = false;
-    Eigen::MatrixXd parabola;     ///< n x 3: x_parabola
-    bool is_short = false;        ///< the parabolas of loads have their response from rest instead, as a series
-    Eigen::MatrixXd series;       ///< n x terms, in powers of s/length
+    Eigen::MatrixXd parabola;     ///< coefficients of x_parabola, n x 3
+    bool is_short = false;        ///< the response to polynomial loads is `series`, from rest, instead of `parabola`
+    Eigen::MatrixXd series;       ///< n x number of terms, in powers of s/length
     double length = 0.0;          ///< s
-    std::vector<double> forcing;  ///< by block with extras: the loads' parabola in its two coordinates, 2 x 3
+    std::vector<double> forcing;  ///< for each block with extras: load parabolas of its two coordinates, 2 x 3
     double s = 0.0;               ///< s
-    std::vector<double> y;        ///< as start
-    std::vector<double> now;      ///< cos and sin of W (t + s)
-    std::vector<double> extra;    ///< by block with extras: responses from rest and three derivatives, 2 x 4
+    std::vector<double> y;        ///< y at s, as in `start`
+    std::vector<double> now;      ///< cos and sin of W (t + s) for each harmonic
+    std::vector<double> extra;    ///< for each block with extras: responses from rest and three derivatives, 2 x 4
   };
 
-  /// Whether bounds over a longer time are larger.
+  /// True if bounds over a longer time may be larger.
   bool bounds_grow(const Piece& piece) const { return piece.has_parabola || piece.is_short || grows_; }
 
-  /// A piece from (x, v) at t under the polynomial loads of `force`, n x 3 (ignored unless `has_force`), those of gaps
-  /// included. `length`: that it goes at most, s. The piece is at its start.
+  /// Starts a piece from (x, v) at t under the polynomial loads `force`, n x 3, which include the
+  /// forces of the gaps (ignored unless `has_force`). `length`: upper bound of the duration, s.
   void begin(double t, const double* x, const double* v, const Eigen::MatrixXd& force, bool has_force, double length,
              Piece& piece) const;
-  /// Takes the piece to t + s.
+  /// Moves the piece to t + s.
   void go(Piece& piece, double s) const;
-  /// Where the piece is.
+  /// Displacement of stop i at the current position, with derivatives.
   Jet stop(const Piece& piece, Index i) const;
   Jet dof(const Piece& piece, Index i) const { return jet(dofs_, piece, i, i, -1); }
-  /// Bounds of |w| and its first four derivatives from there on, over `until` s.
+  /// Bounds of |w| and its first four derivatives over the next `until` seconds.
   std::array<double, 5> stop_bounds(const Piece& piece, Index i, double until) const;
-  /// The fastest rate that shows in the velocities from there on, 1/s.
+  /// The fastest rate that contributes to the velocities from the current position on, 1/s.
   double rate(const Piece& piece) const;
-  /// The bound of the sixth derivative of a DOF from there on, over `until` s.
+  /// A bound of the sixth derivative of a DOF over the next `until` seconds.
   double sixth_derivative(const Piece& piece, Index i, double until) const;
 
   /// The derivative of (x, v) at s of a piece with respect to (x, v) at its start, 2n x 2n.
@@ -81,22 +83,22 @@ class ContactStateFlow {
     Kind kind = Kind::mode;
     double decay = 0.0;             ///< d of a mode, -Re lambda of a pair
     double square = 0.0;            ///< omega^2, |lambda|^2
-    double turning = 0.0;           ///< omega^2 - d^2 of a mode
+    double turning = 0.0;           ///< omega^2 - d^2 of a mode, 1/s^2
     double frequency = 0.0;         ///< sqrt |turning|, Im lambda
-    double rate = 0.0;              ///< omega, |lambda|, or the larger of two
-    std::array<double, 2> rates{};  ///< of two real ones: lambda
-    std::array<bool, 2> slow{};     ///< its parabola is in the extras; of a mode the first alone
-    std::vector<Index> resonant{};  ///< harmonics that are in the extras
-    Index extra = -1;               ///< its place among blocks with extras
+    double rate = 0.0;              ///< omega, |lambda|, or the larger |lambda| of two real ones
+    std::array<double, 2> rates{};  ///< lambda of two real eigenvalues
+    std::array<bool, 2> slow{};  ///< parabola loads are in the extras, per coordinate; a mode uses the first entry only
+    std::vector<Index> resonant{};  ///< indices of harmonics that are in the extras
+    Index extra = -1;               ///< index among blocks with extras; -1: none
 
     bool oscillates() const { return kind == Kind::pair || (kind == Kind::mode && turning > 0.1 * square); }
   };
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  /// Linear forms of x, a row each.
+  /// Linear forms of x, one per row.
   struct Rows {
-    std::array<Table, 4> of;    ///< of y: the form and its derivatives, by 2 B
-    Table size;                 ///< by block: by what |y| becomes the form
-    Table cosine, sine, swing;  ///< by harmonic: of x_harmonic, and their root sum of squares
+    std::array<Table, 4> of;    ///< coefficients of y in the form and its three derivatives, 2 B columns
+    Table size;                 ///< per block: factor from |y| to a bound of the form
+    Table cosine, sine, swing;  ///< per harmonic: coefficients of x_harmonic, and their root sum of squares
   };
 
   void add_alone(const LongMatrix& shapes, const LongVector& squares, const LongMatrix& damping, Index mode);
@@ -112,7 +114,7 @@ class ContactStateFlow {
   void respond_slowly(const Piece& piece, const Block& block, double s, double* extra) const;
   void resonate(const Piece& piece, const Block& block, double s, double* extra) const;
   Jet jet(const Rows& rows, const Piece& piece, Index row, Index a, Index b) const;
-  /// The bound of derivative k in the metric of Rows::size.
+  /// Bound of derivative k in the metric of Rows::size.
   double bound_of(const Block& block, const double* y, int k, double until) const;
   double extra_bound(const Piece& piece, const Block& block, int k, double until) const;
 
@@ -120,16 +122,17 @@ class ContactStateFlow {
   Index n_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> with_extras_;
-  LongMatrix right_, left_, forcing_;  ///< x = R y (n x 2B), y of (x, v) (2B x 2n), what a force adds (2B x n)
+  LongMatrix right_, left_, forcing_;  ///< x = R y (n x 2B); y from (x, v) (2B x 2n); y' by a force (2B x n)
   Table project_, force_of_;
-  Eigen::MatrixXd by_force_, by_x_, by_v_;  ///< M^-1, M^-1 K and M^-1 C of the contact state
+  Eigen::MatrixXd by_force_, by_x_, by_v_;  ///< M^-1, M^-1 K and M^-1 C with the closed stops
   Rows dofs_, stops_;
-  LongMatrix cosine_, sine_;                 ///< n x harmonics: x_harmonic
-  std::array<Eigen::MatrixXd, 3> parabola_;  ///< n x n: x_parabola of F_0, and what F_1 and F_2 add to lower powers
-  Table harmonic_c_, harmonic_s_;            ///< 2B x harmonics: their forcing
+  LongMatrix cosine_, sine_;  ///< x_harmonic, n x harmonics
+  std::array<Eigen::MatrixXd, 3>
+      parabola_;                   ///< n x n: x_parabola from F_0, and the parts of F_1 and F_2 in lower powers
+  Table harmonic_c_, harmonic_s_;  ///< harmonic forcing of the blocks, 2B x harmonics
   double longest_, fastest_ = 0.0;
   double largest_decay_ = 0.0;
-  bool grows_ = false;  ///< bounds over a longer time
+  bool grows_ = false;  ///< bounds increase with time
   mutable std::vector<double> x_, v_;
 };
 

@@ -6,8 +6,8 @@
 namespace butee::integrators {
 namespace {
 
-/// Between kinks so near to each other, over the fastest rate, a parabola would be the difference of far larger ones;
-/// its response is a power series with so many terms then.
+/// If load discontinuities are closer than kShort over the fastest rate, the parabola would be the
+/// difference of much larger ones; the response is then a power series with kTerms terms.
 constexpr double kShort = 1.0;
 constexpr Index kTerms = 23;
 

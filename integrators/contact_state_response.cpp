@@ -8,10 +8,10 @@ namespace {
 
 using LongComplex = std::complex<long double>;
 
-/// A load this near to a block, relative to its frequency, is in resonance; else its response in closed form loses
-/// four digits of 16 at most.
+/// A load closer than this to a block, relative to its frequency, is in resonance; otherwise its
+/// closed-form response loses at most four of 16 digits.
 constexpr double kResonance = 1e-4;
-/// Turns in radians for which a response in resonance is followed at a time.
+/// Largest phase angle of a piece with a response in resonance, rad.
 constexpr double kLongest = 100.0;
 
 }  // namespace

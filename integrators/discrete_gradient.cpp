@@ -8,10 +8,11 @@
 namespace butee::integrators {
 namespace {
 
-/// Displacements closer than this part of their size and the gap have too little difference of energies left: the mean
-/// of both forces, off by the square of their distance, takes its place.
+/// If two displacements are closer than this fraction of their size and the gap, the difference of
+/// energies loses too many digits. The mean of both forces replaces the quotient; its error is of
+/// second order in the distance.
 constexpr double kClose = 1e-6;
-/// The difference of energies is rounded: the residual cannot get smaller than this part of all forces.
+/// Rounding of the energy differences limits the residual to this fraction of all forces.
 constexpr NewtonOptions kNewtonOfEnergies = {1e-9, 1e-7, 40, false, false};
 
 }  // namespace
@@ -37,7 +38,8 @@ void DiscreteGradientStage::contact(ConstVectorRef w, bool, VectorRef f, VectorR
       f[i] = -(contact.energy_of(i, end_[i]) - contact.energy_of(i, start_[i])) / step;
       k[i] = 2.0 * (f[i] - force_end_[i]) / step;
     }
-    // A regularised law pulls a stop that passes w = 0; Newton's iteration does as well without that.
+    // A regularised law gives a negative tangent if a stop passes w = 0; Newton's iteration
+    // converges as well without it.
     k[i] = std::max(k[i], 0.0);
   }
 }

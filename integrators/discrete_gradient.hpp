@@ -7,13 +7,14 @@
 
 namespace butee::integrators {
 
-/// The stage of a midpoint rule whose stops act with the discrete gradient of their energy between the old and the new
-/// displacement, f = -[U(w_1) - U(w_0)]/(w_1 - w_0), so that their work is exactly what they store.
+/// The stage of a midpoint rule in which each stop exerts the discrete gradient of its energy
+/// between the old and the new displacement, f = -[U(w_1) - U(w_0)]/(w_1 - w_0). The work of this
+/// force equals the change of stored energy.
 class DiscreteGradientStage final : public StageSolver {
  public:
   using StageSolver::StageSolver;
 
-  /// Displacements of the stops at the start of the step.
+  /// Sets the displacements of the stops at the start of the step.
   void begin(ConstVectorRef x);
 
  private:
@@ -26,13 +27,14 @@ class DiscreteGradientStage final : public StageSolver {
 ///
 ///     M (v_{n+1} - v_n)/h + C v_m + K x_m = F(t_n + h/2) + f(w_n, w_{n+1}),   x_m and v_m halfway
 ///
-/// Energy is kept exactly where there is neither damping nor load, across any change of contact and at any step: it
-/// cannot be gained at a stop, as the trapezoidal Newmark method gains it. Order 2; one stage solve a step; the
-/// acceleration at the end is that of the equations of motion. Checked in tests/verification/energy_at_stops_test.cpp
-/// and in tests/conformance. Source: O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449-467, doi 10.1007/BF02440162.
+/// Without damping and load, energy is conserved exactly across any change of contact and for any
+/// step size. The trapezoidal Newmark method can gain energy at a stop; this method cannot. Order
+/// 2; one stage solve per step; the acceleration at the end is that of the equations of motion.
+/// Checked in tests/verification/energy_at_stops_test.cpp and in tests/conformance. Source: O.
+/// Gonzalez, J. Nonlinear Sci. 6 (1996) 449-467, doi 10.1007/BF02440162.
 class DiscreteGradient final : public time::Integrator {
  public:
-  /// Without a goal: fixed steps.
+  /// Without a goal the step size is fixed.
   DiscreteGradient(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }

@@ -18,9 +18,10 @@ constexpr std::array<double, 7> kError = {71.0 / 57600,      0.0,        -71.0 /
                                           -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 /// Measured in tests/conformance/error_constant_test.cpp.
 constexpr double kConstant = 1.5, kContactChange = 40.0;
-/// Of h omega on the imaginary axis beyond which undamped motion grows at once.
+/// Limit of h omega on the imaginary axis beyond which undamped motion grows rapidly.
 constexpr double kLimit = 1.0;
-/// Where |R| = 1 for R(z) = 1 + z + ... + z^5/120 + z^6/600, and h c/m on the negative real axis.
+/// h omega and h c/m (negative real axis) at which |R| = 1 for R(z) = 1 + z + ... + z^5/120 +
+/// z^6/600.
 constexpr double kStabilityLimit = 0.99718900, kDampingLimit = 3.30656789;
 
 }  // namespace

@@ -9,11 +9,12 @@ namespace butee::integrators {
 
 /// dopri5: Dormand and Prince's explicit Runge-Kutta method of order 5 with an embedded one of order 4, on (x, v).
 ///
-/// Six evaluations a step, the last of which is the first of the next; steps by the local error with PI control;
-/// interpolation by the quintic through x, v and a at both ends. Stable for undamped motion up to h omega = 1.0 or so
-/// (slightly growing or shrinking below), on the negative real axis up to 3.3; it says so where stability and not
-/// accuracy sets the steps. Order is checked in tests/conformance. Source: J. R. Dormand and P. J. Prince, J. Comput.
-/// Appl. Math. 6 (1980) 19-26, doi 10.1016/0771-050X(80)90013-3.
+/// Six evaluations per step; the last is the first of the next step. PI control of the step size by
+/// the local error; interpolation by the quintic through x, v and a at both ends. Stable for
+/// undamped motion up to about h omega = 1.0 (with slight growth or decay below), on the negative
+/// real axis up to 3.3. A message is logged if stability instead of accuracy limits the steps.
+/// Order is checked in tests/conformance. Source: J. R. Dormand and P. J. Prince, J. Comput. Appl.
+/// Math. 6 (1980) 19-26, doi 10.1016/0771-050X(80)90013-3.
 class DormandPrince final : public time::Integrator {
  public:
   DormandPrince(dynamics::Dynamics& dynamics, const Goal& goal);
@@ -33,7 +34,7 @@ class DormandPrince final : public time::Integrator {
 
   LocalErrorControl control_;
   StiffnessWatch stiffness_;
-  std::array<Vector, kStages> v_, a_;  ///< of the stages
+  std::array<Vector, kStages> v_, a_;  ///< one per stage
   Vector x_, x_before_, error_x_, error_v_;
 };
 

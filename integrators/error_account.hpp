@@ -9,11 +9,12 @@
 
 namespace butee::integrators {
 
-/// The tolerance and the length of the run that it is meant for, s.
+/// The tolerance, and the length of the run that it applies to, s.
 struct Goal {
   double tolerance;
   double run_time;
-  /// True: the error of the whole structure in the norm of the mass matrix instead of that of every component.
+  /// True: control the error of the whole structure in the norm of the mass matrix instead of the
+  /// error of every component.
   bool as_a_whole = false;
 
   static Goal read(const config::Parameters& parameters) {
@@ -24,8 +25,8 @@ struct Goal {
   }
 };
 
-/// The scale of every component: its largest value so far, but at least a thousandth of the largest of its kind, where
-/// displacements are of one kind and rotations of another.
+/// The scale of each component: its largest absolute value so far, at least a thousandth of the
+/// largest of its kind. Displacements are one kind, rotations another.
 class ComponentScales {
  public:
   explicit ComponentScales(const model::System& system);
@@ -37,12 +38,13 @@ class ComponentScales {
   std::vector<std::uint8_t> kinds_;  ///< of each DOF
 };
 
-/// How local errors, relative to the scales of what moves, add up to the tolerance of a run.
+/// The account that limits the sum of the relative local errors of a run to its tolerance.
 ///
-/// The account begins with kAdvance and earns rate() a second, together (1 + kAdvance) kBudget tolerances over a run of
-/// length T. Steps with a change of contact pay their local errors from the balance and spend a part of it at most;
-/// all others err by rate() h. The sum of all local errors is therefore bounded, and the error of the run is that bound
-/// times the growth of disturbances (integrators/error-control.md).
+/// The balance starts at advance() and grows by rate() per second, together (1 + kAdvance) kBudget
+/// tolerances over a run of length T. The local error of a step with a change of contact is charged
+/// to the balance and may use the fraction kSpend of it at most. Any other step may have a local
+/// error of rate() h. The sum of all local errors is therefore bounded, and the error of the run is
+/// at most that sum times the growth of disturbances (integrators/error-control.md).
 class ErrorAccount {
  public:
   explicit ErrorAccount(const Goal& goal)
@@ -51,7 +53,7 @@ class ErrorAccount {
   double rate() const { return rate_; }        ///< 1/s
   double advance() const { return advance_; }  ///< the balance at the start
 
-  /// The part of the balance that one step with a change of contact may spend.
+  /// The fraction of the balance that one step with a change of contact may use.
   static constexpr double kSpend = 0.5;
 
  private:

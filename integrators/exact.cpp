@@ -17,7 +17,7 @@ using time::StepStatus;
 namespace {
 
 constexpr const char* kSeriesTolerance = "series_tolerance";
-/// Of a scene that other methods run as well.
+/// The parameter of other methods, accepted so that the same scene runs with all methods.
 constexpr const char* kTolerance = "tolerance";
 
 /// 1/omega of the stiffest DOF with its stops closed, s; 1 s where nothing has a stiffness.

@@ -8,15 +8,18 @@
 
 namespace butee::integrators {
 
-/// exact: Taylor series of high order from one change of contact to the next, every change located.
+/// exact: Taylor series of high order from one change of contact to the next; every change is
+/// located.
 ///
-/// Between changes the stops are analytic functions of the motion: with a piecewise linear law they are open or closed
-/// springs, with a smooth one the step follows from the decay of the series, which a boundary layer near the path
-/// shortens. Truncation is kept below `series_tolerance`, by default far below rounding, so that no error of the method
-/// is left; of order `order` otherwise. A scene's `tolerance`, which is meant for an answer, has no say in it. A step
-/// takes `order` evaluations of M^-1 (F - C v - K x) and goes 2 to 3 over the highest frequency, so that stiff scenes
-/// cost in proportion to it. Checked in tests/models/exact_test.cpp against a solution in 80-bit arithmetic. Source of
-/// the recurrence: R. Barrio, Appl. Math. Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
+/// Between changes the contact forces are analytic functions of the motion. With a piecewise linear
+/// law the stops are open or closed springs. With a smooth law the length of a series follows from
+/// the decay of its terms; a boundary layer near the path shortens it. The truncation error is
+/// below `series_tolerance`, by default far below rounding, so that only rounding errors remain;
+/// otherwise the method has order `order`. The `tolerance` of a scene has no effect. A step takes
+/// `order` evaluations of M^-1 (F - C v - K x) and is 2 to 3 over the highest frequency long, so
+/// that the cost grows in proportion to this frequency. Checked in tests/models/exact_test.cpp
+/// against a solution in 80-bit arithmetic. Source of the recurrence: R. Barrio, Appl. Math.
+/// Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
 class Exact final : public time::Integrator {
  public:
   static constexpr int kOrder = 30;
@@ -28,17 +31,17 @@ class Exact final : public time::Integrator {
   bool handles_load_discontinuities() const override { return true; }
   bool follows_contact_phases() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
-  /// Where one series ends and the next begins.
+  /// The instants at which one series ends and the next begins, s.
   std::span<const double> breakpoints(const time::State& from, const time::State& to) const override;
   time::DenseOutput dense_output() const override { return time::DenseOutput::other; }
-  /// By the derivatives of the series, term by term.
+  /// Bounds from the derivatives of the series, term by term.
   void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
                  time::Interpolated out) const override;
-  /// How far the series at the start reaches, s.
+  /// The length over which the series at the start is accurate, s.
   double first_step(const time::State&) const override { return first_step_; }
 
  private:
-  /// Every step stands; the next goes as far as the last series reached.
+  /// Accepts every step; the next step is as long as the last series is accurate.
   class Controller final : public time::StepController {
    public:
     time::StepDecision decide(double h, const time::StepReport& report) const override;

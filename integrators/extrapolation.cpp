@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
 /// Measured in tests/conformance/error_constant_test.cpp.
 constexpr double kConstant = 7.6, kContactChange = 40.0;
-/// Of h omega and h c/m of the whole step, where the stability polynomial leaves the unit circle.
+/// h omega and h c/m of the whole step at which the modulus of the stability polynomial exceeds 1.
 constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
 }  // namespace
@@ -54,7 +54,7 @@ void Extrapolation::midpoint(const time::State& from, const time::Step& step, in
 }
 
 time::StepReport Extrapolation::do_step(const time::State& from, const time::Step& step, time::State& to) {
-  // x_[k] holds T_{j,k+1} of the last row j; a row is gone through from its first column to its last.
+  // x_[k] holds T_{j,k+1} of the last row j; a row is computed from its first column to its last.
   for (std::size_t j = 0; j < kColumns; ++j) {
     midpoint(from, step, kParts[j], to.x, to.v);
     for (std::size_t k = 0; k < j; ++k) {

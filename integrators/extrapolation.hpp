@@ -12,10 +12,10 @@ namespace butee::integrators {
 ///     z_{m+1} = z_{m-1} + 2 (h/n) f(z_m),   S = (z_n + z_{n-1} + (h/n) f(z_n))/2,
 ///     T_jk = T_j,k-1 + (T_j,k-1 - T_j-1,k-1)/((n_j/n_j-k+1)^2 - 1)
 ///
-/// Explicit, 25 evaluations a step, for tight tolerances where motion is smooth; the difference to the result of order
-/// 6 judges a step; interpolation by the quintic through both ends. It knows no table of coefficients. Order is checked
-/// in tests/conformance. Source: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I,
-/// II.9.
+/// Explicit, 25 evaluations per step; suited to tight tolerances and smooth motion. The difference
+/// from the result of order 6 is the error estimate. Interpolation by the quintic through both
+/// ends. Order is checked in tests/conformance. Source: E. Hairer, S. P. Norsett and G. Wanner,
+/// Solving Ordinary Differential Equations I, II.9.
 class Extrapolation final : public time::Integrator {
  public:
   Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal);
@@ -24,7 +24,7 @@ class Extrapolation final : public time::Integrator {
   time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
   double first_step(const time::State&) const override { return control_.first_step(); }
   bool follows_contact_phases() const override { return true; }
-  /// Interpolation within its long steps is of a lower order than the steps.
+  /// The steps are long and interpolation has a lower order than the steps.
   bool lands_on_outputs() const override { return true; }
 
  private:
@@ -34,11 +34,11 @@ class Extrapolation final : public time::Integrator {
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                       time::Interpolated out) const override;
-  /// The smoothed midpoint rule with `parts` parts.
+  /// The modified midpoint rule with `parts` parts of the step and Gragg's smoothing.
   void midpoint(const time::State& from, const time::Step& step, int parts, Vector& x, Vector& v);
 
   LocalErrorControl control_;
-  std::array<Vector, kColumns> x_, v_;  ///< a row of the tableau, newest first column last
+  std::array<Vector, kColumns> x_, v_;  ///< a row of the extrapolation tableau
   Vector old_x_, old_v_, new_x_, new_v_, a_, next_x_, next_v_;
 };
 

@@ -9,16 +9,17 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-/// Rounding of a jet, in units of the bounds of its terms.
+/// Rounding error of a jet relative to the bounds of its terms.
 constexpr double kNoise = 8.0 * kRounding;
-/// A stop that has just changed is on its border if it is within so much rounding.
+/// A stop that has just changed is on its border within this multiple of the rounding error.
 constexpr double kNearBorder = 1e3;
-/// Bounds are taken anew where motion has decayed by this power of e.
+/// Bounds are recomputed after the motion has decayed by e to this power.
 constexpr double kDecayed = 0.2;
-/// A cubic that bounds a function is solved from below to this part.
+/// The iteration for the root of the bounding cubic ends if its lower bound reaches this fraction
+/// of the upper bound.
 constexpr double kGood = 0.7;
 constexpr int kMostRefinements = 4;
-/// So many looks at a piece end it where it has got to.
+/// After this number of evaluations the piece ends at the time reached.
 constexpr int kMostLooks = 20000;
 
 /// The first root s > 0 of g + slope s + curvature s^2/2, g >= 0.
@@ -38,7 +39,8 @@ double safe_step(double g, double slope, double curvature, double third) {
   double last = first_root(g, slope, curvature);
   if (!(third > 0.0)) return last;
   double low = 0.0, high = last;
-  // For every r the quadratic with the curvature of the end, curvature - third r/3, stays below the cubic up to r.
+  // For every r the quadratic with the curvature reduced to curvature - third r/3 stays below the
+  // cubic up to r.
   if (last == kNever)
     last = std::cbrt(6.0 * g / third) + std::sqrt(6.0 * std::max(slope, 0.0) / third) +
            6.0 * std::max(curvature, 0.0) / third;
@@ -111,7 +113,8 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
   const auto& bounds = watch.bounds;
   std::array<double, 4> noise;
   for (std::size_t k = 0; k < 4; ++k) noise[k] = kNoise * (watch.sizes[k] + std::abs(w[k]));
-  // Rounding of the gap, of both ends, and of the instant; in x it is in the derivatives of every mode.
+  // Rounding of the gap, of both ends and of the instant. Rounding of x affects the derivatives of
+  // every mode.
   noise[0] += kNoise * (std::abs(stop.gap) + piece.displacement) + kRounding * std::abs(w[1]) * (std::abs(piece.t) + s);
   noise[1] += kNoise * piece.speed;
   for (std::size_t k = 1; k < 4; ++k) noise[k] += flow.fastest() * noise[k - 1];
@@ -124,7 +127,7 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
                     watch.has_changed};
   };
   if (status == kOpen) {
-    // The nearer side first, whose step mostly shows that nothing happens at the other.
+    // The nearer side first; its safe step mostly shows that nothing happens at the other side.
     const double nearer = w[0] < 0.0 ? -1.0 : 1.0;
     for (const double side : {nearer, -nearer})
       if (side > 0.0 ? stop.positive : stop.negative)
@@ -150,7 +153,7 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
 
 void FirstChange::consider(const Function& function, double s, double until, double t, bool wait, Watch& watch) const {
   const auto& [g, noise, third, fourth, to, has_changed] = function;
-  // A change is found to rounding of the contact state before it, which may be larger.
+  // A change was located to the rounding error of the previous contact state, which may be larger.
   const bool is_on_border = has_changed && std::abs(g[0]) <= kNearBorder * noise[0];
   const auto suggest = [&](double next, bool is_change) {
     if (next < watch.next) {
@@ -174,7 +177,7 @@ void FirstChange::consider(const Function& function, double s, double until, dou
     step = third > 0.0 ? std::cbrt(6.0 * noise[0] / third) : until;
     return suggest(s + std::max(step, 4.0 * kRounding * (std::abs(t) + s)), false);
   }
-  // On the border: the first derivative that is not rounding decides.
+  // On the border the first derivative that exceeds rounding decides.
   const double here = std::max(g[0], 0.0);
   if ((g[0] < -4.0 * noise[0] && !is_on_border) || g[1] < -noise[1]) return suggest(s, true);
   if (g[1] > noise[1]) {

@@ -9,8 +9,8 @@
 
 namespace butee::integrators {
 
-/// What a stop does: open, closed on a side (+1, -1), or with dissipation and beyond its gap on a side, yet without
-/// force.
+/// The status of a stop: open, closed on a side (+1, -1), or released (+2, -2): a stop with
+/// dissipation that is beyond its gap but exerts no force.
 using StopStatus = std::int8_t;
 inline constexpr StopStatus kOpen = 0, kClosed = 1, kReleased = 2;
 inline StopStatus on_side(StopStatus status, double side) {
@@ -20,17 +20,18 @@ inline bool is_closed(StopStatus status) {
   return status == kClosed || status == -kClosed;
 }
 
-/// How far g(s) surely stays positive, s: the first root, from below, of its Taylor polynomial of degree 2 less
-/// `third` s^3/6, a bound of the third derivative. g(0) > 0, or g(0) = 0 and then positive. Infinite where there is
-/// none.
+/// A time s, in seconds, up to which g stays positive: a lower bound of the first root of the
+/// Taylor polynomial of degree 2 minus `third` s^3/6, with `third` a bound of the third derivative.
+/// Requires g(0) > 0, or g(0) = 0 and g > 0 just after. Infinite if there is no root.
 double safe_step(double g, double slope, double curvature, double third);
 
-/// Finds the first change of status of any stop along a piece of a contact state.
+/// Finds the first change of status of any stop along a piece of the motion.
 ///
-/// Every switching function is positive until it changes sign. Bounds of its third derivative over the rest of the
-/// piece give a step that cannot pass a root; near a simple root it is Newton's. Only the stop whose step ends first is
-/// looked at again. A function that is zero to rounding is decided by its first derivative that is not. Theory:
-/// piecewise.md. Checked in tests/unit/first_change_test.cpp.
+/// Every switching function is positive until the status changes. A bound of its third derivative
+/// over the rest of the piece gives a step that cannot pass a root; near a simple root this is
+/// Newton's step. Only the stop whose step ends first is evaluated again. If a function is zero to
+/// rounding, its first derivative that is not zero to rounding decides. Theory: piecewise.md.
+/// Checked in tests/unit/first_change_test.cpp.
 class FirstChange {
  public:
   /// `system` must outlive it.
@@ -41,24 +42,26 @@ class FirstChange {
     StopStatus to;
   };
   struct Result {
-    double s;                      ///< of the change; else until where none occurs, s
-    std::optional<Change> change;  ///< nothing: the piece may go on from s
+    double s;                      ///< time of the change, s; without a change, the time up to which none occurs
+    std::optional<Change> change;  ///< empty: the search may continue from s
   };
-  /// For 0 <= s <= `until`. `changed`: the stop that has just changed, if any, and so is on its border. `wait`: stops
-  /// that are on a border to rounding wait there until they have left it, which ends chatter by rounding.
+  /// Searches 0 <= s <= `until`. `changed`: the stop that has just changed and is therefore on its
+  /// border, if any. `wait`: stops that are on a border to rounding keep their status until they
+  /// have left it, which ends chatter by rounding.
   Result find(const ContactStateFlow& flow, ContactStateFlow::Piece& piece, std::span<const StopStatus> status,
               double until, Index changed, bool wait);
 
-  /// Looks at single stops, ever.
+  /// Number of evaluations of single stops since construction.
   std::int64_t looks() const { return looks_; }
 
  private:
   struct Watch {
-    double next = 0.0;  ///< nothing happens before, s
+    double next = 0.0;  ///< no change occurs before this time, s
     bool is_change = false;
     StopStatus to = kOpen;
-    std::array<double, 5> bounds{}, sizes{};  ///< over the rest of the piece, and of what is summed at its start
-    double bounded_at = 0.0;                  ///< where they were taken, s
+    std::array<double, 5> bounds{},
+        sizes{};  ///< bounds of |w| and derivatives over the rest of the piece, and of the terms summed at its start
+    double bounded_at = 0.0;  ///< time at which the bounds were computed, s
     bool has_changed = false;
   };
   /// One switching function and its bounds.

@@ -14,7 +14,7 @@ using time::StepReport;
 
 /// LocalErrorControl::Orders::contact_change
 constexpr double kContactChange = 25.0;
-/// The part of a step over which the rate of an acceleration is found.
+/// The fraction of a step over which the rate of the acceleration is computed by a difference.
 constexpr double kPart = 0.05;
 
 AlphaParameters AlphaParameters::of_radius(double rho_inf) {
@@ -62,7 +62,7 @@ StepReport GeneralizedAlpha::do_step(const State& from, const time::Step& step, 
   const auto [alpha_m, alpha_f, beta, gamma] = parameters_;
   const double h = step.h, on_m = 1.0 - alpha_m, on_f = 1.0 - alpha_f;
   take_acceleration(from, h);
-  // With a_{n+1} = a_n for a guess.
+  // Initial guess a_{n+1} = a_n.
   to.x = from.x + h * from.v + 0.5 * h * h * old_a_;
   to.v = from.v + h * old_a_;
   x_ = on_f * to.x + alpha_f * from.x;

@@ -7,34 +7,38 @@
 
 namespace butee::integrators {
 
-/// The parameters of the generalized-alpha family in Chung and Hulbert's convention, where alpha weighs the old state.
+/// Parameters of the generalized-alpha family in Chung and Hulbert's convention, in which alpha
+/// weights the old state.
 struct AlphaParameters {
   double alpha_m, alpha_f, beta, gamma;
 
-  /// generalized-alpha: spectral radius rho_inf, 0 to 1, at infinite frequency.
+  /// generalized-alpha with spectral radius rho_inf, 0 to 1, at infinite frequency.
   static AlphaParameters of_radius(double rho_inf);
-  /// HHT-alpha: 0 <= alpha <= 1/3, in absolute value.
+  /// HHT-alpha with 0 <= alpha <= 1/3, the absolute value.
   static AlphaParameters hht(double alpha);
 };
 
-/// generalized_alpha and hht_alpha, with fixed steps or steps by the local error.
+/// generalized_alpha and hht_alpha, with a fixed step size or one controlled by the local error.
 ///
 ///     M a_(1-alpha_m) + C v_(1-alpha_f) + K x_(1-alpha_f) = F(t_(1-alpha_f)) + F_c(x_(1-alpha_f))
 ///
-/// where y_(1-alpha) = (1 - alpha) y_{n+1} + alpha y_n, with Newmark's x_{n+1} and v_{n+1}. Order 2 with the
-/// algorithmic acceleration carried and the load at the method's own time; unconditionally stable for linear motion.
-/// One stage solve a step, contact by Newton in stop space.
+/// with y_(1-alpha) = (1 - alpha) y_{n+1} + alpha y_n and Newmark's x_{n+1} and v_{n+1}. Order 2 if
+/// the algorithmic acceleration is carried from step to step and the load is taken at
+/// t_(1-alpha_f); unconditionally stable for linear motion. One stage solve per step, contact by
+/// Newton's method in stop space.
 ///
-/// Steps by AccelerationError, which sees velocity too, from the accelerations that meet the balance. Those are of an
-/// instant within the step, where a stop that closes later is still open: where a stop closed or opened, or a load or
-/// its slope jumps, the controlled variants judge and go on with the acceleration of the end itself (one evaluation
-/// and one solve with M, at jumps of loads two, for its rate).
-/// The algorithmic a_n is that of t_n + (alpha_m - alpha_f) h, as the expansion of the balance in h shows; where h
-/// changes it is taken anew from the balanced ones, or every change of step would cost an order. Orders are checked in
-/// tests/conformance.
+/// AccelerationError controls the step size by displacement and velocity, from the accelerations
+/// that satisfy the balance above. These belong to an instant within the step, at which a stop that
+/// closes later is still open. If a stop closed or opened, or if a load or its slope jumps, the
+/// controlled variants therefore use the acceleration at the end of the step, both for the estimate
+/// and for the next step. This costs one evaluation and one solve with M, and a second one for the
+/// rate of the acceleration at jumps of loads. The algorithmic a_n is the acceleration at t_n +
+/// (alpha_m - alpha_f) h, as the expansion of the balance in h shows. If h changes, a_n is
+/// recomputed from the balanced accelerations; otherwise every change of the step size would lose
+/// an order. Orders are checked in tests/conformance.
 class GeneralizedAlpha final : public time::Integrator {
  public:
-  /// Without a goal: fixed steps.
+  /// Without a goal the step size is fixed.
   GeneralizedAlpha(dynamics::Dynamics& dynamics, AlphaParameters parameters, const std::optional<Goal>& goal);
 
   const time::StepController* controller() const override { return control_ ? &control_->controller() : nullptr; }
@@ -43,9 +47,10 @@ class GeneralizedAlpha final : public time::Integrator {
  private:
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  /// Fills old_a_ with a_n as a step of h needs it.
+  /// Fills old_a_ with a_n for a step of length h.
   void take_acceleration(const time::State& from, double h);
-  /// Gives a state behind which another motion begins the rate of its acceleration, by one more evaluation.
+  /// Computes the rate of the acceleration at a state at which a load or its slope jumps, by one
+  /// more evaluation.
   void take_slope(const time::Step& step, time::State& to);
 
   AlphaParameters parameters_;

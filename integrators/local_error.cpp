@@ -7,27 +7,30 @@ namespace butee::integrators {
 namespace {
 
 constexpr double kSafety = 0.9, kLeast = 0.2, kMost = 5.0;
-/// The exponents of r and r_old, times 1/order.
+/// The exponents of r and r_old are these divided by the order.
 constexpr double kProportional = 0.7, kIntegral = 0.4;
-/// r_old is taken for no better than this.
+/// Lower bound of r_old.
 constexpr double kSmallest = 1e-4;
-/// Steps of the ladder within a factor of two; one is gone up where the estimate would allow for kReserve.
+/// Number of grid indices per factor of two. The step size grows only if the estimate allows
+/// kReserve indices or more.
 constexpr double kStepsPerDoubling = 4.0;
 constexpr double kReserve = 3.0;
 constexpr double kMostDown = 9.0, kMostUp = 9.0;
-/// The error of a step that went through a stop unseen: enough to be redone, by a ladder with about half its length.
+/// The error assigned to a step that missed a contact: the step is repeated, on the grid with about
+/// half its length.
 constexpr double kMissed = 8.0;
-/// The part of the account's balance that a step without a change of contact may spend beyond what it earns, as at
-/// starts from rest, whose scales are still small.
+/// The fraction of the account's balance that a step without a change of contact may use in
+/// addition to its own share. This is needed at starts from rest, where scales are still small.
 constexpr double kSpendOnSmooth = 0.01;
-/// The part of the impulse of a jump of the force within a step that the velocity may be wrong by.
+/// The error of the velocity as a fraction of the impulse of a force that jumps within the step.
 constexpr double kOfJump = 0.1;
-/// Where a stop closes or opens, the error falls with this power of h.
+/// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
-/// A contact begins or ends with a step if its penetration there is this small a part of that at the other end.
+/// A contact begins or ends with a step if its penetration there is below this fraction of that at
+/// the other end.
 constexpr double kTouches = 1e-3;
 
-/// The highest k/m of a single DOF, 1/s^2.
+/// The largest k/m of a single DOF, 1/s^2.
 double highest(const Vector& stiffness, const Vector& mass) {
   double square = 0.0;
   for (Index i = 0; i < mass.size(); ++i)
@@ -35,7 +38,8 @@ double highest(const Vector& stiffness, const Vector& mass) {
   return square;
 }
 
-/// The highest rate at which friction supports slow a single DOF where their friction is steep, 1/s.
+/// The highest rate at which friction supports decelerate a single DOF in the steep part of their
+/// friction law, 1/s.
 double friction_rate(const dynamics::Obstacles* obstacles, const Vector& mass) {
   double rate = 0.0;
   if (obstacles == nullptr) return rate;
@@ -136,7 +140,7 @@ double LocalErrorControl::whole_error(const time::State& from, time::State& to, 
   const auto part = [](double error, double scale) { return error > 0.0 ? error / scale : 0.0; };
   const double epsilon = std::max(part(of_x, x), part(of_v, v));
   if (!(epsilon > smooth) || omega_ == 0.0) return epsilon;
-  // At a start from rest, as of components.
+  // At a start from rest, as for components in judge().
   scale_x_ = (to.v - from.v) / h;
   const double speed = std::max({v, norm(from.a) / omega_, norm(scale_x_) / omega_});
   return std::max(part(of_x, std::max(x, speed / omega_)), part(of_v, speed));
@@ -156,8 +160,9 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
                earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
   double epsilon = as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(error_x, error_v);
   if (!as_a_whole_ && epsilon > smooth && omega_ > 0.0) {
-    // At a start from rest: relative to the velocities that the accelerations make within 1/omega, or until a load's
-    // slope jumps, and to the displacements that those make within 1/omega.
+    // At a start from rest errors are relative to the velocities that the accelerations cause
+    // within 1/omega, or until a load's slope jumps, and to the displacements that these velocities
+    // cause within 1/omega.
     const auto jump = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), from.t);
     const double time = jump == discontinuities_.end() ? 1.0 / omega_ : std::min(1.0 / omega_, *jump - from.t);
     work_ = time * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs()).cwiseMax((to.v - from.v).cwiseAbs() / h);

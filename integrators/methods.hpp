@@ -5,16 +5,16 @@
 #include "butee/time/integrator.hpp"
 #include "integrators/stage_solver.hpp"
 
-/// The declarations of all methods of this folder; each is registered by a module of its own in plugins/.
+/// Declarations of all methods of this folder; a module in plugins/ registers each of them.
 namespace butee::integrators {
 
 /// Stability of classical Runge-Kutta on the imaginary axis: h omega <= 2 sqrt 2.
 inline constexpr double kRungeKutta4Limit = 2.0 * std::numbers::sqrt2;
-/// And on the negative real axis: h c/m <= 2.785.
+/// The same on the negative real axis: h c/m <= 2.785.
 inline constexpr double kRungeKutta4DampingLimit = 2.7852935634052818;
 
-/// Newton's iteration of the methods that do not ask for its parameters: to rounding, as the estimates of the local
-/// error expect.
+/// Options of Newton's iteration for methods without parameters for it: convergence to rounding, as
+/// the local error estimates require.
 inline constexpr NewtonOptions kNewton = {1e-11, 1e-9, 40, false, false};
 
 time::IntegratorType auto_type();

@@ -6,14 +6,16 @@
 
 namespace butee::integrators {
 
-/// newmark_modified (NMM1) and, with a controller, newmark_modified_adaptive (NMM2): Newmark without Newton.
+/// newmark_modified (NMM1) and, with a controller, newmark_modified_adaptive (NMM2): Newmark
+/// without Newton's iteration.
 ///
-/// The stops at t_{n+1} act with their secant stiffness at t_n, F_c = -K_c(u_n) u_{n+1} + K_c(u_n) j sign(u_n), so that
-/// one linear solve with A = M + gamma h C + beta h^2 (K + K_c(u_n)) makes a step.
+/// The stops at t_{n+1} act with their secant stiffness at t_n, F_c = -K_c(u_n) u_{n+1} + K_c(u_n)
+/// j sign(u_n), so that a step takes one linear solve with A = M + gamma h C + beta h^2 (K +
+/// K_c(u_n)).
 ///
-/// Order 2 while no stop changes; a stop that opens or closes during a step acts one step late, which is a force of
-/// O(h) for a time O(h): order 1 or 2 across contact, as measured in tests/conformance.
-/// Source: C. Duran et al., IMechE VIRM10, London, 2012.
+/// Order 2 while no stop changes. A stop that opens or closes during a step acts one step late,
+/// which is a force error of O(h) for a time O(h): order 1 or 2 across contact, as measured in
+/// tests/conformance. Source: C. Duran et al., IMechE VIRM10, London, 2012.
 class ModifiedNewmark final : public time::Integrator {
  public:
   ModifiedNewmark(dynamics::Dynamics& dynamics, NewmarkParameters parameters,

@@ -13,14 +13,14 @@ using model::Friction;
 using model::ImpactDamping;
 using Series = std::vector<double>;
 
-/// Coefficient k of a b.
+/// Coefficient k of the product a b.
 double product(const Series& a, const Series& b, Index k) {
   double sum = 0.0;
   for (Index j = 0; j <= k; ++j) sum += a[static_cast<std::size_t>(j)] * b[static_cast<std::size_t>(k - j)];
   return sum;
 }
 
-/// Coefficient k > 0 of p^alpha, with those before it in y.
+/// Coefficient k > 0 of p^alpha; y holds the lower coefficients.
 double power(const Series& p, double alpha, const Series& y, Index k) {
   double sum = 0.0;
   for (Index j = 1; j <= k; ++j)
@@ -154,7 +154,8 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
     case Friction::Rule::rigid:
       return 0.0;
     case Friction::Rule::spring: {
-      // The path grows by w, in a ring by that of the point at the gap.
+      // The rate of the path is the slip speed; in a ring it is the slip speed of the point at the
+      // gap.
       if (k == 0) {
         contact.path[0] = contact.stretch;
       } else {
@@ -184,7 +185,7 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
                contact.root[static_cast<std::size_t>(k - j)];
         y /= friction.slip_speed * static_cast<double>(k);
       }
-      // 1 - y^2, where y = 1 to rounding as well.
+      // 1 - y^2, accurate also if y = 1 to rounding.
       if (k == 0) {
         const double inverse = 1.0 / std::cosh(contact.slip[0] / friction.slip_speed);
         contact.root[0] = inverse * inverse;

@@ -6,29 +6,31 @@
 
 namespace butee::integrators {
 
-/// The Taylor coefficients of the forces of obstacles, each in its phase, for TaylorExpander.
+/// Taylor coefficients of the forces of obstacles, each in its contact phase, for TaylorExpander.
 ///
-/// Quotients and powers follow from the recurrence of y = p^alpha, k p_0 y_k = sum_j (j alpha - (k - j)) p_j y_{k-j};
-/// tanh from y' = (1 - y^2) u'. Rigid sticking is a constraint and not among them. Checked in
-/// tests/verification/friction_test.cpp and ring_test.cpp. Source of the recurrences: R. Barrio, Appl. Math. Comput.
-/// 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
+/// Quotients and powers follow from the recurrence of y = p^alpha, k p_0 y_k = sum_j (j alpha - (k
+/// - j)) p_j y_{k-j}; tanh from y' = (1 - y^2) u'. Rigid sticking is a constraint and is not
+/// handled here. Checked in tests/verification/friction_test.cpp and ring_test.cpp. Source of the
+/// recurrences: R. Barrio, Appl. Math. Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
 class ObstacleSeries {
  public:
-  /// Throws InputError for laws and shapes without a series: all but the linear law on lines and circles.
+  /// Throws InputError for laws and shapes without a series; only the linear law on lines and
+  /// circles has one.
   ObstacleSeries(dynamics::Dynamics& dynamics, int order);
 
-  /// Takes the phases of the contacts at (t, x, v) and the length of the expansion, s.
+  /// Starts an expansion with the phases of the contacts at (t, x, v); `length` in s.
   void begin(double t, ConstVectorRef x, ConstVectorRef v, double length);
-  /// force += coefficient k, from the coefficients 0 ... k of x and of v; asked for k = 0, 1, 2, ...
+  /// force += coefficient k, from the coefficients 0 ... k of x and of v; to be called for k = 0,
+  /// 1, 2, ...
   void add(Index k, ConstVectorRef x, ConstVectorRef v, VectorRef force);
 
  private:
   using Series = std::vector<double>;
-  /// A vector of the plane.
+  /// The series of a vector in the plane.
   struct Plane {
     Series y, z;
   };
-  /// A contact that exerts a force, and the series that its force is made of.
+  /// A contact that exerts a force, and the series from which its force is computed.
   struct Contact {
     Index index;
     dynamics::ContactPhase phase;

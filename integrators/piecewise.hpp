@@ -5,22 +5,25 @@
 
 namespace butee::integrators {
 
-/// piecewise: the motion in closed form from one change of contact to the next, every change located.
+/// piecewise: the motion in closed form from one change of contact to the next; every change is
+/// located.
 ///
-/// For few DOFs and stops with the linear law, elastic or with Kelvin-Voigt dissipation. Between two changes the system
-/// is linear: x(t) follows from the modes of the contact state, which are made when the state first occurs and kept.
-/// There is no truncation error and no step; cost is a few evaluations a change of contact. Errors are rounding times
-/// the growth of disturbances. Theory: piecewise.md. Checked in tests/models/piecewise_test.cpp.
+/// For few DOFs and stops with the linear law, elastic or with Kelvin-Voigt dissipation. A contact
+/// state is the set of closed stops. Between two changes the system is linear, and x(t) follows
+/// from the modes of the contact state, which are computed when the state first occurs and then
+/// kept. There is no truncation error and no step size; the cost is a few evaluations per change of
+/// contact. Errors are rounding errors times the growth of disturbances. Theory: piecewise.md.
+/// Checked in tests/models/piecewise_test.cpp.
 class Piecewise final : public time::Integrator {
  public:
-  /// `end_time`, s. Throws InputError, which names methods that can, where the scene is of another kind.
+  /// `end_time` in s. Throws InputError for any other scene; the message names suitable methods.
   Piecewise(dynamics::Dynamics& dynamics, double end_time);
 
   bool handles_load_discontinuities() const override { return true; }
   const time::StepController* controller() const override { return &controller_; }
   double first_step(const time::State&) const override { return std::numeric_limits<double>::infinity(); }
-  /// Where contacts change, loads have discontinuities, and instants so near to each other that the motion turns little
-  /// between.
+  /// Changes of contact, discontinuities of loads, and instants in between that limit the phase
+  /// angle of the motion from one to the next.
   std::span<const double> breakpoints(const time::State& from, const time::State& to) const override;
   time::DenseOutput dense_output() const override { return time::DenseOutput::other; }
   void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
@@ -42,7 +45,7 @@ class Piecewise final : public time::Integrator {
   std::int64_t states_made() const { return motion_.states_made(); }
 
  private:
-  /// Every step stands; the next goes to the end.
+  /// Accepts every step and proposes the longest possible next step.
   class Controller final : public time::StepController {
    public:
     time::StepDecision decide(double, const time::StepReport&) const override {

@@ -5,7 +5,7 @@
 namespace butee::integrators {
 namespace {
 
-/// Intervals shorter than 2^-50 hold a touch, not a crossing.
+/// Sign changes that intervals of 2^-50 do not separate count as a touch, not as a crossing.
 constexpr std::size_t kDeepest = 50;
 constexpr int kBisections = 60;
 
@@ -55,7 +55,7 @@ std::optional<double> PolynomialRoot::search(std::size_t depth, double begin, do
   if (changes == 1) return refine(begin, end);
   if (depth == kDeepest) return std::nullopt;
   const double middle = 0.5 * (begin + end);
-  // The first half goes one level down; the second stays here.
+  // The first half is stored one level deeper; the second one stays at this level.
   std::vector<double>& left = bernstein_[depth + 1];
   for (std::size_t k = 0; k < size_; ++k) {
     left[k] = here[0];

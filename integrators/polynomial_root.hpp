@@ -6,17 +6,18 @@
 
 namespace butee::integrators {
 
-/// Finds the first sign change of a polynomial in (0, 1], without missing any.
+/// Finds the first sign change of a polynomial in (0, 1]; no sign change can be missed.
 ///
-/// The polynomial is written in Bernstein form, whose coefficients bound it: without a sign change among them it has no
-/// root, with one exactly one; otherwise the interval is halved (de Casteljau). Source: J. M. Lane and R. F.
-/// Riesenfeld, BIT 21 (1981) 112-117.
+/// The polynomial is written in Bernstein form, whose coefficients bound it. Without a sign change
+/// among the coefficients there is no root; with one sign change there is exactly one root;
+/// otherwise the interval is halved (de Casteljau). Source: J. M. Lane and R. F. Riesenfeld, BIT 21
+/// (1981) 112-117.
 class PolynomialRoot {
  public:
-  /// For polynomials of degree `degree` and less.
+  /// For polynomials up to degree `degree`.
   explicit PolynomialRoot(int degree);
 
-  /// `coefficients` of 1, s, s^2, ...; the first that is not zero tells the sign at the start.
+  /// `coefficients` of 1, s, s^2, ...; the first nonzero one determines the sign at the start.
   std::optional<double> first(std::span<const double> coefficients);
 
  private:
@@ -24,10 +25,10 @@ class PolynomialRoot {
   double refine(double begin, double end) const;
   double value(double s) const;
 
-  std::vector<double> binomial_ratio_;  ///< C(j, k)/C(d, k) by rows j
+  std::vector<double> binomial_ratio_;  ///< C(j, k)/C(d, k), row j, column k
   std::size_t size_;
   std::vector<double> polynomial_;
-  std::vector<std::vector<double>> bernstein_;  ///< by depth
+  std::vector<std::vector<double>> bernstein_;  ///< coefficients for each depth of subdivision
 };
 
 }  // namespace butee::integrators

@@ -39,22 +39,24 @@ class Quintic {
   std::array<double, 6> c_;
 };
 
-/// What a quintic through x, v and a at both ends of a step may miss a motion and its derivatives by.
+/// Bounds of the error of a quintic through x, v and a at both ends of a step, and of its
+/// derivatives.
 struct QuinticError {
   double x, v, a;
 };
 
-/// The bounds of G. Birkhoff and A. Priver, J. Math. Phys. 46 (1967) 440-447, doi 10.1002/sapm1967461440, by the
-/// largest |sixth derivative|.
+/// These bounds for a motion with |sixth derivative| <= `sixth`: G. Birkhoff and A. Priver, J.
+/// Math. Phys. 46 (1967) 440-447, doi 10.1002/sapm1967461440.
 inline QuinticError quintic_error(double h, double sixth) {
   const double fourth = h * h * h * h * sixth;
   return {fourth * h * h / 46080.0, fourth * h * (2.2360679774997897 / 30000.0), fourth / 1920.0};
 }
 
-/// The accelerations that the quintic through two motions takes: their own, or the cubic's through x and v where one of
-/// them departs from that far more than the other, and by a tenth of the accelerations. So it does where a step ends
-/// within a stiff stop: its acceleration, of the last instant alone, would bend the whole step. In smooth motion one of
-/// them meets the cubic's by chance, where the fourth derivative vanishes; both then are near to it.
+/// Replaces both accelerations by those of the cubic through x and v if one of them departs from
+/// the cubic far more than the other, and by more than a tenth of the accelerations. This occurs if
+/// a step ends within a stiff stop, whose acceleration at the last instant would distort the whole
+/// interpolant. In smooth motion one acceleration may agree with the cubic by chance, if the fourth
+/// derivative vanishes; then both are close to it.
 inline void leave_out_kinks(double h, Motion& from, Motion& to) {
   constexpr double kFarMore = 10.0, kMuch = 0.1;
   const double rise = 6.0 * (to.x - from.x) / h;
@@ -66,7 +68,8 @@ inline void leave_out_kinks(double h, Motion& from, Motion& to) {
   to.a = a1;
 }
 
-/// The interpolant of a method of order 5 or more from x, v and a at both ends of a step.
+/// Interpolates with the quintic through x, v and a at both ends of a step, for methods of order 5
+/// or more.
 inline void interpolate_quintic(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                                 time::Interpolated out) {
   const double h = to.t - from.t, s = (t - from.t) / h;

@@ -23,7 +23,7 @@ bool has_infinite_slope(const dynamics::Obstacles& obstacles) {
     const model::ObstacleGroup& group = obstacles.group_of(i);
     if (group.damping.kind == model::ImpactDamping::Kind::jankowski) return true;
     if (group.damping.kind != model::ImpactDamping::Kind::law) continue;
-    // A slope like g^-p grows by 10^(8 p) between these.
+    // A slope proportional to g^-p grows by 10^(8 p) between these two penetrations.
     constexpr double kLittle = 1e-8, kLess = 1e-16, kGrows = 10.0;
     const auto slope = [&](double g) { return std::abs(group.law->rated_force(g, 1.0, false).by_penetration); };
     if (!(slope(kLess) <= kGrows * slope(kLittle))) return true;
@@ -109,7 +109,7 @@ time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step
   }
   to.x = x_ + p_.back();
   to.v = v_ + q_.back();
-  to.a = from.a;  // Where the step is going to be redone no evaluation is spent on its end.
+  to.a = from.a;  // A step that will be repeated needs no evaluation at its end.
   control_.judge(from, to, h, p_.back(), q_.back(), report);
   if (report.error <= 1.0 && report.status == time::StepStatus::ok)
     dynamics().acceleration(step.t_end, to.x, to.v, to.a);

@@ -7,20 +7,23 @@
 
 namespace butee::integrators {
 
-/// True where the damping of a contact has an infinite derivative at g = 0: the dashpot of jankowski, some of modules.
+/// True if the damping force of a contact has an infinite derivative at g = 0, as for the dashpot
+/// `jankowski` and some laws from modules.
 bool has_infinite_slope(const dynamics::Obstacles& obstacles);
 
 /// rodas4: the Rosenbrock method RODAS4(3) of six stages, in n x n form.
 ///
 ///     (1/(gamma h) - J) U_i = f(y + sum_j a_ij U_j) + sum_j c_ij U_j/h + gamma_i h f_t,    y = (x, v), U = (P, Q)
 ///
-/// The displacement part of each stage is eliminated, P = gamma h (R_x + Q), which leaves
-/// (M + gamma h C + (gamma h)^2 (K + K_t)) Q = gamma h (M R_v - gamma h (K + K_t) R_x) with the tangent K_t of the
-/// stops at the start of the step: one matrix and six solves a step, no Newton iteration.
+/// The displacement part of each stage is eliminated, P = gamma h (R_x + Q), which leaves (M +
+/// gamma h C + (gamma h)^2 (K + K_t)) Q = gamma h (M R_v - gamma h (K + K_t) R_x) with the tangent
+/// stiffness K_t of the stops at the start of the step: one matrix and six solves per step, no
+/// Newton iteration.
 ///
-/// Order 4 in displacement and velocity, stiffly accurate and L-stable; the embedded method of order 3 judges both.
-/// Order is checked in tests/conformance. Source: E. Hairer and G. Wanner, Solving Ordinary Differential Equations II,
-/// section IV.7 and the program RODAS.
+/// Order 4 in displacement and velocity, stiffly accurate and L-stable; the embedded method of
+/// order 3 gives the error estimate of both. Order is checked in tests/conformance. Source: E.
+/// Hairer and G. Wanner, Solving Ordinary Differential Equations II, section IV.7 and the program
+/// RODAS.
 class Rodas4 final : public time::Integrator {
  public:
   Rodas4(dynamics::Dynamics& dynamics, const Goal& goal);
@@ -45,7 +48,7 @@ class Rodas4 final : public time::Integrator {
   Vector x_, v_, rate_, residual_x_, residual_v_, work_, other_;
   Vector stop_displacement_, stop_force_, tangent_, stop_work_;
   dynamics::TangentSolver solver_;
-  std::span<const dynamics::Obstacles::Tangent> obstacles_;  ///< those that exert a force at the start of the step
+  std::span<const dynamics::Obstacles::Tangent> obstacles_;  ///< obstacles that exert a force at the start of the step
 };
 
 }  // namespace butee::integrators

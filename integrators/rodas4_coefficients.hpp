@@ -4,14 +4,15 @@
 
 namespace butee::integrators::rodas4_coefficients {
 
-/// RODAS4(3), six stages, stiffly accurate, in the form
+/// Coefficients of RODAS4(3), six stages, stiffly accurate, in the form
 ///
 ///     (1/(h gamma) - J) u_i = f(t + c_i h, y + sum_j a_ij u_j) + (1/h) sum_j c_ij u_j + h gamma_i f_t
 ///     y_1 = y + sum_j a_5j u_j + u_5,    error estimate u_5.
 ///
-/// The published numbers (E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, section IV.7) meet the
-/// order conditions to 1e-9 only, which is an error of 1e-9 a radian at any step. These are the nearest ones that meet
-/// them to rounding; tests/unit/rodas4_coefficients_test.cpp evaluates all conditions.
+/// The published numbers (E. Hairer and G. Wanner, Solving Ordinary Differential Equations II,
+/// section IV.7) satisfy the order conditions to 1e-9 only, which is an error of 1e-9 per radian
+/// for any step size. The values here are the nearest ones that satisfy them to rounding;
+/// tests/unit/rodas4_coefficients_test.cpp evaluates all conditions.
 inline constexpr double kGamma = 0.25;
 inline constexpr std::array<double, 6> kTimes = {0.0, 0.386, 0.21, 0.63, 1.0, 1.0};
 inline constexpr std::array<double, 6> kRates = {0.25, -0.1043, 0.1035, -0.0362, 0.0, 0.0};

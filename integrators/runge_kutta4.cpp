@@ -14,7 +14,8 @@ void RungeKutta4Kernel::advance(double t, double h, double t_end, ConstVectorRef
   const double *x0 = x.data(), *v0 = v.data(), *a1 = a.data(), *a2 = a2_.data(), *a3 = a3_.data(), *a4 = a4_.data();
   double *xs = x_.data(), *vs = v_.data(), *x1 = x_new.data(), *v1 = v_new.data();
 
-  // The slopes of x are the stages' v, which are v + h a of the stage before.
+  // The slopes of x are the velocities of the stages, v plus the stage offset times the
+  // acceleration of the stage before.
   const double half = 0.5 * h, square = h * h;
   for_rows(n, [=](Index i) {
     xs[i] = x0[i] + half * v0[i];

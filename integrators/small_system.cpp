@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kOthers = "take exact, exponential or rodas4, or auto, which chooses among them";
 
-/// Kelvin-Voigt stops on one displacement; their law and shape are those of the scene's `stop`.
+/// A Kelvin-Voigt stop on one displacement with the law and shape of the contact type `stop`.
 bool is_linear_stop(const model::ObstacleGroup& group) {
   using Kind = model::ImpactDamping::Kind;
   return group.kind == "stop" && group.directions.size() == 1 && group.shape != nullptr && group.law != nullptr &&

@@ -33,7 +33,8 @@ StepReport StageSolver::solve(double t, double velocity_factor, double displacem
   StepReport report;
   Change last{};
   while (true) {
-    // The first look always leads to a solve, except at rest; later ones seldom do, and ask for the tangent then.
+    // The first residual always leads to a solve, except at rest, so that the tangent is computed
+    // with it. Later residuals seldom do; the tangent is then computed on demand.
     const bool first = report.newton_iterations == 0;
     const linalg::ForceBalance balance = evaluate_residual(x, v, a, first);
     const double scale = balance.scale();

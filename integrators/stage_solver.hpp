@@ -7,18 +7,18 @@ namespace butee::integrators {
 struct NewtonOptions {
   double residual_tolerance;      ///< eps_r, relative to |F| + |F_c| + |M a| + |C v| + |K x|
   double increment_tolerance;     ///< eps_delta, relative to |x|
-  int max_iterations;             ///< i_max linear solves
-  bool keep_failures = false;     ///< goes on where they did not suffice
-  bool checks_linear_too = true;  ///< looks at the residual after the solve of a scene without stops
+  int max_iterations;             ///< i_max, the largest number of linear solves
+  bool keep_failures = false;     ///< continue if the iteration did not converge
+  bool checks_linear_too = true;  ///< check the residual after the solve also without stops
 };
 
 /// Solves the equations of motion of one stage of an implicit method by Newton's iteration,
 ///
 ///     M a + C v + K x = F(t) + F_c(x),    x = x* + displacement_factor a,    v = v* + velocity_factor a
 ///
-/// with A da = r, A = M + velocity_factor C + displacement_factor (K + K_tangent), until |r| <= eps_r (|F| + |F_c| + |M
-/// a| + |C v| + |K x|) and, after the first solve, |dx| <= eps_delta |x|. Whatever the stage stands for, it is a system
-/// of the size of K.
+/// with A da = r, A = M + velocity_factor C + displacement_factor (K + K_tangent), until |r| <=
+/// eps_r (|F| + |F_c| + |M a| + |C v| + |K x|) and, after the first solve, |dx| <= eps_delta |x|.
+/// The system has the size of K for every method.
 class StageSolver {
  public:
   StageSolver(dynamics::Dynamics& dynamics, NewtonOptions options);
@@ -26,7 +26,8 @@ class StageSolver {
   StageSolver(const StageSolver&) = delete;
   StageSolver& operator=(const StageSolver&) = delete;
 
-  /// x, v and a come as a guess that fulfils the two relations, and leave as the solution.
+  /// On entry x, v and a are a guess that satisfies the two relations for x and v; on return they
+  /// are the solution.
   time::StepReport solve(double t, double velocity_factor, double displacement_factor, VectorRef x, VectorRef v,
                          VectorRef a);
 
@@ -34,13 +35,14 @@ class StageSolver {
   dynamics::Dynamics& dynamics() const { return dynamics_; }
 
  private:
-  /// The stops' forces f and, where asked for, tangent stiffnesses k at displacements w.
+  /// The forces f of the stops at displacements w and, if `with_tangent`, their tangent stiffnesses
+  /// k.
   virtual void contact(ConstVectorRef w, bool with_tangent, VectorRef f, VectorRef k);
-  /// 2-norms
+  /// 2-norms of the last correction of x and of x.
   struct Change {
     double correction, x;
   };
-  /// a += correction, and v and x with their factors, by the solution in residual_.
+  /// Adds the solution in residual_ to a, and to v and x with their factors.
   Change add_correction(double velocity_factor, double displacement_factor, VectorRef x, VectorRef v, VectorRef a);
   linalg::ForceBalance evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
 

@@ -39,14 +39,14 @@ time::StepReport StepDoublingRungeKutta4::do_step(const time::State& from, const
   } else if (controller_->decide(h, report).accept) {
     dynamics().acceleration(step.t_end, to.x, to.v, to.a);
   } else {
-    to.a = from.a;  // The step is going to be redone: no evaluation is spent on its end.
+    to.a = from.a;  // A step that will be repeated needs no evaluation at its end.
   }
   return report;
 }
 
 namespace {
 
-// The limits are those of the two half steps, which are kept.
+// The stability limits are those of the two half steps, whose result is kept.
 
 config::Parameter tolerance() {
   return number("tolerance", "m, rad, m/s, rad/s", "eps0, the largest difference of a step against two halves, over 15")

@@ -6,7 +6,8 @@
 
 namespace butee::integrators {
 
-/// Constant factors: er <= eps0/100: h := b h; er <= eps0: h stays; else the step is redone with h/a.
+/// Constant factors: if er <= eps0/100, h := b h; if er <= eps0, h stays; else the step is repeated
+/// with h/a.
 class FixedFactors final : public time::StepController {
  public:
   FixedFactors(double tolerance, double shrink, double grow) : tolerance_(tolerance), shrink_(shrink), grow_(grow) {}
@@ -16,7 +17,8 @@ class FixedFactors final : public time::StepController {
   double tolerance_, shrink_, grow_;
 };
 
-/// Factors from the error: er <= eps0: h := s h (eps0/er)^0.2; else redone with s h (eps0/er)^0.25.
+/// Factors from the error: if er <= eps0, h := s h (eps0/er)^0.2; else the step is repeated with s
+/// h (eps0/er)^0.25.
 class ErrorScaled final : public time::StepController {
  public:
   ErrorScaled(double tolerance, double safety) : tolerance_(tolerance), safety_(safety) {}
@@ -26,13 +28,14 @@ class ErrorScaled final : public time::StepController {
   double tolerance_, safety_;
 };
 
-/// Classical Runge-Kutta, one step of h against two of h/2, of which the latter are kept (no extrapolation).
+/// Classical Runge-Kutta: one step of h is compared with two of h/2; the result of the two is kept
+/// (no extrapolation).
 ///
 ///     er = max over all DOFs of |dx| and |dv|, over 15
 ///
-/// rk4_fixed_factors (RK4-2) judges er by FixedFactors, rk4_error_scaled (RK4-3) by ErrorScaled. The measure is
-/// absolute and mixes m, rad, m/s and rad/s. Ten evaluations a try and one for an accepted step. Source: W. H. Press et
-/// al., Numerical Recipes, 2nd ed., section 16.2.
+/// rk4_fixed_factors (RK4-2) uses FixedFactors, rk4_error_scaled (RK4-3) ErrorScaled. The measure
+/// er is absolute and mixes m, rad, m/s and rad/s. Ten evaluations per attempt and one more per
+/// accepted step. Source: W. H. Press et al., Numerical Recipes, 2nd ed., section 16.2.
 class StepDoublingRungeKutta4 final : public time::Integrator {
  public:
   StepDoublingRungeKutta4(dynamics::Dynamics& dynamics, std::unique_ptr<time::StepController> controller)

@@ -10,7 +10,7 @@ namespace butee::integrators {
 namespace {
 
 constexpr int kInARow = 15;
-/// This part of the limit is near it.
+/// Steps above this fraction of the limit count as near it.
 constexpr double kNear = 0.9;
 
 }  // namespace

@@ -4,17 +4,19 @@
 
 namespace butee::integrators {
 
-/// Notices that stability and not accuracy limits the steps of an explicit method, and says so once.
+/// Detects that stability instead of accuracy limits the steps of an explicit method, and logs a
+/// warning once.
 ///
-/// The accelerations of two stages at nearly the same place tell the highest frequency that moves, omega^2 =
-/// |a(y) - a(z)|/|y - z|; where h omega is near the method's limit for fifteen steps the scene is stiff for it. Source:
-/// E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, section IV.2.
+/// The accelerations of two stages at nearly the same displacements estimate the highest frequency
+/// in the motion, omega^2 = |a(y) - a(z)|/|y - z|. If h omega is near the limit of the method for
+/// fifteen steps in a row, the scene is stiff for it. Source: E. Hairer and G. Wanner, Solving
+/// Ordinary Differential Equations II, section IV.2.
 class StiffnessWatch {
  public:
-  /// `limit`: of h omega.
+  /// `limit`: stability limit of h omega.
   explicit StiffnessWatch(const char* method, double limit) : method_(method), limit_(limit) {}
 
-  /// |a(y) - a(z)| and |y - z| of a step of length h that was accepted at `t`.
+  /// Takes |a(y) - a(z)| and |y - z| of a step of length h that was accepted at `t`.
   void look(double t, double h, double accelerations, double displacements);
 
  private:

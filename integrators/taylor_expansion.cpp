@@ -9,7 +9,8 @@
 namespace butee::integrators {
 namespace {
 
-/// The reach is looked for until it changes by less than this, at most so often.
+/// The iteration for the reach ends if its ratio to the last value exceeds kSettled, or after
+/// kMostTrials.
 constexpr double kSettled = 0.98;
 constexpr int kMostTrials = 40;
 
@@ -97,7 +98,7 @@ void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
       contact.scatter(stop_force_, force_);
     }
     if (k > 0 && dynamics_.system().rotation != nullptr) {
-      // C(t) and K(t) of a speed that is linear in time add C' h v_(k-1) + K' h x_(k-1).
+      // If the speed of rotation is linear in time, C(t) and K(t) add C' h v_(k-1) + K' h x_(k-1).
       velocity_ = static_cast<double>(k) * to.x.col(k);
       dynamics_.subtract_matrix_rate(h * to.x.col(k - 1), velocity_, force_);
     }
@@ -110,10 +111,12 @@ void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
 }
 
 double TaylorExpander::find_reach(const Eigen::MatrixXd& x) {
-  // Terms of the velocity: where a step is short they are small beside the displacement, and matter no less.
+  // Terms of the velocity: in a short step they are small compared with the displacement, but
+  // equally important.
   for (Index k = 0; k <= order_; ++k) terms_[k] = static_cast<double>(k) * x.col(k).lpNorm<Eigen::Infinity>();
   if (!terms_.allFinite() || !x.col(0).allFinite()) return 0.0;
-  // What the last terms are compared with is the largest within the reach, so that the reach is found from above.
+  // The last terms are compared with the largest term within the reach; therefore the reach is
+  // iterated from above.
   double reach = 1.0;
   for (int i = 0; i < kMostTrials; ++i) {
     double largest = 0.0, power = 1.0;

@@ -8,20 +8,21 @@
 
 namespace butee::integrators {
 
-/// Zienkiewicz and Xie's control of a Newmark method by the local error of its displacement.
+/// Zienkiewicz and Xie's step size control of a Newmark method by the local error of the
+/// displacement.
 ///
 ///     eta = |beta - 1/6| h^2 |a_{n+1} - a_n|_2 / |x_{n+1} - x_n|_2
-///     nu1 eta_e <= eta <= nu2 eta_e: h stays; else h := h sqrt(eta_e/eta), and the step is redone where eta > nu2
-///     eta_e
+///     nu1 eta_e <= eta <= nu2 eta_e: h stays; else h := h sqrt(eta_e/eta); eta > nu2 eta_e: the step is repeated
 ///
-/// Without motion a step is accepted and h stays. Blind at beta = 1/6, which is refused.
-/// Source: O. C. Zienkiewicz and Y. M. Xie, Earthquake Eng. Struct. Dyn. 20 (1991) 871-887, doi 10.1002/eqe.4290200907.
+/// Without motion a step is accepted and h stays. At beta = 1/6 the estimate vanishes; this value
+/// is refused. Source: O. C. Zienkiewicz and Y. M. Xie, Earthquake Eng. Struct. Dyn. 20 (1991)
+/// 871-887, doi 10.1002/eqe.4290200907.
 class ZienkiewiczXie final : public time::StepController {
  public:
   ZienkiewiczXie(double beta, double target_error, double lower, double upper)
       : factor_(std::abs(beta - 1.0 / 6.0)), target_(target_error), lower_(lower), upper_(upper) {}
 
-  /// eta of a step, or kNoMotion.
+  /// eta of a step; kNoMotion if nothing moves.
   double error(const time::State& from, const time::State& to, double h) const;
 
   time::StepDecision decide(double h, const time::StepReport& report) const override;

@@ -12,12 +12,12 @@ namespace {
 using time::State;
 
 constexpr Index kCount = StepNodes::kCount;
-/// Modes may be missed by this part of the tolerance in outputs between nodes.
+/// Allowed interpolation error of modes in outputs between nodes, as a fraction of the tolerance.
 constexpr double kOutput = 0.1;
-/// Between breakpoints the fastest motion turns by this at most, rad: a quintic misses 4e-4 of it, and 6e-4 of its
-/// speed.
+/// Largest phase angle of the fastest motion between breakpoints, rad: the error of a quintic is
+/// then 4e-4 of the motion and 6e-4 of its speed.
 constexpr double kMostTurn = 1.5;
-/// The longest part of a step between two nodes.
+/// The largest distance of neighbouring nodes, as a fraction of the step.
 constexpr double kLongestPart = 0.24;
 constexpr double kMostKnots = 4096.0;
 
@@ -100,8 +100,8 @@ void CollocationOutputs::move_to(const State& from, const State& to, double plac
   const double h = to.t - from.t;
   Index slow = 0;
   if (holds(from, to)) {
-    // Slow modes by the polynomial through the nodes, which misses them by StepNodes::kMiss (|lambda| h)^7 of their
-    // size, if loads move them no faster.
+    // Slow modes are interpolated by the polynomial through the nodes, with an error of
+    // StepNodes::kMiss (|lambda| h)^7 of their amplitude, unless harmonic loads are faster.
     const double most = std::pow(kOutput * tolerance_ / StepNodes::kMiss, 1.0 / 7.0) / h;
     if (loads_.highest_frequency() <= most)
       while (slow < p && modes_.speed()[slow] <= most) ++slow;
@@ -165,7 +165,7 @@ void CollocationOutputs::trace(const State& from, const State& to, double t, std
 
 double CollocationOutputs::find_fastest(const State& from, const State& to, double slow) const {
   const Index p = modes_.count();
-  // A mode that does not follow its forces at rest turns with |dz/dt|/|lambda|.
+  // |dz/dt|/|lambda| is the amplitude of a mode's rotation about its quasi-static response.
   Eigen::VectorXd rate;
   Eigen::ArrayXd turning = Eigen::ArrayXd::Zero(p);
   for (const double place : {0.0, 1.0}) {

@@ -51,7 +51,7 @@ ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedMod
 void ContactDofs::take(Index dof, double stiffness, const dynamics::DampedModes& modes) {
   if (dof < 0) return;
   dofs_.push_back(dof);
-  // All modes together answer an impulse of 1 N s with it.
+  // The velocity of the DOF after an impulse of 1 N s on it, summed over all modes.
   inverse_mass_[dof] = std::max(0.0, modes.velocity().col(dof).dot(modes.input().col(dof)));
   highest_frequency_ = std::max(highest_frequency_, std::sqrt(stiffness * inverse_mass_[dof]));
 }

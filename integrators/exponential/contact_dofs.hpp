@@ -7,7 +7,7 @@
 
 namespace butee::integrators {
 
-/// The DOFs that contacts act on, as collocation needs them.
+/// The DOFs on which contacts act, with the properties that collocation needs.
 class ContactDofs {
  public:
   /// Throws InputError for laws that are not piecewise linear.
@@ -16,11 +16,11 @@ class ContactDofs {
   const std::vector<Index>& all() const { return dofs_; }  ///< ascending
   /// The largest displacement of each mode at a contact for |z| = 1.
   const Eigen::ArrayXd& reach() const { return reach_; }
-  /// (M^-1)_dd of a contact's DOF, 1/kg
+  /// (M^-1)_dd of a DOF with contact, 1/kg
   double inverse_mass(Index dof) const { return inverse_mass_[dof]; }
   /// The highest frequency of a mass at a contact on its closed stiffness, rad/s; 0 without contacts.
   double highest_frequency() const { return highest_frequency_; }
-  /// Some contact dissipates or rubs.
+  /// True if a contact has dissipation or friction.
   bool need_velocity() const { return need_velocity_; }
 
  private:
@@ -33,15 +33,16 @@ class ContactDofs {
   bool need_velocity_ = false;
 };
 
-/// The DOFs of contacts that may act in a step, and their columns of the modes, 2p x their number.
+/// The DOFs of contacts that may act in a step, and the columns of the modes for them, 2p x number
+/// of DOFs.
 struct ActiveDofs {
   std::vector<Index> dofs;  ///< ascending
   Eigen::MatrixXd input, displacement, velocity;
 
-  /// Finds them by the phases of the contacts; true if they are others than before.
+  /// Finds them from the phases of the contacts; true if they have changed.
   bool find(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes);
   Index count() const { return static_cast<Index>(dofs.size()); }
-  /// The place of one of them.
+  /// The index of a DOF in `dofs`.
   Index place(Index dof) const;
 };
 

@@ -5,8 +5,8 @@
 
 namespace butee::integrators {
 
-/// The error of a step with contact: indicators 1 to 7 of plugins/exponential/THEORY.md, section 8.1, of which the
-/// largest of all stops counts.
+/// The error of a step with contact: the largest of the indicators 1 to 7 of
+/// plugins/exponential/THEORY.md, section 8.1, over all stops.
 class ContactError {
  public:
   /// All must outlive it.
@@ -19,16 +19,19 @@ class ContactError {
         iteration_(iteration),
         residual_(residual) {}
 
-  /// The error of the step with its forces, m; `displacement` is the largest of all stops.
+  /// The error of the step with its forces, m; `displacement` is the largest displacement of all
+  /// stops, m.
   double of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement) const;
-  /// Indicator 7, relative to the bound of the speed: the residual force of a stop jumps in the step.
+  /// Indicator 7, relative to the error bound of the speed: the residual force of a stop jumps in
+  /// the step.
   double of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed) const {
     const double hidden = 2.0 * residual_.force(stop).largest() * iteration_.influence().hidden_by_jump(flow, stop);
     return hidden / (kUnresolved * goal_.outputs * flow.h() * speed);
   }
 
  private:
-  /// Bound of the speed error that the projection hides, over the error bound of outputs.
+  /// Bound of the speed error due to the projection of the force, as a multiple of the error bound
+  /// of outputs.
   static constexpr double kUnresolved = 1.0;
 
   double of_touched(dynamics::ContactPropagator& flow, Index stop, double quartic, double displacement) const;

@@ -7,31 +7,37 @@ namespace butee::integrators {
 namespace {
 
 constexpr int kDegree = 4;
-/// Crossings are looked for in so many equal parts of a step. The path turns at most once in each, unless it oscillates
-/// several times within a step, which the error indicators reject.
+/// Number of equal parts of a step in which crossings are searched. The path has at most one
+/// extremum in each, unless it oscillates several times within a step, which the error indicators
+/// reject.
 constexpr int kParts = 4;
-/// The most steps towards a root within a bracket, Newton's or halvings.
+/// The largest number of Newton steps or bisections towards a root within a bracket.
 constexpr int kRefinements = 60;
-/// A correction of Newton's method below this, in parts of a step, leaves one of the order of its square.
+/// After a Newton correction below this, as a fraction of the step, the remaining error is of the
+/// order of its square.
 constexpr double kNearRoot = 1e-8;
-/// A bend is sharp if it is narrower than this fraction of the path's range: within it the rest is of second order in
-/// that fraction, elsewhere it is nearly constant.
+/// A bend is sharp if it is narrower than this fraction of the path's range. The contribution of
+/// the rest within it is of second order in that fraction; elsewhere the rest is nearly constant.
 constexpr double kSharp = 1e-3;
-/// So many widths from its bend the rest of the arctan law departs from its limit by 3e-5 of it.
+/// At this number of widths from its bend the rest of the arctan law differs from its limit by 3e-5
+/// of the limit.
 constexpr double kOffBend = 100.0;
-/// And here by 3e-9.
+/// At this number of widths it differs by 3e-9.
 constexpr double kFarOff = 1e4;
-/// An end of the path is treated as a bend if it is this near to one, as a fraction of the path's range.
+/// An end of the path is treated as a bend if it is closer to one than this fraction of the path's
+/// range.
 constexpr double kBesideBend = 0.5;
-/// Panels beside a bend that is not sharp: ratio of the lengths of neighbours.
+/// Panels beside a bend that is not sharp: ratio of the lengths of neighbouring panels, and number
+/// of panels.
 constexpr double kGrading = 0.15, kPreciseGrading = 0.25;
 constexpr int kPanels = 4, kPrecisePanels = 12;
-/// The finest grading ends with a panel that spans this fraction of the bend's width, or with kMostPanels.
+/// The finest grading ends if a panel spans kInnermost of the bend's width, or after kMostPanels.
 constexpr double kFinestGrading = 0.5, kInnermost = 0.5;
 constexpr int kMostPanels = 48;
 
 constexpr std::array<double, 7> kReciprocals = {1.0, 1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7};
-/// Four points are exact up to degree 7; a path of degree 4 times s^2 has degree 6.
+/// Gauss's rule with four points is exact up to degree 7; a path of degree 4 times s^2 has degree
+/// 6.
 constexpr std::array<double, 4> kGaussPlaces = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
                                                 0.93056815579702629};
 constexpr std::array<double, 4> kGaussWeights = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
@@ -52,7 +58,7 @@ bool has_opposite_signs(double a, double b) {
   return (a > 0.0) != (b > 0.0);
 }
 
-/// The root between two places where the polynomial has opposite signs.
+/// The root between two positions at which the polynomial has opposite signs.
 double root(const std::array<double, 5>& c, double low, double high) {
   const double at_low = value(c, low), at_high = value(c, high);
   double s = low + (high - low) * at_low / (at_low - at_high);
@@ -101,7 +107,7 @@ Projection ContactForce::project(const ContactPath& path, ContactStatus status) 
 
 bool ContactForce::of_one_crossing(const ContactPath& path, Projection& to) {
   const double side = on_upper_ && path.highest() > gap_ ? 1.0 : -1.0, border = side * gap_;
-  // The path may reach both borders, or it turns.
+  // The path may reach both borders, or may not be monotonic.
   if (side > 0.0 && on_lower_ && path.lowest() < -gap_) return false;
   if (!path.is_monotonic()) return false;
   std::array<double, 5> c = path.coefficients();
@@ -125,7 +131,7 @@ ForceMoments ContactForce::residual_moments(const ContactPath& path) {
 void ContactForce::add_spring(const ContactPath& path, double begin, double end, double side, Projection& to) const {
   const std::array<double, 5>& c = path.coefficients();
   std::array<double, 3> power{};
-  std::array<double, 7> integral = kReciprocals;  // of s^k over the piece
+  std::array<double, 7> integral = kReciprocals;  // integrals of s^k over the piece
   if (begin > 0.0 || end < 1.0) {
     double low = begin, high = end;
     for (std::size_t k = 0; k < 7; ++k, low *= begin, high *= end) integral[k] = (high - low) * kReciprocals[k];

@@ -19,10 +19,11 @@ enum class ContactStatus {
 ///
 ///     f_k = (2 k + 1) int_0^1 P_k(s) F(w(s)) ds,      F = spring + rest
 ///
-/// The spring is integrated exactly, however often the stop opens or closes. The rest of a regularised law is
-/// integrated by Gauss's rule with four points between the roots of g = 0 and of w = 0, on panels graded towards the
-/// bends of the law; where the bend is narrow or far away the rest is taken as its limit, the constant residual force.
-/// Checked against Simpson's rule in tests/unit/contact_force_test.cpp.
+/// The spring part is integrated exactly for any number of openings and closings. The rest of a
+/// regularised law is integrated by Gauss's rule with four points between the roots of g = 0 and of
+/// w = 0, on panels graded towards the transitions (bends) of the law at g = 0. If the transition
+/// is narrow or far away, the rest is replaced by its limit, the constant residual force. Checked
+/// against Simpson's rule in tests/unit/contact_force_test.cpp.
 class ContactForce {
  public:
   /// `contact` must outlive it.
@@ -35,19 +36,20 @@ class ContactForce {
     return ContactStatus::changing;
   }
   Projection project(const ContactPath& path, ContactStatus status);
-  /// Sets the error of the force, N, that may last for the whole run and for the characteristic time of the motion.
-  /// Where the approximations of the rest exceed it they are not used, and more panels are. The first bound is for
-  /// stops on one side, whose errors have one sign all run long.
+  /// Sets the allowed error of the force, N, if it persists for the whole run and if it persists
+  /// for the characteristic time of the motion. Approximations of the rest with larger errors are
+  /// not used, and more panels are taken. The first bound applies to one-sided stops, whose errors
+  /// keep their sign during the whole run.
   void allow(double for_run, double for_characteristic_time) {
     const double error = on_upper_ != on_lower_ ? for_run : for_characteristic_time;
     is_precise_ = kShortcuts * residual_ > error;
     is_finest_ = kPreciseError * residual_ > error;
   }
-  /// The force is that of a spring plus a constant over the whole step.
+  /// The force is a spring force plus a constant over the whole step.
   bool is_spring(const ContactPath& path, ContactStatus status) const {
     return status == ContactStatus::closed && (is_linear_ || is_constant_beside_bends(path));
   }
-  /// The moments of such a force: project(path, closed).force.
+  /// The moments of such a force, equal to project(path, closed).force.
   ForceMoments of_spring(const ContactPath& path) {
     const double side = on_upper_ && path.lowest() >= gap_ ? 1.0 : -1.0;
     const std::array<double, 5>& c = path.coefficients();
@@ -58,45 +60,47 @@ class ContactForce {
     const double rest = is_linear_ ? 0.0 : constant_rest(path.value(0.5), side);
     return {rest - stiffness_ * f0, -stiffness_ * f1, -stiffness_ * f2};
   }
-  /// The moments of the residual force along a path without contact: constant except where it changes sign.
+  /// The moments of the residual force along a path without contact; the force is constant except
+  /// for its change of sign at w = 0.
   ForceMoments residual_moments(const ContactPath& path);
   /// The jump of the residual force, N, if the path crosses the middle of the gap.
   double jump(const ContactPath& path) const {
     return on_upper_ && on_lower_ && path.lowest() < 0.0 && path.highest() > 0.0 ? 2.0 * residual_ : 0.0;
   }
   double stiffness() const { return stiffness_; }
-  /// A spring while closed, nothing else.
+  /// The law is a spring while closed, without residual force.
   bool is_linear() const { return is_linear_; }
 
  private:
   void add_spring(const ContactPath& path, double begin, double end, double side, Projection& to) const;
-  /// The rest of the law beside a spring on `side` (0: beside no spring), N.
+  /// The rest of the law: its force minus the spring force on `side` (0: no spring), N.
   double rest_at(double w, double side);
-  /// Its limit far from the bends of the law.
+  /// The limit of the rest far from the bends of the law, N.
   double constant_rest(double w, double side);
   /// The moments of the rest over a part of the step.
   ForceMoments of_rest(const ContactPath& path, double begin, double end, double side);
-  /// The same with the limit of the rest.
+  /// The same with the constant limit of the rest.
   ForceMoments of_constant_rest(const ContactPath& path, double begin, double end, double side);
-  /// The same by panels that shrink towards `graded`.
+  /// The moments of the rest between `graded` and `other`, on panels that shrink towards `graded`.
   ForceMoments of_graded_rest(const ContactPath& path, double graded, double other, double side);
   /// +1, -1: the side on which a spring acts; 0: none.
   double side_at(double w) const { return on_upper_ && w > gap_ ? 1.0 : on_lower_ && w < -gap_ ? -1.0 : 0.0; }
   /// The whole path is far from the bends of the law.
   bool is_off_bends(const ContactPath& path) const;
-  /// The rest may be taken as constant between bends.
+  /// The rest may be approximated by a constant between bends.
   bool is_constant_beside_bends(const ContactPath& path) const;
   /// The rest keeps its sign between bends.
   bool stays_on_a_side(const ContactPath& path) const;
   Projection of_pieces(const ContactPath& path);
-  /// The same for a constant rest and a path with one crossing of one border; false for any other.
+  /// The projection for a constant rest and a path that crosses one border once; false in any other
+  /// case.
   bool of_one_crossing(const ContactPath& path, Projection& to);
   /// Fills places_ with 0, the places where the path crosses a border of the law, and 1.
   void find_places(const ContactPath& path);
   void add_crossings(const ContactPath& path, double border);
 
-  /// Errors as fractions of the residual force: of the constant rest, at kFarOff and beside kSharp, and of
-  /// kPrecisePanels.
+  /// Error bounds as fractions of the residual force: kShortcuts for the constant rest at kFarOff
+  /// and beside kSharp, kPreciseError for kPrecisePanels.
   static constexpr double kShortcuts = 3e-3, kPreciseError = 2e-4;
 
   dynamics::Contact& contact_;

@@ -10,7 +10,7 @@ namespace butee::integrators {
 namespace {
 
 constexpr double kNoGap = std::numeric_limits<double>::infinity();
-/// Added to the distance of a side on which a stop does not act, m.
+/// Added to the distance from a side on which a stop does not act, m.
 constexpr double kNoContact = 1e100;
 
 }  // namespace

@@ -5,33 +5,34 @@
 
 namespace butee::integrators {
 
-/// The gaps of all stops and the sides on which they act, as arrays padded to whole registers. Checked in
-/// tests/unit/contact_gaps_test.cpp.
+/// The gaps of all stops and the sides on which they act, as arrays padded to whole vector
+/// registers. Checked in tests/unit/contact_gaps_test.cpp.
 class ContactGaps {
  public:
   explicit ContactGaps(const dynamics::Contact& contact);
 
   const Eigen::ArrayXd& gaps() const { return gaps_; }
-  /// The displacements at which a stop closes; infinite on a side on which it does not act.
+  /// The displacements at which a stop closes, m; infinite on a side on which it does not act.
   const Eigen::ArrayXd& upper() const { return upper_; }
   const Eigen::ArrayXd& lower() const { return lower_; }
-  /// constant_force_limit()
+  /// constant_force_limit() of each stop, m
   const Eigen::ArrayXd& limits() const { return limits_; }
 
-  /// +1, -1: the side on which a stop is closed at w; 0: it is open.
+  /// The side (+1, -1) on which a stop is closed at w; 0 if it is open.
   double closed_side(Index stop, double w) const { return w > upper_[stop] ? 1.0 : w < lower_[stop] ? -1.0 : 0.0; }
-  /// Closed on the same side at both.
+  /// The stop is closed on the same side at both displacements.
   bool stays_closed(Index stop, double from, double to) const {
     return (from > upper_[stop] && to > upper_[stop]) || (from < lower_[stop] && to < lower_[stop]);
   }
-  /// Bounds of |w| over a step from w to w_end, on the sides on which a stop acts alone; `bump` bounds the departure
-  /// from the straight line through the ends, m.
+  /// Bounds of |w| over a step from w to w_end, only on the sides on which a stop acts. `bump`
+  /// bounds the departure from the straight line between the ends, m.
   template <class Bump>
   void bound_displacements(const Eigen::ArrayXd& w, const Eigen::ArrayXd& w_end, const Bump& bump,
                            Eigen::ArrayXd& bounds) const {
     bounds = (w.max(w_end) - off_upper_).max(-w.min(w_end) - off_lower_) + bump;
   }
-  /// The time until the first stop reaches its limit at the speeds of now, s; infinite where none is approached.
+  /// The time until the first stop reaches its limit at the present speeds, s; infinite if no stop
+  /// approaches its limit.
   double time_to_contact(const ModalState& now) const;
 
  private:
@@ -39,9 +40,9 @@ class ContactGaps {
   Eigen::ArrayXd off_upper_, off_lower_;  ///< 0, or larger than any displacement on a side on which it does not act
 };
 
-/// Bounds of the displacements of the stops over a step, which tell those that may touch. The cubic through the ends is
-/// bounded by its Hermite functions, the departure from it by the Hermite interpolation error of each mode and load
-/// (plugins/exponential/THEORY.md, section 7).
+/// Displacement bounds of the stops over a step; they determine the stops that may close. The cubic
+/// through the ends is bounded by its Hermite functions, the departure from it by the Hermite
+/// interpolation error of each mode and load (plugins/exponential/THEORY.md, section 7).
 class DisplacementBounds {
  public:
   /// `modal` must outlive it.
@@ -52,16 +53,17 @@ class DisplacementBounds {
   double longest_near() const { return longest_near_; }
 
   void find(const dynamics::ContactPropagator& flow, const TriedStep& step);
-  /// Again, with another end of the step.
+  /// Recomputes the bounds for a changed end of the step.
   void update(const TriedStep& step);
-  /// Adds stops to step.carried whose gap is within the bounds of their path with the forces of others, `speed` being
-  /// h times the speed; true if there are any.
+  /// Adds to step.carried the stops whose path with the forces of other stops exceeds the gap
+  /// according to its bounds; true if there are any. `start_speed` is h times the speed at the
+  /// start, m.
   bool find_carried(const Eigen::ArrayXd& start_speed, const dynamics::StopMotion& path, TriedStep& step);
 
   const Eigen::ArrayXd& all() const { return bounds_; }
   /// The stop may come so near its gap that its force is not constant.
   bool is_near(Index stop) const { return bounds_[stop] > gaps_.limits()[stop]; }
-  /// The part of the Hermite interpolation error that loads cause, m.
+  /// The part of the Hermite interpolation error due to loads, m.
   double of_loads() const { return of_loads_; }
 
  private:

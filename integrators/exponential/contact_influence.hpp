@@ -9,20 +9,21 @@
 
 namespace butee::integrators {
 
-/// Bound of |int_0^1 (F - P F) e^(i x s) ds| for the force F of slope 1 behind any place of the step and its projection
-/// P F: the impulse of a closing stop that the projection hides from a mode of angle x per step.
+/// Bound of |int_0^1 (F - P F) e^(i x s) ds| for a force F that is zero up to some position in the
+/// step and has slope 1 behind it, with its projection P F: the error of the impulse of a closing
+/// stop on a mode whose phase advances by x (rad) per step.
 inline double unresolved_part(double x) {
   return std::min({7.5e-5 * x * x * x, 0.0172, 0.174 / x});
 }
 
-/// The same of a force that jumps by 1 behind any place of the step.
+/// The same for a force that jumps by 1 at some position in the step.
 inline double unresolved_jump(double x) {
   return std::min({5.21e-4 * x * x * x, 0.1433, 2.0 / x});
 }
 
-/// The influence of a stop's force on its own path, which follows from the step size alone: the coupling, the inverse
-/// of Newton's method while closed, and what the projection hides from the modes. Kept with the step size
-/// (ContactPropagator).
+/// The influence of a stop's force on its own path, which depends on the step size only: the
+/// coupling matrix, the inverse of Newton's matrix for a closed stop, and the impulse error of the
+/// projection. Cached with the step size (ContactPropagator).
 class ContactInfluence {
  public:
   /// Both must outlive it; `orders` is the number of force moments.
@@ -39,12 +40,12 @@ class ContactInfluence {
     const Known& known = flow.derived(stop);
     return known.is_known ? known : find(flow, stop);
   }
-  /// sigma = (h omega_c)^2 of the stop alone.
+  /// sigma = (h omega_c)^2, with omega_c the frequency of the closed stop alone.
   double stiff(dynamics::ContactPropagator& flow, Index stop) const {
     return stiffness_[static_cast<std::size_t>(stop)] * of(flow, stop).coupling[1][0];
   }
-  /// h times the change of the speed of a stop that the projection of a force with a jump of 1 N hides from modes whose
-  /// phases are independent, m/N.
+  /// h times the speed error of a stop due to the projection of a force with a jump of 1 N, m/N;
+  /// the phases of the modes are assumed independent.
   double hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop) const {
     const auto shape = modal_.stop_shapes().of(stop).array();
     const auto angles = flow.h() * (modal_.frequencies().square() + 4.0 * modal_.decay().square()).sqrt();

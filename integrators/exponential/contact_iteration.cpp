@@ -103,13 +103,13 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
           status == ContactStatus::closed ? known.inverse : newton.inverse(projection.closed, known.coupling),
           projected, old);
     }
-    if (goal_.orders == 1) moments_[1][i] = projected[1];  // for the error indicator alone
+    if (goal_.orders == 1) moments_[1][i] = projected[1];  // for the error indicator only
     const bool stays = more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0;
     const double moved = stays ? 0.0 : add_force(flow, i, more);
     if (!std::isfinite(moved)) return moved;
-    // The linear equations of a spring are solved for the path that its force leads to.
+    // For a spring the linear equations already hold on the path with the new force.
     if (was_spring && is_spring(i)) note_path(i);
-    // At a start from rest the force itself makes the scale.
+    // At a start from rest the scale is the displacement due to the force itself.
     if (moved > 0.0)
       change =
           std::max(change, moved / allowed_change(flow, i, std::max(displacement, std::abs(paths_.motion().end[i]))));
@@ -156,7 +156,7 @@ double ContactIteration::add_force(ContactPropagator& flow, Index stop, const Fo
 }
 
 void ContactIteration::complete_paths(ContactPropagator& flow) {
-  for (std::size_t k = goal_.orders; k < moments_.size(); ++k) moments_[k].setZero();  // for the error indicator alone
+  for (std::size_t k = goal_.orders; k < moments_.size(); ++k) moments_[k].setZero();  // for the error indicator only
   flow.add_forces(touched_, moments_, far_registers_, paths_.motion());
 }
 

@@ -10,8 +10,8 @@
 
 namespace butee::integrators {
 
-/// The forces of the stops near their gaps and their paths over a step, found together: sweeps over the stops in turn
-/// (Gauss-Seidel), with Newton's method for each (plugins/exponential/THEORY.md, section 6). Checked in
+/// Finds the forces and paths of the stops near their gaps over a step: Gauss-Seidel sweeps over
+/// the stops, with Newton's method for each (plugins/exponential/THEORY.md, section 6). Checked in
 /// tests/unit/contact_iteration_test.cpp.
 class ContactIteration {
  public:
@@ -19,42 +19,46 @@ class ContactIteration {
   ContactIteration(const dynamics::ModalSystem& modal, const StepGoal& goal, std::vector<ContactForce>& contacts,
                    const ContactGaps& gaps, const ContactScales& scales, const TriedStep& step);
 
-  /// Finds the forces of step.iterated; the largest displacement of a stop, or nothing if it does not converge.
+  /// Finds the forces of the stops in step.iterated. Returns the largest displacement of a stop, m;
+  /// empty if the iteration does not converge.
   std::optional<double> solve(dynamics::ContactPropagator& flow);
-  /// Completes the paths of all other stops with the forces.
+  /// Adds the effect of the forces to the paths of all other stops.
   void complete_paths(dynamics::ContactPropagator& flow);
-  /// Adds the forces, after complete_paths(), to the end of the step, and to its middle if outputs are to know of it.
+  /// After complete_paths(): adds the forces to the end of the step, and to its middle if there is
+  /// a breakpoint.
   void apply(dynamics::ContactPropagator& flow, TriedStep& step);
 
   const ContactPaths& paths() const { return paths_; }
   const ContactInfluence& influence() const { return influence_; }
-  /// The stops with a force.
+  /// The stops that exert a force in the step.
   const std::vector<Index>& touched() const { return touched_; }
   bool is_touched(Index stop) const { return is_touched_[static_cast<std::size_t>(stop)]; }
-  /// Moment k of the force of each stop, N, and of all of them as modal forces.
+  /// Moment k of the forces: for each stop, N, and summed as modal forces.
   const Eigen::ArrayXd& moments(std::size_t k) const { return moments_[k]; }
   const Eigen::ArrayXd& modal_moments(std::size_t k) const { return sums_[k]; }
 
  private:
-  /// After the first sweep a stop keeps its force if others moved its path by less than this fraction of
-  /// allowed_change().
+  /// After the first sweep the force of a stop is kept if other stops moved its path by less than
+  /// this fraction of allowed_change().
   static constexpr double kSettled = 0.2;
 
   void begin();
   /// Fills near_registers_ and far_registers_.
   void choose_registers();
-  /// Starts with the forces of the stops that are closed at the start, at constant speed.
+  /// Initial guess: the forces of the stops that are closed at the start, for constant speed.
   void guess(dynamics::ContactPropagator& flow);
-  /// The largest change of a path over allowed_change(). `may_skip`: as by kSettled.
+  /// One sweep; returns the largest change of a path over allowed_change(). `may_skip`: stops are
+  /// skipped by kSettled.
   double sweep(dynamics::ContactPropagator& flow, double displacement, bool may_skip);
   double allowed_change(dynamics::ContactPropagator& flow, Index stop, double displacement) const;
   bool is_spring(Index stop) const;
-  /// Notes the path of a stop that its force was found for.
+  /// Stores the path of a stop for which its force was computed.
   void note_path(Index stop);
-  /// By how much the path of a stop differs from that, with what a stiff stop makes of it in h times its speed, m.
+  /// The distance of the path of a stop from the stored one, m, including the resulting change of h
+  /// times its speed for a stiff stop.
   double moved_since(dynamics::ContactPropagator& flow, Index stop) const;
   void touch(Index stop);
-  /// Adds to the force of a stop; the largest change of a path.
+  /// Adds `more` to the force of a stop; returns the largest change of a path, m.
   double add_force(dynamics::ContactPropagator& flow, Index stop, const ForceMoments& more);
 
   const dynamics::ModalSystem& modal_;
@@ -64,9 +68,9 @@ class ContactIteration {
   const ContactScales& scales_;
   const TriedStep& step_;
   ContactInfluence influence_;
-  ContactPaths paths_;          ///< outside near_registers_ without forces until complete_paths()
-  dynamics::StopMotion noted_;  ///< note_path()
-  std::vector<Index> near_registers_, far_registers_;  ///< with iterated stops, and all others
+  ContactPaths paths_;          ///< those outside near_registers_ lack the forces until complete_paths()
+  dynamics::StopMotion noted_;  ///< the paths stored by note_path()
+  std::vector<Index> near_registers_, far_registers_;  ///< vector registers with iterated stops, and all others
   std::array<Eigen::ArrayXd, 3> moments_, sums_;
   std::vector<Index> touched_;
   std::vector<bool> is_touched_;

@@ -9,7 +9,7 @@ ContactNewton::Matrix ContactNewton::inverse(const std::array<double, 7>& closed
   const auto& shape = orders_ == 3 ? kQuartic : kCubic;
   double a[3][3];
   for (std::size_t k = 0; k < 3; ++k) {
-    double moved[3], power[3];  // c_2, c_3, c_4 and the integrals of the force by f_k
+    double moved[3], power[3];  // changes of c_2, c_3, c_4 and of the force integrals due to f_k
     for (std::size_t m = 0; m < 3; ++m)
       moved[m] = shape[m][0] * coupling[0][k] + shape[m][1] * coupling[1][k] + shape[m][2] * coupling[2][k];
     for (std::size_t j = 0; j < 3; ++j)
@@ -18,7 +18,7 @@ ContactNewton::Matrix ContactNewton::inverse(const std::array<double, 7>& closed
     for (std::size_t j = 0; j < 3; ++j) a[j][k] = j < orders_ && k < orders_ ? moments[j] : 0.0;
     a[k][k] += 1.0;
   }
-  // By the adjugate.
+  // Inverse by the adjugate.
   const double c0 = a[1][1] * a[2][2] - a[1][2] * a[2][1], c1 = a[1][2] * a[2][0] - a[1][0] * a[2][2],
                c2 = a[1][0] * a[2][1] - a[1][1] * a[2][0];
   const double r = 1.0 / (a[0][0] * c0 + a[0][1] * c1 + a[0][2] * c2);

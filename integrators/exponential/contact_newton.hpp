@@ -7,20 +7,20 @@
 
 namespace butee::integrators {
 
-/// Newton's method for the force moments f of one stop, f = projection(path + coupling f), with the stop a spring over
-/// fixed parts of the step. Checked in tests/unit/contact_newton_test.cpp.
+/// Newton's method for the force moments f of one stop, f = projection(path + coupling f); the stop
+/// is a spring over fixed parts of the step. Checked in tests/unit/contact_newton_test.cpp.
 class ContactNewton {
  public:
-  using Matrix = std::array<double, 9>;  ///< 3 x 3, by rows
+  using Matrix = std::array<double, 9>;  ///< 3 x 3, row by row
 
-  /// The force has `orders` moments, 1 to 3; with three of them the path has a quartic term.
+  /// The force has `orders` moments, 1 to 3; with 3 the path has a quartic term.
   ContactNewton(double stiffness, std::size_t orders) : stiffness_(stiffness), orders_(orders) {}
 
   /// (1 - d projection / d f)^-1
   Matrix inverse(const std::array<double, 7>& closed, const PathCoupling& coupling) const;
-  /// The same of a stop that is closed throughout.
+  /// The same for a stop that is closed throughout the step.
   Matrix closed_inverse(const PathCoupling& coupling) const;
-  /// The change of f from `old`.
+  /// The correction of f from `old`.
   ForceMoments correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const {
     ForceMoments r{};
     for (std::size_t k = 0; k < orders_; ++k) r[k] = projected[k] - old[k];

@@ -31,7 +31,8 @@ class ContactPath {
     const double hv0 = s * c_[1], w1 = value(s), hv1 = s * speed;
     return {c_[0], hv0, w1, hv1, value(0.5 * s) - 0.5 * (c_[0] + w1) - 0.125 * (hv0 - hv1)};
   }
-  /// True only if the path does not turn: the Bernstein coefficients of its slope have one sign.
+  /// True if the Bernstein coefficients of the slope have one sign, which is sufficient for a
+  /// monotonic path.
   bool is_monotonic() const {
     const double d1 = c_[1] + (2.0 / 3.0) * c_[2], d2 = d1 + (2.0 / 3.0) * c_[2] + c_[3],
                  d3 = c_[1] + 2.0 * c_[2] + 3.0 * c_[3] + 4.0 * c_[4];

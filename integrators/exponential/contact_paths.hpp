@@ -5,17 +5,19 @@
 
 namespace butee::integrators {
 
-/// The paths of all stops over the step tried, with the forces found so far, as arrays with an entry a stop.
+/// The paths of all stops over the step under trial, with the forces found so far, as arrays with
+/// one entry per stop.
 class ContactPaths {
  public:
-  /// Both must outlive it. With three `orders` of the force paths have a quartic term.
+  /// `step` and `gaps` must outlive it. With three `orders` (force moments) paths have a quartic
+  /// term.
   ContactPaths(const TriedStep& step, const ContactGaps& gaps, std::size_t orders)
       : step_(step), gaps_(gaps), orders_(orders) {
     for (Eigen::ArrayXd* array : {&hv_, &motion_.end, &motion_.speed, &motion_.middle, &quartic_, &excess_})
       array->setZero(gaps.gaps().size());
   }
 
-  /// The paths without forces in the step.
+  /// Sets the paths without contact forces in the step.
   void begin(const dynamics::StopShapes& shapes) {
     hv_ = step_.h * step_.from.wv;
     motion_.end = step_.to.w;
@@ -35,14 +37,14 @@ class ContactPaths {
                   .max(gaps_.lower() - w.min(motion_.end).min(b1).min(b2).min(b3));
   }
 
-  /// Displacement at the end, h times the speed there and displacement in the middle.
+  /// Displacement at the end, h times the speed there, and displacement in the middle, all in m.
   dynamics::StopMotion& motion() { return motion_; }
   const dynamics::StopMotion& motion() const { return motion_; }
-  /// h times the speed at the start.
+  /// h times the speed at the start, m.
   const Eigen::ArrayXd& start_speed() const { return hv_; }
-  /// Displacement in the middle minus that of the cubic through the ends.
+  /// Displacement in the middle minus that of the cubic through the ends, m.
   const Eigen::ArrayXd& quartic() const { return quartic_; }
-  /// By how much a bound of the path exceeds the gap.
+  /// The bound of the path minus the gap, m; negative if the path stays within the gap.
   const Eigen::ArrayXd& excess() const { return excess_; }
 
   ContactPath of(Index stop) const {

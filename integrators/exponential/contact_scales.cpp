@@ -8,7 +8,7 @@ namespace butee::integrators {
 using Eigen::ArrayXd;
 
 namespace {
-/// m, for a displacement scale of zero
+/// replaces a displacement scale of zero, m
 constexpr double kTiny = 1e-300;
 }  // namespace
 

@@ -7,9 +7,10 @@
 
 namespace butee::integrators {
 
-/// The scales that errors of stops are relative to: the largest displacement and speed of each so far, at least a
-/// thousandth of those of all stops. A stop between two bodies takes the scales of the body that its force moves most
-/// for its scale. They are a part of the state. Checked in tests/unit/contact_scales_test.cpp.
+/// The scales to which errors of stops are relative: the largest displacement and speed of each
+/// stop so far, at least a thousandth of the largest of all stops. A stop between two bodies takes
+/// the scales of the body whose motion by the stop's force is largest relative to its own scale.
+/// The scales are a part of the state. Checked in tests/unit/contact_scales_test.cpp.
 class ContactScales {
  public:
   /// The scale of a stop is at least this fraction of the largest one (integrators/error-control.md).
@@ -18,9 +19,11 @@ class ContactScales {
   /// `modal` must outlive it.
   ContactScales(const dynamics::ModalSystem& modal, const dynamics::Contact& contact);
 
-  /// Numbers of a state: the largest |w| and |w'| of each stop, then |x_a|, |x_b|, |v_a|, |v_b| of each pair.
+  /// Number of entries in a state: the largest |w| and |w'| of each stop, then |x_a|, |x_b|, |v_a|,
+  /// |v_b| of each pair.
   Index memory_size() const { return 2 * modal_.stop_count() + 4 * static_cast<Index>(pairs_.size()); }
-  /// Fills them for a start at modal coordinates q and speeds v, with the displacements and speeds of the stops, w.
+  /// Fills these entries for the initial modal coordinates q and speeds v; `w` holds the
+  /// displacements and speeds of the stops.
   void start(const double* q, const double* v, const double* w, double* memory) const;
   void load(const double* memory, ContactScale largest);
   void save(double* memory) const;
@@ -31,16 +34,19 @@ class ContactScales {
     largest_.displacement = std::max(largest_.displacement, to.largest_w());
     largest_.speed = std::max(largest_.speed, to.largest_wv());
   }
-  /// Raises those of the single stops and pairs.
+  /// Raises the scales of the individual stops and pairs.
   void raise(const ModalState& to);
-  /// The displacement scale of each stop as a fraction of the largest, m, with its displacement at the end of a step.
+  /// The displacement scale of each stop, including its displacement at the end of a step, as a
+  /// fraction of `displacement`, the largest one, m.
   void find_shares(const Eigen::ArrayXd& w_end, double displacement, Eigen::ArrayXd& shares) const;
 
-  /// The scale of a stop; `reached` is its motion in the step tried, `displacement` the largest of all stops, m.
+  /// The scale of a stop; `reached` is its motion in the step under trial, `displacement` the
+  /// largest of all stops, m.
   ContactScale of(Index stop, ContactScale reached, double displacement) const;
 
  private:
-  /// A stop between bodies a and b. Its forces move body b by the fraction share_b of what they move the stop by.
+  /// A stop between bodies a and b. If its force moves the stop by 1, body a moves by share_a and
+  /// body b by share_b.
   struct Pair {
     Index stop;
     Vector shape_a;
@@ -55,7 +61,7 @@ class ContactScales {
   Eigen::ArrayXd w_, wv_;
   std::vector<Pair> pairs_;
   std::vector<PairScale> pair_scales_;
-  std::vector<Index> pair_of_;  ///< of each stop; -1: none
+  std::vector<Index> pair_of_;  ///< index in pairs_ for each stop; -1: none
 };
 
 }  // namespace butee::integrators

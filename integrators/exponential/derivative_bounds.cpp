@@ -9,13 +9,13 @@ namespace butee::integrators {
 
 using Eigen::ArrayXd;
 
-// Without contact the energy of a mode grows by the work of its load alone: sqrt(v^2 + omega^2 q^2) by less than the
+// Without contact only its load adds energy to a mode: sqrt(v^2 + omega^2 q^2) grows by at most the
 // integral of |f|. Higher derivatives follow from q'' = f - omega^2 q - 2 delta q'.
 void DerivativeBounds::find(std::size_t breakpoint) {
   if (known_ == breakpoint) return;
   known_ = breakpoint;
   const double t = breakpoints_.time(breakpoint), h = breakpoints_.time(breakpoint + 1) - t;
-  std::array<ArrayXd, 5> load;  // of f and its derivatives
+  std::array<ArrayXd, 5> load;  // bounds of f and its first four derivatives
   for (ArrayXd& bound : load) bound.setZero(modal_.size());
   for (const dynamics::ModalHarmonic& harmonic : modal_.harmonics()) {
     double factor = 1.0;
@@ -25,7 +25,7 @@ void DerivativeBounds::find(std::size_t breakpoint) {
     }
   }
   for (const dynamics::ModalSystem::OtherLoad& other : modal_.other_loads()) {
-    // The parabola through three values
+    // The parabola through the values at the start, in the middle and at the end.
     const double f0 = other.in_time->value(t), f1 = other.in_time->value(t + 0.5 * h), f2 = other.in_time->value(t + h);
     const double bend = 4.0 * std::abs(f0 - 2.0 * f1 + f2);
     load[0] += (std::max({std::abs(f0), std::abs(f1), std::abs(f2)}) + 0.125 * bend) * other.shape.abs();
@@ -47,7 +47,8 @@ void DerivativeBounds::departure(double begin, double end, std::span<const Index
   const double h = end - begin;
   const QuinticError error = quintic_error(h, 1.0);
   const auto& of = of_;
-  // The departure from a quintic is also within the sums of its Hermite functions and their derivatives.
+  // The sums of the Hermite functions and of their derivatives also bound the difference from a
+  // quintic.
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const auto shape = modal_.shape_rows().col(dofs[i]).array().abs();
     if (!out.x.empty())

@@ -16,20 +16,23 @@ using time::State;
 using time::StepReport;
 using time::StepStatus;
 
-/// Steps in a macro step.
+/// Number of steps in a macro step.
 constexpr int kMacroStep = 32;
-/// The state ends with the index of the step size, the largest displacement and speed of a stop, whether the last step
-/// was without contact, by how many indices those are longer, and the end that the last macro step was given, without
-/// which it cannot be repeated.
+/// Number of entries at the end of the state: the index of the step size; the largest displacement
+/// and speed of a stop; 1 if the last step had no contact; the number of indices by which steps
+/// without contact are longer; and the end time that the last macro step was given, which is needed
+/// to repeat it.
 constexpr Index kExtras = 6;
-/// The error of outputs between two steps without contact, in tolerances; the steps go on from the exact state.
+/// Allowed error of outputs within a step without contact, in tolerances. The next step starts from
+/// the exact state.
 constexpr double kOutputs = 2.0;
 
-/// The bound of a path's departure from the cubic in the middle of a step, relative to the displacement scale. At
-/// order 4 the error is made of it; at order 2 the error is of a lower power of h. At order 6, whose path contains the
-/// departure, the error falls with its power 3/2 in smooth motion and 1 where stops open and close. Below
-/// kProportional, where impacts are all that is left of the error, the bound is proportional to the tolerance.
-/// Calibrated on beams and oscillators: tests/models/exponential_test.cpp.
+/// The bound of a path's departure from the cubic in the middle of a step, relative to the
+/// displacement scale. At order 4 the error is proportional to the departure; at order 2 the error
+/// is of a lower power of h. At order 6 the path contains the departure, and the error falls with
+/// its power 3/2 in smooth motion and with its power 1 where stops open and close. Below
+/// kProportional only impacts contribute to the error, and the bound is proportional to the
+/// tolerance. Calibrated on beams and oscillators: tests/models/exponential_test.cpp.
 double middle_tolerance(const ExponentialOptions& options) {
   constexpr double kProportional = 1e-4;
   switch (options.order) {
@@ -70,7 +73,7 @@ int Exponential<Step>::first_index() const {
   for (Index i = 0; i < modal_.stop_count(); ++i)
     square = std::max(square, stiffness[i] * modal_.stop_shapes().of(i).squaredNorm());
   const double h = std::pow(options_.tolerance, options_.order == 2 ? 0.5 : 0.25) * 4.0 / std::sqrt(square);
-  // At most the time scale of the slowest motion
+  // At most the time scale of the slowest motion.
   const double lowest = modal_.frequencies().minCoeff();
   const double most = std::min(1.0 / std::sqrt(square), lowest > 0.0 ? 1.0 / lowest : h);
   return static_cast<int>(std::floor(2.0 * std::log2(std::min(h, most))));
@@ -143,7 +146,7 @@ template <class Step>
 bool Exponential<Step>::advance(double end, StepReport& report) const {
   const double t = step_.t(), jump = next_load_discontinuity(t), last = std::min(end, jump);
   int index = sizes_.next_index();
-  // A step without contact ends before the stop that it leads to: a longer one would be tried in vain.
+  // A step without contact ends before the next contact, since a longer attempt would be rejected.
   if (index > sizes_.contact_index()) index = sizes_.next_index(step_.time_to_contact());
   bool expects_motion = false;
   while (true) {
@@ -153,7 +156,8 @@ bool Exponential<Step>::advance(double end, StepReport& report) const {
       return false;
     }
     const bool fits = step_.has_stops() && t + h <= last;
-    // The rest of a macro step is shorter than a step: the next macro step takes it with whole ones.
+    // If no whole step fits into the rest of a macro step, the next macro step covers it with whole
+    // steps.
     if (!fits && jump >= end && report.inner_steps > 0) return false;
     const Trial trial = fits ? step_.attempt_index(index) : step_.attempt_until(last);
     const StepSizeControl::Outcome outcome = step_.outcome();

@@ -19,7 +19,8 @@ std::vector<ContactForce> contact_forces(dynamics::Contact& contact) {
   return forces;
 }
 
-/// Rounds a step between outputs to so many bits of the time, so that equal intervals are equal.
+/// Rounds the length of a step between outputs to kSameBits bits of the time, so that equal output
+/// intervals give equal step lengths.
 double rounded(double h, double t_end) {
   constexpr int kSameBits = 50;
   const double unit = std::ldexp(1.0, std::ilogb(t_end) - kSameBits);
@@ -191,7 +192,7 @@ bool ExponentialStep::is_smooth(ContactPropagator& flow) {
   return interpolation_.is_close(step_, residual_force());
 }
 
-// A breakpoint in the middle would divide the forces as the polynomials that they are.
+// A breakpoint in the middle divides forces as polynomials, which is not accurate for a jump.
 bool ExponentialStep::shows_jump() const {
   const auto shows = [&](Index i) { return errors_.shows_jump(i, modal_.stop_shapes().of(i).squaredNorm()); };
   return std::any_of(step_.iterated.begin(), step_.iterated.end(), shows) ||

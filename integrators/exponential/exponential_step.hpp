@@ -10,23 +10,25 @@
 
 namespace butee::integrators {
 
-/// The steps of the method `exponential` within a macro step: propagates the modes, finds the stops that may touch,
-/// iterates for their forces and judges the error. The parts are classes of their own; this one puts them in order.
-/// Checked in tests/unit/exponential_step_test.cpp and tests/models/exponential_test.cpp.
+/// One step of the method `exponential` at a time, within a macro step: propagates the modes, finds
+/// the stops that may close, iterates for their forces and evaluates the error. Other classes
+/// implement these parts; this class defines their order. Checked in
+/// tests/unit/exponential_step_test.cpp and tests/models/exponential_test.cpp.
 class ExponentialStep {
  public:
-  /// Macro steps are of up to `most` steps. Both references must outlive it.
+  /// Macro steps have up to `most` steps. `dynamics` and `modal` must outlive it.
   ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, const StepGoal& goal, std::size_t most);
 
-  /// A state holds q, v, displacements and speeds of the stops, and ContactScales. complete() fills in all after q and
-  /// v.
+  /// A state holds q, v, displacements and speeds of the stops, and ContactScales. complete() fills
+  /// the entries behind q and v.
   Index memory_size() const { return 2 * modal_.size() + 2 * modal_.stop_count() + scales_.memory_size(); }
   void complete(double* memory) const;
-  /// Begins a macro step with the state at t.
+  /// Begins a macro step from the state at t.
   void begin(double t, const double* memory, ContactScale scale);
   void save(double* memory) const;
 
-  /// Tries a step of the grid, or one until t; accept() takes it, to end at t.
+  /// Attempts a step with an index of the step size grid, or up to t. accept() accepts it, with t
+  /// as its end.
   Trial attempt_index(int index) {
     return attempt(modal_.propagator(index), t() + dynamics::ModalSystem::grid_step(index));
   }
@@ -35,7 +37,7 @@ class ExponentialStep {
     return {!step_.is_near, {error_, goal_.middle * scales_.largest().displacement}, interpolation_.error()};
   }
   void accept(double t);
-  /// Raises the scales to the motion of the stops in a step of the grid without contact.
+  /// Raises the scales to the motion of the stops without contact in a step with this grid index.
   void expect_motion(int index);
 
   double t() const { return record_.breakpoints().last(); }
@@ -47,11 +49,12 @@ class ExponentialStep {
   bool has_stops() const { return !contacts_.empty(); }
 
   std::span<const double> breakpoints() const { return record_.breakpoints().inner(); }
-  /// The motion within the macro step, which does not change the state.
+  /// Interpolates within the macro step; does not change the state.
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
     record_.interpolate(times, dofs, out);
   }
-  /// time::Integrator::energies() of the macro step; none without stops, whose steps are of any length.
+  /// time::Integrator::energies() of the macro step; empty without stops, since steps then have any
+  /// length.
   std::span<const time::EnergyAt> energies(std::span<const double> instants) {
     return has_stops() ? record_.energies(instants) : std::span<const time::EnergyAt>();
   }
@@ -62,23 +65,26 @@ class ExponentialStep {
 
  private:
   Trial attempt(dynamics::ContactPropagator& flow, double t_end);
-  /// The same with step_.carried among the iterated stops; nothing if that has grown, so that it has to be done again.
+  /// Attempts the step with the stops of step_.carried among the iterated ones; empty if
+  /// step_.carried has grown, so that the attempt must be repeated.
   std::optional<Trial> attempt(dynamics::ContactPropagator& flow);
-  /// Adds the forces of stops that cross w = 0; false if the step is too long for them.
+  /// Adds the residual forces of stops that cross w = 0; false if the step is too long for them.
   bool add_jumps(dynamics::ContactPropagator& flow);
-  /// To t_end without contact; `v` only where it is given.
+  /// Propagates to t_end without contact; `v` may be null.
   void propagate(const dynamics::ModalPropagator& flow, double t_end, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
-  /// Propagates to the end of the step; false if that is not finite.
+  /// Propagates to the end of the step; false if the result is not finite.
   bool propagate_to_end(const dynamics::ModalPropagator& flow);
   const Eigen::ArrayXd* residual_force() const { return errors_.any() ? &residual_.modal() : nullptr; }
-  /// Divides the stops into those whose forces are found by iteration and all others.
+  /// Separates the stops whose forces are found by iteration from all others.
   void choose_stops(dynamics::ContactPropagator& flow);
-  /// Moves stops that the residual forces bring near their gaps to the iterated ones; false if there is none.
+  /// Adds stops that the residual forces bring near their gaps to the iterated ones; false if there
+  /// are none.
   bool choose_more_stops(dynamics::ContactPropagator& flow);
-  /// Outputs on a quintic through the ends are good enough, if need be with a breakpoint in the middle.
+  /// Outputs on a quintic through the ends are accurate enough, if necessary with a breakpoint in
+  /// the middle.
   bool is_smooth(dynamics::ContactPropagator& flow);
   bool shows_jump() const;
-  /// Keeps the forces of the step from the last breakpoint.
+  /// Records the forces of the step that begins at the last breakpoint.
   void record_forces();
   void record_contacts(StepForces& forces, bool has_contact) const;
 
@@ -95,7 +101,7 @@ class ExponentialStep {
   ContactIteration iteration_;
   ContactError contact_error_;
   InterpolationCheck interpolation_;
-  double error_ = 0.0;  ///< by contact_error_, m
+  double error_ = 0.0;  ///< from contact_error_, m
 };
 
 }  // namespace butee::integrators

@@ -1,4 +1,4 @@
-// The method's parameters, and the choice between its forms.
+// The parameters of the method `exponential`, and the choice between its forms.
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "integrators/exponential/exponential.hpp"
@@ -9,7 +9,7 @@
 namespace butee::integrators {
 namespace {
 
-/// Tells the user which modes a truncated basis leaves out.
+/// Text for the user that describes a truncated basis of modes.
 std::string describe_basis(const dynamics::ModalSystem& modal, Index dofs) {
   std::string text = "exponential with the lowest " + std::to_string(modal.size() - modal.static_count()) + " of " +
                      std::to_string(dofs) + " modes";
@@ -23,7 +23,7 @@ std::string describe_basis(const dynamics::ModalSystem& modal, Index dofs) {
   return text + "; give more modes, or another type, where that is too much";
 }
 
-/// Something couples the modes, or contacts act in the plane.
+/// True if the modes are coupled or contacts act in the plane.
 bool is_coupled(const model::System& system) {
   return !system.is_symmetric || system.rotation != nullptr || !system.obstacles.empty() ||
          (system.size() > 1 && system.dashpots.size() > 0);

@@ -7,10 +7,11 @@ namespace {
 
 using Eigen::ArrayXd;
 
-/// The quintic misses an odd motion about its middle in the speed alone: 16 s^2 (1 - s)^2 (2 s - 1), whose slope there
-/// is -2, is at most 0.29.
+/// An error that is odd about the middle shows there in the speed only: 16 s^2 (1 - s)^2 (2 s - 1)
+/// has a slope of magnitude 2 in the middle and is at most 0.29.
 constexpr double kOddPart = 0.15;
-/// With a breakpoint in the middle quintics are wrong by 1/64, or by 1/4 where modes turn too fast for any quintic.
+/// A breakpoint in the middle divides U by this. It reduces the error of quintics to 1/64, or to
+/// about 1/4 if modes are too fast for any quintic.
 constexpr double kHalved = 10.0;
 
 }  // namespace

@@ -30,7 +30,8 @@ std::span<const time::EnergyAt> MacroStep::energies(std::span<const double> inst
   };
   energy_.begin(at(0), instants);
   for (std::size_t k = 1; k <= breakpoints_.steps(); ++k) {
-    // Steps without contact are as long as quintics allow; the cubics of the energies need half of that.
+    // Steps without contact are as long as quintics allow; the cubics of the energies need half
+    // that length.
     if (breakpoints_.forces(k - 1).touched.empty()) {
       const double t = 0.5 * (breakpoints_.time(k - 1) + breakpoints_.time(k));
       motion_.find(k - 1, t);

@@ -7,16 +7,16 @@
 
 namespace butee::integrators {
 
-/// The record of a macro step, and all that outputs take from it: its breakpoints, the motion between them, energies
-/// and bounds.
+/// The record of a macro step for outputs: its breakpoints, the motion between them, energies and
+/// derivative bounds.
 class MacroStep {
  public:
-  /// For up to `most` steps. All must outlive it.
+  /// For up to `most` steps. The references must outlive it.
   MacroStep(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts,
             std::size_t most);
 
   void begin(double t, const ModalState& state);
-  /// Adds a breakpoint; before that the forces of the step to it are to be filled.
+  /// Adds a breakpoint; the forces of the step that ends there must be filled before.
   void add(double t, const ModalState& state);
 
   Breakpoints& breakpoints() { return breakpoints_; }

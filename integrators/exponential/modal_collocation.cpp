@@ -12,28 +12,31 @@ using time::StepReport;
 using time::StepStatus;
 
 constexpr Index kCount = StepNodes::kCount;
-/// The estimate is the local error of a method of order 10: it falls with h^11.
+/// The estimate falls with h^11, as the local error of a method of order 10.
 constexpr LocalErrorControl::Orders kOrders = {
     .estimate = 11.0, .method = 10.0, .constant = 1.0, .contact_change = 1.0};
-/// Sweeps end where they change velocities by this part of what a step may be wrong by.
+/// Sweeps end if they change velocities by less than this fraction of the allowed error of the
+/// step.
 constexpr double kSettled = 0.05;
-/// The motion of contacts between nodes is resolved to this part of the tolerance.
+/// Allowed interpolation error of the contacts' motion between nodes, as a fraction of the
+/// tolerance.
 constexpr double kResolved = 0.1;
-/// Responses that are kept; those of steps that were cut short are used once or twice.
+/// Number of step responses kept; those of shortened steps are used once or twice.
 constexpr std::size_t kKept = 12;
-/// A step is redone so often because a stop opens or closes within it. It must end as near to that as kCut tolerances,
-/// and kCoarsestCut, parts of its length.
+/// A step is shortened at most kMostCuts times because a stop opens or closes within it. It must
+/// end within kCut times the tolerance, at most kCoarsestCut, of that change, as a fraction of its
+/// length.
 constexpr int kMostCuts = 5;
 constexpr double kCut = 1e-3, kCoarsestCut = 1e-6;
-/// Behind the end of a step that was cut a change is looked for in this part of its length.
+/// Behind the end of a shortened step a change is searched over this fraction of its length.
 constexpr double kBeyond = 0.02;
 
-/// The longest step of the ladder 2^(k/4) s that is no longer than h.
+/// The longest step of the geometric grid 2^(k/4) s that does not exceed h.
 double on_grid(double h) {
   return std::exp2(std::floor(4.0 * std::log2(h)) / 4.0);
 }
 
-/// The factor by which a step changes whose motion between nodes is `coarse` times as coarse as it may be.
+/// The step size factor if the interpolation error between nodes is `coarse` times its bound.
 double by_resolution(double coarse) {
   return 0.9 * std::pow(coarse, -1.0 / 7.0);
 }
@@ -103,7 +106,8 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
       return report;
     }
     if (dynamics().stop_count() == 0 || cut == kMostCuts) break;
-    // The forces of a step that goes on behind a change misplace it: a step that was cut may end before it.
+    // The forces behind a change shift its computed position, so that a shortened step may end
+    // before the change.
     const double beyond = cut > 0 ? std::min(1.0 + kBeyond, wanted / h) : 1.0,
                  change = forces_.first_contact_change(beyond);
     if (change >= beyond || std::abs(change - 1.0) <= std::min(kCoarsestCut, kCut * tolerance_) ||
@@ -119,7 +123,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   judge(from, to, h, report);
   if (report.error > 1.0) return report;
   if (coarse > 0.0) report.proposal = std::min(report.proposal, on_grid(h * by_resolution(coarse)));
-  // A step that a stop cut short says nothing against longer ones.
+  // A step shortened by a change of contact does not limit the next step.
   if (h < wanted) report.proposal = std::max(report.proposal, wanted);
   return report;
 }

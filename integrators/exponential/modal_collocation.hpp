@@ -10,15 +10,17 @@
 
 namespace butee::integrators {
 
-/// exponential for structures whose modes are coupled (dashpots, parts that turn, bearings with cross terms) and for
-/// contacts in the plane, with dissipation or friction.
+/// The form of `exponential` for structures with coupled modes (dashpots, rotating parts, bearings
+/// with cross terms) and for contacts in the plane, with dissipation or with friction.
 ///
-/// The linear part is exact, in damped modes (dynamics::DampedModes), harmonic loads included. Contact forces, and
-/// loads that are no harmonics, are polynomials over a step through their values at Lobatto's six points, found by
-/// sweeps: forces, motion of the contacts, forces. With the value in the middle as a seventh point one more sweep
-/// follows; what it changes at the end is the error of the step. The motion of a smooth step has order 10. Steps end
-/// where a contact changes its phase and where a stop with a kinked law opens or closes.
-/// plugins/exponential/COLLOCATION.md derives it.
+/// The linear part, including harmonic loads, is exact in damped modes (dynamics::DampedModes).
+/// Over a step each contact force is a polynomial through its values at the six points of Lobatto's
+/// rule and in the middle; other loads are polynomials over a step too. Sweeps find the forces:
+/// forces at the nodes, motion of the contacts, forces again. The error of the step is the change
+/// of its end if the value in the middle is left out and the forces are evaluated once more, plus
+/// the error of Lobatto's rule. A smooth step has order 10. Steps end where a contact changes its
+/// phase and where a stop with a piecewise linear law opens or closes. Derivation:
+/// plugins/exponential/COLLOCATION.md.
 class ModalCollocation final : public time::Integrator {
  public:
   ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal);
@@ -45,14 +47,14 @@ class ModalCollocation final : public time::Integrator {
     outputs_.trace(from, to, t, dofs, out);
   }
 
-  /// The response over a step of length h, made at its first use.
+  /// The response over a step of length h, computed at its first use.
   const StepResponse& response(double h);
-  /// Ends the step that forces_ holds elsewhere, at to.t, with the same forces; false where these are too far off
-  /// there.
+  /// Shortens the step that forces_ holds so that it ends at to.t, with the same forces; false if
+  /// their error is too large there.
   bool end_at(const time::State& from, time::State& to, time::StepReport& report);
   /// Fills `to` with the end of the step that forces_ holds.
   void accept(const time::State& from, double h, time::State& to);
-  /// Errors of displacements and velocities at the end.
+  /// Judges the errors of displacements and velocities at the end of the step.
   void judge(const time::State& from, time::State& to, double h, time::StepReport& report);
   const double* modal(const time::State& state) const { return state.memory.data() + memory_begin_; }
 
@@ -61,10 +63,10 @@ class ModalCollocation final : public time::Integrator {
   ModalLoads loads_;
   NodeForces forces_;
   double tolerance_, rate_;
-  Index memory_begin_;  ///< of z and the force polynomials in State::memory
+  Index memory_begin_;  ///< offset of z and the force polynomials in State::memory
   std::list<StepResponse> responses_;
-  double step_begin_ = 0.0, step_end_ = -1.0;  ///< s, of the step that forces_ holds
-  double solved_end_ = -1.0;                   ///< s: to which its forces were found
+  double step_begin_ = 0.0, step_end_ = -1.0;  ///< the step that forces_ holds, s
+  double solved_end_ = -1.0;                   ///< end of the step for which its forces were computed, s
   mutable CollocationOutputs outputs_;
 };
 

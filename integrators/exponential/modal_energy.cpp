@@ -54,7 +54,7 @@ void ModalEnergy::go_on(const Breakpoint& point, const double* w, bool is_last) 
 void ModalEnergy::add_work(const Breakpoint& to) {
   const double h = to.t - last_.t;
   auto from = paths_.begin(), end = next_paths_.begin();
-  // Simpson's rule for f v with the middles of both cubics.
+  // Simpson's rule for f v with the values of both cubics in the middle.
   const auto add = [&](double f0, double f_middle, double f1) {
     const double v_middle = 1.5 / h * (end->u - from->u) - 0.25 * (from->v + end->v);
     work_ += h / 6.0 * (f0 * from->v + 4.0 * f_middle * v_middle + f1 * end->v);
@@ -74,7 +74,7 @@ void ModalEnergy::add_work(const Breakpoint& to) {
 void ModalEnergy::add_dissipation(const Breakpoint& to) {
   const double h = to.t - last_.t, r = 1.0 / h;
   const Column q0(last_.q, modal_.size()), v0(last_.v, modal_.size()), q1(to.q, modal_.size()), v1(to.v, modal_.size());
-  // The integral of the square of the slope of a cubic: the geometric stiffness of a beam.
+  // The integral of the squared slope of a cubic, as in the geometric stiffness of a beam.
   const auto rise = r * (q1 - q0);
   dissipated_ += h / 30.0 *
                  (double_decay_ *

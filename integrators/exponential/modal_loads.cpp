@@ -55,7 +55,7 @@ double ModalLoads::unresolved(double h, const Eigen::ArrayXd& reach) const {
     const double missed = StepNodes::missed_part(std::abs(load.angular_frequency) * h);
     for (Index k = 0; k < p; ++k)
       for (const double sense : {1.0, -1.0}) {
-        // Near resonance no more than a step builds up.
+        // Near resonance the response is limited to its growth within one step.
         const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
         const double away = std::hypot(modes_.decay()[k], sense * load.angular_frequency - modes_.turn()[k]);
         sum += missed * reach[k] * std::hypot(force[k], force[p + k]) * std::min(h, 1.0 / away);

@@ -5,8 +5,8 @@
 
 namespace butee::integrators {
 
-/// The loads of a system on its damped modes: harmonic ones, which are integrated exactly, and piecewise parabolic
-/// ones, which are polynomials over a step between their discontinuities.
+/// The loads of a system on its damped modes: harmonic loads, which are integrated exactly, and
+/// piecewise parabolic loads, which are polynomials over a step between their discontinuities.
 class ModalLoads {
  public:
   /// Throws InputError for any other load. `modes` and `system` must outlive it.
@@ -15,13 +15,14 @@ class ModalLoads {
   const std::vector<TurningLoad>& turning() const { return turning_; }
   /// The highest frequency of a harmonic load, rad/s; 0 without one.
   double highest_frequency() const;
-  /// By how much the motion that harmonic loads keep up departs at most from the polynomial through its values at the
-  /// nodes of a step of length h, where mode k at |z| = 1 moves by reach[k].
+  /// Bound of the difference between the motion driven by harmonic loads and the polynomial through
+  /// its values at the nodes of a step of length h. reach[k] is the displacement of mode k for |z|
+  /// = 1.
   double unresolved(double h, const Eigen::ArrayXd& reach) const;
   bool has_others() const { return !others_.empty(); }
-  /// The factors of 1, s, ..., s^6 of the other loads over a step of length h from t, 2p x 7.
+  /// The coefficients of 1, s, ..., s^6 of the other loads over a step of length h from t, 2p x 7.
   const Eigen::MatrixXd& polynomial(double t, double h);
-  /// rate += what the harmonic loads add to dz/dt at an instant.
+  /// Adds the harmonic loads at time t to dz/dt in `rate`.
   void add_turning(double t, Eigen::VectorXd& rate) const;
 
  private:

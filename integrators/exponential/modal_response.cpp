@@ -9,7 +9,8 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr int kPowers = static_cast<int>(StepNodes::kCount);
-/// |lambda c h| up to which the series is taken, and its terms, of which the last is below rounding there.
+/// Largest |lambda c h| for which the series is used, and its number of terms; the last term is
+/// below rounding there.
 constexpr double kSmall = 7.0;
 constexpr int kMostTerms = 34;
 constexpr double kRounding = 1e-18;
@@ -47,7 +48,7 @@ void PlaceResponse::find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstA
   for (std::size_t r = 1; r < power.size(); ++r) power[r] = power[r - 1] * place;
   Index slow = 0;
   while (slow < p && speed[slow] * place * h <= kSmall) ++slow;
-  // In w = lambda c h: moment_r = h c^(r+1) sum_k w^k r!/(r+k+1)!, here for the highest r.
+  // With w = lambda c h: moment_r = h c^(r+1) sum_k w^k r!/(r+k+1)!, here for the highest r.
   constexpr int top = kPowers - 1;
   if (slow > 0) {
     const Eigen::ArrayXd wr = decay.head(slow) * (place * h), wi = turn.head(slow) * (place * h);
@@ -112,7 +113,7 @@ void PlaceResponse::add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const
       out[k] = re * of_re[k] - im * of_im[k];
       out[p + k] = re * of_im[k] + im * of_re[k];
     }
-    // Where that cancels, e^(lambda length) length phi(w).
+    // For small w this cancels; then e^(lambda length) length phi(w).
     for (Index k = 0; k < p; ++k) {
       const Complex w(-decay[k] * length, (sense * load.angular_frequency - turn[k]) * length);
       if (std::norm(w) > 0.25) continue;

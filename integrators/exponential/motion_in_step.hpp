@@ -10,18 +10,19 @@
 
 namespace butee::integrators {
 
-/// The motion of all modes at any instant of a step, under the loads and the projected forces of the step. The force of
-/// a stop that changes its status, or whose residual force jumps, is projected anew up to that instant where outputs
-/// would show the difference (plugins/exponential/THEORY.md, section 10).
+/// The motion of all modes at any instant of a step, under the loads and the projected forces of
+/// the step. The force of a stop that changes its status, or whose residual force jumps, is
+/// projected again over the part of the step up to that instant if outputs would show the
+/// difference (plugins/exponential/THEORY.md, section 10).
 class MotionInStep {
  public:
   /// All must outlive it.
   MotionInStep(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal, std::vector<ContactForce>& contacts,
                const Breakpoints& breakpoints);
 
-  /// At a new macro step.
+  /// Starts a new macro step.
   void begin() { begun_ = kNone; }
-  /// Finds q and v at t in the step from a breakpoint.
+  /// Computes q and v at t in the step that begins at breakpoint `from`.
   void find(std::size_t from, double t);
   const double* q() const { return motion_.q(); }
   const double* v() const { return motion_.v(); }
@@ -31,7 +32,7 @@ class MotionInStep {
 
   /// cos and sin of the harmonic loads at t.
   std::span<const Phase> find_phases(double t);
-  /// The forces of the stops at t, N, after find() for it; nullptr: there are none.
+  /// The forces of the stops at t, N; call find() for t before. nullptr if there are none.
   const Vector* find_forces(std::size_t from, double t);
 
  private:
@@ -48,10 +49,10 @@ class MotionInStep {
   std::vector<ContactForce>& contacts_;
   const Breakpoints& breakpoints_;
   dynamics::ModalMotion motion_;
-  std::size_t begun_ = kNone;      ///< the breakpoint that motion_ begins at
-  std::vector<Contact> closed_;    ///< whose moments are their force
-  std::vector<Contact> changing_;  ///< whose force is projected anew
-  Vector compliances_;             ///< of each stop for short times, |phi|^2, 1/kg
+  std::size_t begun_ = kNone;      ///< the breakpoint at which motion_ begins
+  std::vector<Contact> closed_;    ///< closed stops, whose force is given by the moments
+  std::vector<Contact> changing_;  ///< stops whose force is projected again
+  Vector compliances_;             ///< compliance of each stop for short times, |phi|^2, 1/kg
   Vector forces_;
   std::vector<Phase> phases_;
 };

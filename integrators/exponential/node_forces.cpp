@@ -11,11 +11,13 @@ using time::State;
 
 constexpr Index kCount = StepNodes::kCount, kEnd = StepNodes::kEnd;
 constexpr int kMostSweeps = 25;
-/// A sweep that changes the forces by more than this part of what the one before did will not come to an end soon.
+/// If a sweep changes the forces by more than this fraction of the change by the sweep before,
+/// convergence is too slow.
 constexpr double kContraction = 0.6;
-/// Changes of a force below this part of it are rounding.
+/// Changes of a force below this fraction of it are rounding errors.
 constexpr double kRounding = 1e-13;
-/// The same of what contacts do to the end of a step, from which the polynomials' coefficients lose further digits.
+/// The same for the effect of contacts on the end of a step; the polynomials' coefficients lose
+/// further digits.
 constexpr double kRoundingOfEnd = 1e-12;
 
 }  // namespace
@@ -75,7 +77,8 @@ double NodeForces::change(const State& from, double h) const {
     const double difference = (now - before).cwiseAbs().maxCoeff();
     if (std::isnan(difference)) return difference;
     if (difference <= kRounding * now.cwiseAbs().maxCoeff()) continue;
-    // At a start from rest: the speed that the acceleration makes within 1/omega of the contact.
+    // At a start from rest the scale is the speed that the acceleration causes within 1/omega of
+    // the contact.
     const Index dof = active_.dofs[static_cast<std::size_t>(k)];
     const double speed = std::max(scale_v[dof], time * std::abs(from.a[dof])),
                  way = std::max(scale_x[dof], time * speed), change = h * dofs_.inverse_mass(dof) * difference;
@@ -129,14 +132,16 @@ void NodeForces::estimate(double t, const StepResponse& response) {
   const Eigen::MatrixXd nodes = nodes_, polynomial = polynomial_;
   const AtNodes moved = moved_, legendre = forces_ * StepNodes::legendre();
   move(response, StepNodes::without_middle());
-  // This alone moves the end hardly at all where the linear part is slow; what matters is how the contacts answer.
+  // This hardly moves the end if the linear part is slow; the response of the contacts to it makes
+  // the difference visible.
   find_forces(t, response.h());
   move(response, StepNodes::without_middle());
   error_ = nodes_.col(kEnd) - nodes.col(kEnd);
-  // With and without the middle the polynomials have the same integral: its error is another.
+  // The polynomials with and without the value in the middle have the same integral; its error is
+  // added separately.
   for (Index k = 0; k < legendre.rows(); ++k)
     error_ += response.h() * StepNodes::quadrature_error(legendre.row(k)) * active_.input.col(k);
-  // In equilibrium nothing but rounding is left.
+  // In equilibrium only rounding errors remain.
   if (error_.norm() <= kRoundingOfEnd * (nodes.col(kEnd) - free_.col(kEnd)).norm()) error_.setZero();
   missed_ = polynomial_ - polynomial;
   nodes_ = nodes;

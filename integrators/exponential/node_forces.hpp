@@ -6,53 +6,56 @@
 
 namespace butee::integrators {
 
-/// The forces of contacts at the nodes of a step, and the motion of the damped modes under the polynomials through
-/// them.
+/// The contact forces at the nodes of a step, and the motion of the damped modes under the
+/// polynomials through these forces.
 ///
-/// Sweeps find both: forces at the nodes, motion at the nodes, forces again. Contacts keep the phases that Obstacles
-/// follows; stops are open or closed as the motion has them.
+/// Sweeps compute both: forces at the nodes, motion at the nodes, forces again. Contacts keep the
+/// phases that dynamics::Obstacles tracks; the displacement at a node determines if a stop is open
+/// or closed there.
 class NodeForces {
  public:
   /// Throws InputError for laws that are not piecewise linear. Both must outlive it.
   NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes);
 
   const ContactDofs& dofs() const { return dofs_; }
-  /// How far the motion of the contacts between the nodes may be from the polynomial through them, over the largest
-  /// scale of their displacements, without forces of contacts.
+  /// Bound of the difference between the motion of the contacts, without contact forces, and the
+  /// polynomial through its values at the nodes, divided by the largest displacement scale of the
+  /// contacts.
   double unresolved(const time::State& from, const double* z, const ModalLoads& loads, double h) const;
 
   enum class Outcome { converged, diverged, not_finite };
-  /// Finds the motion of a step from `from` of which free_nodes() is the motion without contacts. Sweeps end where they
-  /// change velocities by less than `settled`, relative to their scales.
+  /// Computes the motion of a step from `from`; free_nodes() must hold its motion without contacts.
+  /// Sweeps end if they change velocities by less than `settled`, relative to their scales.
   Outcome find(const time::State& from, const StepResponse& response, double settled);
 
-  /// Ends the step that was found after `part` of its length, with the same forces; free_nodes() is the motion of the
-  /// new step without them. Within the step the polynomials have no superconvergence: the error is their own.
+  /// Ends the computed step after the fraction `part` of its length, with the same forces;
+  /// free_nodes() must hold the motion of the shorter step without contacts. Within the step the
+  /// polynomials are not superconvergent; the error is the interpolation error.
   void end_at(double part, const StepResponse& response);
 
   Eigen::MatrixXd& free_nodes() { return free_; }
   const Eigen::MatrixXd& nodes() const { return nodes_; }            ///< z at the nodes, 2p x 7
-  const Eigen::MatrixXd& polynomial() const { return polynomial_; }  ///< factors of 1, s, ..., s^6, 2p x 7
-  /// The z at the end without the values in the middle of the step, less z at the end, and the impulse by which
-  /// Lobatto's rule misses that of the forces.
+  const Eigen::MatrixXd& polynomial() const { return polynomial_; }  ///< coefficients of 1, s, ..., s^6, 2p x 7
+  /// Error estimate of z at the end: z computed without the values in the middle of the step, minus
+  /// z, plus the error of Lobatto's rule for the impulse of the forces.
   const Eigen::VectorXd& error() const { return error_; }
-  /// The part of the step after which a stop opens or closes; `last`, which may be a little more than 1, where none
-  /// does.
+  /// The fraction of the step after which a stop opens or closes; `last`, which may slightly exceed
+  /// 1, if none does.
   double first_contact_change(double last) const;
 
  private:
   using AtNodes = Eigen::Matrix<double, Eigen::Dynamic, StepNodes::kCount>;
 
   void start(const time::State& from);
-  /// At one node, and at all but the start.
+  /// Computes the forces at one node, and at all nodes except the start.
   void find_forces(double t, double h, Index node);
   void find_forces(double t, double h);
   void move(const StepResponse& response, const StepNodes::Matrix& coefficients);
   void estimate(double t, const StepResponse& response);
-  /// The largest change of a velocity by the last sweep, relative to its scale; of a displacement, if that is larger.
+  /// The largest relative change of a velocity or displacement by the last sweep.
   double change(const time::State& from, double h) const;
 
-  /// A motion in which the active DOFs alone move, and its forces.
+  /// A motion of the active DOFs only, and its forces.
   struct Instant {
     Vector x, v, force;
   };
@@ -63,8 +66,8 @@ class NodeForces {
   ActiveDofs active_;
   Instant instant_;
   Eigen::MatrixXd free_, nodes_, polynomial_, coefficients_;
-  Eigen::MatrixXd missed_;  ///< polynomial_ without the values in the middle, less polynomial_
-  AtNodes forces_, forces_before_, moved_, moved_velocity_;  ///< of the active DOFs
+  Eigen::MatrixXd missed_;  ///< polynomial_ computed without the values in the middle, minus polynomial_
+  AtNodes forces_, forces_before_, moved_, moved_velocity_;  ///< for the active DOFs
   Eigen::VectorXd error_;
 };
 

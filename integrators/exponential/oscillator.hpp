@@ -5,7 +5,8 @@
 
 namespace butee::integrators {
 
-/// q'' + 2 delta q' + omega^2 q = f_0 + f_1 t + f_2 t^2, in plain numbers: dynamics::ModalMotion for one mode.
+/// Solves q'' + 2 delta q' + omega^2 q = f_0 + f_1 t + f_2 t^2 in scalars: dynamics::ModalMotion
+/// for one mode.
 class Oscillator {
  public:
   struct Point {
@@ -16,7 +17,8 @@ class Oscillator {
   Oscillator(double omega, double delta)
       : square_(omega * omega), decay_(delta), turning_(square_ - delta * delta), rate_(omega + delta) {}
 
-  /// Whether move() is good to rounding: slow, or a decaying oscillation away from critical damping.
+  /// True if move() is accurate to rounding: for short times, or for a decaying oscillation away
+  /// from critical damping.
   bool can_move(double t) const { return is_slow(t) || turning_ > 0.01 * square_; }
   Point move(Point from, const std::array<double, 3>& force, double t) const {
     return is_slow(t) ? by_series(from, force, t) : in_closed_form(from, force, t);
@@ -25,7 +27,7 @@ class Oscillator {
  private:
   bool is_slow(double t) const { return rate_ * t <= 0.3; }
 
-  /// In powers of s = time/t; after kPowers of them what is left is below rounding.
+  /// Taylor series in s = time/t; terms beyond kPowers are below rounding.
   Point by_series(Point from, const std::array<double, 3>& force, double t) const {
     constexpr int kPowers = 12;
     const double damping = 2.0 * decay_ * t, stiffness = square_ * t * t,
@@ -42,7 +44,8 @@ class Oscillator {
     return {q, v / t};
   }
 
-  /// The polynomial that the force leads to, and about it the oscillation that meets the start.
+  /// The particular polynomial solution plus the free oscillation that satisfies the initial
+  /// values.
   Point in_closed_form(Point from, const std::array<double, 3>& force, double t) const {
     const double r = 1.0 / square_, led2 = force[2] * r, led1 = (force[1] - 4.0 * decay_ * led2) * r,
                  led0 = (force[0] - 2.0 * decay_ * led1 - 2.0 * led2) * r;

@@ -6,17 +6,18 @@
 
 namespace butee::integrators {
 
-/// Where a step begins.
+/// The state and loads at the start of a step.
 struct PropagationStart {
   double t;  ///< s
   const Eigen::ArrayXd &q, &v;
-  std::span<const Phase> phases;         ///< of the harmonic loads at t
+  std::span<const Phase> phases;         ///< phases of the harmonic loads at t
   const Eigen::ArrayXd* constant_force;  ///< modal; nullptr: none
 };
 
-/// Propagates the modes to t_end, under all loads and a constant force but without contact; `v` only where it is given.
-/// Exact for constant, linear and harmonic loads; any other is the parabola through its values at the start, in the
-/// middle and at the end. Checked in tests/unit/propagation_test.cpp.
+/// Propagates the modes to t_end under all loads and a constant force, without contact; `v` may be
+/// null. Exact for constant, linear and harmonic loads; any other load is replaced by the parabola
+/// through its values at the start, in the middle and at the end. Checked in
+/// tests/unit/propagation_test.cpp.
 void propagate(const dynamics::ModalSystem& modal, const dynamics::ModalPropagator& flow, const PropagationStart& start,
                double t_end, Eigen::ArrayXd& q, Eigen::ArrayXd* v);
 

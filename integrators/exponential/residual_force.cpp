@@ -12,7 +12,7 @@ ResidualForce::ResidualForce(const dynamics::Contact& contact, Index stop)
       jumps_(contact.play_of(stop).has_both()) {}
 
 double ResidualForce::constant_error(double w0, double w1, double bound, double compliance, double steps) const {
-  // The next term of the arctan's series about infinity.
+  // `varying` is the next term of the series of the arctan law about infinity.
   const double part = bend_ / (gap_ - bound), varying = part * part / 3.0 * steps * steps;
   const double shift = largest_ * compliance, on_the_way = std::abs(w1 - w0);
   const bool stays = (w0 > 0.0) == (w1 > 0.0) && std::min(std::abs(w0), std::abs(w1)) > shift;

@@ -37,7 +37,7 @@ void ResidualErrors::find_constant(ContactPropagator& flow, TriedStep& step) {
   const Index m = static_cast<Index>(forces_.size());
   const auto shift = largest_.head(m) * flow.mobilities().abs();
   largest_scaled_shift_ = (shift / shares_.head(m)).maxCoeff();
-  // A free mass at rest is soon as fast as the residual force makes it.
+  // A free mass at rest soon reaches the speed that the residual force causes.
   step.reached.speed = std::max(step.reached.speed, 2.0 * shift.maxCoeff() / step.h);
   const double steps = this->steps(), most = allowed();
   const auto w0 = step.from.w.head(m), w1 = step.to.w.head(m);
@@ -80,7 +80,7 @@ void ResidualForces::begin() {
 bool ResidualForces::update(ContactPropagator& flow, const ResidualErrors& errors, TriedStep& step) {
   const Index m = modal_.stop_count();
   const double steps = errors.steps(), most = errors.allowed();
-  // Even if the forces of all stops changed their sides
+  // The bound holds even if the forces of all stops changed their signs.
   if (2.0 * errors.largest_scaled_shift() * steps * steps <= most) return false;
   w_middle_ = 0.5 * (step.from.w + step.to.w);
   contact_.force(w_middle_.head(m).matrix(), next_forces_);

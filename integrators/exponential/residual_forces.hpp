@@ -10,7 +10,7 @@
 
 namespace butee::integrators {
 
-/// The errors of taking residual forces as constant over a step, and of passing over their jumps
+/// The errors if residual forces are taken as constant over a step, and if their jumps are ignored
 /// (plugins/exponential/THEORY.md, section 9).
 class ResidualErrors {
  public:
@@ -18,34 +18,36 @@ class ResidualErrors {
   ResidualErrors(const dynamics::Contact& contact, const StepGoal& goal, const DisplacementBounds& bounds,
                  const ContactScales& scales, const TriedStep& step);
 
-  /// Some law has a residual force.
+  /// True if a law has a residual force.
   bool any() const { return any_; }
   const ResidualForce& force(Index stop) const { return forces_[static_cast<std::size_t>(stop)]; }
-  /// The scale of each stop as a fraction of the largest.
+  /// Computes shares(), the scale of each stop as a fraction of the largest.
   void find_shares();
   const Eigen::ArrayXd& shares() const { return shares_; }
-  /// Finds the stops whose force surely is constant, and raises step.reached to the speed that the forces make.
+  /// Finds the stops whose force is certainly constant, and raises step.reached to the speed that
+  /// the forces cause.
   void find_constant(dynamics::ContactPropagator& flow, TriedStep& step);
-  /// The force of a stop may be taken as constant.
+  /// True if the force of a stop may be taken as constant.
   bool is_constant(dynamics::ContactPropagator& flow, Index stop) const {
     return is_constant_[stop] || may_be(flow, stop);
   }
-  /// The same of a stop after the end of the step has changed.
+  /// The same after the end of the step has changed.
   bool may_be(dynamics::ContactPropagator& flow, Index stop) const;
 
-  /// The bound of all these errors over one characteristic time of the motion, m.
+  /// The bound of these errors over one characteristic time of the motion, m.
   double allowed() const {
     const double steps = this->steps();
     return kResidualError * goal_.outputs * step_.reached.displacement * share_of_run(step_.h, steps, goal_.run_time);
   }
   /// The characteristic time of the motion in steps.
   double steps() const { return characteristic_steps(step_.reached, step_.h); }
-  /// The largest displacement of a stop in the step by its residual force, m, over shares().
+  /// The largest displacement of a stop in the step by its residual force, divided by shares(), m.
   double largest_scaled_shift() const { return largest_scaled_shift_; }
 
-  /// Indicator 6: the error of the displacement, m, by a jump of the force where the path crosses w = 0.
+  /// Indicator 6: the error of the displacement, m, due to a jump of the force where the path
+  /// crosses w = 0.
   double jump_error(dynamics::ContactPropagator& flow, Index stop, double quartic, double end) const;
-  /// Outputs would show the jump of the force of a stop that crosses w = 0 in the step.
+  /// True if outputs would show the jump of the force of a stop that crosses w = 0 in the step.
   bool shows_jump(Index stop, double compliance) const;
 
  private:
@@ -67,12 +69,12 @@ class ResidualForces {
   /// Both must outlive it.
   ResidualForces(const dynamics::ModalSystem& modal, dynamics::Contact& contact);
 
-  void begin();  ///< at the start of a macro step: zero
-  /// Replaces them by the law at the middle of the step if that moves a stop by more than is allowed, with the end of
-  /// the step. True if it did.
+  void begin();  ///< sets the forces to zero at the start of a macro step
+  /// If the law at the middle of the step differs so much that a stop would move by more than the
+  /// bound, replaces the forces by it and updates the end of the step. True if it did.
   bool update(dynamics::ContactPropagator& flow, const ResidualErrors& errors, TriedStep& step);
 
-  const Vector& forces() const { return forces_; }  ///< N; 0 of iterated stops
+  const Vector& forces() const { return forces_; }  ///< N; 0 for iterated stops
   const Eigen::ArrayXd& modal() const { return modal_force_; }
 
  private:
@@ -82,7 +84,8 @@ class ResidualForces {
   Eigen::ArrayXd modal_force_, old_modal_force_, w_middle_;
 };
 
-/// The stops that cross w = 0 in a step, where their residual force changes sign, and the moments of their forces.
+/// The stops that cross w = 0 in a step, where their residual force changes its sign, and the
+/// moments of these forces.
 class ResidualJumps {
  public:
   /// All must outlive it.
@@ -90,12 +93,13 @@ class ResidualJumps {
 
   /// Finds them among step.constant; true if there are any.
   bool find(dynamics::ContactPropagator& flow, const ResidualErrors& errors, const TriedStep& step);
-  /// Adds the moments of their forces, beyond the `constants`, to the step, whose middle is known.
+  /// Adds the moments of their forces, in addition to the forces `constants`, to the step; its
+  /// middle must be known.
   void add(dynamics::ContactPropagator& flow, const Vector& constants, TriedStep& step);
 
   const std::vector<Index>& stops() const { return stops_; }
   const ForceMoments& moments(std::size_t place) const { return moments_[place]; }
-  /// The quartic coefficient of the path that they were found for.
+  /// The quartic coefficient of the path for which the moments were computed.
   double quartic(std::size_t place) const { return quartics_[place]; }
   const Eigen::ArrayXd& modal_moments(std::size_t k) const { return sums_[k]; }
 

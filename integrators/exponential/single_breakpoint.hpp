@@ -16,7 +16,8 @@ struct SingleBreakpoint {
   Motion motion{};
 
   struct Step {
-    double hv0 = 0.0, hv1 = 0.0, quartic = 0.0;  ///< h times the speeds of the stop at the ends, quartic coefficient, m
+    double hv0 = 0.0, hv1 = 0.0,
+           quartic = 0.0;  ///< h times the speeds of the stop at the ends, and the quartic coefficient, m
     ForceMoments force{};
   };
   Step step{};

@@ -8,23 +8,24 @@
 
 namespace butee::integrators {
 
-/// A dynamics::ContactPropagator of one mode and one stop, in plain numbers.
+/// A dynamics::ContactPropagator for one mode and one stop, in scalars.
 struct SingleFlow {
   int index = 0;
   double h = 0.0;  ///< s; 0: not filled yet
   double qq, qv, vq, vv, half_qq, half_qv;
-  double hermite_q, hermite_v, hermite_loads;  ///< Hermite interpolation errors by q, v and the loads
+  double hermite_q, hermite_v, hermite_loads;  ///< Hermite interpolation errors per q and v, and of the loads
   std::array<double, 3> force_q, force_v;
   PathCoupling coupling;
   ContactNewton::Matrix closed_inverse;
   struct Harmonic {
-    std::array<double, 6> load;  ///< q, v and half_q by its cosine and its sine
-    Phase turn;                  ///< over the step
+    std::array<double, 6> load;  ///< response of q, v and half_q to its cosine and its sine
+    Phase turn;                  ///< phase angle of the load over the step
   };
   std::vector<Harmonic> harmonics;
 };
 
-/// The flows over the steps of the grid, of which the last ones used are kept, and over a step of any length.
+/// The propagators of one mode for steps of the grid, of which recent ones are cached, and for a
+/// step of any length.
 class SingleFlows {
  public:
   /// All must outlive it.
@@ -50,7 +51,7 @@ class SingleFlows {
   dynamics::ModalSystem& modal_;
   const SingleMode& mode_;
   const ContactNewton& newton_;
-  std::array<SingleFlow, 8> flows_;  ///< by the last three bits of the index
+  std::array<SingleFlow, 8> flows_;  ///< cache, indexed by the last three bits of the grid index
   SingleFlow odd_;
 };
 

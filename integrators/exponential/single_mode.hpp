@@ -12,11 +12,11 @@
 
 namespace butee::integrators {
 
-/// The numbers of a system with one DOF, one stop and harmonic loads.
+/// The parameters of a system with one DOF, one stop and harmonic loads.
 struct SingleMode {
-  double shape, stop_shape;     ///< displacement of the DOF and of the stop by the modal coordinate
+  double shape, stop_shape;     ///< displacement of the DOF and of the stop per modal coordinate
   double square, decay;         ///< omega^2, 1/s^2; delta, 1/s
-  double load_frequency = 0.0;  ///< the highest, rad/s
+  double load_frequency = 0.0;  ///< highest frequency of a load, rad/s
   const std::vector<dynamics::ModalHarmonic>& harmonics;
 
   explicit SingleMode(const dynamics::ModalSystem& modal)
@@ -30,8 +30,9 @@ struct SingleMode {
   }
 };
 
-/// cos and sin of the harmonic loads at the breakpoints of a macro step. Each is the one before, turned by the step; a
-/// turn costs the last digit, so that they are computed anew after kMostTurns.
+/// cos and sin of the harmonic loads at the breakpoints of a macro step. Each follows from the
+/// previous one by a rotation, which loses the last digit; they are therefore recomputed after
+/// kMostTurns rotations.
 class LoadPhases {
  public:
   static constexpr int kMostTurns = 32;
@@ -44,14 +45,15 @@ class LoadPhases {
   std::span<const Phase> at(std::size_t breakpoint) const {
     return {phases_.data() + breakpoint * harmonics_.size(), harmonics_.size()};
   }
-  /// Numbers of a state: the turns since they were computed, then cos and sin of each load.
+  /// Number of entries in a state: the number of rotations since the last computation, then cos and
+  /// sin of each load.
   Index memory_size() const { return 1 + 2 * static_cast<Index>(harmonics_.size()); }
-  /// A start has none yet.
+  /// Initial memory: the phases are to be computed.
   void start(double* memory) const {
     memory[0] = kMostTurns;
     std::fill(memory + 1, memory + memory_size(), 0.0);
   }
-  /// Those of the first breakpoint, at t.
+  /// Sets the phases of the first breakpoint, at t.
   void load(double t, const double* memory) {
     turns_ = static_cast<int>(memory[0]);
     if (turns_ == kMostTurns) return compute(0, t);
@@ -65,7 +67,7 @@ class LoadPhases {
       memory[2 + 2 * j] = last[j].sine;
     }
   }
-  /// Those of a breakpoint at t, from the one before by turn_of(load).
+  /// Sets the phases of a breakpoint at t from the previous one by the rotation turn_of(load).
   template <class TurnOf>
   void turn(std::size_t breakpoint, double t, TurnOf turn_of) {
     if (++turns_ == kMostTurns) return compute(breakpoint, t);

@@ -10,34 +10,35 @@
 
 namespace butee::integrators {
 
-/// The motion of one DOF with one stop at a breakpoint, and within a step: under harmonic loads and the projected force
-/// of the stop in closed form. The force of a stop that changes its status is projected anew.
+/// The motion of one DOF with one stop at a breakpoint and within a step, in closed form under
+/// harmonic loads and the projected force of the stop. If the stop changes its status, its force is
+/// projected again up to the instant.
 class SingleMotion {
  public:
   /// All must outlive it.
   SingleMotion(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal, const SingleMode& mode,
                ContactForce& contact);
 
-  /// At a breakpoint where the loads have these phases.
+  /// The motion at a breakpoint; `phases` of the loads there.
   Motion at(Oscillator::Point point, std::span<const Phase> phases) const;
-  /// At t between two breakpoints, of which the loads have these phases at the first.
+  /// The motion at t between two breakpoints; `phases` of the loads at the first.
   Motion within(const SingleBreakpoint& from, const SingleBreakpoint& to, std::span<const Phase> phases, double t);
 
  private:
-  /// The motion that a load maintains by itself.
+  /// The steady-state response to a load.
   struct Maintained {
     double cosine, sine;
   };
-  /// `load`: modal force of the loads.
+  /// `load`: modal force of all loads.
   Motion motion_of(Oscillator::Point at, double load) const;
 
   dynamics::Dynamics& dynamics_;
   const SingleMode& mode_;
   ContactForce& contact_;
   Oscillator oscillator_;
-  std::vector<Maintained> maintained_;  ///< by load
-  bool is_resonant_ = false;            ///< a load has no such motion
-  dynamics::ModalMotion motion_;        ///< where oscillator_ cannot
+  std::vector<Maintained> maintained_;  ///< one per load
+  bool is_resonant_ = false;            ///< a load has no steady-state response
+  dynamics::ModalMotion motion_;        ///< used if oscillator_ is not accurate
   Eigen::VectorXd padded_q_, padded_v_;
   std::array<Eigen::VectorXd, 3> padded_force_;
 };

@@ -44,8 +44,9 @@ const Motion& SingleRecord::motion_at(std::size_t k) {
 }
 
 bool SingleRecord::is_quintic(std::size_t k, double speed) const {
-  // The fraction of a quintic's slope that is wrong: (omega h)^5 sqrt(5)/30000 in smooth motion, kKinkedSlope
-  // (omega h)^2 where a stop opens or closes, and kJumpedSlope of the speed that a jump of the force gives in the step.
+  // Relative error of a quintic's slope: (omega h)^5 sqrt(5)/30000 in smooth motion, kKinkedSlope
+  // (omega h)^2 if a stop opens or closes, and kJumpedSlope times the speed that a jump of the
+  // force causes in the step.
   constexpr double kGoodPart = 0.5, kKinkedSlope = 5e-3, kJumpedSlope = 0.07;
   const SingleBreakpoint& from = breakpoints_[k];
   const double h = breakpoints_[k + 1].t - from.t, shape = mode_.stop_shape;
@@ -67,7 +68,8 @@ std::span<const time::EnergyAt> SingleRecord::energies(std::span<const double> i
   energy_.begin(at(0), instants);
   std::vector<Phase> middle_phases(mode_.harmonics.size());
   for (std::size_t k = 1; k < breakpoints_.size(); ++k) {
-    // Steps without contact are as long as quintics allow; the cubics of the energies need half of that.
+    // Steps without contact are as long as quintics allow; the cubics of the energies need half
+    // that length.
     const double t = 0.5 * (breakpoints_[k - 1].t + breakpoints_[k].t);
     const Motion motion = motion_within(k - 1, t);
     const Point middle = {motion.x / mode_.shape, motion.v / mode_.shape};

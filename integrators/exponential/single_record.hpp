@@ -11,11 +11,12 @@
 
 namespace butee::integrators {
 
-/// The record of a macro step of one DOF with one stop, and all that outputs take from it: breakpoints, the motion at
-/// them and between them, and energies.
+/// The record of a macro step of one DOF with one stop for outputs: breakpoints, the motion at them
+/// and between them, and energies.
 class SingleRecord {
  public:
-  /// All must outlive it. `tolerance` of outputs, relative to the scales.
+  /// The references must outlive it. `tolerance` is that of outputs, relative to the scales; `most`
+  /// is the largest number of steps.
   SingleRecord(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& modal, const SingleMode& mode,
                ContactForce& contact, double tolerance, std::size_t most);
 
@@ -38,14 +39,14 @@ class SingleRecord {
   Motion motion_within(std::size_t k, double t) {
     return motion_.within(breakpoints_[k], breakpoints_[k + 1], phases_.at(k), t);
   }
-  /// The quintic is as good as the motion in the step from a breakpoint.
+  /// True if the quintic is accurate enough in the step that begins at breakpoint k.
   bool is_quintic(std::size_t k, double speed) const;
 
   const SingleMode& mode_;
   ContactForce& contact_;
   double tolerance_;
   std::vector<SingleBreakpoint> breakpoints_;
-  std::vector<double> times_;  ///< of the breakpoints
+  std::vector<double> times_;  ///< times of the breakpoints, s
   LoadPhases phases_;
   SingleMotion motion_;
   ModalEnergy energy_;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Moves the end, speed and middle of a path by a force, and returns by how much.
+/// Adds the effect of a force to the end, h times the speed and the middle of a path, and returns
+/// the changes.
 std::array<double, 3> move(std::array<double, 3>& path, const PathCoupling& coupling, const ForceMoments& force) {
   std::array<double, 3> moved{};
   for (std::size_t row = 0; row < 3; ++row) {
@@ -70,7 +71,7 @@ void SingleStep::accept(double t) {
   step.quartic =
       goal_.orders == 3 ? tried_.path[2] - (0.5 * (w + shape * now_.q) + 0.125 * (step.hv0 - step.hv1)) : 0.0;
   step.force = tried_.force;
-  if (goal_.orders == 1) step.force[1] = 0.0;  // for the error indicator alone
+  if (goal_.orders == 1) step.force[1] = 0.0;  // for the error indicator only
   record_.add(flow, step, t, now_);
 }
 
@@ -127,7 +128,8 @@ double SingleStep::displacement_bound(const SingleFlow& flow, double w, double h
 }
 
 bool SingleStep::is_smooth(const SingleFlow& flow, double w) {
-  // Two decaying motions have rates within 2 delta + omega; what a load starts from rest is such a motion as well.
+  // The rates of overdamped motion are at most 2 delta + omega; the transient that a load starts
+  // from rest is such a motion as well.
   const double h = flow.h, rate = mode_.square + 4.0 * mode_.decay * mode_.decay, angle = h * h * rate;
   const double turn = h * mode_.load_frequency;
   double error = flow.hermite_loads * std::min(1.0, kQuintic * (angle + turn * turn));
@@ -160,7 +162,7 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
     const ContactStatus status = contact_.status(path);
     const double scale = std::max(scale_.displacement, std::abs(end[0]));
     double change = 0.0;
-    // A spring throughout, whose equations were solved before, or no force at all
+    // A spring throughout the step whose equations were solved before, or no force at all.
     const bool is_solved = contact_.is_linear() && status != ContactStatus::changing && status == before;
     if (!is_solved) {
       const Projection projection = contact_.project(path, status);
@@ -169,7 +171,7 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
           projection.force, force);
       const std::array<double, 3> moved = move(end, coupling, more);
       for (std::size_t k = 0; k < 3; ++k) force[k] += more[k];
-      if (goal_.orders == 1) force[1] = projection.force[1];  // for the error indicator alone
+      if (goal_.orders == 1) force[1] = projection.force[1];  // for the error indicator only
       change = std::abs(moved[0]) + kBump * std::abs(moved[1]) + std::abs(moved[2]);
       if (!std::isfinite(change)) return Trial::too_long;
     }

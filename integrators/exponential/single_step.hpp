@@ -9,15 +9,15 @@
 
 namespace butee::integrators {
 
-/// ExponentialStep for a single DOF with a single stop under harmonic loads: the same arithmetic in plain numbers.
+/// ExponentialStep for one DOF with one stop under harmonic loads: the same arithmetic in scalars.
 class SingleStep {
  public:
-  /// A system of that kind.
+  /// True for one DOF with one stop under harmonic loads.
   static bool can_take(const dynamics::Dynamics& dynamics);
 
   SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, const StepGoal& goal, std::size_t most);
 
-  /// q, v and LoadPhases
+  /// Entries of a state: q, v and LoadPhases.
   Index memory_size() const { return 2 + record_.phases().memory_size(); }
   void complete(double* memory) const { record_.phases().start(memory + 2); }
   void begin(double t, const double* memory, ContactScale scale);
@@ -29,7 +29,7 @@ class SingleStep {
     return {tried_.is_contact_free, {tried_.error, goal_.middle * scale_.displacement}, tried_.interpolation_error};
   }
   void accept(double t);
-  /// Nothing: one DOF starts from rest as t^2 or t^3, which a cubic holds.
+  /// Not needed: one DOF starts from rest as t^2 or t^3, which a cubic represents.
   void expect_motion(int) {}
 
   double t() const { return record_.last(); }
@@ -46,7 +46,8 @@ class SingleStep {
   std::span<const time::EnergyAt> energies(std::span<const double> instants) { return record_.energies(instants); }
 
  private:
-  /// Where the stop acts, infinite where it does not, and constant_force_limit(), m.
+  /// The displacements at which the stop closes, infinite on a side on which it does not act, and
+  /// constant_force_limit(), m.
   struct Gap {
     double upper, lower, limit;
     explicit Gap(const dynamics::Contact& contact);
@@ -56,20 +57,22 @@ class SingleStep {
     Oscillator::Point to{};
     bool is_contact_free = false;
     double error = 0.0, interpolation_error = 0.0;
-    std::array<double, 3> path{};  ///< end, speed times h, middle, with the forces found so far
+    std::array<double, 3> path{};  ///< end, h times the end speed, middle, with the force found so far, m
     ForceMoments force{};
   };
 
   Trial attempt(const SingleFlow& flow);
-  /// Finds the force along the path that begins at w, hv and would end at tried_.path without it.
+  /// Iterates for the force along the path that begins with displacement w and h times speed hv;
+  /// tried_.path holds the path without the force.
   Trial iterate(const SingleFlow& flow, double w, double hv);
-  /// Bound of |w| over the step, with and without the residual force.
+  /// Bound of |w| over the step, the larger one of the paths with and without the residual force,
+  /// m.
   double displacement_bound(const SingleFlow& flow, double w, double hv);
-  /// Outputs on a quintic through the ends are good enough.
+  /// True if outputs on a quintic through the ends are accurate enough.
   bool is_smooth(const SingleFlow& flow, double w);
-  /// The residual force is constant within its error bound.
+  /// True if the residual force is constant within its error bound.
   bool is_constant(const SingleFlow& flow, double w, double bound) const;
-  /// By how much a path exceeds the gap; negative if it does not.
+  /// The bound of a path minus the gap, m; negative if the path stays within the gap.
   double beyond(const ContactPath& path) const {
     return std::max(path.highest() - gap_.upper, gap_.lower - path.lowest());
   }

@@ -12,7 +12,8 @@ namespace {
 using Square = StepNodes::Matrix;
 
 constexpr int kLooks = 32;
-/// A start that is nearer to a border than this part of the distance at the first look lies on it.
+/// A start is on the border if its distance is below this fraction of the distance at the first
+/// sample.
 constexpr double kOnBorder = 1e-3;
 
 Square interpolation(bool has_middle) {
@@ -70,7 +71,7 @@ const Square& StepNodes::legendre() {
 double StepNodes::quadrature_error(const Row& coefficients) {
   const double low = std::abs(coefficients[3]) + std::abs(coefficients[4]),
                high = std::abs(coefficients[5]) + std::abs(coefficients[6]),
-               decay = high < low ? high / low : 1.0;  // of two degrees
+               decay = high < low ? high / low : 1.0;  // ratio over two degrees
   return kRule * high * decay * decay;
 }
 

@@ -7,21 +7,23 @@
 namespace butee::integrators {
 namespace {
 
-/// A step without contact that met a stop is so many indices shorter.
+/// Number of indices by which a longer step without contact is reduced if a stop comes near its
+/// gap.
 constexpr int kIndicesToStop = 3;
 
-/// The highest index whose step is shorter than this time.
+/// The highest index whose step does not exceed `time`, s.
 int index_below(double time) {
   if (!(time > 0.0)) return std::numeric_limits<int>::min();
   return time < 1e30 ? static_cast<int>(std::floor(2.0 * std::log2(time))) : std::numeric_limits<int>::max();
 }
 
-/// The next higher index.
+/// The lowest index whose step is not shorter than `time`, s.
 int index_above(double time) {
   return static_cast<int>(std::ceil(2.0 * std::log2(time)));
 }
 
-/// Indices to go down after an error of `ratio` times its bound, which falls with the fifth power of h.
+/// Number of indices by which the step is reduced if the error is `ratio` times its bound; the
+/// error falls with the fifth power of h.
 int indices_down(double ratio) {
   constexpr double kPower = 5.0, kMost = 8.0;
   return ratio > 1.0 ? static_cast<int>(std::clamp(std::floor(2.0 / kPower * std::log2(ratio)), 1.0, kMost)) : 1;
