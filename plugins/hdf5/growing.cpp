@@ -3,7 +3,7 @@
 namespace butee::plugins::hdf5 {
 namespace {
 
-constexpr unsigned kDeflate = 1;  ///< higher levels cost several times as much and gain a few percent
+constexpr unsigned kDeflate = 1;  ///< higher levels take several times as long and save a few percent
 
 }  // namespace
 

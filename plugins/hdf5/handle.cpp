@@ -8,7 +8,7 @@
 namespace butee::plugins::hdf5 {
 namespace {
 
-/// The innermost reason that the library gives.
+/// The innermost error message of the library.
 std::string reason() {
   std::string text;
   H5Ewalk2(
@@ -18,7 +18,7 @@ std::string reason() {
         return 0;
       },
       &text);
-  // Failures of the operating system come with its own words inside a long line.
+  // Errors of the operating system contain its message within a long line.
   const std::string mark = "error message = '";
   if (const auto begin = text.find(mark); begin != std::string::npos)
     text = text.substr(begin + mark.size(), text.find('\'', begin + mark.size()) - begin - mark.size());

@@ -8,28 +8,29 @@
 
 namespace butee::plugins::hdf5 {
 
-/// The group /probes: a dataset for each column of history.csv, of the same name, with its unit.
+/// The group /probes: one dataset for each column of history.csv, with the same name and its unit.
 ///
-/// Rows wait in memory until they fill a chunk, or for two seconds and as many as the chunk on disk holds already. They
-/// are seen by others when the file is flushed next.
+/// Rows are buffered in memory until they fill a chunk, or until two seconds have passed and there
+/// are as many of them as the last chunk on disk holds already. Readers see them after the next
+/// flush of the file.
 class HistoryRows {
  public:
   HistoryRows() = default;
-  /// Makes the group and its datasets. `file` stays open longer.
+  /// Creates the group and its datasets. `file` must outlive it.
   HistoryRows(hid_t file, const std::vector<model::Field>& columns);
 
-  /// One value for each column. True where rows were handed to the library.
+  /// Appends one value for each column. True if rows were passed to the library.
   bool append(std::span<const double> values);
-  /// Hands the waiting rows to the library.
+  /// Passes the buffered rows to the library.
   void commit();
-  /// False where that failed.
+  /// Closes the datasets; false if that failed.
   bool close();
 
  private:
   using Clock = std::chrono::steady_clock;
 
   std::vector<Handle> sets_;
-  std::size_t rows_ = 0, waiting_rows_ = 0;  ///< handed over, in memory
+  std::size_t rows_ = 0, waiting_rows_ = 0;  ///< number of rows passed to the library, and of rows in memory
   std::vector<double> waiting_;              ///< column by column
   Clock::time_point committed_ = Clock::now();
 };

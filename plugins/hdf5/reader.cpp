@@ -5,7 +5,7 @@
 namespace butee::plugins::hdf5 {
 namespace {
 
-/// Names in a group, in the order in which they were made where the file knows it, else of the alphabet.
+/// Names in a group, in order of creation if the file records it, else in alphabetical order.
 std::vector<std::string> names_in(hid_t file, const char* group) {
   const Handle opened(H5Gopen2(file, group, H5P_DEFAULT), H5Gclose, std::string("read ") + group);
   std::vector<std::string> names;

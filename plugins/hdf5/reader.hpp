@@ -7,7 +7,8 @@
 
 namespace butee::plugins::hdf5 {
 
-/// Reads fields.h5. Of a file to which a run is still adding it sees what was there when it was opened.
+/// Reads fields.h5. If a run is still writing the file, it sees the contents at the time of
+/// opening.
 class FieldFileReader final : public model::FieldReader {
  public:
   explicit FieldFileReader(const std::string& folder);

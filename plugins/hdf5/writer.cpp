@@ -8,8 +8,9 @@ namespace butee::plugins::hdf5 {
 namespace {
 
 constexpr std::size_t kChunkValues = std::size_t{1} << 17;  ///< a megabyte of doubles
-constexpr std::size_t kMostRows = 512;                      ///< of a chunk
-/// Rows of probes alone do not flush the file more often: a reader that opens it then has to try again.
+constexpr std::size_t kMostRows = 512;                      ///< largest number of rows of a chunk
+/// Shortest time between flushes for rows of probes only; a reader that opens the file during a
+/// flush must retry.
 constexpr auto kPauseOfHistory = std::chrono::milliseconds(500);
 
 Handle create_file(const std::string& path) {
@@ -25,7 +26,7 @@ Handle create_file(const std::string& path) {
   cache.decr_mode = H5C_decr__off;
   check(H5Pset_mdc_config(access, &cache), "set up a file");
 #if H5_VERSION_GE(1, 10, 7)
-  // Others may look while the run goes on.
+  // Other programs may read during the run.
   check(H5Pset_file_locking(access, false, true), "set up a file");
 #endif
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "make " + path};
@@ -54,7 +55,7 @@ void FieldFile::write_layout(const model::FieldLayout& layout) {
   write_texts(file_, "/nodes/name", layout.nodes);
   write_numbers(file_, "/nodes/coordinate", {nodes_}, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, layout.coordinates.data());
   write_numbers(file_, "/nodes/position", {nodes_, 3}, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, layout.positions.data());
-  // Never written, so it takes no space; ParaView makes vectors of it.
+  // Never written, so it takes no space; serves as the zero components of vectors in ParaView.
   write_numbers(file_, "/nodes/zero", {nodes_}, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, nullptr);
   std::vector<std::string> names;
   std::vector<std::int64_t> members, begins = {0};

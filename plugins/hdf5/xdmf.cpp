@@ -12,12 +12,13 @@ namespace {
 constexpr std::int64_t kPolyvertex = 1, kPolyline = 2;  ///< XDMF's numbers of cell types
 constexpr const char* kEnd = "  </Grid>\n</Domain></Xdmf>\n";
 constexpr const char* kReal = "NumberType=\"Float\" Precision=\"8\"";
-/// Copies take up no more than one part in so many of the time.
+/// Copies may take at most 1/kShareOfTime of the run time.
 constexpr int kShareOfTime = 50;
 constexpr const char* kWhole = "NumberType=\"Int\" Precision=\"4\"";
 
-/// Text as an attribute of XML 1.0, which has no control characters but tab and line ends, not even as references; they
-/// and the two noncharacters U+FFFE and U+FFFF become U+FFFD.
+/// Escapes text for an attribute of XML 1.0. XML 1.0 allows no control characters except tab and
+/// line ends, not even as references; the others and the noncharacters U+FFFE and U+FFFF become
+/// U+FFFD.
 std::string escaped(const std::string& text) {
   constexpr const char* kReplacement = "\xEF\xBF\xBD";
   std::string out;
@@ -47,12 +48,12 @@ std::size_t cell_count(const model::FieldLayout& layout) {
   return layout.lines.size() + layout.nodes.size() - on_lines;
 }
 
-/// `size` values of a dataset.
+/// The XDMF item for a dataset with dimensions `size`.
 std::string item(const std::string& path, const std::string& size, const char* type) {
   return "<DataItem Format=\"HDF\" Dimensions=\"" + size + "\" " + type + ">fields.h5:" + path + "</DataItem>";
 }
 
-/// A vector of three fields, those that are "" being zero; nothing where all are.
+/// A vector attribute of three fields; an empty name stands for zero. Empty if all names are empty.
 std::string vector_attribute(const std::string& name, const std::string& nodes,
                              std::span<const std::string, 3> components) {
   if (components[0].empty() && components[1].empty() && components[2].empty()) return "";

@@ -4,13 +4,14 @@
 
 namespace butee::plugins {
 
-/// A stop of compact support: without force while open, linear once it is closed by more than `width`, and with a
-/// second derivative that is continuous in between.
+/// A contact law of compact support: no force while open, linear for penetrations above `width`,
+/// with a continuous second derivative in between.
 ///
 ///     s = g/width:   F = 0 (s <= 0),   k_c width (s^3 - s^4/2) (0 <= s <= 1),   k_c (g - width/2) (s >= 1)
 ///
-/// The tangent is k_c times the smoothstep 3 s^2 - 2 s^3. Neither pull nor jump: well-posed at rest. Checked by
-/// differences in tests/plugins/smooth_law_test.cpp.
+/// The tangent is k_c times the smoothstep 3 s^2 - 2 s^3. The force has no residual part and no
+/// jump, so that equilibrium at rest is well-posed. Checked by differences in
+/// tests/plugins/smooth_law_test.cpp.
 class Smooth final : public model::BatchedLaw<Smooth> {
  public:
   /// `stiffness` k_c in N/m, `width` in m, both positive.

@@ -34,7 +34,7 @@ Handle type_of(const Column& column) {
   return {H5Tarray_create2(plain, 1, &length), H5Tclose, "make a type of an array"};
 }
 
-/// A row as it lies in the file: the row's bytes, then their checksum. Packed.
+/// The type of a row in the file: the bytes of the row, then their checksum; packed.
 Handle row_type(const Layout& layout) {
   Handle type(H5Tcreate(H5T_COMPOUND, layout.row_bytes() + 8), H5Tclose, "make a type of rows");
   for (std::size_t i = 0; i < layout.columns().size(); ++i) {
@@ -58,7 +58,7 @@ class Sink final : public study::RowSink {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up a file");
     check(H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), "set up a file");
 #if H5_VERSION_GE(1, 10, 7)
-    // Others may look while rows are added.
+    // Other programs may read while rows are added.
     check(H5Pset_file_locking(access, false, true), "set up a file");
 #endif
     file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "make " + path);
@@ -70,7 +70,7 @@ class Sink final : public study::RowSink {
     set_ = Handle(H5Dcreate2(file_, kRows, type_, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose, "make " + path);
     hdf5::write_attribute(file_, "made_by", kMadeBy);
     hdf5::write_attribute(file_, "title", title);
-    // A line for each column: its unit, "1" for pure numbers, nothing where it is not known.
+    // One line for each column: its unit, "1" for pure numbers, empty if it is not known.
     hdf5::write_attribute(set_, "columns", joined(layout, &Column::name));
     hdf5::write_attribute(set_, "units", joined(layout, &Column::unit));
     check(H5Fstart_swmr_write(file_), "let others read " + path);
@@ -80,8 +80,8 @@ class Sink final : public study::RowSink {
     try {
       add(rows);
     } catch (const RunError&) {
-      // As a killed writer would leave it, the file holds all rows that were flushed; closing it would write half of
-      // what is left, and readers would refuse it.
+      // The file stays as a killed writer would leave it, with all rows that were flushed. Closing
+      // it would write a part of the rest, and readers would refuse it.
       set_.abandon();
       file_.abandon();
       throw;
@@ -95,7 +95,7 @@ class Sink final : public study::RowSink {
 
  private:
   void add(std::span<const std::byte> rows) {
-    hdf5::be_silent();  // For each thread of its own.
+    hdf5::be_silent();  // HDF5 has this setting per thread.
     const hsize_t count = rows.size() / row_bytes_, before = size_, after = size_ + count;
     packed_.resize(count * (row_bytes_ + 8));
     for (std::size_t i = 0; i < count; ++i) {
@@ -129,10 +129,10 @@ class Source final : public study::RowSource {
 #if H5_VERSION_GE(1, 10, 7)
     check(H5Pset_file_locking(access, false, true), "set up a file");
 #endif
-    // Of a writer that was killed the file is still marked as being written.
+    // If the writer was killed, the file is still marked as being written.
     hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
     if (id < 0) id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-    if (id < 0) return;  // Its writer was killed before it held a row.
+    if (id < 0) return;  // The writer was killed before the file held a row.
     file_ = Handle(id, H5Fclose, "open " + path);
     if (H5Lexists(file_, kRows, H5P_DEFAULT) <= 0) return;
     set_ = Handle(H5Dopen2(file_, kRows, H5P_DEFAULT), H5Dclose, "read " + path);
@@ -160,7 +160,7 @@ class Source final : public study::RowSource {
   }
 
  private:
-  /// Takes the rows from `index` on into memory, or that one alone where others cannot be read.
+  /// Reads the rows from `index` on into memory, or that one only if the others cannot be read.
   bool load(std::int64_t index) {
     const auto most = static_cast<std::int64_t>(std::max<std::size_t>(1, kBlockBytes / (row_bytes_ + 8)));
     for (const std::int64_t count : {std::min(most, size_ - index), std::int64_t{1}}) {
@@ -189,7 +189,7 @@ class Source final : public study::RowSource {
 class Format final : public study::RowFormat {
  public:
   Format() {
-    // At the end of the process HDF5 1.10 crashes over a file that it could not write to the end.
+    // HDF5 1.10 crashes at the end of the process if it could not write a file completely.
     H5dont_atexit();
     hdf5::be_silent();
   }
@@ -208,7 +208,7 @@ class Format final : public study::RowFormat {
 }  // namespace butee::plugins::study_hdf5
 
 BUTEE_PLUGIN(registrar) {
-  (void)registrar;  // It has no types: studies ask for the function below.
+  (void)registrar;  // The module has no types; studies look up the function below.
 }
 
 extern "C" __attribute__((visibility("default"))) void* butee_study_hdf5() {

@@ -8,8 +8,9 @@
 namespace butee::plugins::study_mpi {
 namespace {
 
-/// All processes of MPI_COMM_WORLD. Threads call MPI one at a time. The number that all share lies in the memory of the
-/// first process, where the others add to it without its doing (MPI_Fetch_and_op).
+/// All processes of MPI_COMM_WORLD. Threads call MPI one at a time. The shared counter is in the
+/// memory of the first process; the others increment it by one-sided communication
+/// (MPI_Fetch_and_op).
 class World final : public study::Team {
  public:
   World() {
@@ -69,7 +70,7 @@ class World final : public study::Team {
 }  // namespace butee::plugins::study_mpi
 
 BUTEE_PLUGIN(registrar) {
-  (void)registrar;  // It has no types: studies ask for the function below.
+  (void)registrar;  // The module has no types; studies look up the function below.
 }
 
 extern "C" __attribute__((visibility("default"))) void* butee_study_mpi() {

@@ -107,7 +107,7 @@ time::StepReport SundialsIntegrator::do_step(const time::State& from, const time
   }
   if (flag < 0 || !(t > from.t)) {
     report.status = time::StepStatus::not_finite;
-    last_.t = std::numeric_limits<double>::quiet_NaN();  // It stands nowhere.
+    last_.t = std::numeric_limits<double>::quiet_NaN();  // No valid state.
     return report;
   }
   const Index n = from.x.size();

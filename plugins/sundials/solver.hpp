@@ -12,16 +12,18 @@ namespace butee::plugins {
 
 enum class Family { cvode_bdf, cvode_adams, arkode_erk, arkode_dirk };
 
-/// A method of SUNDIALS on y = (x, v), y' = (v, M^-1 (F + F_c - C v - K x)), a step of its own for each step of ours.
+/// A method of SUNDIALS for y = (x, v), y' = (v, M^-1 (F + F_c - C v - K x)); each step of this
+/// integrator is one internal step of SUNDIALS.
 ///
-/// The implicit ones solve (1 - gamma J) z = r by blocks, with the effective matrix of this framework and its treatment
-/// of the stops, which is better than any matrix that SUNDIALS could be given. Errors are relative to each component
-/// plus an absolute tolerance. CVODE's history lives in CVODE: a step that does not continue the last one starts it
-/// anew, so a step is no pure function of the state, and a restart repeats a run only to the tolerance. Source: A. C.
-/// Hindmarsh et al., ACM TOMS 31 (2005) 363-396, doi 10.1145/1089014.1089020.
+/// The implicit methods solve (1 - gamma J) z = r in block form, with the effective matrix of this
+/// framework and its treatment of the stops, which is more efficient than any matrix type of
+/// SUNDIALS. Errors are relative to each component, plus an absolute tolerance. CVODE keeps its own
+/// history: a step that does not continue the last one reinitialises CVODE. A step is therefore not
+/// a pure function of the state, and a restart reproduces a run only to the tolerance. Source: A.
+/// C. Hindmarsh et al., ACM TOMS 31 (2005) 363-396, doi 10.1145/1089014.1089020.
 class SundialsIntegrator final : public time::Integrator {
  public:
-  /// `order` 0: the solver's own choice. `absolute_tolerance` in m, rad, m/s and rad/s.
+  /// `order` 0: the solver selects the order. `absolute_tolerance` in m, rad, m/s and rad/s.
   SundialsIntegrator(dynamics::Dynamics& dynamics, Family family, double tolerance, double absolute_tolerance,
                      int order);
   ~SundialsIntegrator() override;
@@ -55,7 +57,7 @@ class SundialsIntegrator final : public time::Integrator {
   void* memory_ = nullptr;
   N_Vector y_ = nullptr, derivative_ = nullptr;
   SUNLinearSolver linear_ = nullptr;
-  time::State last_;  ///< where the solver stands
+  time::State last_;  ///< the state that the solver has reached
   Vector stop_displacement_, stop_force_, tangent_, work_, stop_work_, other_;
 };
 

@@ -10,10 +10,11 @@ namespace butee::plugins {
 ///
 ///     F = k (g^(3/2) + 3/2 A sqrt(g) g') for g > 0, until F = 0;   V = 2/5 k g^(5/2)
 ///
-/// k in N/m^(3/2), A in s: a material's time of relaxation. The dissipation is that of Hertz's field of deformation in
-/// a material with linear viscosity, so that the restitution falls with the speed of the impact, unlike that of a
-/// dashpot. Sources: N. V. Brilliantov et al., Phys. Rev. E 53 (1996) 5382, doi 10.1103/PhysRevE.53.5382; restitution:
-/// T. Schwager and T. Poeschel, Phys. Rev. E 78 (2008) 051304, doi 10.1103/PhysRevE.78.051304. Checked in
+/// k in N/m^(3/2); A in s is the relaxation time of the material. The dissipation is that of
+/// Hertz's deformation field in a material with linear viscosity. Unlike with a dashpot, the
+/// coefficient of restitution therefore decreases with the impact speed. Sources: N. V. Brilliantov
+/// et al., Phys. Rev. E 53 (1996) 5382, doi 10.1103/PhysRevE.53.5382; restitution: T. Schwager and
+/// T. Poeschel, Phys. Rev. E 78 (2008) 051304, doi 10.1103/PhysRevE.78.051304. Checked in
 /// tests/plugins/viscoelastic_law_test.cpp.
 class Viscoelastic final : public model::BatchedLaw<Viscoelastic> {
  public:
