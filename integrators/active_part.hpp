@@ -17,8 +17,8 @@ namespace butee::integrators {
 /// around the loads, the initial motion, the stops that push at rest, and the open stops whose
 /// residual force exceeds what the tolerance allows. If the motion in the outer quarter of the part
 /// exceeds kNegligible times the tolerance (in |x|_M or |v|_M, relative to the largest so far), the
-/// step is repeated on a part of 1.5 times the radius. The error of the part are weak waves that
-/// are reflected at its border, as a rule a small fraction of the tolerance.
+/// step is repeated on a part of 1.5 times the radius. The error of the method consists of weak
+/// waves that the border of a part reflects; as a rule it is a small fraction of the tolerance.
 ///
 /// The method determines steps, interpolation and the contents of the state. It must use
 /// LocalErrorControl's memory and interpolate from two states alone. Checked in

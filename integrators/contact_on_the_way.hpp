@@ -17,8 +17,8 @@ class ContactOnTheWay {
   /// True if a stop is open at one end of the step and closed at the other, or if the force of a
   /// stop with two sides jumped from one side to the other. Such a jump occurs at the middle of the
   /// gap for laws that exert a force there, such as arctan with a lambda of a few gaps. Jumps J
-  /// whose impulse within the step, J h, is less than kNegligibleImpulse times the tolerance of m
-  /// S_v are ignored.
+  /// whose impulse within the step, J h, is less than kNegligibleImpulse times tolerance times m
+  /// S_v (mass and velocity scale of the DOF) are ignored.
   bool changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
   /// The largest such jump in the step, as the acceleration of its DOF over that DOF's velocity
   /// scale, 1/s; 0 if there is none. An error estimate misses a jump in the middle of a step, since
@@ -27,7 +27,7 @@ class ContactOnTheWay {
   /// True if a stop is open at both ends of the step and was closed in between, or passed such a
   /// jump and returned, according to the cubic through displacements and speeds at both ends.
   /// Penetrations below the tolerance times displacement or gap are ignored if their impulse, at
-  /// most k depth h, is less than kNegligibleImpulse times the tolerance of m S_v.
+  /// most k depth h, is less than kNegligibleImpulse times tolerance times m S_v.
   bool was_missed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
 
  private:

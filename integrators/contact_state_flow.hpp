@@ -49,7 +49,7 @@ class ContactStateFlow {
     Eigen::MatrixXd series;       ///< n x number of terms, in powers of s/length
     double length = 0.0;          ///< s
     std::vector<double> forcing;  ///< for each block with extras: load parabolas of its two coordinates, 2 x 3
-    double s = 0.0;               ///< s
+    double s = 0.0;               ///< current position from the start, s
     std::vector<double> y;        ///< y at s, as in `start`
     std::vector<double> now;      ///< cos and sin of W (t + s) for each harmonic
     std::vector<double> extra;    ///< for each block with extras: responses from rest and three derivatives, 2 x 4

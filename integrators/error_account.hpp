@@ -35,7 +35,7 @@ class ComponentScales {
   void raise(ConstVectorRef y, Eigen::Ref<Vector> scales) const;
 
  private:
-  std::vector<std::uint8_t> kinds_;  ///< of each DOF
+  std::vector<std::uint8_t> kinds_;  ///< kind of each DOF
 };
 
 /// The account that limits the sum of the relative local errors of a run to its tolerance.
@@ -50,7 +50,7 @@ class ErrorAccount {
   explicit ErrorAccount(const Goal& goal)
       : rate_(kBudget * goal.tolerance / goal.run_time), advance_(kAdvance * kBudget * goal.tolerance) {}
 
-  double rate() const { return rate_; }        ///< 1/s
+  double rate() const { return rate_; }        ///< increase of the balance per second, 1/s
   double advance() const { return advance_; }  ///< the balance at the start
 
   /// The fraction of the balance that one step with a change of contact may use.

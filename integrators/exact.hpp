@@ -16,10 +16,10 @@ namespace butee::integrators {
 /// the decay of its terms; a boundary layer near the path shortens it. The truncation error is
 /// below `series_tolerance`, by default far below rounding, so that only rounding errors remain;
 /// otherwise the method has order `order`. The `tolerance` of a scene has no effect. A step takes
-/// `order` evaluations of M^-1 (F - C v - K x) and is 2 to 3 over the highest frequency long, so
-/// that the cost grows in proportion to this frequency. Checked in tests/models/exact_test.cpp
-/// against a solution in 80-bit arithmetic. Source of the recurrence: R. Barrio, Appl. Math.
-/// Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
+/// `order` evaluations of M^-1 (F - C v - K x) and has a length of 2 to 3 divided by the highest
+/// frequency, so that the cost grows in proportion to this frequency. Checked in
+/// tests/models/exact_test.cpp against a solution in 80-bit arithmetic. Source of the recurrence:
+/// R. Barrio, Appl. Math. Comput. 163 (2005) 525-545, doi 10.1016/j.amc.2004.02.015.
 class Exact final : public time::Integrator {
  public:
   static constexpr int kOrder = 30;

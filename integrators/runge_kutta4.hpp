@@ -6,7 +6,7 @@ namespace butee::integrators {
 
 /// The classical Runge-Kutta step of order 4 for (x, v), with the acceleration at its start given.
 ///
-///     k_1 = a(t, x, v), k_2, k_3 at t + h/2, k_4 at t + h; three evaluations in addition to the given one
+///     k_1 = a(t, x, v),  k_2, k_3 at t + h/2,  k_4 at t + h;  three evaluations in addition to the given one
 class RungeKutta4Kernel {
  public:
   explicit RungeKutta4Kernel(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {}

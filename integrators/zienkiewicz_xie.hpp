@@ -12,7 +12,7 @@ namespace butee::integrators {
 /// displacement.
 ///
 ///     eta = |beta - 1/6| h^2 |a_{n+1} - a_n|_2 / |x_{n+1} - x_n|_2
-///     nu1 eta_e <= eta <= nu2 eta_e: h stays; else h := h sqrt(eta_e/eta); eta > nu2 eta_e: the step is repeated
+///     nu1 eta_e <= eta <= nu2 eta_e: h stays; else h := h sqrt(eta_e/eta);  eta > nu2 eta_e: the step is repeated
 ///
 /// Without motion a step is accepted and h stays. At beta = 1/6 the estimate vanishes; this value
 /// is refused. Source: O. C. Zienkiewicz and Y. M. Xie, Earthquake Eng. Struct. Dyn. 20 (1991)

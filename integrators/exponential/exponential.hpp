@@ -19,7 +19,7 @@ struct ExponentialOptions {
 /// exponential: the linear part is propagated exactly in modal coordinates; the forces of stops are
 /// projected onto polynomials.
 ///
-///     q(t+h) = flow(q, load) + sum_k R_k(omega h) Phi^T f_k,    f_k = (2k+1) int_0^1 P_k(s) F_c(w(s)) ds
+///     q(t+h) = propagate(q, load) + sum_k R_k(omega h) Phi^T f_k, f_k = (2k+1) int_0^1 P_k(s) F_c(w(s)) ds
 ///
 /// Modes, damping and harmonic or piecewise linear loads are integrated without error; without
 /// stops a step reaches from one output to the next. Over a step the force of a stop is projected

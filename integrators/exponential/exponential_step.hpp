@@ -10,7 +10,7 @@
 
 namespace butee::integrators {
 
-/// One step of the method `exponential` at a time, within a macro step: propagates the modes, finds
+/// Performs the steps of the method `exponential` within a macro step: propagates the modes, finds
 /// the stops that may close, iterates for their forces and evaluates the error. Other classes
 /// implement these parts; this class defines their order. Checked in
 /// tests/unit/exponential_step_test.cpp and tests/models/exponential_test.cpp.

@@ -10,8 +10,8 @@ using Eigen::ArrayXd;
 /// An error that is odd about the middle shows there in the speed only: 16 s^2 (1 - s)^2 (2 s - 1)
 /// has a slope of magnitude 2 in the middle and is at most 0.29.
 constexpr double kOddPart = 0.15;
-/// A breakpoint in the middle divides U by this. It reduces the error of quintics to 1/64, or to
-/// about 1/4 if modes are too fast for any quintic.
+/// A breakpoint in the middle divides the error indicator by this. It reduces the error of quintics
+/// to 1/64, or to 1/4 if modes are too fast for any quintic.
 constexpr double kHalved = 10.0;
 
 }  // namespace

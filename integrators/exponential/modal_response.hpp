@@ -18,7 +18,7 @@ struct TurningLoad {
 
 /// The motion of damped modes at one position c h of a step of length h, without truncation error:
 ///
-///     z(t + c h) = e^(lambda c h) z(t) + sum_r moment_r g_r + harmonics, g_r the coefficient of s^r in the force
+///     z(t + c h) = e^(lambda c h) z(t) + sum_r moment_r g_r + harmonics,   g_r the coefficient of s^r in the force
 ///
 /// For small |lambda c h| the moments follow from a series and a downward recurrence, for large
 /// ones from the upward recurrence; each recurrence is stable in its range. Checked in
@@ -42,7 +42,7 @@ class PlaceResponse {
 
   Index first_, count_;
   Eigen::ArrayXXd propagator_;  ///< p x 2
-  Eigen::ArrayXXd moments_;     ///< p x 14: p x 14: real and imaginary parts of each moment
+  Eigen::ArrayXXd moments_;     ///< p x 14: real and imaginary parts of each moment
   struct Harmonic {
     double angular_frequency;
     Eigen::VectorXd forth, back;

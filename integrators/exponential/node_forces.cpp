@@ -137,8 +137,8 @@ void NodeForces::estimate(double t, const StepResponse& response) {
   find_forces(t, response.h());
   move(response, StepNodes::without_middle());
   error_ = nodes_.col(kEnd) - nodes.col(kEnd);
-  // The polynomials with and without the value in the middle have the same integral; its error is
-  // added separately.
+  // The polynomials with and without the value in the middle have the same integral; the error of
+  // this integral is added separately.
   for (Index k = 0; k < legendre.rows(); ++k)
     error_ += response.h() * StepNodes::quadrature_error(legendre.row(k)) * active_.input.col(k);
   // In equilibrium only rounding errors remain.

@@ -93,8 +93,8 @@ class ResidualJumps {
 
   /// Finds them among step.constant; true if there are any.
   bool find(dynamics::ContactPropagator& flow, const ResidualErrors& errors, const TriedStep& step);
-  /// Adds the moments of their forces, in addition to the forces `constants`, to the step; its
-  /// middle must be known.
+  /// Adds the moments of their forces minus the `constants`, which the step already contains; the
+  /// middle of the step must be known.
   void add(dynamics::ContactPropagator& flow, const Vector& constants, TriedStep& step);
 
   const std::vector<Index>& stops() const { return stops_; }

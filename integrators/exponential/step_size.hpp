@@ -6,8 +6,8 @@
 namespace butee::integrators {
 
 /// Selects step sizes h = 2^(index/2) s of a geometric grid from the errors of earlier steps. Steps
-/// with contact have their own index; steps without contact have a larger index. Both are a part of
-/// the state. Constants: plugins/exponential/THEORY.md, section 8.3; tests:
+/// with contact have their own index; that of steps without contact is larger by an offset. Both
+/// are a part of the state. Constants: plugins/exponential/THEORY.md, section 8.3; tests:
 /// tests/unit/step_size_test.cpp.
 class StepSizeControl {
  public:
@@ -36,7 +36,7 @@ class StepSizeControl {
 
   struct Retry {
     int index;
-    bool was_contact;  ///< rejected because of a step with contact
+    bool was_contact;  ///< rejected for the error of its contacts
   };
   /// The index after a rejected step; `h` is its length, s, if it was shortened.
   Retry reject(const Outcome& outcome, int index, bool on_grid, double h);

@@ -16,11 +16,11 @@ enum class Family { cvode_bdf, cvode_adams, arkode_erk, arkode_dirk };
 /// integrator is one internal step of SUNDIALS.
 ///
 /// The implicit methods solve (1 - gamma J) z = r in block form, with the effective matrix of this
-/// framework and its treatment of the stops, which is more efficient than any matrix type of
-/// SUNDIALS. Errors are relative to each component, plus an absolute tolerance. CVODE keeps its own
-/// history: a step that does not continue the last one reinitialises CVODE. A step is therefore not
-/// a pure function of the state, and a restart reproduces a run only to the tolerance. Source: A.
-/// C. Hindmarsh et al., ACM TOMS 31 (2005) 363-396, doi 10.1145/1089014.1089020.
+/// framework and its treatment of the stops, which is better suited than any matrix that SUNDIALS
+/// could use. Errors are relative to each component, plus an absolute tolerance. CVODE keeps its
+/// own history: a step that does not continue the last one reinitialises CVODE. A step is therefore
+/// not a pure function of the state, and a restart reproduces a run only to the tolerance. Source:
+/// A. C. Hindmarsh et al., ACM TOMS 31 (2005) 363-396, doi 10.1145/1089014.1089020.
 class SundialsIntegrator final : public time::Integrator {
  public:
   /// `order` 0: the solver selects the order. `absolute_tolerance` in m, rad, m/s and rad/s.
