@@ -14,7 +14,7 @@ constexpr double kFirstRadius = 32.0;
 constexpr double kGrowth = 1.5, kInner = 0.75;
 /// Bound of a residual force, as a fraction of tolerance times the force that closes the gap. Open
 /// stops with a larger residual force belong to the start set.
-constexpr double kNegligible = 0.005;
+constexpr double kNegligibleForce = 0.005;
 /// Fraction of the tolerance that the motion in the outer region may reach.
 constexpr double kNegligible = 0.1;
 /// Number of memory entries before the scales.
@@ -33,7 +33,8 @@ std::vector<Index> moving_first(dynamics::Dynamics& dynamics, double tolerance) 
   const dynamics::Contact& contact = dynamics.contact();
   for (Index i = 0; i < contact.size(); ++i) {
     const model::ContactLaw& law = contact.law_of(i);
-    if (law.asymptotic_force() <= kNegligible * tolerance * law.closed_stiffness() * contact.play_of(i).gap) continue;
+    if (law.asymptotic_force() <= kNegligibleForce * tolerance * law.closed_stiffness() * contact.play_of(i).gap)
+      continue;
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
       if (dof >= 0) moves[dof] = 1.0;
   }
