@@ -9,10 +9,11 @@ namespace butee::dynamics {
 
 /// The stops of a system, evaluated in stop space: displacements w = S x (m stops), forces F_c = S^T f.
 ///
-/// S picks u_a, or u_a - u_b for a stop between two nodes. All vectors here have one entry per stop.
+/// S selects u_a, or u_a - u_b for a stop between two nodes. All vectors here have one entry per
+/// stop.
 class BUTEE_EXPORT Contact {
  public:
-  /// `system` and `counters` must outlive it.
+  /// `system` and `counters` must outlive this object.
   Contact(const model::System& system, linalg::Counters& counters);
 
   Index size() const { return static_cast<Index>(a_.size()); }
@@ -34,7 +35,7 @@ class BUTEE_EXPORT Contact {
   void force(ConstVectorRef w, VectorRef f);
   /// f(w) and k = -df/dw, N/m
   void tangent(ConstVectorRef w, VectorRef f, VectorRef k);
-  /// k and c with f = -k w + c by the secant stiffness at w
+  /// k (N/m) and c (N) of f = -k w + c, with the secant stiffness at w
   void secant(ConstVectorRef w, VectorRef k, VectorRef c);
   /// Sum over the stops of U(w) = -int_0^w f dw, J
   double energy(ConstVectorRef w) const;
@@ -73,7 +74,7 @@ class BUTEE_EXPORT Contact {
   std::vector<Group> groups_;
   std::vector<Index> a_, b_;
   Index system_size_;
-  bool grounded_ = true;  ///< every stop acts on one free DOF a, to ground
+  bool grounded_ = true;  ///< every stop acts on one free DOF a, against ground
   Vector penetration_, side_, secant_;
 };
 

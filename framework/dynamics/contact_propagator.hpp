@@ -13,7 +13,7 @@ namespace kernel {
 struct StopResponse;
 }
 
-/// The modal shapes of the stops, Phi^T S^T, with their products.
+/// The modal shapes of the stops, Phi^T S^T, and products with them.
 class BUTEE_EXPORT StopShapes {
  public:
   StopShapes() = default;
@@ -27,9 +27,9 @@ class BUTEE_EXPORT StopShapes {
 
   /// w := S Phi q
   void displacement(const double* q, double* w) const;
-  /// The same for two vectors at once.
+  /// The same for q and v at once.
   void displacement(const double* q, const double* v, double* w, double* wv) const;
-  /// r := Phi^T S^T f, where all but these entries of f are zero.
+  /// r := Phi^T S^T f, with f zero outside these entries.
   void force(std::span<const Index> stops, const double* f, double* r) const;
 
  private:
@@ -37,33 +37,37 @@ class BUTEE_EXPORT StopShapes {
   linalg::DenseProduct to_stops_, to_modes_;
 };
 
-/// What the stops do at the end and in the middle of a step, their forces included: displacement, speed times h,
-/// displacement in the middle; an entry a stop, padded with zeros to ContactPropagator::padded().
+/// Displacement w at the end of a step, h times the velocity there, and w in the middle of the
+/// step, including the effect of the stop forces. One entry per stop, padded with zeros to
+/// ContactPropagator::padded().
 struct StopMotion {
   Eigen::ArrayXd end, speed, middle;
 };
 
-/// The flow over a step and over its first half, and with them how stops act on each other.
+/// The modal propagators over a step and over its first half, and the compliance between the stops
+/// over the step.
 class BUTEE_EXPORT ContactPropagator {
  public:
-  /// `stops` must outlive it.
+  /// `stops` must outlive this object.
   ContactPropagator(ModalPropagator whole_flow, ModalPropagator half_flow, const StopShapes& stops,
                     const Eigen::ArrayXd& frequencies, const std::vector<ModalHarmonic>& harmonics);
 
   double h() const { return whole.h(); }
 
-  /// The stops, rounded up to whole vector registers.
+  /// The number of stops, rounded up to whole vector registers.
   static Index padded(Index stops);
-  /// Where the register behind the one that begins at a stop begins.
+  /// The first stop of the vector register after the one that begins at `begin`.
   static Index next_register(Index begin);
 
-  /// The displacements of stops over the step by a constant force of 1 N on each alone, m. Computed at their first use.
+  /// The displacement of each stop over the step by a constant force of 1 N on that stop alone, m.
+  /// Computed at the first use.
   const Eigen::ArrayXd& mobilities();
 
-  /// What forces P_0, P_1, P_2 at stop i do to itself: rows end, speed and middle as in StopMotion.
+  /// The response of stop i to forces P_0, P_1, P_2 on itself: rows end, speed and middle as in
+  /// StopMotion.
   using Coupling = std::array<std::array<double, 3>, 3>;
   Coupling own_coupling(Index i);
-  /// Room for what a method derives from it for each stop.
+  /// Storage for the quantities that a method derives from the propagator for each stop.
   struct Derived {
     bool is_known = false;
     Coupling coupling{};
@@ -72,24 +76,27 @@ class BUTEE_EXPORT ContactPropagator {
   };
   Derived& derived(Index i) { return derived_[static_cast<std::size_t>(i)]; }
 
-  /// Adds what a force at stop i does to the stops in these registers, named by the stop that each begins at:
-  /// the largest |end| + speed_weight |speed| + |middle| of it.
+  /// Adds the response to a force at stop i for the stops in these registers; a register is named
+  /// by its first stop. Returns the largest |end| + speed_weight |speed| + |middle| of that
+  /// response.
   double add_force(Index i, const std::array<double, 3>& force, double speed_weight, std::span<const Index> registers,
                    StopMotion& motion);
 
-  /// Adds what forces at these stops do, an entry of `force` for each stop.
+  /// Adds the response to forces at these stops; `force` has an entry for every stop.
   void add_forces(std::span<const Index> stops, const std::array<Eigen::ArrayXd, 3>& force,
                   std::span<const Index> registers, StopMotion& motion);
 
   ModalPropagator whole, half;
-  /// How far a mode with q and v at the start can carry any stop away from the cubic through both ends of its path.
+  /// Bounds, per unit q and per unit v of a mode at the start, on the departure of any stop's path
+  /// from the cubic through both of its ends.
   Eigen::ArrayXd swing_q, swing_v;
-  /// The same of a modal force that does not change over the step, and of all harmonic loads together, m.
+  /// The same per unit of a constant modal force, and for all harmonic loads together, m.
   Eigen::ArrayXd swing_force;
   double swing_harmonics = 0.0;
 
  private:
-  /// The nine columns of stop i: end, speed and middle by P_0, then by P_1 and P_2. Computed at their first use.
+  /// The nine columns of stop i: end, speed and middle by P_0, then by P_1 and P_2. Computed at the
+  /// first use.
   const Eigen::ArrayXXd& columns(Index i) {
     const Eigen::ArrayXXd& known = columns_[static_cast<std::size_t>(i)];
     return known.size() > 0 ? known : compute_columns(i);

@@ -11,25 +11,28 @@ namespace butee::dynamics {
 
 class Dynamics;
 
-/// The damped modes of any linear system M a + C v + K x = f(t), whatever its damping, turning parts or cross terms:
+/// The damped modes of any linear system M a + C v + K x = f(t), with any damping, turning parts or
+/// cross terms:
 ///
 ///     z_k' = lambda_k z_k + b_k . f(t),    x = Re sum_k r_k z_k,    v = Re sum_k lambda_k r_k z_k
 ///
-/// One mode of each complex pair is kept, with twice its shape. Columns of 2 p numbers hold the real parts of all p
-/// modes and then the imaginary parts, so that sums over modes are real products. Modes ascend in |lambda|.
+/// Of each complex pair one mode is kept, with twice its shape. Columns of 2 p numbers hold the
+/// real parts of all p modes and then the imaginary parts, so that sums over modes are real
+/// products. Modes ascend in |lambda|.
 ///
-/// The natural modes of M and the symmetric part of K that C and the rest of K couple form blocks, each with an
-/// eigenvalue problem of its own. Rigid motion and critical damping have no basis of eigenvectors; their stiffness is
-/// changed by kNudge times the largest of omega^2, delta^2 and 1/T^2, which over the run time T changes the motion by
-/// less than 1e-9 of itself. Checked against the matrix exponential in tests/unit/damped_modes_test.cpp.
+/// The natural modes of M and the symmetric part of K that are coupled by C and the rest of K form
+/// blocks, each with its own eigenvalue problem. Rigid motion and critical damping have no basis of
+/// eigenvectors; their stiffness is changed by kNudge times the largest of omega^2, delta^2 and
+/// 1/T^2, which changes the motion over the run time T by less than 1e-9 of itself. Checked against
+/// the matrix exponential in tests/unit/damped_modes_test.cpp.
 class BUTEE_EXPORT DampedModes {
  public:
-  /// The most DOFs, whose matrices are full.
+  /// The largest number of DOFs; the matrices are full.
   static constexpr Index kMost = 600;
   static constexpr double kNudge = 1e-10;
 
-  /// `run_time` is T, s. Throws InputError where the speed of rotation varies, there are too many DOFs, or no basis of
-  /// modes is found.
+  /// `run_time` is T, s. Throws InputError if the speed of rotation varies, there are too many
+  /// DOFs, or no basis of modes is found.
   DampedModes(Dynamics& dynamics, double run_time);
 
   Index count() const { return decay_.size(); }           ///< p
@@ -41,15 +44,15 @@ class BUTEE_EXPORT DampedModes {
   const Eigen::MatrixXd& velocity() const { return velocity_; }          ///< 2p x n
   const Eigen::MatrixXd& input() const { return input_; }                ///< 2p x n: z' gets column d times f_d
 
-  /// z, 2p numbers, of a motion.
+  /// z, 2p numbers, of the motion (x, v).
   void to_modal(ConstVectorRef x, ConstVectorRef v, Eigen::Ref<Eigen::VectorXd> z) const;
 
  private:
-  /// Natural modes coupled with each other, and their part of the eigenvector basis.
+  /// Natural modes that are coupled, and their part of the eigenvector basis.
   struct Block {
     std::vector<Index> modes;  ///< natural modes
-    std::vector<Index> kept;   ///< of the damped modes, one of each pair
-    Eigen::ArrayXd scale;      ///< s_i, 1/s: of the coordinates (s q, q')
+    std::vector<Index> kept;   ///< indices of the damped modes, one of each pair
+    Eigen::ArrayXd scale;      ///< s_i, 1/s, of the coordinates (s q, q')
     Eigen::VectorXcd values;
     Eigen::MatrixXcd vectors, inverse;
   };

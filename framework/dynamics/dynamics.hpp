@@ -15,16 +15,17 @@
 
 namespace butee::dynamics {
 
-/// What an integrator may ask of the system M a + C v + K x = F(t) + F_c(x).
+/// Operations on the system M a + C v + K x = F(t) + F_c(x) for integrators.
 ///
-/// Where the speed of rotation varies, C and K are those of the last instant t that was asked for.
+/// If the speed of rotation varies, C and K are those of the last instant t that was asked for.
 ///
-/// Matrices, factorizations and caches live here, never in an integrator. Each is made at its first use, so that a
-/// method pays for nothing it does not ask for. Vectors have size(): displacements m or rad, forces N or N m. Not for
-/// several threads at once; a simulation of its own for each.
+/// Matrices, factorizations and caches live here, never in an integrator. Each is made at its first
+/// use, so that unused features cost nothing. Vectors have size(): displacements m or rad, forces N
+/// or N m. Not thread-safe; each thread needs its own simulation.
 class BUTEE_EXPORT Dynamics {
  public:
-  /// `system` must outlive it. Throws InputError where modes that are to be damped could not be computed.
+  /// `system` must outlive this object. Throws InputError if modes with modal damping could not be
+  /// computed.
   explicit Dynamics(const model::System& system);
 
   const model::System& system() const { return system_; }
@@ -32,39 +33,43 @@ class BUTEE_EXPORT Dynamics {
   Index stop_count() const { return contact_.size(); }
   bool has_damping() const { return has_damping_; }
   Contact& contact() { return contact_; }
-  /// Contacts in the plane, with dissipation or friction; null where the scene has none.
+  /// Contacts in the plane, with dissipation or friction; null if the scene has none.
   Obstacles* obstacles() { return obstacles_.get(); }
-  /// The forces that hold the contacts that stick rigidly at a motion, as Obstacles::rigid_sticks() lists them, N.
+  /// The forces that hold the rigidly sticking contacts at a motion, in the order of
+  /// Obstacles::rigid_sticks(), N.
   const Vector& stick_forces(double t, ConstVectorRef x, ConstVectorRef v);
-  /// The forces of every contact of obstacles() at a motion, those that hold rigid sticks included.
+  /// The forces of every contact of obstacles() at a motion, including those that hold rigid
+  /// sticks.
   void contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std::vector<ContactForces>& all);
-  /// a += M^-1 T^T of the forces that hold the contacts that stick rigidly now, where any do
+  /// a += M^-1 T^T times the forces that hold the contacts that stick rigidly now, if any
   void hold_sticks(double t, VectorRef a);
-  /// v := the velocity after an impulse that stops the contacts that stick rigidly
+  /// v := the velocity after the impulse that stops the sliding of the contacts that stick rigidly
   void stop_sliding(double t, VectorRef v);
   linalg::Counters& counters() { return counters_; }
   const linalg::Counters& counters() const { return counters_; }
 
-  /// Takes C and K of an instant, where the speed of rotation varies.
+  /// Sets C and K to those of an instant, if the speed of rotation varies.
   void set_time(double t) {
     if (turning_) turning_->set_time(t);
   }
   /// F := F(t)
   void external_force(double t, VectorRef force);
-  /// Says that the loads' functions of time are others than before.
+  /// Invalidates cached load values, after time functions of loads have changed.
   void loads_changed() { load_time_ = std::numeric_limits<double>::quiet_NaN(); }
-  /// Says that the system has the stops and loads of another model (model::replace_loads()). Factorizations and modes
-  /// stay, so that everything is as if the dynamics were made anew.
+  /// To be called after model::replace_loads() has given the system the stops and loads of another
+  /// model. Factorizations and modes are kept; otherwise the object is as if newly constructed.
   void loads_replaced();
-  /// F := dF/dt(t), from the loads' Taylor series or, where they have none, a difference over `h` s
+  /// F := dF/dt(t), from the loads' Taylor series or, for loads without one, a difference over `h`
+  /// s
   void external_force_rate(double t, double h, VectorRef rate);
-  /// rate -= dC/dt v + dK/dt x, zero unless the speed of rotation varies; at the last instant that was asked for
+  /// rate -= dC/dt v + dK/dt x at the last instant that was asked for; zero unless the speed of
+  /// rotation varies
   void subtract_matrix_rate(ConstVectorRef x, ConstVectorRef v, VectorRef rate) const {
     if (turning_) turning_->subtract_rate(x, v, rate);
   }
   /// F += F_c(x) of the stops
   void add_contact_force(ConstVectorRef x, VectorRef force);
-  /// F += the forces of the other contacts
+  /// F += the forces of obstacles()
   void add_obstacle_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef force) {
     if (obstacles_) obstacles_->add_force(t, x, v, force);
   }
@@ -78,17 +83,18 @@ class BUTEE_EXPORT Dynamics {
   /// r := F(t) + F_c(x) - C v - K x
   void total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef r);
 
-  /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that meets F_c at x
+  /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that equals F_c at x
   void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
-  /// a := the solution of (M + velocity_factor C + displacement_factor (K + S^T kappa S)) a = F(t) + S^T (c - kappa S
-  /// x) - C v - K x, so that the equations of motion with those stops hold at x + displacement_factor a and v +
-  /// velocity_factor a. False where the matrix is not positive definite.
+  /// a := the solution of (M + velocity_factor C + displacement_factor (K + S^T kappa S)) a = F(t)
+  /// + S^T (c - kappa S x) - C v - K x: the equations of motion with the secant law then hold at x
+  /// + displacement_factor a and v + velocity_factor a. False if the matrix is not positive
+  /// definite.
   [[nodiscard]] bool solve_secant(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
                                   ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a);
 
-  /// r := F + F_c - M a - C v - K x with the forces of `load`, zero where no load acts,
-  /// and, in stop space, of `stop_force`; returns |r| and
-  /// |F| + |F_c| + |M a| + |C v| + |K x| (2-norms), against which it is small or not.
+  /// r := F + F_c - M a - C v - K x, with F = `load` (zero if no load acts) and F_c given in stop
+  /// space by `stop_force`. Returns |r| and its scale |F| + |F_c| + |M a| + |C v| + |K x|
+  /// (2-norms).
   linalg::ForceBalance residual(ConstVectorRef load, ConstVectorRef stop_force, ConstVectorRef x, ConstVectorRef v,
                                 ConstVectorRef a, VectorRef r);
 
@@ -100,7 +106,8 @@ class BUTEE_EXPORT Dynamics {
   /// The effective equations of an implicit method.
   EffectiveSolver& effective();
 
-  /// The system in its `count` lowest modes (0: as ModalSystem chooses), computed at the first call. Throws InputError.
+  /// The system in its `count` lowest modes (0: ModalSystem chooses), computed at the first call.
+  /// Throws InputError.
   ModalSystem& modal(Index count = 0);
   /// The instants at which a load or one of its derivatives jumps, ascending.
   std::vector<double> load_discontinuities() const;
@@ -116,7 +123,7 @@ class BUTEE_EXPORT Dynamics {
   };
 
   linalg::LinearSolver& mass_solver();
-  /// Sees that the matrices are those of the contacts that stick now; false where none does.
+  /// Updates the matrices for the contacts that stick now; false if none sticks.
   bool prepare_sticks();
   void solve_sticks(VectorRef y);
   enum class From { given, nothing };
@@ -131,23 +138,24 @@ class BUTEE_EXPORT Dynamics {
                            ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a);
   /// r -= C v + K x
   void subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r);
-  /// r -= what of C v + K x is no multiple of M v, and no modal damping; from nothing, r was 0.
+  /// r -= the part of C v + K x that is neither a multiple of M v nor modal damping. From::nothing:
+  /// r is zero on entry.
   void subtract_from(From from, ConstVectorRef x, ConstVectorRef v, VectorRef r);
   /// r -= K x + velocity_factor D v with the dashpots D
   void subtract_products(From from, const double* x, double velocity_factor, ConstVectorRef v, VectorRef r);
-  /// a := M^-1 a, less the deceleration by damping that subtract_from() left out
+  /// a := M^-1 a, minus the deceleration by the damping that subtract_from() left out
   void solve_mass(ConstVectorRef v, VectorRef a);
-  /// y := a block of the rows of C v, but for modal damping
+  /// y := a block of rows of C v without modal damping
   void damping_rows(ConstVectorRef v, Index begin, Index count, double* y);
 
   const model::System& system_;
   linalg::Counters counters_;
   Contact contact_;
-  std::unique_ptr<Obstacles> obstacles_;       ///< null where there are none
+  std::unique_ptr<Obstacles> obstacles_;       ///< null if there are none
   std::unique_ptr<const ModalDamping> modal_;  ///< null without modal damping
   bool has_damping_;
   std::unique_ptr<Turning> turning_;  ///< null unless the speed of rotation varies
-  double single_damping_ = 0.0;       ///< C of a system of one DOF
+  double single_damping_ = 0.0;       ///< C of a system with one DOF
   linalg::SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
   std::optional<linalg::LinearSolver> mass_solver_;
   std::optional<EffectiveSolver> effective_;
@@ -155,13 +163,15 @@ class BUTEE_EXPORT Dynamics {
   std::vector<LoadedDof> loaded_dofs_;
   double load_time_;
   std::array<double, 2> load_series_{};
-  std::vector<double> load_values_;  ///< of the loads at load_time_; the stages of a method often share an instant
-  std::vector<bool> has_stops_, has_loads_;  ///< of each block of rows
+  std::vector<double> load_values_;  ///< values of the loads at load_time_, since several stages of a method often
+                                     ///< share an instant
+  std::vector<bool> has_stops_, has_loads_;  ///< for each block of rows
   Vector contact_force_, stop_displacement_, stop_velocity_, stop_force_;
-  Vector other_vector_, turning_damping_, turning_inertia_;  ///< of systems whose speed of rotation varies
-  Vector shifted_, modal_force_;             ///< x + s v and C v, of systems with Rayleigh and with modal damping
-  Vector work_, other_, inertia_, damping_;  ///< of a block of rows
-  // Contacts that stick rigidly: their indices, M^-1 T^T (n x their number), T M^-1 T^T, and the forces that hold them.
+  Vector other_vector_, turning_damping_, turning_inertia_;  ///< for systems whose speed of rotation varies
+  Vector shifted_, modal_force_;             ///< x + s v and C v, for systems with Rayleigh and with modal damping
+  Vector work_, other_, inertia_, damping_;  ///< for a block of rows
+  // Contacts that stick rigidly: their indices, M^-1 T^T (n x number of contacts), T M^-1 T^T, and
+  // the holding forces.
   std::vector<Index> sticks_;
   Eigen::MatrixXd stick_motion_, stick_compliance_;
   Vector stick_force_, stick_acceleration_;

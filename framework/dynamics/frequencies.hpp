@@ -6,7 +6,8 @@
 
 namespace butee::dynamics {
 
-/// The lowest and the highest natural frequency of a system without damping, rad/s. Rigid-body motion has frequency 0.
+/// The lowest and the highest natural frequency of an undamped system, rad/s. Rigid-body motion has
+/// frequency 0.
 struct FrequencyRange {
   double lowest = 0.0;
   double highest = 0.0;
@@ -14,24 +15,28 @@ struct FrequencyRange {
 
 enum class StopState { open, closed };
 
-/// The range with all stops open or all of them closed (K + S^T k_c S). Dense for small systems, Lanczos for large ones
-/// (relative accuracy about 1e-6); nothing where Lanczos did not converge.
+/// The range with all stops open or all stops closed (K + S^T k_c S). Dense for small systems,
+/// Lanczos for large ones (relative accuracy about 1e-6); nothing if Lanczos did not converge.
 BUTEE_EXPORT std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops);
 
-/// Modes of a system without damping, its stops open, the lowest first: K phi_i = omega_i^2 M phi_i, Phi^T M Phi = 1.
+/// Modes of an undamped system with open stops, lowest first: K phi_i = omega_i^2 M phi_i, Phi^T M
+/// Phi = 1.
 struct Modes {
   Vector frequencies;      ///< omega, rad/s; zero for rigid motion
   Eigen::MatrixXd shapes;  ///< Phi, n x p
 };
 
-/// The `count` lowest modes, 1 <= count <= n. Dense for small systems and for more than half of all modes, Lanczos with
-/// a count of the eigenvalues below the last one otherwise; nothing where that did not converge or missed a mode.
+/// The `count` lowest modes, 1 <= count <= n. Dense for small systems and for more than half of all
+/// modes; otherwise Lanczos with a count of the eigenvalues below the last one. Nothing if Lanczos
+/// did not converge or missed a mode.
 ///
-/// Where omega_i is below 3e-7 of the highest frequency, rounding cannot tell it from rigid motion: it is set to zero.
+/// If omega_i is below 3e-7 of the highest frequency, rounding cannot distinguish it from rigid
+/// motion: it is set to zero.
 BUTEE_EXPORT std::optional<Modes> lowest_modes(const model::System& system, Index count);
 
-/// sqrt(k_c/m) of the stop with the highest, of the masses that its DOFs have on the diagonal of M, rad/s: an estimate
-/// from below of how fast an impact can be, which lasts pi over it. 0 without stops.
+/// The largest sqrt(k_c/m) of all stops, rad/s, with the masses on the diagonal of M at the stop's
+/// DOFs: a lower estimate of the frequency of an impact, whose duration is pi divided by it. 0
+/// without stops.
 BUTEE_EXPORT double contact_frequency(const model::System& system, const Contact& contact);
 
 /// K, or K + S^T k_c S with all stops closed.

@@ -12,17 +12,18 @@ namespace butee::dynamics {
 /// Modal forces cosine cos(Omega t) + sine sin(Omega t).
 struct ModalHarmonic {
   double angular_frequency = 0.0;  ///< Omega, rad/s
-  Eigen::ArrayXd cosine, sine;     ///< one entry a mode
+  Eigen::ArrayXd cosine, sine;     ///< one entry per mode
 };
 
-/// The motion of uncoupled modes over one step of length h, without error:
+/// The exact motion of uncoupled modes over one step of length h:
 ///
 ///     q'' + 2 delta q' + omega^2 q = f_0 P_0 + f_1 P_1 + f_2 P_2 + harmonics
 ///     q(h) = qq q + qv v + sum_k force_q(k) f_k + Re(e^(i Omega t) harmonic_q),   v(h) likewise
 ///
-/// with the shifted Legendre polynomials P_k of the place in the step. Everything is a column with one entry a mode;
-/// modes may be rigid, vibrating, or overdamped. Built from a Taylor series over a length that is short for every mode
-/// and doublings, both of which know no special cases; the free motion of the result can then be taken from its closed
+/// with the shifted Legendre polynomials P_k of the position in the step. Every quantity is a
+/// column with one entry per mode; modes may be rigid, vibrating, or overdamped. The propagator is
+/// built from a Taylor series over a length that is short for every mode, followed by doublings;
+/// neither has special cases. The free motion of the result can then be replaced by its closed
 /// form. Checked against closed forms in tests/unit/modal_flow_test.cpp.
 class BUTEE_EXPORT ModalPropagator {
  public:
@@ -30,13 +31,14 @@ class BUTEE_EXPORT ModalPropagator {
   ModalPropagator(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics,
                   double h);
 
-  /// The longest h that needs no doubling, s.
+  /// The largest h that needs no doubling, s.
   static double longest_series(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta,
                                const std::vector<ModalHarmonic>& harmonics);
 
-  /// The flow over 2 h.
+  /// The propagator over 2 h.
   ModalPropagator doubled() const;
-  /// Takes the free motion from its closed form, whose error does not grow with the number of doublings.
+  /// Replaces the free motion by its closed form, whose error does not grow with the number of
+  /// doublings.
   void refine(const Eigen::ArrayXd& omega, const Eigen::ArrayXd& delta);
 
   double h() const { return h_; }
@@ -45,14 +47,14 @@ class BUTEE_EXPORT ModalPropagator {
   auto qv() const { return columns_.col(1); }
   auto vq() const { return columns_.col(2); }
   auto vv() const { return columns_.col(3); }
-  /// What a force P_k, k = 0, 1, 2, does to q and v.
+  /// The response of q and v to a force P_k, k = 0, 1, 2.
   auto force_q(int k) const { return columns_.col(kForce + 2 * k); }
   auto force_v(int k) const { return columns_.col(kForce + 2 * k + 1); }
-  /// All of them: q and v of P_0, then of P_1 and P_2.
+  /// All six columns: q and v of P_0, then of P_1 and P_2.
   auto forces() const { return columns_.middleCols(kForce, 6).matrix(); }
 
-  /// What the harmonics do in a step that begins at t: q += harmonic_q(j, 0) cos(Omega_j t) - harmonic_q(j, 1)
-  /// sin(Omega_j t).
+  /// The response to the harmonics in a step that begins at t: q += harmonic_q(j, 0) cos(Omega_j t)
+  /// - harmonic_q(j, 1) sin(Omega_j t).
   const std::vector<double>& angular_frequencies() const { return angular_frequencies_; }
   auto harmonic_q(std::size_t j, int part) const { return columns_.col(harmonic_column(j) + 2 * part); }
   auto harmonic_v(std::size_t j, int part) const { return columns_.col(harmonic_column(j) + 2 * part + 1); }

@@ -12,22 +12,24 @@ namespace butee::dynamics {
 
 class Dynamics;
 
-/// A system in the modes of its linear part, its stops open: x = Phi q, Phi^T M Phi = 1.
+/// A system in the modes of its linear part, with open stops: x = Phi q, Phi^T M Phi = 1.
 ///
-/// Each mode is an oscillator of its own, q_i'' + 2 delta_i q_i' + omega_i^2 q_i = phi_i^T (F(t) + F_c), with the flow
-/// over a step known exactly. Flows are kept on a ladder of steps, h = 2^(level/2) s, of which two neighbouring ones
-/// differ by sqrt(2), and for a few other lengths.
+/// Each mode is an independent oscillator, q_i'' + 2 delta_i q_i' + omega_i^2 q_i = phi_i^T (F(t) +
+/// F_c), whose propagator over a step is exact. Propagators are kept on a geometric step-size grid,
+/// h = 2^(level/2) s, where neighbouring steps differ by a factor of sqrt(2), and for a few other
+/// lengths.
 class BUTEE_EXPORT ModalSystem {
  public:
-  /// Systems up to this size take all their modes.
+  /// Systems up to this size use all their modes.
   static constexpr Index kAllModes = 600;
 
-  /// A truncated basis is given the static shapes of so many stops and loads at most.
+  /// The largest number of stops and loads whose static shapes are added to a truncated basis.
   static constexpr Index kMostStaticShapes = 300;
 
-  /// `count` modes, the lowest; 0: all of them up to kAllModes, else kAllModes/2. Where those are not all, the static
-  /// shapes of stops and loads are added (static_shapes.hpp). Throws InputError where dashpots or other damping couple
-  /// the modes, or they could not be computed. `dynamics` must outlive it.
+  /// `count` is the number of lowest modes; 0: all of them up to kAllModes, else kAllModes/2. If
+  /// those are not all modes, the static shapes of stops and loads are added (static_shapes.hpp).
+  /// Throws InputError if dashpots or other damping couple the modes, or they could not be
+  /// computed. `dynamics` must outlive this object.
   ModalSystem(Dynamics& dynamics, Index count);
 
   Index size() const { return frequencies_.size(); }
@@ -39,18 +41,19 @@ class BUTEE_EXPORT ModalSystem {
   const Eigen::MatrixXd& shapes() const { return shapes_; }           ///< Phi, n x p
   const Eigen::MatrixXd& shape_rows() const { return rows_; }         ///< Phi^T, p x n: a column for each DOF
   const StopShapes& stop_shapes() const { return stop_shapes_; }      ///< Phi^T S^T, p x m
-  /// omega of the last one that is a mode, rad/s
+  /// omega of the last column that is a mode, rad/s
   double highest_mode() const { return frequencies_[size() - static_count_ - 1]; }
-  /// The shapes among them that are no modes, but the static response of those left out.
+  /// The number of columns that are not modes but static responses of the omitted modes.
   Index static_count() const { return static_count_; }
-  /// The largest share of the static displacement of a stop or a load under its own force that the modes left out
-  /// carry as static shapes. 0 with all modes; without static shapes it is not known.
+  /// The largest fraction of the static displacement of a stop or a load under its own force that
+  /// the omitted modes contribute as static shapes. 0 with all modes; not known without static
+  /// shapes.
   double truncation() const { return truncation_; }
 
   void to_modal(ConstVectorRef x, Eigen::Ref<Eigen::VectorXd> q) const;
   void to_physical(const double* q, VectorRef x) const;
 
-  /// Loads that are no harmonics: modal shape times a course in time.
+  /// Loads that are not harmonics: modal shape times a function of time.
   struct OtherLoad {
     const model::TimeFunction* in_time;
     Eigen::ArrayXd shape;
@@ -60,13 +63,14 @@ class BUTEE_EXPORT ModalSystem {
   /// r += Phi^T F(t)
   void add_load(double t, Eigen::Ref<Eigen::ArrayXd> r) const;
 
-  /// Takes the loads and laws that the system of `dynamics` has now; the modes stay.
+  /// Takes the present loads and laws of the system of `dynamics`; the modes are kept.
   void replace_loads(const Dynamics& dynamics);
 
   static double grid_step(int level);
-  /// The flow over grid_step(level).
+  /// The contact propagator over grid_step(level).
   ContactPropagator& propagator(int level);
-  /// The flow over any other length. Kept until several others have been asked for.
+  /// The contact propagator over any other length. Kept until several other lengths have been asked
+  /// for.
   ContactPropagator& odd(double h);
 
  private:

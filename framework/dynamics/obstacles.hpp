@@ -11,30 +11,31 @@
 
 namespace butee::dynamics {
 
-/// Within a phase the force of a contact is a smooth function of the motion.
+/// The phase of a contact. Within a phase its force is a smooth function of the motion.
 struct ContactPhase {
   enum class Normal : std::uint8_t {
     apart,     ///< g < 0
-    released,  ///< g > 0, but the dissipative law would pull
+    released,  ///< g > 0, but the dissipative law would give a tensile force
     pressed,   ///< a force acts
-    receding,  ///< a force acts, g' < 0, where the law tells approach from rebound
-    pulling    ///< F_n < 0 of a dashpot that may pull, in a contact with friction: none acts
+    receding,  ///< a force acts and g' < 0; only for laws that distinguish approach from rebound
+    pulling    ///< tensile F_n < 0 of a dashpot, in a contact with friction: no friction acts
   };
   enum class Slip : std::uint8_t {
-    smooth,   ///< no friction, or the steep part of a law that is smooth in the slip speed, |w| <= k slip_speed
-    stick,    ///< or, of a clipped law, the linear part
+    smooth,   ///< no friction, or the steep part of a smooth law, |w| <= k slip_speed
+    stick,    ///< or, for a clipped law, its linear part
     forward,  ///< slip with w > 0
     backward,
     ahead,  ///< the flat part w > k slip_speed of a smooth law
-    behind  ///< that of w < -k slip_speed
+    behind  ///< the flat part w < -k slip_speed
   };
-  /// k for sqrt and for tanh. A step that passes the steep part in one goes may not see it: it ends where that part
-  /// begins. A series of tanh that begins where it is 1 to rounding sees nothing of its other side.
+  /// k for sqrt and for tanh. A step that crosses the steep part entirely could miss it, so a step
+  /// ends where that part begins. A Taylor series about a point where tanh is 1 to rounding does
+  /// not represent the other side of tanh.
   static constexpr double kSteep = 4.0, kSteepOfTanh = 20.0;
   Normal normal = Normal::apart;
   Slip slip = Slip::smooth;
-  double anchor = 0.0;  ///< m: the path at which a stick spring is unstressed
-  double angle = 0.0;   ///< rad: of the arm in a ring, from which the path is measured
+  double anchor = 0.0;  ///< m: path of the slip at which a stick spring is unstressed
+  double angle = 0.0;   ///< rad: angle of the arm in a ring from which the path is measured
 
   bool touches() const { return normal == Normal::pressed || normal == Normal::receding; }
   friend bool operator==(const ContactPhase&, const ContactPhase&) = default;
@@ -42,35 +43,37 @@ struct ContactPhase {
 
 /// Kinematics, forces and stored energy of a contact at an instant.
 struct ContactForces {
-  double penetration = 0.0;            ///< g, m; 0 of a friction support
+  double penetration = 0.0;            ///< g, m; 0 for a friction support
   double rate = 0.0;                   ///< g', m/s
   double normal = 0.0;                 ///< F_n, N
   double friction = 0.0;               ///< F_t = mu F_n s, N, against the slip
   double slip_speed = 0.0;             ///< w, m/s
-  double surface = 0.0;                ///< the part of w that is not the motion of the nodes, m/s
-  double stored = 0.0;                 ///< J, elastic, in the normal law and a stick spring
+  double surface = 0.0;                ///< the part of w that is not motion of the nodes, m/s
+  double stored = 0.0;                 ///< J, elastic energy in the normal law and a stick spring
   Eigen::Vector2d force = {0.0, 0.0};  ///< on node a along its directions, N
   double torque = 0.0;                 ///< of friction on node a about x, N m
 };
 
 /// The contacts of a system that have two directions, dissipation or friction, one after the other.
 ///
-/// Each is evaluated in its phase: in those that follow() was given, which the force then continues beyond their ends,
-/// or, live, in the phase that the instant itself tells. Laws with memory need given phases. Checked against closed
-/// forms in tests/models/obstacle_test.cpp and by differences in tests/unit/obstacles_test.cpp.
+/// Each is evaluated in its phase: either in the phase given to follow(), whose force is continued
+/// beyond the end of the phase, or "live", in the phase that follows from the present motion. Laws
+/// with memory need given phases. Checked against closed forms in tests/models/obstacle_test.cpp
+/// and by differences in tests/unit/obstacles_test.cpp.
 class BUTEE_EXPORT Obstacles {
  public:
-  /// The coordinates of a contact: its two directions and the rotation of node a that friction twists.
+  /// The coordinates of a contact: its two directions and the rotation of node a on which friction
+  /// acts.
   using Coordinates = Eigen::Vector3d;
   using Block = Eigen::Matrix3d;
   /// Entries of State::contact for each contact.
   static constexpr Index kStateSize = 4;
   /// Entries of memory() for each contact.
   static constexpr Index kMemorySize = 3;
-  /// The most switching functions of a contact.
+  /// The largest number of switching functions of a contact.
   static constexpr std::size_t kMostSwitches = 5;
 
-  /// `system` and `counters` must outlive it.
+  /// `system` and `counters` must outlive this object.
   Obstacles(const model::System& system, linalg::Counters& counters);
 
   Index size() const { return static_cast<Index>(contacts_.size()); }
@@ -79,57 +82,61 @@ class BUTEE_EXPORT Obstacles {
   const model::ObstacleGroup& group_of(Index i) const { return *at(i).group; }
   const std::string& name_of(Index i) const { return *at(i).name; }
   const model::FreeObstacles::Ends& ends_of(Index i) const { return *at(i).ends; }
-  /// Whether contact i has a free DOF of a node, by its canonical number.
+  /// Whether contact i acts on a free DOF of a node, given by its canonical number.
   bool touches_node(Index i, const model::DofTable& dofs, model::NodeId node) const;
-  /// The free DOFs of all contacts, each once, ascending.
+  /// The free DOFs of all contacts, without repetition, ascending.
   const std::vector<Index>& dofs() const { return dofs_; }
-  /// True where a contact sticks rigidly in some phase, so that its force follows from the motion of the structure.
+  /// True if a contact sticks rigidly in some phase, so that its force follows from the motion of
+  /// the structure.
   bool has_rigid_friction() const { return has_rigid_friction_; }
 
-  /// Takes the phases of all contacts, kStateSize numbers each.
+  /// Sets the phases of all contacts, kStateSize numbers each.
   void follow(ConstVectorRef phases);
   void follow_live() { is_live_ = true; }
-  /// The phases that are followed, as State::contact.
+  /// Writes the present phases in the layout of State::contact.
   void write_phases(VectorRef phases) const;
   ContactPhase phase(Index i) const { return phases_[static_cast<std::size_t>(i)]; }
   void set_phase(Index i, const ContactPhase& phase) { phases_[static_cast<std::size_t>(i)] = phase; }
   bool is_live() const { return is_live_; }
 
-  /// force += those of all contacts at the motion (x, v); rigid sticking apart.
+  /// force += the forces of all contacts at the motion (x, v), except rigid sticking.
   void add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef force);
   ContactForces forces(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
   /// The sum of ContactForces::stored, J.
   double energy(double t, ConstVectorRef x, ConstVectorRef v) const;
 
-  /// The phase of a contact that an instant tells by itself. Where the path is at its anchor a stick spring is
-  /// unstressed.
+  /// The phase of a contact that follows from the motion at an instant alone. A stick spring is
+  /// then unstressed.
   ContactPhase phase_at(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
-  /// What contact i in `phase` remembers of the motion before an instant: the numbers of its phase and, in m, how far a
-  /// stick spring is stretched. Unlike an anchor that depends on neither the time nor the surface's path.
+  /// The memory of contact i in `phase`: the numbers of its normal and slip phase and the stretch
+  /// of its stick spring, m. Unlike an anchor, the stretch depends neither on the time nor on the
+  /// path of the surface.
   Eigen::Vector3d memory(Index i, const ContactPhase& phase, double t, ConstVectorRef x, ConstVectorRef v) const;
-  /// phase_at(), with slip and stretch as in `memory` where the contact touched then and touches now.
+  /// phase_at(), with slip and stretch from `memory` if the contact touched then and touches now.
   ContactPhase phase_after(Index i, const Eigen::Vector3d& memory, double t, ConstVectorRef x, ConstVectorRef v) const;
-  /// The switching functions of the phase of contact i, positive within it, and the phases they lead to. `held` is the
-  /// tangential force that holds a rigid stick, N. Returns their number.
+  /// The switching functions of the phase of contact i, positive within it, and the phases they
+  /// lead to. `held` is the tangential force that holds a rigid stick, N. Returns their number.
   struct Switch {
     double value;
     ContactPhase to;
   };
   std::size_t switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, double held,
                        std::array<Switch, kMostSwitches>& out) const;
-  /// A phase as it goes on from an instant: a stick spring's arc is measured from where the arm is then, so that it may
-  /// go round the ring any number of times.
+  /// The same phase with the arc of a stick spring measured from the present angle of the arm, so
+  /// that the contact may go around the ring any number of times.
   ContactPhase rebased(Index i, const ContactPhase& phase, ConstVectorRef x) const;
-  /// d_i and its velocity, and those of the rotation that friction twists.
+  /// d_i and its velocity, and those of the rotation on which friction acts.
   struct Motion {
     Eigen::Vector2d d, v;
     double rotation, rotation_speed;
   };
   Motion motion(Index i, ConstVectorRef x, ConstVectorRef v) const;
-  /// True where a contact is apart at x by more than rounding; false for shapes of other forms than lines and circles.
+  /// True if a contact is apart at x by more than rounding; false for shapes other than lines and
+  /// circles.
   bool is_apart(Index i, ConstVectorRef x) const { return is_apart(at(i), gather(i, x).head<2>()); }
-  /// False where a motion that goes from one to the other within h seconds stays apart: where both ends are farther
-  /// away than the speeds of both cover, which a cubic through them exceeds by 4/27 at most.
+  /// False if a motion from one to the other within h seconds stays apart: both ends are farther
+  /// away than the distance covered at both speeds, which a cubic through them exceeds by 4/27 at
+  /// most.
   bool may_touch(Index i, const Motion& from, const Motion& to, double h) const;
 
   /// -dF/dd, -dF/dd' and dF/dt of a contact, N/m, N s/m, N/s.
@@ -138,21 +145,23 @@ class BUTEE_EXPORT Obstacles {
     Block stiffness, damping;
     Coordinates rate;
   };
-  /// Of the contacts that exert a force, in their phases.
+  /// For the contacts that exert a force, in their phases.
   const std::vector<Tangent>& tangents(double t, ConstVectorRef x, ConstVectorRef v);
 
-  /// Contacts that stick rigidly now, and the row T of the constraint T v = b(t) of each: t along its directions.
+  /// Contacts that stick rigidly now; each has a constraint T v = b(t), with the row T along its
+  /// tangent t.
   std::vector<Index> rigid_sticks() const;
-  /// The slip speed of a line or a friction support per unit velocity: its tangent, and the arm of the rotation, m.
+  /// The slip speed of a line or a friction support per unit velocity: its tangent, and the arm of
+  /// the rotation, m.
   Coordinates tangent_of(Index i) const;
   /// db/dt, m/s2
   double surface_acceleration(Index i, double t) const;
-  /// The arm of the rotation that friction twists, m: 0 where there is none.
+  /// The arm of the rotation on which friction acts, m; 0 if there is none.
   double arm_of(Index i) const { return at(i).arm; }
   /// force += value T^T
   void scatter(Index i, const Coordinates& value, VectorRef force) const;
   Coordinates gather(Index i, ConstVectorRef y) const;
-  /// Calls entry(i, j, value) for the places of S^T block S on the free DOFs.
+  /// Calls entry(i, j, value) for the entries of S^T block S on the free DOFs.
   template <class Entry>
   void visit(Index contact, const Block& block, Entry entry) const {
     const model::FreeObstacles::Ends& ends = ends_of(contact);
@@ -174,12 +183,12 @@ class BUTEE_EXPORT Obstacles {
     const std::string* name;
     model::ContactShape::Form form;
     double rest_energy;            ///< of the law at d = 0, J
-    double radius;                 ///< m, negative where the directions turn against x
-    double arm;                    ///< m, `radius` where friction twists a free rotation, else 0
-    double reach = 0.0;            ///< m: nearer than that it is apart, whatever the rounding
+    double radius;                 ///< m, negative if the order of the directions is opposite to rotation about x
+    double arm;                    ///< m, `radius` if friction acts on a free rotation, else 0
+    double reach = 0.0;            ///< m: Form::distance with a margin for rounding, for is_apart()
     bool is_silent_apart = false;  ///< no force acts while apart
   };
-  /// Where a contact is, and its slip.
+  /// Position of a contact and its slip.
   struct Kinematics {
     Motion motion;
     model::Approach approach;
@@ -189,7 +198,7 @@ class BUTEE_EXPORT Obstacles {
   struct Normal {
     double force, elastic, by_penetration, by_rate;
   };
-  /// s(w) of a smooth or clipped rule and its derivative, or of a slip phase.
+  /// s(w) of a smooth or clipped rule, or of a slip phase, and its derivative.
   struct Slide {
     double share, slope;
   };
@@ -198,16 +207,17 @@ class BUTEE_EXPORT Obstacles {
   Kinematics kinematics(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
   Normal normal(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;
   ContactPhase live_phase(const Contact& contact, const Kinematics& at) const;
-  /// The normal force of a closed contact over the sum of what it is made of: its sign, and regular at g = 0.
+  /// The normal force of a closed contact divided by the sum of the magnitudes of its terms: has
+  /// its sign, and is regular at g = 0.
   double pressing_share(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;
   static Slide slide(const model::Friction& friction, ContactPhase::Slip phase, double w);
-  /// The path of the slip since some origin: a function of the motion, of which w is the rate (of a ring, at its gap).
-  /// In a ring it holds the arc from `angle`, by the shorter way round.
+  /// The path of the slip since some origin: a function of the motion whose rate is w (for a ring,
+  /// at its gap). For a ring it contains the arc from `angle`, the shorter way around.
   double path(Index i, double t, const Kinematics& at, double angle) const;
-  /// The angle of the arm in a ring, rad; 0 of other contacts.
+  /// The angle of the arm in a ring, rad; 0 for other contacts.
   double angle_of(Index i, const Kinematics& at) const;
   double friction_force(Index i, double t, const Kinematics& at, const ContactPhase& phase, double normal) const;
-  /// True where no force acts since the contact is apart.
+  /// True if no force acts because the contact is apart.
   bool is_idle(Index i, ConstVectorRef x) const {
     const Contact& contact = at(i);
     if (!contact.is_silent_apart) return false;

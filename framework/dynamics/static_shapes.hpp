@@ -4,17 +4,19 @@
 
 namespace butee::dynamics {
 
-/// Private to this folder: what the modes left out of a truncated basis do under given forces, as if they had no
-/// inertia.
+/// Private to this folder: the response of the modes omitted from a truncated basis to given
+/// forces, without their inertia.
 ///
-/// Adds to the lowest modes the static displacements under the columns of `forces` (n x k), freed of those modes and
-/// made modes of their own by a Rayleigh-Ritz step: Phi^T M Phi stays 1 and Phi^T K Phi diagonal, and with them the
-/// basis holds every static response to those forces. Displacements that depend on the others are left out. A weak
-/// spring to the ground on every DOF, 1e-4 of the last mode's stiffness, lets rigid motion pass; it makes the static
-/// response wrong by as much. Checked in tests/unit/static_shapes_test.cpp.
+/// Adds to the lowest modes the static displacements under the columns of `forces` (n x k), made
+/// orthogonal to those modes and to each other by a Rayleigh-Ritz step: Phi^T M Phi stays 1 and
+/// Phi^T K Phi diagonal, and the basis contains every static response to those forces. Linearly
+/// dependent displacements are omitted. A weak spring to ground on every DOF, 1e-4 of the last
+/// mode's stiffness, allows rigid motion; it changes the static response by as much. Checked in
+/// tests/unit/static_shapes_test.cpp.
 ///
-/// Returns, for each force, the part of the displacement along itself that the modes left out carry. Empty, and
-/// `modes` as they were, where the linear system or the small eigenproblem could not be solved.
+/// Returns, for each force, the fraction of the displacement along itself that the omitted modes
+/// contribute. Empty, with `modes` unchanged, if the linear system or the small eigenproblem could
+/// not be solved.
 ///
 /// Sources: R. H. MacNeal, Computers and Structures 1 (1971) 581-601, doi:10.1016/0045-7949(71)90031-9; S. Rubin, AIAA
 /// Journal 13 (1975) 995-1006, doi:10.2514/3.60497.

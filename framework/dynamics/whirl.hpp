@@ -9,20 +9,21 @@
 
 namespace butee::dynamics {
 
-/// A damped mode of a structure whose parts turn: x(t) = Re(shape e^(lambda t)).
+/// A damped mode of a structure with turning parts: x(t) = Re(shape e^(lambda t)).
 struct BUTEE_EXPORT WhirlMode {
   std::complex<double> lambda;  ///< 1/s, rad/s; Im >= 0
   Eigen::VectorXcd shape;       ///< of the free DOFs, largest entry 1
-  /// From +1 (circular orbits in the sense of +x) over 0 (motion along a line) to -1 (against it); 0 without orbits.
+  /// From +1 (circular orbits about +x) through 0 (motion along a line) to -1 (circular orbits the
+  /// opposite way); 0 without orbits.
   double direction = 0.0;
-  bool is_mixed = false;  ///< some nodes go round one way, some the other
+  bool is_mixed = false;  ///< some nodes whirl forward, others backward
 
   double frequency() const { return lambda.imag(); }  ///< rad/s
   double damping_ratio() const;                       ///< -Re lambda / |lambda|
   double logarithmic_decrement() const;               ///< 2 pi (-Re lambda) / Im lambda; infinite without oscillation
 };
 
-/// Critical speed: a mode turns `order` times for each turn of the shaft.
+/// Critical speed: a mode has `order` periods in each turn of the shaft.
 struct CriticalSpeed {
   double speed = 0.0;      ///< rad/s
   double direction = 0.0;  ///< of the mode, as in WhirlMode
@@ -30,26 +31,30 @@ struct CriticalSpeed {
 
 /// The eigenvalue problem (lambda^2 M + lambda (C + Omega G) + K + Omega W) x = 0 of a model at any speed Omega.
 ///
-/// Up to kDense free DOFs all modes are found densely, in the modes of M and K at rest, which keeps the low ones exact
-/// to rounding of the highest frequency; beyond, the lowest by Arnoldi's method (Spectra) on the inverse, factorized by
-/// KLU. Checked against closed forms and published rotors in tests/verification/rotor_test.cpp.
+/// Up to kDense free DOFs all modes are found densely, in the modes of M and K at rest, which keeps
+/// the low ones exact to rounding of the highest frequency; for more DOFs the lowest modes are
+/// found by Arnoldi's method (Spectra) on the inverse, factorized by KLU. Checked against closed
+/// forms and published rotors in tests/verification/rotor_test.cpp.
 class BUTEE_EXPORT Whirl {
  public:
   static constexpr Index kDense = 400;
 
-  /// `model` must outlive it. Throws InputError where it has modal damping and is too large for dense matrices.
+  /// `model` must outlive this object. Throws InputError if it has modal damping and is too large
+  /// for dense matrices.
   explicit Whirl(const model::Model& model);
 
   Index size() const { return system_.size(); }
-  const model::System& system() const { return system_; }  ///< at rest, with G and W apart
+  const model::System& system() const { return system_; }  ///< at rest, with G and W separate
   bool is_dense() const { return size() <= kDense; }
 
-  /// `count` modes of lowest |lambda| at a speed, rad/s, by ascending frequency; those without oscillation, overdamped
-  /// or rigid, first. Throws RunError where the iteration did not converge.
+  /// The `count` modes of lowest |lambda| at a speed, rad/s, in ascending frequency; modes without
+  /// oscillation, overdamped or rigid, come first. Throws RunError if the iteration did not
+  /// converge.
   std::vector<WhirlMode> modes(double speed, Index count) const;
 
-  /// The critical speeds of `order` in [from, to], rad/s, ascending, to rounding: modes whose frequency crosses
-  /// order times the speed, found on a grid of `steps` and by bisection. `count` modes are looked at.
+  /// The critical speeds of `order` in [from, to], rad/s, ascending, to rounding: speeds at which
+  /// the frequency of a mode equals order times the speed, found on a grid of `steps` intervals and
+  /// by bisection. `count` modes are examined.
   std::vector<CriticalSpeed> critical_speeds(double from, double to, Index steps, double order, Index count) const;
 
  private:
@@ -59,8 +64,8 @@ class BUTEE_EXPORT Whirl {
   WhirlMode finished(std::complex<double> lambda, Eigen::VectorXcd shape) const;
 
   model::System system_;
-  SparseMatrix damping_, stiffness_, skew_;  ///< C, the symmetric part of K and the rest of it, at rest
-  Vector frequencies_;                       ///< of M and the symmetric part of K, where dense
+  SparseMatrix damping_, stiffness_, skew_;  ///< C, the symmetric part of K and its skew part, at rest
+  Vector frequencies_;                       ///< of M and the symmetric part of K, for dense problems
   Eigen::MatrixXd shapes_, modal_damping_, modal_skew_, modal_gyroscopic_, modal_circulatory_;
 };
 

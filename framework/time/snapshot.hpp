@@ -5,7 +5,8 @@
 
 namespace butee::time {
 
-/// A snapshot as bytes, for files and messages, and back. read_snapshot() throws RunError where the bytes are none.
+/// Converts a snapshot to bytes, for files and messages, and back. read_snapshot() throws RunError
+/// if the bytes hold no snapshot.
 BUTEE_EXPORT void write_snapshot(const Snapshot& snapshot, ByteWriter& to);
 BUTEE_EXPORT Snapshot read_snapshot(ByteReader& from);
 

@@ -4,43 +4,46 @@
 
 namespace butee::dynamics::kernel {
 
-/// Arrays of modes hold whole registers of any instruction set.
+/// Arrays of modes are padded to whole registers of any instruction set.
 inline constexpr Index kModesAtOnce = 8;
 
-/// The motion that a harmonic load keeps up by itself, cosine cos(angle) + sine sin(angle).
+/// The steady-state response to a harmonic load, cosine cos(angle) + sine sin(angle).
 struct KeptUp {
   double angular_frequency;
   const double *cosine, *sine;
-  double of_cosine, of_sine;  ///< cos and sin of its angle
+  double of_cosine, of_sine;  ///< cos and sin of the present angle
 };
 
-/// Modes in a step: y'' + 2 delta y' + omega^2 y = f_0 + f_1 t + f_2 t^2, with what follows from the start of the step.
+/// Modes in a step: y'' + 2 delta y' + omega^2 y = f_0 + f_1 t + f_2 t^2, and quantities that
+/// follow from the start of the step.
 struct ModesInMotion {
-  Index count;                                            ///< in whole registers
+  Index count;                                            ///< padded to whole registers
   const double *square, *compliance, *decay, *frequency;  ///< omega^2, 1/omega^2, delta, omega_d
-  double single_decay;                                    ///< of all modes alike; negative where they differ
-  double *q, *v;                                          ///< at the start, without what is kept up
+  double single_decay;                                    ///< delta if all modes share it; negative if they differ
+  double *q, *v;                                          ///< at the start, without the steady-state response
   double* force[3];
-  double* led[3];         ///< the polynomial that the force leads to
-  double *cosine, *sine;  ///< of the decaying oscillation about it
+  double* led[3];         ///< coefficients of the polynomial particular solution for the force
+  double *cosine, *sine;  ///< amplitudes of the decaying oscillation about it
 };
 
-/// Fills q and v from those at the start, less what `kept` holds up.
+/// Fills q and v from the given ones at the start, minus the steady-state response `kept`.
 using StartModes = void (*)(const ModesInMotion&, const double* q, const double* v, const KeptUp* kept, Index loads);
-/// Adds to the force moments[k] P_k over a time of 1/r, if there are any, and fills led, cosine and sine.
+/// Adds moments[k] P_k over a duration of 1/r to the force, if moments are given, and fills led,
+/// cosine and sine.
 using LeadModes = void (*)(const ModesInMotion&, const double* const* moments, double r);
 
-/// Registers whose modes are moved by Taylor series, those after them by what suits each mode, and from `fast` on in
-/// closed form. `terms` of the series are needed.
+/// Modes up to register `slow` are moved by Taylor series with `terms` terms, those from register
+/// `fast` on in closed form, and those between by the formula that suits each mode.
 struct Speeds {
   Index slow, fast;
   int terms;
 };
-/// Up to this (omega + delta) t a Taylor series is taken, beyond it the closed form, which loses a digit there.
+/// Up to this (omega + delta) t a Taylor series is used; beyond it the closed form, which loses a
+/// digit at this limit.
 inline constexpr double kSlow = 0.3;
-inline constexpr double kLargestAngle = 39000.0;  ///< of Highway's sine and cosine
-/// Writes q(t) and v(t), what is kept up included. What is neither slow nor a decaying oscillation with an angle
-/// omega_d t below kLargestAngle comes out wrong.
+inline constexpr double kLargestAngle = 39000.0;  ///< limit of Highway's sine and cosine
+/// Writes q(t) and v(t), including the steady-state response. Results are wrong for modes that are
+/// neither slow nor a decaying oscillation with an angle omega_d t below kLargestAngle.
 using MoveModes = void (*)(const ModesInMotion&, double t, const Speeds&, const KeptUp* kept, Index loads, double* q,
                            double* v);
 
@@ -51,7 +54,7 @@ struct Products {
 using MultiplyModes = Products (*)(Index count, const double* shape, const double* weight, const double* q,
                                    const double* v);
 
-/// Of the chosen instruction set.
+/// For the chosen instruction set.
 struct ModalMotionKernels {
   StartModes start;
   LeadModes lead;

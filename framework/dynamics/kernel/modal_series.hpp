@@ -10,8 +10,8 @@ namespace butee::dynamics::kernel {
 
 using linalg::kernel::kChunk;
 
-/// Terms of the Taylor series of a flow: with (omega + delta + Omega) h up to 1/2 the first term left out is below
-/// rounding.
+/// Terms of the Taylor series of a propagator: with (omega + delta + Omega) h up to 1/2 the first
+/// omitted term is below rounding.
 inline constexpr int kTerms = 16;
 
 /// 1 / ((k + 1)(k + 2))
@@ -29,7 +29,7 @@ struct HarmonicSeries {
   Values cosine, sine;
 };
 
-/// Of a chunk of modes.
+/// For a chunk of modes.
 struct ModalSeries {
   double h;
   Values frequency, decay;  ///< omega and delta, 1/s
@@ -38,7 +38,7 @@ struct ModalSeries {
 /// Writes the columns of a ModalPropagator, one Values each: free motion, forces P_0, P_1, P_2, harmonics.
 using SumSeries = void (*)(const ModalSeries&, std::span<const HarmonicSeries>, Values* columns);
 
-/// Of the chosen instruction set.
+/// For the chosen instruction set.
 SumSeries sum_series();
 
 }  // namespace butee::dynamics::kernel
