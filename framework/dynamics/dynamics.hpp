@@ -85,9 +85,9 @@ class BUTEE_EXPORT Dynamics {
 
   /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that equals F_c at x
   void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
-  /// a := the solution of (M + velocity_factor C + displacement_factor (K + S^T kappa S)) a = F(t)
-  /// + S^T (c - kappa S x) - C v - K x: the equations of motion with the secant law then hold at x
-  /// + displacement_factor a and v + velocity_factor a. False if the matrix is not positive
+  /// a := the solution of (M + velocity_factor C + displacement_factor (K + S^T kappa S)) a =
+  /// F(t) + S^T (c - kappa S x) - C v - K x: the equations of motion with the secant law then hold
+  /// at x + displacement_factor a and v + velocity_factor a. False if the matrix is not positive
   /// definite.
   [[nodiscard]] bool solve_secant(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
                                   ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a);

@@ -53,8 +53,8 @@ class BUTEE_EXPORT ModalPropagator {
   /// All six columns: q and v of P_0, then of P_1 and P_2.
   auto forces() const { return columns_.middleCols(kForce, 6).matrix(); }
 
-  /// The response to the harmonics in a step that begins at t: q += harmonic_q(j, 0) cos(Omega_j t)
-  /// - harmonic_q(j, 1) sin(Omega_j t).
+  /// The response to the harmonics in a step that begins at t: q += harmonic_q(j, 0) cos(Omega_j
+  /// t) - harmonic_q(j, 1) sin(Omega_j t).
   const std::vector<double>& angular_frequencies() const { return angular_frequencies_; }
   auto harmonic_q(std::size_t j, int part) const { return columns_.col(harmonic_column(j) + 2 * part); }
   auto harmonic_v(std::size_t j, int part) const { return columns_.col(harmonic_column(j) + 2 * part + 1); }

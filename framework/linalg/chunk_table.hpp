@@ -8,18 +8,19 @@
 
 namespace butee::linalg {
 
-/// Chunks of doubles, equal ones stored once where that saves most of them: the rows of a uniform beam repeat, and
-/// those of its factor from a hundred rows behind its end, to the last digit. Systems of a million DOFs, which are
-/// bound by what a step reads from memory, then read little but their state.
+/// Chunks of doubles; equal chunks are stored once if that saves most of them. The rows of a
+/// uniform beam repeat, and those of its factor do to the last digit from a hundred rows behind its
+/// ends. Systems of a million DOFs, whose speed is limited by the memory read in a step, then read
+/// little more than their state.
 class BUTEE_EXPORT ChunkTable {
  public:
   ChunkTable() = default;
   /// `count` chunks of `width` doubles, zero.
   ChunkTable(Index width, Index count);
 
-  /// All chunks in a row, to be written; what they held is lost where some were shared.
+  /// All chunks contiguously, for writing; the contents are lost if some were shared.
   double* write();
-  /// Stores equal chunks once, if there are so many.
+  /// Stores equal chunks once, if there are enough of them.
   void share();
 
   const double* operator[](Index chunk) const { return data_.data() + place_[static_cast<std::size_t>(chunk)]; }
@@ -31,7 +32,7 @@ class BUTEE_EXPORT ChunkTable {
 
   Index width_ = 0;
   Vector data_;
-  std::vector<Index> place_;  ///< in data_
+  std::vector<Index> place_;  ///< offsets in data_
 };
 
 }  // namespace butee::linalg

@@ -8,7 +8,8 @@
 
 namespace butee::linalg {
 
-/// Systems up to this size are solved densely, which is as fast as any other way and cannot fail to converge.
+/// Systems up to this size are solved densely, which is as fast as any other method and always
+/// converges.
 inline constexpr Index kDense = 200;
 
 /// Eigenvalues, ascending, and their vectors, one in each column.
@@ -17,12 +18,13 @@ struct Pairs {
   Eigen::MatrixXd vectors;
 };
 
-/// All pairs of K x = lambda M x with X^T M X = 1, of dense symmetric matrices, M positive definite; nothing where the
-/// iteration did not converge. For this project, not installed: the solvers of Eigen are compiled once, here.
+/// All pairs of K x = lambda M x with X^T M X = 1, for dense symmetric matrices, M positive
+/// definite; nothing if the iteration did not converge. For this project, not installed: Eigen's
+/// solvers are compiled once, here.
 BUTEE_EXPORT std::optional<Pairs> dense_pairs(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 
-/// The same of sparse matrices, computed densely; the faster, the nearer M is to its diagonal. A vector is other than
-/// zero in one connected part of the matrices alone, such as one of two planes.
+/// The same for sparse matrices, computed densely; faster if M is nearly diagonal. Each vector is
+/// nonzero in only one connected part of the matrices, such as one of two planes.
 BUTEE_EXPORT std::optional<Pairs> dense_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass);
 
 /// The eigenvalues alone.

@@ -4,7 +4,7 @@
 
 namespace butee::linalg {
 
-/// Matrices in extended precision: sparse, and a few columns.
+/// Matrices in extended precision: sparse, and dense with few columns.
 using ExtendedMatrix = Eigen::SparseMatrix<long double>;
 using ExtendedColumns = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 

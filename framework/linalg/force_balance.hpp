@@ -8,7 +8,7 @@
 
 namespace butee::linalg {
 
-/// The forces of one instant, or of a block of its rows; load, contact and damping are null where there is none.
+/// The forces of one instant, or of a block of rows; load, contact and damping are null if absent.
 struct ForceTerms {
   const double* load;     ///< F
   const double* contact;  ///< F_c
@@ -17,7 +17,7 @@ struct ForceTerms {
   const double* elastic;  ///< K x
 };
 
-/// What is left of the equation of motion, block of rows by block.
+/// The residual of the equation of motion, accumulated by blocks of rows.
 class BUTEE_EXPORT ForceBalance {
  public:
   /// residual := F + F_c - M a - C v - K x, `count` rows, in one pass.

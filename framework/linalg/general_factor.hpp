@@ -9,8 +9,9 @@
 
 namespace butee::linalg {
 
-/// A sparse LU factorization with partial pivoting (KLU), analysed once, factorized for many matrices of one pattern:
-/// of matrices that are not symmetric. Its pivots depend on the matrix alone, not on those factorized before.
+/// A sparse LU factorization with partial pivoting (KLU) for matrices that are not symmetric:
+/// analysed once, factorized for many matrices of one pattern. Its pivots depend on the matrix
+/// alone, not on earlier factorizations.
 class BUTEE_EXPORT GeneralFactor {
  public:
   /// Analyses the pattern of `matrix`. `counters` must outlive the factor.
@@ -19,10 +20,10 @@ class BUTEE_EXPORT GeneralFactor {
   GeneralFactor(GeneralFactor&&) noexcept;
   GeneralFactor& operator=(GeneralFactor&&) noexcept;
 
-  /// Factorizes a matrix of the analysed pattern; false where it is singular to rounding.
+  /// Factorizes a matrix of the analysed pattern; false if it is singular to rounding.
   [[nodiscard]] bool factorize(const SparseMatrix& matrix);
 
-  /// b := A^-1 b. After a successful factorize().
+  /// b := A^-1 b. Valid after a successful factorize().
   void solve(VectorRef b);
 
  private:

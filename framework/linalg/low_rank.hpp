@@ -9,7 +9,7 @@
 
 namespace butee::linalg {
 
-/// A symmetric matrix that is not negative, known by a factor of few columns: C = B B^T, B n x p.
+/// A symmetric positive semidefinite matrix, given by a factor of few columns: C = B B^T, B n x p.
 class BUTEE_EXPORT LowRank {
  public:
   explicit LowRank(Eigen::MatrixXd factor) : factor_(std::move(factor)) {}
@@ -18,14 +18,14 @@ class BUTEE_EXPORT LowRank {
   const Eigen::MatrixXd& factor() const { return factor_; }
   /// A += c C
   void add_to(Eigen::MatrixXd& matrix, double c) const;
-  /// B has so many columns that the full matrix is the better way.
+  /// True if B has so many columns that the full matrix is cheaper.
   bool prefers_dense() const { return 2 * factor_.cols() >= factor_.rows(); }
 
  private:
   Eigen::MatrixXd factor_;
 };
 
-/// Corrects a solution of A y = b for a term of low rank by Woodbury's formula:
+/// Corrects a solution of A y = b for a low-rank term by Woodbury's formula:
 ///
 ///     (A + c B B^T) x = b,    x = y - Z c (1 + c B^T Z)^-1 B^T y,    Z = A^-1 B
 ///
@@ -33,13 +33,13 @@ class BUTEE_EXPORT LowRank {
 /// doi:10.1137/1031049.
 class LowRankUpdate {
  public:
-  /// `term` must outlive it.
+  /// `term` must outlive this object.
   explicit LowRankUpdate(const LowRank& term) : term_(term) {}
 
-  /// Takes a new A, which `solve` divides by in place, and c >= 0 (s). False where the small matrix is not positive
-  /// definite.
+  /// Sets a new A, whose inverse `solve` applies in place, and c >= 0 (s). False if the small
+  /// matrix is not positive definite.
   [[nodiscard]] bool set(double c, const std::function<void(VectorRef)>& solve);
-  /// y := x
+  /// Corrects in place: y := x
   void correct(VectorRef y);
 
  private:

@@ -13,27 +13,27 @@ struct BandMatrix;
 struct Rows;
 }  // namespace kernel
 
-/// y = A x for a sparse A of symmetric pattern. Narrow bands, those of chains of beams, are kept by diagonals, which
-/// needs no indices and vectorises; everything else by rows. Of large ones equal rows are stored once. Allocates
-/// nothing after construction.
+/// y = A x for a sparse A of symmetric pattern. Narrow bands, as of chains of beams, are stored by
+/// diagonals, which needs no indices and vectorises; all other matrices by rows. Equal rows of
+/// large matrices are stored once. Allocates nothing after construction.
 class BUTEE_EXPORT SymmetricProduct {
  public:
   SymmetricProduct() = default;
-  /// Takes a symmetric matrix stored in full; by rows it refers to `matrix`, which must outlive it. One that is not
-  /// symmetric is copied.
+  /// Takes a symmetric matrix stored in full; if stored by rows, the object refers to `matrix`,
+  /// which must outlive it. A matrix that is not symmetric is copied.
   explicit SymmetricProduct(const SparseMatrix& matrix, bool is_symmetric = true);
 
   /// A(0, 0)
   double first() const { return first_; }
-  /// y := A x; x and y have size() and do not overlap.
+  /// y := A x; x and y have size() and must not overlap.
   void multiply(const double* x, double* y) const {
     if (size_ == 1)
       y[0] = first_ * x[0];
     else
       multiply(x, 0, size_, y);
   }
-  /// y := rows begin to begin + count of A x, into y[0] to y[count - 1]: all of them, or blocks as in_blocks() cuts
-  /// them.
+  /// y := rows begin to begin + count of A x, into y[0] to y[count - 1]: all rows, or blocks as cut
+  /// by in_blocks().
   void multiply(const double* x, Index begin, Index count, double* y) const;
 
  private:
@@ -45,13 +45,14 @@ class BUTEE_EXPORT SymmetricProduct {
   Index size_ = 0, band_ = 0;
   double first_ = 0.0;
   const SparseMatrix* rows_ = nullptr;
-  std::unique_ptr<const SparseMatrix> transposed_;  ///< what rows_ points to where A is not symmetric
-  /// A(i, i + k) and A(i, i - k), diagonal k = 0 ... band behind diagonal, stride_ entries apart, with zeros around;
-  /// empty where kept by rows, below_ where large too.
+  std::unique_ptr<const SparseMatrix> transposed_;  ///< target of rows_ if A is not symmetric
+  /// A(i, i + k) and A(i, i - k), one diagonal k = 0 ... band after the other, stride_ entries
+  /// apart, with zeros around. Empty if A is stored by rows; below_ is also empty for large
+  /// matrices.
   Vector above_, below_;
   Index stride_ = 0;
-  /// Instead of those, where that saves much: for each chunk of rows, and for the last two chunks again as they end the
-  /// matrix, diagonals k = 0 ... band above and 1 ... band below.
+  /// Used instead if it saves much memory: for each chunk of rows, and for the last two chunks
+  /// again as they end the matrix, diagonals k = 0 ... band above and 1 ... band below.
   ChunkTable chunks_;
 };
 

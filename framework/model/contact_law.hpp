@@ -8,11 +8,12 @@
 
 namespace butee::model {
 
-/// The Taylor coefficients of F(g(s)), one after the other.
+/// The Taylor coefficients of F(g(s)), computed one after the other.
 class BUTEE_EXPORT ForceSeries {
  public:
   virtual ~ForceSeries() = default;
-  /// Coefficient n of F(g(s)) from the coefficients 0 ... n of g; asked for n = 0, 1, 2, ..., where 0 begins anew.
+  /// Coefficient n of F(g(s)) from the coefficients 0 ... n of g; called for n = 0, 1, 2, ...; n =
+  /// 0 starts a new series.
   virtual double next(std::span<const double> g) = 0;
 };
 
@@ -20,7 +21,7 @@ class BUTEE_EXPORT ForceSeries {
 ///
 ///     F = K_c(g) g,   dF/dg,   V(g) with dV/dg = F and V(0) = 0
 ///
-/// F pushes the body back when positive. Sides and signs are the stop's business, not the law's.
+/// F pushes the body back if positive. Sides and signs are handled by the stop, not the law.
 class BUTEE_EXPORT ContactLaw {
  public:
   virtual ~ContactLaw() = default;
@@ -34,14 +35,14 @@ class BUTEE_EXPORT ContactLaw {
   /// K_c and the tangent for many stops at once.
   virtual void tangents(std::span<const double> g, std::span<double> secant, std::span<double> tangent) const = 0;
 
-  /// The stiffness of the closed stop, N/m, for step-size bounds.
+  /// The stiffness of the closed stop, N/m, for bounds on the step size.
   virtual double closed_stiffness() const = 0;
 
-  /// How the force of a law that dissipates by itself depends on the rate of penetration g'.
+  /// How the force of a law with its own dissipation depends on the rate of penetration g'.
   enum class RateDependence {
     none,     ///< F = K_c(g) g
     smooth,   ///< smooth in g' while closed
-    by_sense  ///< smooth in approach (g' >= 0) and in rebound (g' < 0) each; steps end where g' changes its sign
+    by_sense  ///< smooth in approach (g' >= 0) and in rebound (g' < 0) separately; steps end at a sign change of g'
   };
   virtual RateDependence rate_dependence() const { return RateDependence::none; }
 
@@ -49,28 +50,30 @@ class BUTEE_EXPORT ContactLaw {
   struct RatedForce {
     double force, by_penetration, by_rate;
   };
-  /// F(g, g') of a closed stop, g > 0, of a law with rate_dependence(); K_c(g) g is then the part of it that energy()
-  /// stores, F(g, 0) = K_c(g) g, and (F - K_c g) g' >= 0 is dissipated. Where F < 0 no force acts. `recedes` takes the
-  /// branch of rebound of a law by_sense, which is continued beyond g' = 0 in both senses.
+  /// F(g, g') of a closed stop, g > 0, of a law with rate_dependence(). K_c(g) g = F(g, 0) is the
+  /// part that energy() stores, and (F - K_c g) g' >= 0 is dissipated. If F < 0 no force acts.
+  /// `recedes` selects the rebound branch of a law by_sense; both branches are continued beyond
+  /// g' = 0.
   virtual RatedForce rated_force(double g, double /*rate*/, bool /*recedes*/) const {
     return {secant(g) * g, tangent(g), 0.0};
   }
 
-  /// True for F = k_c max(g, 0), whose kink methods may locate.
+  /// True for F = k_c max(g, 0), whose slope discontinuity methods may locate.
   virtual bool is_piecewise_linear() const { return false; }
 
-  /// The series of a smooth law; nullptr where it has none to give.
+  /// The series of a smooth law; nullptr if it has none.
   virtual std::unique_ptr<ForceSeries> force_series() const { return nullptr; }
 
-  /// The |g| up to which the force departs from that of a linear stop by more than asymptotic_force(), m; infinite
-  /// where that is not known.
+  /// The |g| up to which the force departs from that of a linear stop by more than
+  /// asymptotic_force(), m; infinite if not known.
   virtual double transition_width() const { return std::numeric_limits<double>::infinity(); }
 
-  /// The largest force that a stop further open than a few boundary layers still exerts, N (0: none).
+  /// The largest force that a stop still exerts when it is open by more than a few boundary layers,
+  /// N (0: none).
   virtual double asymptotic_force() const { return 0.0; }
 };
 
-/// Gives a law its loops over many stops: `class Mine final : public BatchedLaw<Mine>`.
+/// Implements the loops over many stops for a law: `class Mine final : public BatchedLaw<Mine>`.
 template <class Law>
 class BatchedLaw : public ContactLaw {
  public:

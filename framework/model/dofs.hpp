@@ -20,10 +20,10 @@ struct NodalValue {
   double value = 0.0;
 };
 
-/// Which degrees of freedom exist, which are fixed, and the numbers of the free ones.
+/// The table of existing and fixed degrees of freedom and the numbers of the free ones.
 ///
-/// A node has only the DOFs that some element claims. Joined nodes share theirs. Free DOFs are numbered by node, and
-/// within a node in the order of DofKind.
+/// A node has only the DOFs that some element claims. Joined nodes share their DOFs. Free DOFs are
+/// numbered by node, and within a node in the order of DofKind.
 class BUTEE_EXPORT DofTable {
  public:
   static constexpr Index kFixed = -1;
@@ -39,7 +39,7 @@ class BUTEE_EXPORT DofTable {
   bool is_fixed(NodalDof dof) const { return at(dof.node).fixed & bit(dof.kind); }
   bool has_mass(NodalDof dof) const { return at(dof.node).with_mass & bit(dof.kind); }
 
-  /// The number of a free DOF in the system, or kFixed, or kAbsent. After number().
+  /// The number of a free DOF in the system, or kFixed, or kAbsent. Valid after number().
   Index index(NodalDof dof) const {
     const NodeEntry& node = at(dof.node);
     if (!(node.exists & bit(dof.kind))) return kAbsent;
@@ -53,7 +53,7 @@ class BUTEE_EXPORT DofTable {
   std::string name(NodalDof dof) const;
 
  private:
-  /// Sets of kinds as bits, and the number of the first free DOF.
+  /// Sets of DOF kinds as bits, and the number of the first free DOF.
   struct NodeEntry {
     std::uint8_t exists = 0, fixed = 0, with_mass = 0;
     std::int32_t first = 0;

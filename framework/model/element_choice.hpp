@@ -8,7 +8,7 @@
 
 namespace butee::model {
 
-/// The end of a beam's part of which a probe takes the section forces, or the reason why there is none.
+/// The end of a beam's part whose section forces a probe records, or the reason why there is none.
 struct CutChoice {
   const Element* beam = nullptr;
   Index part = 0;
@@ -16,22 +16,24 @@ struct CutChoice {
   std::string problem;
 };
 
-/// The part that ends at the node; at the first node of a beam the part that begins there. `element` is "" or names a
-/// beam ("string") or one of its parts ("string:17", between the nodes 17 and 18). Without it the beam is the one by
-/// which the node is named, or the only one that it belongs to.
+/// The part that ends at the node; at the first node of a beam the part that begins there.
+/// `element` is "" or names a beam ("string") or one of its parts ("string:17", between the nodes
+/// 17 and 18). If it is "", the beam is the one whose name the node has, or the only one that the
+/// node belongs to.
 BUTEE_EXPORT CutChoice choose_cut(const Model& model, NodeId node, const std::string& element);
 
-/// The row of SectionCut::resultants of a section force or of bending_stress; nothing for other quantities.
+/// The row of SectionCut::resultants for a section force or bending_stress; empty for other
+/// quantities.
 BUTEE_EXPORT std::optional<Index> resultant_row(Quantity quantity);
 
 /// The reason why `quantity` cannot be recorded at the node, or "". `dofs` are those of the model.
 BUTEE_EXPORT std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,
                                  const std::string& element);
 
-/// The name of an element; "" for one without.
+/// The name of an element; "" if it has none.
 BUTEE_EXPORT const std::string& element_name(const Model& model, std::size_t element);
 
-/// True for a spring of that name, or of any where it is "", that acts on the DOF.
+/// True for a spring that acts on the DOF and has that name; "" matches any name.
 BUTEE_EXPORT bool is_spring_on(const Model& model, std::size_t element, NodalDof dof, const std::string& name);
 
 }  // namespace butee::model

@@ -19,36 +19,37 @@ struct NodeGroup {
   std::string name;
   NodeId first = 0;
   std::vector<double> coordinates;  ///< m, along the beam; empty for a lone node
-  /// In space: node i lies at origin + coordinates[i] direction, m.
+  /// Position in space: node i lies at origin + coordinates[i] direction, m.
   std::array<double, 3> origin{}, direction{1.0, 0.0, 0.0};
 
   bool lone() const { return coordinates.empty(); }
   NodeId size() const { return lone() ? 1 : static_cast<NodeId>(coordinates.size()); }
 };
 
-/// The nodes a selector names, or the reason why it names none.
+/// The nodes that a selector names, or the reason why it names none.
 struct Selection {
   std::vector<NodeId> nodes;
   std::string problem;
-  bool excused = false;  ///< names something whose own mistake was reported already; then there is no problem
+  bool excused = false;  ///< the selector refers to an element whose error was reported already; `problem` is then
+                         ///< empty
 };
 
-/// All nodes of a model by name. Nodes of several elements can be joined into one.
+/// All nodes of a model by name. Nodes of several elements can be joined.
 class BUTEE_EXPORT NodeTable {
  public:
-  /// Adds a chain of nodes (or a lone node where `coordinates` is empty) and returns the first.
+  /// Adds a chain of nodes (a lone node if `coordinates` is empty) and returns the first.
   NodeId add(const std::string& name, std::vector<double> coordinates = {});
 
-  /// Places the chain that `node` belongs to in space.
+  /// Sets the position in space of the chain that `node` belongs to.
   void place(NodeId node, const std::array<double, 3>& origin, const std::array<double, 3>& direction);
 
   /// Makes two nodes one and the same.
   void join(NodeId a, NodeId b);
 
-  /// The node that stands for `node` and all that were joined to it.
+  /// The representative of `node` and all nodes joined to it.
   NodeId canonical(NodeId node) const;
 
-  /// Marks a name whose element could not be read. An empty one excuses every name that is not known.
+  /// Marks a name whose element could not be read. An empty name excuses every unknown name.
   void excuse(const std::string& name) { excused_.insert(name); }
 
   /// `name`, `beam:first|last|middle|all`, `beam:17`, `beam:3..9`, `beam@17.5`.

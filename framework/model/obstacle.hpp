@@ -12,7 +12,7 @@
 
 namespace butee::model {
 
-/// How a body at the displacement d = (d_1, d_2) lies to an obstacle.
+/// Position of a body with displacement d = (d_1, d_2) relative to an obstacle.
 struct Approach {
   double penetration;      ///< g(d), m; negative while apart
   Eigen::Vector2d normal;  ///< dg/dd, of length 1: into the obstacle
@@ -25,12 +25,12 @@ class BUTEE_EXPORT ContactShape {
   virtual ~ContactShape() = default;
   virtual Approach at(const Eigen::Vector2d& d) const = 0;
 
-  /// What methods that expand the motion in series must know of it.
+  /// Properties needed by methods that expand the motion in series.
   struct Form {
     enum class Kind { line, circle, other } kind = Kind::other;
-    Eigen::Vector2d place = {0.0, 0.0};  ///< the normal of a line, the centre of a circle (m)
+    Eigen::Vector2d place = {0.0, 0.0};  ///< the normal of a line, or the centre of a circle (m)
     double distance = 0.0;               ///< g = normal . d - distance, or sense (|d - centre| - distance), m
-    double sense = 1.0;                  ///< +1: the body is within the circle, -1: it is outside
+    double sense = 1.0;                  ///< +1: the body is inside the circle, -1: it is outside
   };
   virtual Form form() const { return {}; }
 };
@@ -47,7 +47,7 @@ struct ImpactDamping {
   Kind kind = Kind::none;
   double coefficient = 0.0;  ///< c, a or xi
   double mass = 0.0;         ///< m of jankowski, kg
-  bool pulls = false;        ///< kelvin_voigt: the contact ends at g = 0; else already at F = 0
+  bool pulls = false;        ///< kelvin_voigt: true if the contact ends at g = 0, false if it ends at F = 0
 };
 
 /// Coulomb friction: the tangential force on the body is -mu F_n s with the slip speed w.
@@ -57,7 +57,7 @@ struct Friction {
     sqrt,    ///< s = w/sqrt(w^2 + slip_speed^2)
     tanh,    ///< s = tanh(w/slip_speed)
     clip,    ///< s = w/slip_speed within [-1, 1]
-    spring,  ///< stick: spring and dashpot from where it began, up to static_coefficient F_n; then slip
+    spring,  ///< stick: spring and dashpot from the point where it began, up to static_coefficient F_n; then slip
     rigid    ///< stick: w = 0 up to static_coefficient F_n; then slip
   };
   Rule rule = Rule::none;
@@ -69,32 +69,34 @@ struct Friction {
   bool has_memory() const { return rule == Rule::spring || rule == Rule::rigid; }
 };
 
-/// Contacts of one kind in one or two directions, with dissipation and friction; elastic stops are StopGroups instead.
+/// Contacts of one kind in one or two directions, with dissipation and friction; elastic stops are
+/// in StopGroup.
 ///
-/// On node a (against ground, or against node b: d = d_a - d_b) acts
+/// The force on node a (against ground, or against node b: d = d_a - d_b) is
 ///
 ///     F = -F_n n - F_t t,    F_t = mu F_n s(w),    w = t . d' + radius (Omega + rx') - surface_speed
 ///
-/// with the normal n and the tangent t = (-n_2, n_1) of the shape. A friction support has no shape: F_n is
-/// `normal_force` and t its one direction. Where node a has the rotation rx, friction twists it by the torque
-/// -radius F_t.
+/// with the normal n and the tangent t = (-n_2, n_1) of the shape. A friction support has no shape:
+/// F_n is `normal_force` and t is its one direction. If node a has the rotation rx, friction exerts
+/// the torque -radius F_t on it.
 struct ObstacleGroup {
-  std::string kind;                     ///< as the scene names it, "ring"
-  std::unique_ptr<ContactLaw> law;      ///< null without a shape
+  std::string kind;                     ///< kind name in the scene, "ring"
+  std::unique_ptr<ContactLaw> law;      ///< null if there is no shape
   std::unique_ptr<ContactShape> shape;  ///< null: a friction support
   double normal_force = 0.0;            ///< N, of a friction support
   std::vector<DofKind> directions;      ///< one or two displacements
   ImpactDamping damping;
   Friction friction;
-  double radius = 0.0;  ///< m, of the body where it touches; 0 where it does not turn
+  double radius = 0.0;  ///< m, of the body at the contact point; 0 if it does not turn
   std::vector<NodeId> a;
   std::vector<NodeId> b;  ///< empty: against ground; else as long as `a`
 
-  /// -1 where the directions are (uz, uy), which turn against a rotation about x; else 1.
+  /// -1 if the directions are (uz, uy), whose orientation is opposite to a rotation about x; else
+  /// 1.
   double sense_about_x() const {
     return directions.size() == 2 && directions[0] == DofKind::uz && directions[1] == DofKind::uy ? -1.0 : 1.0;
   }
-  /// Whether friction twists node a about x.
+  /// Whether friction exerts a torque on node a about x.
   bool twists() const {
     if (radius == 0.0 || friction.rule == Friction::Rule::none) return false;
     return std::all_of(directions.begin(), directions.end(),

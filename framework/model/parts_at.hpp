@@ -4,7 +4,8 @@
 
 namespace butee::model {
 
-/// Calls take(dofs, matrices, place) for each part of an element that holds one DOF; `place` is that of the DOF in it.
+/// Calls take(dofs, matrices, place) for each part of an element that contains one DOF; `place` is
+/// the index of the DOF in it.
 template <class Take>
 class PartsAt final : public MatrixSink {
  public:

@@ -9,8 +9,9 @@
 
 namespace butee::model {
 
-/// Everything that can be recorded. stop_state, of fields alone: +1 where a stop on it is closed on the side of u > 0,
-/// -1 on the other side, 0 where all are open. From shear_force on: of probes alone, see ElementForces.
+/// All quantities that can be recorded. stop_state, for fields only: +1 if a stop on the node is
+/// closed on the side of u > 0, -1 on the other side, 0 if all are open. From shear_force on: for
+/// probes only, see ElementForces.
 enum class Quantity {
   u,
   v,
@@ -28,7 +29,8 @@ enum class Quantity {
   spring_moment,
   reaction,
   reaction_moment,
-  // Displacements along and rotations about x, y and z, their velocities and accelerations: of probes alone.
+  // Displacements along and rotations about x, y and z, their velocities and accelerations: for
+  // probes only.
   ux,
   ux_v,
   ux_a,
@@ -50,7 +52,7 @@ enum class Quantity {
   rz,
   rz_v,
   rz_a,
-  // In space, where the base moves.
+  // In space, if the base moves.
   u_abs,
   v_abs,
   a_abs,
@@ -60,7 +62,7 @@ enum class Quantity {
   uz_abs,
   uz_v_abs,
   uz_a_abs,
-  // Forces of beams in space, of springs and of supports.
+  // Forces of beams in space, springs and supports.
   normal_force,
   shear_y,
   shear_z,
@@ -79,7 +81,7 @@ enum class Quantity {
   reaction_rx,
   reaction_ry,
   reaction_rz,
-  // Of contacts in the plane, with dissipation or friction, at a node: of probes alone.
+  // Contacts in the plane, with dissipation or friction, at a node: for probes only.
   contact_normal,
   contact_friction,
   contact_slip,
@@ -90,14 +92,14 @@ enum class Quantity {
 BUTEE_EXPORT const char* name_of(Quantity quantity);
 /// "m", "N", "1" ...
 BUTEE_EXPORT const char* unit_of(Quantity quantity);
-/// One line for people.
+/// A one-line description.
 BUTEE_EXPORT const char* summary_of(Quantity quantity);
 
-/// The quantity of a name that field_quantities() or probe_quantities() holds.
+/// The quantity of a name in field_quantities() or probe_quantities().
 BUTEE_EXPORT Quantity quantity_of(const std::string& name);
-/// Those that fields can hold.
+/// Names of quantities that fields can hold.
 BUTEE_EXPORT std::vector<std::string> field_quantities();
-/// Those that a probe can record.
+/// Names of quantities that a probe can record.
 BUTEE_EXPORT std::vector<std::string> probe_quantities();
 
 /// Where the value of a quantity comes from.
@@ -105,7 +107,7 @@ enum class Source { motion, stops, section, springs, support, contacts };
 
 BUTEE_EXPORT Source source_of(Quantity quantity);
 
-/// True for what takes the forces of single elements.
+/// True if the quantity requires the forces of single elements.
 inline bool is_element_force(Quantity quantity) {
   return source_of(quantity) != Source::motion && source_of(quantity) != Source::stops;
 }
@@ -115,7 +117,7 @@ BUTEE_EXPORT bool is_absolute(Quantity quantity);
 
 /// The DOF of the node that a quantity belongs to.
 BUTEE_EXPORT DofKind kind_of(Quantity quantity);
-/// Of Source::motion, 0, 1 or 2: a displacement, a velocity or an acceleration; 0 of all others.
+/// For Source::motion 0, 1 or 2: displacement, velocity or acceleration; 0 for all others.
 BUTEE_EXPORT int order_of(Quantity quantity);
 
 }  // namespace butee::model

@@ -7,10 +7,12 @@
 
 namespace butee::model {
 
-/// The speed at which shafts turn about +x, Omega(t) in rad/s, piecewise linear in time: a constant, a ramp or a table.
+/// The speed of shafts about +x, Omega(t) in rad/s, piecewise linear in time: a constant, a ramp or
+/// a table.
 class BUTEE_EXPORT Rotation {
  public:
-  /// `times` (s) ascend and hold at least one instant; the speed is constant before the first and after the last.
+  /// `times` (s) ascend and are not empty; the speed is constant before the first and after the
+  /// last.
   Rotation(std::vector<double> times, std::vector<double> speeds);
 
   double speed(double t) const;         ///< Omega, rad/s
@@ -29,14 +31,14 @@ class BUTEE_EXPORT Rotation {
   std::vector<double> times_, speeds_, angles_;  ///< angles_ since times_.front()
 };
 
-/// One component of the force of an unbalance that turns with a rotation, N:
-/// along y, m e (Omega^2 cos phi + Omega' sin phi), along z, m e (Omega^2 sin phi - Omega' cos phi), with
-/// phi = angle + phase.
+/// One component of the force of a rotating unbalance, N:
+/// along y, m e (Omega^2 cos phi + Omega' sin phi); along z, m e (Omega^2 sin phi - Omega' cos
+/// phi), with phi = angle + phase.
 class BUTEE_EXPORT TurningUnbalance final : public TimeFunction {
  public:
   enum class Along { y, z };
 
-  /// `moment` is m e, kg m; `phase` in rad. `rotation` must outlive it.
+  /// `moment` is m e, kg m; `phase` in rad. `rotation` must outlive this object.
   TurningUnbalance(const Rotation& rotation, double moment, double phase, Along along);
 
   double value(double t) const override;
@@ -47,7 +49,7 @@ class BUTEE_EXPORT TurningUnbalance final : public TimeFunction {
 
  private:
   const Rotation& rotation_;
-  double moment_, phase_;  ///< that of z is a quarter turn less than that of the force along y
+  double moment_, phase_;  ///< for the z component a quarter turn less than for the y component
 };
 
 }  // namespace butee::model

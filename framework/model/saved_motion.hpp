@@ -15,16 +15,16 @@ struct SavedMotion {
   Vector x, v;     ///< m or rad, m/s or rad/s
 };
 
-/// Motions that a run keeps for others to start from, and what tells its structure from another: the file `states.bin`
-/// of a result folder.
+/// Motions that a run saves as starting points for other runs, with data that identify the
+/// structure: the file `states.bin` of a result folder.
 struct BUTEE_EXPORT SavedMotions {
   static constexpr const char* kFile = "states.bin";
 
   SavedMotions() = default;
-  /// Of a structure, without motions yet.
+  /// Takes the structure, without motions yet.
   SavedMotions(const NodeTable& nodes, const DofTable& table);
 
-  /// In which way the structure differs from another one, or "".
+  /// The first difference from another structure, or "".
   std::string difference_from(const NodeTable& nodes, const DofTable& table) const;
 
   struct Group {
@@ -35,12 +35,12 @@ struct BUTEE_EXPORT SavedMotions {
 
   std::vector<Group> groups;
   std::vector<NodalDof> free;
-  std::vector<SavedMotion> motions;  ///< ascending in time; the last is where the run ended
+  std::vector<SavedMotion> motions;  ///< ascending in time; the last is the end of the run
 };
 
-/// As bytes with a mark, a version of the format and a checksum.
+/// Converts to bytes with a mark, a format version and a checksum.
 BUTEE_EXPORT std::vector<std::byte> to_bytes(const SavedMotions& saved);
-/// Throws RunError where the bytes are damaged or of another format.
+/// Throws RunError if the bytes are damaged or of another format.
 BUTEE_EXPORT SavedMotions to_saved_motions(std::span<const std::byte> bytes);
 
 }  // namespace butee::model

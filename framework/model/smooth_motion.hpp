@@ -9,8 +9,8 @@
 
 namespace butee::model {
 
-/// A piecewise polynomial in time. Piece i, of degree kDegree or less in t - start, holds from its start to the next;
-/// the first holds before its start too.
+/// A piecewise polynomial in time. Piece i, of degree kDegree or less in t - start, is valid from
+/// its start to the next start; the first piece is also valid before its start.
 class BUTEE_EXPORT PiecewisePolynomial final : public TimeFunction {
  public:
   static constexpr std::size_t kDegree = 4;
@@ -20,10 +20,10 @@ class BUTEE_EXPORT PiecewisePolynomial final : public TimeFunction {
   };
 
   PiecewisePolynomial() : pieces_(1) {}
-  /// `pieces` ascend and hold at least one.
+  /// `pieces` ascend and are not empty.
   explicit PiecewisePolynomial(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {}
-  /// The cubic spline through (times, values), without curvature at its beginning and without slope at its end, from
-  /// which on it is constant: at least two instants, ascending.
+  /// The cubic spline through (times, values), with zero curvature at its beginning and zero slope
+  /// at its end, after which it is constant. At least two instants, ascending.
   static PiecewisePolynomial spline(const std::vector<double>& times, const std::vector<double>& values);
 
   double value(double t) const override;
@@ -33,7 +33,7 @@ class BUTEE_EXPORT PiecewisePolynomial final : public TimeFunction {
   std::vector<double> discontinuities() const override;
 
   PiecewisePolynomial derivative() const;
-  /// The integral that is `at_zero` at t = 0; pieces of degree kDegree - 1 or less.
+  /// The integral that equals `at_zero` at t = 0; for pieces of degree kDegree - 1 or less.
   PiecewisePolynomial integral(double at_zero) const;
   void add(double constant);
 
@@ -43,19 +43,20 @@ class BUTEE_EXPORT PiecewisePolynomial final : public TimeFunction {
   std::vector<Piece> pieces_;
 };
 
-/// A motion that can be differentiated and integrated in closed form: a wave and a piecewise polynomial.
+/// A motion that can be differentiated and integrated in closed form: the sum of a harmonic and a
+/// piecewise polynomial.
 struct BUTEE_EXPORT SmoothMotion {
   Harmonic wave{0.0, 0.0, 0.0};
   PiecewisePolynomial line;
 
-  /// Of a harmonic function or one that is a polynomial of degree two or less between discontinuities; `problem` says
-  /// what is wrong with all others.
+  /// Made from a harmonic function or one that is a polynomial of degree two or less between
+  /// discontinuities; for all others `problem` states the reason.
   static SmoothMotion of(const TimeFunction& function, std::string& problem);
 
   double value(double t) const;
   SmoothMotion derivative() const;
   SmoothMotion integral(double at_zero) const;
-  /// Its parts that do not vanish, as functions of their own.
+  /// Its parts that do not vanish, as separate functions.
   std::vector<std::unique_ptr<TimeFunction>> parts() const;
 };
 

@@ -13,7 +13,8 @@ struct Harmonic {
   double amplitude, angular_frequency, phase;
 };
 
-/// The course of a load in time, in N (on u) or N m (on theta), or a plain factor under `in_time`.
+/// The time history of a load, in N (on u) or N m (on theta), or a factor without unit under
+/// `in_time`.
 class BUTEE_EXPORT TimeFunction {
  public:
   virtual ~TimeFunction() = default;
@@ -21,21 +22,23 @@ class BUTEE_EXPORT TimeFunction {
   /// The value at time `t`, s.
   virtual double value(double t) const = 0;
 
-  /// True where it is zero at all times, so that the load can be left out.
+  /// True if it is zero at all times, so that the load can be omitted.
   virtual bool vanishes() const { return false; }
 
-  /// The Taylor coefficients of value(t + s h) in s, from the right where it jumps: coefficients[k] = h^k
-  /// value^(k)(t)/k!. False where it has none to give; methods that need them then refuse the scene.
+  /// The Taylor coefficients of value(t + s h) in s, from the right at a discontinuity:
+  /// coefficients[k] = h^k value^(k)(t)/k!. False if it has none; methods that need them then
+  /// refuse the scene.
   virtual bool taylor(double t, double h, std::span<double> coefficients) const {
     (void)t, (void)h, (void)coefficients;
     return false;
   }
 
-  /// Of a pure harmonic, so that methods may integrate it exactly; nothing for all others.
+  /// The parameters of a pure harmonic, so that methods may integrate it exactly; empty for all
+  /// other functions.
   virtual std::optional<Harmonic> harmonic() const { return std::nullopt; }
 
-  /// True where it is a polynomial of degree two or less between discontinuities(); methods that need that refuse all
-  /// others but pure harmonics.
+  /// True if it is a polynomial of degree two or less between discontinuities(). Methods that need
+  /// this refuse all other functions except pure harmonics.
   virtual bool is_piecewise_parabolic() const { return false; }
 
   /// The instants at which the value or one of its derivatives jumps, ascending.

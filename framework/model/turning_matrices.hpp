@@ -6,8 +6,8 @@
 
 namespace butee::model {
 
-/// W = -D J per rad/s of rotating damping D on `dofs`, where J x is the cross product of e_x with the displacements and
-/// rotations of each node.
+/// W = -D J per rad/s for rotating damping D on `dofs`; J x is the cross product of e_x with the
+/// displacements and rotations of each node.
 BUTEE_EXPORT Eigen::MatrixXd circulatory_of(std::span<const NodalDof> dofs, const Eigen::MatrixXd& damping);
 
 }  // namespace butee::model

@@ -4,17 +4,17 @@
 
 namespace butee::linalg::kernel {
 
-/// Steps of a chunk of a factor.
+/// Rows per chunk of a factor.
 inline constexpr Index kFactorRows = 8;
 
-/// What BandFactor holds: pairs (from the top, from the bottom) for every row eliminated.
+/// The data of BandFactor: pairs (from the top, from the bottom) for every eliminated row.
 struct FactorView {
   Index size, steps;
   const ChunkTable &forward, &backward;
   const double* middle_inverse;
 };
 
-/// What is taken from a solution: factor v.
+/// The term subtracted from a solution: factor v.
 struct Subtrahend {
   double factor;
   const double* v;
@@ -25,7 +25,7 @@ using BandSolve = void (*)(const FactorView&, double* x, const Subtrahend& less)
 
 inline constexpr Index kWidestFactor = 8;
 
-/// For bands 1 to kWidestFactor; `subtracts` where there is something to take away.
+/// For bands 1 to kWidestFactor; `subtracts` is true if a term is subtracted.
 BandSolve band_solve(Index band, bool subtracts);
 
 }  // namespace butee::linalg::kernel

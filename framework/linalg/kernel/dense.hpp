@@ -4,16 +4,16 @@
 
 namespace butee::linalg::kernel {
 
-/// Doubles that the columns of matrices, the blocks of stops and the chunks of rows are padded to, whatever the
-/// instruction set: the widest register.
+/// Number of doubles to which the columns of matrices, the blocks of stops and the chunks of rows
+/// are padded for every instruction set: the widest register.
 inline constexpr Index kChunk = 8;
 
-/// Whole chunks that hold `size` doubles.
+/// Number of whole chunks that hold `size` doubles.
 constexpr Index chunks_for(Index size) {
   return (size + kChunk - 1) / kChunk;
 }
 
-/// A dense matrix of few rows, by columns that are padded to chunks.
+/// A dense matrix of few rows, stored by columns padded to chunks.
 struct DenseMatrix {
   const double* values;
   Index rows, columns;
@@ -29,7 +29,7 @@ struct Dense {
   void (*multiply_two)(const DenseMatrix&, const double* x0, const double* x1, double* y0, double* y1);
 };
 
-/// Of the chosen instruction set.
+/// For the chosen instruction set.
 const Dense& dense();
 
 }  // namespace butee::linalg::kernel

@@ -1,5 +1,6 @@
-// For the sources of this folder and of dynamics/kernel, included behind <hwy/highway.h> in each pass. Highway's own
-// tables and its library are not used: loading the library measures a clock for 4 ms.
+// For the sources of this folder and of dynamics/kernel, included after <hwy/highway.h> in each
+// pass. Highway's own tables and library are not used: loading the library measures a clock for 4
+// ms.
 #ifndef BUTEE_KERNEL
 #include "butee/core/target.hpp"
 /// The versions of a function, in the order of target_index().
@@ -7,6 +8,6 @@
   static decltype(&HWY_STATIC_DISPATCH(function))                                                                      \
       const function##_versions[] = {HWY_CHOOSE_AVX3(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_SSSE3(function), \
                                      HWY_CHOOSE_NEON(function), HWY_CHOOSE_FALLBACK(function)}
-/// That for the chosen instruction set.
+/// The version for the chosen instruction set.
 #define BUTEE_KERNEL(function) (*function##_versions[target_index()])
 #endif
