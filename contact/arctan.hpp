@@ -9,10 +9,11 @@ namespace butee::contact {
 
 /// The paper's regularised stop: F = K_c(g) g with K_c = k_c/2 [2/pi atan(pi lambda g) + 1].
 ///
-/// With x = pi lambda g. For an open stop (x < 0) the bracket is written 2/pi atan(1/|x|), which loses no digits, and
-/// from |x| > 1e4 as two terms of its series in 1/|x| (relative error below 1/(5 x^4) = 2e-17), without a
-/// transcendental function. The law keeps a constant pull of k_c/(pi^2 lambda) towards the stop however far it is open.
-/// Checked by differences over 1e-9 ... 1 m in tests/unit/contact_law_test.cpp.
+/// With x = pi lambda g. For an open stop (x < 0) the bracket is written 2/pi atan(1/|x|), which
+/// loses no digits, and from |x| > 1e4 as two terms of its series in 1/|x| (relative error below
+/// 1/(5 x^4) = 2e-17), without a transcendental function. The law keeps a residual force of
+/// k_c/(pi^2 lambda) towards the stop at any distance. Checked by differences over 1e-9 ... 1 m in
+/// tests/unit/contact_law_test.cpp.
 class Arctan final : public model::ContactLaw {
  public:
   /// `stiffness` k_c in N/m, `regularization` lambda in 1/m.
@@ -38,7 +39,7 @@ class Arctan final : public model::ContactLaw {
     return x < 0.0 ? stiffness_ * open : stiffness_ * (0.5 * g * g - open);
   }
 
-  /// Far stops first, all of them in one vectorised pass; then those within the transition, one by one.
+  /// Stops far from the transition first, in one vectorised pass; then those within it, one by one.
   void secants(std::span<const double> g, std::span<double> secant) const override;
   void tangents(std::span<const double> g, std::span<double> secant, std::span<double> tangent) const override;
 
@@ -48,7 +49,8 @@ class Arctan final : public model::ContactLaw {
   double asymptotic_force() const override { return stiffness_ / (std::numbers::pi * slope_); }
 
  private:
-  /// Beyond this |x| the series below are exact to rounding: their first dropped terms are 1/(13 x^12) and 7/(15 x^12).
+  /// Beyond this |x| the series below are exact to rounding: their first omitted terms are 1/(13
+  /// x^12) and 7/(15 x^12).
   static constexpr double kFar = 20.0;
 
   /// atan(1/y)/pi for y > kFar.
@@ -64,12 +66,12 @@ class Arctan final : public model::ContactLaw {
            std::numbers::inv_pi;
   }
 
-  /// atan(1/y)/pi for y >= 0: the part of k_c that an open stop keeps at x = -y.
+  /// atan(1/y)/pi for y >= 0: the fraction of k_c that an open stop keeps at x = -y.
   static double open_fraction(double y) {
     if (y > kFar) return far_fraction(y);
     return y > 0.0 ? std::atan(1.0 / y) * std::numbers::inv_pi : 0.5;
   }
-  /// The same part of the tangent.
+  /// The corresponding fraction for the tangent.
   static double open_tangent_fraction(double y) {
     if (y > kFar) return far_tangent_fraction(y);
     return open_fraction(y) - y / (1.0 + y * y) * std::numbers::inv_pi;

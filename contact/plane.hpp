@@ -4,7 +4,7 @@
 
 namespace butee::contact {
 
-/// A straight wall: g = normal . d - gap. In one direction it is a stop on one side.
+/// A straight wall: g = normal . d - gap. In one direction it is a one-sided stop.
 class Plane final : public model::ContactShape {
  public:
   /// `normal` of length 1 points into the wall; `gap` in m.

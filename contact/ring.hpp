@@ -18,7 +18,7 @@ class Ring final : public model::ContactShape {
   model::Approach at(const Eigen::Vector2d& d) const override {
     const Eigen::Vector2d arm = d - centre_;
     const double r = arm.norm();
-    // At the centre every direction is normal.
+    // At the centre every direction is normal to the circle.
     if (r == 0.0) return {-sense_ * gap_, {sense_, 0.0}, 0.0};
     return {sense_ * (r - gap_), sense_ / r * arm, sense_ / r};
   }

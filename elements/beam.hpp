@@ -5,7 +5,7 @@
 
 namespace butee::elements {
 
-/// How a beam moves, and what it takes into account.
+/// The motion of a beam and the effects included.
 struct BeamOptions {
   enum class Motion {
     planar,   ///< bends in the plane (x, y): uy, rz
@@ -14,22 +14,25 @@ struct BeamOptions {
   };
   Motion motion = Motion::planar;
   BeamTheory theory = BeamTheory::euler;
-  double preload = 0.0;             ///< N, tension positive: the axial force that is there before
-  bool preload_of_gravity = false;  ///< in its place the forces of the static position under gravity, set later
-  /// Columns: the beam's own axes x, y and z in space. Those of planar and lateral beams are the axes of space.
+  double preload = 0.0;             ///< N, tension positive: the initial axial force
+  bool preload_of_gravity = false;  ///< instead, take the axial forces of the static position under gravity, set later
+  /// Columns: the beam's own axes x, y and z in space. For planar and lateral beams they are the
+  /// axes of space.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
 /// A straight beam of two-node elements with cubic shape functions and consistent mass; see BendingMatrices for
 /// bending. Axial and torsional motion have linear shape functions, polar inertia rho (Iy + Iz).
 ///
-/// In the plane (x, z) theta is -ry. Frequencies are too high by O(l^4) without shear, O(l^2) with it and in axial and
-/// torsional motion. Of a turning round shaft with rotary inertia G = 2 M_r couples the planes, so that forward whirl
-/// (in the sense of the rotation) goes up with the speed. Checked against closed forms in tests/unit/beam_test.cpp and
+/// In the plane (x, z) theta is -ry. Frequencies are too high by O(l^4) without shear, and by
+/// O(l^2) with shear and in axial and torsional motion. For a turning round shaft with rotary
+/// inertia, G = 2 M_r couples the planes, so that the frequency of forward whirl (in the sense of
+/// the rotation) rises with the speed. Checked against closed forms in tests/unit/beam_test.cpp and
 /// tests/verification/beam_modes_test.cpp.
 class Beam final : public model::Element {
  public:
-  /// `nodes` along the beam at ascending `coordinates`, m. The section and the material know what `options` need.
+  /// `nodes` along the beam at ascending `coordinates`, m. The section and the material must define
+  /// the data that `options` need.
   Beam(model::Material material, model::Section section, std::vector<model::NodeId> nodes,
        std::vector<double> coordinates, BeamOptions options = {});
 
@@ -37,7 +40,7 @@ class Beam final : public model::Element {
   void assemble(model::MatrixSink& sink) const override;
   bool add_line_load(std::vector<model::NodalValue>& loads, DofKind along) const override;
   std::vector<model::NodeId> axis() const override { return nodes_; }
-  /// p at the end of a part in the beam's own axes, its opposite at its beginning.
+  /// p at the end of a part in the beam's own axes, or -p at its beginning.
   std::optional<model::SectionCut> cut(Index part, bool at_end) const override;
   std::vector<double> preload() const override;
   void set_preload(std::vector<double> forces) override { preloads_ = std::move(forces); }
@@ -58,7 +61,7 @@ class Beam final : public model::Element {
     return {length_of(part), preloads_.empty() ? options_.preload : preloads_[static_cast<std::size_t>(part)]};
   }
   BendingMatrices bending(const Part& part, bool in_xy) const;
-  /// Mass, stiffness and, where it turns, gyroscopic matrix of a part on the DOFs of dofs_of().
+  /// Mass, stiffness and, if the beam turns, gyroscopic matrix of a part on the DOFs of dofs_of().
   model::ElementMatrices matrices_of(const Part& part, bool turns) const;
   /// Consistent nodal forces of a line load in N/m on an element of length l.
   Eigen::VectorXd line_load(double l, const Eigen::Vector3d& in_space) const;
@@ -71,7 +74,7 @@ class Beam final : public model::Element {
   std::vector<model::NodeId> nodes_;
   std::vector<double> coordinates_;
   BeamOptions options_;
-  std::vector<double> preloads_;  ///< of the parts; empty: that of the options
+  std::vector<double> preloads_;  ///< of the parts; empty: the preload of the options
 };
 
 model::ElementType beam_type();

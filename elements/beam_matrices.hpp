@@ -8,8 +8,8 @@ namespace butee::elements {
 
 enum class BeamTheory {
   euler,      ///< Euler-Bernoulli
-  rayleigh,   ///< with the rotary inertia of the section
-  timoshenko  ///< with that and shear
+  rayleigh,   ///< with rotary inertia of the section
+  timoshenko  ///< with rotary inertia and shear
 };
 
 /// The properties of one beam element for bending in one plane.
@@ -19,7 +19,7 @@ struct BendingProperties {
   double mass;            ///< rho A, kg/m
   double rotary_inertia;  ///< rho I, kg m; 0: none
   double shear_ratio;     ///< Phi = 12 E I / (kappa G A l^2), 0: stiff in shear
-  double tension;         ///< P, N, of the axial force that is there before
+  double tension;         ///< P, N, the initial axial force
 };
 
 /// The matrices of an element in one plane of bending with DOFs (u1, theta1, u2, theta2), theta = du/dx without shear:
@@ -36,7 +36,7 @@ struct BendingMatrices {
   explicit BendingMatrices(const BendingProperties& of);
 
   Eigen::Matrix4d stiffness, mass;
-  Eigen::Matrix4d rotary;  ///< M_r, which `mass` holds too; the gyroscopic matrix of a turning round shaft is 2 M_r
+  Eigen::Matrix4d rotary;  ///< M_r, included in `mass`; the gyroscopic matrix of a turning round shaft is 2 M_r
 };
 
 }  // namespace butee::elements

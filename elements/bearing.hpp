@@ -9,7 +9,7 @@ namespace butee::elements {
 ///
 ///     F_a = -K (u_a - u_b) - C (v_a - v_b),   F_b = -F_a
 ///
-/// Damping that rotates acts on the velocity relative to the turning shaft and must be isotropic.
+/// Rotating damping acts on the velocity relative to the turning shaft and must be isotropic.
 class Bearing final : public model::Element {
  public:
   Bearing(model::NodeId a, std::optional<model::NodeId> b, Eigen::Matrix2d stiffness, Eigen::Matrix2d damping,

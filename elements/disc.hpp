@@ -4,8 +4,9 @@
 
 namespace butee::elements {
 
-/// A rigid disc on a shaft along x: mass m (kg) in all translations of its node that something uses, diametral inertia
-/// I_d in ry and rz, polar inertia I_p in rx (kg m2). Turning at Omega, with theta = rz and psi = -ry,
+/// A rigid disc on a shaft along x: mass m (kg) in uy, uz and, if another element uses it, ux;
+/// diametral inertia I_d in ry and rz, polar inertia I_p in rx (kg m2). When it turns at Omega,
+/// with theta = rz and psi = -ry,
 ///
 ///     I_d theta'' + I_p Omega psi' = M_theta,    I_d psi'' - I_p Omega theta' = M_psi
 ///

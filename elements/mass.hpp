@@ -4,8 +4,8 @@
 
 namespace butee::elements {
 
-/// A lumped mass (kg) at one node, in uy and in every other translation that something uses, with rotary inertia
-/// (kg m2) in rz and, where something uses it, ry. A zero claims no DOF.
+/// A lumped mass (kg) at one node, in uy and in every other translation that other parts of the
+/// scene use, with rotary inertia (kg m2) in rz and, if used, ry. A zero value claims no DOF.
 class Mass final : public model::Element {
  public:
   Mass(model::NodeId node, double mass, double rotary_inertia);

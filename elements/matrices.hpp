@@ -10,17 +10,17 @@ namespace butee::elements {
 ///
 ///     M a + (C + Omega G) v + K x = f
 ///
-/// M is symmetric; K and C may be any; G (kg m2 ..., skew-symmetric) counts where the structure turns. Its mass may not
-/// be negative; a row without mass on its diagonal gives none to its DOF. Checked in
-/// tests/verification/matrices_test.cpp.
+/// M is symmetric; K and C need not be; G (kg m2 ..., skew-symmetric) is used if the structure
+/// turns. The mass must not be negative; a row without mass on its diagonal gives none to its DOF.
+/// Checked in tests/verification/matrices_test.cpp.
 class Matrices final : public model::Element {
  public:
-  /// The matrices have as many rows as there are `dofs`; damping and gyroscopic may be 0 x 0.
+  /// The matrices have one row for each of `dofs`; damping and gyroscopic may be 0 x 0.
   Matrices(std::vector<model::NodalDof> dofs, const SparseMatrix& mass, const SparseMatrix& stiffness,
            const SparseMatrix& damping, const SparseMatrix& gyroscopic);
 
   void claim(model::DofTable& dofs) const override;
-  /// Adds entry by entry, so that the pattern stays that of the files.
+  /// Adds entry by entry, so that the pattern is that of the files.
   void assemble(model::MatrixSink& sink) const override;
   Turning turning() const override { return has_gyroscopic_ ? Turning::possible : Turning::never; }
 

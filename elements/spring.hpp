@@ -4,12 +4,12 @@
 
 namespace butee::elements {
 
-/// Springs with parallel dashpots, to ground or between nodes pair by pair, on one kind of DOF.
+/// Springs with parallel dashpots, to ground or between pairs of nodes, on one kind of DOF.
 ///
 ///     F_a = -k (x_a - x_b) - c (v_a - v_b),   F_b = -F_a
 ///
-/// A dashpot that rotates acts on the velocity relative to the turning shaft, v_y + Omega u_z or v_z - Omega u_y (of
-/// rotations likewise): there is one for each of the two directions.
+/// A rotating dashpot acts on the velocity relative to the turning shaft, v_y + Omega u_z or v_z -
+/// Omega u_y (likewise for rotations); each of the two directions has one.
 class Spring final : public model::Element {
  public:
   /// `b` is empty (to ground) or as long as `a`. Stiffness N/m and damping N s/m, or N m/rad and N m s/rad on theta.

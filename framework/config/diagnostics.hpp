@@ -7,16 +7,16 @@
 
 namespace butee::config {
 
-/// Collects every mistake of a model file, so that a user sees all of them in one go.
+/// Collects all errors of a scene file, so that the user sees them together.
 ///
 /// A message reads `FILE:LINE: KEY = VALUE: what is wrong and what is allowed`.
 class BUTEE_EXPORT Diagnostics {
  public:
   explicit Diagnostics(const Document& document) : document_(&document) {}
 
-  /// A mistake in the value of `key`.
+  /// Reports an error in the value of `key`.
   void error(const std::string& key, const Value& value, const std::string& complaint);
-  /// A mistake about `key` as a whole, such as its absence from the table at `at`.
+  /// Reports an error about `key` as a whole, such as its absence from the table at `at`.
   void error(const std::string& key, Location at, const std::string& complaint);
   void warning(const std::string& key, Location at, const std::string& complaint);
 
@@ -25,7 +25,8 @@ class BUTEE_EXPORT Diagnostics {
   const std::vector<std::string>& warnings() const { return warnings_; }
   const Document& document() const { return *document_; }
 
-  /// Throws InputError with all messages, a line each, in the order of the file, where there is any.
+  /// If there are errors, throws InputError with all messages, one per line, in the order of the
+  /// file.
   void throw_if_any() const;
 
  private:

@@ -11,7 +11,7 @@ namespace butee::config {
 struct Key;
 using Keys = std::vector<Key>;
 
-/// What a key is set to: text, a number, true or false, a list of these, or a table (Keys).
+/// The value of a key: text, a number, true or false, a list of these, or a table (Keys).
 class BUTEE_EXPORT Setting {
  public:
   Setting(bool value) : value_(Value::Data(value)) {}
@@ -36,7 +36,7 @@ struct Key {
   Setting value;
 };
 
-/// A model that is built in code instead of being read from a file, with the same tables and keys:
+/// A model built in code instead of read from a file, with the same tables and keys:
 ///
 ///     ModelBuilder model;
 ///     model.set("material.steel", {{"young_modulus", 2.1e11}, {"density", 7850.0}});
@@ -45,21 +45,21 @@ struct Key {
 ///     model.set("integrator", {{"tolerance", 1e-4}, {"end_time", 0.2}});
 ///     auto structure = embed::Structure::from_document(model.document());
 ///
-/// What is wrong with it is said when it is used, as of a file, where the number behind the colon is that of the call:
-/// "model in code:3: contact.gap = -1: ...".
+/// Errors are reported when the model is used, as for a file; the number after the colon is that of
+/// the call: "model in code:3: contact.gap = -1: ...".
 class BUTEE_EXPORT ModelBuilder {
  public:
   ModelBuilder();
 
-  /// Sets keys of a table, "integrator" or "material.steel", which is made where it is missing; a key that was set
-  /// before is replaced. Throws LogicError where part of the path is a list or a number.
+  /// Sets keys of a table, "integrator" or "material.steel". A missing table is created; an
+  /// existing key is replaced. Throws LogicError if part of the path is a list or a number.
   ModelBuilder& set(const std::string& table, const Keys& keys);
   /// Appends to a list of tables: "element", "support", "contact", "load".
   ModelBuilder& add(const std::string& list, const Keys& keys);
 
   /// For Structure::from_document() and plugin::build_scene().
   const Document& document() const { return document_; }
-  /// The same as a file for the program.
+  /// The model as the text of a scene file for the program.
   std::string toml() const;
 
  private:

@@ -7,19 +7,19 @@
 
 namespace butee::config {
 
-/// Takes long arrays of plain numbers out of a TOML text before its parser sees them, which needs microseconds for
-/// every number, and gives them back afterwards.
+/// Removes long arrays of plain numbers from a TOML text before it is parsed, since the parser
+/// needs microseconds for each number, and provides them afterwards.
 ///
-/// An array is taken where it follows a `=` and holds nothing but decimal integers and floats of at least kShortest
-/// characters; any other is left to the parser and its messages. In its place stands an array of one text, with the
-/// same line breaks.
+/// An array is removed if it follows a `=` and holds only decimal integers and floats of at least
+/// kShortest characters; any other array is left to the parser and its messages. It is replaced by
+/// an array of one text, with the same line breaks.
 class NumberArrays {
  public:
   static constexpr std::size_t kShortest = 512;
 
-  /// The text without them.
+  /// The text without these arrays.
   std::string take_out(const std::string& text);
-  /// The array that the only text of an array stands for, or nullptr.
+  /// The array represented by the only text of an array, or nullptr.
   Array* find(const std::string& text);
 
  private:

@@ -11,14 +11,15 @@
 
 namespace butee::config {
 
-/// The validated values of a table: every key is declared, present or defaulted, and of its declared kind.
+/// The validated values of a table: every key is declared, has a value or default, and is of its
+/// declared kind.
 ///
-/// The reading functions throw LogicError for a name that was not declared or has no value.
+/// The reading functions throw LogicError for a name that is not declared or has no value.
 class BUTEE_EXPORT Parameters {
  public:
-  /// False where an optional key is absent.
+  /// False if an optional key is absent.
   bool has(std::string_view name) const;
-  /// True where the file (or an override) gave the key; false for a default.
+  /// True if the file (or an override) gave the key; false for a default.
   bool given(std::string_view name) const;
 
   double number(std::string_view name) const;
@@ -32,11 +33,11 @@ class BUTEE_EXPORT Parameters {
 
   /// "contact[0].gap", the full key for messages.
   std::string key(std::string_view name) const;
-  /// The table's own key ("contact[0]") and place.
+  /// The table's own key ("contact[0]") and location.
   const std::string& path() const { return path_; }
   Location at() const { return at_; }
 
-  /// Reports a mistake in the value of `name`, or about its absence.
+  /// Reports an error in the value of `name`, or its absence.
   void complain(Diagnostics& diagnostics, std::string_view name, const std::string& complaint) const;
 
   void set(const std::string& name, Value value, bool from_file);
@@ -55,13 +56,15 @@ class BUTEE_EXPORT Parameters {
 /// The number in an integer or a number, else nothing.
 BUTEE_EXPORT std::optional<double> as_number(const Value& value);
 
-/// Checks a table against its declarations: unknown and missing keys, kinds, bounds. Every mistake goes to
-/// `diagnostics`; nothing is returned where there was one. Keys in `ignored` are read by somebody else.
+/// Checks a table against its declarations: unknown and missing keys, kinds, bounds. Every error
+/// goes to `diagnostics`; if there are any, nothing is returned. Keys in `ignored` are read
+/// elsewhere.
 BUTEE_EXPORT std::optional<Parameters> read_parameters(const Value& table, const std::string& path,
                                                        const std::vector<Parameter>& declared, Diagnostics& diagnostics,
                                                        const std::vector<std::string>& ignored = {});
 
-/// Defaults alone; throws InputError where a required one is missing from `given`. For models built in code.
+/// Defaults together with `given`; throws InputError if a required key is missing from `given`. For
+/// models built in code.
 BUTEE_EXPORT Parameters make_parameters(const std::vector<Parameter>& declared, const Table& given = {});
 
 }  // namespace butee::config

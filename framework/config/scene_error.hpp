@@ -8,15 +8,15 @@
 
 namespace butee::config {
 
-/// One mistake of a scene, in the parts of its message.
+/// One error in a scene, as the parts of its message.
 struct Mistake {
   std::string file;     ///< or "--set KEY=VALUE"
-  int line = 0;         ///< from 1; 0 where the whole of `file` is meant
+  int line = 0;         ///< from 1; 0 if the error concerns the whole of `file`
   std::string key;      ///< "contact[0].gap"
-  std::string message;  ///< with the value in front of it, where there is one: "-1: must be at least 0"
+  std::string message;  ///< preceded by the value, if there is one: "-1: must be at least 0"
 };
 
-/// Bad input with every mistake, in the order of the file.
+/// Bad input with all errors, in the order of the file.
 class BUTEE_EXPORT SceneError : public InputError {
  public:
   SceneError(const std::string& text, std::vector<Mistake> mistakes)

@@ -8,13 +8,15 @@
 
 namespace butee::config {
 
-/// Parses the text of a TOML file. Throws InputError ("name:line: what is wrong") where it is not TOML.
+/// Parses the text of a TOML file. Throws InputError ("name:line: what is wrong") if it is not
+/// valid TOML.
 BUTEE_EXPORT Document parse_toml(const std::string& text, const std::string& name);
 
-/// Reads and parses a file. Throws InputError where it cannot be read.
+/// Reads and parses a file. Throws InputError if it cannot be read.
 BUTEE_EXPORT Document load_toml(const std::string& path);
 
-/// A single value in TOML syntax ("1e-6", "[1, 2]", "\"text\""), or nothing where it is not valid TOML.
+/// A single value in TOML syntax ("1e-6", "[1, 2]", "\"text\""), or nothing if it is not valid
+/// TOML.
 BUTEE_EXPORT std::optional<Value> parse_toml_value(const std::string& text);
 
 /// The value in TOML syntax on one line.

@@ -11,7 +11,8 @@
 
 namespace butee::config {
 
-/// Where a value was written: `source` indexes Document::sources, `line` counts from 1 (0: the whole source).
+/// The origin of a value: `source` indexes Document::sources, `line` counts from 1 (0: the whole
+/// source).
 struct Location {
   std::int32_t source = 0;
   std::int32_t line = 0;
@@ -27,13 +28,13 @@ class BUTEE_EXPORT Table {
 
   const Value* find(std::string_view key) const;
   Value* find(std::string_view key);
-  /// The value of `key`, an empty table where it was absent.
+  /// The value of `key`; a missing key is created with an empty table.
   Value& operator[](std::string_view key);
 
   std::vector<Entry> entries;
 };
 
-/// One TOML value with the place it came from.
+/// One TOML value with its location.
 class BUTEE_EXPORT Value {
  public:
   using Data = std::variant<bool, std::int64_t, double, std::string, Array, Table>;
@@ -65,7 +66,8 @@ inline Value* Table::find(std::string_view key) {
   return nullptr;
 }
 
-/// A parsed model file with the overrides applied to it. sources[0] is the file's path, the rest are overrides.
+/// A parsed scene file with the overrides applied. sources[0] is the file's path, the others are
+/// overrides.
 struct Document {
   std::vector<std::string> sources;
   Value root;

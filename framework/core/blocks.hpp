@@ -6,14 +6,15 @@
 
 namespace butee {
 
-/// Rows, of some ten vectors, that a core keeps in its cache while several operations go over them; a multiple of any
-/// register's size.
+/// The number of rows of about ten vectors that stay in a core's cache while several operations
+/// pass over them; a multiple of the size of any register.
 inline constexpr Index kBlock = 2048;
-/// Below two blocks there is one for all rows.
+/// With fewer than two blocks all rows form one block.
 inline constexpr Index kLargestBlock = 2 * kBlock - 1;
 
-/// Calls work(begin, count) for one block of rows after the other, so that what several operations share is read from
-/// memory once: systems of a million DOFs are bound by that.
+/// Calls work(begin, count) for one block of rows after the other, so that data shared by several
+/// operations are read from memory once. Memory access limits the speed of systems with a million
+/// DOFs.
 template <class Work>
 void in_blocks(Index size, const Work& work) {
   Index begin = 0;
@@ -21,7 +22,7 @@ void in_blocks(Index size, const Work& work) {
   work(begin, size - begin);
 }
 
-/// The blocks that there are, and the one that a row belongs to.
+/// The number of blocks, and the block of a row.
 constexpr std::size_t block_count(Index size) {
   return size > kLargestBlock ? static_cast<std::size_t>(size / kBlock) : 1;
 }
@@ -29,8 +30,8 @@ constexpr std::size_t block_of(Index row, Index size) {
   return std::min(static_cast<std::size_t>(row / kBlock), block_count(size) - 1);
 }
 
-/// Calls row(i) for every row. What one writes no other may read, so that several are taken at once; of one DOF it
-/// costs a few instructions, where an expression of vectors costs tens.
+/// Calls row(i) for every row. No row may read what another writes, so that several are computed at
+/// once. With one DOF it costs a few instructions; an expression of vectors would cost tens.
 template <class Row>
 void for_rows(Index size, const Row& row) {
 #if defined(__clang__)

@@ -14,11 +14,11 @@
 
 namespace butee {
 
-/// Appends numbers, vectors and texts to a row of bytes, in this machine's own representation: for the same build on
-/// the same kind of machine, bit for bit.
+/// Appends numbers, vectors and texts to an array of bytes, in this machine's own representation:
+/// readable bit for bit by the same build on the same kind of machine.
 class BUTEE_EXPORT ByteWriter {
  public:
-  /// `bytes` is emptied, its memory used again. It must outlive the writer.
+  /// `bytes` is cleared and its memory reused. It must outlive the writer.
   explicit ByteWriter(std::vector<std::byte>& bytes) : bytes_(bytes) { bytes_.clear(); }
 
   template <class Number>
@@ -36,10 +36,11 @@ class BUTEE_EXPORT ByteWriter {
   std::vector<std::byte>& bytes_;
 };
 
-/// Reads what a ByteWriter wrote, in the same order. Throws RunError where the bytes end too early.
+/// Reads data written by a ByteWriter, in the same order. Throws RunError if the bytes end too
+/// early.
 class BUTEE_EXPORT ByteReader {
  public:
-  /// `bytes` must outlive it.
+  /// `bytes` must outlive this object.
   explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   template <class Number>
@@ -64,7 +65,8 @@ class BUTEE_EXPORT ByteReader {
     return number;
   }
 
-  /// The number of things to come, each of at least `size` bytes: never more than there are bytes for.
+  /// Reads the number of following items, each of at least `size` bytes; never more than the
+  /// remaining bytes allow.
   std::size_t count(std::size_t size = 1);
   bool at_end() const { return rest_.empty(); }
 
@@ -74,7 +76,7 @@ class BUTEE_EXPORT ByteReader {
   std::span<const std::byte> rest_;
 };
 
-/// CRC-64/XZ: tells bytes that were damaged, not bytes that were forged.
+/// CRC-64/XZ: detects accidental damage, not forgery.
 BUTEE_EXPORT std::uint64_t checksum(std::span<const std::byte> bytes);
 
 }  // namespace butee

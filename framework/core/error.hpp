@@ -7,20 +7,20 @@
 
 namespace butee {
 
-/// Bad input: the message says where, what was given, which constraint it breaks and what to do.
-/// It may hold several lines, one for each mistake found.
+/// Bad input: the message states the location, the given value, the violated constraint and the
+/// remedy. It may hold several lines, one for each error.
 class BUTEE_EXPORT InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Work that failed outside the numerics: a file that cannot be written, a module that breaks.
+/// A failure outside the numerics: a file that cannot be written, a module that fails.
 class BUTEE_EXPORT RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A broken invariant: a bug in the calling code, never the fault of a scene.
+/// A broken invariant: an error in the calling code, never in a scene.
 class BUTEE_EXPORT LogicError : public std::logic_error {
  public:
   using std::logic_error::logic_error;

@@ -6,7 +6,7 @@
 
 namespace butee {
 
-/// A string by the rules of printf.
+/// A string formatted by the rules of printf.
 [[gnu::format(printf, 1, 2)]] BUTEE_EXPORT std::string formatted(const char* pattern, ...);
 
 }  // namespace butee

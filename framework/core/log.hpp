@@ -4,16 +4,16 @@
 
 #include <butee/export.hpp>
 
-/// Messages to people on standard error. The only door to spdlog.
+/// Messages to the user on standard error. The only interface to spdlog.
 namespace butee::log {
 
 enum class Level { quiet, normal, verbose };
 
-/// quiet: warnings and errors alone; normal: information too; verbose: details too.
+/// quiet: warnings and errors only; normal: also information; verbose: also details.
 BUTEE_EXPORT void set_level(Level level);
 BUTEE_EXPORT bool is_quiet();
 
-/// While one lives warnings are dropped: for runs whose warnings nobody asked for, such as the many of a comparison.
+/// Suppresses warnings during its lifetime, for auxiliary runs such as those of a comparison.
 class BUTEE_EXPORT WithoutWarnings {
  public:
   WithoutWarnings();

@@ -8,10 +8,10 @@
 
 namespace butee {
 
-/// The entry of `known` nearest to `given` in edit distance, or "" where none is near.
+/// The entry of `known` nearest to `given` in edit distance, or "" if none is near.
 BUTEE_EXPORT std::string closest_name(std::string_view given, const std::vector<std::string>& known);
 
-/// ` (did you mean "x"?)` where a near name is known, else "".
+/// ` (did you mean "x"?)` if a near name is known, else "".
 BUTEE_EXPORT std::string suggestion(std::string_view given, const std::vector<std::string>& known);
 
 /// "a, b, c"
@@ -23,11 +23,11 @@ BUTEE_EXPORT std::string to_text(double value);
 /// `value` with 6 significant digits, for messages.
 BUTEE_EXPORT std::string to_short_text(double value);
 
-/// The text without control characters, which a terminal would obey: a line break stays where `with_lines`, all others
-/// become "?".
+/// The text without control characters, which a terminal would interpret: a line break is kept if
+/// `with_lines`, all others become "?".
 BUTEE_EXPORT std::string printable(std::string_view text, bool with_lines = false);
 
-/// True for a non-empty text of [A-Za-z0-9_-] alone.
+/// True for a non-empty text of [A-Za-z0-9_-] only.
 BUTEE_EXPORT bool is_plain_name(std::string_view text);
 
 }  // namespace butee

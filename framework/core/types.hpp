@@ -45,7 +45,7 @@ constexpr const char* name_of(DofKind kind) {
 }
 /// All names that a scene may use: ux ... rz and the aliases u (uy), w (uz) and theta (rz).
 inline constexpr std::array<std::string_view, 9> kDofNames = {"u", "theta", "ux", "uy", "uz", "rx", "ry", "rz", "w"};
-/// The kind of a name of kDofNames; nothing for all others.
+/// The kind of a name of kDofNames; nothing for other names.
 constexpr std::optional<DofKind> dof_named(std::string_view name) {
   if (name == "u") return DofKind::uy;
   if (name == "w") return DofKind::uz;

@@ -6,11 +6,12 @@
 
 namespace butee {
 
-/// A vector of zeros. A long one asks the system for large pages, for which finding the place of an entry in memory
-/// costs less: systems of a million DOFs gain a quarter of their time by it.
+/// A vector of zeros. A long vector requests large pages from the system, which reduces the cost of
+/// address translation: systems of a million DOFs gain a quarter of their time.
 BUTEE_EXPORT Vector zeros(Index size);
 
-/// Makes room in the same way, for entries that are not defined yet; does nothing where the vector has that size.
+/// Allocates a vector in the same way with undefined entries; does nothing if the vector has that
+/// size.
 BUTEE_EXPORT void make_room(Vector& vector, Index size);
 
 }  // namespace butee

@@ -4,7 +4,7 @@
 
 namespace butee::embed {
 
-/// A force that another solver sets: a straight line in time, from one instant on.
+/// A force set by another solver: linear in time from one instant on.
 class NodalForce final : public model::TimeFunction {
  public:
   struct Line {

@@ -5,17 +5,17 @@
 #include <Eigen/Core>
 #include <butee/version.hpp>
 
-/// The interface between butee and its modules. Everything here is plain C data, so that it can be compared before
-/// anything else of a module is touched.
+/// The interface between butee and its modules. All of it is plain C data, so that it can be
+/// compared before anything else of a module is accessed.
 extern "C" {
 
-/// What must be equal on both sides of the door.
+/// Properties that must be equal in the library and the module.
 struct butee_abi_tag {
   std::uint32_t size;               ///< sizeof(butee_abi_tag)
   std::uint32_t interface_version;  ///< BUTEE_INTERFACE_VERSION
   std::uint32_t eigen_version;      ///< world * 10000 + major * 100 + minor
   std::uint32_t eigen_alignment;    ///< EIGEN_MAX_ALIGN_BYTES
-  std::uint32_t eigen_layout;       ///< bytes of Eigen::Index, plus 256 where matrices are stored by rows
+  std::uint32_t eigen_layout;       ///< bytes of Eigen::Index, plus 256 if matrices are stored by rows
   std::uint32_t cxx11_abi;          ///< _GLIBCXX_USE_CXX11_ABI
   std::uint32_t checked_library;    ///< 1: _GLIBCXX_DEBUG, which changes the layout of containers
   std::uint32_t sanitizers;         ///< 1: AddressSanitizer

@@ -7,9 +7,10 @@
 
 namespace butee::plugin {
 
-/// As long as it lives, a crash of the process is preceded by a line on standard error that says which module was being
-/// loaded. Code of a module that crashes cannot be stopped from within the process; the crash itself takes its course.
-/// Signal handlers belong to the process: while one thread loads a module, others wait.
+/// During its lifetime, if the process crashes, it first writes a line to standard error that names
+/// the module being loaded. A crash in a module's code cannot be prevented from within the process;
+/// it then takes its normal course. Signal handlers belong to the process: while one thread loads a
+/// module, other threads wait.
 class CrashWatch {
  public:
   explicit CrashWatch(const std::string& module);

@@ -3,7 +3,7 @@
 #include "butee/plugin/abi.hpp"
 #include "butee/plugin/registrar.hpp"
 
-/// The door of a module: one C function for the tag, one for the registration.
+/// The entry points of a module: one C function for the tag, one for the registration.
 ///
 ///     BUTEE_PLUGIN(registrar) { registrar.add(my_method_type()); }
 #define BUTEE_PLUGIN(registrar)                                                                                \

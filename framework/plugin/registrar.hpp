@@ -7,7 +7,7 @@
 
 namespace butee::plugin {
 
-/// The types that a module holds.
+/// The types of a module.
 struct ModuleTypes {
   std::vector<time::IntegratorType> integrators{};
   std::vector<model::LawType> laws{};
@@ -17,7 +17,8 @@ struct ModuleTypes {
   std::vector<model::FieldFormat> formats{};
 };
 
-/// Takes the types that a module registers. Nothing counts until the whole module has been read without a mistake.
+/// Receives the types that a module registers. They take effect only after the whole module has
+/// been read without error.
 class BUTEE_EXPORT Registrar {
  public:
   void add(time::IntegratorType type) { types_.integrators.push_back(std::move(type)); }

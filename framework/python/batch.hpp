@@ -14,20 +14,21 @@
 
 namespace butee::python {
 
-/// Runs of one scene with other values, point by point, on threads that know nothing of Python.
+/// Runs of one scene with varied values, point by point, on threads that do not use Python.
 ///
-/// Results of short runs are handed over many at a time, since each wake of the taker interrupts a thread that
-/// computes. Only so many wait to be taken that memory does not grow with the number of points.
+/// Results of short runs are delivered in groups, since waking the consumer interrupts a computing
+/// thread. The number of waiting results is bounded, so that memory does not grow with the number
+/// of points.
 class Batch {
  public:
-  /// One point's outcome, or why there is none.
+  /// One point's outcome, or the error.
   struct Done {
     std::size_t point = 0;
     std::shared_ptr<Outcome> outcome;
     std::exception_ptr error;
   };
 
-  /// Of a point, one for each key; nothing: the key is taken out.
+  /// Values of a point, one for each key; nothing: the key is removed.
   using Values = std::vector<std::optional<config::Value>>;
 
   Batch(const Session& session, std::vector<std::string> keys, std::vector<Values> points, std::size_t threads);
@@ -36,8 +37,8 @@ class Batch {
   Batch& operator=(const Batch&) = delete;
 
   std::size_t size() const { return points_.size(); }
-  std::size_t taken() const { return taken_; }  ///< by next()
-  /// Waits for the next result, in whatever order they come; nothing where it took longer than `patience`.
+  std::size_t taken() const { return taken_; }  ///< number of results delivered by next()
+  /// Waits for the next result, in any order; nothing if it took longer than `patience`.
   std::optional<Done> next(std::chrono::milliseconds patience);
 
  private:
@@ -47,14 +48,14 @@ class Batch {
   bool is_time() const;
 
   config::Document document_;
-  std::shared_ptr<scene::Scene> scene_;  ///< whose catalogue each thread copies
+  std::shared_ptr<scene::Scene> scene_;  ///< its catalogue is copied by each thread
   std::vector<std::string> keys_;
   std::vector<Values> points_;
   std::size_t thread_count_;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
   std::condition_variable came_, left_;
-  std::deque<Done> waiting_, handed_;  ///< for the taker to be woken; next to be given
+  std::deque<Done> waiting_, handed_;  ///< not yet announced to the consumer; next to be delivered
   std::size_t waiting_bytes_ = 0, handed_count_ = 0, next_ = 0;
   std::chrono::steady_clock::time_point handed_at_;
   std::atomic<std::size_t> taken_ = 0;

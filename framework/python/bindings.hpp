@@ -5,7 +5,8 @@
 
 #include "butee/python/outcome.hpp"
 
-/// The parts of the extension module butee._butee. What users see, with its documentation, is in butee/*.py.
+/// The parts of the extension module butee._butee. The public interface and its documentation are
+/// in butee/*.py.
 namespace butee::python {
 
 void bind_errors(pybind11::module_& module);
@@ -19,12 +20,13 @@ void bind_study(pybind11::module_& module);
 void bind_equations(pybind11::module_& module);
 void bind_structure(pybind11::module_& module);
 
-/// Objects come from functions of the module alone: pybind11 would take what __new__ gives, without __init__, for one.
+/// Allows objects to be made only by functions of the module: pybind11 would accept the result of
+/// __new__ without __init__.
 inline void seal(const pybind11::handle& type) {
   reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new = nullptr;
 }
 
-/// An array that shows `values` without a copy, read-only; `owner` keeps them alive.
+/// A read-only array view of `values` without a copy; `owner` keeps them alive.
 inline pybind11::array view(const std::vector<double>& values, pybind11::handle owner) {
   pybind11::array_t<double> array(static_cast<pybind11::ssize_t>(values.size()), values.data(), owner);
   pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;

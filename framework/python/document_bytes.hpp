@@ -5,11 +5,12 @@
 
 namespace butee::python {
 
-/// A document with the places of its values, for pickles, and back. Throws RunError where the bytes are damaged.
+/// Converts a document with the locations of its values to bytes, for pickles, and back. Throws
+/// RunError if the bytes are damaged.
 std::vector<std::byte> to_bytes(const config::Document& document);
 config::Document to_document(std::span<const std::byte> bytes);
 
-/// Takes away the sources that no value comes from any longer, all but the first.
+/// Removes the sources that no value refers to any more, except the first.
 void drop_unused_sources(config::Document& document);
 
 }  // namespace butee::python

@@ -4,10 +4,10 @@
 
 namespace butee::python {
 
-/// Holds the interpreter's lock. As pybind11::gil_scoped_acquire, but for the end of an interpreter: CPython
-/// before 3.14 ends a thread that waits for its lock then by unwinding, which aborts the program where a frame of C++
-/// catches everything or promises to throw nothing. Such a thread waits here for the end of the process instead, as
-/// CPython 3.14 has it.
+/// Holds the interpreter's lock. Like pybind11::gil_scoped_acquire, except at the end of an
+/// interpreter: CPython before 3.14 then ends a thread that waits for its lock by unwinding, which
+/// aborts the program if a C++ frame catches everything or is noexcept. Here such a thread waits
+/// for the end of the process, as in CPython 3.14.
 class WithInterpreter {
  public:
   WithInterpreter();
@@ -19,7 +19,7 @@ class WithInterpreter {
   PyGILState_STATE state_;
 };
 
-/// Gives the lock away, and takes it again as WithInterpreter does.
+/// Releases the lock, and acquires it again as WithInterpreter does.
 class WithoutInterpreter {
  public:
   WithoutInterpreter() : thread_(PyEval_SaveThread()) {}

@@ -8,7 +8,7 @@
 
 namespace butee::python {
 
-/// The rows of a study in memory, in the order of the plan. Sweeps cannot be gone on with.
+/// The rows of a study in memory, in the order of the plan. Sweeps cannot be continued.
 class MemoryRows final : public study::Rows {
  public:
   MemoryRows(std::int64_t runs, const study::Layout& layout)

@@ -25,33 +25,33 @@ class Columns final : public model::FieldWriter {
   std::vector<std::vector<double>> values;
 };
 
-/// All that a run gives. Nothing of it changes once it is made.
+/// The results of a run. Immutable once made.
 struct Outcome {
   std::string title, message;
-  std::string summary;  ///< what summary.json holds
+  std::string summary;  ///< content of summary.json
   bool completed = false;
   std::vector<std::string> warnings;
   Columns history{{}}, energy{{}};
   std::vector<record::Impact> impacts;
-  std::string wear;  ///< what wear.csv holds; empty where no contact wears
+  std::string wear;  ///< content of wear.csv; empty if no contact wears
 };
 
-/// What a run asks its caller between steps.
+/// Called between the steps of a run.
 class Watch {
  public:
   virtual ~Watch() = default;
-  /// Why the run is to end here, or nullptr.
+  /// The reason to stop the run here, or nullptr.
   virtual const char* look(double t) = 0;
 };
 
 struct RunOptions {
   bool progress_bar = false;
   std::string folder{};  ///< for the files that `butee run` writes; empty: none
-  bool resumes = false;  ///< goes on from the newest checkpoint there, or begins anew
+  bool resumes = false;  ///< continues from the newest checkpoint there, or starts a new run
 };
 
-/// Integrates the scene. Throws InputError where it cannot be run and, of the folder, RunError; a run that fails says
-/// so in what it gives. Safe on several threads with one scene.
+/// Integrates the scene. Throws InputError if it cannot be run, and RunError for the folder; a
+/// failed run is reported in the outcome. Safe on several threads with one scene.
 std::shared_ptr<Outcome> perform(scene::Scene& scene, const RunOptions& options, Watch& watch);
 
 }  // namespace butee::python

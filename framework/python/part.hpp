@@ -8,12 +8,12 @@
 
 namespace butee::python {
 
-/// A structure for one thread at a time, with what is needed to make it again elsewhere.
+/// A structure for one thread at a time, with the data needed to make it again elsewhere.
 class Part {
  public:
   Part(const Session& session, std::vector<std::string> forced);
 
-  /// The structure, for as long as the lock lives. Throws RunError where another thread is at it.
+  /// The structure, during the lifetime of the lock. Throws RunError if another thread uses it.
   struct Locked {
     embed::Structure& structure;
     std::unique_lock<std::mutex> lock;
@@ -34,7 +34,7 @@ class Part {
   std::mutex mutex_;
 };
 
-/// A snapshot as bytes, and back; throws RunError where the bytes are damaged.
+/// Converts a snapshot to bytes, and back; throws RunError if the bytes are damaged.
 std::vector<std::byte> to_bytes(const embed::Structure::Snapshot& snapshot);
 embed::Structure::Snapshot to_snapshot(std::span<const std::byte> bytes);
 

@@ -6,7 +6,7 @@
 
 namespace butee::python {
 
-/// The laws that were written in Python. With the interpreter's lock.
+/// The laws written in Python. Call with the interpreter's lock.
 const std::vector<model::LawType>& python_laws();
 
 }  // namespace butee::python

@@ -4,7 +4,7 @@
 
 namespace butee::python {
 
-/// The catalogue of the program with the loads that were written in Python. With the interpreter's lock.
+/// The program's catalogue with the loads written in Python. Call with the interpreter's lock.
 plugin::Catalogue catalogue_with(const std::vector<std::string>& plugins);
 
 }  // namespace butee::python

@@ -12,7 +12,7 @@
 
 namespace butee::python {
 
-/// A function of Python, whose last reference any thread may drop.
+/// A Python function whose last reference may be released by any thread.
 inline std::shared_ptr<pybind11::function> shared_function(const pybind11::function& function) {
   return {new pybind11::function(function), [](pybind11::function* held) {
             const WithInterpreter lock;
@@ -23,7 +23,7 @@ inline std::shared_ptr<pybind11::function> shared_function(const pybind11::funct
 /// Names of parameters with their defaults.
 using DeclaredParameters = std::vector<std::pair<std::string, std::optional<double>>>;
 
-/// Adds a declaration for each; their names.
+/// Adds a declaration for each parameter and returns their names.
 inline std::vector<std::string> declare(const DeclaredParameters& parameters, std::vector<config::Parameter>& to) {
   std::vector<std::string> names;
   for (const auto& [parameter, value] : parameters) {

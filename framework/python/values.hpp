@@ -6,8 +6,8 @@
 
 namespace butee::python {
 
-/// A Python value as one of a scene: bool, int, float, str, numpy scalars, and sequences, arrays and mappings of them.
-/// Throws TypeError, ValueError or OverflowError of Python.
+/// Converts a Python value to one of a scene: bool, int, float, str, numpy scalars, and sequences,
+/// arrays and mappings of them. Throws Python's TypeError, ValueError or OverflowError.
 config::Value to_value(pybind11::handle from);
 
 pybind11::object to_python(const config::Value& value);

@@ -8,15 +8,16 @@
 
 namespace butee::python {
 
-/// Looks after Ctrl-C and calls `progress(t)` now and then, while a run goes on without the interpreter's lock.
+/// Checks for Ctrl-C and calls `progress(t)` from time to time, while a run continues without the
+/// interpreter's lock.
 class PythonWatch final : public Watch {
  public:
-  /// `progress` may be None. Made and destroyed with the lock.
+  /// `progress` may be None. Constructed and destroyed with the lock.
   explicit PythonWatch(pybind11::object progress) : progress_(std::move(progress)) {}
 
-  /// Without the lock.
+  /// Called without the lock.
   const char* look(double t) override;
-  /// With the lock: throws what Ctrl-C or `progress` raised.
+  /// Called with the lock: throws the exception that Ctrl-C or `progress` raised.
   void rethrow();
 
  private:

@@ -10,38 +10,39 @@
 
 namespace butee::record {
 
-/// A run on its way, as a file keeps it.
+/// A run in progress, as stored in a file.
 struct Checkpoint {
   std::string method;                    ///< canonical name
   std::string target = butee::target();  ///< the instruction set of the kernels
   std::string compiled_for = butee::compiled_for();
   std::uint64_t model = 0;    ///< checksum of model.toml
-  std::uint64_t history = 0;  ///< bytes of history.csv that belong to it
+  std::uint64_t history = 0;  ///< bytes of history.csv up to the checkpoint
   double setup_seconds = 0.0;
   linalg::Counters counters;
   time::Snapshot snapshot;
 };
 
-/// As bytes with a mark, the version of the format and of the program, and a checksum.
+/// Converts to bytes with a mark, the versions of the format and of the program, and a checksum.
 BUTEE_EXPORT std::vector<std::byte> to_bytes(const Checkpoint& checkpoint);
-/// Throws RunError where the bytes are damaged or of another version.
+/// Throws RunError if the bytes are damaged or of another version.
 BUTEE_EXPORT Checkpoint to_checkpoint(std::span<const std::byte> bytes);
 
-/// The checkpoints of a result folder: the newest and the one before it. Whatever happens while one is written, a whole
-/// one stays.
+/// The checkpoints of a result folder: the newest and the one before it. If writing one is
+/// interrupted, a complete one remains.
 class BUTEE_EXPORT CheckpointFolder {
  public:
   explicit CheckpointFolder(const ResultFolder& folder) : folder_(folder) {}
 
-  /// Throws RunError where it cannot be written; those before it are left alone then.
+  /// Throws RunError if the checkpoint cannot be written; earlier ones are then unchanged.
   void write(const Checkpoint& checkpoint) const;
 
-  /// The newest that is whole and that belongs to the model and the history in the folder; one that is not is taken
-  /// away with a warning. Throws InputError where model.toml is not what the checkpoint was written for, and where it
-  /// was written with another instruction set, whose bits differ.
+  /// The newest complete checkpoint that belongs to the model and the history in the folder; others
+  /// are removed with a warning. Throws InputError if model.toml differs from that of the
+  /// checkpoint, or if the checkpoint was written with another instruction set, whose results
+  /// differ in the last bits.
   std::optional<Checkpoint> newest() const;
 
-  /// Takes both away.
+  /// Removes both.
   void clear() const;
 
  private:

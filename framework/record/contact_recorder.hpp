@@ -8,7 +8,7 @@
 
 namespace butee::record {
 
-/// What a contact did over a run.
+/// Totals of a contact over a run.
 struct ContactWear {
   std::string node, kind;
   double work = 0.0;        ///< J: the integral of |F_n w| (Archard)
@@ -19,12 +19,12 @@ struct ContactWear {
   double square = 0.0;      ///< N2 s: the integral of F_n^2
 };
 
-/// Follows contacts in the plane, with dissipation or friction, on the method's dense output: their impacts and their
-/// wear. Integrals by Gauss' rule with five points between kParts parts of a step; largest forces at these instants and
-/// at the maxima between them.
+/// Records the impacts and the wear of contacts in the plane, with dissipation or friction, on the
+/// method's dense output. Integrals by Gauss' rule with five points over each of kParts parts of a
+/// step; largest forces at these instants and at the maxima between them.
 class BUTEE_EXPORT ContactRecorder final : public time::Observer {
  public:
-  /// `dynamics` must outlive it and has obstacles.
+  /// `dynamics` must have obstacles and outlive this object.
   explicit ContactRecorder(dynamics::Dynamics& dynamics);
 
   void start(const time::State& state) override;
@@ -32,10 +32,10 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
 
-  /// In the order of t_in, those still closed included.
+  /// In the order of t_in, including those still closed.
   std::vector<Impact> impacts() const;
   const std::vector<ContactWear>& wear() const { return wear_; }
-  /// The time watched so far, s.
+  /// The duration recorded so far, s.
   double duration() const { return duration_; }
   static std::vector<std::string> wear_columns();
   std::string wear_line(const ContactWear& wear) const;
@@ -47,20 +47,21 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
     bool is_support = false, touches = false;
     Impact current{};
     double stored = 0.0;            ///< J, at the last instant
-    std::array<Sampled, 2> last{};  ///< the normal forces of the two instants before; none where t is equal
+    std::array<Sampled, 2> last{};  ///< the normal forces at the two previous instants; undefined where t is equal
   };
   using Forces = std::vector<dynamics::ContactForces>;
 
-  /// Those of active_ at an instant of a step; others keep old values.
+  /// The forces of the contacts in active_ at an instant of a step; other entries are outdated.
   const Forces& at(const time::AcceptedStep& step, double t);
-  /// Finds the contacts that may exert a force within a step: in given phases those that touch.
+  /// Finds the contacts that may exert a force within a step; with given phases those that touch.
   void find_active(const time::State& from, const time::State& to);
-  /// Those of active_ into now_.
+  /// Copies the forces of the contacts in active_ to now_.
   void take(const Forces& forces);
-  /// integrate() over kParts equal parts.
+  /// Calls integrate() for kParts equal parts.
   void in_parts(const time::AcceptedStep& step, double begin, double end);
   void integrate(const time::AcceptedStep& step, double begin, double end);
-  /// Takes the normal force of a contact at an instant of a step, and the largest around the one before.
+  /// Records the normal force of a contact at an instant of a step, and the maximum around the
+  /// previous instant.
   void take_force(const time::AcceptedStep& step, std::size_t contact, double t, double force);
   void change(const time::AcceptedStep& step, std::size_t contact, double begin, double end);
 

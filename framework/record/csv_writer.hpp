@@ -9,27 +9,29 @@
 
 namespace butee::record {
 
-/// Writes rows of numbers with 17 significant digits, always whole lines. A number that is not finite is left empty.
+/// Writes rows of numbers with 17 significant digits, always whole lines. The cell of a number that
+/// is not finite is empty.
 class BUTEE_EXPORT CsvWriter {
  public:
-  /// Creates the file and writes the header. Throws RunError where that fails, as every other function does.
+  /// Creates the file and writes the header. Throws RunError on failure, as every other function
+  /// does.
   CsvWriter(const std::string& path, const std::vector<std::string>& columns);
-  /// Goes on with a file that is there.
+  /// Appends to an existing file.
   explicit CsvWriter(const std::string& path);
 
   void row(std::span<const double> values);
-  /// A line already formatted, without its end.
+  /// Writes a formatted line, given without its end.
   void line(const std::string& text);
-  /// Hands everything to the operating system.
+  /// Passes all data to the operating system.
   void flush();
-  /// Flushes and closes; a write error cannot hide behind it.
+  /// Flushes and closes; reports a write error.
   void close();
 
   /// Bytes written so far, flushed or not.
   std::uint64_t position() const { return position_; }
-  /// Takes away everything behind a position of before.
+  /// Removes everything after an earlier position.
   void go_back(std::uint64_t position);
-  /// Flushes, and waits until the device has it.
+  /// Flushes, and waits until the data are on the device.
   void sync();
 
   double seconds() const { return seconds_; }
@@ -37,7 +39,8 @@ class BUTEE_EXPORT CsvWriter {
  private:
   [[noreturn]] void fail() const;
 
-  /// After so many bytes of the buffer nothing more could be written: leaves whole lines, and fails.
+  /// To be called if only the first `done` bytes of the buffer could be written: keeps whole lines,
+  /// and fails.
   [[noreturn]] void give_up(std::size_t done);
 
   std::string path_, buffer_;
@@ -46,7 +49,7 @@ class BUTEE_EXPORT CsvWriter {
   double seconds_ = 0.0;
 };
 
-/// 17 significant digits, "" where not finite.
+/// 17 significant digits, "" if not finite.
 BUTEE_EXPORT void append_number(std::string& text, double value);
 
 }  // namespace butee::record

@@ -11,17 +11,19 @@ namespace butee::record {
 
 /// Forces of single elements: section forces, stresses, spring forces and the reactions of supports.
 ///
-/// Nodes act on an element with p = K x + C v + M a - f, C = mass_proportional M + stiffness_proportional K + dashpots,
-/// f the consistent nodal forces of line loads. Accelerations are those of the equation of motion at (t, x, v), so that
-/// every node is in balance to rounding, whatever the method: a reaction is the sum of p over the elements at a fixed
-/// DOF, less the loads and stops on it. Modal damping belongs to no element: it acts on nodes from outside. Checked in
-/// tests/unit/element_forces_test.cpp against statics, and against the balance of whole structures.
+/// Nodes act on an element with p = K x + C v + M a - f, C = mass_proportional M +
+/// stiffness_proportional K + dashpots, f the consistent nodal forces of line loads. Accelerations
+/// are those of the equation of motion at (t, x, v), so that every node is in balance to rounding
+/// with any method: a reaction is the sum of p over the elements at a fixed DOF, minus the loads
+/// and stops on it. Modal damping belongs to no element: it acts on nodes as an external force.
+/// Checked in tests/unit/element_forces_test.cpp against statics, and against the balance of whole
+/// structures.
 class BUTEE_EXPORT ElementForces {
  public:
-  /// `dynamics` must outlive it, and its system must have a model.
+  /// `dynamics`, whose system must have a model, must outlive this object.
   explicit ElementForces(dynamics::Dynamics& dynamics);
 
-  /// Adds a column; its number counts from 0.
+  /// Adds a column; columns are numbered from 0.
   void add(model::Quantity quantity, model::NodeId node, const std::string& element);
 
   std::size_t size() const { return columns_.size(); }
@@ -30,25 +32,26 @@ class BUTEE_EXPORT ElementForces {
   void evaluate(double t, ConstVectorRef x, ConstVectorRef v, std::span<double> values);
 
  private:
-  /// factor motion(t) on entry `place` of x, v or a (order 0, 1, 2) of a piece, where the base moves.
+  /// factor motion(t) added to entry `place` of x, v or a (order 0, 1, 2) of a piece, if the base
+  /// moves.
   struct BaseTerm {
     Index place;
     int order;
     model::BaseShare share;
   };
-  /// sqrt((|N|/area + sigma)^2 + 3 (T/torsion_modulus)^2), sigma = hypot(My, Mz)/modulus_z of a round section, else
-  /// |My|/modulus_y + |Mz|/modulus_z.
+  /// sqrt((|N|/area + sigma)^2 + 3 (T/torsion_modulus)^2), with sigma = hypot(My, Mz)/modulus_z for
+  /// a round section, else |My|/modulus_y + |Mz|/modulus_z.
   struct FibreStress {
     double area, modulus_y, modulus_z;
     double torsion_modulus;  ///< 0: not round
     double of(std::span<const double> forces) const;
   };
-  /// A part of an element whose p is needed. Entry i of the matrices belongs to the DOF dofs[i], negative where it does
-  /// not move.
+  /// A part of an element whose p is needed. Entry i of the matrices belongs to the DOF dofs[i],
+  /// negative if it is fixed.
   struct Piece {
     std::vector<Index> dofs;
     Eigen::MatrixXd mass, damping, stiffness;
-    Eigen::MatrixXd gyroscopic, circulatory;  ///< of a part that turns, else 0 x 0
+    Eigen::MatrixXd gyroscopic, circulatory;  ///< for a turning part, else 0 x 0
     Eigen::VectorXd x, v, a, p;
     std::vector<BaseTerm> base;
   };
@@ -70,8 +73,8 @@ class BUTEE_EXPORT ElementForces {
     std::vector<LoadShare> loads;
     std::vector<StopShare> stops;
     std::vector<Index> obstacles;
-    model::Quantity quantity = model::Quantity::contact_force;  ///< of obstacles
-    Index dof = model::DofTable::kFixed;                        ///< that contact_force acts on
+    model::Quantity quantity = model::Quantity::contact_force;  ///< for obstacles
+    Index dof = model::DofTable::kFixed;                        ///< DOF on which contact_force acts
     double constant = 0.0;
   };
   /// A sum times a factor, or the von Mises stress of a beam's outer fibre from N, T, My and Mz.
@@ -82,7 +85,8 @@ class BUTEE_EXPORT ElementForces {
   };
 
   void add_section_force(model::Quantity quantity, model::NodeId node, const std::string& element, Column& column);
-  /// The contacts in the plane, with dissipation or friction, at a node; its stops beside them for contact_force.
+  /// Adds the contacts in the plane, with dissipation or friction, at a node; for contact_force
+  /// also its stops.
   void add_obstacles(model::Quantity quantity, model::NodeId node, Sum& sum);
   double sum_of_obstacles(const Sum& of) const;
   void add_springs(model::NodalDof dof, const std::string& element, Sum& sum);
@@ -91,7 +95,7 @@ class BUTEE_EXPORT ElementForces {
   /// Adds sign p of every part of an element at the DOF.
   void add_pieces_at(std::size_t element, model::NodalDof dof, double sign, Sum& sum);
   std::size_t add_piece(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices, bool turns);
-  /// Adds -weights.f of the loads that act on a beam's part: line loads and those on its mass.
+  /// Adds -weights.f for the loads that act on a beam's part: line loads and loads on its mass.
   void add_loads_of_part(const model::Element* beam, const model::SectionCut& cut, const Eigen::VectorXd& weights,
                          Sum& sum);
   bool turns(std::size_t element) const;
@@ -103,7 +107,7 @@ class BUTEE_EXPORT ElementForces {
   const model::Model& model_;
   std::vector<Piece> pieces_;
   std::vector<Column> columns_;
-  bool has_mass_ = false;  ///< of any piece
+  bool has_mass_ = false;  ///< true if any piece has mass
   bool has_obstacles_ = false;
   std::vector<dynamics::ContactForces> contacts_;
   Vector a_;

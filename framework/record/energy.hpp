@@ -12,37 +12,39 @@ struct Energy {
   double kinetic = 0.0;       ///< v.M v / 2
   double strain = 0.0;        ///< x.K x / 2
   double contact = 0.0;       ///< sum of U(w), zero at w = 0
-  double in_obstacles = 0.0;  ///< the part of `contact` that is not in elastic stops
+  double in_obstacles = 0.0;  ///< the part of `contact` outside elastic stops
 
   double total() const { return kinetic + strain + contact; }
 };
 
 BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics);
 
-/// Follows the work of the loads and the dissipation over a run.
+/// Records the work of the loads and the dissipation over a run.
 ///
 ///     work = int v.F dt,   dissipated = int v.C v dt
 ///
-/// where the method does not tell them itself (Integrator::energies), by Simpson's rule from breakpoint to breakpoint
-/// of every accepted step, its middle from the method's own interpolant: fourth order, so that the balance shows the
-/// method's error and not the quadrature's. Pieces as long as the motion allows (DenseOutput::other) are halved until
-/// Gauss' rule with five points gives the same for both. The balance error is (change + dissipated - work) / largest
-/// energy.
+/// Unless the method provides them (Integrator::energies), they are integrated by Simpson's rule
+/// from breakpoint to breakpoint of every accepted step, with the midpoint from the method's own
+/// interpolant: fourth order, so that the balance shows the method's error and not the quadrature
+/// error. With DenseOutput::other pieces may be long; they are halved until Gauss' rule with five
+/// points gives the same over the whole and over both halves. The balance error is (change +
+/// dissipated - work) / largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
-  /// `dynamics` must outlive it. Where there is a `writer`, it gets a row at the start, at the first end or breakpoint
-  /// of a step at or after each of `times`, and at the last step.
+  /// `dynamics` must outlive this object. A `writer` gets a row at the start, at the first end or
+  /// breakpoint of a step at or after each of `times`, and at the last step.
   explicit EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer = nullptr,
                           std::optional<OutputTimes> times = std::nullopt);
 
-  /// Rows go to `rows` as well, which must outlive the last one. Before the first step.
+  /// Also writes rows to `rows`, which must outlive the last one. To be called before the first
+  /// step.
   void also_to(model::FieldWriter& rows) { other_ = &rows; }
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
   void finish() override;
   double file_seconds() const override { return writer_ != nullptr ? writer_->seconds() : 0.0; }
-  /// "t" and what a row of the file holds, in J
+  /// The columns of the file: "t" and energies in J
   static std::vector<std::string> columns();
   bool watches_every_step() const override { return times_ && times_->counts_steps(); }
   void save(ByteWriter& to) const override;
@@ -50,13 +52,13 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
 
   double work() const { return work_; }
   double dissipated() const { return dissipated_ + into_obstacles_ - (now_.in_obstacles - first_stored_); }
-  /// Zero where there never was any energy.
+  /// Zero if there was never any energy.
   double balance_error() const;
 
  private:
   struct Power {
     double of_loads, of_damping;
-    double of_contacts = 0.0;  ///< what obstacles() take
+    double of_contacts = 0.0;  ///< power into obstacles(), W
 
     Power& operator+=(const Power& other) {
       of_loads += other.of_loads;
@@ -73,9 +75,9 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   Power power_within(const time::AcceptedStep& step, double t);
   void add(const Power& done);
   Power gauss(const time::AcceptedStep& step, double begin, double end);
-  /// `whole`: what gauss() gives for it.
+  /// `whole` is the result of gauss() for the interval.
   void add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings);
-  /// Adds what is done between two instants that no breakpoint parts.
+  /// Adds the work between two instants with no breakpoint between them.
   void add_piece(const time::AcceptedStep& step, double begin, double end);
   void find_due(const time::AcceptedStep& step);
   void look_within(const time::AcceptedStep& step, double t);
@@ -86,7 +88,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   bool has_drive_;  ///< K is not symmetric
   bool needs_x_;
   Vector middle_, middle_x_, force_;
-  std::vector<double> due_;  ///< instants that a row is still to be written for
+  std::vector<double> due_;  ///< instants for which a row is not yet written
   Power last_{};
   std::vector<dynamics::ContactForces> contacts_;
   CsvWriter* writer_;
@@ -94,8 +96,8 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   std::optional<OutputTimes> times_;
   Energy now_;
   double first_total_ = 0.0, largest_ = 0.0, first_stored_ = 0.0;
-  double work_ = 0.0, dissipated_ = 0.0;  ///< J; by damping
-  double into_obstacles_ = 0.0;           ///< J, of which they store a part and dissipate the rest
+  double work_ = 0.0, dissipated_ = 0.0;  ///< J; dissipated_ by damping only
+  double into_obstacles_ = 0.0;           ///< J, partly stored and partly dissipated in obstacles
 };
 
 }  // namespace butee::record

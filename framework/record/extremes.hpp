@@ -11,13 +11,13 @@
 
 namespace butee::record {
 
-/// A displacement, its speed and its acceleration at an instant.
+/// A displacement, its velocity and its acceleration at an instant.
 struct Point {
   double t = 0.0;            ///< s
   std::array<double, 3> of;  ///< x, v and a
 };
 
-/// The smallest and the largest value so far, and when it was taken.
+/// The smallest and the largest value so far, with their instants.
 struct Range {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   double t_least = 0.0, t_greatest = 0.0;  ///< s
@@ -27,31 +27,35 @@ struct Range {
     if (value < least) least = value, t_least = t;
   }
   bool is_empty() const { return !(least <= greatest); }
-  /// The largest |value|, 0 where there is none.
+  /// The largest |value|, 0 if there is none.
   double size() const { return is_empty() ? 0.0 : std::max(std::abs(least), std::abs(greatest)); }
   void save(ByteWriter& to) const;
   void restore(ByteReader& from);
 };
 
-/// The displacement of one DOF, or of one relative to another, over an accepted step, and its extremes on the method's
-/// dense output.
+/// The displacement of one DOF, or of one relative to another, over an accepted step, and its
+/// extremes on the method's dense output.
 ///
-/// Between two points that no breakpoint parts the dense output is a polynomial through both, or, of
-/// DenseOutput::other, as near to the quintic as Integrator::departure() says; of DenseOutput::near_quintic extremes of
-/// v are looked for wherever the quintic comes within kMargin of the largest so far, and all are values of the dense
-/// output itself. The hull of its Bernstein coefficients tells whether anything in between goes beyond a range by more
-/// than kGood of it. If so, halves are looked at: of the polynomial, or of the interval while the dense output departs
-/// from it by more than that. After kMostSamples of an interval it is left as it is: so many are not enough only where
-/// a step spans hundreds of turns. Checked in tests/verification/peaks_test.cpp.
+/// Between two points with no breakpoint between them the dense output is a polynomial through
+/// both. For DenseOutput::other it is near to the quintic, within Integrator::departure(). For
+/// DenseOutput::near_quintic extremes of v are searched wherever the quintic comes within kMargin
+/// of the largest so far. All values are those of the dense output itself. The hull of the
+/// Bernstein coefficients shows whether any value in between exceeds a range by more than kGood of
+/// it. If so, halves are examined: halves of the polynomial, or of the interval while the dense
+/// output departs from the polynomial by more than that. The search in an interval stops after
+/// kMostSamples, which is too few only if a step spans hundreds of periods. Checked in
+/// tests/verification/peaks_test.cpp.
 class BUTEE_EXPORT StepPath {
  public:
-  /// What an extreme may be wrong by, relative to the largest |value|.
+  /// The error bound of an extreme, relative to the largest |value|.
   static constexpr double kGood = 1e-10;
   static constexpr int kMostSamples = 4000;
-  /// By which the slope of a quintic may miss that of DenseOutput::near_quintic, relative to the largest |value|.
+  /// The largest difference between the derivative of the quintic and that of
+  /// DenseOutput::near_quintic, relative to the largest |value|.
   static constexpr double kMargin = 0.005;
 
-  /// Index b < 0: DOF a alone, and 0 where that is fixed too. `kind`: of the step's integrator. `step` must outlive it.
+  /// Index b < 0: DOF a alone, and 0 if a is negative too. `kind`: of the step's integrator. `step`
+  /// must outlive this object.
   StepPath(const time::AcceptedStep& step, time::DenseOutput kind, Index a, Index b)
       : step_(step), kind_(kind), dofs_{a, b} {}
 
@@ -62,11 +66,12 @@ class BUTEE_EXPORT StepPath {
     return point;
   }
   Point at(double t) const;
-  /// Bounds of derivative `order` between two instants that no breakpoint parts.
+  /// Bounds of derivative `order` between two instants with no breakpoint between them.
   std::pair<double, double> enclose(std::size_t order, const Point& from, const Point& to) const;
 
-  /// Takes all values of derivative `order` (0, 1 or 2) after an instant up to another that no breakpoint parts from it
-  /// into the range, which holds that at the first instant.
+  /// Extends the range by all values of derivative `order` (0, 1 or 2) after an instant up to
+  /// another with no breakpoint between them. The range must contain the value at the first
+  /// instant.
   void extend(std::size_t order, const Point& from, const Point& to, Range& range) const {
     range.take(to.t, to.of[order]);
     const auto [least, greatest] = bounds_within(order, from, to);
@@ -79,8 +84,8 @@ class BUTEE_EXPORT StepPath {
   double margin_of(std::size_t order, const Range& range) const {
     return kind_ == time::DenseOutput::near_quintic && order == 1 ? kMargin * range.size() : 0.0;
   }
-  /// Bounds of the polynomials between their ends, by the inner Bernstein coefficients. Those of the quintic and of the
-  /// cubic that it is where accelerations bend at an end.
+  /// Bounds of the polynomials between their ends, by the inner Bernstein coefficients: those of
+  /// the quintic, and of the cubic that is used instead if accelerations bend at an end.
   std::pair<double, double> bounds_within(std::size_t order, const Point& from, const Point& to) const {
     const double h = to.t - from.t;
     const auto [x0, v0, a0] = from.of;
@@ -102,7 +107,7 @@ class BUTEE_EXPORT StepPath {
   std::pair<double, double> enclose(std::size_t order, const Point& from, const Point& to, double departs) const;
   void search(std::size_t order, const Point& from, const Point& to, Range& range) const;
   void halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const;
-  /// Of derivative `order` of the dense output from that of the polynomial.
+  /// Bound on the difference of derivative `order` between the dense output and the polynomial.
   double departure(std::size_t order, const Point& from, const Point& to) const;
 
   const time::AcceptedStep& step_;

@@ -9,33 +9,35 @@
 
 namespace butee::record {
 
-/// Samples fields at the output times, by the method's own interpolant, and hands the records to writers.
+/// Samples fields at the output times, by the method's own interpolant, and passes the records to
+/// writers.
 ///
-/// A fixed or absent degree of freedom counts as zero. What it holds is one record and the numbers of the nodes'
-/// degrees of freedom, whatever the length of the run.
+/// A fixed or absent degree of freedom counts as zero. Memory holds one record and the numbers of
+/// the nodes' degrees of freedom, for any length of the run.
 class BUTEE_EXPORT FieldRecorder final : public time::Observer {
  public:
-  /// `output.fields` says what; `dynamics` must outlive it.
+  /// `output.fields` gives the request; `dynamics` must outlive this object.
   FieldRecorder(const model::OutputRequest& output, double end_time, dynamics::Dynamics& dynamics,
                 std::vector<std::unique_ptr<model::FieldWriter>> writers);
 
   void start(const time::State& state) override;
   void step(const time::AcceptedStep& step) override;
   void finish() override;
-  /// Throws RunError: records that are written are not taken back.
+  /// Throws RunError, since written records cannot be removed.
   void restore(ByteReader& from) override;
   double next_instant(double t) const override { return times_.next_instant(t); }
   bool watches_every_step() const override { return times_.counts_steps(); }
   double file_seconds() const override { return seconds_; }
 
  private:
-  /// One stop on a kept node: the places of its ends among the sampled degrees of freedom.
+  /// One stop on a recorded node: the indices of its ends among the sampled degrees of freedom.
   struct KeptStop {
     Index stop;
     std::int32_t a, b;
   };
 
-  /// A quantity of a node that is measured from another frame than x: what is added to its place of the record.
+  /// For a quantity of a node measured in another frame than x: the term added at its place in the
+  /// record.
   struct BaseTerm {
     std::size_t place;
     model::BaseShare share;
@@ -45,7 +47,7 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
   void find_base_terms(const std::vector<model::NodeId>& nodes);
   void find_stops();
   void evaluate_stops(std::span<const double> x);
-  /// Makes a record of x, v, a at dofs_ at an instant.
+  /// Fills a record from x, v, a at dofs_ at an instant.
   void fill(double t, const time::Interpolated& samples);
   void fill(const time::State& state);
   void write(double t);
@@ -54,8 +56,8 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
   OutputTimes times_;
   std::vector<model::Quantity> quantities_;
   std::vector<std::unique_ptr<model::FieldWriter>> writers_;
-  std::vector<Index> dofs_;                                  ///< that are sampled
-  std::array<std::vector<std::int32_t>, kDofKinds> places_;  ///< by kind and kept node: the place in dofs_, or -1
+  std::vector<Index> dofs_;                                  ///< sampled DOFs
+  std::array<std::vector<std::int32_t>, kDofKinds> places_;  ///< by kind and recorded node: the index in dofs_, or -1
   std::vector<BaseTerm> base_;
   std::vector<KeptStop> stops_;
   std::vector<double> x_, v_, a_, force_, state_, record_;

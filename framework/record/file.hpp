@@ -8,10 +8,10 @@
 
 namespace butee::record {
 
-/// A file of the operating system, open as long as this lives.
+/// A file of the operating system, open during the lifetime of this object.
 class BUTEE_EXPORT File {
  public:
-  /// `flags` as of open(2). Throws RunError where it cannot be opened.
+  /// `flags` as for open(2). Throws RunError if it cannot be opened.
   File(const std::string& path, int flags);
   ~File();
   File(const File&) = delete;
@@ -19,17 +19,17 @@ class BUTEE_EXPORT File {
 
   int descriptor() const { return descriptor_; }
   bool is_open() const { return descriptor_ >= 0; }
-  /// The number of bytes written; where that is not all of them errno says why.
+  /// The number of bytes written; if not all were written, errno gives the reason.
   std::size_t write(std::span<const std::byte> bytes);
-  /// False where that fails, as errno says.
+  /// False on failure, with errno set.
   bool close();
 
  private:
   int descriptor_;
 };
 
-/// Puts a whole file in its place at once: whoever looks, at any moment and after a crash too, finds the earlier file
-/// or this one. Throws RunError, and then leaves the earlier one alone.
+/// Replaces a whole file atomically: readers find the earlier file or this one at any time, also
+/// after a crash. Throws RunError and then leaves the earlier file unchanged.
 BUTEE_EXPORT void write_whole(const std::string& path, std::span<const std::byte> bytes);
 
 }  // namespace butee::record

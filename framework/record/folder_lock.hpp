@@ -7,25 +7,25 @@
 
 namespace butee::record {
 
-/// The right to write into a result folder, which one process at a time has.
+/// The right to write into a result folder, held by one process at a time.
 ///
-/// A lock on the open file DIR/.butee-lock, which holds the number of the process. The kernel releases it when the
-/// process ends, also by a kill; the file that is then left over blocks nobody. File systems without locks are warned
-/// of.
+/// A lock on the open file DIR/.butee-lock, which contains the number of the process. The kernel
+/// releases it when the process ends, also by a kill; a file left over blocks no other process.
+/// File systems without locks cause a warning.
 class BUTEE_EXPORT FolderLock {
  public:
-  /// Takes the lock of a folder that exists. Throws InputError where another process has it, RunError where the folder
-  /// cannot be written.
+  /// Locks an existing folder. Throws InputError if another process holds the lock, RunError if the
+  /// folder cannot be written.
   explicit FolderLock(const std::string& folder);
-  /// Takes the file away.
+  /// Removes the file.
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept = default;
   FolderLock& operator=(FolderLock&&) = delete;
 
-  /// Throws InputError where another process has the lock. Writes nothing.
+  /// Throws InputError if another process holds the lock. Writes nothing.
   static void check(const std::string& folder);
 
-  /// The name of the file in the folder.
+  /// The name of the lock file in the folder.
   static constexpr const char* kName = ".butee-lock";
 
  private:

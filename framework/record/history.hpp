@@ -11,16 +11,19 @@
 
 namespace butee::record {
 
-/// Samples the probes at the output times, whatever the steps, and follows their peaks over the whole motion.
+/// Samples the probes at the output times, independent of the steps, and records their peaks over
+/// the whole motion.
 ///
-/// A row at time t is interpolated in the accepted step (t_n, t_n+1] that holds it, the row at t = 0 in the first.
+/// A row at time t is interpolated in the accepted step (t_n, t_n+1] that contains it, the row at
+/// t = 0 in the first step.
 class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
  public:
-  /// Rows go to `writer`, or nowhere where it is nullptr. Everything given must outlive the recorder.
+  /// Rows are written to `writer`, unless it is nullptr. All arguments must outlive the recorder.
   HistoryRecorder(const model::OutputRequest& request, double end_time, dynamics::Dynamics& dynamics,
                   CsvWriter* writer);
 
-  /// Rows go to `writer` as well, which must outlive the recorder's last row. Before the first step.
+  /// Also writes rows to `writer`, which must outlive the recorder's last row. To be called before
+  /// the first step.
   void also_to(model::FieldWriter& writer) { writers_.push_back(&writer); }
 
   void start(const time::State& state) override;
@@ -37,8 +40,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   /// The same with their units.
   static std::vector<model::Field> columns_with_units(const model::OutputRequest& request);
 
-  /// Largest |value| by column over the whole motion (Peaks, ContactPeaks) and the rows, of forces of elements over the
-  /// rows alone; u of every probe is always among them.
+  /// Largest |value| by column: over the whole motion (Peaks, ContactPeaks) and the rows; for
+  /// forces of elements over the rows only. u of every probe is always included.
   std::map<std::string, double> peaks() const;
 
  private:
@@ -53,12 +56,12 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   ContactPeaks contact_peaks_;
   CsvWriter* writer_;
   std::vector<model::FieldWriter*> writers_;
-  double seconds_ = 0.0;  ///< in writers_
+  double seconds_ = 0.0;  ///< s, spent in writers_
   double start_time_ = 0.0;
   std::vector<double> row_, first_row_;
   std::vector<double> due_;  ///< instants of rows within a step
   std::vector<double> base_values_;
-  std::vector<double> values_, largest_;  ///< of probes_, in a row and in all of them
+  std::vector<double> values_, largest_;  ///< of probes_, in a row and the largest of all rows
 };
 
 }  // namespace butee::record

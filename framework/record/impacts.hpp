@@ -8,31 +8,33 @@
 
 namespace butee::record {
 
-/// One closing of a stop.
+/// One closing of a stop or contact.
 struct Impact {
-  std::string node;                 ///< "a" or, of a stop between two nodes, "a|b"
+  std::string node;                 ///< "a" or, for a stop between two nodes, "a|b"
   int side = 1;                     ///< +1 or -1
   double t_in = 0.0;                ///< s
   std::optional<double> t_out;      ///< s; absent while still closed
   double peak_force = 0.0;          ///< N
   double impulse = 0.0;             ///< N s
   double impact_speed = 0.0;        ///< m/s, at t_in
-  double tangential_impulse = 0.0;  ///< N s, of friction, against the slip
-  double slip = 0.0;                ///< m, the way that the contact slid
+  double tangential_impulse = 0.0;  ///< N s, of friction, opposite to the slip
+  double slip = 0.0;                ///< m, sliding distance of the contact
   double dissipated = 0.0;          ///< J
 };
 
-/// An impact but for its name and side.
+/// An impact without its name and side.
 void put_impact(const Impact& impact, ByteWriter& to);
 void take_impact(Impact& impact, ByteReader& from);
 
-/// Finds every closing of a stop on the method's dense output: instants by root finding, the largest force at the
-/// largest penetration (StepPath), the impulse by Gauss' rule with five points between such instants.
+/// Records every closing of a stop on the method's dense output: instants by root finding, the
+/// largest force at the largest penetration (StepPath), the impulse by Gauss' rule with five points
+/// between such instants.
 ///
-/// A contact shorter than a step is seen as well: it reaches its largest penetration within the step.
+/// A contact shorter than a step is also detected: it reaches its largest penetration within the
+/// step.
 class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
  public:
-  /// `dynamics` must outlive it.
+  /// `dynamics` must outlive this object.
   explicit ImpactRecorder(dynamics::Dynamics& dynamics);
 
   void start(const time::State& state) override;
@@ -40,7 +42,7 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
 
-  /// In the order of t_in, those still closed included.
+  /// In the order of t_in, including those still closed.
   std::vector<Impact> impacts() const;
   static std::vector<std::string> columns();
   static std::string csv_line(const Impact& impact);
@@ -58,9 +60,9 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
     double speed(const Point& point) const { return side * point.of[1]; }
   };
 
-  /// Over a piece between two neighbouring breakpoints.
+  /// Processes a piece between two neighbouring breakpoints.
   void follow(Watch& watch, const StepPath& path, const Point& from, const Point& to);
-  /// Over a part of it within which the stop opens or closes at most once.
+  /// Processes a part of a piece within which the stop opens or closes at most once.
   void follow_part(Watch& watch, const StepPath& path, const Point& from, const Point& to);
   void accumulate(Watch& watch, const StepPath& path, const Point& from, const Point& to);
   Point crossing(const Watch& watch, const StepPath& path, double begin, double end) const;

@@ -9,9 +9,9 @@ struct Sampled {
   double t = 0.0, value = 0.0;
 };
 
-/// The largest value of a function f(t) near b, between a and c with a.t < b.t < c.t and b.value no less than the
-/// others: the tops of parabolas through three points, and golden sections where these do not converge. Of a smooth f
-/// good to some 1e-12 of the value.
+/// The largest value of a function f(t) near b, between a and c, with a.t < b.t < c.t and b.value
+/// not less than the others. Uses the vertices of parabolas through three points, and golden
+/// sections if these do not converge. For a smooth f the relative error is about 1e-12.
 template <class Function>
 Sampled local_maximum(Sampled a, Sampled b, Sampled c, Function f) {
   constexpr int kMost = 40;
@@ -21,7 +21,8 @@ Sampled local_maximum(Sampled a, Sampled b, Sampled c, Function f) {
     const double left = (b.t - a.t) * (b.value - c.value), right = (b.t - c.t) * (b.value - a.value);
     double t = b.t - 0.5 * ((b.t - a.t) * left - (b.t - c.t) * right) / (left - right);
     const double least = 0.5 * kFine * width;
-    // Parabolas may come from one side only: every third is a golden section of the longer part.
+    // Parabolas may converge from one side only: every third step is a golden section of the longer
+    // part.
     const bool is_in_left = b.t - a.t > c.t - b.t;
     if (!(t > a.t && t < c.t) || i % 3 == 2) t = b.t + kGolden * (is_in_left ? a.t - b.t : c.t - b.t);
     if (std::abs(t - b.t) < least) t = b.t + (is_in_left ? -least : least);

@@ -7,14 +7,14 @@
 
 namespace butee::record {
 
-/// The instants of which something is written: t = 0, interval, 2 interval, ..., end_time, counted from where the run
-/// begins, or the ends of every so manyth accepted step.
+/// The output instants: t = 0, interval, 2 interval, ..., end_time, counted from the start of the
+/// run, or the end of every `every`-th accepted step.
 class BUTEE_EXPORT OutputTimes {
  public:
-  /// `every` counts where there is no `interval` (s).
+  /// `every` is used if there is no `interval` (s).
   OutputTimes(std::optional<double> interval, std::int64_t every, double end_time);
 
-  /// Calls `write(t)` for every instant that is due in the step; for t = 0, step.from.t, in the first step.
+  /// Calls `write(t)` for every instant due in the step; for t = 0, step.from.t, in the first step.
   template <class Write>
   void visit(const time::AcceptedStep& step, Write&& write) {
     if (rows_ == 0) {
@@ -38,11 +38,11 @@ class BUTEE_EXPORT OutputTimes {
   /// False until the first step.
   bool begun() const { return rows_ > 0; }
   bool counts_steps() const { return every_ > 0; }
-  /// What the rest depends on, for checkpoints.
+  /// The state on which later instants depend, for checkpoints.
   void save(ByteWriter& to) const;
   void restore(ByteReader& from);
 
-  /// The first instant after `t`; infinite where steps are counted, and after the last.
+  /// The first instant after `t`; infinite if steps are counted, and after the last instant.
   double next_instant(double t) const;
 
  private:
@@ -52,7 +52,7 @@ class BUTEE_EXPORT OutputTimes {
   double end_time_, interval_;
   std::int64_t every_;
   std::int64_t rows_ = 0, steps_ = 0;
-  double begin_ = 0.0;  ///< s, of the first step
+  double begin_ = 0.0;  ///< s, start of the first step
   double next_row_ = 0.0;
 };
 

@@ -11,18 +11,19 @@
 
 namespace butee::record {
 
-/// Evaluates the probes of a run: of the DOFs and stops that they need and no others. Forces of elements take all DOFs.
+/// Evaluates the probes of a run, reading only the DOFs and stops that they need. Forces of
+/// elements need all DOFs.
 class BUTEE_EXPORT Probes {
  public:
-  /// `dynamics` must outlive it.
+  /// `dynamics` must outlive this object.
   Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics);
   Probes(const Probes&) = delete;
   Probes& operator=(const Probes&) = delete;
 
-  /// "mid.u", one for each column.
+  /// One name for each column: "mid.u".
   const std::vector<std::string>& columns() const { return columns_; }
 
-  /// Looks at the step at these instants, ascending; take(i, ...) then gives the values at the i-th.
+  /// Samples the step at these instants, ascending; take(i, ...) then gives the values at the i-th.
   void sample(const time::AcceptedStep& step, std::span<const double> times);
   void take(std::size_t instant, std::span<double> values);
 
@@ -31,18 +32,19 @@ class BUTEE_EXPORT Probes {
     sample(step, {&t, 1});
     take(0, values);
   }
-  /// True where a column is measured from another frame than x: columns in space, or relative to a base that moves.
+  /// True if a column is measured in another frame than x: columns in space, or relative to a
+  /// moving base.
   bool has_base_shares() const { return has_base_shares_; }
   bool has_base_share(std::size_t column) const { return !sources_[column].base.empty(); }
-  /// The same of one quantity of a node; `model` may be null.
+  /// The same for one quantity of a node; `model` may be null.
   static bool has_base_share(const model::Model* model, const model::DofTable& dofs, model::NodeId node,
                              model::Quantity quantity);
   /// The values in a state.
   void evaluate(const time::State& state, std::span<double> values);
 
  private:
-  /// Where a column's value comes from: place `slot` of an instant's part of the samples (x_, v_, a_ or forces_), or
-  /// without samples the stops [first, last).
+  /// The source of a column's value: entry `slot` of an instant's samples (x_, v_, a_ or forces_),
+  /// or, if there are no samples, the stops [first, last).
   struct Column {
     const std::vector<double>* samples;
     std::size_t slot;
@@ -50,7 +52,7 @@ class BUTEE_EXPORT Probes {
     bool is_element_force = false;
     std::vector<model::BaseShare> base{};
   };
-  /// One stop on a probed node; slots of its two ends, and the sign with which it acts there.
+  /// One stop on a probed node: slots of its two ends, and the sign of its force there.
   struct ProbedStop {
     Index stop;
     std::size_t slot_a, slot_b;
@@ -76,9 +78,9 @@ class BUTEE_EXPORT Probes {
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;
   bool needs_v_ = false, needs_a_ = false, has_base_shares_ = false;
-  std::vector<double> times_;                      ///< of the instants, where base shares need them
-  std::unique_ptr<ElementForces> element_forces_;  ///< null where no probe asks for one
-  std::vector<Index> all_;                         ///< DOFs, for them
+  std::vector<double> times_;                      ///< instants, if base shares need them
+  std::unique_ptr<ElementForces> element_forces_;  ///< null if no probe needs one
+  std::vector<Index> all_;                         ///< all DOFs, for element_forces_
   Vector all_x_, all_v_;
   std::vector<double> forces_;
 };

@@ -9,25 +9,27 @@
 
 namespace butee::record {
 
-/// How far a run is, for people: simulated time, part done, step, closed stops, steps a second, time left.
+/// The progress of a run for the user: simulated time, fraction done, step, closed stops, steps per
+/// second, time left.
 ///
-/// On a terminal a bar that is drawn anew in place and taken away at the end, of a failed run too; elsewhere whole
-/// lines now and then, the last at the end. The clock is looked at rarely, some tens of times a second.
+/// On a terminal a bar that is redrawn in place and removed at the end, also of a failed run;
+/// otherwise whole lines from time to time, the last at the end. The clock is read only some tens
+/// of times a second.
 class BUTEE_EXPORT Progress final : public time::Observer {
  public:
   using Clock = std::chrono::steady_clock;
 
   struct Style {
-    bool bar = true;  ///< one line drawn in place; else a line each time
+    bool bar = true;  ///< one line drawn in place; otherwise a new line each time
     std::FILE* stream = stderr;
     Clock::duration silence{};   ///< before the first drawing
     Clock::duration interval{};  ///< between two drawings
-    int width = 80;              ///< columns that a bar may take
+    int width = 80;              ///< maximum width of a bar, columns
   };
-  /// A bar on standard error where that is a terminal, else lines.
+  /// A bar on standard error if that is a terminal, else lines.
   static Style standard_style();
 
-  /// `dynamics` must outlive it.
+  /// `dynamics` must outlive this object.
   Progress(dynamics::Dynamics& dynamics, double end_time, Style style = standard_style());
   ~Progress() override;
   Progress(const Progress&) = delete;
@@ -49,9 +51,9 @@ class BUTEE_EXPORT Progress final : public time::Observer {
   double end_time_;
   Style style_;
   Clock::time_point begin_, looked_, drawn_;
-  double looked_t_ = 0.0;  ///< s, simulated, at the last look
-  double pace_ = 0.0;      ///< simulated seconds a second, of late
-  double steps_ = 0.0;     ///< those that a method took within a step included
+  double looked_t_ = 0.0;  ///< s, simulated time at the last check
+  double pace_ = 0.0;      ///< recent rate, simulated seconds per second
+  double steps_ = 0.0;     ///< including internal steps of a method
   std::int64_t stride_ = 1, until_look_ = 1;
   bool on_screen_ = false;
   double t_ = 0.0, h_ = 0.0;

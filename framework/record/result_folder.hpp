@@ -7,32 +7,35 @@
 
 namespace butee::record {
 
-/// The folder of a run's results. A folder is ours where its model.toml starts with our mark; of such a folder our own
-/// files are replaced and nothing else is touched. Any other folder that is not empty is refused.
+/// The folder of a run's results. A folder belongs to butee if its model.toml starts with butee's
+/// mark; in such a folder only butee's own files are replaced. Any other folder that is not empty
+/// is refused.
 class BUTEE_EXPORT ResultFolder {
  public:
   explicit ResultFolder(std::string path) : path_(std::move(path)) {}
 
-  /// Throws InputError where the folder is not ours to write, or where another process is writing there. Writes
-  /// nothing.
+  /// Throws InputError if the folder does not belong to butee, or if another process is writing
+  /// there. Writes nothing.
   void check() const;
 
-  /// Makes the folder and takes the right to write there, until the lock's end. Throws as check() does, and RunError.
+  /// Creates the folder and locks it for writing, until the lock is destroyed. Throws as check()
+  /// does, and RunError.
   [[nodiscard]] FolderLock lock() const;
 
-  /// Throws InputError where the folder is not one of ours, with results of an earlier run.
+  /// Throws InputError if the folder is not a result folder of an earlier run.
   void check_is_ours() const;
-  /// True where the run whose results are here was completed.
+  /// True if the run whose results are here was completed.
   bool is_complete() const;
 
-  /// Takes away our files of an earlier run and writes model.toml. After lock(). Throws RunError.
+  /// Removes files of an earlier run and writes model.toml. To be called after lock(). Throws
+  /// RunError.
   void prepare(const std::string& model_text) const;
 
-  /// Writes a whole file, first beside its place, then in one move. Throws RunError.
+  /// Writes a whole file, first under a temporary name, then moved to its place. Throws RunError.
   void write(const std::string& name, const std::string& text) const;
 
   std::string file(const std::string& name) const;
-  /// What a file holds, and its checksum; of nothing where there is none.
+  /// The content of a file, and its checksum; empty if there is none.
   std::string read(const std::string& name) const;
   std::uint64_t checksum_of(const std::string& name) const;
   const std::string& path() const { return path_; }

@@ -6,11 +6,12 @@
 
 namespace butee::record {
 
-/// Tells slip speeds of regularised friction that a tolerance cannot resolve: where the speed of a contact may be wrong
-/// by more, the sense of friction is not known. Speeds are those at the ends of steps.
+/// Detects slip speeds of regularised friction that a tolerance cannot resolve: if the error of a
+/// contact's speed may be larger than the slip speed, the sense of friction is uncertain. Speeds
+/// are taken at the ends of steps.
 class BUTEE_EXPORT SlipWatch final : public time::Observer {
  public:
-  /// `dynamics` must outlive it and has obstacles.
+  /// `dynamics` must have obstacles and outlive this object.
   explicit SlipWatch(dynamics::Dynamics& dynamics);
 
   void start(const time::State& state) override;
@@ -18,7 +19,7 @@ class BUTEE_EXPORT SlipWatch final : public time::Observer {
   void save(ByteWriter& to) const override { to.put(largest_); }
   void restore(ByteReader& from) override { from.take(largest_); }
 
-  /// A sentence with the values that would do, or "".
+  /// A message with suitable values, or "".
   std::string complaint(double tolerance) const;
 
  private:
@@ -26,7 +27,7 @@ class BUTEE_EXPORT SlipWatch final : public time::Observer {
 
   const dynamics::Obstacles& obstacles_;
   std::vector<Index> contacts_;  ///< with regularised friction
-  std::vector<double> largest_;  ///< speed of each, m/s
+  std::vector<double> largest_;  ///< largest speed of each, m/s
 };
 
 }  // namespace butee::record

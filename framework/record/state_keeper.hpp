@@ -5,7 +5,8 @@
 
 namespace butee::record {
 
-/// Keeps the motion of all DOFs at given instants, by the method's own interpolant, for runs that start from there.
+/// Saves the motion of all DOFs at given instants, by the method's own interpolant, for runs that
+/// start from there.
 class BUTEE_EXPORT StateKeeper final : public time::Observer {
  public:
   /// `times` (s) ascend.
@@ -17,8 +18,9 @@ class BUTEE_EXPORT StateKeeper final : public time::Observer {
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
 
-  /// Writes the motions kept so far and `last`, of the structure of its `system`. Throws RunError. Not synchronised
-  /// with the device, which would take longer than a short run: a file that is not whole is told by its checksum.
+  /// Writes the motions saved so far and `last`, with the structure of `system`. Throws RunError.
+  /// The file is not synchronised with the device, which would take longer than a short run: an
+  /// incomplete file is detected by its checksum.
   void write(const std::string& path, const model::System& system, const time::State& last) const;
 
  private:

@@ -9,11 +9,11 @@
 
 namespace butee::record {
 
-/// Everything that summary.json holds.
+/// The content of summary.json.
 struct Summary {
   time::RunReport report;
   std::string integrator;
-  std::string choice;  ///< of the method by another, and why; empty where the scene named it
+  std::string choice;  ///< why `auto` chose the method; empty if the scene names the method
   linalg::Counters counters;
   double setup_seconds = 0.0;
   Index dofs = 0, contacts = 0;
@@ -23,7 +23,7 @@ struct Summary {
     double work, dissipated, balance_error;
   };
   std::optional<Followed> followed;
-  std::optional<Trust> trust;  ///< where it was asked for
+  std::optional<Trust> trust;  ///< if requested
 };
 
 /// The summary as JSON; a number that is not finite becomes null.

@@ -7,10 +7,12 @@
 
 namespace butee::record {
 
-/// The displacements that an observer follows from breakpoint to breakpoint: of a DOF, or of one relative to another.
+/// The displacements that an observer evaluates from breakpoint to breakpoint: of a DOF, or of one
+/// relative to another.
 class BUTEE_EXPORT Tracks {
  public:
-  /// The number of the displacement u_a - u_b, each of which may be negative, for what is fixed. Before the first step.
+  /// Returns the index of the displacement u_a - u_b; a negative DOF is fixed. To be called before
+  /// the first step.
   std::size_t add(Index a, Index b);
   std::size_t size() const { return pairs_.size(); }
 
@@ -21,7 +23,8 @@ class BUTEE_EXPORT Tracks {
     return {step, kind_, pairs_[track].first, pairs_[track].second};
   }
 
-  /// Calls `look()` for every piece of the step between two neighbouring breakpoints, whose ends are from() and to().
+  /// Calls `look()` for every piece of the step between two neighbouring breakpoints; from() and
+  /// to() are its ends.
   template <class Look>
   void visit(const time::AcceptedStep& step, Look look) {
     kind_ = step.integrator.dense_output();
@@ -44,9 +47,9 @@ class BUTEE_EXPORT Tracks {
   void load(std::size_t breakpoint, double t);
 
   std::vector<std::pair<Index, Index>> pairs_;
-  std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< of those in dofs_
+  std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< their indices in dofs_
   std::vector<Point> from_, to_;
-  time::DenseOutput kind_ = time::DenseOutput::cubic;  ///< of the step last visited
+  time::DenseOutput kind_ = time::DenseOutput::cubic;  ///< of the last visited step
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;  ///< of dofs_ at the breakpoints
 };

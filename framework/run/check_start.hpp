@@ -5,8 +5,9 @@
 
 namespace butee::run {
 
-/// Throws InputError for a run that would replace what it starts from ([initial] from), and for one that starts later
-/// than t = 0 and asks for trust, which knows only runs from t = 0.
+/// Throws InputError for a run that would overwrite the results it starts from ([initial] from),
+/// and for one that starts later than t = 0 and requests trust, which is available only for runs
+/// from t = 0.
 BUTEE_EXPORT void check_start(const scene::Scene& scene, const record::ResultFolder& folder);
 
 }  // namespace butee::run

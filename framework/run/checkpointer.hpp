@@ -8,20 +8,22 @@
 
 namespace butee::run {
 
-/// Throws InputError where [output] asks for checkpoints of a method that cannot go on from them bit for bit.
+/// Throws InputError if [output] requests checkpoints of a method that cannot continue from them
+/// bit for bit.
 BUTEE_EXPORT void check_checkpoints(scene::Scene& scene);
 
-/// Keeps a run on disk after every so manyth step.
+/// Writes a checkpoint of a run after every [output] checkpoint steps.
 class BUTEE_EXPORT Checkpointer final : public time::Observer {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive this object.
   Checkpointer(const scene::Scene& scene, scene::Assembly& assembly, const record::ResultFolder& folder,
                record::CsvWriter& history);
 
-  /// Another file that has to be on the device before a checkpoint counts on it; it must outlive this.
+  /// Adds another file that must be on the device before a checkpoint refers to it; it must outlive
+  /// this object.
   void also_sync(record::CsvWriter& writer) { other_ = &writer; }
 
-  /// What the run had cost when it was taken up again, and has now.
+  /// Takes over the costs of the run before it was continued from `checkpoint`.
   void go_on_from(const record::Checkpoint& checkpoint);
   void set_setup_seconds(double seconds) { next_.setup_seconds = seconds; }
   linalg::Counters counters() const;
@@ -30,9 +32,9 @@ class BUTEE_EXPORT Checkpointer final : public time::Observer {
   double file_seconds() const override { return seconds_; }
 
   bool is_due() const { return since_ >= every_; }
-  /// Between two steps.
+  /// To be called between two steps.
   void write();
-  /// After the end of a run that is not to go on.
+  /// To be called after the end of a run that will not be continued.
   void clear() const { folder_.clear(); }
 
  private:
@@ -44,7 +46,7 @@ class BUTEE_EXPORT Checkpointer final : public time::Observer {
   record::Checkpoint next_;
   linalg::Counters before_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  double seconds_ = 0.0;  ///< spent here
+  double seconds_ = 0.0;  ///< s, spent here
 };
 
 }  // namespace butee::run

@@ -18,37 +18,42 @@
 
 namespace butee::run {
 
-/// Rows of a history within the shortest contact that show its course.
+/// Rows of a history within the shortest contact that are needed to show its time history.
 inline constexpr double kRowsInContact = 4.0;
 
-/// One integration of a scene from assembly to the end, with what [output] asks for: in files, in memory, or both.
+/// One integration of a scene from assembly to the end, with the output requested by [output]: in
+/// files, in memory, or both.
 class BUTEE_EXPORT Run {
  public:
-  /// Assembles and takes the first factorization; nothing is written yet. Throws InputError where the scene cannot be
-  /// run.
+  /// Assembles and computes the first factorization; nothing is written yet. Throws InputError if
+  /// the scene cannot be run.
   Run(scene::Scene& scene, bool with_progress);
 
-  /// Watches the integration too; must outlive it. Before perform().
+  /// Adds an observer of the integration, which must outlive this object. To be called before
+  /// perform().
   void add(time::Observer& observer) { assembly_.simulation.add(observer); }
-  /// The rows of the history go there too, and those of the energies where [output] asks for them; writers must outlive
-  /// it. Before perform().
+  /// Also writes the rows of the history, and those of the energies if [output] requests them, to
+  /// these writers, which must outlive this object. To be called before perform().
   void also_to(model::FieldWriter& history, model::FieldWriter& energy) {
     other_history_ = &history;
     other_energy_ = &energy;
   }
-  /// Asked after every step for what interrupts the run, such as "SIGINT"; nullptr where nothing does. The run then
-  /// counts as failed, and a checkpoint is written where the scene asks for them.
+  /// Sets a function that is called after every step and returns the cause of an interruption, such
+  /// as "SIGINT", or nullptr. An interrupted run counts as failed; a checkpoint is written if the
+  /// scene requests checkpoints.
   void interrupt_by(std::function<const char*()> interruption) { interruption_ = std::move(interruption); }
-  /// Asked after every step whether to leave the run as it stands, neither completed nor failed.
+  /// Sets a function that is called after every step; if it returns true the run is left as it is,
+  /// neither completed nor failed.
   void stop_when(std::function<bool()> is_enough) { is_enough_ = std::move(is_enough); }
   scene::Assembly& assembly() { return assembly_; }
 
-  /// Integrates; the files go to `folder` where one is given. Goes on from a checkpoint of the folder where one is
-  /// given. Whatever ends the integration early is told by the summary's report.
+  /// Integrates; files are written to `folder` if it is given. Continues from a checkpoint of the
+  /// folder if `from` is given. The report in the summary gives the reason for an early end.
   record::Summary perform(const record::ResultFolder* folder, const record::Checkpoint* from = nullptr);
-  /// After perform(), in the order of t_in; none where [output] does not ask for them.
+  /// Valid after perform(), in the order of t_in; empty if [output] does not request them.
   std::vector<record::Impact> impacts() const;
-  /// What followed contacts in the plane, with dissipation or friction; null where the scene has none.
+  /// The recorder of contacts in the plane, with dissipation or friction; null if the scene has
+  /// none.
   const record::ContactRecorder* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
 
  private:
@@ -57,13 +62,13 @@ class BUTEE_EXPORT Run {
   void add_fields(const record::ResultFolder& folder);
   void integrate();
   void summarize();
-  /// Warns where the tolerance does not resolve the sense of friction.
+  /// Warns if the tolerance does not resolve the sense of friction.
   void look_at_slips();
-  /// Warns where a force was asked for and rows are too far apart to show it.
+  /// Warns if a force was requested and rows are too far apart to show it.
   void look_at_rows();
   void write_files(const record::ResultFolder& folder);
   void fail(const std::string& reason);
-  /// Does the work; what it throws becomes the report of a failed run.
+  /// Does the work; an exception becomes the report of a failed run.
   template <class Work>
   void guarded(Work work);
 
@@ -79,8 +84,8 @@ class BUTEE_EXPORT Run {
   std::optional<record::HistoryRecorder> history_;
   std::optional<record::EnergyRecorder> energy_;
   std::optional<record::ImpactRecorder> impacts_;
-  std::optional<record::ContactRecorder> contacts_;  ///< where the scene has obstacles
-  std::optional<record::SlipWatch> slips_;           ///< there, where a tolerance is kept
+  std::optional<record::ContactRecorder> contacts_;  ///< if the scene has obstacles
+  std::optional<record::SlipWatch> slips_;           ///< if the scene has obstacles and a tolerance
   std::optional<record::Progress> progress_;
   std::optional<record::FieldRecorder> fields_;
   std::optional<record::StateKeeper> states_;

@@ -7,10 +7,11 @@
 
 namespace butee::scene {
 
-/// A scene assembled, with its method and a simulation that nobody watches yet.
+/// An assembled scene with its method and a simulation without observers.
 struct BUTEE_EXPORT Assembly {
-  /// `change` may alter the system, such as its initial values, before anything looks at it. Throws InputError where
-  /// the scene cannot be run, and RunError where its module does not keep what it promised. `scene` must outlive it.
+  /// `change` may alter the system, such as its initial values, before it is used. Throws
+  /// InputError if the scene cannot be run, and RunError if its module violates its declaration.
+  /// `scene` must outlive this object.
   explicit Assembly(Scene& scene, const std::function<void(model::System&)>& change = {});
 
   model::System system;

@@ -9,18 +9,19 @@
 
 namespace butee::scene {
 
-/// What [output] formats names.
+/// The content of [output] formats.
 struct FormatRequest {
   bool csv = true;                  ///< history.csv
   std::vector<std::string> fields;  ///< the formats of fields
 };
 
-/// Reads the key `formats`; `known` are those beside csv. Mistakes go to `diagnostics`. Private to the framework.
+/// Reads the key `formats`; `known` are the formats other than csv. Errors go to `diagnostics`.
+/// Private to the framework.
 FormatRequest read_formats(const config::Parameters& output, const std::vector<std::string>& known,
                            config::Diagnostics& diagnostics);
 
-/// Reads the key `fields`: all nodes and five quantities where it is absent. `model` may be null where it has mistakes
-/// of its own. Private to the framework.
+/// Reads the key `fields`; by default all nodes and five quantities. `model` may be null if it has
+/// errors. Private to the framework.
 model::FieldRequest read_fields(const config::Parameters& output, std::vector<std::string> formats,
                                 const model::Model* model, config::Diagnostics& diagnostics);
 

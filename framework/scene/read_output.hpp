@@ -9,8 +9,9 @@
 
 namespace butee::scene {
 
-/// Reads [output]; without it 1000 equal intervals and a probe of u on every loaded node. Mistakes go to `diagnostics`.
-/// `model` need not be complete where there were mistakes before. `formats` are those known beside csv.
+/// Reads [output]; without it 1000 equal intervals and a probe of u on every loaded node. Errors go
+/// to `diagnostics`. `model` may be incomplete after earlier errors. `formats` are the known
+/// formats other than csv.
 BUTEE_EXPORT model::OutputRequest read_output(const config::Value& root, const model::Model& model, double end_time,
                                               config::Diagnostics& diagnostics,
                                               const std::vector<model::FieldFormat>& formats = {});

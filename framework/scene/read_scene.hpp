@@ -12,11 +12,12 @@ namespace butee::scene {
 /// A scene as far as it could be read.
 struct Draft {
   model::Model model;
-  std::optional<IntegratorChoice> integrator;  ///< absent where [integrator] has a mistake
+  std::optional<IntegratorChoice> integrator;  ///< absent if [integrator] has an error
 };
 
-/// Reads everything of a document but [output]. `others` are further keys of the root that somebody else reads.
-/// Every mistake goes to `diagnostics`; the scene can be run only where there is none. No module is loaded.
+/// Reads all of a document except [output]. `others` are further keys of the root that are read
+/// elsewhere. Every error goes to `diagnostics`; the scene can be run only if there is none. No
+/// module is loaded.
 BUTEE_EXPORT Draft read_draft(const config::Document& document, const plugin::Catalogue& catalogue,
                               config::Diagnostics& diagnostics, const std::vector<std::string>& others = {"output"});
 
@@ -30,10 +31,10 @@ struct Scene {
   std::vector<std::string> warnings;
 };
 
-/// Whether [output] is read, or is of no concern to the caller.
+/// Whether [output] is read or ignored.
 enum class Output { read, ignored };
 
-/// Reads the scene, and loads the one module that it names. Throws InputError with every mistake.
+/// Reads the scene, and loads the one module that it names. Throws InputError with all errors.
 BUTEE_EXPORT Scene read_scene(config::Document document, plugin::Catalogue catalogue, Output output = Output::read);
 
 /// The same from a file, with overrides ("integrator.tolerance=1e-8") and further folders or files of modules.

@@ -6,7 +6,7 @@
 
 namespace butee::scene {
 
-using namespace model;  // The readers fill the model, whose names they use throughout.
+using namespace model;  // The readers fill the model and use its names throughout.
 
 /// The state shared by the readers of a scene's tables. Private to the framework.
 class SceneReader {
@@ -51,11 +51,12 @@ class SceneReader {
   void read_supports();
   void read_contacts();
   void read_contact(const config::Value& entry, const std::string& path);
-  /// The free play of each contact, or one for all.
+  /// The gap of each contact, or one for all.
   std::optional<std::vector<double>> read_gaps(const config::Parameters& parameters, std::size_t count);
-  /// False after a complaint that an obstacle of this form does not take friction with stick of this kind.
+  /// False after reporting that an obstacle of this form does not support friction with this kind
+  /// of stick.
   bool check_stick(const config::Parameters& p, Friction::Rule rule, const ContactShape::Form& form);
-  /// False after a complaint that friction on a turning part lacks its radius.
+  /// False after reporting that friction on a turning part lacks its radius.
   bool check_radius(const config::Parameters& parameters, bool has_friction, const std::vector<NodeId>& a,
                     const std::vector<NodeId>& b);
   bool read_ends(const config::Parameters& parameters, const std::vector<DofKind>& directions, std::vector<NodeId>& a,
@@ -75,7 +76,7 @@ class SceneReader {
   void read_initial();
   void read_initial_list(const config::Value& given, const std::string& key);
   void read_initial_entry(const config::Value& entry, const std::string& path, const std::string& key);
-  /// The values of an entry, node by node; nothing after a complaint.
+  /// The values of an entry, node by node; empty after an error.
   std::vector<NodalValue> rigid_rotation(const config::Parameters& parameters, const std::vector<NodeId>& nodes);
   void read_initial_motion(const config::Parameters& parameters);
   void check_dofs();
@@ -83,12 +84,13 @@ class SceneReader {
 
   /// The entries of an array of tables at the root, each with its path ("contact[0]").
   std::vector<std::pair<const config::Value*, std::string>> entries(const std::string& key);
-  /// The value of `type` (or another naming key) if it is one of `known`; reports it otherwise.
+  /// The value of `type` (or another naming key) if it is one of `known`; otherwise reports an
+  /// error.
   std::optional<std::string> type_of(const config::Value& entry, const std::string& path, const std::string& key,
                                      const std::vector<std::string>& known, const char* fallback = nullptr);
   std::optional<std::vector<NodeId>> select(const config::Parameters& parameters, const std::string& key);
   std::optional<NodeId> select_one(const config::Parameters& parameters, const std::string& key);
-  /// read_parameters(); where a value is wrong, the selectors of the table are checked all the same.
+  /// read_parameters(); if a value is wrong, the selectors of the table are still checked.
   std::optional<config::Parameters> read_table(const config::Value& entry, const std::string& path,
                                                const std::vector<config::Parameter>& declared,
                                                const std::vector<std::string>& ignored = {});
@@ -98,12 +100,12 @@ class SceneReader {
   config::Diagnostics& diagnostics_;
   Model model_;
   std::optional<DofTable> dofs_;
-  std::optional<std::size_t> gravity_load_;  ///< among the loads
-  std::optional<BaseFrame> stop_frame_;      ///< of the stops to ground, where there are any
+  std::optional<std::size_t> gravity_load_;  ///< index among the loads
+  std::optional<BaseFrame> stop_frame_;      ///< of the stops to ground, if there are any
   std::map<std::string, std::optional<Material>> materials_;
   std::map<std::string, std::optional<Section>> sections_;
   std::vector<std::string> element_names_;
-  bool lacks_elements_ = false;  ///< an element has a mistake of its own, so DOFs may be missing for its sake
+  bool lacks_elements_ = false;  ///< an element has an error of its own, so that its DOFs may be missing
   std::vector<std::pair<std::string, const Element*>> named_elements_;
   std::vector<std::pair<std::string, config::Location>> element_places_;
 };

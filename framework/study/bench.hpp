@@ -8,12 +8,12 @@
 
 namespace butee::study {
 
-/// The system that a thread works on, kept from one run of a study to the next where only loads, stops, gaps, laws or
-/// the start change: assembly, factorizations and modes are then made once. Results are the same to the bit as those of
-/// a system made anew.
+/// The system that a thread works on. It is kept from one run of a study to the next if only loads,
+/// stops, gaps, laws or the start change: assembly, factorizations and modes are then computed
+/// once. Results are bit-identical to those of a new system.
 class Bench {
  public:
-  /// `study` must outlive it.
+  /// `study` must outlive this object.
   explicit Bench(const Study& study);
 
   /// Takes the scene of a run. Throws as scene::Assembly does.
@@ -22,7 +22,7 @@ class Bench {
   scene::Scene& scene() { return *scene_; }
   dynamics::Dynamics& dynamics() { return parts_->dynamics; }
   time::Simulation& simulation() { return *simulation_; }
-  /// Of this run alone: assemblies, 0 or 1, and what the dynamics counted.
+  /// For this run alone: number of assemblies, 0 or 1, and the counts of the dynamics.
   int assemblies() const { return assemblies_; }
   linalg::Counters counters() const;
 
@@ -36,8 +36,10 @@ class Bench {
   bool renew(const std::string& structure);
 
   const Study& study_;
-  std::vector<bool> is_structural_;  ///< an entry an axis: its key is of another table than those of loads and stops
-  std::unique_ptr<scene::Scene> base_, scene_;  ///< base_: whose nodes the system refers to, where that is not scene_
+  std::vector<bool> is_structural_;  ///< one entry per axis: its key belongs to a table other than those of loads and
+                                     ///< stops
+  std::unique_ptr<scene::Scene> base_, scene_;  ///< base_: owner of the nodes that the system refers to, if that is not
+                                                ///< scene_
   std::unique_ptr<Parts> parts_;
   std::unique_ptr<time::Integrator> integrator_;
   std::unique_ptr<time::Simulation> simulation_;

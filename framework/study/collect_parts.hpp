@@ -11,11 +11,11 @@
 #include "butee/record/probes.hpp"
 #include "butee/study/collect.hpp"
 
-// Private to this folder: the observers of single kinds of results. What counts must outlive them; where it begins is
-// known from the first step on.
+// Private to this folder: the observers of single kinds of results. Counted must outlive them; its
+// beginning is known from the first step on.
 namespace butee::study {
 
-/// Observes one kind of results, for all items that ask for it.
+/// Observes one kind of results for all items that request it.
 class CollectorPart : public time::Observer {
  public:
   virtual std::vector<double> values(std::size_t item) const = 0;
@@ -35,8 +35,8 @@ class PeakPart final : public CollectorPart {
   std::vector<std::string> names_;
 };
 
-/// Peaks of forces of elements and contacts, and of motion that is measured from another frame, as of a run that has a
-/// row 64 times a period.
+/// Peaks of forces of elements and contacts, and of motion measured in another frame, computed as
+/// in a run with 64 rows a period.
 class SampledPeakPart final : public CollectorPart {
  public:
   SampledPeakPart(const std::vector<model::ProbeRequest>& probes, dynamics::Dynamics& dynamics, const Counted& counted);
@@ -82,8 +82,9 @@ class RangePart final : public CollectorPart {
   std::vector<record::Range> ranges_;
 };
 
-/// Means, by Gauss' rule with five points between the breakpoints of each step, and values at the end. Where the dense
-/// output is no polynomial, intervals are halved until the rule over both halves is that over the whole.
+/// Means, by Gauss' rule with five points between the breakpoints of each step, and values at the
+/// end. If the dense output is not a polynomial, intervals are halved until the rule gives the same
+/// over both halves as over the whole.
 class MeanPart final : public CollectorPart {
  public:
   MeanPart(const std::vector<model::ProbeRequest>& probes, const std::vector<Item::Kind>& kinds,
@@ -128,7 +129,8 @@ class MeanPart final : public CollectorPart {
 };
 
 class SectionPart final : public CollectorPart {
-  /// An instant of a section that a step misses by this part of a period is its end.
+  /// An instant of a section within this fraction of a period after the end of a step is taken at
+  /// that end.
   static constexpr double kSameInstant = 1e-12;
 
  public:
@@ -193,7 +195,8 @@ class FrequencyPart final : public CollectorPart {
   std::vector<std::vector<double>> values_;
 };
 
-/// Closings of stops, and of contacts in the plane, with dissipation or friction; the work of rubbing of the latter.
+/// Counts closings of stops and of contacts in the plane with dissipation or friction; adds up the
+/// friction work of the latter.
 class ContactPart final : public CollectorPart {
  public:
   ContactPart(const std::vector<Item::Kind>& kinds, dynamics::Dynamics& dynamics, const Counted& counted)

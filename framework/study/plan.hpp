@@ -10,19 +10,19 @@
 
 namespace butee::study {
 
-/// A key of the scene that varies, and the values that it takes.
+/// A varied key of the scene, and its values.
 struct Axis {
   struct Range {
     double from = 0.0, to = 0.0;
     bool is_logarithmic = false;
   };
-  std::string key;                    ///< as --set takes it
-  std::vector<config::Value> values;  ///< where there is no range
+  std::string key;                    ///< as for --set
+  std::vector<config::Value> values;  ///< if there is no range
   std::optional<Range> range{};
-  std::int64_t count = 0;  ///< of values from one end of the range to the other; 0 of random plans
-  std::string label{};     ///< for pictures; the key where empty
+  std::int64_t count = 0;  ///< number of values from one end of the range to the other; 0 for random plans
+  std::string label{};     ///< for pictures; if empty, the key is used
 
-  /// True where all values are numbers.
+  /// True if all values are numbers.
   BUTEE_EXPORT bool is_numeric() const;
   BUTEE_EXPORT std::int64_t size() const;
   BUTEE_EXPORT config::Value value(std::int64_t index) const;
@@ -32,19 +32,19 @@ struct Axis {
 
 enum class PlanKind { grid, list, sobol, latin };
 
-/// Sweeps in which a point starts from the final state of the one before.
+/// Sweeps, where a point starts from the final state of the previous one.
 enum class Follow { no, up, down, both };
 
 /// The runs of a study, numbered from 0, and the chains of runs that follow each other.
 ///
-/// Points are numbered with the last axis the fastest. With Follow::both, run r is point r on the way up, run N + r
-/// point r on the way down. A sweep goes along the last axis.
+/// The last axis varies fastest in the numbering of points. With Follow::both, run r is point r on
+/// the way up, and run N + r is point r on the way down. A sweep follows the last axis.
 class BUTEE_EXPORT Plan {
  public:
   static constexpr std::int64_t kMostPoints = 100'000'000;
   static constexpr std::int64_t kMostLatinPoints = 10'000'000;
 
-  /// Throws InputError where there are no points, or too many.
+  /// Throws InputError if there are no points, or too many.
   Plan(std::vector<Axis> axes, PlanKind kind, std::int64_t count, std::optional<std::uint64_t> seed, Follow follow);
 
   const std::vector<Axis>& axes() const { return axes_; }
@@ -61,7 +61,7 @@ class BUTEE_EXPORT Plan {
   /// A value for each axis.
   std::vector<config::Value> values(std::int64_t point) const;
 
-  /// Runs first, first + step, ... that have to be done in this order.
+  /// Runs first, first + step, ... that must be done in this order.
   struct Chain {
     std::int64_t first = 0, step = 1, length = 1;
     std::int64_t at(std::int64_t i) const { return first + i * step; }

@@ -11,14 +11,14 @@ namespace butee::study {
 struct PointTable {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::size_t> lines;  ///< of the file, an entry a row
+  std::vector<std::size_t> lines;  ///< line numbers in the file, one entry per row
 };
 
-/// Reads CSV; empty lines and those that begin with # are left out. Throws InputError, without the file's name, where a
-/// line has another number of cells than the first.
+/// Reads CSV; empty lines and those that begin with # are skipped. Throws InputError, without the
+/// file's name, if a line has a different number of cells than the first.
 BUTEE_EXPORT PointTable read_points(const std::string& text);
 
-/// A cell as `--set` would take it: a value in TOML syntax, or else a text.
+/// A cell interpreted as by `--set`: a value in TOML syntax, or else a text.
 BUTEE_EXPORT config::Value value_of(const std::string& cell);
 
 }  // namespace butee::study

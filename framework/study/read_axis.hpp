@@ -7,8 +7,8 @@
 
 namespace butee::study {
 
-/// Private to this folder: the axis of an entry of [[vary]], or nothing after a complaint. `parameters` are those of
-/// vary_parameters() in `table`, which holds `values` as well.
+/// Private to this folder: the axis of an entry of [[vary]], or nothing after an error.
+/// `parameters` are those of vary_parameters() in `table`, which also contains `values`.
 std::optional<Axis> read_axis(const config::Parameters& parameters, const config::Value& table, PlanKind kind,
                               config::Diagnostics& diagnostics);
 

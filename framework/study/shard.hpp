@@ -4,7 +4,8 @@
 
 namespace butee::study {
 
-/// One of several processes that share a study: those chains are its own whose number is `index` modulo `count`.
+/// One of several processes that share a study; it owns the chains whose number is `index` modulo
+/// `count`.
 struct Shard {
   std::int64_t index = 0, count = 1;
   bool owns(std::int64_t chain) const { return chain % count == index; }

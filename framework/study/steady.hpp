@@ -6,22 +6,25 @@
 
 namespace butee::study {
 
-/// Private to this folder: notices that a motion has settled on one that repeats itself after 1 to 16 periods.
+/// Private to this folder: detects that a motion has settled on one that repeats after 1 to 16
+/// periods.
 ///
-/// With s_k the state at the end of period k and |s|^2 = v.M v + (2 pi/T)^2 x.M x, d_k = |s_k - s_{k-p}| decays like
-/// q^(k/p); what is left of the way is about d_k q/(1 - q), q estimated over the last 32 periods. The motion is steady
-/// where that and d_k are below the tolerance times |s_k|. Looked at every 8 periods; no step is changed by it.
+/// With s_k the state at the end of period k and |s|^2 = v.M v + (2 pi/T)^2 x.M x, d_k = |s_k -
+/// s_{k-p}| decays like q^(k/p); the remaining distance is about d_k q/(1 - q), with q estimated
+/// over the last 32 periods. The motion is steady if that and d_k are below the tolerance times
+/// |s_k|. Checked every 8 periods; the steps are not changed.
 class SteadyWatch final : public time::Observer {
  public:
-  /// `dynamics` must outlive it; `period` in s.
+  /// `dynamics` must outlive this object; `period` in s.
   SteadyWatch(dynamics::Dynamics& dynamics, double period, double tolerance);
 
   void step(const time::AcceptedStep& step) override;
 
-  /// True from when the motion is steady until close().
+  /// True from the time when the motion is steady until close().
   bool has_news() const { return is_open_ && repeats_ > 0; }
   void close() { is_open_ = false; }
-  /// The first number of periods, not before `t`, from which the motion goes on as from `settle`, at most that.
+  /// The first number of periods, not before `t`, from which the motion continues as from `settle`;
+  /// at most `settle`.
   std::int64_t next_alike(double t, std::int64_t settle) const;
 
  private:

@@ -14,8 +14,8 @@
 
 namespace butee::study {
 
-/// What a study is made of, as texts that are compared before it goes on: the scene with the files that it names, the
-/// plan and what is collected, and the build.
+/// The identity of a study, as texts that are compared before it is continued: the scene with the
+/// files that it names, the plan and the collected items, and the build.
 struct Identity {
   std::string study, scene, build;
   bool operator==(const Identity&) const = default;
@@ -25,34 +25,36 @@ BUTEE_EXPORT Identity identity_of(const Study& study);
 /// The folder of a study.
 ///
 ///     study.toml             the study with its scene as run, and its identity
-///     rows-S-K.h5 (.csv)     rows in the order in which they were done: session S, process K
-///     sweep-C.bin            where sweep C stands, while it is under way
-///     study.h5 (.csv)        all rows in the order of the plan, once they are there; the files of rows are gone then
-///     shard-I-of-N/          the same of one shard
+///     rows-S-K.h5 (.csv)     rows in the order of completion: session S, process K
+///     sweep-C.bin            the state of sweep C while it is running
+///     study.h5 (.csv)        all rows in the order of the plan, once complete; replaces the
+///     row files
+///     shard-I-of-N/          the same files for one shard
 class BUTEE_EXPORT Store final : public Rows {
  public:
-  /// `study`, `layout` and `format` must outlive it. Touches nothing.
+  /// `study`, `layout` and `format` must outlive this object. Accesses no files.
   Store(std::string folder, const Study& study, const Layout& layout, RowFormat& format);
   ~Store() override;
 
-  /// Throws InputError where a folder is neither empty nor one of a study or its shards.
+  /// Throws InputError if a folder is neither empty nor that of a study or its shards.
   static void refuse_foreign(const std::string& folder);
 
-  /// Makes the folder where it is missing, takes the right to write there and looks at what is done. With `fresh` what
-  /// is there of an earlier study is taken away. Throws InputError where the folder is not ours, another process
-  /// writes there, or what it holds is of another scene, study or build; RunError where it cannot be written.
+  /// Creates the folder if it is missing, locks it for writing and finds the completed runs. With
+  /// `fresh` the files of an earlier study are removed. Throws InputError if the folder does not
+  /// belong to a study, another process writes there, or its content is of another scene, study or
+  /// build; RunError if it cannot be written.
   void open(bool fresh);
-  /// Looks at what is done, for a process beside that which has opened it.
+  /// Finds the completed runs, for a process other than the one that opened the folder.
   void look();
 
   bool is_complete() const { return is_complete_; }
   bool is_done(std::int64_t run) const override { return done_[static_cast<std::size_t>(run)]; }
   std::int64_t done_count() const override { return done_count_; }
 
-  /// Begins a file for the rows of this process; no two give the same session and process.
+  /// Creates a file for the rows of this process; session and process must be unique.
   void begin(int session, int process);
   int next_session() const { return next_session_; }
-  /// Rows wait for each other some tenths of a second at most.
+  /// Rows are buffered for some tenths of a second at most.
   void append(const Row& row) override;
   void flush() override;
 
@@ -60,34 +62,36 @@ class BUTEE_EXPORT Store final : public Rows {
   std::int64_t kept(std::int64_t chain, Motion& motion) const override;
   void forget(std::int64_t chain) override;
 
-  /// Sorts the rows of all files of this folder, and of those of its shards, into study.h5 or study.csv, and takes the
-  /// files of rows away. False where rows are missing, of which `missing` is the first.
+  /// Sorts the rows of all files of this folder, and of its shards, into study.h5 or study.csv, and
+  /// removes the row files. False if rows are missing; `missing` is then the first of them.
   bool merge(std::int64_t& missing);
 
-  /// Calls `look(row)` for all rows that are there, in the order of the plan.
+  /// Calls `look(row)` for all existing rows, in the order of the plan.
   void visit(const std::function<void(const Row&)>& look) const;
 
-  /// Takes what is in the folder for its own, whatever has changed since: to look at, not to go on with.
+  /// Accepts the content of the folder even if the study has changed since: for viewing, not for
+  /// continuing.
   void adopt_identity();
 
   /// True for the folder of a study.
   static bool is_study_folder(const std::string& folder);
-  /// The folder with the study as run: `folder` or, before its shards are merged, the first of them; "" where it holds
-  /// none.
+  /// The folder with the study as run: `folder` or, before its shards are merged, the first of
+  /// them; "" if there is none.
   static std::string study_in(const std::string& folder);
   /// The study of a folder, as it was run. Throws InputError.
   static Study read(const std::string& folder);
-  /// The extension of its files of rows.
+  /// The extension of its row files.
   static std::string extension_in(const std::string& folder);
 
-  /// Rows by status, for what is said at the end: completed, failed and refused, and the first reason.
+  /// Counts of rows by status for the final message: completed, failed and refused, and the first
+  /// reason.
   struct Count {
     std::int64_t completed = 0, failed = 0;
     std::string first_reason;
   };
   Count count() const;
 
-  /// What the names of files of sweeps begin with, and the file with the study as run.
+  /// The prefix of the names of sweep files, and the file with the study as run.
   static constexpr const char* kSweep = "sweep-";
   static constexpr const char* kStudyFile = "study.toml";
 
@@ -100,13 +104,13 @@ class BUTEE_EXPORT Store final : public Rows {
   struct Found;
 
   std::vector<std::string> row_files(const std::string& folder) const;
-  /// Those of this folder and of its shards.
+  /// The row files of this folder and of its shards.
   std::vector<std::string> all_row_files() const;
-  /// The place of the row of each run, where there is one.
+  /// The location of the row of each run, if it exists.
   Found find_rows(const std::vector<std::string>& files) const;
-  /// Takes away shards and what sweeps have kept.
+  /// Removes shards and sweep files.
   void remove_parts() const;
-  /// A file of rows of this study; one that cannot be read has none, with a warning.
+  /// Opens a row file of this study; one that cannot be read counts as empty, with a warning.
   std::unique_ptr<RowSource> open_rows(const std::string& path) const;
   void check_identity(const std::string& folder) const;
   void read_done();

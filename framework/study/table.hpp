@@ -16,11 +16,12 @@ struct Column {
 
   std::string name, unit;
   Type type = Type::number;
-  std::size_t length = 1;  ///< of numbers, how many a row holds; of a text, its bytes
+  std::size_t length = 1;  ///< number of numbers in a row; for a text, its bytes
   bool is_cost = false;    ///< may differ between two studies that give the same results
 };
 
-/// The columns of a study, and where they lie in a row of bytes: 8 for each number, `length` for a text.
+/// The columns of a study and their positions in a row of bytes: 8 for each number, `length` for a
+/// text.
 class BUTEE_EXPORT Layout {
  public:
   explicit Layout(std::vector<Column> columns);
@@ -28,7 +29,7 @@ class BUTEE_EXPORT Layout {
   const std::vector<Column>& columns() const { return columns_; }
   std::size_t offset(std::size_t column) const { return offsets_[column]; }
   std::size_t row_bytes() const { return row_bytes_; }
-  /// The number of the column of a name. Throws LogicError where there is none.
+  /// The index of the column of a name. Throws LogicError if there is none.
   std::size_t find(const std::string& name) const;
 
  private:
@@ -37,16 +38,16 @@ class BUTEE_EXPORT Layout {
   std::size_t row_bytes_ = 0;
 };
 
-/// A row. Numbers that are not set are NaN, integers 0, texts empty; a NaN has always the same bits.
+/// A row. Numbers that are not set are NaN, integers 0, texts empty; all NaNs have the same bits.
 class BUTEE_EXPORT Row {
  public:
-  /// `layout` must outlive it.
+  /// `layout` must outlive this object.
   explicit Row(const Layout& layout);
   Row(const Layout& layout, std::span<const std::byte> bytes);
 
   void set(std::size_t column, double value, std::size_t entry = 0);
   void set_integer(std::size_t column, std::int64_t value);
-  /// A text that is too long is cut.
+  /// A text that is too long is truncated.
   void set_text(std::size_t column, const std::string& text);
 
   double number(std::size_t column, std::size_t entry = 0) const;
@@ -63,9 +64,9 @@ class BUTEE_EXPORT Row {
 /// The cells of a row for a CSV file, and its header line: columns of several numbers are NAME[1], NAME[2], ...
 BUTEE_EXPORT std::string csv_header(const Layout& layout);
 BUTEE_EXPORT std::string csv_line(const Layout& layout, const Row& row);
-/// The row of a line that csv_line() wrote. Throws RunError where it is none.
+/// The row of a line written by csv_line(). Throws RunError if the line is invalid.
 BUTEE_EXPORT Row from_csv(const Layout& layout, const std::string& line);
-/// The cells of a line of CSV; quotes are taken off.
+/// The cells of a line of CSV, without quotes.
 BUTEE_EXPORT std::vector<std::string> cells_of(const std::string& line);
 
 }  // namespace butee::study
