@@ -8,7 +8,7 @@ namespace butee::contact {
 
 namespace {
 
-/// Fewer stops than this are quicker one by one.
+/// With fewer stops than this, evaluation one by one is faster.
 constexpr std::size_t kFew = 4;
 
 }  // namespace

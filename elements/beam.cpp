@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::array<DofKind, 2> kPlaneY = {DofKind::uy, DofKind::rz}, kPlaneZ = {DofKind::uz, DofKind::ry};
 
-/// Where the DOFs of one plane of bending, of axial motion or of torsion stand among those of a part.
+/// The indices, among the DOFs of a part, of the DOFs of one plane of bending, of axial motion or
+/// of torsion.
 std::vector<Index> places_of(const std::vector<DofKind>& kinds, std::span<const DofKind> wanted) {
   std::vector<Index> places;
   for (Index node = 0; node < 2; ++node)
@@ -22,7 +23,8 @@ std::vector<Index> places_of(const std::vector<DofKind>& kinds, std::span<const 
   return places;
 }
 
-/// Turns (u1, theta1, u2, theta2) of the plane (x, z), theta = -ry, into (uz1, ry1, uz2, ry2).
+/// Converts a matrix on (u1, theta1, u2, theta2) of the plane (x, z), theta = -ry, to (uz1, ry1,
+/// uz2, ry2).
 Eigen::Matrix4d with_ry(const Eigen::Matrix4d& matrix) {
   const Eigen::Vector4d sign(1, -1, 1, -1);
   return sign.asDiagonal() * matrix * sign.asDiagonal();
@@ -41,7 +43,7 @@ model::ElementMatrices selected(const model::ElementMatrices& whole, const std::
   return part;
 }
 
-/// The shear ratio Phi, or 0 where shear is left out.
+/// The shear ratio Phi, or 0 without shear.
 double shear_ratio(const BeamOptions& options, const model::Material& material, double bending_stiffness, double area,
                    const model::ShearFactor& factor, double l) {
   if (options.theory != BeamTheory::timoshenko) return 0.0;
@@ -112,7 +114,8 @@ model::ElementMatrices Beam::matrices_of(const Part& part, bool turns) const {
   add_at(z, z, with_ry(in_xz.mass), matrices.mass);
   add_at(z, z, with_ry(in_xz.stiffness), matrices.stiffness);
   if (turns) {
-    // plane y: + Omega G theta'-rates of plane z; plane z: - Omega G those of plane y.
+    // In plane y: + Omega G times the rates theta' of plane z; in plane z: - Omega G times those of
+    // plane y.
     const Eigen::Matrix4d gyroscopic = in_xy.rotary + in_xz.rotary;
     const Eigen::DiagonalMatrix<double, 4> sign(1, -1, 1, -1);
     matrices.gyroscopic = Eigen::MatrixXd::Zero(matrices.mass.rows(), matrices.mass.cols());
@@ -158,7 +161,7 @@ void Beam::assemble_planar(model::MatrixSink& sink) const {
 
 void Beam::assemble(model::MatrixSink& sink) const {
   if (options_.motion == Motion::planar) return assemble_planar(sink);
-  // DOFs that nothing couples are added apart, so that the pattern shows it.
+  // Uncoupled DOFs are added separately, so that the matrix pattern shows it.
   std::vector<std::vector<DofKind>> sets;
   if (!is_along_axes()) {
     sets = {kinds()};
@@ -233,7 +236,7 @@ std::optional<model::SectionCut> Beam::cut(Index part, bool at_end) const {
   model::SectionCut cut(dofs_of(part));
   cut.matrices = matrices_of(part_at(part), turning() != Turning::never);
   for (int axis = 0; axis < 3; ++axis) cut.line_loads.col(axis) = line_load(l, Eigen::Vector3d::Unit(axis));
-  // Rows of the forces along, and of the moments about, the beam's own axes.
+  // Rows of the forces along, and the moments about, the beam's own axes.
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const Index column = (at_end ? std::ssize(kinds) : 0) + static_cast<Index>(k);
     const int first = is_rotation(kinds[k]) ? 3 : 0;

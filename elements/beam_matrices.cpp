@@ -3,7 +3,7 @@
 namespace butee::elements {
 namespace {
 
-/// [a b -a b; b c -b d; -a -b a -b; b d -b c]: what a stiffness, or an inertia of rotation, looks like.
+/// [a b -a b; b c -b d; -a -b a -b; b d -b c]: the form of a stiffness or a rotary inertia matrix.
 Eigen::Matrix4d even(double a, double b, double c, double d) {
   Eigen::Matrix4d matrix;
   matrix << a, b, -a, b,  //

@@ -13,7 +13,7 @@ using model::NodeId;
 using Motion = BeamOptions::Motion;
 
 constexpr double kMostElements = 5e6;
-/// Two directions are parallel up to rounding of the coordinates that people write.
+/// Tolerance for parallel directions: rounding of coordinates written by hand.
 constexpr double kParallel = 1e-9;
 
 std::vector<double> even_coordinates(double length, Index elements) {
@@ -76,7 +76,7 @@ std::optional<Eigen::Matrix3d> read_axes(const Parameters& p, Diagnostics& diagn
   return axes;
 }
 
-/// Reports what the section or the material lacks for the motion and the theory.
+/// Reports section or material data that are missing for the motion and the theory.
 bool is_complete(const Parameters& p, const model::Section& section, const model::Material& material,
                  const BeamOptions& options, Diagnostics& diagnostics) {
   const auto errors = diagnostics.error_count();

@@ -8,7 +8,8 @@ using model::NodalDof;
 
 namespace {
 
-/// The other displacement or rotation across x, on which damping that turns acts too; itself along x.
+/// The other displacement or rotation perpendicular to x, on which rotating damping also acts;
+/// along x the kind itself.
 DofKind across(DofKind kind) {
   const int axis = axis_of(kind);
   return axis == 0 ? kind : (is_rotation(kind) ? rotation_about : displacement_along)(3 - axis);

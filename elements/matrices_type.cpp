@@ -17,7 +17,8 @@ using config::Parameters;
 using model::NodalDof;
 using model::NodeId;
 
-/// Differences between entries (i, j) and (j, i) up to this part of the largest entry are rounding of printed numbers.
+/// Differences between entries (i, j) and (j, i) up to this fraction of the largest entry are
+/// rounding of printed numbers.
 constexpr double kRounding = 1e-12;
 
 bool names_kinds(const Parameters& p) {
@@ -39,7 +40,8 @@ std::string read_file_of(const Parameters& p, const std::string& key, const Diag
   return text;
 }
 
-/// Calls read(text) with the text of a file; complains about `key` where it throws, with the file's line.
+/// Calls read(text) with the text of a file; if it throws, reports an error about `key` with the
+/// file's line.
 template <class Read>
 bool with_file(const Parameters& p, const std::string& key, Diagnostics& diagnostics, Read read) {
   try {
@@ -64,7 +66,7 @@ std::string own_name(const Parameters& p) {
   return p.has("name") ? p.text("name") : "";
 }
 
-/// The nodes that the element creates: so many as it numbers.
+/// The nodes that the element creates: as many as it numbers.
 model::ElementType::Nodes own_nodes(const Parameters& p, Diagnostics& diagnostics) {
   NodeId count = 0;
   if (!names_kinds(p)) {

@@ -21,12 +21,12 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
-/// Goes through a text line by line, and through a line field by field.
+/// Reads a text line by line, and a line field by field.
 class Reader {
  public:
   explicit Reader(std::string_view text) : rest_(text) {}
 
-  /// Goes to the next line; false at the end.
+  /// Advances to the next line; false at the end.
   bool next_line() {
     if (rest_.empty()) return false;
     const auto end = std::min(rest_.find('\n'), rest_.size());
@@ -35,7 +35,7 @@ class Reader {
     ++number_;
     return true;
   }
-  /// Goes to the next line that is neither empty nor a comment; false at the end.
+  /// Advances to the next line that is neither empty nor a comment; false at the end.
   bool next_entry() {
     while (next_line()) {
       while (!line_.empty() && is_blank(line_.front())) line_.remove_prefix(1);

@@ -73,7 +73,7 @@ SectionType rectangle() {
           }};
 }
 
-/// The value of an optional key, 0 where it is absent.
+/// The value of an optional key, 0 if it is absent.
 double number_or_zero(const Parameters& p, const char* key) {
   return p.has(key) ? p.number(key) : 0.0;
 }

@@ -49,7 +49,8 @@ void Spring::claim(model::DofTable& dofs) const {
 }
 
 void Spring::assemble_rotating(model::MatrixSink& sink) const {
-  // Beside each DOF the other one of its plane of rotation, on whose displacement the rotating damping acts too.
+  // Next to each DOF: the other DOF of its plane of rotation, since rotating damping also depends
+  // on its displacement.
   const DofKind other = (is_rotation(kind_) ? rotation_about : displacement_along)(3 - axis_of(kind_));
   for (std::size_t i = 0; i < a_.size(); ++i) {
     std::vector<NodalDof> dofs = {{a_[i], kind_}, {a_[i], other}};

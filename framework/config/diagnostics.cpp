@@ -17,7 +17,7 @@ std::string abbreviated(const Value& value) {
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
-/// The parts of a message that error() put together, where `place` is where the mistake is.
+/// The parts of a message composed by error(); `place` is the location of the error.
 Mistake parts_of(const std::string& text, const std::string& place, const std::string& file, int line) {
   const std::string rest = text.substr(place.size() + 2);
   const std::size_t end = std::min(rest.find(" = "), rest.find(": "));

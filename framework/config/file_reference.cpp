@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 31U;
-/// The file of a result folder that [initial] from names.
+/// The file of a result folder to which [initial] from refers.
 constexpr const char* kStates = "states.bin";
 
 std::string found_from(const Document& document, const std::string& file, const std::string& folder) {
@@ -52,14 +52,14 @@ bool is_element_of_files(const Table& table) {
          mass->text() != nullptr;
 }
 
-/// A text, or that of an array of one.
+/// A text, or the text in an array of one.
 const std::string* single_text(const Value* value) {
   if (value == nullptr) return nullptr;
   const Array* array = value->array();
   return array != nullptr && array->size() == 1 ? array->front().text() : value->text();
 }
 
-/// The files of [[element]] type = "matrices"; `dofs` may be a degree of freedom in place of a file.
+/// The files of [[element]] type = "matrices"; `dofs` may be a degree of freedom instead of a file.
 void pin_matrices(const Document& document, Table& table, const std::string& folder) {
   Array checksums;
   for (const char* key : {"mass", "stiffness", "damping", "gyroscopic", "dofs"}) {

@@ -9,7 +9,7 @@
 namespace butee::config {
 namespace {
 
-constexpr char kMark = '\x01';  ///< written as an escape, which no scene holds
+constexpr char kMark = '\x01';  ///< written as an escape sequence, which no scene contains
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -21,7 +21,7 @@ class ArrayReader {
   ArrayReader(const std::string& text, std::size_t begin, std::int32_t line)
       : text_(text), at_(begin + 1), begin_(begin), line_(line) {}
 
-  /// The place behind its bracket, or nothing where it is another array, or a short one.
+  /// The position after its closing bracket, or nothing for any other array or a short one.
   std::optional<std::size_t> read() {
     skip_blanks();
     while (at() != ']') {
@@ -88,7 +88,7 @@ class ArrayReader {
   std::int32_t line_;
 };
 
-/// True where the last character but blanks is the `=` of a key.
+/// True if the last non-blank character is the `=` of a key.
 bool follows_a_key(const std::string& text, std::size_t at) {
   while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t')) --at;
   return at > 0 && text[at - 1] == '=';

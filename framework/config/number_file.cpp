@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLongestShown = 40;
 
-/// An InputError with the line at which a file is wrong, ":17: ..."
+/// Throws InputError with the line of an error in a file, ":17: ..."
 [[noreturn]] void refuse(std::size_t line, const std::string& complaint) {
   throw InputError(":" + std::to_string(line) + ": " + complaint);
 }
@@ -43,7 +43,7 @@ std::optional<double> number_in(std::string_view field) {
   return value;
 }
 
-/// Goes through the lines of a text that hold numbers or names.
+/// Iterates over the lines of a text that contain numbers or names.
 class Lines {
  public:
   Lines(std::string_view text, Index skip) : rest_(text) {
@@ -75,7 +75,7 @@ class Lines {
   std::string_view rest_;
 };
 
-/// Takes the fields off a line from its beginning.
+/// Reads the fields of a line from its beginning.
 class Fields {
  public:
   Fields(std::string_view line, char separator) : rest_(line), separator_(separator) {}

@@ -10,7 +10,7 @@
 namespace butee::config {
 namespace {
 
-/// The most characters of a value that a message shows.
+/// The largest number of characters of a value that a message shows.
 constexpr std::size_t kLongest = 60;
 
 struct Step {

@@ -82,7 +82,7 @@ std::string matrix_complaint(const Parameter& parameter, const Value& value) {
   return "";
 }
 
-/// A column of a file: counted from 1, or by its name.
+/// A column of a file: its number counted from 1, or its name.
 constexpr const char* kColumn = "column";
 
 std::string column_complaint(const Value& value) {

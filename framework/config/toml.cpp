@@ -20,13 +20,13 @@ namespace {
 
 using Parsed = toml::basic_value<toml::discard_comments, std::map, std::vector>;
 
-/// Where values stand in a text. toml11's own location() counts the lines from the start of the text, for every value
-/// anew; here the beginnings of all lines are found once.
+/// The locations of values in a text. toml11's own location() counts the lines from the start of
+/// the text for every value; here the starts of all lines are found once.
 class Places {
  public:
   explicit Places(const OrderedText& text) : text_(text) {}
 
-  /// Characters before the value; 0 for one that was not read from a text.
+  /// Number of characters before the value; 0 for a value that was not read from a text.
   std::ptrdiff_t offset(const Parsed& value) {
     const toml::detail::region* region = region_of(value);
     return region != nullptr ? region->first() - region->begin() : 0;
@@ -55,7 +55,7 @@ class Places {
   std::vector<std::ptrdiff_t> line_begins_;
 };
 
-/// What a parsed text is read with.
+/// Auxiliary data for reading a parsed text.
 struct Source {
   Places places;
   NumberArrays arrays;
@@ -63,14 +63,14 @@ struct Source {
 
 Value convert(const Parsed& from, const std::string& key, Source& source);
 
-/// Refuses what is TOML but cannot be kept as a Value.
+/// Rejects valid TOML that cannot be stored as a Value.
 [[noreturn]] void refuse(const Parsed& value, const std::string& key, Places& places, const std::string& complaint) {
   const auto where = value.location();
   throw InputError(":" + std::to_string(places.location(value).line) + ": " + key + " = " +
                    where.line_str().substr(where.column() - 1, where.region()) + ": " + complaint);
 }
 
-/// toml11 replaces a number that does not fit by the largest one.
+/// toml11 replaces a number out of range by the largest one.
 template <class Number>
 Number fitting(Number number, const Parsed& from, const std::string& key, Places& places) {
   using Limits = std::numeric_limits<Number>;
@@ -121,8 +121,8 @@ Value convert(const Parsed& from, const std::string& key, Source& source) {
   }
 }
 
-/// toml11's messages are drawings of several lines with " --> file" and "line | text"; this keeps sentence and
-/// line, of two definitions the second's.
+/// toml11's messages are drawings of several lines with " --> file" and "line | text"; this keeps
+/// the sentence and the line, for two definitions that of the second.
 std::string shorten(const std::string& what, const std::string& name, const OrderedText& text) {
   std::string sentence = what.substr(0, what.find('\n'));
   const bool defined_twice = sentence.find("insert_value") != std::string::npos;
@@ -171,12 +171,12 @@ Document parse_toml(const std::string& given, const std::string& name) {
 
 Document load_toml(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  file.peek();  // An empty file is good after this; what opens but cannot be read, such as a folder, is not.
+  file.peek();  // An empty file is good after this; a folder or other object that opens but cannot be read is not.
   if (!file) throw InputError(path + ": cannot be read; check the name and its permissions");
   std::string text;
   for (std::array<char, 65536> part{}; file.read(part.data(), part.size()), file.gcount() > 0;) {
     text.append(part.data(), static_cast<std::size_t>(file.gcount()));
-    // Devices and pipes may never end.
+    // Devices and pipes may be endless.
     if (text.size() > kLargestText) throw InputError(path + too_large());
   }
   return parse_toml(text, path);

@@ -10,7 +10,7 @@ namespace {
 constexpr int kDeepest = 100;
 constexpr std::size_t kLongestLine = 65536;
 
-/// The length of the UTF-8 sequence that begins at a byte, 0 where there is none: RFC 3629, section 4.
+/// The length of the UTF-8 sequence that begins at a byte, 0 if it is invalid: RFC 3629, section 4.
 std::size_t sequence_at(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) -> unsigned { return at + i < text.size() ? text[at + i] & 0xffU : 0U; };
   const auto goes_on = [&](std::size_t i) { return (byte(i) & 0xc0U) == 0x80U; };
@@ -38,7 +38,7 @@ void check_encoding(const std::string& text) {
   }
 }
 
-/// Goes through a text from token to token, strings and comments as a whole.
+/// Scans a text token by token; strings and comments are single tokens.
 class LimitScanner {
  public:
   explicit LimitScanner(const std::string& text) : text_(text) {}

@@ -12,12 +12,12 @@ namespace {
 /// The lines from one header to the next.
 struct Section {
   std::size_t begin = 0, end = 0;
-  std::int32_t line = 1;          ///< of its header
-  std::vector<std::string> path;  ///< of the header; empty for the lines before the first one
+  std::int32_t line = 1;          ///< line number of its header
+  std::vector<std::string> path;  ///< names in the header; empty for the lines before the first header
   bool is_list = false;           ///< [[path]]
 };
 
-/// Reads "[a.b]" or "[[a.b]]" at `at`; false where it is something else, which toml11 may complain of.
+/// Reads "[a.b]" or "[[a.b]]" at `at`; false for anything else, which is left to toml11 to report.
 bool read_header(const std::string& text, std::size_t at, Section& section) {
   const auto skip_blanks = [&] { at = std::min(text.find_first_not_of(" \t", at), text.size()); };
   section.is_list = text.compare(at, 2, "[[") == 0;
@@ -71,11 +71,12 @@ std::vector<Section> sections_of(const std::string& text) {
   return sections;
 }
 
-/// For each section the one that it has to precede; its own index where it may stay.
+/// For each section the one that it must precede; its own index if it may stay.
 std::vector<std::size_t> places_of(const std::vector<Section>& sections) {
   std::vector<std::size_t> places;
-  std::map<std::string, int> elements;             // of lists so far, by the list's full name
-  std::map<std::string, std::size_t> first_parts;  // of tables that a longer header has named, by the table's full name
+  std::map<std::string, int> elements;             // number so far for each list, by the list's full name
+  std::map<std::string, std::size_t> first_parts;  // first section whose longer header names a table, by the table's
+                                                   // full name
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const Section& section = sections[i];
     places.push_back(i);
@@ -109,7 +110,7 @@ OrderedText tables_before_their_parts(const std::string& text) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < sections.size(); ++i) order.push_back(i);
   if (places == order) return {text, {}};
-  // Tables that go to one place hold each other: the outer ones first.
+  // Tables moved to the same place are nested: the outer ones first.
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const auto key = [&](std::size_t i) { return std::tuple(places[i], places[i] == i, sections[i].path.size()); };
     return key(a) < key(b);

@@ -43,7 +43,7 @@ std::string number_text(double value) {
   return to_text(value);
 }
 
-/// As to_toml(), with arrays over many lines where one would be long.
+/// As to_toml(), with long arrays broken over several lines.
 std::string folded(const Value& value) {
   const auto width = [](const std::string& text) { return text.size() - (text.rfind('\n') + 1); };
   if (const Array* array = value.array()) {

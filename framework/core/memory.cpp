@@ -11,7 +11,8 @@
 namespace butee {
 namespace {
 
-/// What every process has; asking for its limits takes longer than small systems are computed.
+/// Every process has this much memory; querying its limits takes longer than the computation of a
+/// small system.
 constexpr double kAlwaysThere = 16e6;
 
 double limit_of(__rlimit_resource resource) {
@@ -21,7 +22,7 @@ double limit_of(__rlimit_resource resource) {
   return static_cast<double>(limit.rlim_cur);
 }
 
-/// Of a container; a file that says "max", or is not there, bounds nothing.
+/// The limit of a container; a file that contains "max", or does not exist, sets no limit.
 double limit_in(const char* path) {
   std::ifstream file(path);
   double bytes = 0.0;

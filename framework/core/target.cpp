@@ -12,10 +12,10 @@ namespace {
 
 struct Target {
   std::string name;
-  std::size_t index;  ///< in the tables of linalg/kernel/dispatch.hpp
+  std::size_t index;  ///< index in the tables of linalg/kernel/dispatch.hpp
 };
 
-/// The best first.
+/// Best first.
 const std::vector<Target>& all_targets() {
   static const std::vector<Target> kAll = [] {
     std::vector<Target> all;

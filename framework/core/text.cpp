@@ -9,7 +9,8 @@
 namespace butee {
 namespace {
 
-/// Edit distance in which a swap of neighbours counts once (optimal string alignment).
+/// Edit distance in which a swap of neighbouring characters counts as one edit (optimal string
+/// alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

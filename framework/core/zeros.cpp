@@ -12,11 +12,11 @@ constexpr Index kLong = Index{1} << 18U;
 #ifdef MADV_COLLAPSE
 constexpr int kCollapse = MADV_COLLAPSE;
 #else
-constexpr int kCollapse = 25;  // Linux 6.1; older systems know no such advice
+constexpr int kCollapse = 25;  // since Linux 6.1; older systems reject this advice
 #endif
 
-/// Advice, so that nothing changes where a system does not take it, nor by what neighbours have on the first and the
-/// last page. Memory that was in use before has small pages, which are joined.
+/// Only advice: systems that do not support it, and neighbouring data on the first and the last
+/// page, are not affected. Memory that was used before has small pages, which are merged.
 void ask_for_large_pages(Vector& vector) {
   const auto data = reinterpret_cast<std::uintptr_t>(vector.data());
   const std::uintptr_t begin = data & ~(kPage - 1),

@@ -11,7 +11,7 @@ namespace butee::dynamics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Bisection ends where the bounds are as near as this, relative.
+/// Relative distance of the bounds at which bisection ends.
 constexpr double kBisected = 1e-13;
 
 SparseMatrix symmetric_stiffness(const model::Model& model) {

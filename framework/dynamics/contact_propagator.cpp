@@ -9,11 +9,11 @@
 namespace butee::dynamics {
 namespace {
 
-/// The error of cubic Hermite interpolation is at most this times (omega h)^4 and the amplitude, and at most twice
-/// that.
+/// The error of cubic Hermite interpolation is at most this times (omega h)^4 times the amplitude,
+/// and at most twice the amplitude.
 constexpr double kHermite = 1.0 / 384.0;
 
-/// Forces that are added up before they are added to what is there.
+/// Number of forces whose responses are summed before they are added to the result.
 constexpr std::size_t kTogether = 32;
 
 kernel::Motion to_add_to(StopMotion& motion) {
@@ -56,11 +56,12 @@ ContactPropagator::ContactPropagator(ModalPropagator whole_flow, ModalPropagator
       derived_(columns_.size()) {
   if (stops.count() == 0) return;
   const Eigen::ArrayXd angle = h() * frequencies, shape = stops.matrix().cwiseAbs().rowwise().maxCoeff().array();
-  // A cubic that follows the speeds of a fast mode departs from it by more than its amplitude.
+  // A cubic that matches the velocities of a fast mode departs from its motion by more than its
+  // amplitude.
   swing_q = (kHermite * angle.square().square()).min(2.0 + 0.25 * angle) * shape;
   swing_v = (frequencies > 0.0).select(swing_q / frequencies, 0.0);
-  // Within a step a force moves a mode by no more than this (also in resonance), and away from the cubic by no more
-  // than h^4/384 times the fourth derivative, f'' - omega^2 f.
+  // Within a step a force moves a mode by at most this (also in resonance), and away from the cubic
+  // by at most h^4/384 times the fourth derivative, f'' - omega^2 f.
   const Eigen::ArrayXd most = h() * h() * (angle > 2.0).select((angle + 2.0) / angle.square().max(1.0), 1.0) * shape;
   swing_force = most * (kHermite * angle.square()).min(1.0);
   for (const ModalHarmonic& harmonic : harmonics) {
@@ -88,7 +89,7 @@ const Eigen::ArrayXXd& ContactPropagator::compute_columns(Index i) {
     q = whole.force_q(k) * shape;
     v = h() * whole.force_v(k) * shape;
     stops_.displacement(q.data(), v.data(), columns.col(3 * k).data(), columns.col(3 * k + 1).data());
-    // P_k of the step, written in those of its first half.
+    // P_k of the step, expressed by those of its first half.
     if (k == 0) q = half.force_q(0) * shape;
     if (k == 1) q = 0.5 * (half.force_q(1) - half.force_q(0)) * shape;
     if (k == 2) q = (0.25 * half.force_q(2) - 0.75 * half.force_q(1)) * shape;

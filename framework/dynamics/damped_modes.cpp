@@ -17,12 +17,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Entries below this part of the geometric mean of the largest in their row and column are rounding.
+/// Entries below this fraction of the geometric mean of the largest in their row and column are
+/// rounding.
 constexpr double kUncoupled = 1e-12;
-/// |V| |V^-1| of a basis beyond which it is no basis.
+/// |V| |V^-1| of a set of vectors above which it is not accepted as a basis.
 constexpr double kDefective = 1e6, kHopeless = 1e8;
 
-/// Parts of the numbers 0 ... n - 1 that entries (i, j) join.
+/// Connected parts of the numbers 0 ... n - 1, joined by entries (i, j).
 class Parts {
  public:
   explicit Parts(Index n) : parent_(static_cast<std::size_t>(n)) {
@@ -45,7 +46,8 @@ class Parts {
   std::vector<Index> parent_;
 };
 
-/// Entries of a full matrix that do not vanish beside the largest ones of their row and their column.
+/// Joins by the entries of a full matrix that are not negligible relative to the largest ones of
+/// their row and column.
 void join_entries(const Eigen::MatrixXd& matrix, Parts& parts) {
   const Eigen::ArrayXd rows = matrix.cwiseAbs().rowwise().maxCoeff(), columns = matrix.cwiseAbs().colwise().maxCoeff();
   for (Index j = 0; j < matrix.cols(); ++j)
@@ -60,7 +62,8 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
   if (b == 1) {
     const double delta = 0.5 * damping(0, 0), scale = block.scale[0];
     const Complex root = std::sqrt(Complex(delta * delta - stiffness(0, 0)));
-    // The larger of two real roots comes from the sum, the smaller from the product of both, so that no digits cancel.
+    // The larger of two real roots is computed from the sum, the smaller from the product of both,
+    // to avoid cancellation.
     Complex first = -delta + root, second = -delta - root;
     if (root.imag() == 0.0 && std::abs(first) < std::abs(second)) first = stiffness(0, 0) / second;
     if (root.imag() == 0.0 && std::abs(second) < std::abs(first)) second = stiffness(0, 0) / first;

@@ -1,4 +1,4 @@
-// What implicit methods ask of Dynamics beside effective().
+// Operations of Dynamics for implicit methods, other than effective().
 #include "butee/core/blocks.hpp"
 #include "butee/dynamics/dynamics.hpp"
 
@@ -17,7 +17,8 @@ bool Dynamics::solve_secant(double t, double velocity_factor, double displacemen
 
 bool Dynamics::solve_secant_of_many(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
                                     ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
-  // The solution for a + s v instead of a lacks the product M v: what C v asks for is then a shift of x in K x.
+  // Solving for a + s v instead of a avoids the product M v: the term C v then becomes a shift of x
+  // in K x.
   set_time(t);
   const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
   const double s = on_mass / (1.0 + velocity_factor * on_mass),
@@ -82,7 +83,8 @@ linalg::ForceBalance Dynamics::residual(ConstVectorRef load, ConstVectorRef stop
   }
   if (modal_) damping_force(v, modal_force_);
   if (turning_) {
-    // The turning part is a product over all rows, so the forces are summed whole, not block by block.
+    // The turning part is a product over all rows, so the forces are summed at once, not block by
+    // block.
     damping_force(v, turning_damping_);
     elastic_force(x, other_vector_);
     inertia_force(a, turning_inertia_);

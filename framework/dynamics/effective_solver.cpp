@@ -7,7 +7,8 @@
 namespace butee::dynamics {
 namespace {
 
-/// An adaptive method goes back and forth between few step sizes; each kept one costs a factor's memory.
+/// An adaptive method alternates between few step sizes; each one kept costs the memory of a
+/// factorization.
 constexpr std::size_t kSlots = 4;
 
 Index place_of(const SparseMatrix& matrix, Index row, Index column) {

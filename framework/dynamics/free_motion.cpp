@@ -11,7 +11,7 @@
 namespace butee::dynamics {
 namespace {
 
-/// What moves less than this part of the largest is not named.
+/// DOFs that move less than this fraction of the largest are not named.
 constexpr double kTakesPart = 0.3;
 constexpr std::size_t kNamed = 4;
 
@@ -60,7 +60,8 @@ std::string describe_softest_motion(const SparseMatrix& matrix, const model::Dof
   }
   const SparseMatrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   Vector shape = softest(scaled);
-  // No motion of several: one of them alone is too light or too soft for a number.
+  // Not a common motion of several DOFs: one of them alone has too little mass or stiffness to be
+  // represented.
   if (constexpr double kDistinct = 1e-6; shape.dot(scaled * shape) > kDistinct * shape.squaredNorm()) {
     Index largest = 0;
     scale.maxCoeff(&largest);

@@ -15,18 +15,18 @@
 namespace butee::dynamics {
 namespace {
 
-/// Vectors of the size of the system that a mode takes while it is computed, with all copies of it.
+/// Number of vectors of system size that a mode needs during its computation, including all copies.
 constexpr double kVectorsOfMode = 6.0;
-/// Of the eigenvectors; a Ritz value is accurate to its square, where the highest eigenvalues of a long beam lie too
-/// close for more.
+/// Tolerance of the eigenvectors; a Ritz value is accurate to its square. The highest eigenvalues
+/// of a long beam are too close together for a tighter one.
 constexpr double kLanczosTolerance = 1e-4;
 constexpr int kLanczosVectors = 30;
 constexpr int kLanczosRestarts = 200;
-/// Of mode shapes, which enter the damping matrix as they are.
+/// Tolerance of mode shapes, which enter the damping matrix directly.
 constexpr double kShapeTolerance = 1e-12;
-/// An eigenvalue below this part of the highest is rounding: some hundred units of it.
+/// An eigenvalue below this fraction of the highest is rounding: some hundred units of it.
 constexpr double kRigid = 1e-13;
-/// The place between two eigenvalues at which they are counted, relative to the larger.
+/// The position between two eigenvalues at which they are counted, relative to the larger.
 constexpr double kCountedBelow = 1e-6;
 
 double frequency(double eigenvalue) {
@@ -55,7 +55,7 @@ std::optional<double> highest_eigenvalue(const SparseMatrix& stiffness, const Sp
   return pairs->values[0];
 }
 
-/// A shift a little below zero keeps the matrix regular where the structure can move as a rigid body.
+/// A shift a little below zero keeps the matrix regular if the structure can move as a rigid body.
 std::optional<linalg::Pairs> lowest_pairs(const SparseMatrix& stiffness, const SparseMatrix& mass, double highest,
                                           Index count, double tolerance) {
   const double shift = -1e-12 * highest;
@@ -71,13 +71,14 @@ std::optional<linalg::Pairs> lowest_pairs(const SparseMatrix& stiffness, const S
   return linalg::Pairs{values(order), pairs->vectors(Eigen::all, order)};
 }
 
-/// Sylvester's law of inertia: as many eigenvalues lie below `limit` as K - limit M has negative pivots.
+/// Sylvester's law of inertia: the number of eigenvalues below `limit` is the number of negative
+/// pivots of K - limit M.
 Index count_below(const SparseMatrix& stiffness, const SparseMatrix& mass, double limit) {
   const Eigen::SimplicialLDLT<SparseMatrix> factor(SparseMatrix(stiffness - limit * mass));
   return (factor.vectorD().array() < 0.0).count();
 }
 
-/// Lanczos may miss one of several equal eigenvalues.
+/// Lanczos may miss one of several equal eigenvalues; counts them to check.
 bool is_complete(const SparseMatrix& stiffness, const SparseMatrix& mass, const Vector& values, double highest) {
   const double last = values[values.size() - 1];
   if (last <= kRigid * highest) return true;
@@ -96,8 +97,8 @@ std::optional<Modes> dense_modes(const model::System& system, Index count) {
   return modes_of({pairs->values.head(count), pairs->vectors.leftCols(count)}, pairs->values.maxCoeff());
 }
 
-/// Of obstacles while they are pressed: along the normal of a plane, in a ring along both of its axes; of a friction
-/// support its stick spring.
+/// Adds the stiffness of closed obstacles: along the normal of a plane, along both axes of a ring,
+/// and for a friction support its stick spring.
 void add_obstacles(const model::System& system, SparseMatrix& stiffness) {
   using Kind = model::ContactShape::Form::Kind;
   for (const model::FreeObstacles& obstacles : system.obstacles) {
@@ -152,7 +153,8 @@ SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) 
 
 std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops) {
   SparseMatrix stiffness = stiffness_with_stops(system, stops);
-  // Frequencies are those of the symmetric part: the solvers read one half of the matrix alone.
+  // Frequencies are those of the symmetric part, since the solvers read only one half of the
+  // matrix.
   if (!system.stiffness_is_symmetric) stiffness = 0.5 * (stiffness + SparseMatrix(stiffness.transpose()));
   if (system.size() <= linalg::kDense) {
     const auto values = linalg::dense_values(Eigen::MatrixXd(stiffness), Eigen::MatrixXd(system.mass));

@@ -9,12 +9,13 @@
 namespace butee::dynamics {
 namespace {
 
-/// A stop is near where its stiffness changes displacements by more than this.
+/// A stop is near if its stiffness changes displacements by more than this.
 constexpr double kNear = 1e-3;
-/// Stops whose stiffness changes the solution by less than this are left out. That is as if masses were wrong by as
-/// much; what it changes in the displacements at the end of a step, k times the solution, is far below their rounding.
+/// Stops whose stiffness changes the solution by less than this are omitted. The effect equals that
+/// of an equal relative error in the masses; the change of the displacements at the end of a step,
+/// k times the solution, is far below their rounding.
 constexpr double kHidden = 1e-11;
-/// Sweeps go on until what they change is lost in rounding.
+/// Sweeps continue until their changes are lost in rounding.
 constexpr double kLostInRounding = 1e-17;
 
 }  // namespace
@@ -101,8 +102,8 @@ bool LocalContact::find_forces(double k, ConstVectorRef kappa) {
   solve_near(k);
   if (far_stops_.empty()) return true;
   update_far(k, kappa);
-  // A far force is wrong by its relative error times the contraction where it acts on displacements, a near one,
-  // which answers the far ones, by the error itself.
+  // The error of a far force affects displacements by its relative error times the contraction; a
+  // near force, which reacts to the far ones, is affected by the error itself.
   double error = near_stops_.empty() ? contraction_ * contraction_ : contraction_;
   for (; error > kLostInRounding; error *= contraction_) {
     spread_far();
@@ -148,7 +149,7 @@ void LocalContact::update_far(double k, ConstVectorRef kappa) {
     for (const Index stop : far_stops_) force_[stop] = kappa[stop] * (free_[stop] - k * sum_[stop]);
     return;
   }
-  // All at once is quicker; what this gives the hidden ones is lost in rounding.
+  // Computing all at once is faster; the forces of the omitted stops are lost in rounding.
   force_ = kappa.cwiseProduct(free_ - k * sum_);
   for (const Index stop : near_stops_) force_[stop] = 0.0;
 }

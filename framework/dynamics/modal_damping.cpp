@@ -30,7 +30,7 @@ Modes modes_to_damp(const model::System& system, Index count) {
   return std::move(*modes);
 }
 
-/// Refuses to leave out a mode that the scene names.
+/// Rejects a list that names a mode that would be omitted.
 void check_listed(const model::Damping& damping, const Modes& modes) {
   for (std::size_t i = 0; i < damping.lowest_modes.size(); ++i)
     if (damping.lowest_modes[i] > 0.0 && modes.frequencies[static_cast<Index>(i)] == 0.0)

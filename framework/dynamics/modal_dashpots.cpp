@@ -6,7 +6,7 @@
 namespace butee::dynamics {
 namespace {
 
-/// The matrix with a place for every entry.
+/// The matrix with a full sparse pattern.
 SparseMatrix with_all_places(const Eigen::MatrixXd& matrix) {
   SparseMatrix full(matrix.rows(), matrix.cols());
   full.reserve(Eigen::VectorXi::Constant(matrix.cols(), static_cast<int>(matrix.rows())));

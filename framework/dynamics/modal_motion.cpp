@@ -11,12 +11,15 @@ namespace {
 
 using Eigen::ArrayXd;
 
-/// |omega^2 - Omega^2 + 2 i delta Omega| over omega^2 + Omega^2, below which a mode is in resonance.
+/// A mode is in resonance if |omega^2 - Omega^2 + 2 i delta Omega| over omega^2 + Omega^2 is below
+/// this.
 constexpr double kResonance = 1e-7;
-/// (omega_d/omega)^2 below which an oscillation is too near to critical damping for its closed form.
+/// An oscillation is too near to critical damping for its closed form if (omega_d/omega)^2 is below
+/// this.
 constexpr double kCritical = 1e-2;
 
-/// Terms of the series that count where (omega + delta) t is at most x: x^k/k! is below rounding from then on.
+/// The number of terms needed if (omega + delta) t is at most x: beyond them x^k/k! is below
+/// rounding.
 int terms_of(double x) {
   constexpr double kRounding = 1e-17;
   int terms = 5;
@@ -28,7 +31,7 @@ int terms_of(double x) {
 }  // namespace
 
 struct ModalMotion::Parts {
-  /// The motion that a harmonic load keeps up by itself: cosine cos(Omega t) + sine sin(Omega t).
+  /// The steady-state response to a harmonic load: cosine cos(Omega t) + sine sin(Omega t).
   struct Kept {
     double angular_frequency;
     ArrayXd cosine, sine;
@@ -53,17 +56,17 @@ struct ModalMotion::Parts {
   const std::vector<ModalSystem::OtherLoad>& other_loads_;
   // Padded by modes at rest.
   ArrayXd square_, decay_, frequency_;
-  ArrayXd compliance_;        ///< 1/omega^2; 0 of rigid modes, which are always slow or without closed form
-  double single_decay_;       ///< of all modes alike, 1/s; negative where they differ
+  ArrayXd compliance_;        ///< 1/omega^2; 0 for rigid modes, which are always slow or without closed form
+  double single_decay_;       ///< 1/s, if all modes share it; negative if they differ
   std::vector<Rates> rates_;  ///< omega + delta in each register
   std::vector<Kept> kept_;
   std::vector<kernel::KeptUp> kept_up_;
-  std::vector<Index> resonant_, damped_;  ///< modes without closed form; the damped ones have a series while slow
+  std::vector<Index> resonant_, damped_;  ///< modes without closed form; the damped ones use a series while slow
 
   double t_ = 0.0, h_ = 0.0;
-  ArrayXd q0_, v0_;  ///< without what is kept up
+  ArrayXd q0_, v0_;  ///< without the steady-state response
   std::array<ArrayXd, 3> force_;
-  std::array<ArrayXd, 3> led_;  ///< the polynomial in time that the forces lead to
+  std::array<ArrayXd, 3> led_;  ///< the polynomial particular solution for the forces
   ArrayXd cosine_, sine_;       ///< of the oscillation about it
   bool has_force_ = false, is_led_ = false;
   ArrayXd q_, v_;
@@ -126,7 +129,7 @@ ModalMotion::Parts::Parts(const ArrayXd& omega, const ArrayXd& delta, const std:
   for (const ModalHarmonic& load : harmonics) {
     const double turn = load.angular_frequency;
     Kept& kept = kept_.emplace_back(Kept{turn, ArrayXd::Zero(room), ArrayXd::Zero(room)});
-    if (turn == 0.0) continue;  // A constant force, which needs no such motion.
+    if (turn == 0.0) continue;  // A constant force has no such response.
     for (Index i = 0; i < n; ++i) {
       const std::complex<double> hold(omega[i] * omega[i] - turn * turn, 2.0 * delta[i] * turn);
       if (std::abs(hold) < kResonance * (omega[i] * omega[i] + turn * turn)) {

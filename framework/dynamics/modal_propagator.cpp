@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::ArrayXd;
 
-/// (omega + delta + Omega) h, within what the series' number of terms is made for.
+/// (omega + delta + Omega) h, for which the number of terms of the series is sufficient.
 constexpr double kShort = 0.5;
 
 kernel::Values chunk_of(const ArrayXd& all, Index begin) {
@@ -83,7 +83,8 @@ ModalPropagator ModalPropagator::doubled() const {
     to.columns_(i, 1) = qq * qv + qv * vv;
     to.columns_(i, 2) = vq * qq + vv * vq;
     to.columns_(i, 3) = vq * qv + vv * vv;
-    // A response to the first half of the forcing, carried through the second half, and one to that.
+    // The response to the first half of the forcing, propagated through the second half, plus the
+    // response to the second.
     struct Pair {
       double q, v;
     };
@@ -93,7 +94,8 @@ ModalPropagator ModalPropagator::doubled() const {
     };
     const auto old = [&](Index column) { return Pair{columns_(i, column), columns_(i, column + 1)}; };
     const Pair f0 = old(kForce), f1 = old(kForce + 2), f2 = old(kForce + 4);
-    // In the halves of the double step P_1 and P_2 are combinations of those of the half.
+    // Within each half of the double step P_1 and P_2 are combinations of the polynomials of the
+    // half.
     join(kForce, f0, f0);
     join(kForce + 2, {0.5 * (f1.q - f0.q), 0.5 * (f1.v - f0.v)}, {0.5 * (f1.q + f0.q), 0.5 * (f1.v + f0.v)});
     join(kForce + 4, {0.25 * f2.q - 0.75 * f1.q, 0.25 * f2.v - 0.75 * f1.v},
@@ -115,7 +117,7 @@ void ModalPropagator::refine(const ArrayXd& omega, const ArrayXd& delta) {
   for (Index i = 0; i < omega.size(); ++i) {
     const double d = delta[i], square = omega[i] * omega[i] - d * d;
     const double kappa = std::sqrt(std::abs(square)), angle = kappa * h_;
-    if (angle < 1e-4) continue;  // The series is as good.
+    if (angle < 1e-4) continue;  // The series is equally accurate.
     // e^(-delta h) times cos and sin/kappa, or cosh and sinh/kappa
     double cosine = 0.0, sine = 0.0;
     if (square > 0.0) {

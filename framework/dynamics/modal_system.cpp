@@ -12,8 +12,8 @@
 namespace butee::dynamics {
 namespace {
 
-/// Damping couples the modes where an entry beside the diagonal is above this part of the largest; rounding of
-/// proportional damping stays far below.
+/// Damping couples the modes if an off-diagonal entry exceeds this fraction of the largest;
+/// rounding of proportional damping is far below it.
 constexpr double kUncoupled = 1e-9;
 constexpr std::size_t kOddFlows = 6;
 
@@ -27,7 +27,7 @@ Modes find_modes(const model::System& system, Index count) {
   return std::move(*modes);
 }
 
-/// A column for every stop, with unit forces, and one for every load.
+/// A column with unit forces for every stop, and one for every load.
 Eigen::MatrixXd forces_of(const model::System& system) {
   std::vector<Vector> columns;
   for (const model::FreeStops& stops : system.stops)
@@ -123,7 +123,7 @@ void ModalSystem::replace_loads(const Dynamics& dynamics) {
   harmonics_.clear();
   other_loads_.clear();
   project_loads(dynamics);
-  // Flows hold the harmonics, and what methods derived from the laws.
+  // Propagators contain the harmonics and data that methods derived from the laws.
   grid_.clear();
   odd_.clear();
   oldest_ = 0;

@@ -12,7 +12,8 @@ namespace {
 
 using model::NodeId;
 
-/// The places among all stops, group by group, of those that act on a node of `nodes`; of all where that is null.
+/// The indices (group, stop) of all stops that act on a node of `nodes`; of all stops if that is
+/// null.
 std::set<std::pair<std::size_t, std::size_t>> places_of(const model::Model& model, const std::set<NodeId>* nodes) {
   std::set<std::pair<std::size_t, std::size_t>> places;
   const auto touches = [&](NodeId node) { return nodes->contains(model.nodes.canonical(node)); };
@@ -32,7 +33,8 @@ std::set<NodeId> selected(const model::Model& model, const std::string& selector
   return nodes;
 }
 
-/// phi^T C phi / (2 omega): dashpots and modal damping of other modes may couple modes; this is each mode's own share.
+/// phi^T C phi / (2 omega), the damping ratio of each mode alone: dashpots and modal damping of
+/// other modes may couple modes.
 class Ratios {
  public:
   Ratios(const model::System& system, bool all_open) : system_(system), all_open_(all_open) {

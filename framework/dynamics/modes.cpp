@@ -12,34 +12,38 @@
 namespace butee::dynamics {
 namespace {
 
-/// Systems up to kSmall, and those up to kLargestDense of which more than half of the modes are wanted, are solved
-/// densely.
+/// Systems up to kSmall, and those up to kLargestDense if more than half of the modes are
+/// requested, are solved densely.
 constexpr Index kSmall = 120, kLargestDense = 1200;
-/// Of others: the most modes, and bytes for the vectors that Lanczos keeps.
+/// For all others: the largest number of modes, and bytes for the vectors that Lanczos keeps.
 constexpr Index kMostModes = 1000;
 constexpr double kMostMemory = 4e9;
-/// Up to so many vectors the small eigenvalue problem of Rayleigh and Ritz is solved in extended precision.
+/// Up to this number of vectors the small Rayleigh-Ritz eigenvalue problem is solved in extended
+/// precision.
 constexpr Index kExtendedRitz = 150;
-/// The shift lies this part of an eigenvalue bound below zero: far enough from rigid motion for the factor, near enough
-/// to tell the lowest modes apart.
+/// The shift lies this fraction of an eigenvalue bound below zero: far enough from rigid motion for
+/// the factorization, near enough to separate the lowest modes.
 constexpr double kShiftPart = 1e-2;
-/// The place between two eigenvalues at which they are counted, relative.
+/// The relative position between two eigenvalues at which they are counted.
 constexpr double kMarginOfCount = 1e-6;
-/// Eigenvalues below this part of the shift are rounding of the iteration.
+/// Eigenvalues below this fraction of the shift are rounding of the iteration.
 constexpr double kZeroBesideShift = 1e-18;
-/// An eigenvalue is zero where it is within so many times the rounding of its elements.
+/// An eigenvalue is zero if it is within this multiple of the rounding of its elements.
 constexpr double kZeroInRounding = 4.0;
 constexpr int kMostBisections = 200;
-/// Residuals of Lanczos' vectors, relative; looser where rounding of the factor, in extended precision, is larger.
+/// Relative residuals of Lanczos' vectors; looser if the rounding of the factor, in extended
+/// precision, is larger.
 constexpr double kTolerance = 1e-12, kLoosest = 1e-4, kBesideRounding = 1e-1;
-/// Corrections of a solution with the factor by its residual; each takes as many digits away from its error as the
-/// factor has right. They end where one is this part of the solution, or no longer half of the one before.
+/// Corrections of a solution with the factor by its residual; each removes as many digits of the
+/// error as the factor has correct. They end at a correction below this fraction of the solution,
+/// or above half of the previous one.
 constexpr int kCorrections = 12;
 constexpr double kCorrected = 1e-15;
-/// Steps of inverse iteration after Lanczos, whose factor was not corrected.
+/// Steps of inverse iteration after Lanczos, which used the factor without corrections.
 constexpr int kInverseSteps = 2;
 
-/// Diagonal entries bound the highest eigenvalue from below, within a factor of some tens for beams.
+/// Diagonal entries bound the highest eigenvalue from below, within a factor of some tens for
+/// beams.
 double scale_of(const Structure& structure) {
   const auto k = structure.stiffness().diagonal(), m = structure.mass().diagonal();
   long double scale = 0.0L;
@@ -47,14 +51,14 @@ double scale_of(const Structure& structure) {
   return static_cast<double>(scale);
 }
 
-/// Eigenvalues below `limit`, moved a little where it hits one.
+/// The number of eigenvalues below `limit`, which is moved slightly if it equals one.
 Index count_below(linalg::ShiftedFactor& factor, long double limit) {
   for (int i = 0; i < 10; ++i, limit *= 1.0L - 1e-9L)
     if (factor.factorize(limit)) return factor.negative_pivots();
   return -1;
 }
 
-/// A bound below which at least `count` eigenvalues lie and hardly more than twice as many.
+/// A bound below which at least `count` eigenvalues lie, and hardly more than twice as many.
 double bound_of(linalg::ShiftedFactor& factor, double scale, Index count) {
   double low = 0.0, high = scale;
   for (int i = 0; i < kMostBisections && count_below(factor, high) < count; ++i) {
@@ -81,7 +85,8 @@ struct RitzPairs {
   Vector rounding;  ///< of lambda
 };
 
-/// Coefficients C with C^T M C = 1 and C^T K C diagonal, ascending; empty where that failed.
+/// Coefficients C with C^T M C = 1 and C^T K C diagonal, ascending; empty if the computation
+/// failed.
 linalg::ExtendedColumns ritz(const linalg::ExtendedColumns& stiffness, const linalg::ExtendedColumns& mass) {
   const linalg::ExtendedColumns k = (stiffness + stiffness.transpose()) / 2.0L, m = (mass + mass.transpose()) / 2.0L;
   if (k.cols() <= kExtendedRitz) {
@@ -92,7 +97,7 @@ linalg::ExtendedColumns ritz(const linalg::ExtendedColumns& stiffness, const lin
   return pairs ? linalg::ExtendedColumns(pairs->vectors.cast<long double>()) : linalg::ExtendedColumns();
 }
 
-/// Rayleigh and Ritz: the best that the span of `shapes` holds, ascending.
+/// Rayleigh-Ritz: the best approximations in the span of `shapes`, ascending.
 RitzPairs refine(const Structure& structure, const Eigen::MatrixXd& shapes) {
   const linalg::ExtendedColumns x = shapes.cast<long double>();
   const linalg::ExtendedColumns stiffness = x.transpose() * structure.elastic(shapes).forces;
@@ -138,7 +143,7 @@ RitzPairs first_of(const RitzPairs& pairs, Index count) {
   return {pairs.shapes.leftCols(count), pairs.values.head(count), pairs.rounding.head(count)};
 }
 
-/// The pairs by Lanczos' method, complete; empty where that did not succeed.
+/// The complete pairs by Lanczos' method; empty on failure.
 RitzPairs iterate(const Structure& structure, linalg::ShiftedFactor& factor, double bound, double shift, Index count,
                   double tolerance) {
   const SparseMatrix mass = structure.mass().cast<double>();
@@ -184,7 +189,7 @@ Vector residuals_of(const Structure& structure, const linalg::ShiftedFactor& fac
   return residuals;
 }
 
-/// Rigid motion gets the frequency 0, every shape a sign of its own.
+/// Sets the frequency of rigid motion to 0 and the sign of every shape.
 void finish(NaturalModes& modes, RitzPairs pairs, double shift) {
   const Index count = pairs.values.size();
   modes.frequencies.resize(count);

@@ -13,7 +13,7 @@ using model::ImpactDamping;
 using NormalPhase = ContactPhase::Normal;
 using SlipPhase = ContactPhase::Slip;
 
-/// A penetration that is nothing, and no subnormal after a few roots and powers.
+/// A negligible penetration that does not become subnormal after a few roots and powers.
 constexpr double kBarelyClosed = 1e-100;
 
 }  // namespace
@@ -26,12 +26,13 @@ Obstacles::Normal Obstacles::normal(const Contact& contact, NormalPhase phase, d
   ++counters_->law_evaluations;
   if (group.damping.kind == ImpactDamping::Kind::law) {
     if (!touches) return {0.0, 0.0, 0.0, 0.0};
-    // Beyond the end of its phase the force goes on along its slope.
+    // Beyond the end of its phase the force is continued linearly.
     const double closed = std::max(g, 0.0);
     const auto at = law.rated_force(closed, rate, phase == NormalPhase::receding);
     return {at.force + at.by_penetration * (g - closed), law.secant(closed) * closed, at.by_penetration, at.by_rate};
   }
-  // A kinked law is continued beyond the end of its phase by the branch that holds within it.
+  // A law with a slope discontinuity is continued beyond the end of its phase by the branch that is
+  // valid within it.
   double secant, tangent;
   if (law.is_piecewise_linear()) {
     secant = tangent = touches || phase == NormalPhase::released ? law.closed_stiffness() : 0.0;

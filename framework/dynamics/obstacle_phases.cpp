@@ -10,18 +10,19 @@ using model::ImpactDamping;
 using NormalPhase = ContactPhase::Normal;
 using SlipPhase = ContactPhase::Slip;
 
-/// A dashpot that may pull presses no surfaces on each other then.
+/// True if the contact has friction and a dashpot that may pull: there is no friction while it
+/// pulls.
 bool stops_rubbing(const model::ObstacleGroup& group) {
   return group.damping.pulls && group.friction.rule != Friction::Rule::none;
 }
 
-/// Where regularised friction becomes steep, m/s.
+/// The slip speed at which regularised friction becomes steep, m/s.
 double steep_border(const Friction& friction) {
   const bool is_tanh = friction.rule == Friction::Rule::tanh;
   return (is_tanh ? ContactPhase::kSteepOfTanh : ContactPhase::kSteep) * friction.slip_speed;
 }
 
-/// Approach and rebound are phases of their own.
+/// True if approach and rebound are separate phases.
 bool tells_rebound(const model::ObstacleGroup& group) {
   return group.damping.kind == ImpactDamping::Kind::jankowski ||
          (group.damping.kind == ImpactDamping::Kind::law &&
@@ -72,7 +73,8 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
   if (friction.rule == Friction::Rule::spring) {
     phase.angle = angle_of(i, now);
     phase.anchor = path(i, t, now, phase.angle);
-    // Where slip begins with contact the force is still 0: whether the spring or the limit grows faster decides.
+    // If slip begins with contact the force is still 0: the phase depends on whether the spring
+    // force or the limit grows faster.
     const double limit =
         at(i).group->shape == nullptr
             ? friction.static_coefficient * at(i).group->normal_force
@@ -181,8 +183,8 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
       const double tension = sense * friction.coefficient * force - friction.stick_damping * now.slip;
       anchor = path(i, t, now, phase.angle) - tension / friction.stick_stiffness;
     }
-    // The slider moves by the slip less what the spring is stretched by, mu F_n/k: where the limit falls faster than
-    // the spring relaxes, it goes on to slip although the body moves back.
+    // The slider moves by the slip minus the change of the spring's stretch, mu F_n/k: if the limit
+    // falls faster than the spring relaxes, it continues to slip although the body moves back.
     const double stretching = friction.rule == Friction::Rule::spring
                                   ? friction.coefficient * pressing.by_penetration * now.rate / friction.stick_stiffness
                                   : 0.0;

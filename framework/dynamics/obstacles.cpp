@@ -17,7 +17,7 @@ Eigen::Vector2d tangent_to(const Eigen::Vector2d& normal) {
   return {-normal[1], normal[0]};
 }
 
-/// A distance that is surely within the contact's gap.
+/// A distance that is within the contact's gap despite rounding.
 double reach_of(const model::ContactShape::Form& form) {
   constexpr double kRounding = 1e-12;
   switch (form.kind) {

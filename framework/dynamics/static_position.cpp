@@ -56,7 +56,7 @@ class Equilibrium {
     return scale > 0.0 ? r.norm() / scale : 0.0;
   }
 
-  /// The tangent stiffness with the stops as they are at x.
+  /// The tangent stiffness with the stop phases at x.
   SparseMatrix tangent(const Vector& x) {
     Vector force(w_.size()), stiffness(w_.size());
     if (w_.size() > 0) {

@@ -11,10 +11,11 @@ namespace butee::dynamics {
 namespace {
 
 constexpr double kSpring = 1e-4;
-/// Displacements that are this much, squared, beside the others of unit length depend on those.
+/// Displacements whose squared remainder is below this, relative to the others of unit length, are
+/// linearly dependent.
 constexpr double kDependent = 1e-10;
 
-/// Takes the modes out of the columns; twice, so that rounding leaves none behind.
+/// Removes the modes from the columns; twice, to remove the rounding too.
 void free_of(const Eigen::MatrixXd& modes, const Eigen::MatrixXd& weighted, Eigen::MatrixXd& columns) {
   for (int i = 0; i < 2; ++i) columns -= modes * (weighted.transpose() * columns);
 }

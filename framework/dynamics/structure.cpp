@@ -11,7 +11,7 @@ using model::ElementMatrices;
 using model::NodalDof;
 using Triplet = Eigen::Triplet<long double>;
 
-/// Sums up the matrices and what a translation of all nodes carries along.
+/// Sums the matrices and the inertia forces of a translation of all nodes.
 class SumSink final : public model::MatrixSink {
  public:
   explicit SumSink(const DofTable& dofs) : dofs_(dofs), carried_(Vector::Zero(dofs.free_count())) {}
@@ -85,7 +85,7 @@ class ForceSink final : public model::MatrixSink {
         own_.row(static_cast<Index>(i)) = x_.row(row).cast<long double>();
   }
 
-  /// To the last bit, as the two-node elements of the framework are.
+  /// True if this holds to the last bit, as for the framework's two-node elements.
   static bool is_free_to_translate(std::span<const NodalDof> dofs, DofKind kind, const Eigen::MatrixXd& stiffness) {
     int count = 0;
     for (const NodalDof& dof : dofs) count += dof.kind == kind ? 1 : 0;
@@ -99,7 +99,7 @@ class ForceSink final : public model::MatrixSink {
     return true;
   }
 
-  /// Of the element's matrix, of x, and of both.
+  /// Adds the effect of rounding in the element's matrix, in x, and in their product.
   void add_rounding() {
     constexpr long double kUnit = std::numeric_limits<double>::epsilon();
     stiffness_ = stiffness_.cwiseAbs().eval();

@@ -5,7 +5,7 @@
 namespace butee::dynamics {
 namespace {
 
-/// y += factor A x; nothing where A is 0 x 0 or the factor zero.
+/// y += factor A x; does nothing if A is 0 x 0 or the factor is zero.
 void add_product(const SparseMatrix& matrix, double factor, const double* x, VectorRef y) {
   if (matrix.size() == 0 || factor == 0.0) return;
   y.noalias() += factor * (matrix * Eigen::Map<const Vector>(x, matrix.cols()));
@@ -43,7 +43,7 @@ void Turning::add_elastic_force(ConstVectorRef x, VectorRef y) const {
 }
 
 void Turning::subtract_rate(ConstVectorRef x, ConstVectorRef v, VectorRef y) const {
-  // Omega'' is zero between the discontinuities of a speed that is piecewise linear.
+  // Omega'' is zero between the discontinuities of a piecewise linear speed.
   add_product(system_.gyroscopic, -acceleration_, v.data(), y);
   add_product(system_.circulatory, -acceleration_, x.data(), y);
 }

@@ -16,17 +16,19 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Orbits flatter than this are lines.
+/// Orbits flatter than this are taken for lines.
 constexpr double kFlat = 1e-9;
-/// Parts of the highest frequency below which a mode at rest counts as rigid motion: rounding of dense eigenvalues.
+/// Fraction of the highest frequency below which a mode at rest counts as rigid motion: rounding of
+/// dense eigenvalues.
 constexpr double kRigid = 1e-7;
-/// Frequencies below this part of |lambda| are the rounding of two real eigenvalues near each other.
+/// Frequencies below this fraction of |lambda| are rounding of two close real eigenvalues.
 constexpr double kOverdamped = 1e-6;
-/// Damping ratio from which on a mode is not counted among critical speeds.
+/// Modes with this damping ratio or more have no critical speed.
 constexpr double kNoResonance = 0.99;
-/// Speeds agree to this part of them.
+/// Relative tolerance of speeds.
 constexpr double kSameSpeed = 1e-13;
-/// Crossings that are nearer to each other, relative to the speed, are those of one or several equal modes.
+/// Crossings closer to each other than this, relative to the speed, belong to one mode or several
+/// equal ones.
 constexpr double kOneCrossing = 1e-8;
 
 /// y = (A - sigma)^-1 x of the first-order form of the pencil in (x, v).
@@ -176,7 +178,7 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
   const Index n = size();
   SparseMatrix damping = damping_ + speed * or_zero(system_.gyroscopic, n);
   const SparseMatrix stiffness = system_.stiffness + speed * or_zero(system_.circulatory, n);
-  // A small shift, so that rigid motion is no obstacle: a thousandth of a frequency that the diagonals give.
+  // A small shift, a thousandth of a frequency estimated from the diagonals, allows rigid motion.
   const double shift =
       1e-3 * std::sqrt(system_.stiffness.diagonal().cwiseAbs().minCoeff() / system_.mass.diagonal().maxCoeff());
   ShiftInverted operation(system_.mass, std::move(damping), stiffness, shift);
@@ -200,7 +202,8 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
 Index Whirl::modes_below(double speed, double order, Index count) const {
   const double bound = order * std::abs(speed);
   if (is_dense()) {
-    // Those above are counted, since modes near critical damping come and go at frequency 0.
+    // Modes above the bound are counted, since modes near critical damping appear and disappear at
+    // frequency 0.
     const auto all = modes(speed, 2 * size());
     return -std::count_if(all.begin(), all.end(), [&](const WhirlMode& mode) {
       return mode.frequency() > std::max(bound, kOverdamped * std::abs(mode.lambda));
@@ -236,7 +239,8 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
     const auto closest = std::min_element(near.begin(), near.end(), [&](const auto& p, const auto& q) {
       return std::abs(p.frequency() - order * b.speed) < std::abs(q.frequency() - order * b.speed);
     });
-    // A mode next to critical damping has no resonance, whether it meets the speed or stops to oscillate.
+    // A nearly critically damped mode has no resonance, whether its frequency crosses the speed or
+    // its oscillation ends.
     if (closest->damping_ratio() > kNoResonance) return;
     crossings.push_back({{middle, closest->direction}, b.below - a.below});
   };
@@ -246,7 +250,8 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
     search(search, before, next);
     before = next;
   }
-  // Where two modes are one, rounding takes them to and fro across the line: what is left of that counts.
+  // If two modes coincide, rounding moves them back and forth across the line: the net number of
+  // crossings counts.
   std::vector<CriticalSpeed> found;
   for (std::size_t i = 0; i < crossings.size();) {
     const CriticalSpeed first = crossings[i].at;

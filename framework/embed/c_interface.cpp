@@ -24,7 +24,7 @@ namespace {
 
 thread_local std::string last_message;
 
-/// Runs `work` and turns whatever it throws into a status and a message.
+/// Runs `work` and converts any exception to a status and a message.
 template <class Work>
 int guarded(const Work& work) noexcept {
   try {

@@ -33,7 +33,7 @@ void check_numbers(ConstVectorRef values, const char* name, Index size) {
   for (const double value : values) check_number(value, name);
 }
 
-/// Throws LogicError unless `t` is an instant after the present one, `now` included where `may_stay`.
+/// Throws LogicError unless `t` is after the present instant, or equal to it if `may_stay`.
 void check_time(double t, double now, bool may_stay, const char* name) {
   if (std::isfinite(t) && (t > now || (may_stay && t == now))) return;
   throw LogicError(std::string(name) + " = " + to_short_text(t) + " s: the time must be finite and " +
@@ -49,10 +49,10 @@ void check_dof(Index dof, Index size) {
 
 }  // namespace
 
-/// Everything a structure owns, in the order in which the parts refer to each other.
+/// All data of a structure, in the order in which the parts refer to each other.
 struct Structure::Parts {
   scene::Scene scene;
-  std::uint64_t origin;                   ///< of snapshots
+  std::uint64_t origin;                   ///< identifies the snapshots
   std::map<Index, NodalForce*> forces{};  ///< by DOF; owned by the model's loads
   std::optional<scene::Assembly> assembly{};
   std::vector<std::unique_ptr<record::Peaks>> peaks{};
@@ -108,7 +108,7 @@ Structure Structure::from_toml(const std::string& text, const StructureOptions& 
 
 Structure Structure::from_document(config::Document document, const StructureOptions& options) {
   for (const std::string& assignment : options.overrides) config::apply_override(document, assignment);
-  // The run ends where advance_to() says.
+  // advance_to() determines the end of the run.
   config::Value& integrator = (*document.root.table())["integrator"];
   if (config::Table* table = integrator.table(); table != nullptr && table->find("end_time") == nullptr)
     (*table)["end_time"] = config::Value(1.0);

@@ -16,8 +16,8 @@ class BandFactor::Chain {
   Chain(Index steps, Index band)
       : steps_(steps), band_(band), row_(static_cast<std::size_t>((steps + band) * (band + 1))) {}
 
-  /// Entry (i, i + k): before elimination of A or, beyond the last step, of the change of the middle; after it D for
-  /// k = 0, else L(i + k, i).
+  /// Entry (i, i + k). Before elimination: that of A or, beyond the last step, of the change of the
+  /// middle block. After it: D for k = 0, else L(i + k, i).
   double& at(Index i, Index k) { return row_[static_cast<std::size_t>(i * (band_ + 1) + k)]; }
   double at(Index i, Index k) const { return row_[static_cast<std::size_t>(i * (band_ + 1) + k)]; }
 

@@ -11,12 +11,13 @@
 namespace butee::linalg {
 namespace {
 
-/// Doubles that stay in the nearest cache anyway.
+/// This number of doubles stays in the nearest cache.
 constexpr Index kFew = Index{1} << 13U;
-/// Sharing is given up where more chunks than these, and than this part of all so far, are different.
+/// Sharing is abandoned if more chunks than kDifferent plus 1/kPart of all chunks so far are
+/// different.
 constexpr Index kDifferent = 256, kPart = 8;
 
-/// Multiplication and rotation of each double's bits; what falls together by chance is told apart by comparison.
+/// Multiplication and rotation of each double's bits; hash collisions are resolved by comparison.
 std::uint64_t hash_of(const double* chunk, Index width) {
   constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;
   std::uint64_t hash = 0;
@@ -43,7 +44,7 @@ double* ChunkTable::write() {
 void ChunkTable::share() {
   if (data_.size() <= kFew) return;
   std::unordered_map<std::uint64_t, Index> known;
-  std::vector<Index> first;  // of each group of equal chunks, in data_
+  std::vector<Index> first;  // offset in data_ of the first chunk of each group of equal ones
   std::vector<Index> place(place_.size());
   for (std::size_t i = 0; i < place.size(); ++i) {
     const double* chunk = data_.data() + place_[i];

@@ -12,7 +12,8 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The Cholesky factor of a matrix that is zero far from its diagonal, and products with its inverse, row by row.
+/// The Cholesky factor of a matrix that is zero far from its diagonal, and products with its
+/// inverse, row by row.
 class NarrowFactor {
  public:
   explicit NarrowFactor(const SparseMatrix& matrix) : l_(matrix) {
@@ -57,7 +58,7 @@ class NarrowFactor {
   bool is_positive_ = true;
 };
 
-/// The part that each row belongs to, numbered from 0: rows that an entry other than zero connects share one.
+/// The connected part of each row, numbered from 0: rows joined by a nonzero entry share one.
 std::vector<Index> parts_of(const SparseMatrix& stiffness, const SparseMatrix& mass, Index& count) {
   std::vector<Index> root(static_cast<std::size_t>(mass.rows()));
   std::iota(root.begin(), root.end(), Index{0});
@@ -73,7 +74,7 @@ std::vector<Index> parts_of(const SparseMatrix& stiffness, const SparseMatrix& m
         const Index a = find(entry.row()), b = find(entry.col());
         root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
       }
-  // A root is the first row of its part.
+  // The root is the first row of its part.
   count = 0;
   std::vector<Index> part(root.size());
   for (std::size_t i = 0; i < root.size(); ++i) {
@@ -97,7 +98,7 @@ std::optional<Pairs> pairs_of_part(const SparseMatrix& stiffness, const SparseMa
   return Pairs{solver.eigenvalues(), x};
 }
 
-/// A vector that is other than zero in one part alone: equal values of several parts do not mix them by rounding.
+/// Each vector is nonzero in only one part, so that rounding does not mix parts with equal values.
 std::optional<Pairs> pairs_of_parts(const SparseMatrix& stiffness, const SparseMatrix& mass,
                                     const std::vector<Index>& part, Index count) {
   const Index size = mass.rows();

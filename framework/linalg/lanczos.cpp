@@ -50,7 +50,7 @@ namespace {
 constexpr Index kRestarts = 300;
 constexpr Index kSpareVectors = 20;
 
-/// What Spectra iterates with.
+/// The operation for Spectra's iteration.
 class Operation {
  public:
   using Scalar = double;
@@ -67,7 +67,7 @@ class Operation {
   Index size_;
 };
 
-/// y := scale P (K - shift M)^-1 x, where P takes out what was found before.
+/// y := scale P (K - shift M)^-1 x, where P projects out the vectors already found.
 class Deflated final : public SymmetricMap {
  public:
   Deflated(const ShiftedFactor& factor, const SparseMatrix& mass, double scale, const Eigen::MatrixXd& found)

@@ -31,16 +31,17 @@ struct SymmetricFactor::Implementation {
 
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  Vector permuted;  ///< empty where nothing is permuted
+  Vector permuted;  ///< empty without permutation
   Counters* counters;
 };
 
 namespace {
 
-/// Up to this bandwidth, that of chains of beams, the natural order has hardly any fill-in and spares a permutation.
+/// Up to this bandwidth, as for chains of beams, the natural order has hardly any fill-in and needs
+/// no permutation.
 constexpr Index kNarrowBand = 8;
 
-/// CHOLMOD reads the upper triangle of the full matrix, which it takes as it is where nothing is permuted.
+/// CHOLMOD reads the upper triangle of the full matrix, unchanged if there is no permutation.
 cholmod_sparse view(const SparseMatrix& matrix) {
   cholmod_sparse view{};
   view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
@@ -107,7 +108,7 @@ void SymmetricFactor::Implementation::substitute(double* x) const {
   const auto* row = static_cast<const int*>(factor->i);
   const auto* value = static_cast<const double*>(factor->x);
   const auto n = static_cast<int>(factor->n);
-  // Each column holds its pivot D(j, j) first, then L(i, j) of the rows i > j.
+  // Each column holds its pivot D(j, j) first, then L(i, j) for the rows i > j.
   for (int j = 0; j < n; ++j)
     for (int p = start[j] + 1; p < start[j] + count[j]; ++p) x[row[p]] -= value[p] * x[j];
   for (int j = n - 1; j >= 0; --j) {

@@ -13,14 +13,15 @@ namespace {
 using kernel::chunks_for;
 using kernel::kChunk;
 
-/// A chain of beams has band 3, one with nodes joined to neighbours a little more.
+/// A chain of beams has band 3, one with joined nodes a little more.
 constexpr std::size_t kWidestBand = kernel::kWidestProduct;
 /// Zeros before the first entry of a stored diagonal.
 constexpr Index kPadding = kChunk;
-/// Up to this size the diagonals below are kept as well, so that every load is aligned; for large matrices reading more
-/// memory costs more than that gains.
+/// Up to this size the diagonals below are stored too, so that every load is aligned; for large
+/// matrices the cost of reading more memory exceeds this gain.
 constexpr Index kInCache = 2048;
-/// Doubles of a page, and those by which diagonals of a large matrix are shifted against pages.
+/// Doubles per page, and the offset by which diagonals of a large matrix are shifted relative to
+/// pages.
 constexpr Index kPage = 512, kApart = 17 * kChunk;
 
 }  // namespace
@@ -46,7 +47,7 @@ SymmetricProduct::SymmetricProduct(const SparseMatrix& matrix, bool is_symmetric
     return;
   }
   kernel_ = kernel::band_products()[static_cast<std::size_t>(band_)];
-  // Diagonals a multiple of a page apart would compete for the same places of a cache.
+  // Diagonals a multiple of a page apart would compete for the same cache sets.
   const Index padded = kPadding + chunks_for(size_) * kChunk;
   stride_ = size_ <= kInCache ? padded : (padded / kPage + 1) * kPage + kApart;
   above_ = zeros((band_ + 1) * stride_);
@@ -75,7 +76,7 @@ void SymmetricProduct::share_rows() {
     for (Index k = -band_; k <= band_; ++k)
       for (Index i = begin; i < begin + kChunk; ++i) {
         const Index row = k < 0 ? i + k : i, distance = std::abs(k);
-        // Rows behind the last are in the chunk of its own alone, which nothing reads.
+        // Rows beyond the last occur only in their own chunk, which is never read.
         const bool is_there = row >= 0 && row + distance < size_;
         to[(k < 0 ? band_ - k : k) * kChunk + i - begin] = is_there ? diagonals[distance * stride_ + row] : 0.0;
       }

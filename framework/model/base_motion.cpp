@@ -8,7 +8,7 @@
 namespace butee::model {
 namespace {
 
-/// Sums of forces that cancel up to this part of their terms are rounding.
+/// Sums of forces that cancel to this fraction of their terms are rounding.
 constexpr double kRounding = 1e-13;
 
 bool holds(const NodeTable& nodes, const std::vector<NodeId>& list, NodeId node) {
@@ -16,7 +16,7 @@ bool holds(const NodeTable& nodes, const std::vector<NodeId>& list, NodeId node)
                      [&](NodeId one) { return nodes.canonical(one) == nodes.canonical(node); });
 }
 
-/// Sums A_e s of the elements over the free DOFs.
+/// Sums A_e s over the elements on the free DOFs.
 class Sum final : public MatrixSink {
  public:
   Sum(const Model& model, const DofTable& dofs, const Eigen::Vector3d& direction, const std::vector<NodeId>& nodes)

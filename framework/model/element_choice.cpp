@@ -10,7 +10,7 @@
 namespace butee::model {
 namespace {
 
-/// "string:17" as "string" and 17; the number is -1 where there is none.
+/// "string:17" as "string" and 17; the number is -1 if there is none.
 struct PartName {
   std::string element;
   Index part = -1;
@@ -42,7 +42,7 @@ CutChoice refused(std::string problem) {
   return {nullptr, 0, true, std::move(problem)};
 }
 
-/// A beam that the node belongs to, and its place there.
+/// A beam that the node belongs to, and the node's position in it.
 struct Place {
   std::size_t element;
   std::vector<NodeId> axis;
@@ -75,7 +75,7 @@ CutChoice cut_at(const Model& model, const Place& place, NodeId node, Index part
   return {model.elements[place.element].get(), part, part + 1 == place.at, ""};
 }
 
-/// Why a section force or stress is not known at the end of a part, or "".
+/// The reason why a section force or stress is not known at the end of a part, or "".
 std::string cut_problem(Quantity quantity, const SectionCut& cut) {
   const auto has = [&](Index row) { return !cut.resultants.row(row).isZero(0.0); };
   const bool needs_modulus = quantity == Quantity::bending_stress || quantity == Quantity::von_mises;

@@ -102,7 +102,7 @@ BUTEE_EXPORT std::vector<std::string> field_quantities();
 /// Names of quantities that a probe can record.
 BUTEE_EXPORT std::vector<std::string> probe_quantities();
 
-/// Where the value of a quantity comes from.
+/// The source of the value of a quantity.
 enum class Source { motion, stops, section, springs, support, contacts };
 
 BUTEE_EXPORT Source source_of(Quantity quantity);

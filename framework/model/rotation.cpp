@@ -69,11 +69,12 @@ std::optional<Harmonic> TurningUnbalance::harmonic() const {
 }
 
 bool TurningUnbalance::taylor(double t, double h, std::span<double> coefficients) const {
-  // With s the fraction of h: angle = angle(t) + p s + q s^2, c' = -angle' s and s' = angle' c coefficient by
-  // coefficient, and m e (Omega^2 c + Omega' s) with Omega^2 = (a + b s)^2.
+  // With the fraction s of h: angle = angle(t) + p s + q s^2; the Taylor coefficients follow from
+  // c' = -angle' s, s' = angle' c, and m e (Omega^2 c + Omega' s) with Omega^2 = (a + b s)^2.
   const double acceleration = rotation_.acceleration(t), a = rotation_.speed(t), b = acceleration * h;
   const double p = a * h, q = 0.5 * acceleration * h * h, angle = rotation_.angle(t) + phase_;
-  double c[3] = {std::cos(angle), 0.0, 0.0}, s[3] = {std::sin(angle), 0.0, 0.0};  // the last, the one before ...
+  double c[3] = {std::cos(angle), 0.0, 0.0}, s[3] = {std::sin(angle), 0.0, 0.0};  // the latest coefficient, the
+                                                                                  // previous one ...
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
     coefficients[k] = moment_ * (a * a * c[0] + 2.0 * a * b * c[1] + b * b * c[2] + acceleration * s[0]);
     const double n = 1.0 / static_cast<double>(k + 1);

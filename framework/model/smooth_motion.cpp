@@ -114,8 +114,9 @@ void PiecewisePolynomial::add(double constant) {
 PiecewisePolynomial PiecewisePolynomial::spline(const std::vector<double>& times, const std::vector<double>& values) {
   const std::size_t n = times.size();
   require(n >= 2 && values.size() == n, "a spline of two or more points");
-  // Curvatures m_i: h_(i-1) m_(i-1) + 2 (h_(i-1) + h_i) m_i + h_i m_(i+1) = 6 (s_i - s_(i-1)) with the slopes s of
-  // chords; m_0 = 0 and, without slope at the end, h m_(n-2) + 2 h m_(n-1) = -6 s_(n-2).
+  // Curvatures m_i: h_(i-1) m_(i-1) + 2 (h_(i-1) + h_i) m_i + h_i m_(i+1) = 6 (s_i - s_(i-1)) with
+  // the slopes s of chords; m_0 = 0 and, for zero slope at the end, h m_(n-2) + 2 h m_(n-1) = -6
+  // s_(n-2).
   std::vector<double> diagonal(n, 1.0), upper(n, 0.0), m(n, 0.0);
   const auto h = [&](std::size_t i) { return times[i + 1] - times[i]; };
   const auto slope = [&](std::size_t i) { return (values[i + 1] - values[i]) / h(i); };

@@ -12,7 +12,7 @@ namespace {
 
 using Triplet = Eigen::Triplet<double>;
 
-/// Differences between a(i, j) and a(j, i) up to this part of them are rounding.
+/// Differences between a(i, j) and a(j, i) up to this fraction of them are rounding.
 constexpr double kRounding = 1e-12;
 
 bool is_symmetric(const Eigen::MatrixXd& matrix) {
@@ -24,7 +24,8 @@ bool is_symmetric(const Eigen::MatrixXd& matrix) {
   return true;
 }
 
-/// The entries of one matrix at a sequence of places that all matrices share, from the first that is not zero on.
+/// The values of one matrix at a sequence of places shared by all matrices, from the first nonzero
+/// value on.
 class Entries {
  public:
   void add(const std::vector<Triplet>& places, int i, int j, double value) {
@@ -47,7 +48,7 @@ class Entries {
   bool is_used_ = false;
 };
 
-/// Collects M, K, D, G and W with one common sequence of places, so that all get one pattern.
+/// Collects M, K, D, G and W with one common sequence of places, so that all have the same pattern.
 class TripletSink final : public MatrixSink {
  public:
   TripletSink(const DofTable& dofs, double rotating_damping) : dofs_(dofs), rotating_damping_(rotating_damping) {}
@@ -125,7 +126,8 @@ class TripletSink final : public MatrixSink {
   Entries dashpots_, gyroscopic_, circulatory_;
 };
 
-/// D and K of a constant speed, or what Dynamics needs to find those of every instant.
+/// Sets D and K for a constant speed, or the data from which Dynamics computes them at every
+/// instant.
 void apply_rotation(const Model& model, System& system) {
   const bool has_gyroscopic = system.gyroscopic.size() > 0, has_circulatory = system.circulatory.size() > 0;
   if (!has_gyroscopic && !has_circulatory) return;
@@ -236,7 +238,7 @@ void set_start(const Model& model, System& system) {
   system.initial_time = start.time;
   if (model.base_frame == BaseFrame::still && !model.bases.empty() && model.bases.front().nodes.empty())
     for (Index i = 0; i < system.size(); ++i) {
-      // Given relative to the base; u is x less these shares.
+      // The given value is relative to the base; u is x minus these shares.
       const NodalDof dof = system.dofs.free()[static_cast<std::size_t>(i)];
       for (const BaseShare& share : base_shares(model, system.dofs, dof, 0, false))
         system.initial_displacement[i] -= share.factor * share.motion->value(system.initial_time);
@@ -257,7 +259,7 @@ DofTable number_dofs(const Model& model) {
 }
 
 std::vector<NodalValue> inertia_pattern(const Model& model, const Eigen::Vector3d& acceleration) {
-  /// Sums M r of elements over the nodes.
+  /// Sums M r of the elements at the nodes.
   class Sum final : public MatrixSink {
    public:
     Sum(const NodeTable& nodes, const Eigen::Vector3d& r)

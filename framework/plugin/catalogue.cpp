@@ -30,7 +30,7 @@ bool answers_to(const IntegratorType& type, std::string_view name) {
                  "; remove one of the two");
 }
 
-/// The type of that name in the module, loaded now.
+/// The type of that name in the module, which is loaded now.
 template <class Type>
 Type loaded(const std::string& name, std::vector<Type> ModuleTypes::*list, const std::string& path) {
   log::debug("loading " + path);
@@ -41,7 +41,7 @@ Type loaded(const std::string& name, std::vector<Type> ModuleTypes::*list, const
                  ", which its manifest names; the manifest is stale: build the module again");
 }
 
-/// Gives a type that is known by its manifest makers that load the module.
+/// Gives a type known from its manifest factories that load the module.
 template <class Type>
 void load_when_made(Type& type, std::vector<Type> ModuleTypes::*list, const std::string& path) {
   const std::string name = type.name;
@@ -120,7 +120,7 @@ void Catalogue::add(ModuleTypes found, const std::string& path) {
     for (const std::string& name : names)
       if (const IntegratorEntry* taken = find(name)) refuse("integrator", name, taken->module, path);
   }
-  // All or nothing: a copy takes the types, and is kept where none of them is refused.
+  // All or nothing: a copy receives the types, and is kept only if none is refused.
   Catalogue next = *this;
   next.add_types("law", std::move(found.laws), &ModuleTypes::laws, path, next.types_.laws);
   next.add_types("contact", std::move(found.contacts), &ModuleTypes::contacts, path, next.types_.contacts);

@@ -7,13 +7,13 @@
 namespace butee::plugin {
 namespace {
 
-/// What the handler writes: it can call no function that takes memory.
+/// The text that the handler writes; the handler must not allocate memory.
 std::array<char, 4096> line{};
 
 extern "C" void tell(int signal) {
   const ssize_t written = write(STDERR_FILENO, line.data(), std::strlen(line.data()));
   (void)written;
-  std::raise(signal);  // The default is back in its place.
+  std::raise(signal);  // The default handler has been restored.
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ Parameter to_parameter(const Table& table) {
   return parameter;
 }
 
-/// What all types have: name, summary and parameters.
+/// The properties common to all types: name, summary and parameters.
 template <class Type>
 Table common_part(const Type& type) {
   Table table;

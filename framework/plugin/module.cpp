@@ -45,8 +45,8 @@ std::string differences(const butee_abi_tag& theirs) {
   return join(found);
 }
 
-/// The same module for the chosen instruction set, or for the next lower one, where there is one in a folder of that
-/// name beside it.
+/// The same module for the chosen instruction set, or for the next lower one for which a folder of
+/// that name exists beside it.
 std::string for_target(const std::string& path) {
   namespace fs = std::filesystem;
   const fs::path file(path);
@@ -59,7 +59,7 @@ std::string for_target(const std::string& path) {
   return path;
 }
 
-/// Opens a module and checks that it fits. After a CrashWatch.
+/// Opens a module and checks its compatibility. To be called under a CrashWatch.
 void* open_module(const std::string& path) {
   void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
   if (handle == nullptr) throw RunError(path + ": cannot be loaded: " + last_error());
@@ -67,7 +67,8 @@ void* open_module(const std::string& path) {
   if (const std::string found = differences(*tag()); !found.empty())
     throw RunError(path + ": was built for another butee: " + found +
                    "; build it again with this version's headers and flags");
-  // Only now every function that it calls, so that one that is missing is no crash in the middle of a run.
+  // Resolves all its functions only now, so that a missing one does not cause a crash in the middle
+  // of a run.
   if (dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD) == nullptr)
     throw RunError(path + ": cannot be loaded: " + last_error() +
                    "; build it again with this version's headers and flags");

@@ -7,9 +7,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Results of a thread that may wait, and how many may where they hold more than kMostBytes together.
+/// The largest number of waiting results of a thread, and the number if they hold more than
+/// kMostBytes together.
 constexpr std::size_t kMostWaiting = 64, kMostLargeWaiting = 4, kMostBytes = std::size_t{1} << 24U;
-/// The taker is woken so often where runs are short.
+/// The interval at which the consumer is woken if runs are short.
 constexpr auto kBetweenWakes = 5ms;
 
 std::size_t bytes_of(const Columns& columns) {

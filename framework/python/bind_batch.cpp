@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Between two looks after Ctrl-C.
+/// Interval between checks for Ctrl-C.
 constexpr auto kPatience = 50ms;
 
 /// Joins the threads without the interpreter's lock.
@@ -35,7 +35,7 @@ std::unique_ptr<Batch, Joined> start(const Session& session, std::vector<std::st
   return std::unique_ptr<Batch, Joined>(new Batch(session, std::move(keys), std::move(values), threads));
 }
 
-/// (point, outcome), or (point, exception) of bad input; None at the end.
+/// (point, outcome), or (point, exception) for bad input; None at the end.
 py::object next(Batch& batch) {
   std::optional<Batch::Done> done;
   while (!done) {

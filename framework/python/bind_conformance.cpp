@@ -22,7 +22,8 @@ std::vector<std::string> names_of(const std::vector<Type>& types) {
   return names;
 }
 
-/// (name, demand, passed, details) of each check of the suite of `butee test-plugin` on a law or a load.
+/// (name, demand, passed, details) for each check of the suite of `butee test-plugin` on a law or a
+/// load.
 py::list conformance(const std::string& name, const py::dict& keys) {
   const plugin::Catalogue catalogue = catalogue_with({});
   const auto laws = names_of(catalogue.types().laws), loads = names_of(catalogue.types().loads);

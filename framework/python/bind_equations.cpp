@@ -17,7 +17,7 @@ namespace {
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// M a + C v + K x = F(t) + F_c(x) of a scene.
+/// M a + C v + K x = F(t) + F_c(x) for a scene.
 class Equations {
  public:
   explicit Equations(const Session& session) : scene_(session.shared()), assembly_(*scene_) {}
@@ -74,7 +74,8 @@ class Equations {
     return {array.data(), array.size()};
   }
 
-  /// Dynamics serves one thread at a time. Whoever waits does not hold the interpreter's lock, which loads may want.
+  /// Dynamics serves one thread at a time. A waiting thread does not hold the interpreter's lock,
+  /// which loads may need.
   template <class Compute>
   Vector alone(const Compute& compute) {
     const WithoutInterpreter unlocked;

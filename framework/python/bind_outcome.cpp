@@ -48,7 +48,7 @@ Columns columns_of(const py::dict& from) {
   return columns;
 }
 
-/// What bind_outcome's properties give, for pickles.
+/// Makes an Outcome from the values of bind_outcome's properties, for pickles.
 std::shared_ptr<Outcome> made(const py::dict& history, const py::dict& energy, const py::list& rows,
                               const std::string& title, const std::string& summary, bool completed,
                               const std::string& message, const std::vector<std::string>& warnings,

@@ -41,7 +41,7 @@ Session from_dict(py::handle dict, const std::string& name, const Strings& plugi
   return {std::move(document), plugins, catalogue};
 }
 
-/// None takes a key out.
+/// None removes a key.
 std::vector<Assignment> to_assignments(const py::dict& values) {
   std::vector<Assignment> assignments;
   for (const auto& [key, value] : values) {

@@ -20,7 +20,7 @@ Vector checked_numbers(const Array& array, Index size, const char* name) {
   return Eigen::Map<const Vector>(array.data(), size);
 }
 
-/// Of all of them before the first is set.
+/// Checks all numbers before the first is set.
 void check_finite(const Vector& numbers) {
   if (!(numbers.array().abs() <= embed::Structure::kLargestNumber).all())
     throw py::value_error("a force has to be a finite number of at most 1e100");
@@ -80,7 +80,7 @@ void set_motion(Part& part, const Array& x, const Array& v) {
   locked->set_motion(displacements, velocities);
 }
 
-/// Of a member of the state, a copy: what the structure holds moves with every step.
+/// A copy of a member of the state, since the structure's own vector changes with every step.
 template <Vector time::State::*Member>
 py::array_t<double> state_of(Part& part) {
   return array_of(part.use()->state().*Member);

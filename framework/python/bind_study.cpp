@@ -17,7 +17,8 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// Looks after Ctrl-C and calls `progress(done, runs)`, while threads go on without the interpreter's lock.
+/// Checks for Ctrl-C and calls `progress(done, runs)`, while threads continue without the
+/// interpreter's lock.
 class StudyWatch {
  public:
   explicit StudyWatch(py::object progress) : progress_(std::move(progress)) {}
@@ -51,14 +52,14 @@ Bytes in_memory(const study::Study& study, const study::Layout& layout, const st
   return rows.take();
 }
 
-/// Where rows are kept.
+/// Destination of the rows.
 struct Kept {
-  std::string folder{};  ///< empty: in memory alone
-  std::string format{};  ///< empty: hdf5 where it is there
+  std::string folder{};  ///< empty: in memory only
+  std::string format{};  ///< empty: hdf5 if available
   bool fresh = false;
 };
 
-/// As `butee study -o FOLDER`.
+/// Like `butee study -o FOLDER`.
 Bytes in_folder(const study::Study& study, const study::Layout& layout, const study::PerformOptions& options,
                 const Kept& kept) {
   const std::string& folder = kept.folder;
@@ -76,7 +77,7 @@ Bytes in_folder(const study::Study& study, const study::Layout& layout, const st
   return rows.take();
 }
 
-/// (name, unit, format, offset) of each column, format as numpy takes it.
+/// (name, unit, format, offset) of each column, with numpy's format.
 py::list columns_of(const study::Layout& layout) {
   using Type = study::Column::Type;
   py::list columns;
@@ -98,7 +99,7 @@ py::tuple table_of(const study::Layout& layout, const Bytes& rows) {
                         py::bytes(reinterpret_cast<const char*>(rows.data()), rows.size()));
 }
 
-/// For the result "trust": what a function of Python says of a scene, from any thread.
+/// For the result "trust": calls a Python function with a scene, from any thread.
 std::optional<double> horizon_of(const scene::Scene& scene, const Session& session, const py::function& horizon) {
   const Session judged(scene.document, session.plugins(), scene.catalogue);
   const WithInterpreter lock;
@@ -135,7 +136,7 @@ py::tuple run_study(const Session& session, py::handle tables, int threads, cons
   return table_of(*layout, rows);
 }
 
-/// The same of the rows that are in a folder so far.
+/// The same for the rows that are in a folder so far.
 py::tuple study_rows(const std::string& folder) {
   std::optional<study::Layout> layout;
   Bytes rows;

@@ -11,10 +11,10 @@ namespace {
   while (true) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// What `take` gives, which takes the lock.
+/// The result of `take`, which acquires the lock.
 template <class Take>
 auto taken(const Take& take) {
-  // Later its thread states are gone, which `take` would look at.
+  // Later its thread states, which `take` would access, are gone.
   if (_Py_IsFinalizing() != 0) wait_for_the_end();
   try {
     return take();

@@ -15,7 +15,7 @@
 namespace butee::python {
 namespace {
 
-/// Rows for which there is room at once.
+/// The largest number of rows for which memory is reserved in advance.
 constexpr double kMostReserved = 1e6;
 
 void reserve(Columns& columns, const scene::Scene& scene) {

@@ -17,17 +17,17 @@ namespace {
 
 using Function = std::shared_ptr<py::function>;
 
-/// Differences of the force over this part of g.
+/// Step of the force differences, as a fraction of g.
 constexpr double kReach = 1e-5;
-/// Penetrations at which the closed stiffness is looked for, m.
+/// Penetrations at which the closed stiffness is evaluated, m.
 constexpr std::array kClosed = {1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
-/// A stop that is open so far exerts the force that remains, m.
+/// Penetration g at which the asymptotic force is evaluated, m.
 constexpr double kFar = -1.0;
-/// The energy is summed over intervals of which each is a quarter of the next.
+/// The energy is integrated over intervals, each of which ends at a quarter of the previous end.
 constexpr int kIntervals = 24;
 constexpr double kShrink = 0.25;
 
-/// F(g), dF/dg and V(g) as functions of Python; the last two may be absent.
+/// F(g), dF/dg and V(g) as Python functions; the last two may be absent.
 struct Functions {
   Function force, tangent, energy;
 };
@@ -52,7 +52,7 @@ class PythonLaw final : public model::BatchedLaw<PythonLaw> {
     double sum = 0.0, end = g;
     for (int i = 0; i < kIntervals && g != 0.0; ++i) {
       const double begin = i + 1 == kIntervals ? 0.0 : kShrink * end;
-      // Intervals and their halves, with five points each.
+      // The two halves of each interval, with five points each.
       const double middle = 0.5 * (begin + end);
       for (const auto& [a, b] : {std::pair(begin, middle), std::pair(middle, end)})
         for (const auto& [at, weight] : record::gauss_points(a, b)) sum += weight * force(at);
@@ -78,7 +78,7 @@ class PythonLaw final : public model::BatchedLaw<PythonLaw> {
 };
 
 std::vector<model::LawType>& known_laws() {
-  static auto* types = new std::vector<model::LawType>;  // as long as the interpreter, which may outlive statics
+  static auto* types = new std::vector<model::LawType>;  // lives as long as the interpreter, which may outlive statics
   return *types;
 }
 
@@ -104,7 +104,7 @@ void register_law(const std::string& name, const py::function& force, const py::
     return law;
   };
   std::erase_if(known_laws(), [&](const model::LawType& other) { return other.name == name; });
-  plugin::Catalogue::with_plugins().add({.laws = {type}}, "Python");  // throws where a name is taken
+  plugin::Catalogue::with_plugins().add({.laws = {type}}, "Python");  // throws if the name is taken
   known_laws().push_back(std::move(type));
 }
 

@@ -12,7 +12,7 @@ namespace py = pybind11;
 namespace butee::python {
 namespace {
 
-/// The course of a load as a function of Python: f(t, parameters...).
+/// The time function of a load as a Python function: f(t, parameters...).
 class PythonLoad final : public model::TimeFunction {
  public:
   PythonLoad(std::shared_ptr<py::function> function, std::vector<double> parameters)
@@ -31,9 +31,9 @@ class PythonLoad final : public model::TimeFunction {
   std::vector<double> parameters_;
 };
 
-/// What the program had registered; changed with the interpreter's lock alone.
+/// The loads registered by the program; changed only with the interpreter's lock.
 std::vector<model::LoadType>& registered() {
-  static auto* types = new std::vector<model::LoadType>;  // as long as the interpreter, which may outlive statics
+  static auto* types = new std::vector<model::LoadType>;  // lives as long as the interpreter, which may outlive statics
   return *types;
 }
 
@@ -47,7 +47,7 @@ void register_load(const std::string& name, const py::function& function, const 
     return std::make_unique<PythonLoad>(held, std::move(values));
   };
   std::erase_if(registered(), [&](const model::LoadType& other) { return other.name == name; });
-  plugin::Catalogue::with_plugins().add({.loads = {type}}, "Python");  // throws where a name is taken
+  plugin::Catalogue::with_plugins().add({.loads = {type}}, "Python");  // throws if the name is taken
   registered().push_back(std::move(type));
 }
 

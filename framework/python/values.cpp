@@ -5,7 +5,8 @@ namespace py = pybind11;
 namespace butee::python {
 namespace {
 
-/// As deep as a scene may be, and more than any has use for; a list that holds itself ends here.
+/// The depth limit of a scene, more than any needs; conversion of a list that contains itself ends
+/// here.
 constexpr int kDeepest = 60;
 
 config::Value convert(py::handle from, int depth);

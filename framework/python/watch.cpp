@@ -11,9 +11,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Between two calls into the interpreter.
+/// Interval between two calls into the interpreter.
 constexpr auto kBetweenCalls = 50ms;
-/// The clock is read after so many steps at most, and fewer where these take longer than kQuick.
+/// The clock is read after this many steps at most, and more often if steps take longer than
+/// kQuick.
 constexpr int kMostStride = 256;
 constexpr auto kQuick = 1ms, kSlow = 5ms;
 

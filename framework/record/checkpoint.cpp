@@ -23,14 +23,14 @@ constexpr std::uint32_t kFormat = 2;
 constexpr const char* kNewest = "checkpoint.bin";
 constexpr const char* kBefore = "checkpoint-before.bin";
 
-/// All counters, in the order in which they are kept.
+/// All counters, in the order in which they are stored.
 template <class Counters>
 auto all(Counters& c) {
   return std::array{&c.force_evaluations, &c.contact_evaluations, &c.law_evaluations,
                     &c.factorizations,    &c.factor_updates,      &c.solves};
 }
 
-/// Throws InputError where the rest of the run would not be what it would have been.
+/// Throws InputError if the rest of the run would not be bit-identical.
 void check_target(const std::string& path, const Checkpoint& checkpoint) {
   const std::string& mine = butee::target();
   const std::string anew = "run the model anew";
@@ -101,7 +101,7 @@ Checkpoint to_checkpoint(std::span<const std::byte> bytes) {
 void CheckpointFolder::write(const Checkpoint& checkpoint) const {
   const std::string newest = folder_.file(kNewest), draft = folder_.file("checkpoint-next.bin");
   write_whole(draft, to_bytes(checkpoint));
-  // A kill between the two leaves the one before alone, which is whole.
+  // A kill between the two leaves only the previous checkpoint, which is complete.
   std::error_code error;
   fs::rename(newest, folder_.file(kBefore), error);
   fs::rename(draft, newest, error);

@@ -5,7 +5,8 @@
 namespace butee::record {
 namespace {
 
-/// A sample that is so much less than the peak is no neighbour of a larger maximum, between eight of a step.
+/// A sample below this fraction of the peak is not adjacent to a larger maximum, with eight samples
+/// in a step.
 constexpr double kNearPeak = 0.9;
 
 bool is_of_contact(dynamics::Dynamics& dynamics, model::NodeId node, model::Quantity quantity) {

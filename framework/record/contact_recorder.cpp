@@ -12,7 +12,8 @@ namespace butee::record {
 namespace {
 
 constexpr int kBisections = 60;
-/// A force that is so much less than the peak is no neighbour of a larger maximum, between twelve instants of a step.
+/// A force below this fraction of the peak is not adjacent to a larger maximum, with twelve
+/// instants in a step.
 constexpr double kNear = 0.9;
 constexpr std::size_t kLeastBytes = 77;
 
@@ -118,8 +119,8 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
     const Sampled begin{step.from.t, first[i].normal};
     watches_[i].last = {begin, begin};
   }
-  // Steps of methods that follow phases end where these change; in others contacts may touch and part between
-  // breakpoints.
+  // Steps of methods that follow phases end at changes of phase; with other methods contacts may
+  // touch and separate between breakpoints.
   double begin = step.from.t;
   if (dynamics_.obstacles()->is_live()) {
     const auto breakpoints = step.integrator.breakpoints(step.from, step.to);
@@ -210,7 +211,7 @@ void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact
   const std::vector<std::size_t> active = std::exchange(active_, {contact});
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
   if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);
-  // Steps of methods that follow phases end where these change.
+  // Steps of methods that follow phases end at changes of phase.
   const double shortly_before = end - step.integrator.event_precision() * (step.to.t - step.from.t);
   if (!obstacles.is_live() && end == step.to.t && shortly_before > begin &&
       (at(step, shortly_before)[contact].penetration > 0.0) == watch.touches)

@@ -47,7 +47,7 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
     bool is_support = false, touches = false;
     Impact current{};
     double stored = 0.0;            ///< J, at the last instant
-    std::array<Sampled, 2> last{};  ///< the normal forces at the two previous instants; undefined where t is equal
+    std::array<Sampled, 2> last{};  ///< the normal forces at the two previous instants; undefined if their t is equal
   };
   using Forces = std::vector<dynamics::ContactForces>;
 

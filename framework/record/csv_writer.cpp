@@ -77,7 +77,7 @@ void CsvWriter::flush() {
 void CsvWriter::give_up(std::size_t done) {
   const int reason = errno;
   const std::size_t whole = done > 0 ? buffer_.rfind('\n', done - 1) + 1 : 0;
-  // What cannot be cut off, such as a device, holds no file either.
+  // A target that cannot be truncated, such as a device, has no file content to keep.
   const auto end = static_cast<off_t>(flushed_ + whole);
   if (ftruncate(file_.descriptor(), end) == 0 && lseek(file_.descriptor(), end, SEEK_SET) == end)
     position_ = flushed_ += whole;

@@ -163,7 +163,7 @@ void ElementForces::add_reaction(NodalDof dof, Sum& sum) {
     for (const model::NodalValue& entry : load.pattern)
       if (same(entry.dof)) sum.loads.push_back({load.in_time.get(), -entry.value});
     if (load.acceleration.isZero(0.0)) continue;
-    // The pattern leaves out what acts on supports.
+    // The pattern omits forces on supports.
     double weight = 0.0;
     model::PartsAt parts(
         model_.nodes, dof, [&](std::span<const NodalDof> dofs, const model::ElementMatrices& matrices, Index row) {
@@ -225,7 +225,8 @@ std::size_t ElementForces::add_piece(std::span<const NodalDof> dofs, const model
   const bool is_still = model_.base_frame == model::BaseFrame::still;
   for (std::size_t i = 0; i < dofs.size() && is_still; ++i)
     for (const int order : {0, 1, 2})
-      // Forces of stiffness and damping are those of motion relative to the base, forces of inertia of that in space.
+      // Forces of stiffness and damping depend on the motion relative to the base, inertia forces
+      // on the motion in space.
       for (const model::BaseShare& share : base_shares(model_, system.dofs, dofs[i], order, order == 2))
         piece.base.push_back({static_cast<Index>(i), order, share});
   piece.x = piece.v = piece.a = piece.p = Eigen::VectorXd::Zero(std::ssize(dofs));

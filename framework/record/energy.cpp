@@ -10,7 +10,8 @@
 namespace butee::record {
 namespace {
 
-/// What the work of a piece that is as long as the motion allows may be wrong by, relative to the largest energy.
+/// The error bound of the work in a long piece (DenseOutput::other), relative to the largest
+/// energy.
 constexpr double kGoodWork = 1e-12;
 constexpr int kMostHalvingsOfWork = 12;
 
@@ -57,7 +58,8 @@ EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& x, const Vec
     power.of_damping = v.dot(force_);
   }
   if (has_drive_) {
-    // The part of K that is not symmetric, (K - K^T)/2: what the drive of turning parts and cross terms of bearings do.
+    // The work of the skew part of K, (K - K^T)/2, that is of the drive of turning parts and of
+    // cross terms of bearings.
     dynamics_.elastic_force(x, force_);
     const double forward = v.dot(force_);
     dynamics_.elastic_force(v, force_);
@@ -67,7 +69,7 @@ EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& x, const Vec
     dynamics_.contact_forces(t, x, v, contacts_);
     for (const dynamics::ContactForces& now : contacts_) {
       power.of_contacts += now.normal * now.rate + now.friction * now.slip_speed;
-      power.of_loads += now.friction * now.surface;  // by what turns the body or moves the surface
+      power.of_loads += now.friction * now.surface;  // power of the drive that turns the body or moves the surface
     }
   }
   return power;
@@ -159,7 +161,7 @@ void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, do
   const Power first = gauss(step, begin, middle), second = gauss(step, middle, end);
   const double miss = std::max(std::abs(first.of_loads + second.of_loads - whole.of_loads),
                                std::abs(first.of_damping + second.of_damping - whole.of_damping));
-  // At a start from rest the piece itself is the only measure.
+  // For a start from rest the piece itself is the only reference.
   const double size = std::max(largest_, std::abs(whole.of_loads) + std::abs(whole.of_damping));
   if (miss > kGoodWork * size && halvings < kMostHalvingsOfWork) {
     add_halved(step, begin, middle, first, halvings + 1);

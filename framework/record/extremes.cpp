@@ -3,13 +3,13 @@
 namespace butee::record {
 namespace {
 
-/// No interval is halved further than this part of the step.
+/// No interval is halved below this fraction of the step.
 constexpr double kShortest = 1e-9;
-/// No polynomial is halved more often.
+/// The largest number of halvings of a polynomial.
 constexpr int kMostSplits = 40;
 
-/// A polynomial on [0, 1] by its Bernstein coefficients: the first and the last are the values at the ends, and the
-/// least and the greatest bound it.
+/// A polynomial on [0, 1] by its Bernstein coefficients: the first and the last are the values at
+/// the ends, and the smallest and the largest bound it.
 template <std::size_t Degree>
 using Bernstein = std::array<double, Degree + 1>;
 
@@ -23,7 +23,7 @@ std::pair<double, double> bounds_of(const Bernstein<Degree>& c) {
   return {least, greatest};
 }
 
-/// De Casteljau's rule at 1/2: `first` becomes the first half; gives the second.
+/// De Casteljau's rule at 1/2: `first` becomes the first half; returns the second.
 template <std::size_t Degree>
 Bernstein<Degree> split(Bernstein<Degree>& first) {
   Bernstein<Degree> second = first;
@@ -41,7 +41,8 @@ Bernstein<Degree - 1> slope(const Bernstein<Degree>& c, double h) {
   return slope;
 }
 
-/// The cubic by the values and slopes of derivative `order`, whose next one those are.
+/// The cubic through the values and slopes of derivative `order`; the slopes are the next
+/// derivative.
 Bernstein<3> cubic(std::size_t order, const Point& from, const Point& to) {
   const double third = (to.t - from.t) / 3.0;
   return {from.of[order], from.of[order] + third * from.of[order + 1], to.of[order] - third * to.of[order + 1],
@@ -57,7 +58,7 @@ Bernstein<5> quintic(const Point& from, const Point& to) {
   return {x0, c1, 2.0 * c1 - x0 + 0.05 * h * h * a0, 2.0 * c4 - x1 + 0.05 * h * h * a1, c4, x1};
 }
 
-/// The extremes of a polynomial beyond a range, by the place.
+/// The extremes of a polynomial outside a range, with their positions.
 template <std::size_t Degree>
 void seek(Bernstein<Degree> first, double begin, double end, double good, int splits, Range& beyond) {
   const auto [least, greatest] = bounds_of<Degree>(first);
@@ -79,8 +80,9 @@ void seek_in(std::size_t order, const Bernstein<Degree>& x, double h, double goo
   seek<Degree - 2>(slope<Degree - 1>(v, h), 0.0, 1.0, good, 0, beyond);
 }
 
-/// Whether accelerations depart from the cubic's by x and v far more at one end than at the other, as where a stop
-/// bends the motion at the end of a step: then the dense output may be that cubic.
+/// Whether accelerations depart from those of the cubic through x and v far more at one end than at
+/// the other, for example if a stop changes the acceleration abruptly at the end of a step: the
+/// dense output may then be that cubic.
 bool may_bend(const Point& from, const Point& to) {
   constexpr double kMore = 5.0;
   const double h = to.t - from.t, rise = 6.0 * (to.of[0] - from.of[0]) / h;
@@ -89,7 +91,7 @@ bool may_bend(const Point& from, const Point& to) {
   return std::max(off0, off1) > kMore * std::min(off0, off1);
 }
 
-/// The value of a polynomial in the middle.
+/// The value of a polynomial at the midpoint.
 template <std::size_t Degree>
 double middle_of(Bernstein<Degree> c) {
   return split<Degree>(c)[0];

@@ -12,11 +12,11 @@ using model::NodeGroup;
 using model::NodeId;
 
 constexpr double kLaneSpacing = 0.05;     ///< of the longest beam
-constexpr double kLoneNodeSpacing = 1.0;  ///< m, where there are no beams
-constexpr double kTouching = 1e-9;        ///< of a beam's length: beams that overlap by less lie end to end
+constexpr double kLoneNodeSpacing = 1.0;  ///< m, if there are no beams
+constexpr double kTouching = 1e-9;        ///< of a beam's length: beams that overlap by less are placed end to end
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
-/// Places every node of a model: x in m, and the number of its line.
+/// Places every node of a model: x in m, and the index of its line.
 class Placement {
  public:
   Placement(const model::Model& model, const model::System& system)
@@ -46,7 +46,7 @@ class Placement {
     double begin, end;
   };
 
-  /// Beams between points stand where these are; a lone node at a beam's node, or at the origin.
+  /// Beams between points are placed at these; a lone node at a beam's node, or at the origin.
   std::array<double, 3> in_space(NodeId node) const {
     const auto found = points_.find(nodes_.canonical(node));
     return found != points_.end() ? found->second : std::array<double, 3>{};

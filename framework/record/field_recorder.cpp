@@ -86,7 +86,7 @@ void FieldRecorder::find_stops() {
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
     if (place(a) < 0 && place(b) < 0) continue;
-    // The other end may be no kept node, and is sampled all the same.
+    // The other end is sampled even if it is not a recorded node.
     for (const Index dof : {a, b})
       if (dof >= 0 && place(dof) < 0) {
         places[static_cast<std::size_t>(dof)] = static_cast<std::int32_t>(dofs_.size());

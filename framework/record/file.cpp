@@ -17,7 +17,8 @@ namespace {
   throw RunError(path + ": cannot be written: " + std::strerror(errno));
 }
 
-/// A rename lasts once the folder that it changed is on the device; file systems that cannot say so are believed.
+/// A rename is permanent only after its folder has been synchronised to the device; errors of file
+/// systems without this function are ignored.
 void sync_folder_of(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -18,7 +18,8 @@
 namespace butee::record {
 namespace {
 
-/// Looks, a millisecond apart, for the number of a process that has just taken the lock and not written it yet.
+/// Number of reads, a millisecond apart, while waiting for the number of a process that has just
+/// taken the lock.
 constexpr int kLooks = 100;
 
 struct flock whole_file() {
@@ -28,7 +29,7 @@ struct flock whole_file() {
   return range;
 }
 
-/// 0 where the file holds none.
+/// 0 if the file contains none.
 pid_t process_in(int descriptor) {
   std::array<char, 32> text{};
   const ssize_t size = pread(descriptor, text.data(), text.size(), 0);
@@ -37,8 +38,8 @@ pid_t process_in(int descriptor) {
   return process;
 }
 
-/// The process that has the lock; 0 where it does not say. The number of one that was killed stays until the next one
-/// writes its own.
+/// The process that holds the lock; 0 if its number is not available. The number of a killed
+/// process remains until the next one writes its own.
 pid_t holder_of(int descriptor) {
   pid_t process = 0;
   for (int look = 0; look < kLooks; ++look) {
@@ -54,7 +55,8 @@ pid_t holder_of(int descriptor) {
                    " is writing its results there; wait until it has ended, or choose another folder with -o");
 }
 
-/// Whether the path still leads to the open file: the holder of the lock before may have taken it away.
+/// Whether the path still refers to the open file: the previous holder of the lock may have removed
+/// it.
 bool is_at(const std::string& path, int descriptor) {
   struct stat there {
   }, ours{};
@@ -78,7 +80,7 @@ FolderLock::FolderLock(const std::string& folder) : path_(path_in(folder)) {
                  "); make sure that no other run writes into it at the same time");
     return;
   } while (!is_at(path_, file_->descriptor()));
-  // A disk that is full keeps the lock: then a refusal names no process.
+  // On a full disk the lock still holds: a refusal then names no process.
   const std::string process = std::to_string(getpid()) + "\n";
   if (ftruncate(file_->descriptor(), 0) == 0) file_->write(std::as_bytes(std::span(process)));
 }

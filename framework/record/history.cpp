@@ -12,12 +12,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Rows of one step that are interpolated together.
+/// Number of rows of one step that are interpolated together.
 constexpr std::size_t kMostAtOnce = 64;
-/// Instants of a step at which columns that are measured from another frame than x are looked at for their peaks.
+/// Instants of a step at which columns measured in another frame than x are sampled for their
+/// peaks.
 constexpr std::size_t kBaseSamples = 16;
 
-/// The requested quantities that Peaks follows, and u of every probe.
+/// The requested quantities that Peaks records, and u of every probe.
 std::vector<model::ProbeRequest> peak_requests(std::vector<model::ProbeRequest> requests, const model::System& system) {
   const model::DofTable& dofs = system.dofs;
   const model::Model* model = system.model;
@@ -111,8 +112,8 @@ void HistoryRecorder::write_row(double t, double h) {
   seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Peaks follows x, which these columns are not: the largest of each step is that of the parabola through three
-/// instants.
+/// Peaks records x, which these columns are not: the largest value in each step is that of the
+/// parabola through three instants.
 void HistoryRecorder::follow_base_columns(const time::AcceptedStep& step) {
   std::array<double, kBaseSamples> times{};
   for (std::size_t k = 0; k + 1 < kBaseSamples; ++k)

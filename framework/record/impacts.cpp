@@ -9,9 +9,9 @@
 namespace butee::record {
 namespace {
 
-/// Halvings of an interval that take it below the spacing of doubles.
+/// Number of halvings after which an interval is below the spacing of doubles.
 constexpr int kBisections = 60;
-/// Of an impact as bytes, its name empty.
+/// Size in bytes of an impact with an empty name.
 constexpr std::size_t kLeastBytes = 77;
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace butee::record {
 namespace {
 
-/// An output time that misses end_time by this fraction of an interval is end_time.
+/// An output time within this fraction of an interval of end_time is taken as end_time.
 constexpr double kSameInstant = 1e-9;
 
 }  // namespace

@@ -3,11 +3,11 @@
 namespace butee::record {
 namespace {
 
-/// Of one piece, for the sum of several stops.
+/// In one piece, for the sum of several stops.
 constexpr int kMostHalvingsOfSum = 4000;
 
-/// The largest |force| of a stop whose displacement goes from `least` to `greatest`. With two sides it also jumps where
-/// that passes the middle, if the law pulls at open stops.
+/// The largest |force| of a stop whose displacement is between `least` and `greatest`. With two
+/// sides the force also jumps at the middle if the law has a force at open stops.
 double largest_force(dynamics::Contact& contact, Index stop, double least, double greatest) {
   const auto size_at = [&](double w) { return std::abs(contact.force_of(stop, w)); };
   double largest = std::max(size_at(least), size_at(greatest));

@@ -8,7 +8,7 @@
 namespace butee::record {
 namespace {
 
-/// Numbers of a motion that are interpolated at a time, where all DOFs are.
+/// Number of values of a motion interpolated together if all DOFs are needed.
 constexpr std::size_t kLargestSample = 1U << 14U;
 
 }  // namespace

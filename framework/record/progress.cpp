@@ -14,10 +14,11 @@ using namespace std::chrono_literals;
 constexpr auto kSilence = 700ms;
 constexpr auto kBetweenDrawings = 100ms;
 constexpr auto kBetweenLines = 10s;
-/// The clock is read about once in this time, s; reading it at every step would cost as much as a small step.
+/// Approximate interval between clock reads, s; reading at every step would cost as much as a small
+/// step.
 constexpr double kBetweenLooks = 0.02;
 constexpr std::int64_t kMostStride = 1 << 20;
-/// The pace is that of about the last so many seconds.
+/// The time over which the pace is averaged, s.
 constexpr double kMemory = 5.0;
 constexpr int kWidestBar = 30, kNarrowestBar = 5;
 
@@ -56,7 +57,7 @@ void Progress::start(const time::State& state) {
   x_ = state.x;
 }
 
-/// Where the run goes on from is told by the first step.
+/// The first step gives the time at which the run continues.
 void Progress::restore(ByteReader&) {
   begin_ = looked_ = drawn_ = Clock::now();
   looked_t_ = -1.0;

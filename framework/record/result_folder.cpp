@@ -38,8 +38,8 @@ bool is_ours(const fs::path& folder) {
   return std::getline(model, first) && first == kMark;
 }
 
-/// Why a folder is not one of ours; empty where it is, or where it holds nothing. A run that was killed before
-/// model.toml was in its place leaves the draft of it and its lock.
+/// The reason why a folder does not belong to butee; empty if it does, or if it is empty. A run
+/// killed before model.toml was in its place leaves a draft of it and its lock.
 std::string foreign_part(const fs::path& folder, std::error_code& error) {
   if (is_ours(folder)) return "";
   std::vector<std::string> found;

@@ -10,7 +10,7 @@ namespace butee::record {
 namespace {
 
 constexpr double kOfExact = 1.5, kOfAnother = 3.0, kOfNone = 10.0, kOfNoise = 3.0;
-/// A bound from here on says nothing.
+/// A bound of this size or more is meaningless.
 constexpr double kMeaningless = 1.0;
 constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
 
@@ -21,7 +21,8 @@ double peak_of(const Histories& histories) {
   return peak;
 }
 
-/// The largest difference over the probes at instant i; infinite where one of the runs did not come so far.
+/// The largest difference over the probes at instant i; infinite if one of the runs did not reach
+/// it.
 double difference_at(const Histories& a, const Histories& b, std::size_t i) {
   if (a.times.empty() || b.times.empty()) return 0.0;
   double largest = 0.0;

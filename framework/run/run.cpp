@@ -16,17 +16,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The force of a stop that is closed, over the pull of open ones.
+/// The ratio of a stop's force to the residual force of open stops above which the stop counts as
+/// closed.
 constexpr double kMoreThanPull = 1.1;
 
-/// The largest force of an open stop, N: of the arctan law that is not 0.
+/// The largest residual force of an open stop, N; nonzero for the arctan law.
 double largest_pull(const dynamics::Contact& contact) {
   double largest = 0.0;
   for (Index i = 0; i < contact.size(); ++i) largest = std::max(largest, contact.law_of(i).asymptotic_force());
   return largest;
 }
 
-/// Of a method that keeps one.
+/// The tolerance of a method that has one.
 std::optional<double> tolerance_of(const scene::IntegratorChoice& choice) {
   if (!choice.options.limits.keeps_tolerance || choice.name == "exact" || !choice.parameters.has("tolerance"))
     return std::nullopt;
@@ -48,7 +49,7 @@ record::Summary Run::perform(const record::ResultFolder* folder, const record::C
     attach_observers(folder, from);
     integrate();
   });
-  // Of a run that broke off too: what was computed is kept.
+  // Also for a run that ended early: computed results are kept.
   if (folder != nullptr) guarded([&] { write_files(*folder); });
   summarize();
   return std::move(summary_);
@@ -142,7 +143,7 @@ void Run::integrate() {
 }
 
 void Run::fail(const std::string& reason) {
-  if (!summary_.report.completed && !summary_.report.message.empty()) return;  // The first reason is the reason.
+  if (!summary_.report.completed && !summary_.report.message.empty()) return;  // The first reason is kept.
   summary_.report = assembly_.simulation.report();
   summary_.report.completed = false;
   summary_.report.message = reason;

@@ -7,7 +7,8 @@
 namespace butee::scene {
 namespace {
 
-/// The message of a method that refuses the scene, "integrator.type: ...", with the line of the key.
+/// The message of a method that rejects the scene, "integrator.type: ...", with the line of the
+/// key.
 std::string located(const config::Document& document, const std::string& message) {
   const config::Table* root = document.root.table();
   const config::Value* integrator = root != nullptr ? root->find("integrator") : nullptr;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kBisections = 200;
 
-/// The root of a rising function between two arguments.
+/// The root of an increasing function between two arguments.
 template <class Function>
 double root_between(double low, double high, Function f) {
   for (int i = 0; i < kBisections; ++i) {
@@ -28,7 +28,7 @@ double root_between(double low, double high, Function f) {
   return 0.5 * (low + high);
 }
 
-/// Restitution of the linear spring and dashpot whose contact ends at F = 0.
+/// Restitution of a linear spring and dashpot whose contact ends at F = 0.
 double restitution_without_pull(double z) {
   const double wd = std::sqrt((1.0 - z) * (1.0 + z));
   return std::exp(-z / wd * std::atan2(2.0 * z * wd, 2.0 * z * z - 1.0));
@@ -60,8 +60,8 @@ double jankowski_ratio(double e) {
 }
 
 double jankowski_restitution(double ratio) {
-  // d'' = -d^(3/2) - 2 xi d^(1/4) d' from d = 0, d' = 1 to d' = 0, in the variable q with d = q^4, by Runge and Kutta's
-  // method with the speed as the argument; the rebound from d_max is elastic.
+  // d'' = -d^(3/2) - 2 xi d^(1/4) d' from d = 0, d' = 1 to d' = 0, in the variable q with d = q^4,
+  // by the Runge-Kutta method with the speed as the argument; the rebound from d_max is elastic.
   const int steps = 200000;
   double d = 0.0, v = 1.0;
   const double h = 3.0 / steps;

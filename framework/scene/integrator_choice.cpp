@@ -14,7 +14,7 @@ using config::Parameter;
 using config::Table;
 using config::Value;
 
-/// The method of a scene that names none.
+/// The default method of a scene.
 constexpr const char* kDefault = "auto";
 
 std::vector<Parameter> common_parameters() {
@@ -95,7 +95,8 @@ class ChoiceReader {
     return entry;
   }
 
-  /// A table is a method's, unless its key is that of a parameter, which may then have a wrong value.
+  /// A table belongs to a method, unless its key is the name of a parameter, whose value may be
+  /// wrong.
   bool is_method_table(const Table::Entry& entry) const {
     const auto common = names_of(common_parameters());
     return entry.second.table() != nullptr && entry.first != "type" &&
@@ -103,7 +104,8 @@ class ChoiceReader {
            owners_of(entry.first, catalogue_).empty();
   }
 
-  /// [integrator.NAME]: each is checked, chosen or not; required keys may stand in [integrator] instead.
+  /// [integrator.NAME]: each is checked, chosen or not; required keys may be in [integrator]
+  /// instead.
   void read_method_tables() {
     for (const Table::Entry& item : table_.entries) {
       if (!is_method_table(item)) continue;
@@ -145,8 +147,8 @@ class ChoiceReader {
     }
   }
 
-  /// The chosen method's parameters, or those that all methods have: direct keys win over its table's, whose mistakes
-  /// were reported already.
+  /// The chosen method's parameters, or those that all methods have: direct keys take precedence
+  /// over its table's, whose errors were reported already.
   std::optional<config::Parameters> read_merged(const plugin::IntegratorEntry* chosen) {
     const auto found = method_tables_.find(chosen);
     const Table* own = found != method_tables_.end() ? found->second->table() : nullptr;
@@ -171,7 +173,7 @@ class ChoiceReader {
   std::map<const plugin::IntegratorEntry*, const Value*> method_tables_;
 };
 
-/// Overrides are the sources behind the file.
+/// Overrides are the sources after the file.
 bool is_override(const Value& value) {
   return value.at.source > 0;
 }

@@ -9,7 +9,7 @@ using config::Value;
 
 namespace {
 
-/// A displacement whose velocity jumps, such as a ramp's, would be a blow.
+/// A displacement with jumps in velocity, such as a ramp, would be an impact.
 std::string complaint_about(const std::string& type, const TimeFunction& displacement) {
   if (type == "ramp")
     return "a ramp of displacement has jumps of velocity; give a table of the displacement, through which a smooth "
@@ -150,7 +150,7 @@ bool SceneReader::differentiate_base(const Value& motion, const std::string& pat
   return true;
 }
 
-/// Where x is absolute, some things cannot be said.
+/// If x is absolute, some inputs cannot be represented.
 bool SceneReader::can_be_still(const Value& given) {
   if (model_.base_frame == BaseFrame::moving) return true;
   const auto refuse = [&](const std::string& what) {
@@ -194,7 +194,7 @@ bool SceneReader::can_be_still(const Value& given) {
   return true;
 }
 
-/// Of a [[contact]]: stops to ground either all move with the base or all stay in space.
+/// For a [[contact]]: stops to ground either all move with the base or all stay in space.
 void SceneReader::read_frame(const Parameters& p) {
   if (p.has("between")) {
     if (p.given("frame"))

@@ -21,7 +21,7 @@ Sides sides_of(const std::string& name) {
   return name == "negative" ? Sides::negative : Sides::both;
 }
 
-/// A pair of stops, or one, in a single direction.
+/// One stop or a pair of stops in a single direction.
 class StopShape final : public ContactShape {
  public:
   explicit StopShape(const FreePlay& play) : play_(play) {}

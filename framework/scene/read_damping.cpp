@@ -10,7 +10,7 @@ using config::Value;
 
 namespace {
 
-/// What is wrong with a value of `modal`, whatever its size; or "".
+/// The error in a value of `modal`, regardless of its magnitude; or "".
 std::string modal_complaint(const Value& given) {
   const auto ratios = config::numbers("modal", "1", "").at_least(0);
   if (given.array() != nullptr) return given.array()->empty() ? "names no mode" : ratios.complaint(given);

@@ -11,13 +11,13 @@ using config::Value;
 
 namespace {
 
-/// What a run takes at the least for a node with two degrees of freedom: rk4 on a chain of 2e5 beams, measured. Other
-/// methods and meshes take more.
+/// Minimum memory of a run per node with two degrees of freedom: rk4 on a chain of 2e5 beams,
+/// measured. Other methods and meshes need more.
 constexpr double kBytesOfNode = 1100.0;
 
 }  // namespace
 
-/// Answers an element type's questions from the scene that is being read.
+/// Answers an element type's queries from the scene being read.
 class ReadingContext final : public ElementContext {
  public:
   ReadingContext(SceneReader& reader, NodeId own_node) : reader_(reader), own_node_(own_node) {}
@@ -94,7 +94,8 @@ void SceneReader::read_elements() {
   }
 }
 
-/// An element that sits on nodes of others may lack a name; any other without one may be what a selector means.
+/// An element placed on nodes of others may lack a name; any other unnamed element may be the
+/// target of a selector.
 void SceneReader::excuse_names_of(const Value& entry) {
   lacks_elements_ = true;
   const config::Table* table = entry.table();

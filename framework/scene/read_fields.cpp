@@ -14,7 +14,7 @@ using config::Value;
 
 namespace {
 
-/// Why a format is not known, beside the list of those that are.
+/// The reason why a format is not known, in addition to the list of known formats.
 std::string reason_of(const std::string& name, const std::vector<std::string>& known) {
   if (name == "hdf5")
     return ": its module was not built, since the HDF5 library was not found; install it (Debian: libhdf5-dev) and "
@@ -23,7 +23,7 @@ std::string reason_of(const std::string& name, const std::vector<std::string>& k
   return suggestion(name, known);
 }
 
-/// Complains about the first name that comes twice.
+/// Reports the first name that occurs twice.
 void refuse_doubles(const Parameters& p, const std::string& key, Diagnostics& diagnostics) {
   const auto names = p.texts(key);
   for (const std::string& name : names)
@@ -31,7 +31,7 @@ void refuse_doubles(const Parameters& p, const std::string& key, Diagnostics& di
       return p.complain(diagnostics, key, "names " + name + " twice");
 }
 
-/// u, theta, v and the stops, and what else of displacements and rotations the scene has.
+/// u, theta, v and the stops, and the other displacements and rotations that the scene has.
 config::Array usual_quantities(const model::Model* model) {
   std::vector<std::string> names = {"u", "theta"};
   if (model != nullptr) {
@@ -46,7 +46,7 @@ config::Array usual_quantities(const model::Model* model) {
   return usual;
 }
 
-/// Complains about displacements and rotations beside u and theta that none of the nodes has.
+/// Reports displacements and rotations other than u and theta that none of the nodes has.
 void refuse_absent(const Parameters& p, const model::Model& model, const model::FieldRequest& request,
                    Diagnostics& diagnostics) {
   if (!p.given("quantities")) return;

@@ -15,9 +15,10 @@ using config::Value;
 
 namespace {
 
-/// An instant that misses a kept one by this fraction is that one.
+/// Relative tolerance for matching an instant to a saved one.
 constexpr double kSameTime = 1e-9;
-/// A DOF that a rigid rotation moves by less than this fraction of its largest displacement is not moved.
+/// A DOF that a rigid rotation moves by less than this fraction of its largest displacement is not
+/// moved.
 constexpr double kUnmoved = 1e-12;
 
 const SavedMotion* find_motion(const SavedMotions& saved, double at) {
@@ -77,7 +78,7 @@ void SceneReader::read_initial_motion(const Parameters& p) {
   } catch (const RunError& error) {
     return complain("from", path + " " + error.what());
   }
-  if (diagnostics_.error_count() > 0) return;  // The structure may be incomplete for their sake.
+  if (diagnostics_.error_count() > 0) return;  // The structure may be incomplete because of errors.
   const std::string difference = saved.difference_from(model_.nodes, *dofs_);
   if (!difference.empty()) return complain("from", "is a run of another structure: " + difference);
   if (saved.motions.empty()) return complain("from", "keeps no motion");
@@ -154,7 +155,7 @@ std::vector<NodalValue> SceneReader::rigid_rotation(const Parameters& p, const s
     values.push_back({{node, DofKind::theta}, rotation});
     largest = std::max(largest, std::abs(values[values.size() - 2].value));
   }
-  // A support on the axis of the rotation is no hindrance.
+  // A support on the axis of the rotation does not prevent it.
   std::erase_if(values, [&](const NodalValue& value) {
     return dofs_->exists(value.dof) && dofs_->is_fixed(value.dof) && value.dof.kind == DofKind::u &&
            std::abs(value.value) <= kUnmoved * largest;

@@ -32,7 +32,7 @@ bool takes_element(model::Quantity quantity) {
   return source_of(quantity) == model::Source::section || source_of(quantity) == model::Source::springs;
 }
 
-/// A probe on every node with a single load, else on every node that starts in motion.
+/// A probe on every node with a single load, or otherwise on every node with initial motion.
 std::vector<model::ProbeRequest> default_probes(const Model& model) {
   std::set<model::NodeId> nodes;
   for (const model::Load& load : model.loads)

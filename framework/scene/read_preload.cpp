@@ -13,7 +13,7 @@ namespace {
 constexpr double kHold = 1e-12, kConverged = 1e-6;
 constexpr int kRefinements = 4;
 
-/// The static position under gravity, without stops and preloads; nothing where there is none.
+/// The static position under gravity, without stops and preloads; nothing if it does not exist.
 std::optional<Vector> sag(const Load& gravity, const System& system) {
   Vector x = Vector::Zero(system.size());
   for (const NodalValue& entry : gravity.pattern)
@@ -22,7 +22,8 @@ std::optional<Vector> sag(const Load& gravity, const System& system) {
   linalg::Counters counters;
   linalg::LinearSolver solver(system.stiffness, counters, nullptr, system.stiffness_is_symmetric);
   if (!solver.factorize(system.stiffness)) {
-    // What hangs may swing: a little of M holds it, and refinement takes that out again.
+    // A hanging structure may swing freely: a small multiple of M makes K regular, and refinement
+    // removes its effect.
     const double shift = kHold * system.stiffness.diagonal().cwiseQuotient(system.mass.diagonal()).maxCoeff();
     const SparseMatrix held = system.stiffness + shift * system.mass;
     if (!solver.factorize(held)) return std::nullopt;
@@ -37,7 +38,7 @@ std::optional<Vector> sag(const Load& gravity, const System& system) {
   return is_found ? std::optional(x) : std::nullopt;
 }
 
-/// The axial force in the middle of a part, N: the mean of that at its ends.
+/// The axial force in the middle of a part, N: the mean of the values at its ends.
 double axial_force(const SectionCut& cut, const SectionCut& begin, const System& system, const Vector& x) {
   Eigen::VectorXd own(std::ssize(cut.dofs));
   for (std::size_t i = 0; i < cut.dofs.size(); ++i) {

@@ -87,7 +87,7 @@ void SceneReader::choose_turning(const Parameters& p) {
            std::any_of(all->array()->begin(), all->array()->end(),
                        [&](const Value& one) { return one.table() != nullptr && is_meant(*one.table()); });
   };
-  // A lone mass may stand for a shaft whose unbalance turns, or which rubs.
+  // A lone mass may represent a shaft with a rotating unbalance or friction.
   any = any || has_entry("contact", [](const config::Table& one) { return one.find("radius") != nullptr; }) ||
         has_entry("load", [](const config::Table& one) {
           const Value* type = one.find("type");

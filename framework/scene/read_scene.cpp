@@ -11,7 +11,8 @@
 namespace butee::scene {
 namespace {
 
-/// Names that a scene uses may be those of modules that were left out: says so where one of them is unknown.
+/// A name used in a scene may belong to a skipped module: adds this to the messages if a name is
+/// unknown.
 class LeftOut {
  public:
   LeftOut(const plugin::Catalogue& catalogue, config::Diagnostics& diagnostics)

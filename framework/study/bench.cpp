@@ -8,8 +8,8 @@
 namespace butee::study {
 namespace {
 
-/// The tables of a scene whose keys leave the structure as it is. Those of [integrator] are none of them: a method may
-/// ask the dynamics for other modes.
+/// The tables of a scene whose keys do not change the structure. [integrator] is not one of them: a
+/// method may request other modes from the dynamics.
 const std::vector<std::string> kLoadTables = {"load", "contact", "initial", "output", "title"};
 
 bool is_structural(const std::string& key) {
@@ -35,7 +35,7 @@ linalg::Counters Bench::counters() const {
 
 bool Bench::renew(const std::string& structure) {
   if (parts_ == nullptr || structure != structure_) return false;
-  // What contacts other than elastic stops keep in the dynamics is made anew.
+  // Data of contacts other than elastic stops in the dynamics cannot be reused.
   if (!scene_->model.obstacles.empty() || !parts_->system.obstacles.empty()) return false;
   before_ = parts_->dynamics.counters();
   if (!replace_loads(scene_->model, parts_->system)) return false;
@@ -67,7 +67,7 @@ void Bench::take(std::unique_ptr<scene::Scene> scene, const std::vector<config::
     integrator_ = make_integrator(*scene_, parts_->dynamics);
     simulation_ = std::make_unique<time::Simulation>(parts_->dynamics, *integrator_, scene_->integrator.options);
   } catch (...) {
-    // What it stopped at may be half done.
+    // The interrupted operation may be incomplete.
     parts_.reset();
     base_.reset();
     throw;

@@ -11,14 +11,16 @@ namespace butee::study {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-/// Samples of a spectrum: for each period, at least and at most.
+/// Samples of a spectrum: per period, at least and at most.
 constexpr double kSamplesPerPeriod = 64.0, kFewestSamples = 4096.0, kMostSamples = 262144.0;
 
-/// What halving an interval may change of an integral of squares, and how often it is halved at most.
+/// Tolerance for the change of an integral of squares by halving an interval, and the largest
+/// number of halvings.
 constexpr double kGoodMean = 1e-9;
 constexpr int kMostHalvings = 12;
 
-/// The frequency of the largest line, between lines by a parabola through the logarithms of three (Hann's window).
+/// The frequency of the largest line, interpolated by a parabola through the logarithms of three
+/// lines (Hann window).
 double dominant_frequency(std::vector<double> signal, double dt) {
   const auto n = static_cast<double>(signal.size());
   double mean = 0.0;

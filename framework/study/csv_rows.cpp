@@ -32,7 +32,7 @@ class CsvSource final : public RowSource {
       : path_(path), layout_(layout), file_(path, std::ios::binary) {
     std::string line;
     if (!file_) throw RunError(path + ": cannot be read");
-    if (!std::getline(file_, line) || file_.eof()) return;  // Its writer was killed within the first line.
+    if (!std::getline(file_, line) || file_.eof()) return;  // Its writer was killed during the first line.
     if (line != csv_header(layout)) throw RunError(path + ": holds other columns than this study has");
     for (auto begin = file_.tellg(); std::getline(file_, line) && !file_.eof(); begin = file_.tellg())
       begins_.push_back(begin);

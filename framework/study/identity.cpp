@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Values that come from files beside the study.
+/// Values read from files beside the study.
 std::string values_of_files(const Plan& plan) {
   std::string text;
   for (const Axis& axis : plan.axes())

@@ -9,9 +9,10 @@
 namespace butee::study {
 namespace {
 
-/// A disturbance is so many times the noise of a step, relative to the motion, and so large at least and at most.
+/// The size of a disturbance: a multiple of the relative noise of a step, with lower and upper
+/// limits.
 constexpr double kAboveNoise = 1e4, kSmallest = 1e-8, kLargest = 1e-3;
-/// Below this part of its first size a difference is lost in rounding.
+/// Below this fraction of its initial size a difference is lost in rounding.
 constexpr double kLost = 1e-6;
 
 double tolerance_of(const scene::Scene& scene) {
@@ -32,7 +33,7 @@ class Size {
   double omega_;
 };
 
-/// A run that is set to motions and goes on for a while.
+/// A run that is set to given motions and continued for given durations.
 class Piece {
  public:
   Piece(scene::Scene& scene, dynamics::Dynamics& dynamics)
@@ -53,7 +54,8 @@ class Piece {
 
 std::optional<double> lyapunov_exponent(scene::Scene& scene, dynamics::Dynamics& dynamics, const Motion& start,
                                         const Counted& counted, const std::function<bool()>& goes_on) {
-  // Time begins anew where the motion that counts does: whole periods of the loads lie between.
+  // Time restarts at the start of the collected motion, which is a whole number of periods of the
+  // loads later.
   Piece run(scene, dynamics), disturbed(scene, dynamics);
   const SparseMatrix& mass = dynamics.system().mass;
   const double omega = 2.0 * std::numbers::pi / counted.period;

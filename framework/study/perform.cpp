@@ -14,10 +14,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kBetweenReports = 100ms, kBetweenServices = 10ms;
-/// A sweep under way is kept on disk so often.
+/// The interval at which a running sweep is saved to disk.
 constexpr auto kBetweenKeeps = 1s;
 
-/// What the threads of a study share.
+/// Data shared by the threads of a study.
 class Pool {
  public:
   Pool(const Study& study, const Layout& layout, Rows& rows, const PerformOptions& options)
@@ -73,7 +73,7 @@ class Pool {
     }
   }
 
-  /// Where processes share the chains, those that have been handed out count as done.
+  /// If several processes share the chains, distributed chains count as done.
   Progress progress_of_all() {
     Progress all = progress_;
     if (options_.dealer == nullptr) return all;
@@ -121,7 +121,7 @@ class Pool {
     auto kept_at = std::chrono::steady_clock::now();
     for (; i < chain.length && goes_on_; ++i) {
       const std::int64_t run = chain.at(i);
-      // A run of a sweep whose row is there already is done again for its motion alone.
+      // A run of a sweep whose row exists is repeated only for its motion.
       const auto row = worker.perform(run, motion, [this] { return goes_on_.load(std::memory_order_relaxed); });
       if (!row) return;
       if (!rows_.is_done(run)) add(*row);
@@ -151,7 +151,7 @@ class Pool {
   std::condition_variable changed_;
   int running_ = 0;
   Progress progress_;
-  std::int64_t at_first_ = 0;  ///< runs that were done before
+  std::int64_t at_first_ = 0;  ///< number of runs done before
   std::exception_ptr error_;
 };
 

@@ -23,7 +23,7 @@ using config::Parameters;
 using config::Table;
 using config::Value;
 
-/// Two frequencies of loads that differ by this part are one.
+/// Frequencies of loads that differ by less than this fraction are taken as equal.
 constexpr double kSameFrequency = 1e-12;
 
 constexpr double kStepsUntilEnd = 1000.0;
@@ -182,7 +182,8 @@ config::Document scene_at(const Study& study, const std::vector<Value>& values) 
   config::Document scene = study.scene;
   for (std::size_t i = 0; i < values.size(); ++i)
     config::apply_override(scene, study.plan.axes()[i].key + "=" + config::to_toml(values[i]));
-  // The study says when its runs end; until that is known any end does that is behind the first step.
+  // The study determines the end of its runs; until it is known, any end after the first step will
+  // do.
   Table* integrator = (*scene.root.table())["integrator"].table();
   if (study.periods && integrator != nullptr && integrator->find("end_time") == nullptr) {
     const Value* step = integrator->find("time_step");
@@ -213,7 +214,7 @@ double period_of(const model::Model& model) {
 
 namespace {
 
-/// Without a scene that of the file which the study names.
+/// If no scene is given, reads the file named in the study.
 Study study_of(const config::Document& document, const config::Document* known_scene, const StudyOptions& options) {
   Diagnostics diagnostics(document);
   Reader reader(document, diagnostics);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr unsigned kBits = 32;
 
-/// A dimension after the first: the degree of its polynomial, the inner coefficients as bits, the first m_i.
+/// A dimension after the first: the degree of its polynomial, the inner coefficients as bits, the
+/// first m_i.
 struct Entry {
   unsigned degree, coefficients;
   std::array<std::uint32_t, 7> initial;

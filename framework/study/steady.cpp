@@ -7,7 +7,7 @@
 namespace butee::study {
 namespace {
 
-/// Differences below this part of a state are rounding.
+/// Differences below this fraction of a state are rounding.
 constexpr double kRounding = 1e-13;
 
 }  // namespace

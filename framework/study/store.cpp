@@ -20,7 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr const char *kMark = "# butee: the study as run", *kStudyFile = Store::kStudyFile, *kRows = "rows-",
                      *kSweep = Store::kSweep, *kShard = "shard-", *kResult = "study";
-/// Rows wait so long for others, or until there are so many bytes of them.
+/// Rows are written after this time, or when this number of bytes is waiting.
 constexpr auto kPatience = 200ms;
 constexpr std::size_t kMostWaiting = std::size_t{1} << 20U;
 
@@ -46,7 +46,7 @@ std::vector<std::string> shards_in(const std::string& folder) {
   return shards;
 }
 
-/// The tables of a study, in which files of points are found from anywhere.
+/// The tables of a study, with absolute paths of point files.
 config::Value with_absolute_files(const config::Document& document) {
   config::Value root = document.root;
   if (const config::Value* list = root.table()->find("vary"); list != nullptr && list->array() != nullptr)

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Bytes of rows that are written at once.
+/// Number of bytes of rows written at once.
 constexpr std::size_t kBlock = std::size_t{1} << 20U;
 
 }  // namespace

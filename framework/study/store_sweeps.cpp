@@ -11,7 +11,7 @@ namespace butee::study {
 namespace fs = std::filesystem;
 
 void Store::keep(std::int64_t chain, std::int64_t run, const Motion& motion) {
-  flush();  // Rows first: a sweep that goes on behind a row that is missing would never do it.
+  flush();  // Rows first: a sweep that continued after a missing row would never compute it.
   std::vector<std::byte> body, whole;
   ByteWriter to(body);
   to.put(run);

@@ -16,7 +16,7 @@ namespace butee::study {
 namespace {
 
 constexpr std::size_t kTextLength = 120;
-/// Lines that are read ahead, for each thread.
+/// Number of lines read ahead, for each thread.
 constexpr std::size_t kReadAhead = 4;
 
 class Answering {

@@ -12,7 +12,7 @@
 namespace butee::study {
 namespace {
 
-/// A cell between quotes where it holds a comma or quotes; line breaks become spaces.
+/// Writes a cell in quotes if it contains a comma or quotes; line breaks become spaces.
 void append_text(std::string& line, std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');

@@ -9,9 +9,11 @@
 namespace butee::study {
 namespace {
 
-/// How many processes the one that started this one has started, by the environment; 1 where it says nothing.
+/// The number of processes started together with this one, from the environment; 1 if it gives
+/// none.
 int process_count() {
-  // Open MPI; MPICH and its kin; srun with an MPI plugin, which gives its tasks a rank of PMIx or PMI.
+  // Open MPI; MPICH and related libraries; srun with an MPI plugin, which gives its tasks a rank of
+  // PMIx or PMI.
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
     if (const char* text = std::getenv(name)) return std::atoi(text);
   if (std::getenv("PMIX_RANK") != nullptr)

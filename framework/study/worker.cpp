@@ -26,7 +26,8 @@ std::string in_one_line(const std::string& text) {
   return line;
 }
 
-/// What makes the scene of a point: what varies and how. Files that it names are in the identity of the study.
+/// Identifies the scene of a point by its varied keys and values. Files that it names are in the
+/// identity of the study.
 std::string hash_of(const config::Document& scene) {
   std::string text = config::write_toml(*scene.root.table());
   return config::checksum_text(text);
@@ -37,7 +38,7 @@ void set_end(scene::Scene& scene, double end) {
   scene.integrator.parameters.set("end_time", config::Value(end), true);
 }
 
-/// The part of a run that counts, and where the run ends.
+/// The part of a run over which results are collected, and the end of the run.
 Counted counted_of(const Study& study, const scene::Scene& scene) {
   Counted counted;
   const bool needs_period =

@@ -14,17 +14,19 @@ namespace {
 using dynamics::ContactPhase;
 using dynamics::Obstacles;
 
-/// The first look into a step, as a part of it.
+/// The first instant sampled in a step, as a fraction of it.
 constexpr double kAhead = 1e-4;
-/// A switching function is at its end where it is this small beside its change until then.
+/// A switching function is at its end if it is this small relative to its change until the first
+/// sample.
 constexpr double kAtEnd = 1e-6;
-/// Changes of phase at one instant; more are no motion.
+/// The largest number of changes of phase at one instant; more are not physical.
 constexpr int kMostAtOnce = 50;
 constexpr int kBisections = 60;
-/// Fall into a dip, relative to its lowest look, that rounding does not cause.
+/// Relative decrease towards the lowest sample of a dip that rounding does not cause.
 constexpr double kRounding = 1e-9;
 
-/// Looks that follow the loads over a step: what sticks rigidly does not move while they change.
+/// Number of samples that resolve the loads over a step, since rigid sticks do not move while the
+/// loads change.
 int samples_of_loads(const model::System& system, double h) {
   constexpr double kPerTurn = 32.0, kMost = 1e5;
   double turns = 0.0;
@@ -189,13 +191,13 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
   std::sort(watched_dofs_.begin(), watched_dofs_.end());
   watched_dofs_.erase(std::unique(watched_dofs_.begin(), watched_dofs_.end()), watched_dofs_.end());
   const double h = to.t - from.t;
-  // A method that has breakpoints within a step takes the longer steps.
+  // Methods with breakpoints within a step take longer steps.
   const int looks = kSamples * integrator.trace_parts(from, to);
   const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
-  // A dip between instants shows as a lowest value.
+  // A dip between samples is detected by a lowest value.
   looks_.assign(watched_.size(), {});
-  // Two looks close to either end tell a dip between the end and its neighbour.
+  // Two samples close to each end detect a dip between the end and its neighbour.
   for (int k = -1; k <= samples + 1; ++k) {
     const double t = k == -1            ? from.t
                      : k == 0           ? from.t + kAhead * h
@@ -219,7 +221,7 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
       for (std::size_t which = 0; which < count; ++which) {
         auto& [first, second] = looks_[w][which];
         const Look now{t, present[which].value};
-        // At its start a step may be about to leave what the last one ended at.
+        // At its start a step may be leaving the event at which the last one ended.
         if (now.value < 0.0 && k >= 0) {
           take(refine(integrator, from, to, {t, i, which}, last, now.value));
         } else if (k >= 1 && second.value >= 0.0 && second.value <= now.value &&
@@ -251,7 +253,8 @@ ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const S
     sample(integrator, from, to, t, own_dofs_, work_);
     return this->value(event.contact, event.which, work_);
   };
-  // The Illinois form of the false position, whose bracket holds; bisection where it comes no nearer.
+  // The Illinois variant of the false position method, which keeps a bracket; bisection if it
+  // converges too slowly.
   const double precision = 1e-15 * std::abs(to.t);
   double end = event.t, at_end = value, at_begin = at(begin);
   if (at_begin < 0.0) at_begin = 0.0;

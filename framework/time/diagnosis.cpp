@@ -14,9 +14,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Damped modes are found densely up to this size.
 constexpr Index kDense = 100;
-/// What is recommended of a critical step.
+/// Recommended fraction of a critical step.
 constexpr double kSafe = 0.9;
-/// A force beyond this leaves no room for what it does.
+/// A larger force is taken to cause overflow.
 constexpr double kHuge = 1e150;
 
 /// 1/h for an eigenvalue of the motion.
@@ -24,7 +24,7 @@ double rate(const MethodLimits& limits, double imaginary, double real) {
   return std::abs(imaginary) / limits.stability + std::abs(real) / limits.damping;
 }
 
-/// Of a mode with damping c per mass: lambda^2 + c lambda + omega^2 = 0.
+/// For a mode with damping c per mass: lambda^2 + c lambda + omega^2 = 0.
 double rate_of_mode(const MethodLimits& limits, double omega, double c) {
   const double square = omega * omega - 0.25 * c * c;
   if (square >= 0.0) return rate(limits, std::sqrt(square), 0.5 * c);
@@ -64,8 +64,8 @@ std::optional<double> critical_rate(dynamics::Dynamics& dynamics, const MethodLi
   if (!range) return std::nullopt;
   if (has_others) return rate(limits, range->highest, 0.0);
   const double m = system.damping.mass_proportional, k = system.damping.stiffness_proportional;
-  // The damping of the highest mode belongs to its frequency with open stops; with closed ones that is on the safe
-  // side.
+  // The damping of the highest mode is taken at its frequency with open stops; for closed stops
+  // this is conservative.
   return rate_of_mode(limits, range->highest, m + k * range->highest * range->highest);
 }
 
@@ -134,7 +134,7 @@ std::string describe_remedy(dynamics::Dynamics& dynamics, const MethodLimits& li
 
 std::string fastest_dof(const dynamics::Dynamics& dynamics, const State& state) {
   const model::System& system = dynamics.system();
-  // Scaled, so that squares of what is about to overflow are numbers still.
+  // Scaled, so that squares of nearly overflowing values remain finite.
   const double speed = std::max(state.v.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min()),
                size = std::max(state.x.lpNorm<Eigen::Infinity>(), std::numeric_limits<double>::min());
   const double ratio = size / speed;

@@ -11,32 +11,37 @@ namespace butee::time {
 namespace {
 
 constexpr std::int64_t kFirstLook = 16, kBetweenLooks = 256;
-/// Growth of the energy that no load explains, and of which less is rounding.
+/// Logarithm of the energy growth not explained by loads that ends a run; growth below kNoGrowth is
+/// rounding.
 const double kTooMuch = std::log(100.0);
-/// Of explicit methods that choose their steps by an error in displacements alone: at the border of their stability
-/// rotations grow, unseen, until steps are cut and they decay. That cost beam2 of the paper up to some thousandfold,
-/// with good displacements at the end.
+/// The same for explicit methods that choose their steps by an error in displacements alone: at the
+/// border of stability rotations grow undetected until steps are reduced and they decay. For beam2
+/// of the paper the energy grew up to some thousandfold, with good displacements at the end.
 const double kTooMuchUnseen = std::log(1e5);
 constexpr double kNoGrowth = 0.01;
-/// Instants within a span at which loads are looked at, apart from their discontinuities.
+/// Number of instants within a span at which loads are evaluated, in addition to their
+/// discontinuities.
 constexpr int kInstants = 16;
 constexpr double kGoldenRatio = 0.6180339887498949;
-/// The error of one step by the trapezoidal rule, relative to the largest displacement: that of h omega = 1.
+/// The error of one step of the trapezoidal rule, relative to the largest displacement, at h
+/// omega = 1.
 constexpr double kCoarse = 0.08;
-/// The error of a step that leaves a hundred of them accurate.
+/// The error of one step at which a hundred steps are still accurate.
 constexpr double kFine = 1e-4;
 constexpr double kPi = 3.141592653589793;
-/// What comes so near a stop at a look, in gaps, is taken to meet it between two looks.
+/// A distance from a stop at a check, as a fraction of the gap, at which contact between two checks
+/// is assumed.
 constexpr double kNear = 0.1;
-/// h omega of a stop above which an impact is over within three steps.
+/// h omega of a stop above which an impact lasts less than three steps.
 constexpr double kCoarseImpact = 1.0;
 
-/// The logarithm of what is more than `explained`; 0 from nothing at all, where rounding decides.
+/// The logarithm of energy over `explained`; 0 if nothing is explained, since rounding then
+/// decides.
 double excess_over(double explained, double energy) {
   return explained > 0.0 ? std::log(energy / explained) : 0.0;
 }
 
-/// Friction on a moving surface puts energy into the motion, as much as it wants.
+/// Friction on a moving surface supplies energy to the motion without bound.
 bool is_driven(const dynamics::Dynamics& dynamics) {
   for (const model::FreeObstacles& obstacles : dynamics.system().obstacles)
     if (obstacles.group->friction.rule != model::Friction::Rule::none) return true;
@@ -125,8 +130,8 @@ double GrowthWatch::push(double from, double to) {
     return sum;
   };
   double largest = std::max(at(from), at(to));
-  // Not evenly, since that could meet every zero of a harmonic load; and between any two discontinuities, where a pulse
-  // may lie.
+  // Not equidistant, since such instants could coincide with the zeros of a harmonic load; and
+  // between any two discontinuities, since a pulse may lie there.
   const auto look_between = [&](double begin, double end) {
     for (int i = 1; i <= kInstants; ++i) {
       const double turns = kGoldenRatio * i;
@@ -145,7 +150,7 @@ double GrowthWatch::push(double from, double to) {
 }
 
 bool GrowthWatch::look(const State& from, const State& to, double h) {
-  if (work_.size() == 0 || from.t < last_time_) start(from);  // restored, or gone back to an earlier state
+  if (work_.size() == 0 || from.t < last_time_) start(from);  // restored, or returned to an earlier state
   next_look_ = count_ + (count_ < kBetweenLooks ? count_ : kBetweenLooks);
   if (may_be_coarse_) note_coarseness(from, to, h);
   if (!is_watching_) return false;
@@ -167,7 +172,7 @@ bool GrowthWatch::look(const State& from, const State& to, double h) {
 
 bool GrowthWatch::has_grown_since_start(double t, double now) {
   if (!(now > sound_energy_)) return false;
-  // What loads explain only becomes more, so that this is asked for a few times in a run.
+  // The explained energy only increases, so that it is evaluated only a few times in a run.
   const double from_loads = explained(start_energy_, start_time_, t);
   sound_energy_ = from_loads * std::exp(too_much_);
   if (!(now > sound_energy_) || !(from_loads > 0.0)) return false;

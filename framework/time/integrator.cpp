@@ -13,7 +13,7 @@ double hermite(double s, double h, double y0, double d0, double y1, double d1) {
   return r * r * ((1.0 + 2.0 * s) * y0 + s * h * d0) + s * s * ((3.0 - 2.0 * s) * y1 - r * h * d1);
 }
 
-/// A finite sum has finite terms; the terms are looked at one by one only where it is not.
+/// A finite sum has finite terms; the terms are checked one by one only if it is not finite.
 bool is_finite(const State& state) {
   if (state.x.size() == 1) return std::isfinite(state.x[0]) && std::isfinite(state.v[0]) && std::isfinite(state.a[0]);
   if (std::isfinite(state.x.sum() + state.v.sum() + state.a.sum())) return true;
@@ -92,7 +92,7 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
       if (!redo(t_end)) return;
     }
     events_->mark(*event, to);
-    // Another contact may change before; beside this one the end of the step is no event.
+    // Another contact may change earlier; the end of the step is then not an event of this contact.
     const auto before = events_->first(*this, from, to);
     if (!before || to.t - before->t <= std::max(1e-6, good) * h) return;
     to.contact = from.contact;

@@ -14,18 +14,20 @@
 namespace butee::time {
 namespace {
 
-/// A fixed step that divides end_time to this fraction of a step divides it.
+/// Tolerance, as a fraction of a step, within which a fixed step is taken to divide end_time.
 constexpr double kDivides = 1e-9;
-/// An adaptive method gives up where a rejected step is shorter than this fraction of end_time.
+/// An adaptive method fails if a rejected step is shorter than this fraction of end_time.
 constexpr double kSmallestStep = 1e-14;
-/// No sensible control rejects one step this often; shrink factors close to 1 need many.
+/// No sensible control rejects one step this often; reduction factors close to 1 need many
+/// rejections.
 constexpr int kMostRejections = 5000;
 
-/// A method that chooses its steps is looked at after so many; it has stalled where it would need more than kMostSteps.
+/// The number of steps between checks of an adaptive method; it has stalled if it would need more
+/// than kMostSteps.
 constexpr std::int64_t kStallLooks = 200000;
 constexpr double kMostSteps = 1e12;
 
-/// From this size on a structure may have parts that hardly move at all.
+/// From this size on a structure may have parts that hardly move.
 constexpr Index kLarge = 64;
 
 using Clock = std::chrono::steady_clock;
@@ -144,7 +146,7 @@ void Simulation::start_anew() {
     over_ = report_.completed = state_.t >= options_.end_time;
     origin_ = stall_t_ = state_.t;
     accepted_ = 0;
-    // The steps before the failure say nothing about those after it.
+    // The steps before the failure give no information about those after it.
     const double first = options_.time_step > 0.0 || !is_finite ? options_.time_step : integrator_.first_step(state_);
     if (first > 0.0) next_h_ = first;
   }
@@ -179,7 +181,8 @@ bool Simulation::advance() {
     }
     StepDecision decision{false, 0.5 * step.h};
     if (result.status == StepStatus::ok) decision = controller_->decide(step.h, result);
-    // A step that a discontinuity of the loads cut short says nothing against the length that was wanted.
+    // A step shortened by a discontinuity of the loads gives no reason to reduce the desired
+    // length.
     const double wanted = decision.accept && step.h < next_h_ ? next_h_ : 0.0;
     next_h_ = std::min(std::max(decision.next_h, wanted), options_.end_time);
     if (decision.accept) {

@@ -8,7 +8,7 @@
 #define HWY_TARGET_INCLUDE "butee/dynamics/kernel/modal_motion.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After highway.h, which it needs.
+// Must follow highway.h.
 #include <hwy/contrib/math/math-inl.h>
 
 #include "butee/linalg/kernel/dispatch.hpp"
@@ -79,8 +79,8 @@ void lead_all(const ModesInMotion& modes, const double* const* moments, double r
   }
 }
 
-/// y'' + 2 delta y' + omega^2 y = f as a series in s = time/t, term by term, of several registers at a time, whose
-/// chains of terms then need not wait for each other.
+/// y'' + 2 delta y' + omega^2 y = f as a series in s = time/t, term by term, for several registers
+/// at a time, so that their independent chains of terms overlap.
 template <Index Together>
 HWY_INLINE void by_series(const ModesInMotion& modes, double t, int terms, Index begin, Moved* to) {
   const double power[] = {t * t, t * t * t, t * t * t * t};
@@ -108,7 +108,7 @@ HWY_INLINE void by_series(const ModesInMotion& modes, double t, int terms, Index
   for (Index j = 0; j < Together; ++j) to[j].v = hn::Mul(to[j].v, all(1.0 / t));
 }
 
-/// `size`: e^(-delta t) where that is the same for all modes.
+/// `size`: e^(-delta t) if it is the same for all modes.
 template <bool has_single_decay>
 HWY_INLINE Moved in_closed_form(const ModesInMotion& modes, double t, double size, Index i) {
   const Register decay = load(modes.decay, i), frequency = load(modes.frequency, i);

@@ -51,7 +51,7 @@ struct Oscillator {
   }
 };
 
-/// The columns of a flow, those of one register.
+/// The columns of a propagator, those of one register.
 struct Columns {
   Values* values;
   std::size_t begin;
@@ -60,7 +60,7 @@ struct Columns {
   }
 };
 
-/// Free motion by its departure from q = 1 at rest, and from a straight line with v = 1.
+/// Free motion by its departure from q = 1 at rest, and from uniform motion with v = 1.
 HWY_INLINE void put_free(const Oscillator& of, Register frequency, Register decay, const Columns& to) {
   const Register square = hn::Mul(frequency, frequency);
   Forcing forcing;

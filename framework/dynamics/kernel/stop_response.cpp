@@ -21,7 +21,7 @@ using Tag = hn::CappedTag<double, kChunk>;
 using Register = hn::Vec<Tag>;
 constexpr Index kWidth = hn::MaxLanes(Tag());
 
-/// End, speed, middle of the stops of one register.
+/// End, speed and middle for the stops of one register.
 struct Response {
   Register end, speed, middle;
 
@@ -61,7 +61,7 @@ double add_force(const StopForce& stop, double speed_weight, std::span<const Ind
       largest = hn::Max(largest, change);
       all = hn::Add(all, change);
     }
-  // A NaN may lose a comparison; the sum shows it.
+  // A NaN may be lost in comparisons; the sum reveals it.
   const double sum = hn::GetLane(hn::SumOfLanes(Tag(), all));
   return std::isfinite(sum) ? hn::GetLane(hn::MaxOfLanes(Tag(), largest)) : sum;
 }

@@ -31,11 +31,11 @@ struct Diagonals {
     const double* below(std::size_t k) const { return all.below[k] + i; }
   };
   Chunk at(Index i) const { return {*this, i}; }
-  /// The last chunk of rows but `before`, which may begin within another.
+  /// The chunk of rows `before` places before the last one; it may overlap another.
   Chunk last(Index i, Index) const { return at(i); }
 };
 
-/// Of chunks that are stored once for all that are equal.
+/// For chunks stored once for all equal ones.
 template <std::size_t band>
 struct SharedDiagonals {
   const ChunkTable& chunks;
@@ -51,10 +51,11 @@ struct SharedDiagonals {
 };
 
 #if HWY_TARGET == HWY_AVX3
-/// Three chunks of x in a row, each a register: every load that is not aligned would touch two lines of the cache.
+/// Three consecutive chunks of x, one register each, since every unaligned load would access two
+/// cache lines.
 class Window {
  public:
-  /// Chunks begin at x + i; the first or the last is zero where there is none.
+  /// Chunks begin at x + i; the first or the last is zero if it lies outside x.
   HWY_INLINE Window(const double* x, Index i, Index size)
       : before_(i > 0 ? hn::LoadU(Tag(), x + i - kChunk) : hn::Zero(Tag())),
         here_(hn::LoadU(Tag(), x + i)),
@@ -66,7 +67,7 @@ class Window {
     next_ = hn::LoadU(Tag(), x + i + kChunk);
   }
 
-  /// Entries from `shift` places further on than those of the chunk.
+  /// The entries shifted by `shift` places from those of the chunk.
   template <int shift>
   HWY_INLINE Register at(Index) const {
     if constexpr (shift == 0) return here_;
@@ -83,7 +84,7 @@ class Window {
   Register before_, here_, next_;
 };
 #else
-/// The same from memory, with a copy between zeros at either end of x.
+/// The same from memory, with a copy padded by zeros at either end of x.
 class Window {
  public:
   HWY_INLINE Window(const double* x, Index i, Index size) : here_(x + i) {
@@ -109,7 +110,7 @@ class Window {
 };
 #endif
 
-/// A chunk of rows, two sums that do not wait for each other.
+/// A chunk of rows, with two independent sums.
 template <class Chunk, std::size_t... k>
 HWY_INLINE void multiply_chunk(const Chunk& d, const Window& x, double* y, std::index_sequence<k...>) {
   for (Index row = 0; row < kChunk; row += kWidth) {
@@ -122,7 +123,8 @@ HWY_INLINE void multiply_chunk(const Chunk& d, const Window& x, double* y, std::
   }
 }
 
-/// All of x, and the rows, are three chunks or more; rows that do not begin or end the matrix do so with whole chunks.
+/// x, and the range of rows, have at least three chunks; ranges within the matrix begin and end
+/// with whole chunks.
 template <std::size_t band, class Stored>
 void multiply_chunks(const Stored& d, Rows rows, const double* x, double* y) {
   constexpr auto kDistances = std::make_index_sequence<band>{};
@@ -136,7 +138,7 @@ void multiply_chunks(const Stored& d, Rows rows, const double* x, double* y) {
     multiply_chunk(d.at(i), window, y + (i - begin), kDistances);
   }
   if (rows.end < size) return;
-  // The last rows, some of them once more.
+  // The last rows; some are computed twice.
   for (const Index before : {1, 0}) {
     const Index last = size - (1 + before) * kChunk;
     multiply_chunk(d.last(last, before), Window(x, last, size), y + (last - begin), kDistances);
@@ -156,7 +158,7 @@ void multiply_few(const Diagonals<band>& d, Index size, const double* x, double*
   }
 }
 
-/// Systems with fewer rows than three chunks are taken row by row.
+/// Systems with fewer rows than three chunks are computed row by row.
 constexpr Index kFew = 3 * kChunk;
 
 template <std::size_t band>

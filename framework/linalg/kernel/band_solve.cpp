@@ -32,7 +32,7 @@ HWY_INLINE void put(Pair value, double* from_top, double* from_bottom) {
   *from_bottom = hn::GetLane(hn::UpperHalf(hn::Half<Tag>(), value));
 }
 
-/// The rows before, the nearest first.
+/// The previous rows, the nearest first.
 template <std::size_t band>
 struct Recent {
   Pair rows[band];
@@ -46,7 +46,8 @@ struct Recent {
     rows[0] = value;
   }
 
-  /// value - sum over k of entries[k] rows[k - 1], the nearest last: only it waits for the row before.
+  /// value - sum over k of entries[k] rows[k - 1], the nearest last, since only it depends on the
+  /// previous row.
   HWY_INLINE Pair less(Pair value, const double* entries) const {
     for (std::size_t k = band; k > 0; --k)
       value = hn::NegMulAdd(pair_at(entries, static_cast<Index>(k) - 1), rows[k - 1], value);
@@ -59,7 +60,7 @@ template <Index band>
 struct Factor {
   const FactorView& view;
 
-  /// What forward has for the row that step s eliminates.
+  /// The forward entries of the row that step s eliminates.
   HWY_INLINE const double* forward_of(Index s) const {
     return view.forward[s / kFactorRows] + 2 * band * (s % kFactorRows);
   }
@@ -75,7 +76,7 @@ struct Factor {
     for (; s < view.steps; ++s) row(s, forward_of(s));
   }
 
-  /// And back.
+  /// The same in the opposite direction.
   template <class Row>
   HWY_INLINE void go_back(Row& row) const {
     constexpr Index kEntries = 2 * (band + 1);
@@ -89,7 +90,7 @@ struct Factor {
   }
 };
 
-/// Takes the ends' part out of the middle's right side and solves there.
+/// Subtracts the contribution of the ends from the right side of the middle block and solves there.
 template <std::size_t band>
 void solve_middle(const Factor<static_cast<Index>(band)>& f, Recent<band> recent, double* x) {
   const Index begin = f.view.steps, end = f.view.size - f.view.steps, count = end - begin;

@@ -20,15 +20,15 @@ using Tag = hn::CappedTag<double, kChunk>;
 using Register = hn::Vec<Tag>;
 constexpr std::size_t kWidth = hn::MaxLanes(Tag());
 
-/// Sums that stay in registers beside a column and its factors.
+/// The number of sums that stay in registers together with a column and its factors.
 constexpr std::size_t kSums = HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_NEON ? 24 : 12;
 
-/// Sums of one vector, rows first to first + count registers.
+/// The sums of one vector for a range of rows.
 struct Part {
   const double* values;  ///< from the first row
   Index stride;
   double* y;
-  std::size_t rows;  ///< fewer than the registers hold at the end of the matrix
+  std::size_t rows;  ///< less than the registers hold at the end of the matrix
 };
 
 template <std::size_t registers>
@@ -84,7 +84,8 @@ constexpr std::array<TwoParts, sizeof...(registers)> two_kernels(std::index_sequ
   return {&multiply_two_part<registers + 1>...};
 }
 
-/// Calls part(registers, first row, rows) for equal parts of all rows, none of more than `most` registers.
+/// Calls part(registers, first row, rows) for equal parts of all rows, each of at most `most`
+/// registers.
 template <class Call>
 HWY_INLINE void in_parts(Index all_rows, std::size_t most, const Call& call) {
   const auto rows = static_cast<std::size_t>(all_rows);

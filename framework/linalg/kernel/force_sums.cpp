@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, kChunk>;
 using Register = hn::Vec<Tag>;
 constexpr Index kWidth = hn::MaxLanes(Tag());
-/// Registers taken together, so that no sum waits for itself.
+/// Number of registers processed together, to hide the latency of the sums.
 constexpr Index kTogether = kWidth < kChunk ? 2 : 1;
 
 /// Sums of squares: the five terms and the residual.
@@ -36,7 +36,7 @@ HWY_INLINE void take(double sign, const double* term, double& r, double& square)
   square += *term * *term;
 }
 
-/// One row, or as many as a register has.
+/// One row, or a register of rows.
 template <bool has_load, bool has_contact, bool has_damping, class Piece>
 HWY_INLINE void take_all(const ForceTerms& terms, Index i, Piece& r, Piece* squares) {
   if constexpr (has_load) take(1.0, terms.load + i, r, squares[0]);
