@@ -4,10 +4,10 @@
 
 namespace butee::elements {
 
-/// beam, mass, spring, disc and bearing.
+/// The element types beam, mass, spring, disc, bearing and matrices.
 std::vector<model::ElementType> element_types();
 
-/// tube, circle, rectangle and general.
+/// The section types tube, circle, rectangle and general.
 std::vector<model::SectionType> section_types();
 
 }  // namespace butee::elements
