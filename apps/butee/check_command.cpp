@@ -15,11 +15,11 @@ namespace {
 
 struct CheckArguments {
   ModelArguments model;
-  std::string picture;  ///< an SVG file; empty: none
+  std::string picture;  ///< an SVG file; empty: no picture
   bool json = false;
 };
 
-/// The law of each [[contact]], as the file names it.
+/// The law of each [[contact]], as named in the file.
 std::vector<std::string> laws_of(const config::Document& document) {
   std::vector<std::string> laws;
   const config::Value* contacts = document.root.table()->find("contact");

@@ -11,7 +11,7 @@
 
 namespace butee::app {
 
-/// A command of the program, and what it does once its options are read.
+/// A command of the program and the function that runs it once its options are read.
 struct Command {
   CLI::App* app;
   std::function<int()> perform;

@@ -24,16 +24,16 @@ namespace {
 
 using namespace compare;
 
-/// A sweep goes on while errors are above this fraction of the smallest target.
+/// A sweep continues while errors are above this fraction of the smallest target.
 constexpr double kFineEnough = 0.3;
-/// A run that takes longer than the last one by this factor and the ratio of the steps is not expected.
+/// Assumed ratio of a run's time to that of the run before it; runs expected to exceed the time limit are skipped.
 constexpr double kGrowth = 2.0;
 
 extern "C" void note_interruption(int) {
   interrupted = 1;
 }
 
-/// FNV-1a over what a row depends on.
+/// FNV-1a hash of the inputs of a row.
 std::string fingerprint_of(const std::string& text) {
   std::uint64_t hash = 1469598103934665603U;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
@@ -45,7 +45,7 @@ std::string fingerprint_of(const std::string& text) {
 struct CompareArguments {
   ModelArguments model;  ///< a model or a study
   std::string folder;    ///< empty: "<stem>-compare"
-  bool fresh = false;    ///< runs everything anew
+  bool fresh = false;    ///< repeats all runs
 };
 
 class Comparison {
@@ -150,7 +150,7 @@ class Comparison {
     const Answer answer = measure(session, scene.question, study_.time_limit);
     if (!answer.completed) row.outcome = answer.message;
     row.error = error_of(answer.values, result.reference);
-    // The reference's own method: what is known of its error is the uncertainty.
+    // For the reference's own method, the error is known only as the uncertainty.
     if (row.method == result.reference.method) row.error.rms = std::max(row.error.rms, result.reference.uncertainty);
     row.seconds = answer.seconds;
     row.steps = answer.report.steps;

@@ -5,7 +5,7 @@
 
 namespace butee::app {
 
-/// The cells of a line of CSV. A cell between double quotes may hold commas; the quotes are taken off.
+/// The cells of a line of CSV. A cell in double quotes may contain commas; the quotes are removed.
 std::vector<std::string> split_csv(const std::string& line);
 
 }  // namespace butee::app

@@ -11,7 +11,7 @@
 namespace butee::app::gnuplot {
 namespace {
 
-/// A picture of 800 x 480 points of the style, whatever the format makes of a point.
+/// Terminal settings for a picture of 800 x 480 points, independent of the format's definition of a point.
 std::string terminal(const std::string& format) {
   if (format == "png") return "pngcairo size 1600,960 font 'sans,10.5' fontscale 2 linewidth 2 pointscale 2";
   if (format == "svg") return "svg size 800,480 font 'sans,14' background 'white' standalone";
@@ -19,7 +19,7 @@ std::string terminal(const std::string& format) {
   throw LogicError("no such format of pictures");
 }
 
-/// A text as one word of a command line of sh.
+/// Quotes text as one word of a command line of sh.
 std::string shell_word(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -59,14 +59,15 @@ std::string style() {
 }
 
 std::string legend_below(const std::vector<std::string>& entries) {
-  constexpr std::size_t kWidth = 82, kSample = 7;  // characters: of a picture, and of an entry before its text
+  constexpr std::size_t kWidth = 82,
+                        kSample = 7;  // in characters: width of a picture, and width of a legend entry before its text
   std::size_t longest = 1;
   for (const std::string& entry : entries) longest = std::max(longest, entry.size());
   const std::size_t count = std::max<std::size_t>(entries.size(), 1);
   const std::size_t fitting = std::max<std::size_t>(kWidth / (longest + kSample), 1);
   const std::size_t rows = (count + fitting - 1) / fitting, columns = (count + rows - 1) / rows;
   std::ostringstream out;
-  // Fractions of the picture's height: the axis with its title, and a row of the legend.
+  // Fractions of the picture's height: axis with title, one row of the legend.
   out << "set bmargin at screen " << 0.162 + 0.043 * static_cast<double>(rows)
       << "\nset key at screen 0.5, screen 0.015 bottom center "
       << "horizontal Left reverse samplen 2 width 1 maxcols " << columns << "\n";

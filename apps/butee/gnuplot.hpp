@@ -10,30 +10,30 @@ namespace butee::app::gnuplot {
 inline constexpr std::array<const char*, 10> kColours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e",
                                                          "#17becf", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"};
 
-/// True where the program is found.
+/// True if gnuplot is found.
 bool is_installed();
-/// What to do where it is not.
+/// Hint shown if gnuplot is missing.
 std::string remedy();
 
-/// "png", "svg" and "pdf"
+/// Picture formats: "png", "svg" and "pdf".
 std::vector<std::string> formats();
 
-/// A text in gnuplot's quotes.
+/// Quotes text for gnuplot.
 std::string quoted(const std::string& text);
 
-/// The lines of the house's style: grid, axes, legend.
+/// gnuplot commands for the common style: grid, axes, legend.
 std::string style();
 
-/// The lines that put a legend with these entries below a picture, in as many rows as it takes.
+/// gnuplot commands for a legend with these entries below the picture, in as many rows as needed.
 std::string legend_below(const std::vector<std::string>& entries);
 
-/// `plot` (lines of a script) drawn once into each format, as `<name>.<format>` beside the script.
+/// Commands that draw `plot` (lines of a script) in each format, as `<name>.<format>` beside the script.
 std::string draw_into(const std::vector<std::string>& formats, const std::string& name, const std::string& plot);
 
-/// Writes `<folder>/<name>.gp`. Throws RunError where that fails.
+/// Writes `<folder>/<name>.gp`. Throws RunError on failure.
 void write_script(const std::string& folder, const std::string& name, const std::string& text);
 
-/// Runs gnuplot on `<folder>/<name>.gp`, in that folder; what it complained of, or "".
+/// Runs gnuplot on `<folder>/<name>.gp` in that folder; returns gnuplot's error messages, or "".
 std::string run_script(const std::string& folder, const std::string& name);
 
 }  // namespace butee::app::gnuplot

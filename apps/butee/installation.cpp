@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The folder that holds bin/, wherever the installation was moved.
+/// The folder that holds bin/, also for an installation that was moved.
 fs::path prefix() {
   return fs::read_symlink("/proc/self/exe").parent_path().parent_path();
 }

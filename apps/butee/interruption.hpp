@@ -2,11 +2,11 @@
 
 namespace butee::app {
 
-/// From now on SIGINT and SIGTERM are noted, so that what is under way ends at the next step. The second one ends the
-/// program at once.
+/// From now on SIGINT and SIGTERM are recorded, and the current run ends at the next step. A second signal
+/// ends the program at once.
 void watch_for_interruption();
 
-/// "SIGINT", "SIGTERM", or nullptr where there was none.
+/// "SIGINT", "SIGTERM", or nullptr if there was no signal.
 const char* interruption();
 
 }  // namespace butee::app

@@ -4,10 +4,10 @@
 
 namespace butee::app {
 
-/// Keeps the order in which keys are added; numbers that are not finite are written as null.
+/// Keeps the order in which keys are added; writes non-finite numbers as null.
 using Json = nlohmann::ordered_json;
 
-/// To standard output, indented, with a line end.
+/// Prints to standard output, indented, with a line end.
 inline void print_json(const Json& json) {
   std::printf("%s\n", json.dump(2).c_str());
 }

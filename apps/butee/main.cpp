@@ -17,24 +17,24 @@ namespace {
 
 using namespace butee::app;
 
-/// A standard stream that is closed gives its number to the next file that is opened, into which messages would go:
-/// here it becomes a file that takes none.
+/// Opens a read-only /dev/null for each closed standard stream. Otherwise the next opened file would get the
+/// stream's number and receive its messages.
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) return;
 }
 
-/// Why standard output took no more; 0 where it took everything.
+/// errno of a failed write to standard output; 0 on success.
 int output_error() {
   errno = 0;
   if (std::fflush(stdout) != 0) return errno;
   if (std::ferror(stdout) == 0) return 0;
-  // The write that failed was an earlier one, and its reason is forgotten: another one fails for the same.
+  // An earlier write failed and errno is lost; another write fails for the same reason.
   errno = 0;
   return write(STDOUT_FILENO, "\n", 1) < 0 ? errno : EIO;
 }
 
-/// Output that could not be printed is a failure, unless nobody wanted to read it.
+/// A failed write to standard output is a failure, unless the reader closed the pipe.
 int flushed(int status) {
   const int error = output_error();
   if (error == 0 || error == EPIPE) return status;
@@ -46,9 +46,9 @@ int flushed(int status) {
 
 int main(int argc, char** argv) {
   occupy_standard_streams();
-  // A reader of our output that closes early, such as head, ends the output and not the run.
+  // A reader that closes the pipe early, such as head, does not stop the run.
   std::signal(SIGPIPE, SIG_IGN);
-  // A file that grows beyond its limit is a file that cannot be written, with a message.
+  // Exceeding the file size limit then makes the write fail with a message.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return flushed(parse_and_run(argc, argv));

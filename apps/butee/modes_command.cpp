@@ -21,13 +21,13 @@ constexpr Index kDefaultCount = 10;
 
 struct ModesArguments {
   ModelArguments model;
-  Index count = 0;  ///< 0: kDefaultCount, or all of a smaller scene
+  Index count = 0;  ///< 0: kDefaultCount, or all modes of a smaller scene
   std::vector<std::string> closed;
-  std::string folder;  ///< empty: nothing is written, unless a plot is wanted
+  std::string folder;  ///< empty: no files are written, unless a plot is requested
   bool json = false, plot = false;
   std::optional<double> speed;   ///< rad/s
   std::vector<double> campbell;  ///< from, to (rad/s), number of steps
-  double order = 1.0;            ///< of critical speeds
+  double order = 1.0;            ///< order of the excitation for critical speeds
 };
 
 constexpr Index kMostCampbellSteps = 100000;
@@ -37,7 +37,7 @@ std::string folder_of(const ModesArguments& arguments) {
                                    : std::filesystem::path(arguments.model.model).stem().string() + "-modes";
 }
 
-/// Lets every part turn that can, in a scene without [rotation]. Throws InputError where there is none.
+/// Lets every part that can turn do so, in a scene without [rotation]. Throws InputError if there is none.
 void let_turn(model::Model& model) {
   if (model.rotation == nullptr) {
     model.rotation = std::make_unique<model::Rotation>(std::vector{0.0}, std::vector{0.0});
@@ -52,8 +52,8 @@ void let_turn(model::Model& model) {
         "\"spatial\"");
 }
 
-/// Warns where rounding of the stiffness, eps sum |K_ii| |x_i|^2, is more than a small part of x^H K x of the lowest
-/// mode.
+/// Warns if the rounding error of the stiffness, eps sum |K_ii| |x_i|^2, is not negligible relative to x^H K
+/// x of the lowest mode.
 void warn_of_rounding(const dynamics::Whirl& whirl, const std::vector<dynamics::WhirlMode>& modes) {
   constexpr double kSeen = 1e-4;
   const model::System& system = whirl.system();

@@ -52,7 +52,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// Writes the files of the template's folder, each without its ".in".
+/// Writes the files of the template's folder without the ending ".in".
 void write_files(const fs::path& from, const fs::path& to, const NewPluginArguments& arguments) {
   for (const auto& entry : fs::directory_iterator(from)) {
     if (!entry.is_regular_file() || entry.path().extension() != ".in") continue;

@@ -7,8 +7,8 @@
 
 namespace butee::app {
 
-/// The declared parameters as lines: name, unit, default, what is allowed, meaning; under headings where `headed`.
-/// Empty without parameters.
+/// The declared parameters as lines: name, unit, default, allowed values, meaning; with column headings if
+/// `headed`. Empty if there are no parameters.
 std::string parameter_table(const std::vector<config::Parameter>& parameters, bool headed = true);
 
 }  // namespace butee::app

@@ -6,10 +6,11 @@
 
 namespace butee::app {
 
-/// Adds numbers between -size and size, with no pattern of the structure's, always the same.
+/// Adds a fixed sequence of pseudo-random numbers between -size and size.
 void perturb(Vector& x, double size);
 
-/// The same to the initial displacements (m or rad) of a system that is assembled; nothing where `size` is 0.
+/// Applies `perturb` to the initial displacements (m or rad) of an assembled system; an empty function if
+/// `size` is 0.
 std::function<void(model::System&)> perturbed_by(double size);
 
 }  // namespace butee::app

@@ -16,7 +16,7 @@ struct PlotArguments {
   std::vector<std::string> plugins;
 };
 
-/// Pictures of a study, of the rows that are there.
+/// Draws a study from the rows that exist so far.
 int plot_study(const PlotArguments& arguments) {
   const plot::Request& request = arguments.request;
   const std::string& folder = request.folders.front();

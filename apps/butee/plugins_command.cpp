@@ -125,7 +125,7 @@ void write_manifest(const std::string& module) {
 
 struct PluginsArguments {
   std::string name;
-  std::string write_manifest;  ///< a module whose manifest is wanted beside it
+  std::string write_manifest;  ///< a module whose manifest is written beside it
   std::vector<std::string> plugins;
   bool json = false;
 };

@@ -5,7 +5,7 @@ namespace butee::app {
 /// Exit statuses of the program.
 enum Exit : int { kDone = 0, kFailed = 1, kBadInput = 2 };
 
-/// Reads the command line and does what it says. Throws what the commands throw.
+/// Parses the command line and runs the command. Throws what the commands throw.
 int parse_and_run(int argc, char** argv);
 
 }  // namespace butee::app

@@ -8,7 +8,7 @@ namespace butee::app {
 
 using run::check_checkpoints;
 
-/// A run that SIGINT and SIGTERM end after a step.
+/// A run that SIGINT and SIGTERM stop after the current step.
 class Run : public run::Run {
  public:
   Run(scene::Scene& session, bool with_progress) : run::Run(session, with_progress) { interrupt_by(interruption); }

@@ -23,10 +23,10 @@ namespace {
 struct RunArguments {
   ModelArguments model;
   std::string folder;  ///< empty: "<model stem>-results"
-  std::string resume;  ///< a result folder to go on with
+  std::string resume;  ///< a result folder to resume
   int repeat = 1;
-  bool trust = false;  ///< as [output] trust
-  bool plot = false;   ///< draw what the results allow
+  bool trust = false;  ///< sets [output] trust
+  bool plot = false;   ///< draw the pictures that the results allow
   std::string progress = "auto";
 };
 
@@ -49,7 +49,7 @@ void print(const record::Summary& summary, const scene::Scene& session, const st
   std::printf("  results in %s\n", folder.c_str());
 }
 
-/// Integrates again for the time alone, and keeps the fastest.
+/// Repeats the integration for timing alone, and keeps the shortest time.
 void repeat(scene::Scene& session, int times, bool with_progress, record::Summary& best) {
   for (int i = 1; i < times && best.report.completed; ++i) {
     const record::Summary next = Run(session, with_progress).perform(nullptr);

@@ -7,14 +7,14 @@
 
 namespace butee::app {
 
-/// What the command line says about a model file.
+/// Command-line arguments about a model file.
 struct ModelArguments {
   std::string model;
   std::vector<std::string> overrides;
   std::vector<std::string> plugins;
 };
 
-/// Reads the scene. Throws InputError with every mistake.
+/// Reads the scene. Throws InputError with all mistakes.
 inline scene::Scene open_session(const ModelArguments& arguments) {
   return scene::load_scene(arguments.model, arguments.overrides, arguments.plugins);
 }

@@ -15,8 +15,8 @@ namespace {
 using namespace stability;
 
 struct StabilityArguments {
-  std::string method;  ///< empty: all
-  std::string folder;  ///< empty: "<method>-stability", or "stability" of all
+  std::string method;  ///< empty: all methods
+  std::string folder;  ///< empty: "<method>-stability", or "stability" for all methods
   Request request{{}, {0.0, 0.05, 0.5}, {0.01, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4}};
   bool json = false;
   std::vector<std::string> plugins;

@@ -28,9 +28,9 @@ namespace {
 struct StudyArguments {
   ModelArguments model;  ///< the study
   std::string folder;    ///< empty: "<stem>-study"
-  std::string format;    ///< of the rows; empty: hdf5 where it is there
+  std::string format;    ///< format of the rows; empty: hdf5 if available
   std::string shard;     ///< "I/N"
-  std::string points;    ///< a CSV file, or "-"; with results
+  std::string points;    ///< a CSV file, or "-" for standard input
   std::string results;
   std::string progress = "auto";
   std::vector<std::string> plot_formats = {"png"};
@@ -52,7 +52,7 @@ study::Shard shard_of(const std::string& text) {
   return shard;
 }
 
-/// One study into its folder, by this process or, in a team, by several.
+/// Runs one study into its folder, by this process or by the processes of a team.
 class FolderStudy {
  public:
   FolderStudy(const StudyArguments& arguments, study::Team* team)
@@ -74,7 +74,7 @@ class FolderStudy {
   void open() { store_.open(arguments_.fresh); }
   void look() { store_.look(); }
 
-  /// Does what is left.
+  /// Performs the remaining runs.
   int perform() {
     if (store_.is_complete() || arguments_.merge || store_.done_count() == study_.plan.run_count()) return kDone;
     if (store_.done_count() > 0 && is_first() && !log::is_quiet())
@@ -149,12 +149,12 @@ int study_alone(const StudyArguments& arguments) {
   return status == kDone ? study.finish() : status;
 }
 
-/// Every process reads the study; the first opens the folder, and all go on only where all are well.
+/// Every process reads the study; the first process opens the folder. All continue only if no process failed.
 int study_in_team(const StudyArguments& arguments, study::Team& team) {
   if (team.rank() > 0) log::set_level(log::Level::quiet);
   std::optional<FolderStudy> study;
   int status = kDone;
-  // The first process reports an error that all share; another one reports an error of its own.
+  // The first process reports an error that all share; other processes report only their own errors.
   const auto step = [&](bool takes_part, auto work) {
     if (status == kDone && takes_part) {
       try {
@@ -190,7 +190,7 @@ int study_in_team(const StudyArguments& arguments, study::Team& team) {
   return status;
 }
 
-/// Points from a file or standard input, rows to a file or standard output.
+/// Reads points from a file or standard input, writes rows to a file or standard output.
 int study_points(const StudyArguments& arguments) {
   std::ifstream file;
   std::ofstream to;

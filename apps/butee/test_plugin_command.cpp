@@ -10,7 +10,8 @@
 namespace butee::app {
 namespace {
 
-/// Becomes the program of the suite, which counts allocations and so has a malloc of its own.
+/// Replaces this process by the program of the conformance suite, which has its own malloc to count
+/// allocations.
 int become_suite(const std::vector<std::string>& arguments) {
   const std::string program = helper_program("butee-conformance");
   std::vector<char*> list = {const_cast<char*>(program.c_str())};

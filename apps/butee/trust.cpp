@@ -20,21 +20,22 @@ namespace {
 using namespace trust;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// Relative to the peak: a start that differs by rounding.
+/// Perturbation of the initial displacements at the level of rounding, relative to the peak.
 constexpr double kRounding = 1e-16;
-/// Relative to the motion: disturbances are so many times the noise of a step, and so large at least and at most.
+/// Size of disturbances relative to the motion: kAboveNoise times the error of a step, within [kSmallest,
+/// kLargest].
 constexpr double kAboveNoise = 1e4, kSmallest = 1e-8, kLargest = 1e-3;
-/// Relative to the peak: starts of further runs of a chaotic scene.
+/// Perturbation of the initial displacements in further runs of a chaotic scene, relative to the peak.
 constexpr double kElsewhere = 1e-6;
-/// By how much of the range of the runs a number may lie beside the judged run's: 1.5 as rows (record::judge), where
-/// they agree; where they do not, five runs are a sample of which a 99 % prediction interval has 4.6 sqrt(6/5) standard
-/// deviations to each side, 2.2 of its expected range.
+/// Half-width of a number's interval around the judged run, in ranges of the runs. If the runs agree: 1.5, as
+/// for rows (record::judge). If they do not: 2.2, because for a sample of five runs a 99 % prediction
+/// interval extends 4.6 sqrt(6/5) standard deviations to each side, which is 2.2 times the expected range.
 constexpr double kAgreeing = 1.5, kScattering = 2.2;
 constexpr double kFinestTolerance = 1e-12;
 constexpr Wanted kNumbers = {.states = false, .numbers = true, .impacts = true};
 
-/// The scene with half the step, a tenth of the tolerance, or what the method has instead; nothing where it has
-/// nothing.
+/// The scene with half the step, a tenth of the tolerance, or a finer value of the method's own accuracy key;
+/// empty if the method has none.
 std::optional<scene::Scene> tighten(const scene::Scene& session, std::string& what) {
   plugin::Catalogue catalogue = session.catalogue;
   const time::IntegratorType& type = catalogue.load(session.integrator.name);
@@ -57,11 +58,11 @@ std::optional<scene::Scene> tighten(const scene::Scene& session, std::string& wh
   try {
     return scene::read_scene(std::move(document), std::move(catalogue));
   } catch (const InputError&) {
-    return std::nullopt;  // it is as tight as it can be
+    return std::nullopt;  // the accuracy key is at its limit
   }
 }
 
-/// The method that integrates: what `auto` chose, or the scene's.
+/// The method that integrates: the choice of `auto`, or the scene's method.
 std::string method_of(const scene::Scene& session, const FollowedRun& run) {
   return run.choice.empty() ? session.integrator.name : run.choice.substr(0, run.choice.find_first_of(" :"));
 }
@@ -85,7 +86,7 @@ double peak_of(const FollowedRun& run) {
   return peak;
 }
 
-/// The largest entry of the disturbance of a start, relative to its size.
+/// The largest entry of the initial disturbance, relative to its size.
 double largest_perturbation(Index size) {
   Vector x = Vector::Zero(size);
   perturb(x, 1.0);
@@ -98,7 +99,7 @@ FollowedRun follow_or_throw(scene::Scene& session, double disturbance, Wanted wa
   return run;
 }
 
-/// The runs of a scene, one after the other, and what they come to.
+/// Performs the runs of a scene one after the other and evaluates them.
 class Judgement {
  public:
   explicit Judgement(scene::Scene& session)
@@ -144,13 +145,13 @@ class Judgement {
           "unseen by --trust");
   }
 
-  /// The size of disturbances that are followed by a method whose steps err by `noise`.
+  /// The size of disturbances to follow with a method whose error in a step is `noise`.
   static double disturbance(double noise) { return std::clamp(kAboveNoise * noise, kSmallest, kLargest); }
 
   record::Growth growth() {
     const double own_size = disturbance(tolerance_of(session_, method_));
     const double other_size = other_ ? disturbance(other_->noise) : own_size;
-    // The finer disturbance tells more; of two that are alike the cheaper run.
+    // Prefer the smaller disturbance; if both are equal, the cheaper run.
     const bool by_other =
         other_ && !is_closed_form(method_) && (other_size < own_size || other_->run.work <= run_.work);
     scene::Scene& by = by_other ? other_->session : session_;
@@ -158,7 +159,7 @@ class Judgement {
     const double size = by_other ? other_size : own_size;
     record::Growth growth = follow_disturbance(by, run, size);
     if (run.size > kLargeSystem) return growth;
-    // To both sides: a start on the border between two sides of a stop moves on differently.
+    // Both signs: a start at the contact boundary continues differently on its two sides.
     const double start = size * peak_of(run);
     for (const double sign : {1.0, -1.0})
       if (start > 0.0)
@@ -178,7 +179,7 @@ class Judgement {
     if (!trust.to_the_end)
       for (const double sign : {1.0, -1.0}) add(follow_or_throw(session_, sign * kElsewhere * peak_of(run_), kNumbers));
     const double factor = trust.to_the_end ? kAgreeing : kScattering;
-    // Extremes are found to a part of them.
+    // Extremes are located only to a relative tolerance.
     const double rounding = std::max(record::StepPath::kGood, 1e-14 * std::min(1e6, trust.amplification));
     for (std::size_t i = 0; i < values_.size(); ++i)
       trust.statistics.push_back(record::bracket(run_.numbers[i].name, values_[i], run_.numbers[i].is_count, factor,
@@ -190,7 +191,7 @@ class Judgement {
   std::string method_;
   std::optional<OtherRun> other_;
   FollowedRun again_;
-  std::vector<std::vector<double>> values_;  ///< of every number, by run
+  std::vector<std::vector<double>> values_;  ///< values of every number, one for each run
 };
 
 }  // namespace

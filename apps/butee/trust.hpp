@@ -6,8 +6,8 @@
 
 namespace butee::app {
 
-/// Runs the scene again: as it is, with its step or tolerance tightened, and twice from starts that differ by a small
-/// fraction of the peak; compares. Throws RunError where one of these runs fails.
+/// Runs the scene again: unchanged, with a tightened step or tolerance, and twice from starts that differ by
+/// a small fraction of the peak; compares the results. Throws RunError if one of these runs fails.
 record::Trust find_trust(scene::Scene& session);
 
 }  // namespace butee::app

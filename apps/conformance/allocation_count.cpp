@@ -17,7 +17,7 @@ namespace {
 std::atomic<long> allocations{0};
 }
 
-// The program's own malloc comes before the C library's, for every library that the program loads.
+// The program's own malloc overrides that of the C library, also for all libraries that the program loads.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

@@ -2,8 +2,8 @@
 
 namespace butee::conformance {
 
-/// The allocations of this process so far, those of the libraries that it loads among them; -1 where they are not
-/// counted: under the sanitizers, which have an allocator of their own.
+/// Number of allocations of this process so far, including those of loaded libraries; -1 under the
+/// sanitizers, which use their own allocator and are not counted.
 long allocation_count();
 
 }  // namespace butee::conformance

@@ -29,7 +29,7 @@ std::unique_ptr<ContactShape> make_shape(const Subject& subject) {
   return shape;
 }
 
-/// Places around the rest position, apart and within the obstacle, along sixteen directions.
+/// Positions around the rest position, outside and inside the obstacle, along sixteen directions.
 std::vector<Vector2d> places() {
   std::vector<Vector2d> all;
   for (int k = 0; k < 16; ++k)
@@ -44,7 +44,7 @@ std::string text(const Vector2d& d) {
   return "(" + to_short_text(d[0]) + ", " + to_short_text(d[1]) + ")";
 }
 
-/// Differences over 1e-7 m of a function with radii of curvature above a millimetre.
+/// Step of finite differences, m, and their tolerance, for radii of curvature above a millimetre.
 constexpr double kReach = 1e-7, kDifference = 1e-3;
 
 Finding check_normal(const Subject& subject) {
@@ -57,7 +57,7 @@ Finding check_normal(const Subject& subject) {
       return {false, "at d = " + text(d) + " m the normal has the length " + to_text(at.normal.norm())};
     for (const Vector2d& direction : {Vector2d(1.0, 0.0), Vector2d(0.0, 1.0)}) {
       const Approach ahead = shape->at(d + kReach * direction), behind = shape->at(d - kReach * direction);
-      // A corner lies between.
+      // A corner lies between the two points.
       if ((ahead.normal - behind.normal).norm() > 0.1) continue;
       const double slope = (ahead.penetration - behind.penetration) / (2.0 * kReach);
       if (!(std::abs(slope - at.normal.dot(direction)) <= 1e-6))
@@ -83,7 +83,8 @@ Finding check_curvature(const Subject& subject) {
   return {true, "the normal turns by the curvature at 64 places"};
 }
 
-/// A mass thrown around within it, without loss: what it has given to the obstacle it gets back.
+/// A mass moves inside the obstacle without dissipation: it must regain the energy that it gave to the
+/// obstacle.
 Finding check_energy(const Subject& subject) {
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "

@@ -25,12 +25,13 @@ std::string scene(const Subject& subject) {
   return text;
 }
 
-/// Stiffness and damping need not be symmetric, such as those of a bearing; what counts then is their symmetric part.
+/// Stiffness and damping need not be symmetric, for example those of a bearing; only the symmetric part is
+/// checked for definiteness.
 std::string complaint(const std::string& name, const SparseMatrix& sparse, bool may_be_skew = true) {
   if (sparse.size() == 0) return "";
   Eigen::MatrixXd matrix(sparse);
   if (!matrix.allFinite()) return name + " is not finite";
-  // Sums of symmetric contributions round alike; a semi-definite matrix has eigenvalues of rounding.
+  // Tolerances for asymmetry of summed contributions, and for the zero eigenvalues of a semi-definite matrix.
   constexpr double kRounding = 1e-12;
   const double scale = matrix.cwiseAbs().maxCoeff();
   if (!may_be_skew && (matrix - matrix.transpose()).cwiseAbs().maxCoeff() > kRounding * scale)
@@ -55,7 +56,7 @@ Finding check_matrices(const Subject& subject) {
                     std::to_string(system.size()) + " free DOFs"};
 }
 
-/// Without loads and stops no energy may come from anywhere.
+/// Without loads and stops, the energy must not increase.
 Finding check_motion(const Subject& subject) {
   Bench bench(subject.catalogue, scene(subject) + integrator_table("rodas4", "tolerance = 1e-6\n", 1e-5, 0.2));
   const auto energy = [&](const time::State& state) {

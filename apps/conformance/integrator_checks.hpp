@@ -4,7 +4,7 @@
 
 namespace butee::conformance {
 
-// The demands on an integrator, each in a file with its like; see integrator_checks() for what they say.
+// The requirements on an integrator, grouped by file; integrator_checks() describes them.
 Finding check_order(const Subject& subject);
 
 Finding check_purity(const Subject& subject);

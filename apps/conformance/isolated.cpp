@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kFinished = 0, kFound = 3;
 
-/// Writes the finding and ends the process without its static objects, which belong to the parent.
+/// Writes the finding and ends the process without running destructors of static objects, which belong to the
+/// parent.
 [[noreturn]] void report_and_leave(int pipe, const std::function<Finding()>& work) {
   Finding finding{false, ""};
   try {
@@ -37,7 +38,7 @@ constexpr int kFinished = 0, kFound = 3;
   _exit(finding.passed ? kFinished : kFound);
 }
 
-/// Reads to the end, or until the deadline; false for the latter.
+/// Reads until the end of the data or the deadline; false at the deadline.
 bool read_all(int pipe, double time_limit, std::string& text) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit);

@@ -24,7 +24,7 @@ std::unique_ptr<model::ContactLaw> make_law(const Subject& subject) {
   return law;
 }
 
-/// Penetrations from 1 nm to 1 m, open and closed.
+/// Penetrations from 1 nm to 6.1 m in absolute value, of both signs (closed and open).
 std::vector<double> penetrations() {
   std::vector<double> g;
   for (int decade = -9; decade <= 0; ++decade)
@@ -37,7 +37,8 @@ double force(const model::ContactLaw& law, double g) {
   return law.secant(g) * g;
 }
 
-/// Differences over 1e-5 of g leave 1e-10 of a smooth function; bends within that reach are allowed for.
+/// Relative step of finite differences, whose error is about 1e-10 for a smooth function, and their
+/// tolerance, which allows for high curvature within that step.
 constexpr double kReach = 1e-5, kDifference = 1e-6;
 
 Finding check_derivatives(const Subject& subject) {
@@ -47,7 +48,7 @@ Finding check_derivatives(const Subject& subject) {
     const double d = kReach * std::abs(g),
                  scale = std::abs(force(*law, g)) + 1e-12 * law->closed_stiffness() * std::abs(g);
     const double slope = (law->energy(g + d) - law->energy(g - d)) / (2.0 * d);
-    // An energy of both signs loses digits where it is much larger than F g.
+    // An energy of both signs loses digits if it is much larger than F g.
     const double lost = 1e-15 * std::abs(law->energy(g)) / d;
     if (!(std::abs(slope - force(*law, g)) <= kDifference * scale + lost))
       return {false, "at g = " + to_short_text(g) + " m dV/dg = " + to_text(slope) +
@@ -64,7 +65,7 @@ Finding check_derivatives(const Subject& subject) {
 Finding check_batches(const Subject& subject) {
   const auto law = make_law(subject);
   const auto g = penetrations();
-  // A law may take another formula for many stops, good to the last digits of k_c.
+  // A law may use another formula for many stops, accurate to the rounding of k_c.
   const double rounding = 1e-13 * law->closed_stiffness();
   for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{17}, g.size()}) {
     std::vector<double> secant(count), again(count), tangent(count);
@@ -105,7 +106,7 @@ Finding check_series(const Subject& subject) {
   const auto series = law->force_series();
   if (series == nullptr) return {true, "none, so that the method `exact` does not take it"};
   for (const double g : {1e-6, 1e-4, 1e-2}) {
-    // F(g + rate s) at s = 1 from twelve terms, of which each is a twentieth of the last.
+    // F(g + rate s) at s = 1 from twelve terms; each term is about a twentieth of the previous one.
     std::array<double, 12> path{};
     path[0] = g;
     path[1] = 0.01 * g;
@@ -119,7 +120,7 @@ Finding check_series(const Subject& subject) {
   return {true, "the Taylor series sums to the force"};
 }
 
-/// A mass thrown at a stop: what it gives to the stop it gets back.
+/// A mass hits a stop: it must regain the energy that it gave to the stop.
 Finding check_rebound(const Subject& subject) {
   constexpr double kGap = 0.01;
   const auto law = make_law(subject);
@@ -135,7 +136,7 @@ Finding check_rebound(const Subject& subject) {
     const double back = -bench.simulation().state().v[0];
     return {back >= 0.0 && back <= 1.0 + 1e-4, "thrown at 1 m/s it comes back with " + to_short_text(back) + " m/s"};
   }
-  // A law that pulls an open stop holds a little of the energy back.
+  // A law with a residual force on an open stop stores a little of the energy.
   const double x = bench.simulation().state().x[0], v = bench.simulation().state().v[0];
   const double held = 2.0 * (law->energy(x - kGap) - law->energy(-kGap));
   return {std::abs(v * v + held - 1.0) <= 2e-4, "thrown at 1 m/s it comes back with " + to_short_text(-v) + " m/s"};
@@ -143,7 +144,7 @@ Finding check_rebound(const Subject& subject) {
 
 }  // namespace
 
-/// Checks rated_force() and its derivatives in both branches, and that a law which dissipates takes energy.
+/// Checks rated_force() and its derivatives in both branches, and that a dissipative law removes energy.
 Finding check_rate(const Subject& subject) {
   using Dependence = model::ContactLaw::RateDependence;
   const auto law = make_law(subject);

@@ -23,7 +23,7 @@ std::unique_ptr<model::TimeFunction> make_load(const Subject& subject) {
   return load;
 }
 
-/// Instants from 0 to 10 s that hit no round number.
+/// Irregular instants from 0 to 10 s that avoid round numbers.
 std::vector<double> instants() {
   std::vector<double> t;
   for (int i = 0; i < 400; ++i) t.push_back(0.025 * i + 0.0013 * std::sin(1.7 * i) + 0.0021);
@@ -36,7 +36,7 @@ double largest(const model::TimeFunction& load) {
   return value;
 }
 
-/// True where no instant lies in [t, t + h].
+/// True if no discontinuity lies in [t, t + h].
 bool is_smooth(const model::TimeFunction& load, double t, double h) {
   const auto instants = load.discontinuities();
   return std::none_of(instants.begin(), instants.end(),
@@ -81,7 +81,8 @@ Finding check_taylor(const Subject& subject) {
     double sum = 0.0;
     for (std::size_t k = series.size(); k-- > 0;) sum = 0.5 * sum + series[k];
     const double expected = load->value(t + 0.5 * kSpan);
-    // Twelve terms over a millisecond: rounding, for whatever changes within more than some tenths of one.
+    // Twelve terms over half a millisecond are exact to rounding for functions with time scales above some
+    // tenths of a millisecond.
     if (!(std::abs(sum - expected) <= 1e-9 * scale))
       return {false, "from t = " + to_short_text(t) + " s the series gives " + to_text(sum) +
                          " half a millisecond later, value() " + to_text(expected)};
@@ -102,7 +103,7 @@ Finding check_harmonic(const Subject& subject) {
   return {true, "harmonic() is the value"};
 }
 
-/// A mass on a spring under the load, by two methods.
+/// A mass on a spring under the load, integrated by two methods.
 Finding check_motion(const Subject& subject) {
   std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "

@@ -9,7 +9,7 @@
 
 #include "apps/conformance/report.hpp"
 
-/// butee-conformance, behind `butee test-plugin`.
+/// The program butee-conformance, called by `butee test-plugin`.
 int main(int argc, char** argv) {
   using namespace butee;
   conformance::Request request;

@@ -8,12 +8,13 @@
 namespace butee::conformance {
 namespace {
 
-/// The measured order is within this of the declared one, on both sides.
+/// Largest difference between the measured and the declared order.
 constexpr double kOrderTolerance = 0.05;
-/// Errors below this fraction of the motion are rounding, not the method's.
+/// Errors below this fraction of the motion are rounding errors.
 constexpr double kRounding = 1e-13;
 
-/// m x'' + c x' + k x = F cos(w t + phi) from (x0, v0): damped, forced, observed off the periods.
+/// m x'' + c x' + k x = F cos(w t + phi) from (x0, v0): damped and forced; samples do not coincide with
+/// periods.
 struct ForcedOscillator {
   double m = 2.0, c = 1.5, k = 110.0, F = 7.0, w = 4.1, phi = 0.4, x0 = 0.3, v0 = -1.2, end = 1.71;
 
@@ -24,7 +25,7 @@ struct ForcedOscillator {
            "[initial]\ndisplacement = [{nodes = \"m\", value = 0.3}]\nvelocity = [{nodes = \"m\", value = -1.2}]\n";
   }
 
-  /// x and v at t: the steady part and the free part that dies away.
+  /// x and v at t: the steady-state part plus the decaying free part.
   std::pair<double, double> exact(double t) const {
     const double a = k - m * w * w, b = c * w, size = F / (a * a + b * b);
     const auto steady = [&](double s) { return size * (a * std::cos(w * s + phi) + b * std::sin(w * s + phi)); };
@@ -40,7 +41,7 @@ struct Errors {
   double x = 0.0, v = 0.0;
 };
 
-/// Root sum of squares over ten samples, among which no lucky instant stands out.
+/// Root sum of squares over ten samples, so that a zero of the error at one instant does not matter.
 Errors errors_of(const Subject& subject, int steps) {
   const ForcedOscillator problem;
   const double h = problem.end / steps;
@@ -64,7 +65,7 @@ Errors errors_of(const Subject& subject, int steps) {
 Finding check_order(const Subject& subject) {
   const auto& declaration = subject.catalogue.find(subject.name)->declaration;
   if (declaration.order == 0.0 && !declaration.fixed_step) return {true, "not declared"};
-  // A method of high order is down at rounding with more.
+  // A method of high order reaches rounding with more steps.
   const int steps = declaration.order > 6.0 ? 30 : 200;
   const Errors coarse = errors_of(subject, steps), fine = errors_of(subject, 2 * steps);
   if (!std::isfinite(coarse.x + fine.x + coarse.v + fine.v))

@@ -21,7 +21,7 @@ struct Named {
   const std::vector<config::Parameter>* parameters;
 };
 
-/// What the module (or the modules of a folder) brings to a catalogue.
+/// The types that the module (or the modules of a folder) adds to a catalogue.
 std::vector<Named> types_of(const plugin::Catalogue& catalogue, const std::string& place) {
   const std::string path = std::filesystem::weakly_canonical(place).string();
   const auto is_from_it = [&](const std::string& module) { return module == path || module.rfind(path + "/", 0) == 0; };
@@ -40,7 +40,7 @@ std::vector<Named> types_of(const plugin::Catalogue& catalogue, const std::strin
   return found;
 }
 
-/// Of the keys that the user gave those that this type has.
+/// The keys given by the user that this type has.
 std::vector<std::string> keys_of_type(const std::vector<std::string>& given,
                                       const std::vector<config::Parameter>& declared) {
   std::vector<std::string> fitting;
@@ -51,7 +51,7 @@ std::vector<std::string> keys_of_type(const std::vector<std::string>& given,
   return fitting;
 }
 
-/// Elements lie on nodes of the suite's scene where the user does not say otherwise.
+/// Default nodes of the suite's scene for elements, unless the user gives nodes.
 std::string element_places(const Named& type, const std::string& keys) {
   std::string lines = "name = \"subject\"\n";
   for (const config::Parameter& p : *type.parameters) {
@@ -88,7 +88,7 @@ void print(const Check& check, const Finding& finding) {
 
 bool test_module(const Request& request) {
   plugin::Catalogue catalogue = plugin::Catalogue::with_plugins();
-  // First elsewhere: a module that crashes while it is loaded is a finding, not the end of this program.
+  // Load in a separate process first: a crash during loading is then a finding and does not end this program.
   const Finding loading = run_isolated(
       [&] {
         try {

@@ -9,7 +9,8 @@ namespace butee::conformance {
 namespace {
 
 constexpr double kStep = 1e-5, kEnd = 2e-2;
-/// What the looser tolerances of adaptive methods, and a first order across contact, leave of the peak.
+/// Accepted difference relative to the peak; it allows for loose tolerances of adaptive methods and first
+/// order across contact.
 constexpr double kAgreement = 2e-3;
 
 std::string beam(const Subject& subject) {

@@ -19,13 +19,13 @@ Bench beam(const Subject& subject) {
           rattling_beam(6, contact_law(subject), kRayleighDamping) + integrator_table(subject, kStep, kEnd)};
 }
 
-/// So many steps, but not past the middle of the run.
+/// Takes this number of steps, but stops at the middle of the run.
 void advance(Bench& bench, int steps) {
   for (int i = 0; i < steps && bench.simulation().state().t < 0.5 * kEnd; ++i)
     if (!bench.simulation().advance()) return;
 }
 
-/// "" where two states are equal to the last bit, else where they differ.
+/// "" if two states are bitwise equal, otherwise the first difference.
 std::string difference(const State& a, const State& b) {
   if (a.t != b.t) return "t " + to_text(a.t) + " and " + to_text(b.t);
   for (const auto& [name, one, other] : {std::tuple("x", &a.x, &b.x), std::tuple("v", &a.v, &b.v),
@@ -74,7 +74,7 @@ Finding check_interpolation(const Subject& subject) {
   if (bench.integrator().step(from, {kStep, from.t + kStep}, to).status != StepStatus::ok)
     return {false, "a step of 1e-5 s failed"};
   const Index dof = bench.dof("b:middle");
-  // The ends are met up to the rounding of the weights of the interpolation.
+  // The ends are reproduced up to the rounding of the interpolation weights.
   constexpr double kRounding = 1e-13;
   for (const State* end : {&from, static_cast<const State*>(&to)}) {
     double x = 0.0, v = 0.0, a = 0.0;
@@ -91,7 +91,8 @@ Finding check_interpolation(const Subject& subject) {
 Finding check_allocation(const Subject& subject) {
   if (allocation_count() < 0) return {true, "not counted under the sanitizers"};
   const std::string law = contact_law(subject);
-  // Modal damping of every mode makes the large system dense, that of two modes a sparse one of low rank.
+  // Modal damping of every mode gives the large system a dense matrix; that of two modes gives a sparse
+  // matrix plus a low-rank one.
   for (const auto& [elements, damping] :
        {std::pair(6, "mass_proportional = 0.5\n"), std::pair(100, "mass_proportional = 0.5\n"),
         std::pair(6, "modal = 0.02\n"), std::pair(100, "modal = 0.02\n"), std::pair(100, "modal = [0.02, 0.01]\n")}) {
@@ -110,8 +111,8 @@ Finding check_allocation(const Subject& subject) {
         std::swap(from, to);
       }
     };
-    // The same way again: caches, such as the pieces of a step with many changes of contact, grow at their first use,
-    // and a warning that fifteen steps in a row give rise to comes once.
+    // Repeat the same steps: caches (for example for the parts of a step with many contact changes) grow at
+    // their first use, and a warning that needs fifteen such steps in a row is issued once.
     take_steps();
     take_steps();
     const long before = allocation_count();

@@ -1,5 +1,6 @@
-// Two beams of butee, each a structure of its own, joined at their middles by a spring that neither scene holds, solved
-// by turns in windows of time (a partitioned iteration), and compared with both beams and the spring in one scene.
+// Two beams, each a separate Structure, coupled at their middles by a spring that neither scene contains. They are
+// solved alternately in time windows (partitioned iteration) and compared with one scene that contains both beams and
+// the spring.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -14,7 +15,7 @@ namespace {
 constexpr double kStiffness = 2.0e4;  // N/m, of the spring
 constexpr double kEnd = 0.2;          // s
 
-/// The largest difference of the first beam's middle from the single model, over its peak.
+/// The largest difference between the first beam's middle and that of the single model, over its peak.
 double difference(double window) {
   Structure drill = Structure::from_file("beam.toml", {.forced = {"string:middle"}});
   Structure casing = Structure::from_file("casing.toml", {.forced = {"casing:middle"}});
@@ -54,7 +55,7 @@ double difference(double window) {
 int main() {
   try {
     const double coarse = difference(4e-4), fine = difference(1e-4);
-    // Forces are straight lines within a window: second order, of which a stop that is struck leaves something.
+    // Forces are linear in each window, which gives second order; impacts on a stop reduce it somewhat.
     return fine < 1e-3 && fine < 0.25 * coarse ? 0 : 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

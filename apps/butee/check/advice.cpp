@@ -12,13 +12,16 @@
 namespace butee::app::check {
 namespace {
 
-/// The arctan law's pull is warned of where it moves the structure by more than this fraction of the gap.
+/// Warn if the residual force of open arctan stops displaces the structure by more than this fraction of the
+/// gap.
 constexpr double kNoticeablePull = 1e-6;
-/// A stop that is open by this part of its gap should not feel more than this part of its stiffness.
+/// Warn if a stop that is still open by the fraction kNearPart of its gap has more than the fraction
+/// kSoftStart of its stiffness.
 constexpr double kNearPart = 0.1, kSoftStart = 0.01;
-/// Fixed steps in the shortest contact that show its course.
+/// Least number of fixed steps in the shortest contact for the contact to be resolved.
 constexpr double kStepsInContact = 8.0;
-/// Fixed steps in a period of a load that follow it, and beam elements in a bending wave at its frequency.
+/// Least number of fixed steps in a period of a load, and of beam elements in a bending wave at its
+/// frequency.
 constexpr double kStepsInPeriod = 20.0, kElementsInWave = 8.0;
 
 class Adviser {
@@ -136,7 +139,7 @@ class Adviser {
                                " or less, or [output] impacts = true, which lists every impact with its peak force");
   }
 
-  /// A bending wave of angular frequency w is 2 pi (E I/(rho A w^2))^(1/4) long.
+  /// The length of a bending wave of angular frequency w is 2 pi (E I/(rho A w^2))^(1/4).
   void judge_mesh() {
     const double period = shortest_period();
     if (std::isinf(period)) return;
@@ -158,7 +161,7 @@ class Adviser {
             to_short_text(worst->length * fewest / kElementsInWave) + " m or less");
   }
 
-  /// A [material.X] or [section.X] that no element names.
+  /// Warns of each [material.X] or [section.X] that no element uses.
   void judge_names(const std::string& kind) {
     const config::Table& root = *session_.document.root.table();
     const config::Value* tables = root.find(kind);

@@ -13,15 +13,15 @@
 
 namespace butee::app::check {
 
-/// A likely mistake, and what to do about it.
+/// A likely mistake in the scene and its remedy.
 struct Advice {
-  std::string about;  ///< a short name for scripts: "critical-step", "output-interval", ...
+  std::string about;  ///< identifier for scripts: "critical-step", "output-interval", ...
   std::string text;
 };
 
-/// All that is known of a scene before it runs.
+/// Quantities of a scene that are known before it runs.
 struct Facts {
-  std::optional<dynamics::FrequencyRange> open, closed;  ///< nothing where the eigenvalue solver did not converge
+  std::optional<dynamics::FrequencyRange> open, closed;  ///< empty if the eigenvalue solver did not converge
   Mechanics mechanics;
   Survey survey;
   Estimate cost;

@@ -21,17 +21,18 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-/// A trial ends when it has taken this long, and where it tells too little by then, this long.
+/// Duration of a trial in s, and its extended duration if the shorter trial is not conclusive.
 constexpr double kTrialSeconds = 0.2, kLongTrialSeconds = 1.0;
-/// The part of the run that tells what an adaptive method does in the rest. With it, none of 1392 trials of 163 runs
-/// (scenes of apps/ and their variants, six methods) gave a number of steps that was wrong by a factor of 1.5.
+/// Fraction of the run after which an adaptive method's remaining steps can be estimated. With it, none of
+/// 1392 trials of 163 runs (scenes of apps/ and their variants, six methods) gave a number of steps that was
+/// wrong by a factor of 1.5.
 constexpr double kEnough = 1.0 / 3.0;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// A folder for the files of a trial, which goes with it.
+/// A temporary folder for the files of a trial, removed by the destructor.
 class TrialFolder {
  public:
   TrialFolder() : path_((fs::temp_directory_path() / "butee-check-XXXXXX").string()) {
@@ -45,7 +46,7 @@ class TrialFolder {
   TrialFolder& operator=(const TrialFolder&) = delete;
 
   std::string results() const { return path_ + "/results"; }
-  /// Excludes the last state.
+  /// Size of all files except the saved last state.
   double bytes() const {
     double bytes = 0.0;
     for (const auto& entry : fs::recursive_directory_iterator(path_))
@@ -58,7 +59,7 @@ class TrialFolder {
   std::string path_;
 };
 
-/// Looks at the course of a trial.
+/// Records steps and time over a trial, and whether a stop closed.
 class Watcher final : public time::Observer {
  public:
   Watcher(dynamics::Dynamics& dynamics, double begin)
@@ -75,7 +76,7 @@ class Watcher final : public time::Observer {
     seconds.add(step.to.t, seconds_since(started_));
     if (!has_struck_) look_at_stops(step.to);
   }
-  /// Whether a stop was closed at the end of a step, if there are any.
+  /// True if a stop was closed at the end of a step, or if there are no stops.
   bool has_struck() const { return has_struck_; }
 
   Pace steps, seconds;

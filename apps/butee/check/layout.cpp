@@ -14,7 +14,7 @@ using model::NodeId;
 
 struct Tie {
   NodeId a, b;
-  bool joined;  ///< one and the same node
+  bool joined;  ///< both names denote the same node
 };
 
 /// Places bodies so that tied nodes have the same x.
@@ -140,7 +140,7 @@ void add_stops(const model::Model& model, const Placer& placer, const std::vecto
 
 void add_loads(const model::Model& model, const Placer& placer, Layout& layout) {
   for (const model::Load& load : model.loads) {
-    if (!load.acceleration.isZero(0.0)) continue;  // Weight, and a base that moves.
+    if (!load.acceleration.isZero(0.0)) continue;  // Weight and a moving base are not drawn.
     LoadMark mark;
     for (const model::NodalValue& value : load.pattern)
       if (load.pattern.size() == 1 || value.dof.kind == DofKind::u) mark.at.push_back(placer.of(value.dof.node));

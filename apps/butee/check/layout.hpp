@@ -8,7 +8,7 @@
 
 namespace butee::app::check {
 
-/// A node's place in the picture: x in m along the beams, and the row that its beam or lone node has.
+/// The position of a node in the picture: x in m along the beams, and the row of its beam or lone node.
 struct Place {
   double x = 0.0;
   int row = 0;
@@ -25,13 +25,13 @@ struct Body {
 
 struct SupportMark {
   Place at;
-  bool u = false, theta = false;  ///< what is held
+  bool u = false, theta = false;  ///< which DOFs are held
 };
 
 /// One stop. `group` indexes Layout::stop_labels.
 struct StopMark {
   Place at;
-  std::optional<Place> other;  ///< of a stop between two nodes
+  std::optional<Place> other;  ///< the second node of a stop between two nodes
   bool positive = true, negative = true;
   double gap = 0.0;  ///< m
   int group = 0;
@@ -54,8 +54,9 @@ struct MassMark {
   double mass = 0.0;
 };
 
-/// A scene as plain shapes with places, for any kind of picture. Beams that share nodes go on at the shared node;
-/// bodies that springs or stops tie together lie one below the other, the tied nodes above each other.
+/// A scene as plain shapes with positions, for any kind of picture. Beams that share a node continue at that
+/// node; bodies that springs or stops connect lie in rows below each other, with connected nodes at the same
+/// x.
 struct Layout {
   std::string title;
   std::vector<Body> bodies;
@@ -65,14 +66,14 @@ struct Layout {
   std::vector<LoadMark> loads;
   std::vector<SpringMark> springs;
   std::vector<MassMark> masses;
-  double left = 0.0, right = 0.0;  ///< x of all bodies, m
+  double left = 0.0, right = 0.0;  ///< range of x of all bodies, m
   int rows = 0;
 };
 
-/// `laws` are the names of the stops' laws, one for each group.
+/// `laws`: names of the contact laws, one for each group of stops.
 Layout layout_of(const model::Model& model, const Survey& survey, const std::vector<std::string>& laws);
 
-/// The time course of a load in a few words: "300 cos(6.28 t)", from a pattern of a single unit of `unit`.
+/// The time function of a load, times `weight`, as short text: "300 N at 1 Hz".
 std::string describe(const model::TimeFunction& function, double weight, const char* unit);
 
 }  // namespace butee::app::check

@@ -12,12 +12,12 @@ namespace {
 
 using Factor = Eigen::SimplicialLDLT<SparseMatrix>;
 
-/// Of a scene with more stops, evenly chosen ones are looked at.
+/// If a scene has more stops, this many evenly spaced ones are examined.
 constexpr Index kMostSamples = 200;
-/// A pivot below this part of its diagonal entry is rounding of a zero.
+/// A pivot below this fraction of its diagonal entry counts as zero.
 constexpr double kSingular = 1e-13;
 constexpr int kInstants = 1000;
-/// A load that turns so often in half of the run oscillates.
+/// A load with at least this many reversals in the second half of the run counts as oscillating.
 constexpr int kTurnsOfOscillation = 2;
 
 bool is_regular(const SparseMatrix& matrix, Factor& factor) {
@@ -27,7 +27,7 @@ bool is_regular(const SparseMatrix& matrix, Factor& factor) {
   return (factor.vectorD().array() > kSingular * diagonal.array()).all();
 }
 
-/// One stop of a group: where it acts and whether it is shut at a displacement.
+/// One stop of a group: where it acts and whether a displacement closes it.
 struct Stop {
   const model::FreeStops& group;
   std::size_t i;
@@ -51,7 +51,7 @@ std::vector<Stop> stops_of(const model::System& system) {
   return stops;
 }
 
-/// The largest value that a load takes until the end; of a harmonic its amplitude.
+/// The largest absolute value of a load until the end of the run; the amplitude of a harmonic load.
 double amplitude(const model::TimeFunction& function, double end_time) {
   if (const auto harmonic = function.harmonic()) return std::abs(harmonic->amplitude);
   double largest = 0.0;
@@ -65,9 +65,10 @@ Vector pattern(const model::FreeLoad& load, Index size) {
   return force;
 }
 
-/// The part of a load that lasts: its end value where it settles (constants, ramps); where it goes up and down in the
-/// second half of the run (random tables, records of waves) its mean there less its standard deviation, both towards 0,
-/// since larger fluctuations open a stop again; 0 of a harmonic.
+/// The lasting part of a load. A load that settles (constants, ramps): its end value. A load that fluctuates
+/// in the second half of the run (random tables, wave records): its mean there, reduced in absolute value by
+/// the standard deviation down to 0 at least, because larger fluctuations open a stop again. A harmonic load:
+/// 0.
 double lasting_part(const model::TimeFunction& function, double end_time) {
   if (const auto harmonic = function.harmonic(); harmonic && harmonic->angular_frequency > 0.0) return 0.0;
   const double middle = 0.5 * end_time;

@@ -6,16 +6,17 @@
 
 namespace butee::app::check {
 
-/// The course of a quantity that grows over a run, such as the number of steps, from which its final value is foretold.
+/// History of a quantity that grows over a run, such as the number of steps, used to predict its final value.
 class Pace {
  public:
   explicit Pace(double begin) : begin_(begin) {}
 
-  /// The value at an instant (s, ascending). The memory is bounded.
+  /// Adds the value at the instant t, s, in ascending order. Memory is bounded.
   void add(double t, double value);
 
-  /// The value at `end`, s: in proportion to the time, where a rest at the slowest and one at the fastest eighth's pace
-  /// come within a factor of kUneven of that. Nothing before a first mark.
+  /// The predicted value at `end`, s, extrapolated in proportion to time. Empty before the first sample, and
+  /// if continuing at the slowest or fastest pace of any eighth of the trial would change the prediction by
+  /// more than the factor kUneven.
   std::optional<double> foretell(double end) const;
 
   static constexpr double kUneven = 1.3;

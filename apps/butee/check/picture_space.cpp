@@ -29,7 +29,8 @@ bool is_along_x(const NodeGroup& group) {
   return group.direction == Point{1.0, 0.0, 0.0} && group.origin == Point{0.0, 0.0, 0.0};
 }
 
-/// y upwards, x to the right and z towards the lower left, at angles at which nothing hides behind its neighbour.
+/// Projection: y upwards, x to the right, z towards the lower left; the angles keep neighbours from covering
+/// each other.
 std::array<double, 2> projected(const Point& p) {
   return {0.94 * p[0] - 0.5 * p[2], -p[1] + 0.2 * p[0] + 0.36 * p[2]};
 }
@@ -79,7 +80,7 @@ class Drawing {
     }
   }
 
-  /// Where a node is drawn; lone nodes that nothing places stand in a row below.
+  /// Position of a node in the picture; nodes without coordinates are drawn in a row below.
   std::array<double, 2> at(NodeId node) {
     const NodeId wanted = nodes_.canonical(node);
     const auto found = points_.find(wanted);

@@ -12,7 +12,7 @@ namespace butee::app::check {
 namespace {
 
 constexpr double kWidth = 960.0, kMargin = 70.0, kRowHeight = 170.0, kTop = 60.0;
-constexpr double kLargestGap = 34.0;  ///< px, how far the widest gap is drawn from its node
+constexpr double kLargestGap = 34.0;  ///< px, distance of the widest gap from its node
 constexpr std::size_t kMostMarks = 400;
 constexpr const char* kBeam = "#1f3b57";
 constexpr const char* kSupport = "#555555";
@@ -97,7 +97,7 @@ class Drawing {
   }
 
   void draw(const SpringMark& spring) {
-    // Those to ground beside the node, under which a stop may stand.
+    // Springs to ground are drawn beside the node, because a stop may be drawn below it.
     const double begin = y(spring.a.row), place = x(spring.a.x) - (spring.b ? 0.0 : 18.0);
     if (!spring.b) svg_.line(x(spring.a.x), begin, place, begin, kSpring, 1.5);
     const double last = spring.b ? x(spring.b->x) : place, end = spring.b ? y(spring.b->row) : begin + 48.0;
@@ -130,7 +130,7 @@ class Drawing {
                   2.0);
         continue;
       }
-      // Either way: most loads change their sign.
+      // Arrowheads at both ends, because most loads change sign.
       svg_.line(place, tip - length + 4.0, place, tip - 4.0, kLoad, 2.0);
       svg_.polygon({{place, tip}, {place - 4.5, tip - 8.0}, {place + 4.5, tip - 8.0}}, kLoad);
       svg_.polygon({{place, tip - length}, {place - 4.5, tip - length + 8.0}, {place + 4.5, tip - length + 8.0}},
@@ -158,7 +158,7 @@ class Drawing {
   const Layout& layout_;
   Svg svg_;
   double widest_gap_ = 0.0;
-  std::map<int, int> labels_;  ///< of loads, by row
+  std::map<int, int> labels_;  ///< number of load labels in each row
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Glyphs {
 const Glyphs kBoxes = {"━", "╋", "▼", "▲", "△", "▐", "↕", "↻", "≷", "●", "●", "┆"};
 const Glyphs kPlain = {"=", "+", "v", "^", "A", "|", "I", "@", "z", "O", "o", ":"};
 
-/// One line of cells, each holding one character of any number of bytes.
+/// One line of cells; each cell holds one character of any number of bytes.
 class Line {
  public:
   explicit Line(int width) : cells_(static_cast<std::size_t>(width), " ") {}
@@ -66,7 +66,7 @@ class TextDrawing {
   }
 
  private:
-  /// What the signs of supports mean, where there are any.
+  /// Legend of the support symbols that occur in the picture.
   std::string supports() const {
     bool u = false, theta = false;
     for (const SupportMark& support : layout_.supports) {
@@ -80,7 +80,7 @@ class TextDrawing {
     return text.empty() ? "" : text + "\n";
   }
 
-  /// The signs of a group of stops, a positive side above.
+  /// The symbols of a group of stops; the positive side is drawn above.
   std::string stops_of(int group) const {
     bool above = false, below = false, between = false;
     for (const StopMark& stop : layout_.stops) {
@@ -121,7 +121,7 @@ class TextDrawing {
     for (const MassMark& mass : layout_.masses)
       if (mass.at.row == row) beam.put(column(mass.at.x), glyphs_.mass);
     for (const SpringMark& spring : layout_.springs) {
-      // Beside the node, under which a stop or a support may stand.
+      // Beside the node, because a stop or a support may be drawn below it.
       if (!spring.b && spring.a.row == row) below.put(column(spring.a.x) - 2, glyphs_.spring);
       if (spring.b && std::min(spring.a.row, spring.b->row) == row) link.put(column(spring.a.x), glyphs_.spring);
     }

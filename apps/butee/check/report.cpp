@@ -14,9 +14,10 @@
 namespace butee::app::check {
 namespace {
 
-/// A frequency below this fraction of the highest is zero within the rounding of the eigenvalue solver.
+/// A frequency below this fraction of the highest is zero within the rounding errors of the eigenvalue
+/// solver.
 constexpr double kZeroFrequency = 1e-6;
-/// Of a list of damped modes, so many are printed.
+/// Number of entries printed from a list of damped modes.
 constexpr Index kListedModes = 10;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kRungeKutta4 = 2.8284271247461903, kCentralDifferences = 2.0;
@@ -39,10 +40,10 @@ void print_contents(const model::Model& model, const model::System& system, cons
   std::printf("loads      %zu\n", model.loads.size());
 }
 
-/// `modal` in words: the ratios and, of a list, the frequencies that they belong to.
+/// `modal` as text: the damping ratios and, if they are a list, the frequencies of their modes.
 void print_modal_damping(const model::System& system) {
   const model::Damping& damping = system.damping;
-  (void)dynamics::ModalDamping::of(system);  // Throws where a run would.
+  (void)dynamics::ModalDamping::of(system);  // Throws if a run would.
   if (damping.every_mode != 0.0)
     std::printf("damping    modal: the ratio %s in all %td modes\n", to_short_text(damping.every_mode).c_str(),
                 system.size());
@@ -58,7 +59,7 @@ void print_modal_damping(const model::System& system) {
   if (count > kListedModes) std::printf("           ... and %td more\n", count - kListedModes);
 }
 
-/// What the system does without, whatever the scene names, and what a run of it does not follow and does not load.
+/// Parts of the scene that the system ignores, and motions and loads that a run leaves out.
 std::vector<std::string> skipped(const scene::Scene& session, const model::System& system) {
   std::vector<std::string> lines;
   if (system.skipped_stops > 0)
@@ -84,7 +85,7 @@ std::vector<std::string> skipped(const scene::Scene& session, const model::Syste
   return lines;
 }
 
-/// "3 ... 4", or "3" where both read the same.
+/// "3 ... 4", or "3" if both print alike.
 std::string span(double low, double high) {
   const std::string first = to_short_text(low), last = to_short_text(high);
   return first == last ? first : first + " ... " + last;

@@ -5,7 +5,8 @@
 
 namespace butee::app::check {
 
-/// Prints what the scene holds and skips, its frequencies, critical steps and cost; `picture` goes in between.
+/// Prints the contents of the scene and its ignored parts, frequencies, critical steps and cost; `picture` is
+/// printed in between.
 void print(const scene::Scene& session, const model::System& system, const Facts& facts, const std::string& picture);
 
 Json to_json(const scene::Scene& session, const model::System& system, const Facts& facts,

@@ -29,8 +29,8 @@ class SurveySink final : public model::MatrixSink {
       springs_.push_back({dofs[0].node, dofs.size() == 2 ? dofs[1].node : -1, k});
   }
 
-  /// The end of an element. Of matrices that come entry by entry the diagonal is no spring to ground, and no mass of a
-  /// single node where masses are coupled.
+  /// Ends an element. In matrices given entry by entry, a diagonal entry is not a spring to ground; if masses
+  /// are coupled, it is not a lumped mass either.
   void end() {
     if (!couples_masses_)
       for (const MassPlace& mass : masses_) {
@@ -44,7 +44,7 @@ class SurveySink final : public model::MatrixSink {
   }
 
  private:
-  /// The bending stiffness from the moment that a unit rotation of one end takes, 4 E I / l.
+  /// Bending stiffness from the moment at one end due to a unit rotation of that end, 4 E I / l.
   void add_stretch(std::span<const NodalDof> dofs, const ElementMatrices& matrices, double mass) {
     const NodeId a = dofs[0].node, b = dofs[2].node;
     const model::NodeGroup& group = nodes_.group_of(a);

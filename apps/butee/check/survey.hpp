@@ -27,13 +27,14 @@ struct MassPlace {
   double mass;  ///< kg
 };
 
-/// What the elements of a model are, told from the matrices that they add, so that elements of modules count as well.
+/// The mechanical parts of a model, identified from its element matrices so that elements of modules are
+/// included.
 struct Survey {
   std::vector<Stretch> stretches;
   std::vector<SpringPlace> springs;
   std::vector<MassPlace> masses;
   double total_mass = 0.0;   ///< kg, along u
-  double lumped_mass = 0.0;  ///< kg, of it on single nodes
+  double lumped_mass = 0.0;  ///< kg, the part of total_mass lumped at single nodes
 };
 
 Survey survey_of(const model::Model& model);

@@ -15,7 +15,7 @@ class Svg {
   void path(const std::vector<std::pair<double, double>>& points, const std::string& colour, double width = 1.0);
   void polygon(const std::vector<std::pair<double, double>>& points, const std::string& fill);
   void circle(double x, double y, double radius, const std::string& fill);
-  /// `anchor` is start, middle or end; any text is taken.
+  /// `anchor` is start, middle or end; `text` is escaped.
   void text(double x, double y, const std::string& text, const std::string& anchor = "start", double size = 12.0,
             const std::string& colour = "#222222");
 

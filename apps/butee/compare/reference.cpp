@@ -15,16 +15,16 @@
 namespace butee::app::compare {
 namespace {
 
-/// Two references part company where they differ by this fraction of the peak.
+/// Two reference solutions have diverged once they differ by this fraction of the peak.
 constexpr double kParted = 1e-3;
-/// A reference may take this long, s.
+/// Longest time for a reference solution, s.
 constexpr double kTimeLimit = 600.0;
 constexpr double kSameRow = 1e-9;
 
-/// Of exponential, where exact refuses a scene.
+/// Tolerance of `exponential`, used if `exact` refuses the scene.
 constexpr double kTight = 1e-8;
 
-/// Relative to the peak: the start of the second computation differs by this.
+/// Perturbation of the initial displacements in the second computation, relative to the peak.
 constexpr double kRounding = 1e-16;
 
 double largest_of(const std::vector<double>& values) {
@@ -48,7 +48,7 @@ Values compute(const config::Document& scene, const plugin::Catalogue& catalogue
   return std::move(answer.values);
 }
 
-/// The number of instants at which both agree in every column.
+/// The number of leading instants at which both solutions agree in every column.
 std::size_t agreement(const Values& a, const Values& b) {
   std::size_t agreed = a.front().size();
   for (std::size_t column = 0; column < a.size(); ++column) {
@@ -68,7 +68,7 @@ void compare_both(const Values& other, const Question& question, Reference& refe
   reference.uncertainty = std::isfinite(difference.rms) ? difference.rms : 0.0;
 }
 
-/// A column of the file at the times of the question.
+/// A column of the file, sampled at the times of the question.
 std::vector<double> read_column(const std::string& path, const std::string& column, const Question& question) {
   std::ifstream file(path);
   if (!file) throw InputError("study.reference = \"" + path + "\": cannot be read");
@@ -129,7 +129,7 @@ Reference find_reference(const Study& study, const config::Document& scene, plug
     reference.origin = "exact at order 30, and at order 22 from a start that differs by rounding";
     compare_both(by("exact", "order", config::Value(std::int64_t{22}), perturbation()), question, reference);
   } catch (const InputError&) {
-    // Without all modes exponential would agree with itself alone.
+    // Without all modes, `exponential` would agree only with itself.
     const auto dofs = assemble(scene::read_scene(scene, catalogue).model).size();
     if (!reference.values.empty() || catalogue.find("exponential") == nullptr ||
         dofs > dynamics::ModalSystem::kAllModes)

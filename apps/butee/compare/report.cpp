@@ -40,7 +40,7 @@ std::string setting_of(const Row& row) {
   return row.knob.empty() ? "as written" : row.knob + " = " + number(row.value);
 }
 
-/// An error can be told where the reference is several times as accurate.
+/// True if the reference is accurate enough to measure an error of this size.
 bool is_beyond_doubt(const SceneResult& result, double target) {
   constexpr double kTimes = 3.0;
   return target > kTimes * result.reference.uncertainty;
@@ -152,7 +152,7 @@ std::vector<Row> read_csv(const std::string& path) {
       for (std::size_t i = 0; i < counts.size(); ++i) *counts[i] = std::stoll(cells[9 + i]);
       rows.push_back(std::move(row));
     } catch (const std::exception&) {
-      continue;  // a line cut short by an interruption
+      continue;  // incomplete line left by an interruption
     }
   }
   return rows;
@@ -195,12 +195,12 @@ std::string markdown(const Study& study, const std::vector<SceneResult>& results
 
 namespace {
 
-/// Methods that a picture tells apart; the others are grey.
+/// Number of methods that get a colour in the picture; the others are grey.
 constexpr std::size_t kTold = 10;
-/// The error at which methods are ranked.
+/// The error at which methods are ranked by time.
 constexpr double kRanked = 1e-3;
 
-/// The methods with points to draw, the fastest to an error of kRanked first.
+/// The methods with points to draw, ordered by the time to reach an error of kRanked.
 std::vector<std::string> ranked_methods(const SceneResult& result) {
   std::vector<std::pair<double, std::string>> ranked;
   for (const std::string& method : methods_of(result.rows)) {
@@ -210,7 +210,7 @@ std::vector<std::string> ranked_methods(const SceneResult& result) {
       best = std::min(best, row.error.rms);
       if (row.error.rms <= kRanked) least = std::min(least, row.seconds);
     }
-    // Those that do not come so far follow by how far they come.
+    // Methods that do not reach it follow, ordered by their smallest error.
     if (std::isfinite(best)) ranked.emplace_back(std::isfinite(least) ? least : 1e9 * best, method);
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
@@ -250,7 +250,7 @@ bool draw(const SceneResult& result, const std::string& folder) {
             gnuplot::quoted(printable(result.title.empty() ? result.scene : result.title)) + " noenhanced\n";
   std::string plot = "plot ";
   if (shows_reference) plot += number(own, 6) + " w l lc rgb '#000000' dt 3 t 'reference itself', ";
-  // The grey ones first, under the others.
+  // Grey curves first, below the others.
   for (std::size_t i = drawn.size(); i-- > 0;) {
     plot += "$runs index " + std::to_string(i);
     if (i >= kTold)

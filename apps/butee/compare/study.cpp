@@ -20,14 +20,14 @@ using config::Parameters;
 using config::Table;
 using config::Value;
 
-/// Steps of fixed-step methods are halved so often at most; tolerances are divided by sqrt(10).
+/// Largest number of halvings of a fixed step; successive tolerances differ by the factor sqrt(10).
 constexpr int kMostHalvings = 18;
 const double kToleranceRatio = std::sqrt(10.0);
-/// The first step of an adaptive method where the scene says nothing, s.
+/// Initial step of an adaptive method if the scene does not set it, s.
 constexpr double kFirstStep = 1e-5;
-/// An unconditionally stable method begins with this many steps.
+/// Number of steps in the coarsest run of an unconditionally stable method.
 constexpr double kFewestSteps = 200.0;
-/// A bounded one begins at this part of its limit.
+/// Coarsest step of a conditionally stable method, as a fraction of its stability limit.
 constexpr double kSafeStep = 0.95;
 
 std::vector<Parameter> study_parameters() {
@@ -112,7 +112,7 @@ const Parameter* knob_of(const time::IntegratorType& type) {
 std::vector<double> tolerance_values(const Parameter& knob) {
   std::vector<double> values;
   for (double value = knob.swept->first; value > knob.swept->second * 0.99; value /= kToleranceRatio)
-    values.push_back(std::max(value, knob.swept->second));  // repeated division may end a bit below the bound
+    values.push_back(std::max(value, knob.swept->second));  // rounding may fall below the bound
   return values;
 }
 
@@ -173,7 +173,7 @@ config::Document with_method(const config::Document& scene, const time::Integrat
   config::Document document = scene;
   Table& root = *document.root.table();
   const Table before = *root["integrator"].table();
-  // A key directly in [integrator] is the scene's own method's: another's `tolerance` means something else.
+  // Keys directly in [integrator] belong to the scene's own method; another's `tolerance` differs in meaning.
   const Value* own_type = before.find("type");
   const std::string chosen = own_type != nullptr && own_type->text() != nullptr ? *own_type->text() : "auto";
   const bool is_own =

@@ -18,10 +18,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Short runs are repeated until they took this together, and at least so often.
+/// Short runs are repeated until their total time reaches kReliable, s, and at least kFewestRuns times.
 constexpr double kReliable = 0.1;
 constexpr int kFewestRuns = 3, kMostRuns = 200;
-/// Steps between two looks at the clock.
+/// Steps between two checks of the elapsed time.
 constexpr int kStepsUnwatched = 64;
 constexpr double kSameInstant = 1e-9;
 
@@ -29,7 +29,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Takes the quantity at the times of the question, by the method's own interpolant.
+/// Samples the quantities at the times of the question with the method's own interpolant.
 class Sampler final : public time::Observer {
  public:
   Sampler(const Question& question, dynamics::Dynamics& dynamics)
@@ -104,7 +104,7 @@ Question question_of(const scene::Scene& session, const std::vector<std::string>
 
 Answer run_once(scene::Scene& session, const Question& question, double time_limit, double perturbation) {
   Answer answer;
-  const log::WithoutWarnings quiet;  // The table says which methods are slow, or fail.
+  const log::WithoutWarnings quiet;  // The table reports slow or failed methods.
   const auto begin = Clock::now();
   scene::Assembly assembly(session, perturbed_by(perturbation));
   dynamics::Dynamics& dynamics = assembly.dynamics;

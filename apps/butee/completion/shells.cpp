@@ -9,7 +9,7 @@ std::string words_of(const std::vector<std::string>& words) {
   return butee::join(words, " ");
 }
 
-/// Between single quotes of a shell.
+/// Quotes text in single quotes for a shell.
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -32,7 +32,7 @@ std::string bash_of(const Values& values) {
   return "COMPREPLY=($(compgen -f -X '!*.toml' -- \"$cur\") $(compgen -d -- \"$cur\"))";
 }
 
-/// Colons and brackets part the fields of zsh's own notation.
+/// Escapes colons and brackets, which are separators in zsh's notation.
 std::string zsh_text(const std::string& text) {
   std::string out;
   for (const char c : text) {

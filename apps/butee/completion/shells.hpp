@@ -7,7 +7,7 @@
 
 namespace butee::app::completion {
 
-/// What may follow an option, or stand as the argument of a command.
+/// Words that may follow an option, or be an argument of a command.
 struct Values {
   enum class Kind { nothing, words, folders, files, scenes } kind = Kind::nothing;
   std::vector<std::string> words;
@@ -26,8 +26,8 @@ struct Verb {
   Values argument;
 };
 
-/// The commands as a shell's completion sees them. `topics` and `names` may follow `help` and `plugins`, `kinds`
-/// `init`.
+/// The commands as shell completion needs them. `names` may follow `plugins`, `kinds`
+/// may follow `init`.
 std::vector<Verb> verbs_of(const CLI::App& program, const std::vector<std::string>& names,
                            const std::vector<std::string>& kinds);
 

@@ -7,7 +7,7 @@
 namespace butee::app::completion {
 namespace {
 
-/// From the type's name, which is what people read in --help: DIR, FILE, MODEL.toml, or {a,b,c}.
+/// Determined from the type name shown by --help: DIR, FILE, MODEL.toml, or {a,b,c}.
 Values values_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto open = type.find('{'), close = type.find('}');

@@ -8,7 +8,7 @@
 namespace butee::app::help {
 namespace {
 
-/// Text as roff takes it: no line begins with a command, no hyphen is a line break.
+/// Escapes text for roff: no line starts with a command, and hyphens are not line breaks.
 std::string escaped(const std::string& text) {
   std::string out;
   bool line_begins = true;
@@ -33,7 +33,7 @@ std::string item(const std::string& term, const std::string& text) {
   return ".TP\n.B " + escaped(term) + "\n" + escaped(text) + "\n";
 }
 
-/// "DIR", or "{bash,zsh,fish}" where only some words are allowed.
+/// "DIR", or "{bash,zsh,fish}" if only certain words are allowed.
 std::string type_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto checks = type.find(':');

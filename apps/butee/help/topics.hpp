@@ -7,7 +7,7 @@
 
 namespace butee::app::help {
 
-/// A subject of `butee help`. What modules and the framework declare is printed from their declarations.
+/// A topic of `butee help`. Types of modules and of the framework are printed from their declarations.
 struct Topic {
   std::string name, summary;
   std::string (*text)(const plugin::Catalogue& catalogue);
@@ -15,7 +15,7 @@ struct Topic {
 
 const std::vector<Topic>& topics();
 
-// Of scenes, in scene_topics.cpp.
+// Topics on scenes, in scene_topics.cpp.
 std::string model_text(const plugin::Catalogue& catalogue);
 std::string selectors_text(const plugin::Catalogue& catalogue);
 std::string elements_text(const plugin::Catalogue& catalogue);
@@ -26,7 +26,7 @@ std::string damping_text(const plugin::Catalogue& catalogue);
 std::string integrators_text(const plugin::Catalogue& catalogue);
 std::string output_text(const plugin::Catalogue& catalogue);
 
-// Of the program, in program_topics.cpp.
+// Topics on the program, in program_topics.cpp.
 std::string methods_text(const plugin::Catalogue& catalogue);
 std::string results_text(const plugin::Catalogue& catalogue);
 std::string limits_text(const plugin::Catalogue& catalogue);

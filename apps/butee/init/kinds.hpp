@@ -5,7 +5,7 @@
 
 namespace butee::app::init {
 
-/// A scene to start from: apps/templates/NAME.toml, whose first line is a comment that says what it is.
+/// A template for a new scene: apps/templates/NAME.toml; its first line is a comment that describes it.
 struct Kind {
   std::string_view name, text;
 

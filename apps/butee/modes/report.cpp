@@ -12,14 +12,14 @@ namespace {
 using model::NodalDof;
 using model::NodeId;
 
-/// An effective mass below this part of the total is zero for readers of tables.
+/// An effective mass below this fraction of the total is printed as zero.
 constexpr double kNoMass = 1e-12;
 
 std::string exact(double value) {
   return formatted("%.17g", value);
 }
 
-/// The value of a shape on a DOF; 0 where it is held, nothing where it does not exist.
+/// The value of a shape at a DOF; 0 if the DOF is held, empty if it does not exist.
 std::string cell(const Analysis& analysis, const model::DofTable& dofs, NodalDof dof, Index mode) {
   const Index row = dofs.index(dof);
   if (row == model::DofTable::kAbsent) return "";
@@ -33,7 +33,7 @@ std::vector<const model::NodeGroup*> groups_of(const model::NodeTable& nodes) {
   return groups;
 }
 
-/// What each mode is drawn with, its largest |u| being 1; 0 where it has no u.
+/// Scale factor of each drawn mode, which makes its largest |u| equal to 1; 0 if it has no u.
 std::vector<double> scales_of(const Analysis& analysis, const model::Model& model, const model::DofTable& dofs) {
   std::vector<double> scales(analysis.modes.size());
   for (NodeId node = 0; node < model.nodes.size(); ++node)

@@ -10,20 +10,20 @@ namespace butee::app::modes {
 using Analysis = dynamics::ModeAnalysis;
 using dynamics::Mode;
 
-/// The table for people.
+/// Prints the table of modes.
 void print(const Analysis& analysis);
 
 Json to_json(const Analysis& analysis);
 
-/// frequencies.csv: a row for each mode.
+/// Writes frequencies.csv, one row for each mode.
 std::string frequencies_csv(const Analysis& analysis);
 
-/// shapes.csv: a row for each node with its coordinate along its beam (empty for a lone node) and, mode by mode, u and
-/// theta (empty where the node has no such DOF), mass-normalised.
+/// Writes shapes.csv: one row for each node with its coordinate along its beam (empty for a lone node) and,
+/// for each mode, mass-normalised u and theta (empty if the node has no such DOF).
 std::string shapes_csv(const Analysis& analysis, const model::Model& model, const model::System& system);
 
-/// Draws the shapes of the beams as modes.svg and modes.png in the folder by gnuplot, whose script and data stay. False
-/// where gnuplot is missing or failed.
+/// Draws the beam shapes as modes.svg and modes.png in the folder by gnuplot; script and data are kept.
+/// Returns false if gnuplot is missing or failed.
 bool draw(const Analysis& analysis, const model::Model& model, const model::System& system,
           const record::ResultFolder& folder);
 

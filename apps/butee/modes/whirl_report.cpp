@@ -11,10 +11,11 @@ namespace butee::app::modes {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-/// Orbits flatter than this are called planar.
+/// Orbits with a smaller axis ratio are called planar.
 constexpr double kPlanar = 1e-6;
 
-/// The sign of forward whirl at a speed; 0 where whirl has no sense, since modes of both senses are alike.
+/// The sign of forward whirl at a speed; 0 if modes of both senses are alike, so that forward whirl is
+/// undefined.
 double sense_at(const dynamics::Whirl& whirl, double speed) {
   if (speed != 0.0) return speed;
   return whirl.system().stiffness_is_symmetric ? 0.0 : 1.0;

@@ -15,7 +15,7 @@ struct WhirlAnalysis {
   std::string title;
   Index dofs = 0;
   double speed = 0.0;  ///< rad/s
-  double sense = 0.0;  ///< the sign that forward whirl has: that of the speed; at rest +1 with cross terms, else 0
+  double sense = 0.0;  ///< sign of forward whirl: that of the speed; at rest +1 with cross terms, otherwise 0
   std::vector<dynamics::WhirlMode> modes;
 };
 
@@ -28,9 +28,9 @@ struct Campbell {
   std::vector<dynamics::CriticalSpeed> critical;
 };
 
-/// Modes that oscillate, at a speed, rad/s.
+/// Oscillating modes at a speed, rad/s.
 WhirlAnalysis whirl_at(const dynamics::Whirl& whirl, const std::string& title, double speed, Index count);
-/// At `steps` + 1 speeds from `from` to `to`, rad/s.
+/// Modes at `steps` + 1 speeds from `from` to `to`, rad/s.
 Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double from, double to, Index steps,
                   double order, Index count);
 
@@ -38,9 +38,9 @@ void print(const WhirlAnalysis& analysis);
 void print(const Campbell& diagram);
 Json to_json(const WhirlAnalysis& analysis);
 Json to_json(const Campbell& diagram);
-/// A row for each speed and mode.
+/// Writes one row for each speed and mode.
 std::string campbell_csv(const Campbell& diagram);
-/// Writes campbell.gp and draws campbell.png and .svg by gnuplot; false where gnuplot did not.
+/// Writes campbell.gp and draws campbell.png and .svg by gnuplot; returns false if gnuplot failed.
 bool draw(const Campbell& diagram, const record::ResultFolder& folder);
 
 }  // namespace butee::app::modes

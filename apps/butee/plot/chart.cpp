@@ -13,12 +13,13 @@ namespace butee::app::plot {
 namespace {
 
 constexpr std::size_t kTitleWidth = 80;
-/// Levels beyond this many times the largest value are left out of the picture: they would flatten the curves.
+/// Levels above this multiple of the largest value are left out of the picture; they would flatten the
+/// curves.
 constexpr double kFarAway = 4.0;
 constexpr const char* kMarkStyle = "dt 2 lw 1 lc rgb '#555555'";
 
-constexpr double kMargin = 0.05;      ///< of an axis beyond what it shows
-constexpr double kSmallest = 1e-300;  ///< an axis of no length at all is none
+constexpr double kMargin = 0.05;      ///< margin of an axis beyond its data, as a fraction of their range
+constexpr double kSmallest = 1e-300;  ///< smallest length of an axis
 
 std::string number(double value) {
   return short_number(value, 7);
@@ -31,7 +32,8 @@ struct Extent {
     most = std::max(most, value);
   }
   double largest() const { return most < least ? 0.0 : std::max(std::abs(least), std::abs(most)); }
-  /// Of an axis: as given, else all there is and a margin of that fraction.
+  /// The range of an axis: the given ends, otherwise the extent of the data plus a margin, which is a
+  /// fraction of that extent.
   std::string range(std::optional<double> begin, std::optional<double> end, double margin, const Scale& scale) const {
     if (most < least) return "[*:*]";
     const double room = most > least ? margin * (most - least) : 0.5 * std::max(std::abs(most), kSmallest);
@@ -66,7 +68,7 @@ std::string folded_title(std::string title) {
   std::replace(title.begin(), title.end(), '"', '\'');
   std::replace(title.begin(), title.end(), '\\', '/');
   std::replace(title.begin(), title.end(), '`',
-               '\'');  // Within double quotes a command, whose output would stand there.
+               '\'');  // gnuplot runs text between backquotes as a command, even within double quotes.
   std::replace_if(
       title.begin(), title.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
   if (title.size() <= kTitleWidth) return title;

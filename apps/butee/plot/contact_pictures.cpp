@@ -14,14 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A picture shows no more; the hardest closings are kept.
+/// Most closings in a picture; those with the largest forces are kept.
 constexpr std::size_t kMostClosings = 20000;
-/// A closing is drawn this part of the picture wide at least.
+/// Least width of a drawn closing, as a fraction of the picture's width.
 constexpr double kNarrowest = 1.0 / 700.0;
-/// Contacts that an axis has names for.
+/// Most contacts for which the axis shows every name.
 constexpr std::size_t kMostNames = 16;
 
-/// Rows of cells by the names of the first line; none where the file is absent. A line cut short is left out.
+/// Rows of cells, accessed by the column names of the first line; empty if the file is missing. Incomplete
+/// lines are skipped.
 class Rows {
  public:
   explicit Rows(const fs::path& path) {
@@ -59,7 +60,8 @@ std::string title_of(const Result& result) {
   return "set title \"" + folded_title(result.title.empty() ? result.label : result.title) + "\" noenhanced\n";
 }
 
-/// The axis of places, which goes on by `beyond`: metres, or names, all of which or every so many.
+/// gnuplot commands for the axis of contact positions, extended by `beyond` at both ends. Labels are metres
+/// or contact names, of which every n-th is shown if there are many.
 std::string place_axis(const Result& result, const char* axis, double beyond) {
   const std::string name = axis;
   double least = INFINITY, most = -INFINITY;
@@ -78,7 +80,7 @@ std::string place_axis(const Result& result, const char* axis, double beyond) {
   return text + ")\n";
 }
 
-/// Between the places of two contacts, or 1.
+/// The smallest distance between the positions of two contacts; 1 if there are no two positions.
 double least_distance(const Result& result) {
   double least = INFINITY;
   for (const ContactPlace& a : result.contact_places)
@@ -108,7 +110,7 @@ std::vector<Picture> contact_map(const Result& result, Window window, bool sever
   const std::size_t found = closings.size();
   std::sort(closings.begin(), closings.end(), [](const Closing& a, const Closing& b) { return a.force > b.force; });
   closings.resize(std::min(found, kMostClosings));
-  // The hardest are drawn last, over the others.
+  // The largest forces are drawn last, over the others.
   std::reverse(closings.begin(), closings.end());
   const Scale time = scale_for(last, "s"), force = scale_for(closings.back().force, "N");
   Picture picture;

@@ -11,8 +11,8 @@ bool holds(const model::NodeTable& nodes, const std::vector<model::NodeId>& some
                      [&](model::NodeId node) { return nodes.canonical(node) == nodes.canonical(wanted); });
 }
 
-/// x of the nodes of all beams, by canonical number: a beam that shares a node with an earlier one goes on from there.
-/// Empty where a beam lies in another direction.
+/// x of the nodes of all beams, by canonical number. A beam that shares a node with an earlier one continues
+/// there. Empty if a beam lies in another direction.
 std::map<model::NodeId, double> along_x(const model::NodeTable& nodes) {
   std::map<model::NodeId, double> places;
   for (const std::string& name : nodes.group_names()) {

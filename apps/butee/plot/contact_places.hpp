@@ -6,13 +6,13 @@
 
 namespace butee::app::plot {
 
-/// The positions at which a displacement of a node meets stops to ground, m; ascending.
+/// The displacements at which a node touches stops to ground, m; ascending.
 std::vector<double> gaps_of(const model::Model& model, model::NodeId node, DofKind kind);
 
-/// Rings and planes to ground that a node may touch in the plane (uy, uz).
+/// Rings and planes to ground that a node can touch in the plane (uy, uz).
 std::vector<Wall> walls_of(const model::Model& model, model::NodeId node);
 
-/// Fills in Result::contact_places.
+/// Sets Result::contact_places.
 void find_contact_places(const model::Model& model, Result& result);
 
 }  // namespace butee::app::plot

@@ -9,13 +9,13 @@
 namespace butee::app::plot {
 namespace {
 
-/// The largest displacement is drawn as long as this part of the structure.
+/// Drawn length of the largest displacement, as a fraction of the structure's size.
 constexpr double kDrawn = 0.1;
 constexpr std::size_t kMostRecords = 2000;
 
 using Points = std::vector<std::array<double, 3>>;
 
-/// Displacements at a record, and the largest of them.
+/// Displacements at a record, and the largest displacement.
 class Displacements {
  public:
   explicit Displacements(model::FieldReader& fields) : fields_(fields), values_(fields.layout().nodes.size()) {
@@ -50,7 +50,7 @@ double largest_in(const Points& points) {
   return largest;
 }
 
-/// gnuplot's block of lines, each apart from the next. Its vertical axis is ours along y.
+/// gnuplot's data block of lines, separated from each other. Its vertical axis is the y axis of the scene.
 std::string block(const char* name, const model::FieldLayout& layout, const Points& moved, double factor) {
   std::string text = std::string(name) + " << EOD\n";
   for (const model::FieldLine& line : layout.lines) {
@@ -78,7 +78,7 @@ std::vector<Picture> frame_pictures(const Result& result, model::FieldReader& fi
       most[axis] = std::max(most[axis], position[axis]);
     }
   Displacements displacements(fields);
-  // Beams along x lie side by side, never above each other.
+  // Beams along x lie side by side, not above each other.
   if (layout.lines.empty() || !displacements.any() || !(most[1] > least[1])) return {};
   std::size_t chosen = 0, seen = 0;
   double largest = -1.0;

@@ -6,10 +6,10 @@
 namespace butee::app::plot {
 namespace {
 
-constexpr std::size_t kPoints = 12000;  ///< of a smooth curve
-constexpr std::size_t kBetween = 8;     ///< points for each row at most
+constexpr std::size_t kPoints = 12000;  ///< total points of a smooth curve
+constexpr std::size_t kBetween = 8;     ///< most points between two rows
 
-/// The cubic with values y0, y1 and slopes d0, d1 at the ends of an interval of length h.
+/// The Hermite cubic with values y0, y1 and slopes d0, d1 at the ends of an interval of length h.
 double hermite(double y0, double y1, double d0, double d1, double h, double s) {
   const double r = 1.0 - s;
   return r * r * (1.0 + 2.0 * s) * y0 + s * s * (3.0 - 2.0 * s) * y1 + h * s * r * (r * d0 - s * d1);
@@ -32,7 +32,7 @@ Motion::Point Motion::at(std::size_t i, double s) const {
 std::vector<Motion::Point> Motion::once_per(double period) const {
   std::vector<Point> points;
   if (times_.size() < 2 || !(period > 0.0)) return points;
-  // An instant that misses the last row by rounding is that row.
+  // An instant that misses the last row only by rounding counts as that row.
   const double end = times_.back() + 1e-9 * period;
   std::size_t i = 0;
   for (double k = std::ceil(times_.front() / period - 1e-9); k * period <= end; ++k) {

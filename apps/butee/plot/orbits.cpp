@@ -9,7 +9,7 @@
 namespace butee::app::plot {
 namespace {
 
-/// The column of a displacement by either of its names.
+/// The column of a displacement, under either of its two names.
 const std::vector<double>* displacement(const Item& item, const char* name, const char* other) {
   const auto* column = item.result->column(item.label, name);
   return column != nullptr ? column : item.result->column(item.label, other);
@@ -21,9 +21,9 @@ const std::vector<double>* along_z(const Item& item) {
   return displacement(item, "uz", "w");
 }
 
-constexpr int kCircle = 180;  ///< points of a ring
+constexpr int kCircle = 180;  ///< points of a drawn ring
 
-/// The edges of rings and planes; those far beyond the orbit are named alone.
+/// Adds the edges of rings and planes; edges far beyond the orbit appear only in the legend.
 void add_walls(const Item& item, double largest, Chart& chart) {
   constexpr double kFar = 4.0;
   for (const Probe& probe : item.result->probes) {
@@ -87,7 +87,7 @@ std::vector<Chart> of_run_up(const Drawing& drawing) {
 }
 
 std::vector<Chart> of_full_spectrum(const Drawing& drawing) {
-  constexpr double kDepth = 1e-6, kVisible = 1e-3;  // of the largest amplitude
+  constexpr double kDepth = 1e-6, kVisible = 1e-3;  // of the largest amplitude: end of the axis, least visible
   auto charts = grouped(drawing, "full-spectrum", false, [&](const Item& item, std::size_t place, Chart& chart) {
     const auto *y = along_y(item), *z = along_z(item);
     if (y == nullptr || z == nullptr) return false;

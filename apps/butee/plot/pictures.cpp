@@ -54,7 +54,7 @@ std::vector<Chart> of_steps(const Drawing& drawing) {
       if (!((*steps)[i] > 0.0)) continue;
       curve.x.push_back(result.history.times()[i]);
       curve.y.push_back((*steps)[i]);
-      // The last step of a run ends where the run does, and says nothing about the others.
+      // The last step is shortened to end at the end of the run, and is not representative.
       if (i + 1 < steps->size()) least = std::min(least, curve.y.back());
       most = std::max(most, curve.y.back());
     }
@@ -136,8 +136,8 @@ std::vector<Chart> of_phase(const Drawing& drawing) {
 }
 
 std::vector<Chart> of_spectrum(const Drawing& drawing) {
-  constexpr double kDepth = 1e-9, kVisible = 3e-4;  // of the largest amplitude
-  constexpr double kPeriods = 4.0;                  // multiples of the load's frequency that are always shown
+  constexpr double kDepth = 1e-9, kVisible = 3e-4;  // of the largest amplitude: end of the axis, least visible
+  constexpr double kPeriods = 4.0;                  // the axis shows at least this multiple of the load's frequency
   auto charts = grouped(drawing, "spectrum", false, [&](const Item& item, std::size_t place, Chart& chart) {
     const auto* u = item.result->column(item.label, "u");
     if (u == nullptr) return false;

@@ -5,7 +5,7 @@
 
 namespace butee::app::plot {
 
-/// What can be drawn of a run.
+/// The kinds of pictures of a run.
 enum class Kind {
   displacement,
   force,
@@ -27,16 +27,16 @@ enum class Kind {
   frame
 };
 
-/// "displacement", ... in this order.
+/// "displacement", ... in the order of the kinds.
 std::vector<std::string> kind_names();
 Kind kind_of(const std::string& name);
 
-/// The pictures of a kind that the results allow, none where they lack what it needs. Of one run the probes share a
-/// picture where that can be read; several runs share a picture for each probe. `labels` are the probes to draw, all
-/// where it is empty.
+/// The pictures of a kind that the results allow; empty if required data are missing. The probes of one run
+/// share a picture if it remains readable; several runs share a picture for each probe. `labels`: the probes
+/// to draw; empty: all.
 std::vector<Picture> pictures(Kind kind, const std::vector<Result>& results, const std::vector<std::string>& labels);
 
-/// What a result needs for a kind, and how to get it.
+/// The data that a kind requires of a result, and how to obtain them.
 std::string requirement_of(Kind kind);
 
 }  // namespace butee::app::plot

@@ -32,7 +32,7 @@ std::string label_of(const std::string& folder) {
   return name;
 }
 
-/// Collects the frequencies of a load and of its course in time, Hz.
+/// Collects the frequencies of a load and of its time function, Hz.
 void add_frequency(const Value& load, std::vector<double>& frequencies) {
   const config::Table* table = load.table();
   if (table == nullptr) return;
@@ -54,7 +54,7 @@ std::vector<double> frequencies_of(const config::Document& document) {
   return frequencies;
 }
 
-/// The format of the fields in the folder, where the scene asked for one and its file is there.
+/// The format of the fields in the folder, if the scene asked for fields and their file exists.
 std::string field_format_of(const config::Document& document, const std::string& folder) {
   const Value* output = document.root.table()->find("output");
   const Value* formats = output != nullptr && output->table() != nullptr ? output->table()->find("formats") : nullptr;
@@ -74,12 +74,13 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
   const std::string history_path = (fs::path(folder) / "history.csv").string();
   if (!fs::is_directory(folder)) throw InputError(folder + ": is no folder; name the result folder of `butee run`");
   if (!fs::exists(model_path)) throw InputError(folder + ": holds no results of `butee run`: model.toml is missing");
-  // Pictures need no course of a load, and results may have been taken elsewhere without its file.
+  // Pictures do not need the time functions of loads, and the result folder may have been moved away from
+  // their files.
   const config::Document document = config::without_files(config::load_toml(model_path));
   config::Diagnostics diagnostics(document);
   const scene::Draft scene = scene::read_draft(document, catalogue, diagnostics);
   diagnostics.throw_if_any();
-  // What is wrong with [output] here, such as a format whose module is not installed, is no matter for pictures.
+  // Mistakes in [output], such as a format whose module is not installed, do not matter for pictures.
   config::Diagnostics of_output(document);
   const auto output = scene::read_output(document.root, scene.model, scene.integrator->options.end_time, of_output,
                                          catalogue.types().formats);

@@ -9,40 +9,41 @@
 
 namespace butee::app::plot {
 
-/// A wall in the plane (uy, uz) that a node may touch, to ground.
+/// An obstacle to ground in the plane (uy, uz) that a node can touch.
 struct Wall {
   bool is_circle = true;
-  double y = 0.0, z = 0.0;  ///< the centre of a circle, m; the normal of a straight wall
-  double distance = 0.0;    ///< m, the radius of a circle; of a straight wall from the origin along its normal
+  double y = 0.0, z = 0.0;  ///< centre of a circle, m; unit normal of a straight wall
+  double distance = 0.0;    ///< m; radius of a circle; distance of a straight wall from the origin along its normal
 };
 
-/// A probe of a run, as far as pictures need it.
+/// A probe of a run, with the data that pictures need.
 struct Probe {
   std::string label;
-  std::vector<double> gaps;      ///< m: where u meets a stop to ground; ascending, negative ones on the other side
-  std::vector<double> gaps_z{};  ///< m: the same of w
+  std::vector<double>
+      gaps;  ///< m: displacements u at stops to ground; ascending, negative for stops on the negative side
+  std::vector<double> gaps_z{};  ///< m: the same for w
   std::vector<Wall> walls{};
 };
 
-/// Where a contact is.
+/// The position of a contact.
 struct ContactPlace {
-  std::string node;  ///< as impacts.csv and wear.csv name it
-  double x;          ///< m, along x; its number where the contacts do not stand along x
+  std::string node;  ///< the name used in impacts.csv and wear.csv
+  double x;          ///< m, along x; the contact's number if the contacts do not lie along x
 };
 
-/// What a result folder of `butee run` holds.
+/// The contents of a result folder of `butee run`.
 struct Result {
   std::string folder;
   std::string label;  ///< its name in a legend
-  std::string title;  ///< of the scene
-  Table history;      ///< empty where the run kept fields alone
+  std::string title;  ///< title of the scene
+  Table history;      ///< empty if the run kept only fields
   std::optional<Table> energy;
   std::vector<Probe> probes;                 ///< in the order of the columns
-  std::vector<double> frequencies;           ///< Hz, of the harmonic loads
-  std::vector<double> speeds;                ///< rad/s, of [rotation] at the times of the history, where it varies
-  std::string field_format;                  ///< of the fields, "" where there are none
-  std::vector<ContactPlace> contact_places;  ///< of all contacts of the scene
-  bool contacts_along_x = false;             ///< they stand on beams along x
+  std::vector<double> frequencies;           ///< Hz, frequencies of the harmonic loads
+  std::vector<double> speeds;                ///< rad/s, of [rotation] at the times of the history, if it varies
+  std::string field_format;                  ///< format of the fields; "" if there are none
+  std::vector<ContactPlace> contact_places;  ///< for all contacts of the scene
+  bool contacts_along_x = false;             ///< the contacts lie on beams along x
 
   /// The column "probe.quantity", or nullptr.
   const std::vector<double>* column(const std::string& probe, const std::string& quantity) const {
@@ -50,10 +51,10 @@ struct Result {
   }
 };
 
-/// Reads a folder. Throws InputError where it holds no results.
+/// Reads a folder. Throws InputError if it contains no results.
 Result read_result(const std::string& folder, const plugin::Catalogue& catalogue, Window window);
 
-/// Makes the labels of several results differ.
+/// Makes the labels of several results unique.
 void make_labels_unique(std::vector<Result>& results);
 
 }  // namespace butee::app::plot

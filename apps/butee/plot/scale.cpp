@@ -15,7 +15,7 @@ struct Prefix {
 
 constexpr std::array<Prefix, 6> kPrefixes = {
     {{1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}};
-/// A value this little below a power of ten is not worth another prefix: 0.9999999 s is 1 s.
+/// Relative tolerance below a power of ten that still gets the larger prefix: 0.9999999 s is 1 s.
 constexpr double kAlmost = 1.0 - 1e-6;
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace butee::app::plot {
 
-/// A unit in which values are easy to read: a value times `factor` is in `unit`.
+/// A readable unit: a value times `factor` is in `unit`.
 struct Scale {
   double factor = 1.0;
   std::string unit;

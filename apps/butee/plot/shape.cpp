@@ -9,9 +9,9 @@
 namespace butee::app::plot {
 namespace {
 
-constexpr std::size_t kMostInstants = 600, kMostPlaces = 200;  ///< of the picture
+constexpr std::size_t kMostInstants = 600, kMostPlaces = 200;  ///< resolution of the picture
 constexpr std::size_t kFewestPlaces = 100;
-constexpr std::size_t kFewestNodes = 3;  ///< of a line worth a picture
+constexpr std::size_t kFewestNodes = 3;  ///< least number of nodes of a line worth a picture
 
 std::optional<std::size_t> field_of(const model::FieldLayout& layout, const std::string& name) {
   for (std::size_t i = 0; i < layout.fields.size(); ++i)
@@ -19,7 +19,7 @@ std::optional<std::size_t> field_of(const model::FieldLayout& layout, const std:
   return std::nullopt;
 }
 
-/// Evenly chosen records of the window.
+/// Evenly spaced records of the window.
 std::vector<std::size_t> records_in(const std::vector<double>& times, Window window) {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < times.size(); ++i)
@@ -31,12 +31,12 @@ std::vector<std::size_t> records_in(const std::vector<double>& times, Window win
   return chosen;
 }
 
-/// A stop closed from one instant to another, s, at a place, m.
+/// The closed phase of a stop: begin and end in s, position in m.
 struct Closure {
   double begin, end, place;
 };
 
-/// What a picture of one line shows: a row of u for each instant, at evenly spaced places.
+/// The data of one line's picture: u for each instant, at evenly spaced positions.
 struct Map {
   std::vector<double> times, places;
   std::vector<std::vector<double>> u;
@@ -74,7 +74,7 @@ class Sampler {
       if (double& most = row[nearest_[i]]; std::abs(value(u, i)) > std::abs(most)) most = value(u, i);
   }
 
-  /// Follows which stops are closed, at every record.
+  /// Tracks which stops are closed; called for every record.
   void follow(double t, double previous, std::span<const double> state) {
     for (std::size_t i = 0; i < x_.size(); ++i) {
       auto& since = closed_since_[i];
@@ -105,8 +105,8 @@ class Sampler {
   const model::FieldLine& line_;
   std::vector<double> x_;
   std::vector<Cell> cells_;
-  std::vector<std::size_t> nearest_;  ///< place of each node, where a place takes the largest value of its many nodes
-  std::vector<std::optional<double>> closed_since_;  ///< s, since when the stop is closed
+  std::vector<std::size_t> nearest_;  ///< position of each node, if positions take the largest value of several nodes
+  std::vector<std::optional<double>> closed_since_;  ///< s, instant at which the stop closed, if it is closed
 };
 
 std::string rounded(double value) {

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kFewest = 8;
 
-/// The signal at `count` evenly spaced times. The last row of a history may come early.
+/// Resamples the signal linearly at evenly spaced times, as many as samples. The last interval of a history
+/// may be shorter.
 std::vector<double> resampled(const std::vector<double>& t, const std::vector<double>& x, double dt) {
   std::vector<double> even(t.size());
   std::size_t i = 0;
@@ -25,8 +26,8 @@ std::vector<double> resampled(const std::vector<double>& t, const std::vector<do
   return even;
 }
 
-/// The transform of y + i z (or of y alone) less its mean under a Hann window, whose values sum up to `sum`; nothing
-/// with too few samples. `dt` is the time between two samples.
+/// The Fourier transform of y + i z (or of y alone), minus its mean, under a Hann window; `sum` receives the
+/// sum of the window's values. Empty for too few samples. `dt` receives the time between two samples, s.
 std::vector<std::complex<double>> transformed(const std::vector<double>& times, const std::vector<double>& y,
                                               const std::vector<double>& z, double& sum, double& dt) {
   const std::size_t n = times.size();

@@ -11,7 +11,7 @@
 namespace butee::app::plot {
 namespace {
 
-/// Reads exactly `row.size()` numbers; false where the line holds anything else.
+/// Reads exactly `row.size()` numbers; returns false if the line holds anything else.
 bool parse(const std::string& line, std::vector<double>& row) {
   const char* at = line.data();
   const char* const end = at + line.size();
@@ -43,7 +43,7 @@ Table read_table(const std::string& path, Window window) {
   table.columns.resize(table.names.size());
   std::vector<double> row(table.names.size());
   while (std::getline(file, line)) {
-    if (file.eof()) break;  // without its end: cut short
+    if (file.eof()) break;  // incomplete last line
     if (!parse(line, row) || row.front() < window.from || row.front() > window.to) continue;
     for (std::size_t i = 0; i < row.size(); ++i) table.columns[i].push_back(row[i]);
   }

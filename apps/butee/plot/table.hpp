@@ -6,13 +6,13 @@
 
 namespace butee::app::plot {
 
-/// A part of a run, s.
+/// Time window of a run, s.
 struct Window {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
 };
 
-/// Columns of numbers by name, the first of them t in s.
+/// Named columns of numbers; the first is t in s.
 class Table {
  public:
   std::vector<std::string> names;
@@ -20,12 +20,12 @@ class Table {
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   const std::vector<double>& times() const { return columns.front(); }
-  /// nullptr where there is none of that name.
+  /// nullptr if there is no column of that name.
   const std::vector<double>* find(const std::string& name) const;
 };
 
-/// Reads the rows of a CSV file within the window. A last line cut short, or a row with an empty cell, is left out.
-/// Throws InputError where the file cannot be read or is no such table.
+/// Reads the rows of a CSV file within the window. An incomplete last line and rows with an empty cell are
+/// skipped. Throws InputError if the file cannot be read or is not such a table.
 Table read_table(const std::string& path, Window window);
 
 }  // namespace butee::app::plot

@@ -7,8 +7,8 @@
 namespace butee::app::plot {
 namespace {
 
-constexpr std::size_t kStretches = 800;  ///< points of a picture's width
-constexpr double kPen = 1e-3;            ///< of a picture's width
+constexpr std::size_t kStretches = 800;  ///< intervals across the picture's width
+constexpr double kPen = 1e-3;            ///< pen width as a fraction of the picture's width
 
 }  // namespace
 

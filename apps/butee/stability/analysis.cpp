@@ -9,16 +9,17 @@ namespace {
 
 constexpr double kSmallestStep = 1e-3;
 constexpr int kPerDecade = 20;
-/// Of curves, whose kinks at the limit would be cut otherwise.
+/// Sampling of the drawn curves; fine enough for their slope discontinuity at the stability limit.
 constexpr int kDrawnPerDecade = 60;
 constexpr int kBisections = 60;
-/// Steps that are drawn.
+/// Range of the drawn steps, h omega.
 constexpr double kFirstDrawn = 1e-2, kLastDrawn = 1e2;
-/// Below this part of |lambda| an imaginary part is rounding: eigenvalues that meet are accurate to its square root.
+/// Imaginary parts below this fraction of |lambda| are rounding: merging eigenvalues are accurate only to the
+/// square root of the machine precision.
 constexpr double kReal = 1e-7;
 constexpr double kPi = 3.141592653589793;
 
-/// NaN where there are none.
+/// NaN if the eigenvalue computation failed.
 Eigen::Vector3cd eigenvalues_of(const Eigen::Matrix3d& map) {
   const auto values = linalg::eigenvalues(map);
   if (!values) return Eigen::Vector3cd::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -83,7 +84,7 @@ Limit find_limit(OneStepMap& map) {
       const double middle = 0.5 * (stable + bad);
       (judge(map, middle) == Verdict::stable ? stable : bad) = middle;
     }
-    // Near the end of the stable steps there may be either.
+    // At the end of the stable steps, either the map becomes unstable or it ceases to exist.
     const bool has_map = judge(map, bad) == Verdict::unstable;
     return {has_map ? Limit::Kind::found : Limit::Kind::no_map, stable, has_map ? "" : map.refusal()};
   }

@@ -4,37 +4,38 @@
 
 namespace butee::app::stability {
 
-/// What the eigenvalues of a one-step map say. Empty where there is no such thing.
+/// Properties from the eigenvalues of a one-step map; empty if undefined.
 struct Properties {
   std::optional<double> radius;        ///< the largest |lambda|
-  std::optional<double> damping;       ///< the damping ratio of the discrete motion, less the true one
-  std::optional<double> period_error;  ///< period of the discrete motion over the true one, less 1
+  std::optional<double> damping;       ///< the damping ratio of the discrete motion minus the true one
+  std::optional<double> period_error;  ///< period of the discrete motion over the true one, minus 1
 };
 
-/// Of the pair lambda = e^(-zeta' w' h +- i w'_d h): numerical damping zeta' - zeta and period error w_d/w'_d - 1, the
-/// latter only for steps below half a period, beyond which a period has no meaning. `ratio` is zeta.
+/// From the pair lambda = e^(-zeta' w' h +- i w'_d h): numerical damping zeta' - zeta and period error
+/// w_d/w'_d - 1. The period error is defined only for steps below half a period. `ratio` is zeta.
 Properties properties_of(const Eigen::Matrix3d& map, double h_omega, double ratio);
 
-/// How far a one-step map is stable: found by going up from small steps and then by bisection.
+/// Stability limit of a one-step map: found by increasing the step from small values, then by bisection.
 struct Limit {
   enum class Kind {
     found,      ///< stable up to `value`
-    unbounded,  ///< stable up to `value`, the largest step that was tried
-    no_map      ///< stable as far as there is a map, up to `value` (0: there is none at all)
+    unbounded,  ///< stable up to `value`, the largest step tested
+    no_map      ///< stable for all steps that have a map, up to `value` (0: no step has a map)
   };
   Kind kind;
   double value;
-  std::string why;  ///< of no_map
+  std::string why;  ///< reason for no_map
 };
 
-/// The largest step that was tried, in h omega or h c/m.
+/// The largest step tested, in h omega or h c/m.
 inline constexpr double kLargestStep = 1e3;
-/// A radius that exceeds 1 by less is rounding, and more of it in the large entries of long steps (times their norm).
+/// Allowance for rounding in a spectral radius above 1: kStable, plus kRounding times the norm of the map,
+/// which is large for long steps.
 inline constexpr double kStable = 1e-9, kRounding = 1e-10;
 
 Limit find_limit(OneStepMap& map);
 
-/// One point of a curve: the oscillator's omega is 1 rad/s, so that h is h omega.
+/// One point of a curve. The oscillator's omega is 1 rad/s, so that h = h omega.
 struct Sample {
   double h_omega = 0.0;
   double ratio = 0.0;       ///< damping ratio
@@ -42,7 +43,7 @@ struct Sample {
   Properties properties;
 };
 
-/// All that is found out about one method.
+/// The complete results for one method.
 struct Analysis {
   std::string method, parameters, choice;
   double declared_stability, declared_damping;

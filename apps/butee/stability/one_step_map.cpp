@@ -10,7 +10,8 @@
 namespace butee::app::stability {
 namespace {
 
-/// Of a linear map, relative: far above the rounding of a step, far below anything that bends.
+/// Relative deviation from linearity that is accepted: far above the rounding of a step, far below any
+/// nonlinearity.
 constexpr double kLinear = 1e-6;
 
 std::string scene_of(const Oscillator& oscillator) {
@@ -79,7 +80,7 @@ std::optional<Eigen::Vector3d> OneStepMap::step(const Eigen::Vector3d& from, dou
     refusal_ = "given a step of h = " + to_short_text(h) + " s it takes shorter ones of its own";
     return std::nullopt;
   }
-  // What would be rejected may come without its acceleration, which is then still the old one.
+  // A step that error control would reject may come without an updated acceleration.
   const time::StepController* controller = assembly_->integrator->controller();
   if (controller != nullptr && end.a == begin.a && !controller->decide(h, report).accept)
     assembly_->dynamics.acceleration(end.t, end.x, end.v, end.a);
@@ -87,7 +88,8 @@ std::optional<Eigen::Vector3d> OneStepMap::step(const Eigen::Vector3d& from, dou
 }
 
 std::optional<Eigen::Matrix3d> OneStepMap::at(double h) {
-  // Displaced and moving in all of them: a stop is closed where it starts, and errors have something to be relative to.
+  // All states have nonzero displacement and velocity: the stop is closed from the start, and relative errors
+  // are defined.
   const Eigen::Vector3d one(1.0, 1.0, 0.0), moving(1.0, 2.0, 0.0), pushed(1.0, 1.0, 1.0), other(2.0, -1.0, 0.5);
   const auto first = step(one, h), second = step(moving, h), third = step(pushed, h), fourth = step(other, h);
   if (!first || !second || !third || !fourth) return std::nullopt;

@@ -14,30 +14,31 @@ namespace butee::app::stability {
 struct Oscillator {
   double stiffness = 1.0;  ///< k, N/m
   double damping = 0.0;    ///< c, N s/m
-  double stop = 0.0;       ///< k_c, N/m, of a linear stop without a gap on both sides, always closed; 0: no stop
+  double stop = 0.0;       ///< k_c, N/m, of an always closed linear stop without a gap on both sides; 0: no stop
 };
 
-/// What a method makes of the state (x, v, a) of an oscillator in one step of h, measured: the method itself takes a
-/// single step (time::Step::single) from each of three unit states. The acceleration belongs to the state since some
-/// methods carry one of their own; of all others it adds an eigenvalue of zero.
+/// The linear map of the state (x, v, a) of an oscillator over one step of length h, measured: the method
+/// takes a single step (time::Step::single) from several states. The acceleration belongs to the state
+/// because some methods carry their own; for other methods it adds an eigenvalue of zero.
 ///
-/// Error control has no say: a step that it would reject is taken as it is. There is no map where the method does not
-/// go over the whole step, fails, or is not linear in the state.
+/// Error control is ignored: a step that it would reject is accepted. There is no map if the method does not
+/// complete the step, fails, or is not linear in the state.
 class OneStepMap {
  public:
-  /// `settings` are keys of [integrator], "beta = 0.3" as --set writes them: "integrator.beta=0.3". Required parameters
-  /// that are not among them get the value that is recommended to try first. Throws InputError.
+  /// `settings` are keys of [integrator] in the form of --set: "beta = 0.3" as "integrator.beta=0.3".
+  /// Required parameters that are not given take their recommended first value. Throws InputError.
   OneStepMap(const plugin::Catalogue& catalogue, const std::string& method, const std::vector<std::string>& settings,
              const Oscillator& oscillator);
 
-  /// Nothing where there is no map; then refusal() says why. Lengths count in m, velocities in m sqrt((k+k_c)/m).
+  /// Empty if there is no map; refusal() then gives the reason. Units: x in m, v in m sqrt((k+k_c)/m), a in m
+  /// (k+k_c)/m.
   std::optional<Eigen::Matrix3d> at(double h);
   const std::string& refusal() const { return refusal_; }
 
   const time::IntegratorType& type() const { return type_; }
   /// The parameters as TOML: "beta = 0.25, gamma = 0.5"
   const std::string& parameters() const { return parameters_; }
-  /// What the method says of its own choice, of `auto`; else empty.
+  /// the choice reported by `auto`; empty for other methods
   const std::string& choice() const { return assembly_->integrator->choice(); }
 
  private:
@@ -45,7 +46,7 @@ class OneStepMap {
 
   plugin::Catalogue catalogue_;
   time::IntegratorType type_;
-  double rate_;  ///< by which velocities are scaled, 1/s
+  double rate_;  ///< scale of velocities, 1/s
   std::unique_ptr<scene::Scene> session_;
   std::unique_ptr<scene::Assembly> assembly_;
   std::string parameters_, refusal_;

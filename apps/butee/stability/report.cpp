@@ -53,7 +53,7 @@ bool run_gnuplot(const std::string& script) {
   return std::system((command + "' > /dev/null 2>&1").c_str()) == 0;
 }
 
-/// The same picture as PNG and as SVG.
+/// Writes the same picture as PNG and as SVG.
 bool plot(const std::string& base, const std::string& commands) {
   std::ofstream script(base + ".gp");
   for (const auto& [terminal, suffix] : {std::pair{"pngcairo size 1100,1200 font 'sans,12'", ".png"},
@@ -88,7 +88,7 @@ std::string curve_plot(const std::vector<Analysis>& all, const std::string& data
 }
 
 std::string stop_plot(const Analysis& one, const std::string& data) {
-  // Cells of the grid of stops.csv, which is even in both logarithms.
+  // Cells of the grid of stops.csv, which is evenly spaced in both logarithms.
   const auto half_step = [&](double Sample::*quantity) {
     double ratio = std::numeric_limits<double>::infinity();
     for (const Sample& sample : one.stops) {

@@ -7,18 +7,19 @@ namespace butee::app::stability {
 /// "2.82843", "none up to 10000", "no map beyond 3.1"
 std::string text_of(const Limit& limit);
 
-/// A table of the limits for people.
+/// Prints a table of the limits.
 std::string table(const std::vector<Analysis>& all, const Request& request);
 
-/// method,damping_ratio,h_omega,spectral_radius,numerical_damping,period_error; empty where there is no such number
+/// Writes method,damping_ratio,h_omega,spectral_radius,numerical_damping,period_error; undefined values are
+/// empty.
 std::string curves_csv(const std::vector<Analysis>& all);
 
-/// method,stop_ratio,h_omega,spectral_radius
+/// Writes method,stop_ratio,h_omega,spectral_radius.
 std::string stops_csv(const std::vector<Analysis>& all);
 
 std::string to_json(const std::vector<Analysis>& all, const Request& request);
 
-/// Writes gnuplot's scripts beside the tables and runs them; false where gnuplot could not draw.
+/// Writes gnuplot scripts beside the tables and runs them; returns false if gnuplot could not draw.
 bool draw(const std::vector<Analysis>& all, const Request& request, const std::string& folder);
 
 }  // namespace butee::app::stability

@@ -9,7 +9,7 @@
 
 namespace butee::app::studies {
 
-/// For the result "trust" of studies.
+/// Computes the result "trust" of studies.
 inline std::optional<double> horizon_of(scene::Scene& scene) {
   try {
     return find_trust(scene).horizon;

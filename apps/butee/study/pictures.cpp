@@ -23,7 +23,7 @@ using study::Item;
 using study::Row;
 
 constexpr const char *kUp = "#1f77b4", *kDown = "#d62728";
-/// The colours of matplotlib's viridis, which older versions of gnuplot do not know by name.
+/// The colours of matplotlib's viridis; older versions of gnuplot lack this palette.
 constexpr const char* kPalette =
     "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n";
 constexpr std::size_t kMostBins = 60;
@@ -38,7 +38,7 @@ std::string file_name(std::string text) {
   return text;
 }
 
-/// The rows of a study in columns of numbers, as far as pictures need them.
+/// The rows of a study as numeric columns for pictures.
 class Drawing {
  public:
   Drawing(const study::Study& study, const study::Layout& layout, const study::Store& store)
@@ -69,7 +69,7 @@ class Drawing {
   std::size_t axes() const { return study_.plan.axes().size(); }
   std::string title() const { return study_.title.empty() ? study_.stem : study_.title; }
 
-  /// The section of v that goes with one of u.
+  /// The section of v that belongs to a section of u.
   std::optional<std::size_t> speed_of(const Item& item) const {
     for (std::size_t i = 0; i < study_.items.size(); ++i) {
       const Item& other = study_.items[i];
@@ -91,7 +91,7 @@ class Drawing {
     return plot::scale_for(largest, unit);
   }
 
-  /// The name of an item's axis: "peak rotor.u / mm".
+  /// The axis label of an item: "peak rotor.u / mm".
   std::string label(std::size_t item, const Scale& scale) const {
     return gnuplot::quoted(scale.axis(study_.items[item].text));
   }
@@ -129,7 +129,7 @@ class Drawing {
     };
     picture.plot = "plot ";
     std::vector<std::string> entries;
-    // Up is drawn last, so that it is not hidden where both are the same.
+    // The upward sweep is drawn last, so that it stays visible where both coincide.
     for (const auto& [direction, block] : blocks) {
       const std::string name = direction < 0 ? "$down" : direction > 0 ? "$up" : "$runs";
       picture.data += name + " << EOD\n" + block + "EOD\n";
@@ -155,7 +155,7 @@ class Drawing {
     std::int64_t count = 0;
     picture.data = "$map << EOD\n";
     store_.visit([&](const Row& row) {
-      if (count >= study_.plan.point_count()) return;  // The way down of a sweep is not drawn.
+      if (count >= study_.plan.point_count()) return;  // The downward sweep is not drawn.
       if (count++ % length == 0 && count > 1) picture.data += "\n";
       picture.data += number(row.number(first_axis_)) + " " + number(row.number(first_axis_ + 1)) + " " +
                       number(row.number(first_item_ + item) * scale.factor) + "\n";

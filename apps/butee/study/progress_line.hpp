@@ -10,7 +10,8 @@ namespace butee::app::studies {
 /// "47 s", "12 min", "3.4 h"
 std::string time_span(double seconds);
 
-/// How far a study is, on standard error: on a terminal one line drawn in place, elsewhere a line every ten seconds.
+/// Progress of a study on standard error: on a terminal one line updated in place, otherwise a line every ten
+/// seconds.
 class ProgressLine {
  public:
   explicit ProgressLine(bool is_wanted);

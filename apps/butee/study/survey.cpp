@@ -20,13 +20,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMostSeconds = 2.0;  ///< of a trial
+constexpr double kMostSeconds = 2.0;  ///< longest trial, s
 
 /// Results of trials of the first, the middle and the last run.
 struct Trials {
-  double seconds = 0.0;  ///< of a run, the mean
+  double seconds = 0.0;  ///< mean time of a run
   int count = 0, unfinished = 0;
-  std::string reason;  ///< of the first that had no results
+  std::string reason;  ///< reason of the first run without results
 };
 
 Trials try_runs(const study::Study& study, const study::Layout& layout) {
@@ -59,7 +59,7 @@ const char* name_of(study::PlanKind kind) {
 }  // namespace
 
 bool names_study(const std::string& path) {
-  // A pipe can be read once, by the scene.
+  // A pipe can be read only once, and the scene reader needs it.
   if (!std::filesystem::is_regular_file(path)) return false;
   return study::is_study(config::load_toml(path));
 }

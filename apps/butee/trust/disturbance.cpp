@@ -13,10 +13,10 @@
 namespace butee::app::trust {
 namespace {
 
-/// Below this part of its first size a disturbance that fades is lost in rounding.
+/// A decaying disturbance below this fraction of its first size is lost in rounding.
 constexpr double kLost = 1e-6;
 
-/// The energy-like size of a motion.
+/// The norm of a motion, similar to the square root of an energy.
 class Size {
  public:
   Size(const dynamics::Dynamics& dynamics, const FollowedRun& run) : dynamics_(dynamics), work_(dynamics.size()) {
@@ -34,7 +34,7 @@ class Size {
   double of(ConstVectorRef x, ConstVectorRef v) {
     return std::sqrt(mass_square(v) + std::max(elastic_square(x), omega_square_ * mass_square(x)));
   }
-  /// Relative to the displacement that a velocity makes without stops.
+  /// The norm of a displacement, relative to the displacement that a velocity causes without stops.
   double of_displacement(ConstVectorRef x) { return std::sqrt(elastic_square_ * mass_square(x)); }
   double largest() const { return largest_; }
   double omega() const { return std::sqrt(omega_square_); }

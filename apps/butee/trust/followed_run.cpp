@@ -20,11 +20,11 @@ namespace butee::app::trust {
 namespace {
 
 constexpr double kSameInstant = 1e-9;
-/// The work of watching a stop over a step, in operations of a DOF.
+/// The work of tracking a stop's displacement over a step, in operations of a DOF.
 constexpr double kWatching = 100.0;
-/// Fewer rows than this would pass by what happens between them.
+/// With fewer rows, events between rows would be missed.
 constexpr double kFewestRows = 1000.0;
-/// States kept, and numbers in all of them.
+/// Most and fewest stored states, and most numbers in all of them.
 constexpr double kMostStates = 1000.0, kFewestStates = 100.0, kMostNumbers = 1e6;
 
 std::vector<model::ProbeRequest> displacement_probes(const scene::Scene& session) {
@@ -34,7 +34,7 @@ std::vector<model::ProbeRequest> displacement_probes(const scene::Scene& session
   return probes;
 }
 
-/// Takes the probes at the compared times, and whole states.
+/// Records the probes at the compared times, and whole states.
 class Follower final : public time::Observer {
  public:
   Follower(const scene::Scene& session, dynamics::Dynamics& dynamics, FollowedRun& to, bool with_states)
@@ -88,7 +88,7 @@ class Follower final : public time::Observer {
   std::size_t next_row_ = 0, next_state_ = 0;
 };
 
-/// The displacements of the probes, then those of the stops.
+/// The paths of the probes' displacements, followed by those of the stops.
 std::vector<TurningPoints::Path> paths_of(const scene::Scene& session, dynamics::Dynamics& dynamics) {
   std::vector<TurningPoints::Path> paths;
   const auto& table = dynamics.system().dofs;

@@ -10,16 +10,16 @@
 namespace butee::app::trust {
 namespace {
 
-/// A run may take this work, or so many times that of the judged run.
+/// Limit of a run's work: the larger of `work` and `times` that of the judged run.
 struct Budget {
   double work, times;
 };
-/// Abandoned candidates cost at most a few runs of the judged method. The series of `exact` cost ten times as much as
-/// the work that is counted, so that `exponential` comes first where they are long; other methods follow disturbances
-/// too badly through contacts to come before `exact`.
+/// Abandoned candidates cost at most a few runs of the judged method. The series of `exact` cost ten times
+/// the counted work, so that `exponential` comes first if they are long. Other methods follow disturbances
+/// through contacts too inaccurately to come before `exact`.
 constexpr Budget kQuick = {4e7, 0.1}, kUsual = {4e8, 2.0}, kLong = {2e9, 30.0};
 
-/// Methods by how near they come to the solution, with the tolerance that they are given.
+/// Methods in order of accuracy, with the tolerance used for each.
 struct Candidate {
   const char* name;
   double tolerance;  ///< 0: exact
@@ -33,14 +33,14 @@ constexpr Candidate kCandidates[] = {{"exact", 0.0, kQuick},
                                      {"rodas4", 1e-8, kUsual, true},
                                      {"dopri5", 1e-9},
                                      {"bathe_adaptive", 1e-6, kUsual, true}};
-/// The repetition: an order for exact, a tolerance looser by so much for others.
+/// Settings of the repetition: another order for exact, a looser tolerance by this factor for others.
 constexpr std::int64_t kOtherOrder = 22;
 constexpr double kLooser = 3.0;
-/// A tolerance is this part of the judged run's at most.
+/// Largest tolerance, as a fraction of the judged run's tolerance.
 constexpr double kTighter = 0.03;
-/// Large systems are left to implicit methods, with this part of the judged run's tolerance.
+/// Large systems use implicit methods only, with this fraction of the judged run's tolerance.
 constexpr double kTighterOfLarge = 0.1, kUsualTolerance = 1e-4;
-/// The rounding error of a piece between two states, relative to the motion.
+/// The rounding error of an interval between two states, relative to the motion.
 constexpr double kRounding = 1e-13;
 
 scene::Scene session_with(const scene::Scene& session, const Candidate& candidate, double tolerance, bool again) {

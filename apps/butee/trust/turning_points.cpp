@@ -7,10 +7,10 @@
 namespace butee::app::trust {
 namespace {
 
-/// Samples lie no further apart than this angle of the fastest mode, within these numbers.
+/// Largest angle of the fastest mode between two samples, rad, and the limits of the number of samples.
 constexpr double kAngle = 0.5;
 constexpr double kFewest = 3.0, kMost = 64.0;
-/// Most iterations and tolerance of the search for an instant of rest.
+/// Largest number of iterations and tolerance of the search for an instant of zero velocity.
 constexpr int kMostTrials = 12;
 constexpr double kAtRest = 1e-9;
 
@@ -69,7 +69,7 @@ void TurningPoints::turn(Path& path, const time::AcceptedStep& step, double begi
   const double moves = (end - begin) * std::max(std::abs(from.v), std::abs(to.v));
   if (std::max(from.x, to.x) + moves <= path.greatest && std::min(from.x, to.x) - moves >= path.least) return;
   const double fast = std::max(std::abs(from.v), std::abs(to.v));
-  // False position, with the weight of an end that stays halved (Illinois).
+  // False position with the Illinois modification: the function value at a retained end is halved.
   double v0 = from.v, v1 = to.v;
   int stayed = 0;
   for (int trial = 0; trial < kMostTrials; ++trial) {

@@ -6,17 +6,17 @@
 
 namespace butee::app::trust {
 
-/// Finds the smallest and the largest value of displacements over whole steps, between their ends too: the motion is
-/// sampled within each step, and where a speed changes its sign the instant of rest is found on the dense output.
+/// Finds the smallest and the largest value of displacements over whole steps, including the interior: each
+/// step is sampled, and at a sign change of a velocity its zero is located on the dense output.
 class TurningPoints final : public time::Observer {
  public:
-  /// A displacement x[a] - x[b]; an index below 0 is ground.
+  /// A relative displacement x[a] - x[b]; an index below 0 is ground.
   struct Path {
     Index a, b;
     double least = 0.0, greatest = 0.0;  ///< m or rad
   };
 
-  /// `omega`: the highest natural frequency, rad/s, which tells how often a long step is sampled.
+  /// `omega`: the highest natural frequency, rad/s; it sets the number of samples of a long step.
   TurningPoints(std::vector<Path> paths, double omega);
 
   void start(const time::State& state) override;
@@ -37,7 +37,7 @@ class TurningPoints final : public time::Observer {
   std::vector<Path> paths_;
   double omega_;
   std::vector<Index> dofs_;
-  std::vector<Index> slots_;  ///< by DOF
+  std::vector<Index> slots_;  ///< index of each DOF's value, by DOF
   std::vector<double> times_, x_, v_;
 };
 
