@@ -1,8 +1,9 @@
-# What belongs to an installed program beside it: manual page, completions, and the Debian package (cpack -G DEB).
+# Additional files of an installed program: manual page, completions, and the Debian package (cpack
+# -G DEB).
 set(desk_folder ${CMAKE_CURRENT_BINARY_DIR}/desk)
 set(desk_files ${desk_folder}/butee.1 ${desk_folder}/butee.bash ${desk_folder}/_butee ${desk_folder}/butee.fish)
 file(MAKE_DIRECTORY ${desk_folder})
-# Completions name the methods of the modules, so that these have to be there.
+# Completions contain the methods of the modules, so the modules must be built first.
 add_custom_command(OUTPUT ${desk_files}
   COMMAND $<TARGET_FILE:butee_program> help --man > ${desk_folder}/butee.1
   COMMAND $<TARGET_FILE:butee_program> completion bash > ${desk_folder}/butee.bash
@@ -43,7 +44,8 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, libeigen3-dev")
   set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
   set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS OFF)
-  # The program with its library; on top of it the module study_mpi alone, and the Python package.
+  # Packages: the program with its library; depending on it, the module study_mpi and the Python
+  # package.
   set(CPACK_DEB_COMPONENT_INSTALL ON)
   set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME butee)
   set(CPACK_DEBIAN_UNSPECIFIED_FILE_NAME DEB-DEFAULT)

@@ -1,8 +1,9 @@
 # butee_add_plugin(NAME source...)
 #
-# Builds the module NAME.so from sources that hold one BUTEE_PLUGIN(registrar), and beside it NAME.toml, the manifest of its names and
-# parameters, written by the program from the module's own declaration. BUTEE_PLUGIN_OUTPUT_DIRECTORY says where (default: the
-# current binary directory).
+# Builds the module NAME.so from sources that contain one BUTEE_PLUGIN(registrar), and beside it the
+# manifest NAME.toml with its names and parameters, which the program writes from the module's own
+# declaration. BUTEE_PLUGIN_OUTPUT_DIRECTORY sets the folder (default: the current binary
+# directory).
 function(butee_add_plugin name)
   set(folder ${CMAKE_CURRENT_BINARY_DIR})
   if(BUTEE_PLUGIN_OUTPUT_DIRECTORY)

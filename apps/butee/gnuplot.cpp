@@ -59,8 +59,7 @@ std::string style() {
 }
 
 std::string legend_below(const std::vector<std::string>& entries) {
-  constexpr std::size_t kWidth = 82,
-                        kSample = 7;  // in characters: width of a picture, and width of a legend entry before its text
+  constexpr std::size_t kWidth = 82, kSample = 7;  // characters: picture, legend entry before its text
   std::size_t longest = 1;
   for (const std::string& entry : entries) longest = std::max(longest, entry.size());
   const std::size_t count = std::max<std::size_t>(entries.size(), 1);

@@ -1,6 +1,7 @@
 ! The Fortran 2003 interface of butee, over butee.h. Compile it with your own compiler and link with libbutee.
 !
-! Every function returns butee_ok or what went wrong; butee_message() says it in words. Degrees of freedom count from 0.
+! Every function returns butee_ok or an error status; butee_message() returns the error text.
+! Degrees of freedom are numbered from 0.
 module butee
   use, intrinsic :: iso_c_binding
   implicit none
@@ -189,7 +190,8 @@ contains
     status = c_dof(structure, trim(selector)//c_null_char, kind, dof)
   end function
 
-  ! A quantity of a probe ("M", "spring_force", "u", ...) now; element: the beam or spring meant, "" where there is one.
+  ! The current value of a quantity of a probe ("M", "spring_force", "u", ...); element: the beam or
+  ! spring, "" if none.
   function butee_quantity(structure, quantity, node, element, value) result(status)
     type(c_ptr), intent(in) :: structure
     character(*), intent(in) :: quantity, node, element
@@ -198,7 +200,8 @@ contains
     status = c_quantity(structure, trim(quantity)//c_null_char, trim(node)//c_null_char, trim(element)//c_null_char, value)
   end function
 
-  ! The largest |value| of a quantity of a node over the whole motion; to be followed before the first step.
+  ! Tracks the largest |value| of a quantity of a node over the motion; call it before the first
+  ! step.
   function butee_follow_peak(structure, node, quantity) result(status)
     type(c_ptr), intent(in) :: structure
     character(*), intent(in) :: node, quantity

@@ -1,8 +1,8 @@
-! A beam of butee that rattles between its stops, coupled to an absorber that this program integrates itself: a mass on
-! a spring and a dashpot at the middle of the beam.
+! A beam that strikes its stops, coupled at its middle to an absorber that this program integrates: a mass on a spring
+! and a dashpot.
 !
-! In each window of time both sides are solved by turns until the force between them no longer changes. The same with the
-! absorber as elements of the scene stands in the last lines of the result, to compare with.
+! In each time window both sides are solved alternately until the force between them converges. The last lines of the
+! output compare the result with a scene that contains the absorber as elements.
 program coupled_beam
   use, intrinsic :: iso_c_binding
   use butee
@@ -59,13 +59,14 @@ program coupled_beam
   call butee_close(beam)
   call butee_close(whole)
   if (difference > 1.0e-3_dp*peak) stop 1
-  ! Between two windows the beam goes at most a little further than at their ends.
+  ! Between two windows the beam exceeds its displacements at the window ends only slightly.
   if (largest < peak .or. largest > 1.001_dp*peak) stop 2
   if (abs(link + force) > 1.0e-2_dp*abs(force)) stop 3
 
 contains
 
-  ! Takes the absorber over a window by the trapezoidal rule, with the beam's motion at both ends.
+  ! Integrates the absorber over a window by the trapezoidal rule, with the beam's motion at both
+  ! ends.
   subroutine absorb(u0, v0, u1, v1)
     real(dp), intent(in) :: u0, v0, u1, v1
     real(dp) :: f0

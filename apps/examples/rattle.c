@@ -1,5 +1,5 @@
-/* A beam of butee that another program pushes: a controller of a few lines damps its middle by a force against the
- * velocity, set anew every tenth of a millisecond. Prints what that does to the rattling. */
+/* A beam driven by another program: a simple controller damps its middle by a force against the velocity, updated every
+ * tenth of a millisecond. Prints the effect on the motion and on the stop forces. */
 #include <butee.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@ static void check(int status) {
   exit(1);
 }
 
-/* The root mean square of the speed of the middle over a second, m/s, and the largest force of its stop, N. */
+/* The rms velocity of the middle over a second, m/s, and the largest force of its stop, N. */
 static double rattling(double gain, double* largest) {
   butee_structure* beam = NULL;
   int64_t middle = 0;
@@ -39,7 +39,7 @@ int main(void) {
   printf("butee %s\n", butee_version());
   printf("speed of the middle %.4f m/s rms, with the controller %.4f m/s\n", alone, controlled);
   printf("largest force of its stop %.0f N, with the controller %.0f N\n", force, force_controlled);
-  /* A mistake is a status and a message. */
+  /* An error returns a status and sets a message. */
   if (butee_open_file("missing.toml", NULL, &none) != BUTEE_BAD_INPUT || none != NULL) return 1;
   printf("%s\n", butee_message());
   return force > 0.0 && controlled < 0.6 * alone ? 0 : 1;

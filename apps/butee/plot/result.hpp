@@ -19,8 +19,7 @@ struct Wall {
 /// A probe of a run, with the data that pictures need.
 struct Probe {
   std::string label;
-  std::vector<double>
-      gaps;  ///< m: displacements u at stops to ground; ascending, negative for stops on the negative side
+  std::vector<double> gaps;      ///< m: u at contact with stops to ground; ascending, negative on the negative side
   std::vector<double> gaps_z{};  ///< m: the same for w
   std::vector<Wall> walls{};
 };
