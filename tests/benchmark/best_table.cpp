@@ -1,6 +1,7 @@
-// The method exponential beside the fastest of the plain program's methods for the same error, each at the best value
-// of its parameter. Linear law; errors are the relative rms of the loaded node's displacement against the stored
-// solutions in 80-bit arithmetic; times are the least of several rounds in which both sides take turns.
+// Compares exponential with the fastest method of the plain program at equal error, each at the best value of
+// its parameter. Linear law; errors are the relative rms of the loaded node's displacement against stored
+// solutions in 80-bit arithmetic; times are the minimum of several rounds in which both programs run
+// alternately.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// No single run of a sweep takes longer, s.
+/// Longest time of a single run of a sweep, s.
 constexpr double kTimeLimit = 0.3;
 constexpr int kRounds = 15;
 
@@ -49,7 +50,7 @@ Reference reference_of(const Chosen& chosen) {
   Reference all{table.column("t"), table.column("u0")};
   const auto last = std::upper_bound(all.times.begin(), all.times.end(), chosen.end_time * (1.0 + 1e-9));
   const auto rows = last - all.times.begin();
-  // Row 0 is the start.
+  // Row 0 is the initial state.
   return {{all.times.begin() + 1, last}, {all.u.begin() + 1, all.u.begin() + rows}};
 }
 
@@ -77,7 +78,8 @@ Outcome run_butee(scene::Scene& session, const Reference& reference) {
   return {completed ? error_of(sampler.x, reference) : std::numeric_limits<double>::infinity(), seconds};
 }
 
-/// Takes values of a parameter, each smaller by `ratio`, until the runs are fine or long.
+/// Runs values of a parameter, each smaller by the factor `ratio`, until the error is small enough or the run
+/// too long.
 void sweep(std::vector<Candidate>& all, const std::string& name, double first, double ratio,
            const std::function<std::function<Outcome()>(double)>& at) {
   for (double value = first; value > 1e-14; value *= ratio) {
@@ -141,7 +143,7 @@ void compare(const Chosen& chosen) {
   std::vector<Candidate> by_hand = plain_candidates(chosen, problem, reference),
                          own = own_candidates(chosen, reference);
   for (const double target : {1e-2, 1e-3, 1e-4}) {
-    // The fastest of a sweep may have been lucky: the times of all that are near it are taken again.
+    // The fastest time of a sweep may be an outlier: all candidates near it are timed again.
     for (int round = 0; round < kRounds; ++round)
       for (std::vector<Candidate>* side : {&by_hand, &own}) {
         const Candidate* best = fastest(*side, target);

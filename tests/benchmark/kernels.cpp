@@ -1,5 +1,5 @@
-// The kernels of framework/linalg and framework/dynamics beside the plain ones, on beam1 (68 DOFs, band 3, 33 arctan
-// stops).
+// Compares the kernels of framework/linalg and framework/dynamics with the plain ones, on beam1 (68 DOFs,
+// band 3, 33 arctan stops).
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -21,12 +21,12 @@ namespace {
 constexpr double kStep = 1e-5, kOnVelocity = 0.5 * kStep, kOnDisplacement = 0.25 * kStep * kStep;
 constexpr Index kBand = 3;
 constexpr double kGap = 0.01, kOpen = 1e-3, kPressed = kGap + 1e-3;
-/// So close to its gap that the arc tangent itself is needed.
+/// A displacement so close to the gap that the arctan must be evaluated.
 constexpr double kTouching = kGap + 1e-6;
 
 using Kernel = std::function<void()>;
 
-/// A kernel is made when its turn comes and holds what it works on.
+/// Registers a kernel; `make` creates it with its data when the benchmark starts.
 void add(const std::string& name, const std::function<Kernel()>& make) {
   benchmark::RegisterBenchmark(("kernel/" + name).c_str(), [make](benchmark::State& state) {
     const Kernel kernel = make();
@@ -89,7 +89,7 @@ void add_products() {
   }
 }
 
-/// Every solution starts from a fresh copy of its right side, on both sides.
+/// In both programs every solution starts from a fresh copy of its right-hand side.
 void add_solutions() {
   struct Solver {
     explicit Solver(const SparseMatrix& a) : matrix(a), solver(matrix, counters) { (void)solver.factorize(matrix); }
@@ -123,14 +123,14 @@ void add_solutions() {
   });
 }
 
-/// Displacements with the first stops pressed or touching and all others open.
+/// Displacements with the first stops closed or touching and all others open.
 Vector with_closed_stops(const dynamics::Contact& contact, Index closed, double displacement) {
   Vector x = Vector::Constant(contact.system_size(), kOpen);
   for (Index i = 0; i < closed; ++i) x[contact.dof_a(i)] = displacement;
   return x;
 }
 
-/// Stops evaluated from the displacements of the system, as a method has them.
+/// Evaluation of the stops from system displacements, as in a method.
 void add_laws() {
   struct Laws {
     explicit Laws(double displacement)
@@ -170,7 +170,8 @@ void add_laws() {
   }
 }
 
-/// The effective equations where the stiffness of the stops is new. The plain side factorizes, as its methods do.
+/// The effective equations with a new stiffness of the stops. The plain side factorizes each time, as its
+/// methods do.
 void add_effective_solutions() {
   for (const Index closed : {0, 3, 33}) {
     const auto stiffness = [closed](test::SceneRun& scene) {

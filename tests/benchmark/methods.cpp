@@ -1,5 +1,5 @@
-// Whole methods: assembly, first factorization and all steps, in memory. Reading is left out on both sides. Both follow
-// the largest |u| and |v| of the loaded DOF at every step, and record nothing else.
+// Times of whole methods: assembly, first factorization and all steps, in memory, without reading. Both
+// programs track the largest |u| and |v| of the loaded DOF at every step, and record nothing else.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,7 +15,7 @@ namespace butee::benchmarks {
 namespace {
 
 struct Chosen {
-  std::string name;  ///< as the table shows it
+  std::string name;  ///< name in the table
   plain::Case its;   ///< name, step and end
 };
 
@@ -29,7 +29,7 @@ std::vector<Chosen> chosen_cases() {
   return all;
 }
 
-/// What the plain program records at every step.
+/// Records the same quantities as the plain program at every step.
 class Peaks final : public time::Observer {
  public:
   explicit Peaks(Index dof) : dof_(dof) {}
@@ -57,10 +57,10 @@ time::RunReport run_once(scene::Scene& session) {
   return report;
 }
 
-/// Steps tried, by which a method whose steps are decided by rounding is compared.
+/// Attempted steps; used to compare methods whose steps depend on rounding.
 void show_steps(benchmark::State& state, double steps, double rejected, double newton) {
   state.counters["attempts"] = steps + rejected;
-  if (newton > 0.0) state.counters["newton"] = newton;  // the relative scatter of zeros is no JSON
+  if (newton > 0.0) state.counters["newton"] = newton;  // JSON cannot hold the relative scatter of zeros
 }
 
 void time_butee(benchmark::State& state, const Chosen& chosen, const std::string& method) {

@@ -1,5 +1,5 @@
-// Prints the ratios of times, butee to plain, from what the benchmarks wrote with --benchmark_out_format=json; of
-// several builds, named NAME=FILE, beside the times of the quickest of them.
+// Prints the ratios of times, butee to plain, from the benchmarks' output with --benchmark_out_format=json.
+// For several builds, named NAME=FILE, it also prints times relative to the fastest build.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +15,8 @@
 
 namespace {
 
-/// The steps of this method on the beams are decided by rounding, so that it is compared by the step tried.
+/// Rounding determines the steps of this method on the beams, so it is compared by the time of an attempted
+/// step.
 constexpr const char* kComparedByTheStep = "RK4-3";
 
 struct Pair {
@@ -23,9 +24,9 @@ struct Pair {
   double ratio() const { return butee / plain; }
 };
 
-/// Keeps the order in which keys come up first.
+/// Keeps keys in the order of their first use.
 struct Table {
-  /// The least time counts: nothing makes a program quicker than it is.
+  /// Keeps the smallest time, because disturbances only lengthen times.
   void see(const std::string& key, const std::string& side, double time) {
     if (!pairs.contains(key)) order.push_back(key);
     double& best = side == "butee" ? pairs[key].butee : pairs[key].plain;
@@ -47,7 +48,7 @@ double seconds(const nlohmann::json& run) {
   return run.at("cpu_time").get<double>() * units.at(run.at("time_unit").get<std::string>());
 }
 
-/// The runs in the order of registration, which random interleaving shuffles.
+/// The runs in the order of registration; random interleaving shuffles them in the file.
 std::vector<nlohmann::json> runs_of(const nlohmann::json& all) {
   std::vector<nlohmann::json> runs;
   for (const auto& run : all.at("benchmarks"))
@@ -112,8 +113,8 @@ struct Build {
   Table methods;
 };
 
-/// Over the cases of one method: how many times the quickest build's time, and the time of the plain program compiled
-/// with the same flags (geometric means).
+/// For each method, geometric means over its cases of two ratios: to the time of the fastest build, and to
+/// the time of the plain program compiled with the same flags.
 void print_builds(const std::vector<Build>& builds) {
   std::vector<std::string> columns;
   std::map<std::string, double> least;
@@ -141,7 +142,7 @@ void print_builds(const std::vector<Build>& builds) {
   }
 }
 
-/// Several files of one build are rounds of the same.
+/// Several files of one build are repeated measurements.
 void read_build(const std::string& argument, std::vector<Build>& builds) {
   const auto end = argument.find('=');
   const std::string name = argument.substr(0, end);

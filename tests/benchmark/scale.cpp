@@ -1,4 +1,5 @@
-// Large scenes: what set-up and a step cost from 1e3 to 1e6 DOFs, for one long beam and for 16 that are tied together.
+// Large scenes: cost of set-up and of a step from 1e3 to 1e6 DOFs, for one long beam and for 16 coupled
+// beams.
 #include <algorithm>
 #include <chrono>
 #include <functional>
@@ -16,7 +17,7 @@
 namespace butee::benchmarks {
 namespace {
 
-/// Steps that are timed; the quickest counts.
+/// Number of timed steps; the smallest time counts.
 constexpr int kSteps = 20;
 
 double seconds_of(const std::function<void()>& work) {
@@ -25,7 +26,7 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// The most memory that this process ever held, GiB.
+/// The peak memory of this process, GiB.
 double most_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

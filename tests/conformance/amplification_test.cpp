@@ -16,7 +16,7 @@ using Eigen::Matrix2d;
 struct Oscillator {
   double stiffness, damping;  ///< N/m, N s/m
 
-  /// (x, v)' = A (x, v)
+  /// The matrix A of (x, v)' = A (x, v).
   Matrix2d rates() const { return (Matrix2d() << 0.0, 1.0, -stiffness / 2.0, -damping / 2.0).finished(); }
 };
 
@@ -30,7 +30,7 @@ std::string scene(const MethodCase& method, const Oscillator& oscillator, double
          "\"\ntime_step = 1e-3\nend_time = 1.0\n" + method.keys + more;
 }
 
-/// The matrix that takes (x, v) over one step, its columns from two starts.
+/// The matrix that maps (x, v) over one step, measured column by column from two initial states.
 Matrix2d measured(const MethodCase& method, const Oscillator& oscillator, double h, const std::string& more = "") {
   Matrix2d matrix;
   for (int column = 0; column < 2; ++column) {
@@ -58,7 +58,8 @@ Matrix2d newmark(const Oscillator& oscillator, double h, double beta, double gam
   return end.inverse() * begin;
 }
 
-/// e^(h A) by its series on a part of the step, squared again and again: what a method without truncation error does.
+/// e^(h A) by its series over a fraction of the step and repeated squaring: the matrix of a method without
+/// truncation error.
 Matrix2d exponential(const Matrix2d& rates, double h) {
   constexpr int kSquarings = 10;
   const Matrix2d z = std::ldexp(h, -kSquarings) * rates, one = Matrix2d::Identity();
@@ -72,11 +73,11 @@ bool starts_with(const std::string& text, const std::string& begin) {
   return text.rfind(begin, 0) == 0;
 }
 
-/// The closed form of a method's matrix; empty for one that the suite has none of.
+/// The closed form of a method's matrix; empty if the suite has none.
 std::function<Matrix2d(const Oscillator&, double)> closed_form(const MethodCase& method) {
   if (method.name == "exact") return [](const Oscillator& o, double h) { return exponential(o.rates(), h); };
   if (method.name == "rk4") return [](const Oscillator& o, double h) { return runge_kutta4(o.rates(), h); };
-  if (starts_with(method.name, "rk4_"))  // Step doubling keeps the two halves.
+  if (starts_with(method.name, "rk4_"))  // Step doubling keeps the result of the two halves.
     return [](const Oscillator& o, double h) -> Matrix2d {
       const Matrix2d half = runge_kutta4(o.rates(), 0.5 * h);
       return half * half;
@@ -92,10 +93,10 @@ std::vector<MethodCase> cases_with_closed_form() {
   return cases;
 }
 
-/// Rounding of some dozen operations, in a matrix scaled to velocities of omega times displacements.
+/// Rounding of some dozen operations, in a matrix with displacements scaled by omega.
 constexpr double kRounding = 1e-12;
 
-/// The largest difference once x counts in units of v/omega.
+/// The largest difference with x in units of v/omega.
 double difference(const Matrix2d& a, const Matrix2d& b, double omega) {
   const Matrix2d scale = Eigen::Vector2d(1.0, 1.0 / omega).asDiagonal();
   return (scale * (a - b) * scale.inverse()).cwiseAbs().maxCoeff() /
@@ -106,7 +107,7 @@ class Amplification : public testing::TestWithParam<MethodCase> {};
 
 TEST_P(Amplification, OfOneStepIsTheClosedForm) {
   const auto expected = closed_form(GetParam());
-  // A series of order 30 has converged to rounding for h omega = 1, and takes no step of 10.
+  // A series of order 30 has converged to rounding for h omega = 1; a step of 10 is too long for it.
   const bool is_series = GetParam().name == "exact";
   int cases = 0;
   for (const double ratio : {0.0, 0.02, 0.4})
@@ -129,7 +130,7 @@ TEST(NewmarkAmplification, OfOtherParametersIsTheClosedForm) {
   const Oscillator oscillator{2.0 * omega * omega, 4.0 * 0.05 * omega};
   int cases = 0;
   for (const MethodCase& method : cases_with_closed_form()) {
-    // The error estimate of the adaptive ones wants gamma = 1/2 and vanishes at beta = 1/6.
+    // The adaptive variants require gamma = 1/2, and their error estimate vanishes at beta = 1/6.
     if (method.name != "newmark" && method.name != "newmark_modified") continue;
     for (const auto& [beta, gamma] : {std::pair(1.0 / 6.0, 0.5), std::pair(0.3025, 0.6), std::pair(1.0 / 12.0, 0.5)})
       for (const double h_omega : {0.1, 1.0, 2.0}) {
@@ -144,8 +145,9 @@ TEST(NewmarkAmplification, OfOtherParametersIsTheClosedForm) {
   EXPECT_EQ(cases, 18);
 }
 
-/// What is left of the energy of free undamped motion after one step: the square of the spectral radius. That of RK4 is
-/// |1 + i y - y^2/2 - i y^3/6 + y^4/24|^2 = 1 - y^6/72 + y^8/576 with y = h omega, that of trapezoidal Newmark 1.
+/// The fraction of the energy of free undamped motion that remains after one step: the square of the spectral
+/// radius. With y = h omega it is |1 + i y - y^2/2 - i y^3/6 + y^4/24|^2 = 1 - y^6/72 + y^8/576 for RK4, and
+/// 1 for trapezoidal Newmark.
 double kept_energy(const MethodCase& method, double y) {
   const auto runge_kutta = [](double z) { return 1.0 - std::pow(z, 6) / 72.0 + std::pow(z, 8) / 576.0; };
   if (method.name == "rk4") return runge_kutta(y);

@@ -10,7 +10,7 @@
 namespace butee::test::energy_test {
 namespace {
 
-/// Driven, damped, in and out of a stop whose law the steps resolve.
+/// A driven, damped mass with a stop whose law the steps resolve.
 std::string scene(const MethodCase& method, int steps) {
   return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n"
          "[[element]]\ntype = \"spring\"\nnode = \"m\"\nstiffness = 40.0\ndamping = 0.9\n"
@@ -38,14 +38,15 @@ class EnergyBalance : public testing::TestWithParam<MethodCase> {};
 TEST_P(EnergyBalance, ErrorShrinksAtTheMethodsOrder) {
   const MethodCase& method = GetParam();
   if (method.order == 0.0) {
-    // What the tolerances of the suite leave; modified Newmark lags behind the resolved law by a step.
+    // Bound set by the suite's tolerances; modified Newmark lags behind the resolved law by a step.
     EXPECT_LT(balance_error(method, 1000), method.name == "newmark_modified_adaptive" ? 0.03 : 1e-3);
     return;
   }
   // Modified Newmark is of order 1 across a resolved contact; see OrderAcrossContact.
   const double order = method.name == "newmark_modified" ? 1.0 : method.order;
   const double rate = std::log2(balance_error(method, 500) / balance_error(method, 4000)) / 3.0;
-  // The error changes sign with the phase of the motion, so that its rate scatters more than the solution's.
+  // The sign of the error depends on the phase of the motion, so its rate scatters more than that of the
+  // solution.
   EXPECT_NEAR(rate, order, 0.3);
 }
 

@@ -8,12 +8,12 @@
 namespace butee::test::equal_steps_test {
 namespace {
 
-/// House rule: the measured order is within this of the method's, on both sides.
+/// Largest difference between the measured order and that of the method.
 constexpr double kOrderTolerance = 0.05;
 
-/// Two masses in a chain, damped by dashpot and by modes, forced off their periods, observed off the period of the
-/// load; the first swings between stops on both sides, whose law is smooth within 1/(pi lambda) = 11 mm. (One stop on
-/// both sides would jump at u = 0.)
+/// Two coupled masses with a dashpot and modal damping, driven at a frequency off their natural ones, and
+/// sampled off the load's period. The first mass moves between stops on both sides, whose law is smooth
+/// within 1/(pi lambda) = 11 mm. (A single stop on both sides would have a discontinuity at u = 0.)
 std::string scene(const MethodCase& method, bool with_stops) {
   const auto stop = [](const std::string& sides) {
     return "[[contact]]\ntype = \"stop\"\nnodes = \"a\"\ngap = 0.05\nstiffness = 400.0\nlaw = \"arctan\"\n"
@@ -41,7 +41,7 @@ std::vector<time::State> states(const MethodCase& method, bool with_stops, int s
   return equal_steps(run, kEnd / steps, steps, kSamples);
 }
 
-/// Runge-Kutta with steps of 3e-5 s: below 1e-12 of the motion.
+/// Runge-Kutta with steps of 3e-5 s: error below 1e-12 of the motion.
 const std::vector<time::State>& reference(bool with_stops) {
   static const MethodCase rk4{"rk4", "", 4.0};
   static const auto with = states(rk4, true, 50000), without = states(rk4, false, 50000);
@@ -52,7 +52,8 @@ struct Errors {
   double x = 0.0, v = 0.0;
 };
 
-/// Root sum of squares over both masses and all samples, among which no lucky instant stands out.
+/// Root sum of squares over both masses and all samples, so that a zero of the error at one instant does not
+/// matter.
 Errors errors(const MethodCase& method, bool with_stops, int steps) {
   const auto got = states(method, with_stops, steps), &exact = reference(with_stops);
   Errors sum;
@@ -72,7 +73,7 @@ Errors orders(const MethodCase& method, bool with_stops, int steps) {
 class EqualSteps : public testing::TestWithParam<MethodCase> {};
 
 TEST_P(EqualSteps, HaveTheMethodsOrderInForcedDampedMotion) {
-  // A method of order 8 is down at the reference's own error with more.
+  // With more steps a method of order 8 reaches the error of the reference.
   const auto [x, v] = orders(GetParam(), false, GetParam().step_order() > 6.0 ? 20 : 200);
   EXPECT_NEAR(x, GetParam().step_order(), kOrderTolerance) << "displacement";
   EXPECT_NEAR(v, GetParam().step_order(), kOrderTolerance) << "velocity";
@@ -80,10 +81,11 @@ TEST_P(EqualSteps, HaveTheMethodsOrderInForcedDampedMotion) {
 
 TEST_P(EqualSteps, HaveTheMethodsOrderBetweenStopsOnBothSides) {
   const MethodCase& method = GetParam();
-  // The secant stiffness of the last step lags by h in a transition that the steps resolve.
+  // The secant stiffness of the last step lags by h in a transition resolved by the steps.
   const double order = method.name.rfind("newmark_modified", 0) == 0 ? 1.0 : method.step_order();
   if (order > 6.0) {
-    // Between the step that resolves the bend and the error of the reference lies no halving: it is very small at once.
+    // No halving fits between the step that resolves the curved law and the error of the reference; the error
+    // itself is very small.
     EXPECT_LT(errors(method, true, 800).x, 1e-11);
     return;
   }
@@ -95,7 +97,7 @@ TEST_P(EqualSteps, HaveTheMethodsOrderBetweenStopsOnBothSides) {
 INSTANTIATE_TEST_SUITE_P(Catalogue, EqualSteps, testing::ValuesIn(cases_with_step_order()),
                          [](const auto& one) { return one.param.name; });
 
-/// The scene is what it says.
+/// Checks that the mass strikes both stops.
 TEST(EqualStepsScene, StrikesBothStops) {
   SceneRun run(scene({"rk4", "", 4.0}, true));
   record::ImpactRecorder impacts(run.dynamics());

@@ -1,5 +1,5 @@
-// The constants kappa of integrators/error-control.md: the local error of undamped oscillation over the power of its
-// estimate that the step control takes for it.
+// The constants kappa of integrators/error-control.md: ratio of the local error of undamped oscillation to
+// the power of its estimate that the step control uses.
 #include <cmath>
 
 #include <butee/core/text.hpp>
@@ -12,13 +12,14 @@ namespace butee::test::error_constant_test {
 namespace {
 
 constexpr double kFrequency = 10.0, kTolerance = 1e-3, kEnd = 1.0;
-/// Estimate and error may point to different phases of the oscillation, of which the largest component is 0.71 to 1.
+/// Estimate and error may have different phases in the oscillation; the largest component varies between 0.71
+/// and 1.
 constexpr double kPhases = 1.45;
 
 struct Case {
   const char* method;
   double estimate, order;  ///< q, p
-  double turn;             ///< h omega: small, but with an error well above rounding
+  double turn;             ///< h omega: small, but large enough that the error is well above rounding
 };
 
 class ErrorConstant : public testing::TestWithParam<Case> {};
@@ -41,7 +42,8 @@ TEST_P(ErrorConstant, TurnsTheEstimateIntoTheLocalError) {
   const double true_x = c * x + s / kFrequency * v, true_v = c * v - kFrequency * s * x;
   const double scale_x = std::max(x, std::abs(to.x[0])), scale_v = std::max(-v, std::abs(to.v[0]));
   const double error = std::max(std::abs(to.x[0] - true_x) / scale_x, std::abs(to.v[0] - true_v) / scale_v);
-  // The measure is epsilon over what one of T/h steps may err by: its power (p + 1)/q is the error over that.
+  // The measure is epsilon over the error allowed in one of T/h steps; its power (p + 1)/q is the error over
+  // that.
   const double rate = integrators::ErrorAccount({kTolerance, kEnd}).rate();
   const double expected = rate * h * std::pow(report.error, (p + 1.0) / q);
   EXPECT_GT(error, expected / kPhases);

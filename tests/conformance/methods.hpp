@@ -6,16 +6,16 @@
 
 namespace butee::test {
 
-/// One method with what the suite must know of it, and the keys that make it run.
+/// One method with the data that the suite needs, and keys with which it runs.
 struct MethodCase {
   std::string name;
-  std::string keys;  ///< TOML lines of [integrator] beside time_step and end_time
-  double order;      ///< of the smooth problem, in x and v; 0 for adaptive methods
-  /// Of an adaptive method: that of its arithmetic with equal steps, or 0 where the suite does not look at it.
+  std::string keys;  ///< TOML lines of [integrator] in addition to time_step and end_time
+  double order;      ///< order for smooth problems, in x and v; 0 for adaptive methods
+  /// Order of an adaptive method's formula with equal steps; 0 if the suite does not test it.
   double order_of_equal_steps = 0.0;
 
   bool is_implicit = false;    ///< factorizes a matrix for each step size
-  bool takes_dashpots = true;  ///< that couple the modes
+  bool takes_dashpots = true;  ///< accepts dashpots that couple the modes
   bool takes_smooth_laws = true;
   bool is_for_few_dofs = false;
 
@@ -26,7 +26,7 @@ inline void PrintTo(const MethodCase& method, std::ostream* out) {
   *out << method.name;
 }
 
-/// Every method of the catalogue; a test asserts that none is missing.
+/// Every method of the catalogue; a test checks that the list is complete.
 inline std::vector<MethodCase> method_cases() {
   const std::string newton = "residual_tolerance = 1e-13\nincrement_tolerance = 1e-13\nmax_iterations = 20\n";
   std::vector<MethodCase> all = {{"exact", "", 0.0},

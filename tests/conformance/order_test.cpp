@@ -9,7 +9,7 @@
 namespace butee::test::order_test {
 namespace {
 
-/// House rule: the measured order is within this of the method's, on both sides.
+/// Largest difference between the measured order and that of the method.
 constexpr double kOrderTolerance = 0.05;
 
 std::string integrator_table(const MethodCase& method, double h, double end) {
@@ -17,7 +17,8 @@ std::string integrator_table(const MethodCase& method, double h, double end) {
          "\n" + method.keys;
 }
 
-/// m x'' + c x' + k x = F cos(w t + phi) from (x0, v0): damped, forced, observed off the period.
+/// m x'' + c x' + k x = F cos(w t + phi) from (x0, v0): damped and forced; samples do not coincide with the
+/// period.
 struct ForcedOscillator {
   double m = 2.0, c = 1.5, k = 110.0, F = 7.0, w = 4.1, phi = 0.4, x0 = 0.3, v0 = -1.2, end = 1.71;
 
@@ -29,7 +30,7 @@ struct ForcedOscillator {
            integrator_table(method, h, end);
   }
 
-  /// The closed form: steady part plus decaying free part.
+  /// The closed form: steady-state part plus decaying free part.
   std::pair<double, double> exact(double t) const {
     const double a = k - m * w * w, b = c * w, size = F / (a * a + b * b);
     const auto steady = [&](double s) { return size * (a * std::cos(w * s + phi) + b * std::sin(w * s + phi)); };
@@ -83,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, Order, testing::ValuesIn(fixed_step_cases())
 INSTANTIATE_TEST_SUITE_P(Catalogue, EndState, testing::ValuesIn(method_cases()),
                          [](const auto& one) { return one.param.name; });
 
-/// An oscillator that is pressed into a stop on one side, twice within 1.3 s.
+/// An oscillator that is pressed against a stop on one side, twice within 1.3 s.
 std::string contact_scene(const MethodCase& method, const std::string& law, double h) {
   return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n"
          "[[element]]\ntype = \"spring\"\nnode = \"m\"\nstiffness = 40.0\ndamping = 0.3\n"
@@ -103,7 +104,8 @@ MethodCase method_named(const std::string& name) {
   throw std::runtime_error("no method " + name);
 }
 
-/// The mean order over six halvings of the step against RK4 with steps below every scale of the problem.
+/// The mean order over six halvings of the step, against RK4 with steps below every time scale of the
+/// problem.
 double order_across_contact(const std::string& name, const std::string& law, int steps) {
   const double reference = end_displacement(method_named("rk4"), law, 400000);
   const int halvings = 6;
@@ -112,7 +114,7 @@ double order_across_contact(const std::string& name, const std::string& law, int
   return std::log2(first / last) / halvings;
 }
 
-// A law that steps resolve: its transition is 1/(pi 30) = 11 mm wide.
+// A law resolved by the steps: its transition is 1/(pi 30) = 11 mm wide.
 const char* const kSmooth = "law = \"arctan\"\nregularization = 30.0\n";
 const char* const kContactChange = "law = \"linear\"\n";
 
@@ -122,15 +124,17 @@ TEST(OrderAcrossContact, IsFourForRungeKuttaWhereTheLawIsResolved) {
 
 TEST(OrderAcrossContact, IsTwoForNewmark) {
   EXPECT_NEAR(order_across_contact("newmark", kSmooth, 200), 2.0, 0.05);
-  // Where in a step a kink falls scatters the error of single runs; six halvings average that.
+  // The error of a single run depends on the position of the slope discontinuity within a step; six halvings
+  // average that.
   EXPECT_NEAR(order_across_contact("newmark", kContactChange, 200), 2.0, 0.35);
 }
 
 TEST(OrderAcrossContact, OfModifiedNewmarkIsOneWhereTheLawIsResolvedAndAboveItAtAKink) {
-  // The secant stiffness of the last step lags by h everywhere in a smooth transition: a force error of O(h) for a time
-  // O(1).
+  // The secant stiffness of the last step lags by h throughout a smooth transition: a force error of O(h) for
+  // a time O(1).
   EXPECT_NEAR(order_across_contact("newmark_modified", kSmooth, 200), 1.0, 0.05);
-  // At a kink it is wrong in the one step that holds it: O(h) for a time O(h), the second order with scatter.
+  // At a slope discontinuity it is wrong only in the step that contains it: O(h) for a time O(h), hence
+  // second order with scatter.
   EXPECT_NEAR(order_across_contact("newmark_modified", kContactChange, 200), 2.0, 0.35);
 }
 

@@ -1,4 +1,4 @@
-// No method pays for what its scene does not have.
+// Unused features cost no evaluations.
 #include <set>
 #include <string>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSteps = 50;
 
-/// A pinned bar that a force drives.
+/// A pinned bar driven by a force.
 std::string bar(const MethodCase& method, const std::string& more) {
   return "schema = 1\n[material.steel]\nyoung_modulus = 2e11\ndensity = 8000\n[section.bar]\nshape = "
          "\"general\"\narea = 2e-3\nsecond_moment = 3e-6\n[[element]]\ntype = \"beam\"\nname = \"bar\"\nmaterial = "
@@ -46,7 +46,7 @@ TEST_P(Skips, ContactWhereThereAreNoStops) {
   EXPECT_EQ(counters.contact_evaluations, 0);
   EXPECT_EQ(counters.law_evaluations, 0);
   EXPECT_EQ(counters.factor_updates, 0);
-  // M for the first acceleration, and of an implicit method one matrix for each step size that was tried.
+  // M for the first acceleration; for an implicit method also one matrix for each attempted step size.
   const bool is_explicit = !method.is_implicit;
   const auto sizes_tried = static_cast<std::int64_t>(sizes.all.size()) + run.simulation().report().rejected;
   EXPECT_GE(counters.factorizations, is_explicit ? 1 : 2);
@@ -68,7 +68,7 @@ TEST_P(Skips, StopsOnSupports) {
   EXPECT_EQ(with.simulation().state().x, without.simulation().state().x);
 }
 
-/// One law evaluation for each stop that can act, in every evaluation of the contact.
+/// Every contact evaluation evaluates one law for each stop that can act.
 TEST_P(Skips, TheStopsThatCannotActAmongOthers) {
   SceneRun run(bar(GetParam(), stops_at("\"bar:all\"")));
   ASSERT_TRUE(run.run().completed);
@@ -90,7 +90,7 @@ TEST_P(Skips, ZeroLoads) {
   EXPECT_EQ(with.simulation().state().x, without.simulation().state().x);
 }
 
-/// No matrix of dashpots is assembled unless a dashpot acts, and without any damping there is no C v to add.
+/// A matrix of dashpots is assembled only if a dashpot acts; without any damping the term C v is skipped.
 TEST_P(Skips, DampingThatIsNotThere) {
   const std::string spring = "[[element]]\ntype = \"spring\"\nnode = \"bar:3\"\nstiffness = 1e4\ndamping = ";
   SceneRun none(bar(GetParam(), spring + "0.0\n")),

@@ -9,7 +9,7 @@
 namespace butee::test::snapshot_test {
 namespace {
 
-/// A short pinned beam that strikes its stops at once, driven off its own periods.
+/// A short pinned beam that strikes its stops early, driven off its natural periods.
 std::string scene_of(const MethodCase& method) {
   return "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\n"
          "radius = 0.02\n"
@@ -24,7 +24,7 @@ std::string scene_of(const MethodCase& method) {
          "[output]\ninterval = 1e-4\nenergy = true\nimpacts = true\n";
 }
 
-/// A run with everything that watches one.
+/// A run with all observers.
 struct Watched {
   explicit Watched(const MethodCase& method)
       : run(scene_of(method)),

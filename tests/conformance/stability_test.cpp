@@ -1,4 +1,5 @@
-// How far each method is stable, measured on its own one-step map, against what it declares and what theory says.
+// Stability limits of each method, measured on its one-step map, compared with its declaration and with
+// theory.
 #include <cmath>
 
 #include <butee/core/text.hpp>
@@ -31,8 +32,8 @@ OneStepMap map_of(const std::string& method, const Oscillator& oscillator,
   return {catalogue(), method, settings, oscillator};
 }
 
-/// The limit is where the radius exceeds 1 by kStable, which is that much off over the slope of the radius, 4e-3 of
-/// dopri5.
+/// The limit is where the spectral radius exceeds 1 by kStable; its error is kStable over the slope of the
+/// radius, which is 4e-3 for dopri5.
 constexpr double kBisected = 3e-6;
 
 class Stability : public testing::TestWithParam<MethodCase> {};
@@ -54,7 +55,7 @@ TEST_P(Stability, ReachesAsFarAsTheMethodDeclares) {
 }
 
 TEST_P(Stability, OfAClosedStopIsThatOfAStifferSpring) {
-  const double stop = 8.0;  // omega triples
+  const double stop = 8.0;  // triples omega
   OneStepMap map = map_of(GetParam().name, {1.0, 0.0, stop});
   const double declared = map.type().stability_limit;
   if (std::isfinite(declared)) expect_limit(find_limit(map), declared / 3.0, "h omega with a stop");
@@ -66,8 +67,8 @@ TEST_P(Stability, DampsAndShiftsLittleWhereStepsAreSmall) {
   const auto matrix = map.at(h);
   ASSERT_TRUE(matrix) << map.refusal();
   const auto properties = properties_of(*matrix, h, ratio);
-  // Second order: (h omega)^2/4 = 6e-4 is the most that any of them makes of the period; damping is of higher order,
-  // but generalized-alpha and HHT with their own first-order part.
+  // Second order: (h omega)^2/4 = 6e-4 is the largest period error of all methods. The damping error is of
+  // higher order, except the first-order numerical damping of generalized-alpha and HHT.
   constexpr double kPeriod = 1e-3, kDamping = 2e-3;
   EXPECT_NEAR(*properties.period_error, 0.0, kPeriod);
   EXPECT_NEAR(*properties.damping, 0.0, kDamping);
@@ -94,7 +95,7 @@ TEST(StabilityTheory, OfCentralDifferencesAndNewmark) {
 }
 
 TEST(StabilityTheory, OfTheTrapezoidalRulesPeriod) {
-  // 2 atan(h omega/2) a step, without damping.
+  // The phase advances by 2 atan(h omega/2) in a step, without damping.
   OneStepMap map = map_of("newmark", {});
   for (const double h : {0.1, 1.0, 3.0}) {
     const auto properties = properties_of(*map.at(h), h, 0.0);
@@ -104,10 +105,10 @@ TEST(StabilityTheory, OfTheTrapezoidalRulesPeriod) {
 }
 
 TEST(StabilityTheory, OfGeneralizedAlphaAtInfinity) {
-  // Its radius at infinite frequency is its parameter.
+  // The spectral radius at infinite frequency is the method's parameter.
   for (const double rho : {0.0, 0.5, 0.8, 1.0}) {
     OneStepMap map = map_of("generalized_alpha", {}, {"rho_inf=" + to_text(rho)});
-    // Three eigenvalues that meet differ by the cube root of what is left at a finite step.
+    // Three merging eigenvalues differ by the cube root of the remainder at a finite step.
     EXPECT_NEAR(*properties_of(*map.at(1e4), 1e4, 0.0).radius, rho, 0.03) << rho;
   }
 }

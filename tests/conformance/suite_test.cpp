@@ -14,7 +14,7 @@ namespace {
 
 using conformance::Check;
 
-/// The suite of `butee test-plugin`, on every method of the catalogue.
+/// The suite of `butee test-plugin`, applied to every method of the catalogue.
 class Suite : public testing::TestWithParam<std::tuple<MethodCase, Check>> {};
 
 TEST_P(Suite, DemandIsMet) {
@@ -36,7 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, Suite,
                                           testing::ValuesIn(conformance::integrator_checks())),
                          name_of);
 
-/// The same for laws, contacts, loads and elements, those of the library among them.
+/// The same for laws, contacts, loads and elements, including those of the library.
 TEST(SuiteOfOtherKinds, DemandsAreMet) {
   plugin::Catalogue catalogue;
   catalogue.add(BUTEE_TEST_PLUGINS);
@@ -97,7 +97,7 @@ TEST(ConformanceSuite, CoversTheWholeCatalogue) {
   plugin::Catalogue catalogue;
   catalogue.add(BUTEE_TEST_PLUGINS);
   std::vector<std::string> registered, covered;
-  // SUNDIALS keeps a history of its own, so that its steps are no pure functions: tests/plugins/sundials_test.cpp.
+  // SUNDIALS keeps its own history, so its steps are not pure functions; see tests/plugins/sundials_test.cpp.
   for (const auto& entry : catalogue.integrators())
     if (entry.module.find("sundials") == std::string::npos) registered.push_back(entry.declaration.name);
   for (const MethodCase& method : method_cases()) covered.push_back(method.name);

@@ -10,7 +10,7 @@
 namespace butee::test::c_interface_test {
 namespace {
 
-/// A free mass of 2 kg that is thrown at a stop 10 mm away.
+/// A free mass of 2 kg with an initial velocity towards a stop 10 mm away.
 const char* const kScene =
     "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n"
     "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\nsides = \"positive\"\ngap = 0.01\nlaw = \"linear\"\nstiffness = 1e5\n"
@@ -39,7 +39,7 @@ TEST_F(CInterface, AdvancesReadsAndGoesBack) {
   EXPECT_NEAR(u, 0.009, 1e-15);
   butee_snapshot* snapshot = nullptr;
   ASSERT_EQ(butee_save(mass_, &snapshot), BUTEE_OK);
-  // Half a period of the mass on its stop later it is on its way back.
+  // Half a period of the mass on its stop later, it moves back.
   ASSERT_EQ(butee_advance_to(mass_, 0.03), BUTEE_OK);
   ASSERT_EQ(butee_motion(mass_, dof_, nullptr, &v, nullptr), BUTEE_OK);
   EXPECT_NEAR(v, -1.0, 1e-6);
@@ -74,7 +74,7 @@ TEST_F(CInterface, GivesQuantitiesByNameAndTheirPeaks) {
             BUTEE_OK)
       << butee_message();
   ASSERT_EQ(butee_follow_peak(pair, "m", "v"), BUTEE_OK) << butee_message();
-  // No peaks are followed of the forces of elements.
+  // Peaks of element forces cannot be tracked.
   EXPECT_EQ(butee_follow_peak(pair, "m", "spring_force"), BUTEE_BAD_INPUT);
   EXPECT_NE(std::strstr(butee_message(), "spring_force"), nullptr) << butee_message();
   const double u = 0.01, v = 0.0;
@@ -102,7 +102,7 @@ TEST_F(CInterface, GivesQuantitiesByNameAndTheirPeaks) {
   butee_close(pair);
 }
 
-/// Springs along x, y and z and about y and z of one body: x = F/k (1 - cos(w t)) on each.
+/// A body with springs along x, y and z and about y and z: x = F/k (1 - cos(w t)) for each.
 TEST_F(CInterface, NamesEveryDegreeOfFreedom) {
   std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\nrotary_inertia = 0.5\n"

@@ -1,4 +1,5 @@
-// Calls that are wrong: each is refused with a message, and changes nothing. A failed step is no dead end.
+// Invalid calls: each is refused with a message and changes nothing. After a failed step the structure can
+// continue.
 #include <butee/embed/butee.h>
 #include <cmath>
 #include <functional>
@@ -18,7 +19,7 @@ using embed::Structure;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Two masses, of which one meets a stop.
+/// Two masses; one of them strikes a stop.
 std::string scene(const std::string& integrator, const std::string& mass = "2.0") {
   return R"(schema = 1
 [[element]]
@@ -126,7 +127,7 @@ TEST(Misuse, ASnapshotOfAnotherStructureIsRefused) {
   EXPECT_EQ(equal.time(), 0.0);
 }
 
-/// h omega = 4 of rk4: any motion grows until the run is ended.
+/// h omega = 4 of rk4: any motion grows until the run is stopped.
 const std::string kUnstable = "type = \"rk4\"\ntime_step = 0.2\n";
 
 TEST(AfterAFailedStep, AnotherMotionGoesOn) {
@@ -144,8 +145,8 @@ TEST(AfterAFailedStep, AnotherMotionGoesOn) {
   EXPECT_EQ(mass.displacement(0), 0.0);
 }
 
-/// An absolute tolerance under an absurd force: the step falls to its floor, and from there a sensible force goes on as
-/// if nothing had been.
+/// An absolute tolerance under an extreme force: the step falls to its lower limit; with a moderate force the
+/// run then continues normally.
 TEST(AfterAFailedStep, AnotherForceGoesOn) {
   const std::string keys = "type = \"rk4_error_scaled\"\ntime_step = 1e-4\ntolerance = 1e-7\nsafety = 0.9\n";
   Structure mass = structure(scene(keys)), spared = structure(scene(keys));
@@ -179,7 +180,7 @@ TEST(AfterAFailedStep, TheNextFailureHasItsOwnMessage) {
   EXPECT_NE(first, second);
 }
 
-/// The same in C, where all of it has one status.
+/// The same in C, where all these errors return one status.
 TEST(MisuseInC, IsRefusedWithItsStatus) {
   setenv("BUTEE_PLUGIN_PATH", BUTEE_TEST_PLUGINS, 1);
   butee_structure *mass = nullptr, *other = nullptr;

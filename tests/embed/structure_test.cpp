@@ -16,7 +16,7 @@ namespace {
 using embed::Structure;
 using embed::StructureOptions;
 
-/// A mass on a spring beside a stop, pushed from outside.
+/// A mass on a spring beside a stop, with an external force.
 std::string oscillator(const std::string& integrator) {
   return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n"
          "[[element]]\ntype = \"spring\"\nnode = \"m\"\nstiffness = 800.0\ndamping = 1.5\n" +
@@ -30,7 +30,7 @@ StructureOptions with_plugins(StructureOptions options = {}) {
   return options;
 }
 
-/// The whole of a paper's scene, and the same in uneven pieces.
+/// A scene of the paper in one call of advance_to, and in calls of different lengths.
 TEST(Structure, AdvancesAsAWholeRunDoes) {
   constexpr double kEnd = 0.05;
   for (const std::string method : {"exponential", "rodas4", "newmark_modified", "rk4"}) {
@@ -43,12 +43,12 @@ TEST(Structure, AdvancesAsAWholeRunDoes) {
       EXPECT_EQ(beam.time(), t);
     }
     const Vector& x = whole.simulation().state().x;
-    // Pieces change the steps, by as much as the tolerances leave, and cut fixed ones short.
+    // Splitting the run changes adaptive steps within their tolerances, and shortens fixed steps.
     EXPECT_LT((beam.state().x - x).lpNorm<Eigen::Infinity>(), 3e-3 * x.lpNorm<Eigen::Infinity>()) << method;
   }
 }
 
-/// m x'' + c x' + k x = f from rest, f constant: the closed form after a force that is switched at 0.1 s.
+/// m x'' + c x' + k x = f from rest, f piecewise constant: closed form with a force that changes at 0.1 s.
 TEST(Structure, FeelsForcesThatAreSetBetweenSteps) {
   for (const std::string method :
        {"exponential", "rodas4", "newmark", "rk4", "dopri5", "generalized_alpha_adaptive", "exact"}) {
@@ -73,7 +73,7 @@ TEST(Structure, FeelsForcesThatAreSetBetweenSteps) {
   }
 }
 
-/// Forces and moments on all six degrees of freedom of a frame's corner, set from outside and given by the scene.
+/// Forces and moments on all six DOFs of a frame's corner, set by the caller and by the scene.
 TEST(Structure, IsPushedAlongAndAboutEveryAxis) {
   const std::string frame =
       "schema = 1\n[material.steel]\nyoung_modulus = 2e11\ndensity = 7850.0\npoisson_ratio = 0.3\n"
@@ -104,7 +104,7 @@ TEST(Structure, IsPushedAlongAndAboutEveryAxis) {
   EXPECT_THROW(Structure::from_toml(frame, with_plugins({.forced = {"post:last", "post:first.uz"}})), InputError);
 }
 
-/// A force in a straight line is a ramp: x = (t - sin(w t)/w) slope/k without damping.
+/// A linearly varying force: x = (t - sin(w t)/w) slope/k without damping.
 TEST(Structure, FollowsForcesInStraightLinesExactly) {
   Structure mass = Structure::from_toml(
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
@@ -175,7 +175,7 @@ TEST(Structure, SaysWhatIsWrong) {
   EXPECT_THROW(mass.advance_to(-1.0), LogicError);
   EXPECT_THROW(Structure::from_toml("schema = 1\n[integrator]\ntype = \"rk5\"\n", with_plugins()), InputError);
   EXPECT_THROW(Structure::from_toml(oscillator(kExact), with_plugins({.forced = {"nobody"}})), InputError);
-  // A failed run stays where the last good step ended, and does not go on.
+  // A failed run keeps the state of the last good step and does not continue.
   Structure lost = Structure::from_toml(oscillator("[integrator]\ntype = \"rk4\"\ntime_step = 1.0\n"),
                                         with_plugins({.forced = {"m"}}));
   lost.set_force(0, 1e90);
@@ -184,8 +184,8 @@ TEST(Structure, SaysWhatIsWrong) {
   EXPECT_THROW(lost.advance_to(2e4), RunError);
 }
 
-/// Structures share nothing: many on their own threads give the bits of one alone. Data races are seen by the preset
-/// tsan.
+/// Structures share no data: many on separate threads give the same bits as one alone. The preset tsan
+/// detects data races.
 TEST(Structure, LivesOnManyThreads) {
   const auto run = [](const std::string& method) {
     Structure beam =
@@ -203,7 +203,7 @@ TEST(Structure, LivesOnManyThreads) {
   for (std::size_t i = 0; i < methods.size(); ++i) EXPECT_TRUE(alone[i] == together[i]) << methods[i];
 }
 
-/// The same structure from keys in code, as TOML text of them, and from a text written by hand.
+/// The same structure from keys in code, from their TOML text, and from a hand-written text.
 TEST(ModelBuilder, MakesTheStructureOfAFileWithTheSameKeys) {
   config::ModelBuilder model;
   model.set("material.steel", {{"young_modulus", 2.1e11}, {"density", 7850}})
@@ -257,7 +257,7 @@ TEST(ModelBuilder, SaysInWhichCallAMistakeIs) {
   EXPECT_THROW(model.add("integrator", {{"y", 1}}), LogicError);
 }
 
-/// m x'' = -k x - c x': the spring pulls back, and its support holds the other way.
+/// m x'' = -k x - c x': the spring's force, and the opposite reaction of its support.
 TEST(Structure, GivesTheQuantitiesOfProbes) {
   const std::string wall =
       "[[element]]\ntype = \"mass\"\nname = \"wall\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nname = \"link\"\n"

@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-/// Feeds files, and the files of folders, to a fuzz target without a fuzzer: replay FILE|DIR...
+/// Runs a fuzz target without a fuzzer on files, and on the files of folders: replay FILE|DIR...
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
   std::vector<fs::path> files;

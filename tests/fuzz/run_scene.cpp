@@ -15,7 +15,7 @@ using namespace butee;
 
 constexpr Index kMostDofs = 24;
 constexpr int kMostSteps = 12;
-/// Rows of the history; more would fall into one long step.
+/// Most rows of the history; it bounds the output within one long step.
 constexpr double kMostRows = 2000.0;
 
 void run(scene::Scene& scene) {
@@ -37,7 +37,7 @@ void run(scene::Scene& scene) {
 
 }  // namespace
 
-/// Any bytes that are a scene can be run: the first steps end in states that are finite, or in a diagnosis.
+/// Any bytes that form a scene can be run: the first steps end in finite states or in an error message.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   auto input = fuzz::read_scene_input(data, size);
   if (!input) return 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kMostElements = 16;
 
-/// Bounds every number under the key `elements`.
+/// Limits every number under the key `elements`.
 void shrink(config::Value& value) {
   if (config::Array* array = value.array())
     for (config::Value& item : *array) shrink(item);
@@ -67,7 +67,7 @@ std::optional<scene::Scene> read_scene_input(const std::uint8_t* data, std::size
   try {
     config::Document document = config::parse_toml(std::string(reinterpret_cast<const char*>(data), size), "input");
     shrink(document.root);
-    // What is written as the model as run has to be readable.
+    // The written model must be readable again.
     config::parse_toml(config::write_toml(*document.root.table()), "written");
     return scene::read_scene(std::move(document), catalogue());
   } catch (const InputError&) {

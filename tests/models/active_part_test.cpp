@@ -1,4 +1,5 @@
-// `auto` on large structures of which a part moves, against the same method on the whole.
+// `auto` on large structures of which only a part moves, compared with the same method on the whole
+// structure.
 #include <algorithm>
 #include <cmath>
 
@@ -72,7 +73,7 @@ TEST(ActivePart, DoesTheWorkOfThePart) {
 }
 
 TEST(ActivePart, BecomesTheWholeInTime) {
-  // Driven near an end, whose waves have passed all of it twice.
+  // Driven near an end; waves have passed the whole string twice.
   const std::string scene = string_of(320, "s:31") + "\n";
   std::vector<double> whole = motion(scene, "rodas4", "1e-3", "s:290"), part = motion(scene, "auto", "1e-3", "s:290");
   SceneRun run(scene, {"integrator.tolerance=1e-3"});
@@ -96,7 +97,8 @@ TEST(ActivePart, IsTheWholeWhereEverythingMoves) {
   EXPECT_FALSE(is_on_a_part(damped)) << damped.integrator().choice();
 }
 
-/// A law so blunt that it pulls at every stop as soon as that moves, and one whose pull is far below the tolerance.
+/// With a small regularization every stop has a residual force as soon as it moves; with a large one the
+/// residual force is far below the tolerance.
 TEST(ActivePart, IsTheWholeWhereLawsPullFromAfar) {
   const auto law = [](const std::string& lambda) {
     std::string scene = long_string();
@@ -112,7 +114,7 @@ TEST(ActivePart, IsTheWholeWhereLawsPullFromAfar) {
   EXPECT_LT(relative_rms(part, whole), 1e-3);
 }
 
-/// What nothing connects with the loads moves when a program moves it.
+/// A part without connection to the loads moves if the embedding program sets a force on it.
 TEST(ActivePart, ReachesWhatNothingLeadsTo) {
   const std::string other =
       "[[element]]\ntype = \"beam\"\nname = \"t\"\nmaterial = \"m\"\nsection = \"c\"\nlength = 1000.0\nelements = "
@@ -160,7 +162,7 @@ TEST(ActivePart, FollowsForcesThatAProgramSets) {
                                                   .plugins = {BUTEE_TEST_PLUGINS},
                                                   .forced = {"s:520"}});
     const Index dof = structure.dof("s:520");
-    // In straight lines, then by a jump that the method is not started anew for.
+    // A linearly varying force, then a jump without a restart of the method.
     structure.set_force(dof, 0.0, 500.0, 0.01);
     structure.advance_to(0.01);
     structure.set_force(dof, 500.0, -3000.0, 0.02);

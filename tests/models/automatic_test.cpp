@@ -1,4 +1,4 @@
-// What a scene gets that names no method.
+// The method that `auto` chooses for a scene.
 #include <butee/core/text.hpp>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,8 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
   EXPECT_EQ(pulling("positive", "1e-6").rfind("exponential", 0), 0U);
   EXPECT_EQ(pulling("positive", "1e-4").rfind("exponential", 0), 0U);
   EXPECT_EQ(pulling("both", "1e-6").rfind("exponential", 0), 0U);
-  // The modes of 400 DOFs take longer than a few waves, and less than half a second of rattling.
+  // Computing the modes of 400 DOFs takes longer than integrating a few waves, but less than half a second of
+  // impacts.
   EXPECT_EQ(choice(beam(200, kStops, "end_time = 1e-4\ntolerance = 1e-3\n"))
                 .rfind("rodas4 with tolerance 0.001 on the part that moves: the modes of 400", 0),
             0U);

@@ -5,13 +5,13 @@
 
 namespace butee::test {
 
-/// A change of the good scene: `find` occurs once in it; an empty `find` replaces the whole scene.
+/// An edit of the good scene: `find` must occur once in it; an empty `find` replaces the whole scene.
 struct Edit {
   std::string find, replace;
 };
 
-/// A scene with mistakes. Every `!` of a comment `#!` stands for one mistake that must be reported for its line, and
-/// nothing else may be reported but one mistake for each of the overrides, behind them.
+/// A scene with mistakes. Every `!` of a comment `#!` stands for one mistake that must be reported for its
+/// line. In addition, one mistake is reported after these for each of the overrides, and nothing else.
 struct BadScene {
   std::string name;
   std::vector<Edit> edits;
@@ -19,7 +19,7 @@ struct BadScene {
   std::vector<std::string> overrides = {};
 };
 
-/// A scene that looks wrong and is not.
+/// A scene that looks wrong but is valid.
 struct GoodScene {
   std::string name;
   std::vector<Edit> edits;

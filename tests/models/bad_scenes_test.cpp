@@ -112,7 +112,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// What `butee run` would say of the scene: a line for each mistake.
+/// The messages of `butee run` for the scene: one line for each mistake.
 std::vector<std::string> messages_of(const std::string& toml, const std::vector<std::string>& overrides) {
   static const plugin::Catalogue catalogue = plugin::Catalogue::with_plugins({BUTEE_TEST_PLUGINS});
   try {
@@ -125,7 +125,7 @@ std::vector<std::string> messages_of(const std::string& toml, const std::vector<
   return {};
 }
 
-/// The beginnings of the messages that a scene asks for.
+/// The expected beginnings of the messages for a scene.
 std::vector<std::string> expected_places(const BadScene& scene, const std::string& toml) {
   std::vector<std::string> places;
   const auto lines = lines_of(toml);

@@ -25,7 +25,7 @@ Json check(const std::string& model, std::vector<std::string> overrides = {}) {
   return Json::parse(outcome.output);
 }
 
-/// The text of the advice about a subject, or "".
+/// The text of the advice about a topic, or "".
 std::string advice(const Json& json, const std::string& about) {
   for (const Json& item : json["warnings"])
     if (item["about"] == about) return item["text"];
@@ -69,8 +69,7 @@ TEST(CheckAdvice, FindsLikelyMistakesThatTheSoundSceneHasNot) {
   }
 }
 
-/// beam1 under a table of random values about a mean, N, the last one of them as large as 900 N, which presses stops
-/// shut.
+/// beam1 under a table of random values about a mean, N; its last value, 900 N, closes stops.
 std::vector<std::string> random_load(double mean) {
   std::mt19937 random(7);
   std::normal_distribution<double> value(mean, 900.0);
@@ -86,7 +85,7 @@ TEST(CheckAdvice, TakesWhatLastsOfALoadForItsStaticPart) {
   EXPECT_EQ(advice(check(beam1(), random_load(0.0)), "gap"), "");
   EXPECT_EQ(advice(check(beam1(), random_load(500.0)), "gap"), "") << "it opens them again";
   EXPECT_NE(advice(check(beam1(), random_load(3000.0)), "gap"), "");
-  // A ramp and a table that settle press for good, a pulse does not.
+  // A ramp and a table that settle close the stops permanently; a pulse does not.
   const auto gap = [](const std::string& load) {
     return advice(check(beam1(), {"load=[{node=\"string:middle\"," + load + "}]"}), "gap");
   };
@@ -97,7 +96,7 @@ TEST(CheckAdvice, TakesWhatLastsOfALoadForItsStaticPart) {
 }
 
 TEST(CheckAdvice, KnowsStiffnessRatioAndDurationOfAnImpact) {
-  // K = 1e9 N/m behind a stop of 1e10; pi sqrt(100/1e10) s.
+  // K = 1e9 N/m with a stop of 1e10 N/m; the contact lasts pi sqrt(100/1e10) s.
   const Json json = check(model_path("oscillator"));
   EXPECT_NEAR(json["contact"]["least_stiffness_ratio"].get<double>(), 10.0, 1e-9);
   EXPECT_NEAR(json["contact"]["shortest_contact"].get<double>(), 3.14159265e-4, 1e-11);
@@ -105,7 +104,7 @@ TEST(CheckAdvice, KnowsStiffnessRatioAndDurationOfAnImpact) {
   EXPECT_EQ(json["mass"], 100.0);
 }
 
-/// What `butee run` wrote: steps, rows of history.csv and their bytes.
+/// Output of `butee run`: steps, rows of history.csv and their bytes.
 struct Written {
   double steps, rows, bytes;
 };
@@ -121,7 +120,7 @@ Written run(const std::string& model, const std::vector<std::string>& settings) 
           static_cast<double>(history.size())};
 }
 
-/// Estimates hold within this factor, or are not given.
+/// Estimates must hold within this factor, or be absent.
 constexpr double kFactor = 1.5;
 
 TEST(CheckAdvice, EstimatesStepsAndSize) {
@@ -151,15 +150,15 @@ TEST(CheckAdvice, EstimatesStepsAndSize) {
       EXPECT_GT(estimate["seconds"].get<double>(), 0.0);
     }
   }
-  // Steps of a fixed length are known, however little of the run a trial takes.
+  // The number of fixed steps is known even if a trial covers little of the run.
   const Json fixed = check(beam1(), {"integrator.type=newmark", "integrator.end_time=1e5"})["estimate"];
   EXPECT_EQ(fixed["steps"], 1e10);
   EXPECT_EQ(fixed["whole"], false);
 }
 
 TEST(CheckAdvice, EstimatesNothingThatATrialCannotTell) {
-  // The beam does not reach its stops within a trial, and the steps of an adaptive method over months are anybody's
-  // guess.
+  // The beam does not reach its stops within a trial, and the steps of an adaptive method over months cannot
+  // be predicted.
   const Json open =
       check(beam1(), {"integrator.type=newmark", "integrator.end_time=1e5", "contact[0].gap=1e3"})["estimate"];
   EXPECT_TRUE(open["seconds"].is_null());
@@ -189,7 +188,7 @@ TEST(CheckPicture, ShowsASceneAsTextInPlainOrLineDrawingCharacters) {
   const std::string both = run_program({"check", std::string(BUTEE_TEST_SOURCE) + "/apps/templates/rotor-casing.toml"},
                                        folder.path(), {"LC_ALL=C"})
                                .output;
-  // The casing below the rotor, stops between the two.
+  // The casing is drawn below the rotor, with the stops between them.
   EXPECT_LT(both.find("\nrotor "), both.find("\ncasing ")) << both;
   const std::string between = both.substr(both.find("\nrotor "), both.find("\ncasing ") - both.find("\nrotor "));
   EXPECT_EQ(std::count(between.begin(), between.end(), ':'), 5) << between;
@@ -210,7 +209,7 @@ TEST(CheckPicture, IsDrawnAsSvg) {
     for (std::size_t at = svg.find(part); at != std::string::npos; at = svg.find(part, at + 1)) ++found;
     return found;
   };
-  // 35 stops on both sides, 2 supports, an arrow with two heads, a mark in the legend.
+  // 35 stops on both sides, 2 supports, an arrow with two heads, a symbol in the legend.
   EXPECT_EQ(count("<polygon"), 2U * 35U + 2U + 2U + 1U);
   EXPECT_EQ(count("<text"), count("</text>"));
   EXPECT_EQ(run_program({"check", beam1(), "--picture", "no/such/folder.svg"}, folder.path()).status, 1);

@@ -93,9 +93,10 @@ dynamics::FrequencyRange range_of_bar(int elements) {
 
 TEST(Check, LargeSystemsGoThroughLanczosWithTheSameAnswer) {
   constexpr double kPi = 3.141592653589793;
-  // Lanczos is asked for 1e-4 of the eigenvector, which is 1e-8 of the eigenvalue; the mesh errs by less.
+  // Lanczos computes the eigenvector to 1e-4, hence the eigenvalue to 1e-8; the mesh error is smaller.
   constexpr double kLowest = 1e-6;
-  // The shortest wave of an even mesh hardly feels the ends, so that 60 elements (dense) know it for 400 (Lanczos).
+  // The shortest wave of an even mesh hardly depends on the ends, so that 60 elements (dense) give the value
+  // of 400 (Lanczos).
   constexpr double kHighest = 1e-3;
   const auto large = range_of_bar(400), small = range_of_bar(60);
   const double exact = kPi * kPi * std::sqrt(2e11 * 0.2 * 0.2 / 12.0 / 8000.0) / 100.0;

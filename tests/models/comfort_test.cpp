@@ -79,7 +79,8 @@ TEST(Help, KnowsWhatIsDeclared) {
   EXPECT_TRUE(holds(printed({"help", "integrators"}), "newmark_adaptive"));
 }
 
-/// Where a topic lists keys by hand, the reader's own list, from its message about an unknown key, has to be in it.
+/// If a topic lists keys by hand, the list must contain all keys of the reader, taken from its message about
+/// an unknown key.
 TEST(Help, ListsEveryKeyThatTheReaderTakes) {
   const std::vector<std::pair<std::string, std::string>> places = {
       {"model", "nonsense"},           {"damping", "damping.nonsense"},
@@ -110,7 +111,7 @@ TEST(Help, NamesEveryFileThatARunWrites) {
   EXPECT_TRUE(holds(read_file(BUTEE_TEST_SOURCE "/README.md"), "`theta` = du/dx"));
 }
 
-/// The scene that the README shows first, as someone would save it.
+/// The first scene of the README, saved as a file.
 TEST(Readme, ItsSceneRunsWithoutAWarning) {
   const std::string readme = read_file(BUTEE_TEST_SOURCE "/README.md");
   const std::string fence = "```toml\n";
@@ -242,7 +243,7 @@ TEST(Run, SaysWhereRowsAreTooFarApartForAnImpact) {
   EXPECT_TRUE(holds(errors("1e-3", "output.impacts=false"), mark));
   EXPECT_FALSE(holds(errors("2e-5", "output.impacts=false"), mark));
   EXPECT_FALSE(holds(errors("1e-3", "output.impacts=true"), mark));
-  EXPECT_FALSE(holds(errors("1e-3", "load[0].amplitude=1e-3"), mark));  // It never strikes.
+  EXPECT_FALSE(holds(errors("1e-3", "load[0].amplitude=1e-3"), mark));  // The mass never strikes the stop.
 }
 
 TEST(Colours, AreForTerminalsAndCanBeRefused) {

@@ -1,4 +1,5 @@
-// The command itself: what it writes, that its errors are the errors, and that a second call keeps what is done.
+// The command `compare`: its output, the correctness of its errors, and a second call that keeps finished
+// runs.
 #include <cmath>
 #include <map>
 #include <string>
@@ -11,7 +12,7 @@
 namespace butee::test::compare_test {
 namespace {
 
-/// A swing without stops: u = cos(w t), w = 10.
+/// An oscillator without stops: u = cos(w t), w = 10.
 constexpr const char* kSwing =
     "schema = 1\ntitle = \"a swing\"\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\n"
     "type = \"spring\"\nnode = \"ball\"\nstiffness = 200.0\n[initial]\ndisplacement = [{nodes = \"ball\", value = "
@@ -42,7 +43,7 @@ double runge_kutta_error(double h, int per_row) {
   return std::sqrt(squares / all);
 }
 
-/// runs.csv: the error column by method and value.
+/// The error column of runs.csv by method and value.
 std::map<std::string, std::string> rows_of(const std::string& csv) {
   std::map<std::string, std::string> rows;
   std::size_t begin = 0;
@@ -71,7 +72,7 @@ TEST(Compare, MeasuresTheErrorsThatTheMethodsHave) {
   const auto rows = rows_of(csv);
   ASSERT_EQ(rows.size(), 4U) << csv;
   ASSERT_TRUE(rows.contains("rk4,time_step,0.125") && rows.contains("rk4,time_step,0.0625")) << csv;
-  // The reference is exact to rounding; so the errors are those of the step's closed form.
+  // The reference is exact to rounding, so the errors are those of the step's closed form.
   EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.125")), runge_kutta_error(0.125, 1), 1e-12);
   EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.0625")), runge_kutta_error(0.0625, 2), 1e-12);
   const std::string report = read_file(folder.file("out/report.md"));
@@ -88,7 +89,7 @@ TEST(Compare, LeavesTheScenesOwnToleranceToItsOwnMethod) {
   folder.write("study.toml", kStudy);
   const Outcome outcome = run_program({"compare", "study.toml", "-o", "out"}, folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  // A reference that took the scene's tolerance for its own would be off by some percent.
+  // A reference computed with the scene's own tolerance would be off by some percent.
   const auto rows = rows_of(read_file(folder.file("out/runs.csv")));
   EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.0625")), runge_kutta_error(0.0625, 2), 1e-12);
 }
@@ -100,14 +101,14 @@ TEST(Compare, KeepsWhatAnEarlierCallHasDone) {
   ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out"}, folder.path()).status, 0);
   const std::string first = read_file(folder.file("out/runs.csv"));
   ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out"}, folder.path()).status, 0);
-  EXPECT_EQ(read_file(folder.file("out/runs.csv")), first);  // times too: nothing was run again
+  EXPECT_EQ(read_file(folder.file("out/runs.csv")), first);  // equal times show that nothing was run again
   ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out", "--fresh"}, folder.path()).status, 0);
   EXPECT_NE(read_file(folder.file("out/runs.csv")), first);
 }
 
 TEST(Compare, TakesErrorsOnlyAsFarAsItsReferenceIsOne) {
-  // beam4 with the arctan law: differences of rounding, magnified by e^(20 t) and by the law's jump at rest, are a
-  // thousandth of the peak before half a second; 0.45 s was seen.
+  // beam4 with the arctan law: rounding differences, amplified by e^(20 t) and by the law's discontinuity at
+  // rest, reach a thousandth of the peak before half a second; 0.45 s was observed.
   const TemporaryFolder folder;
   folder.write("study.toml", "schema = 1\n[study]\nscenes = [\"" + model_path("beam4") +
                                  "\"]\nend_time = 0.6\n[[study.method]]\ntype = \"rk4\"\nsweep = \"none\"\n");
@@ -131,7 +132,7 @@ TEST(Compare, TakesAReferenceFromAFile) {
   study.replace(study.find("targets"), 0, "reference = \"given.csv\"\n");
   folder.write("study.toml", study);
   ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out"}, folder.path()).status, 0);
-  // exact is now measured like any other: it misses the one wrong row by 0.5.
+  // exact is now measured like any other method: it differs from the one wrong row by 0.5.
   const auto rows = rows_of(read_file(folder.file("out/runs.csv")));
   double squares = 0.0;
   for (int row = 0; row <= 4; ++row) squares += std::pow(std::cos(1.25 * row) + (row == 2 ? 0.5 : 0.0), 2);
@@ -163,9 +164,10 @@ TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
   ASSERT_EQ(orderly.status, 0) << orderly.errors;
   EXPECT_NE(orderly.output.find("to the end: the run stands"), std::string::npos) << orderly.output;
   EXPECT_EQ(orderly.output.find("grow like e^"), std::string::npos) << orderly.output;
-  // `exact` would take ten times as long as all the rest.
+  // `exact` would take ten times as long as all other runs.
   EXPECT_NE(orderly.output.find("beside a run by exponential"), std::string::npos) << orderly.output;
-  // Small differences begin as displacements at rest, by less than its stops pull: no method may stumble over that.
+  // Small differences begin as displacements at rest, smaller than those caused by the residual forces of the
+  // stops; methods must handle that.
   const Outcome chaotic = run_program({"run", model_path("beam4"), "--set", "integrator.type=exponential", "--set",
                                        "integrator.end_time=0.6", "--trust", "-o", "out"},
                                       folder.path());
@@ -175,7 +177,7 @@ TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
   const auto number = [&](const std::string& key) {
     return std::stod(summary.substr(summary.find("\"" + key + "\": ") + key.size() + 4));
   };
-  EXPECT_NEAR(number("growth_rate"), 20.0, 6.0);  // measured by others at 20 1/s; a fit over 0.6 s scatters
+  EXPECT_NEAR(number("growth_rate"), 20.0, 6.0);  // other measurements give 20 1/s; a fit over 0.6 s scatters
   EXPECT_LT(number("horizon"), 0.5);
 }
 
@@ -194,7 +196,7 @@ TEST(Compare, TakesExponentialWhereExactRefusesTheLaw) {
   const std::string report = read_file(folder.file("study-compare/report.md"));
   EXPECT_NE(report.find("Reference: exponential with a tolerance of 1e-08"), std::string::npos) << report;
   EXPECT_NE(report.find("since exact refuses the scene"), std::string::npos);
-  // A method of order 4 with 500 steps over two contacts is good to far better than this.
+  // A method of order 4 with 500 steps over two contacts is far more accurate than this.
   const auto rows = rows_of(read_file(folder.file("study-compare/runs.csv")));
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_LT(error_in(rows.begin()->second), 1e-4);

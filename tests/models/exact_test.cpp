@@ -1,5 +1,6 @@
-// The method without truncation error against a solution in 80-bit arithmetic that shares no line with it
-// (tests/benchmark/plain/reference.cpp), and against itself at other settings where no such solution is stored.
+// The method `exact` against a solution in 80-bit arithmetic that shares no code with it
+// (tests/benchmark/plain/reference.cpp), and against itself with other settings if no such solution is
+// stored.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -43,16 +44,16 @@ double relative_maximum(const std::vector<double>& a, const std::vector<double>&
 struct Case {
   std::string scene, node;
   double end_time;
-  double tolerance;  ///< of the peak
+  double tolerance;  ///< fraction of the peak
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
   *out << c.scene << " to " << c.end_time;
 }
 
-// Rounding through some thousand series; 1e-12 to 1e-13 was seen.
+// Rounding over some thousand series; 1e-12 to 1e-13 was observed.
 constexpr double kExact = 1e-11;
-// beam4 magnifies rounding by e^(20 t), to 1e-8 at half a second in an unlucky case; 1e-10 was seen.
+// beam4 amplifies rounding by e^(20 t), to 1e-8 at half a second in the worst case; 1e-10 was observed.
 constexpr double kChaotic = 1e-8;
 
 class ExactMethod : public testing::TestWithParam<Case> {};
@@ -68,7 +69,7 @@ TEST_P(ExactMethod, MeetsTheSolutionIn80Bits) {
   v.resize(rows);
   const Motion motion = run_exact(with_linear_law(c.scene), c.node, c.end_time, times);
   EXPECT_LT(relative_maximum(motion.u, u), c.tolerance);
-  EXPECT_LT(relative_maximum(motion.v, v), 10.0 * c.tolerance);  // velocities jump in the highest modes
+  EXPECT_LT(relative_maximum(motion.v, v), 10.0 * c.tolerance);  // the velocities of the highest modes jump
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -79,24 +80,25 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return one.param.scene + (one.param.end_time == 0.5 ? "_longer" : ""); });
 
 TEST(ExactMethod, GoesThroughTheBoundaryLayersOfTheArctanLawWhateverItsSettings) {
-  // Three hundred passages through layers of 4.5 nm in 0.1 s; orders 20 and 40 take other steps through all of them.
+  // Three hundred passages through layers of 4.5 nm in 0.1 s; the orders 20 and 40 take different steps
+  // through all of them.
   std::vector<double> times;
   for (int i = 0; i <= 100; ++i) times.push_back(1e-3 * i);
   const std::string beam3 = read_file(model_path("beam3"));
   const Motion coarse = run_exact(beam3, "string:middle", 0.1, times, {"integrator.order=20"});
   const Motion fine = run_exact(beam3, "string:middle", 0.1, times, {"integrator.order=40"});
-  EXPECT_LT(relative_maximum(coarse.u, fine.u), 1e-9);  // rounding in the layers; 1e-11 and less was seen
+  EXPECT_LT(relative_maximum(coarse.u, fine.u), 1e-9);  // rounding in the layers; 1e-11 and less was observed
 }
 
 TEST(ExactMethod, EndsASeriesAtEveryKinkOfALoad) {
-  // A mass without a spring under a table: velocity is the integral of a polygon, position its integral, in closed
-  // form.
+  // A free mass under a table load: the velocity is the integral of a polygon and the position its integral,
+  // in closed form.
   const std::string toml =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n"
       "[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = [0.1, 0.3, 0.4]\nvalues = [0.0, 4.0, -2.0]\n"
       "[integrator]\ntype = \"exact\"\ntime_step = 0.05\nend_time = 0.5\n";
   const Motion motion = run_exact(toml, "m", 0.5, {0.1, 0.3, 0.4, 0.5});
-  // a = F/2: 0 to 2 over 0.2 s, 2 to -1 over 0.1 s, -1 from then on.
+  // a = F/2: 0 to 2 over 0.2 s, 2 to -1 over 0.1 s, then constant -1.
   const double v3 = 0.5 * 0.2 * 2.0, v4 = v3 + 0.1 * 0.5 * (2.0 - 1.0), v5 = v4 - 0.1;
   const double x3 = 2.0 * 0.04 / 6.0, x4 = x3 + v3 * 0.1 + 0.01 * (2.0 / 2.0 - 3.0 / 6.0);
   const double x5 = x4 + v4 * 0.1 - 0.005;
@@ -108,7 +110,7 @@ TEST(ExactMethod, EndsASeriesAtEveryKinkOfALoad) {
 }
 
 TEST(ExactMethod, DecidesStopsThatBeginOnTheirBorder) {
-  // Zero gap on both sides: from the first instant the stop acts like a spring, x = v0/w sin(w t).
+  // Zero gap on both sides: the stop acts as a spring from the start, x = v0/w sin(w t).
   const std::string toml =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n"
       "[[element]]\ntype = \"spring\"\nnode = \"m\"\nstiffness = 1.0\n"

@@ -1,4 +1,5 @@
-// The exponential method with a law that pulls at open stops, against the method `exact` and the linear law.
+// The method exponential with a law that has residual forces at open stops, against the method `exact` and
+// the linear law.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -11,8 +12,9 @@
 namespace butee::test::exponential_arctan_test {
 namespace {
 
-/// The law of the paper pulls at open stops too, in the middle of the gap to the other side at once. At the start,
-/// where that is much beside what moves, steps that grew too short for it never grew again: 1347 of them.
+/// The law of the paper also has residual forces at open stops, discontinuous in the middle of the gap. At
+/// the start they are large compared with the motion; an earlier version shortened its steps for them and
+/// never enlarged them again (1347 steps).
 TEST(Exponential, TakesHardlyMoreStepsWithTheArctanLaw) {
   const auto steps_of = [](const std::string& toml) {
     SceneRun scene(toml, {"integrator.type=exponential", "integrator.tolerance=1e-3", "integrator.time_step="});
@@ -49,8 +51,9 @@ TEST(Exponential, KeepsItsToleranceWithTheArctanLaw) {
   }
 }
 
-/// Three stops, of which two pass the middle of their gaps together, again and again, while the third has just left its
-/// own: what they pull then is theirs alone. Reference: `exact`; a disturbance grows a hundredfold until the end.
+/// Three stops: two of them pass the middle of their gaps together repeatedly while the third has just left
+/// its own, so that only those two have a discontinuous residual force. Reference: `exact`; a disturbance
+/// grows a hundredfold until the end.
 TEST(Exponential, KeepsApartWhatEveryStopPulls) {
   const std::string scene =
       "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = 0.1\n"
@@ -76,9 +79,10 @@ TEST(Exponential, KeepsApartWhatEveryStopPulls) {
         << tolerance;
 }
 
-/// Displaced but at rest there is no speed yet that the motion's own time could be told from. By 1e-11 m the stops pull
-/// far more than the beam, as where --trust disturbs a scene that starts from nothing; by 1e-3 m they hardly matter. No
-/// node starts in the very middle, from where it could go either way.
+/// A structure displaced at rest has no velocity yet from which the time scale of its motion could be
+/// estimated. At 1e-11 m the residual forces of the stops far exceed the elastic forces, as if --trust
+/// disturbs a scene that starts from zero; at 1e-3 m they hardly matter. No node starts in the exact middle
+/// of the gap, where the direction of the force is undefined.
 TEST(Exponential, StartsFromRestAnywhereInTheGap) {
   const auto scene = [](double displacement) {
     return "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = "
@@ -97,7 +101,8 @@ TEST(Exponential, StartsFromRestAnywhereInTheGap) {
       Sampler sampler(run.dof("b:middle"), times);
       run.simulation().add(sampler);
       EXPECT_TRUE(run.run().completed) << displacement << ": " << run.simulation().report().message;
-      // The first step is found in a few trials; they were 28 once, down to where rounding hid what was asked for.
+      // The first step size is found in a few trials; an earlier version took 28, until rounding hid the
+      // required accuracy.
       EXPECT_LE(run.simulation().report().rejected, 10) << displacement;
       return sampler.x;
     };
@@ -109,8 +114,8 @@ TEST(Exponential, StartsFromRestAnywhereInTheGap) {
   }
 }
 
-/// Two masses without springs: nothing but the pull of the stops moves them, at first by less than an
-/// output could show.
+/// Two masses without springs: only the residual forces of the stops move them, at first by less than the
+/// output resolution.
 TEST(Exponential, IsMovedByThePullOfItsStopsAlone) {
   const std::string stops =
       "[[contact]]\ntype = \"stop\"\nnodes = [\"a\", \"b\"]\ngap = 0.01\nstiffness = 1e6\nlaw = \"arctan\"\n"
@@ -135,7 +140,8 @@ TEST(Exponential, IsMovedByThePullOfItsStopsAlone) {
   }
 }
 
-/// In the very middle of the gap both stops pull alike, on whichever way the force is computed.
+/// In the exact middle of the gap the residual forces of both sides cancel, for every way of computing the
+/// force.
 TEST(Exponential, StaysAtRestInTheMiddleOfTheGap) {
   for (const char* model : {"oscillator", "beam1"}) {
     SceneRun scene(
@@ -146,8 +152,8 @@ TEST(Exponential, StaysAtRestInTheMiddleOfTheGap) {
   }
 }
 
-/// Where nothing moves yet there is no displacement that an error could be relative to, and in the very middle of the
-/// gap both stops pull alike.
+/// Before anything moves, no displacement exists as a scale for the error; in the exact middle of the gap the
+/// residual forces of both sides cancel.
 TEST(Exponential, LeavesTheMiddleOfTheGapWhenALoadComes) {
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 14.0\n[[element]]\ntype = \"spring\"\nnode = "

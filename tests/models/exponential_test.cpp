@@ -1,5 +1,5 @@
-// The exponential method against solutions in 80-bit arithmetic that share no line with it
-// (tests/benchmark/plain/reference.cpp), and against the method `exact` where no such solution is stored.
+// The method exponential against solutions in 80-bit arithmetic that share no code with it
+// (tests/benchmark/plain/reference.cpp), and against the method `exact` if no such solution is stored.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -18,8 +18,8 @@ namespace {
 struct Case {
   std::string scene, node;
   double end_time;
-  /// By how much the scene itself magnifies a disturbance: that of a perturbation in the last digits, as `butee run
-  /// --trust` measures it, rounded up to 1, 3, 10, ...
+  /// The factor by which the scene amplifies a perturbation in the last digits, as measured by `butee run
+  /// --trust`, rounded up to 1, 3, 10, ...
   double amplification;
 };
 
@@ -54,11 +54,11 @@ class ExponentialMethod : public testing::TestWithParam<Case> {
 };
 
 TEST_P(ExponentialMethod, KeepsItsTolerance) {
-  // The estimate is local; what a scene does with errors once made is the scene's affair.
+  // The estimate is local; the scene amplifies errors made earlier.
   constexpr double kReserve = 10.0;
   std::vector<double> decades, errors;
   for (double tolerance = 1e-2; tolerance > 0.9e-7; tolerance *= 0.1) {
-    // Which steps are taken is chance in part: the mean of three.
+    // The choice of steps is partly random, so the mean of three runs is taken.
     double mean = 0.0;
     for (const double factor : {0.8, 1.0, 1.25}) {
       const double error = run(factor * tolerance).error;
@@ -71,8 +71,8 @@ TEST_P(ExponentialMethod, KeepsItsTolerance) {
   ASSERT_EQ(decades.size(), 6U);
   double slope = 0.0;
   for (std::size_t i = 0; i < 6; ++i) slope += (decades[i] + 4.5) * errors[i] / 17.5;
-  // Below 1e-4 the departure in the middle of a step is held in proportion to the tolerance, and the error of smooth
-  // motion falls with its power 3/2.
+  // Below 1e-4 the deviation in the middle of a step is kept in proportion to the tolerance, and the error of
+  // smooth motion decreases with its power 3/2.
   EXPECT_GE(slope, 0.8);
   EXPECT_LE(slope, 1.4);
 }
@@ -106,13 +106,14 @@ INSTANTIATE_TEST_SUITE_P(LinearLaw, ExponentialMethod,
                          [](const auto& one) { return one.param.scene; });
 
 TEST(Exponential, TakesFewSteps) {
-  // 108 steps at 1e-3 for 56 changes of contact, where Newmark needs thousands: a count that says when that is lost.
+  // It takes 108 steps at 1e-3 for 56 contact changes; Newmark needs thousands. The bound detects a loss of
+  // this efficiency.
   SceneRun scene(with_linear_law("beam1"), {"integrator.type=exponential", "integrator.tolerance=1e-3"});
   ASSERT_TRUE(scene.run().completed);
   EXPECT_LT(scene.simulation().report().steps, 200);
 }
 
-/// Somebody who keeps the ends of a block may ask again what was between them, when the method has gone on.
+/// An observer that keeps the end states of a macro step can interpolate in it after the method has moved on.
 TEST(Exponential, InterpolatesAnEarlierBlockAsItDidThen) {
   class Keeper final : public time::Observer {
    public:
@@ -172,7 +173,7 @@ TEST(Exponential, WithoutStopsGoesFromOutputToOutputWithoutError) {
     };
     const auto [x, steps] = sample("exponential");
     const auto [reference, many] = sample("exact");
-    // Rounding of the modes, relative to the highest of them.
+    // Rounding of the modes, relative to the highest mode.
     constexpr double kRounding = 1e-10;
     EXPECT_LE(relative_rms(x, reference), kRounding) << damping;
     EXPECT_LE(steps, 14);  // ten outputs and the discontinuities of the load
@@ -202,20 +203,20 @@ TEST(Exponential, InPlainNumbersIsTheSameAsInVectors) {
     EXPECT_TRUE(run.run().completed);
     return std::pair(sampler.x, run.simulation().report().steps);
   };
-  // One stop goes in plain numbers, the same as two of one side each does not.
+  // A single two-sided stop takes the scalar code path; two equivalent one-sided stops do not.
   const auto [x, steps] = sample(stop("both"));
   const auto [same, as_many] = sample(stop("positive") + stop("negative"));
-  // Flights are judged by other bounds in the two, so that their steps differ; errors stay within the promise of ten
-  // tolerances of 1e-4.
+  // The two code paths bound free flights differently, so their steps differ; errors stay within the
+  // guaranteed ten tolerances of 1e-4.
   EXPECT_LE(relative_rms(x, same), 1e-3);
   EXPECT_NEAR(static_cast<double>(steps), static_cast<double>(as_many), 0.2 * static_cast<double>(steps));
   EXPECT_GT(steps, 100);
 }
 
-/// One driven mass, 40 outputs a period of its own, by `exponential` and by `exact`; relative rms.
+/// Relative rms error of one driven mass: `exponential` against `exact`, with 40 outputs in a natural period.
 double error_of_driven_mass(double stop_stiffness, double gap, double tuning, double damping_ratio,
                             const std::string& tolerance) {
-  constexpr double kStiffness = 1e4, kFrequency = 100.0, kPi = 3.141592653589793;  // of 1 kg
+  constexpr double kStiffness = 1e4, kFrequency = 100.0, kPi = 3.141592653589793;  // for a mass of 1 kg
   const auto line = [](const char* key, double value) { return std::string(key) + " = " + to_text(value) + "\n"; };
   const std::string text =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n" +
@@ -238,16 +239,17 @@ double error_of_driven_mass(double stop_stiffness, double gap, double tuning, do
                       course("type = \"exact\"\ntime_step = 1e-3\n"));
 }
 
-/// An impact at the stiffest of these is over within 3e-7 s, a millionth of a period, in which the mass moves 1e-8 m:
-/// displacements alone would let a step go over it.
+/// The shortest impact lasts 3e-7 s, a millionth of a period; the mass moves only 1e-8 m in it. A step
+/// control based on displacements alone would step over it.
 TEST(Exponential, GetsTheSpeedRightAfterShortImpacts) {
-  // At 1e14 N/m a penetration has few digits left beside the gap: two builds came out at 1.5e-3 and 3.3e-3.
+  // At 1e14 N/m the penetration retains few digits relative to the gap: two builds gave 1.5e-3 and 3.3e-3.
   for (const auto& [stiffness, bound] :
        {std::pair{1e8, 1e-3}, std::pair{1e10, 1e-3}, std::pair{1e12, 1e-3}, std::pair{1e14, 1e-2}})
     EXPECT_LT(error_of_driven_mass(stiffness, 1e-3, 0.7, 0.02, "1e-4"), bound) << stiffness;
 }
 
-/// Of a soft stop out of reach the steps are as long as one likes, outputs within them are not.
+/// With a soft stop that is never reached, steps may be arbitrarily long; outputs within them must still be
+/// accurate.
 TEST(Exponential, KeepsItsToleranceBetweenStepsWithoutContact) {
   for (const double tuning : {0.1, 1.9, 5.0})
     for (const double damping_ratio : {0.0, 0.9, 3.0})
@@ -277,14 +279,15 @@ TEST(Exponential, WithTheLowestModesComesCloserTheMoreThereAreAndSaysWhatIsLeftO
   const double with_two = relative_rms(sample(2, &few), full), with_ten = relative_rms(sample(10), full);
   EXPECT_NE(few.find("lowest 2 of 18 modes and 5 static shapes"), std::string::npos) << few;
   EXPECT_NE(few.find(" % of what a stop or a load moves itself by"), std::string::npos) << few;
-  // Two modes alone, without the static shapes of the others, are wrong by half; the inertia of those is left out.
+  // Two modes alone, without the static shapes of the others, give an error of one half; with them, the
+  // neglected inertia of the other modes remains.
   EXPECT_LT(with_two, 0.02);
   EXPECT_GT(with_two, 1e-3);
   EXPECT_LT(with_ten, 0.1 * with_two);
 }
 
 TEST(Exponential, RefusesLoadsOfWhichItKnowsTooLittle) {
-  // The unbalance of a shaft that speeds up, beside a dashpot that couples the modes.
+  // The unbalance of an accelerating shaft, with a dashpot that couples the modes.
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
       "\"b\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 10.0\n[[element]]\n"

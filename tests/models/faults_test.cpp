@@ -51,7 +51,7 @@ class Faults : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// A limit on the size of files stands for a disk that is full: the write that goes beyond it fails half done.
+/// A file size limit simulates a full disk: the write that exceeds it fails partway.
 TEST_F(Faults, AFullDiskLeavesWholeLinesAndASummary) {
   const Outcome outcome = shell(folder_, "ulimit -f 16; exec $BUTEE run scene.toml -q");
   EXPECT_EQ(outcome.status, 1);
@@ -66,7 +66,7 @@ TEST_F(Faults, AFullDiskLeavesWholeLinesAndASummary) {
   EXPECT_NE(std::string(summary["message"]).find("history.csv"), std::string::npos);
 }
 
-/// Then the disk has room again, and the run goes on.
+/// The disk then has space again, and the run resumes.
 TEST_F(Faults, ARunThatFilledTheDiskCanGoOn) {
   ASSERT_EQ(shell(folder_, "$BUTEE run scene.toml -q -o whole").status, 0);
   const Outcome full = shell(folder_, "ulimit -f 16; exec $BUTEE run scene.toml -q --set output.checkpoint=100");
@@ -95,7 +95,7 @@ TEST_F(Faults, AReaderThatGoesAwayEndsTheOutputAndNotTheRun) {
 }
 
 TEST_F(Faults, OutputThatFindsNoRoomIsAFailureOfEveryCommand) {
-  // The first is longer than any buffer of the standard library.
+  // The first message is longer than any buffer of the standard library.
   for (const std::string command :
        {"plugins --json", "plugins", "plugins rk4", "help", "help loads", "help --man", "--help", "--version",
         "check scene.toml", "check scene.toml --json", "modes scene.toml", "modes scene.toml --json",
@@ -112,7 +112,7 @@ TEST_F(Faults, OutputThatFindsNoRoomIsAFailureOfEveryCommand) {
       << closed.errors;
 }
 
-/// Files that a run opens would have their numbers, and hold its messages.
+/// Otherwise files that a run opens would get the numbers of closed streams and receive its messages.
 TEST_F(Faults, ClosedStandardStreamsSpoilNoResult) {
   ASSERT_EQ(shell(folder_, "$BUTEE run scene.toml -q -o whole").status, 0);
   for (const char* closed : {">&-", "<&- >&-", ">&- 2>&-", "<&- >&- 2>&-", "2>&-"}) {
@@ -133,7 +133,7 @@ std::string beams(int count, const std::string& elements) {
   return scene;
 }
 
-/// What could never fit is refused before memory is asked for, with what it would take.
+/// A scene that cannot fit in memory is refused before allocation, with the required size.
 TEST_F(Faults, AnAbsurdSceneIsRefusedWithItsSize) {
   folder_.write("absurd.toml", beams(1, "2000000000"));
   const Outcome absurd = shell(folder_, "$BUTEE run absurd.toml");
@@ -146,7 +146,7 @@ TEST_F(Faults, AnAbsurdSceneIsRefusedWithItsSize) {
   EXPECT_FALSE(fs::exists(folder_.file("large-results")));
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which reserves more address space than any limit leaves
+#ifndef __SANITIZE_ADDRESS__  // the sanitizer reserves more address space than any limit allows
 TEST_F(Faults, TheLimitIsThatOfTheProcess) {
   folder_.write("large.toml", beams(1, "1000000"));
   const Outcome outcome = shell(folder_, "ulimit -v 1000000; exec $BUTEE run large.toml");

@@ -21,7 +21,7 @@ std::string scene_with(const std::string& integrator, const std::string& rest = 
          integrator + "\"\n" + rest;
 }
 
-/// Runs a scene in a folder of a folder; nothing but its own results may come to be.
+/// Runs a scene in a nested folder; only its own results may be created.
 Outcome run_confined(const TemporaryFolder& folder, const std::string& scene) {
   fs::create_directories(folder.file("in/side"));
   folder.write("in/side/scene.toml", scene);
@@ -32,7 +32,7 @@ Outcome run_confined(const TemporaryFolder& folder, const std::string& scene) {
   return outcome;
 }
 
-/// A scene names methods, laws and elements; no name is ever a file.
+/// A scene names methods, laws and elements; these names are never file names.
 TEST(HostileScenes, CannotMakeButeeLoadAFile) {
   const std::string module = std::string(BUTEE_TEST_BROKEN) + "/static_crash.so";
   ASSERT_TRUE(fs::exists(module));
@@ -78,7 +78,7 @@ TEST(HostileScenes, CannotWriteOutsideTheirFolder) {
   EXPECT_FALSE(fs::exists("/tmp/butee-escaped"));
 }
 
-/// What a scene holds is shown, never obeyed, by the terminal.
+/// Text of a scene is printed, but never interpreted by the terminal.
 TEST(HostileScenes, DoNotReachTheTerminal) {
   const TemporaryFolder folder;
   const std::string title = "title = \"\\u001B]0;owned\\u0007 \\u009B31m\"\n";
@@ -94,7 +94,7 @@ TEST(HostileScenes, DoNotReachTheTerminal) {
   EXPECT_EQ(printable("a\nb", true), "a\nb");
 }
 
-/// The title goes into a script for gnuplot, which is able to run commands.
+/// The title is written into a script for gnuplot, which could run commands.
 TEST(HostileScenes, CannotGiveGnuplotCommands) {
   const TemporaryFolder folder;
   folder.write("scene.toml", "title = \"it's `touch backquoted`\\n' ; system 'touch quoted' #\"\n" +
@@ -112,7 +112,7 @@ TEST(HostileScenes, CannotGiveGnuplotCommands) {
   EXPECT_EQ(folder.entries(), (std::vector<std::string>{"out", "scene.toml", "study.toml"}));
 }
 
-/// Where a title stands within double quotes, a backquote would begin a command.
+/// In a title within double quotes, gnuplot would run text after a backquote as a command.
 TEST(HostileScenes, CannotGivePlotsCommands) {
   const TemporaryFolder folder;
   folder.write("scene.toml", "title = \"`touch backquoted` \\\" ; system 'touch quoted' #\"\n" + scene_with("rk4"));
@@ -128,7 +128,7 @@ TEST(HostileScenes, CannotGivePlotsCommands) {
   EXPECT_GT(scripts, 0);
 }
 
-/// Texts on which the parser would take minutes or all of the stack are refused at once.
+/// Texts on which the parser would take minutes or exhaust the stack are refused at once.
 TEST(HostileScenes, OfGreatDepthAreRefusedBeforeTheyAreParsed) {
   const auto repeated = [](const std::string& text, int times) {
     std::string all;
@@ -144,7 +144,7 @@ TEST(HostileScenes, OfGreatDepthAreRefusedBeforeTheyAreParsed) {
       {"x = [" + repeated("'a',", 50000) + "]\n", "the line is longer than"},
       {"x = {a = 1" + repeated(", a = 1", 20000) + "}\n", "the line is longer than"},
       {repeated("# a comment\n", 6000000), "larger than 64 MB"},
-      // Four quotes: a long string that begins with one, after which nothing is a string.
+      // Four quotes: a multi-line string that begins with a quote; the text after it is not a string.
       {"x = [\"\"\"\"a\"\"\", " + repeated("[", 50000) + "\n", "brackets stand in one another"}};
   for (const auto& [text, complaint] : texts) {
     const TemporaryFolder folder;
@@ -154,7 +154,7 @@ TEST(HostileScenes, OfGreatDepthAreRefusedBeforeTheyAreParsed) {
   }
 }
 
-/// A table of twenty thousand instants is none of them, and what is written of it can be read again.
+/// A table of twenty thousand instants is accepted, and its written form can be read again.
 TEST(HostileScenes, LongArraysOverManyLinesAreNotRefused) {
   std::string times = "times = [\n", values = "values = [\n";
   for (int i = 0; i < 20000; ++i) {
@@ -179,14 +179,14 @@ TEST(HostileScenes, AHundredLevelsAreNotTooMany) {
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
 }
 
-/// Devices and pipes may never end; a pipe that ends is a file like any other.
+/// Devices and pipes may never end and are refused; a pipe that ends is read like a file.
 TEST(HostileFiles, ThatNeverEndAreRefusedAndPipesAreRead) {
   const TemporaryFolder folder;
   folder.write("scene.toml", scene_with("rk4"));
   for (const std::string file : {"/dev/zero", "endless"}) {
     std::string line = "cd '" + folder.path() + "' && ";
     if (file == "endless") line += "mkfifo endless && { yes '# a comment' > endless & } && ";
-#ifndef __SANITIZE_ADDRESS__  // which reserves more address space than any limit leaves
+#ifndef __SANITIZE_ADDRESS__  // the sanitizer reserves more address space than any limit allows
     line += "ulimit -v 1000000 && ";
 #endif
     line += std::string("'") + BUTEE_TEST_PROGRAM + "' check " + file + " > out 2> err < /dev/null";

@@ -11,7 +11,7 @@
 namespace butee::test::method_choice_test {
 namespace {
 
-/// A mass that a triangular impulse of 0.2 ns throws against its stops: v0 = 1e9 N 1e-10 s/1 kg = 0.1 m/s.
+/// A mass that a triangular impulse of 0.2 ns drives against its stops: v0 = 1e9 N 1e-10 s/1 kg = 0.1 m/s.
 std::string struck(const std::string& integrator) {
   return R"(
     schema = 1
@@ -46,14 +46,15 @@ double last_displacement(const std::string& toml) {
 }
 
 TEST(MethodChoice, ExactIgnoresTheToleranceOfAScene) {
-  // Instants near 0.25 s are known to 5.6e-17 s: the three of the load to 1e-6 of its length.
+  // Instants near 0.25 s have a spacing of 5.6e-17 s: the three instants of the load are exact to 1e-6 of its
+  // length.
   constexpr double kInstants = 3e-6;
   const double w = 100.0, closed = std::sqrt(1e6 + 1e4), v0 = 0.1, gap = 5e-4;
-  // In closed form: free to the gap, then about the closed stop's rest position.
+  // Closed form: free motion to the gap, then oscillation about the closed stop's rest position.
   const double t1 = std::asin(gap * w / v0) / w, v1 = v0 * std::cos(w * t1), rest = 1e6 * gap / (1e6 + 1e4);
   const double amplitude = std::hypot(gap - rest, v1 / closed), phase = std::atan2(gap - rest, v1 / closed);
   const double contact = (std::acos(-1.0) - 2.0 * phase) / closed;
-  const double t = 0.01 - 1e-10 - t1 - contact;  // since it left the stop with -v1
+  const double t = 0.01 - 1e-10 - t1 - contact;  // time since it left the stop with velocity -v1
   ASSERT_GT(t, 0.0);
   ASSERT_GT(amplitude, 0.0);
   const double expected = gap * std::cos(w * t) - v1 / w * std::sin(w * t);
@@ -73,7 +74,7 @@ TEST(MethodChoice, ExactSaysInOneLineThatAToleranceIsIgnored) {
   EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
 }
 
-/// A mass that a load drives against its stops.
+/// A mass driven against its stops by a load.
 std::string driven(const std::string& integrator) {
   return R"(
     schema = 1
@@ -118,9 +119,9 @@ TEST(MethodChoice, BySetPutsKeysOfOtherMethodsAside) {
                           "rk4 does not have"),
       std::string::npos)
       << outcome.errors;
-  // The scene as run runs again as it stands.
+  // The written scene can be run again unchanged.
   EXPECT_EQ(run_program({"run", "scene-results/model.toml", "-q", "-o", "again"}, folder.path()).errors, "");
-  // A key of its own that is overridden, or belongs to no method, is a mistake as ever.
+  // An overridden key that belongs to another method, or to none, is still an error.
   for (const char* wrong : {"integrator.beta=0.3", "integrator.colour=3"}) {
     const Outcome refused =
         run_program({"run", "scene.toml", "--set", "integrator.type=rk4", "--set", wrong}, folder.path());

@@ -1,4 +1,4 @@
-// The seven methods on the paper's scenes against a program written without butee (tests/benchmark/plain).
+// The seven methods on the paper's scenes against a program that does not use butee (tests/benchmark/plain).
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -12,29 +12,31 @@
 namespace butee::test::methods_test {
 namespace {
 
-// Fixed steps make both programs do the same arithmetic, apart from the order of sums.
+// With fixed steps both programs do the same arithmetic, apart from the order of sums.
 constexpr double kFixedStepTolerance = 1e-9;
-// NMM1 at 1e-5 s is so wrong on the oscillator that it magnifies rounding at every impact.
+// NMM1 at 1e-5 s is so inaccurate on the oscillator that every impact amplifies rounding.
 constexpr double kCoarseSecantTolerance = 1e-5;
 // beam4 is chaotic: differences grow like e^(20 t), a factor of 400 in 0.3 s.
 constexpr double kChaoticTolerance = 1e-6;
-// Beyond this time, nothing of beam4 but its counts can agree.
+// Beyond this time only the counts of beam4 can agree.
 constexpr double kHorizonOfBeam4 = 0.3;
-// Which of two equal iterates meets Newton's tolerance is decided by rounding, rarely.
+// Rounding occasionally decides which of two nearly equal iterates meets Newton's tolerance.
 constexpr double kNewtonTolerance = 0.01;
-// An adaptive method's step is decided by an error estimate that magnifies rounding at every impact.
+// The step size of an adaptive method depends on an error estimate that amplifies rounding at every impact.
 constexpr double kAdaptivePeakTolerance = 0.02;
 constexpr double kAdaptiveStepsTolerance = 0.10;
-// With the paper's tolerances RK4-2 and RK4-3 ride on the stability limit there, where steps are decided by rounding:
-// counts of one such row were between 2195 and 4708, the outliers by long trains of rejections. So the median of
-// several runs is taken, whose first steps differ in the tenth digit; that of the stored row, a single run, is unknown.
+// With the paper's tolerances RK4-2 and RK4-3 work at the stability limit there, and rounding determines
+// their steps. Counts of one such row varied between 2195 and 4708; long sequences of rejections cause the
+// outliers. Therefore the median of several runs is compared, whose first steps differ in the tenth digit.
+// The stored row is a single run of unknown position in that distribution.
 constexpr double kStabilityLimitStepsTolerance = 0.35;
 constexpr int kRunsAtTheLimit = 7;
-// Some of them pass the limit and grow until the program stops them; most do not, on any instruction set.
+// Some runs exceed the limit and grow until the program stops them; most do not, on any instruction set.
 constexpr std::size_t kMostStoppedAtTheLimit = 2;
 
-// Under the address sanitizer the long runs would take too long: it checks memory, which the short ones use alike. It
-// runs the adaptive methods up to 0.3 s of beam4, and of the fixed-step ones those on the oscillator at 1e-5 s.
+// The long runs would take too long under the address sanitizer, and the short ones access memory in the same
+// way. It therefore runs the adaptive methods on beam4 up to 0.3 s, and the fixed-step methods on the
+// oscillator at 1e-5 s.
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kShortened = true;
 constexpr std::size_t kRows = 2 * (6 * 4 + 3);
@@ -89,7 +91,8 @@ std::string name_of(const testing::TestParamInfo<Row>& info) {
   return label_of(info.param);
 }
 
-/// The scene of a row as TOML text. The linear law has no regularization, so that line goes with the other law.
+/// The scene of a row as TOML text. The linear law has no regularization, so that key is removed with the
+/// arctan law.
 std::string scene_of(const Row& row) {
   std::string stem = row.scene;
   if (stem == "oscillator" && !row.coarse_oscillator()) stem += "-1e-6";
@@ -109,7 +112,7 @@ std::string loaded_node(const Row& row) {
   return row.scene == "oscillator" ? "rotor" : "string:middle";
 }
 
-/// Steps and peaks of the runs that are completed.
+/// Steps and peaks of the completed runs.
 struct RunsAtTheLimit {
   std::vector<double> steps, peaks;
 };

@@ -6,8 +6,9 @@
 namespace butee::test::modal_energy_test {
 namespace {
 
-/// The motion is good to 1e-6 and the integrals of `exact` to rounding. Modes that turn within a step, which damping
-/// in proportion to the stiffness takes most from, leave more of the dissipation; of the energy that is 1e-5.
+/// The motion is accurate to 1e-6, and the integrals of `exact` to rounding. Modes that oscillate within a
+/// step have a larger error in the dissipation, especially with stiffness-proportional damping; relative to
+/// the energy it is 1e-5.
 constexpr double kOfWork = 1e-4, kOfDissipation = 1e-3, kOfBalance = 1e-5;
 
 struct Followed {
@@ -27,8 +28,8 @@ Followed follow(const std::string& scene, const std::string& method) {
           record::energy_of(run.simulation().state(), run.dynamics())};
 }
 
-/// The work of the loads, the dissipation and the energies that `exponential` takes from its modes, against those of
-/// `exact`, which are integrated in physical coordinates.
+/// The work of the loads, the dissipation and the energies that `exponential` computes from its modes,
+/// compared with those of `exact`, integrated in physical coordinates.
 class ModalEnergy : public testing::TestWithParam<std::string> {};
 
 TEST_P(ModalEnergy, IsThatOfTheMotionInPhysicalCoordinates) {

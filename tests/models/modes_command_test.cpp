@@ -14,9 +14,9 @@ namespace {
 using Json = nlohmann::json;
 using std::numbers::pi;
 
-/// Of the mesh of 34 elements, (beta l)^4/1440 and less.
+/// Error of the mesh of 34 elements, (beta l)^4/1440 or less.
 constexpr double kMesh = 1e-5;
-/// Of an effective mass on that mesh.
+/// Error of an effective mass on that mesh.
 constexpr double kMassOfMesh = 1e-4;
 
 class ModesCommand : public testing::Test {
@@ -46,7 +46,7 @@ TEST_F(ModesCommand, PinnedBeamHasItsFrequenciesRatiosAndEffectiveMasses) {
     EXPECT_NEAR(mode["angular_frequency"].get<double>() / omega, 1.0, 10.0 * kMesh) << i;
     EXPECT_NEAR(mode["frequency"].get<double>(), mode["angular_frequency"].get<double>() / (2.0 * pi), 1e-12);
     EXPECT_NEAR(mode["damping"].get<double>() / (0.03 / (2.0 * omega)), 1.0, 10.0 * kMesh) << i;
-    // A half sine of i waves: 8/(i pi)^2 of the mass for odd i, nothing for even ones.
+    // A half sine of i waves has the effective mass fraction 8/(i pi)^2 for odd i, and 0 for even i.
     EXPECT_NEAR(mode["effective_part"].get<double>(), i % 2 == 1 ? 8.0 / (i * i * pi * pi) : 0.0, kMassOfMesh) << i;
     EXPECT_FALSE(mode["rigid"].get<bool>());
     EXPECT_LT(mode["residual"].get<double>(), 1e-9);
@@ -57,7 +57,7 @@ TEST_F(ModesCommand, AllEffectiveMassesTogetherAreTheMassThatCanMove) {
   double sum = 0.0;
   const Json found = json({model_path("beam1"), "-n", "68"});
   for (const Json& mode : found["modes"]) sum += mode["effective_part"].get<double>();
-  // Without what the held ends keep, less than half an element each.
+  // The masses at the held ends, less than half an element each, do not count.
   EXPECT_LT(sum, 1.0);
   EXPECT_GT(sum, 1.0 - 1.0 / 34.0);
 }
@@ -91,7 +91,7 @@ TEST_F(ModesCommand, ModalDampingIsWhatTheSceneSays) {
   const Json list = json({model_path("beam1"), "--set", "damping={modal=[0.03]}", "-n", "2"});
   EXPECT_NEAR(list["modes"][0]["damping"].get<double>(), 0.03, 1e-15);
   EXPECT_EQ(list["modes"][1]["damping"].get<double>(), 0.0);
-  // A stop far too soft to matter: the closed path has to say the same.
+  // A stop far too soft to matter: the code path for closed stops must give the same result.
   const Json closed = json({model_path("beam1"), "--set", "damping={modal=[0.03]}", "--set",
                             "contact[0].stiffness=1e-9", "--closed", "all", "-n", "2"});
   EXPECT_NEAR(closed["modes"][0]["damping"].get<double>(), 0.03, 1e-8);
@@ -106,14 +106,14 @@ TEST_F(ModesCommand, WritesFrequenciesAndShapes) {
   ASSERT_EQ(shapes.rows(), 35U);
   EXPECT_EQ(shapes.text_column("node")[17], "string:17");
   const auto x = shapes.column("coordinate"), u = shapes.column("u2"), theta = shapes.column("theta2");
-  // sqrt(2/m) sin(2 pi x/L), to the mesh; the sign is such that the largest entry is positive.
+  // sqrt(2/m) sin(2 pi x/L), up to the mesh error; the sign makes the largest entry positive.
   const double mass = json({model_path("beam1")})["total_mass"].get<double>(), height = std::sqrt(2.0 / mass);
   const double sign = u[5] > 0.0 ? 1.0 : -1.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     EXPECT_NEAR(sign * u[i], height * std::sin(2.0 * pi * x[i] / 35.0), 1e-4 * height);
     EXPECT_NEAR(sign * theta[i], height * 2.0 * pi / 35.0 * std::cos(2.0 * pi * x[i] / 35.0), 1e-4 * height);
   }
-  EXPECT_EQ(run({model_path("beam1"), "-o", "out"}).status, 0);  // ours, and written again
+  EXPECT_EQ(run({model_path("beam1"), "-o", "out"}).status, 0);  // own folder, overwritten
 }
 
 TEST_F(ModesCommand, DrawsShapesOrSaysWhatIsMissing) {

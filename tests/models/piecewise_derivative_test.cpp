@@ -1,4 +1,5 @@
-// The derivatives of a motion by its start and its loads, against differences and the determinant of the damping.
+// The derivatives of a motion with respect to its initial state and its loads, against finite differences and
+// the determinant due to damping.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,7 +13,7 @@
 namespace butee::test::piecewise_derivative_test {
 namespace {
 
-/// The derivatives of a run, over its steps, and where it ends.
+/// The derivatives of a run over all its steps, and its end state.
 struct Derivatives {
   Eigen::MatrixXd by_start;
   Vector by_loads, end;
@@ -42,7 +43,8 @@ Derivatives follow(const std::string& scene, const Vector& start = Vector(), dou
 
 TEST(Piecewise, DerivativeHasTheDeterminantOfTheDamping) {
   for (const double dashpot : {0.0, 100.0, 2000.0})
-    // Forces are continuous, so that volume in phase space shrinks with c/m alone; the product of some 30 matrices.
+    // Forces are continuous, so the phase-space volume decreases with c/m alone; the derivative is the
+    // product of some 30 matrices.
     EXPECT_NEAR(follow(one_mass(dashpot)).by_start.determinant() / std::exp(-dashpot / 156.0 * 0.4), 1.0, 1e-9);
 }
 
@@ -66,7 +68,8 @@ TEST(Piecewise, DerivativeMeetsDifferences) {
       difference.col(i) = (up - down) / (2.0 * kDifference);
       bend = std::max(bend, (up + down - 2.0 * here.end).cwiseAbs().maxCoeff() / kDifference);
     }
-    // Where one side of the difference meets another contact, or the second derivative is large, it tells nothing.
+    // If one side of the difference meets another contact, or the second derivative is large, the difference
+    // is not usable.
     if (bend > 1e-3 * difference.cwiseAbs().maxCoeff()) continue;
     EXPECT_LT((here.by_start - difference).cwiseAbs().maxCoeff(), 1e-4 * difference.cwiseAbs().maxCoeff())
         << "seed " << seed << "\n"

@@ -1,4 +1,4 @@
-// piecewise in limits that have a closed form, on borders, from snapshots, and what it refuses.
+// piecewise in limits with a closed form, at contact boundaries, from snapshots, and its refusals.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -32,8 +32,8 @@ TEST(Piecewise, RefusesOtherScenesBeforeTheFirstStep) {
             std::string::npos);
 }
 
-/// x'' + omega^2 x = f cos(omega t) from rest is f t sin(omega t)/(2 omega); so near to resonance the closed form of
-/// the driven motion would lose all digits.
+/// x'' + omega^2 x = f cos(omega t) from rest is f t sin(omega t)/(2 omega). So close to resonance, the usual
+/// closed form of forced motion would lose all digits.
 TEST(Piecewise, FollowsResonance) {
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
@@ -47,12 +47,13 @@ TEST(Piecewise, FollowsResonance) {
     const long double half = 0.5L * 3.0L * detuning * 50.0L, sum = 3.0L * 50.0L + half;
     const long double beat = half == 0.0L ? 1.0L : std::sin(half) / half;
     const long double x = 2.0L * 50.0L * beat * std::sin(sum) / (static_cast<long double>(omega) + 3.0L);
-    // The load's frequency as a double is the largest error: 50 omega eps of the phase.
+    // The largest error is the rounding of the load's frequency: 50 omega eps in the phase.
     EXPECT_NEAR(run.simulation().state().x[0], static_cast<double>(x), 2e-12 * 50.0) << detuning;
   }
 }
 
-/// A free mass under a constant force, with so little damping that m g/c is a million times its way, strikes a stop.
+/// A free mass under a constant force strikes a stop; damping is so small that m g/c is a million times its
+/// path.
 TEST(Piecewise, FallsFreelyWithNextToNoDamping) {
   for (const double rate : {0.0, 1e-12, 1e-6, 1e-3, 10.0}) {
     SceneRun run(
@@ -62,14 +63,14 @@ TEST(Piecewise, FallsFreelyWithNextToNoDamping) {
         to_text(rate) + "\n[integrator]\ntype = \"piecewise\"\nend_time = 3.0\n");
     ASSERT_TRUE(run.run().completed);
     const long double c = rate, t = 3.0L;
-    // x = -g (t - (1 - e^(-c t))/c)/c, or its series.
+    // x = -g (t - (1 - e^(-c t))/c)/c, or its series for small c.
     const long double x = rate < 1e-4 ? -10.0L * t * t * (0.5L - c * t / 6.0L + c * c * t * t / 24.0L)
                                       : -10.0L * (t + std::expm1(-c * t) / c) / c;
     EXPECT_NEAR(run.simulation().state().x[0] / static_cast<double>(x), 1.0, 1e-13) << rate;
   }
 }
 
-/// A start on the border of the stop, at rest: the first derivative that is not zero decides.
+/// A start at rest exactly at the gap: the first nonzero derivative decides the contact status.
 TEST(Piecewise, DecidesStartsOnTheBorder) {
   for (const char* load : {"type = \"constant\"\nvalue = 3.0\n", "type = \"constant\"\nvalue = -3.0\n",
                            "type = \"ramp\"\nto = 3.0\nend = 0.5\n", "type = \"ramp\"\nto = -3.0\nend = 0.5\n",
@@ -88,7 +89,7 @@ TEST(Piecewise, DecidesStartsOnTheBorder) {
   }
 }
 
-/// A run whose steps end elsewhere, as with other outputs, and one that is taken up in its middle.
+/// A run with other step ends (other outputs), and one that resumes in the middle.
 TEST(Piecewise, GoesOnFromASnapshotToTheSameBits) {
   const std::string scene = one_mass(50.0);
   SceneRun whole(scene), parts(scene, {"integrator.end_time=0.4"});

@@ -9,8 +9,8 @@
 
 namespace butee::test {
 
-/// A chain of 1 to 4 masses with random springs, dashpots, damping, loads and stops, as `piecewise` takes them. Stops
-/// have Kelvin-Voigt damping if it `dissipates`.
+/// A chain of 1 to 4 masses with random springs, dashpots, damping, loads and stops that `piecewise` accepts.
+/// Stops have Kelvin-Voigt damping if it `dissipates`.
 class RandomChain {
  public:
   explicit RandomChain(unsigned seed, bool dissipates = false) : random_(seed), dissipates_(dissipates) {

@@ -1,5 +1,5 @@
-// The method in closed form against exact, which expands in series and finds changes as roots of polynomials, on random
-// chains with all kinds of stops, damping and loads that it takes.
+// piecewise (closed form) against exact (series, changes located as roots of polynomials), on random chains
+// with all kinds of stops, damping and loads that piecewise accepts.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -29,11 +29,11 @@ Motions run(const std::string& scene, const std::string& method, Index dof, cons
   return {sampler.x, sampler.v};
 }
 
-/// Rounding of either method, relative to the peaks; 1.4e-11 was seen.
+/// Rounding of either method, relative to the peaks; 1.4e-11 was observed.
 constexpr double kRounding = 3e-11;
-/// Looser, since `exact` locates these changes on samples; 1.05e-10 was seen once on 584 chains.
+/// Looser bound, because `exact` locates these changes on samples; 1.05e-10 was observed once on 584 chains.
 constexpr double kEvents = 1e-10;
-/// A disturbance whose growth is measured, m/s.
+/// Disturbance whose growth is measured, m/s.
 constexpr double kDisturbance = 1e-9;
 
 double peak(const std::vector<double>& y) {
@@ -42,7 +42,7 @@ double peak(const std::vector<double>& y) {
   return largest;
 }
 
-/// How often two runs were compared.
+/// Returns the number of compared runs.
 unsigned compare(const RandomChain& chain, const std::string& method, const std::string& keys, double tolerance,
                  const std::string& name) {
   const Motions ours = run(chain.scene(), "piecewise", 0), reference = run(chain.scene(), method, 0, keys),
@@ -53,7 +53,7 @@ unsigned compare(const RandomChain& chain, const std::string& method, const std:
   for (std::size_t i = 0; i < reference.x.size(); ++i) {
     growth = std::max({growth, std::abs(disturbed.x[i] - ours.x[i]) / kDisturbance,
                        std::abs(disturbed.v[i] - ours.v[i]) / kDisturbance});
-    if (growth > 1e5) break;  // what follows is chance
+    if (growth > 1e5) break;  // later differences are amplified rounding
     EXPECT_NEAR(ours.x.at(i), reference.x[i], tolerance * growth * largest_x) << name << " row " << i;
     EXPECT_NEAR(ours.v.at(i), reference.v[i], tolerance * growth * largest_v) << name << " row " << i;
     if (testing::Test::HasFailure()) {
@@ -82,7 +82,7 @@ TEST(Piecewise, MeetsExactWhereStopsDissipate) {
 }
 
 TEST(Piecewise, FindsTheInstantsOfContact) {
-  // exact itself is uncertain by 1e-10 s at the end, where the motion has magnified rounding.
+  // exact has an uncertainty of 1e-10 s at the end, because the motion has amplified rounding.
   constexpr double kInstants = 1e-9;
   std::vector<record::Impact> all[2];
   for (const std::string method : {"piecewise", "exact"}) {

@@ -1,4 +1,4 @@
-// The jobs from practice in apps/models: what their pages say is what comes out.
+// The practical examples in apps/models: the results stated on their pages.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -14,7 +14,7 @@
 namespace butee::test::practice_test {
 namespace {
 
-/// The pages give two to three digits.
+/// The pages state two to three digits.
 constexpr double kPrinted = 0.01;
 
 struct Claim {
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-/// The record is that of its formula, to the digits that are printed.
+/// The stored record equals its formula to the printed digits.
 TEST(Record, IsMadeByItsScript) {
   const std::string folder = std::filesystem::path(model_path("tower")).parent_path();
   std::FILE* pipe = popen(("awk -f '" + folder + "/make-quake'").c_str(), "r");

@@ -18,10 +18,10 @@ struct Comparison {
   double tolerance;  // of the relative rms of u
 };
 
-// The kinks of the linear law cost RK4 its order: the error is of second order in the step, times the number of
-// impacts.
+// Slope discontinuities of the linear law reduce the order of RK4: the error is of second order in the step,
+// times the number of impacts.
 constexpr double kBeamTolerance = 1e-6;
-// A period of the closed oscillator is 6e-4 s and it hits its stops 71 times, which is why its step must be smaller.
+// A period of the closed oscillator is 6e-4 s and it strikes its stops 71 times, so it needs a smaller step.
 constexpr double kOscillatorTolerance = 1e-5;
 // beam4 is chaotic: errors grow like e^(20 t).
 constexpr double kChaoticTolerance = 1e-5;

@@ -20,7 +20,7 @@ Json without_times(const std::string& path) {
   return json;
 }
 
-/// Two runs with different environments, which moves the stack and everything on it.
+/// Runs twice with different environments, which shifts the stack.
 void expect_the_same_twice(const TemporaryFolder& folder, const std::vector<std::string>& set = {}) {
   for (const char* name : {"one", "two"}) {
     std::vector<std::string> arguments = {"run", "scene.toml", "-q", "-o", name};
@@ -67,7 +67,7 @@ std::vector<MethodCase> all_methods() {
 INSTANTIATE_TEST_SUITE_P(Catalogue, Reproducible, testing::ValuesIn(all_methods()),
                          [](const auto& one) { return one.param.name; });
 
-/// A mesh without a narrow band, whose matrices CHOLMOD factorizes.
+/// A mesh without a narrow band; its matrices are factorized by CHOLMOD.
 TEST(Reproducible, ALargeSceneGivesTheSameFilesTwice) {
   const TemporaryFolder folder;
   folder.write("scene.toml", tied_beams(elements_of_tied_beams(2000)));

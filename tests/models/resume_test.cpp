@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
-/// A pinned beam that strikes its stops, with everything that a run can write.
+/// A pinned beam that strikes its stops, with every kind of output.
 std::string scene_of(const MethodCase& method, double end_time, int checkpoint) {
   return "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\n"
          "radius = 0.02\n"
@@ -35,7 +35,7 @@ std::string scene_of(const MethodCase& method, double end_time, int checkpoint) 
          (checkpoint > 0 ? "checkpoint = " + std::to_string(checkpoint) + "\n" : "");
 }
 
-/// Everything in summary.json that is a result: not the times, and not what setting up once more cost.
+/// All results in summary.json; times and the cost of repeated set-up are removed.
 Json results(const std::string& path) {
   Json json = Json::parse(read_file(path));
   for (const char* key : {"setup_seconds", "wall_seconds", "force_evaluations", "contact_evaluations",
@@ -52,7 +52,7 @@ void expect_same_results(const TemporaryFolder& folder, const std::string& a, co
 
 const std::vector<std::string> kResume = {"run", "--resume", "broken", "-q"};
 
-/// Kills a run, and every run that goes on with it, after random times until one lives; the number of kills.
+/// Kills a run and each resumed run after random times until one completes; returns the number of kills.
 int kill_until_done(const TemporaryFolder& folder, const std::string& checkpoint, std::mt19937& random,
                     std::chrono::microseconds whole) {
   std::uniform_int_distribution<std::int64_t> delay(0, whole.count() * 3 / 4);
@@ -61,7 +61,7 @@ int kill_until_done(const TemporaryFolder& folder, const std::string& checkpoint
     Process process(
         goes_on ? kResume : std::vector<std::string>{"run", "scene.toml", "-o", "broken", "-q", "--set", checkpoint},
         folder.path());
-    // Later kills come later, so that every run ends at last.
+    // Delays increase with the number of kills, so that a run eventually completes.
     if (!process.ends_within(std::chrono::microseconds(delay(random)) * (1 + kills / 10))) {
       process.send(SIGKILL);
       process.wait();
@@ -74,7 +74,7 @@ int kill_until_done(const TemporaryFolder& folder, const std::string& checkpoint
 
 class Resume : public testing::TestWithParam<MethodCase> {};
 
-/// BUTEE_KILLS asks for more than the few of every day: the kills of each method.
+/// BUTEE_KILLS sets the number of kills for each method; the default is small.
 TEST_P(Resume, AKilledRunEndsLikeTheUnbrokenOne) {
   const char* asked = std::getenv("BUTEE_KILLS");
   const int wanted = asked != nullptr ? std::atoi(asked) : 2;
@@ -83,7 +83,7 @@ TEST_P(Resume, AKilledRunEndsLikeTheUnbrokenOne) {
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(run_program({"run", "scene.toml", "-o", "whole", "-q"}, folder.path()).status, 0);
   const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
-  // About twenty of them in a run: each waits for the disk.
+  // About twenty checkpoints in a run, because each waits for the disk.
   const bool in_blocks = GetParam().name == "exponential" || GetParam().name == "auto";
   const std::int64_t steps = results(folder.file("whole/summary.json"))["steps"];
   const std::string checkpoint = "output.checkpoint=" + std::to_string(in_blocks ? 1 : 1 + steps / 20);
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, Resume, testing::ValuesIn(method_cases()),
 class Checkpointed : public testing::Test {
  protected:
   Outcome run(std::vector<std::string> arguments) { return run_program(arguments, folder_.path()); }
-  /// A run that a signal ended in the middle.
+  /// A run that a signal stopped midway.
   void interrupt(int signal) {
     fs::remove_all(folder_.file("broken"));
     folder_.write("scene.toml", scene_of(kMethod, 100.0, 50));
@@ -132,8 +132,8 @@ TEST_F(Checkpointed, ASignalEndsARunAfterItsStep) {
   }
 }
 
-/// A run of a hundred seconds that was interrupted, with the horizon drawn in by hand: refused, since it is no longer
-/// the same model.
+/// A run of a hundred seconds was interrupted; its end time was then changed by hand. Resuming is refused,
+/// because the model has changed.
 TEST_F(Checkpointed, AnotherModelIsRefused) {
   interrupt(SIGINT);
   std::string model = read_file(folder_.file("broken/model.toml"));
@@ -156,7 +156,7 @@ TEST_F(Checkpointed, DamagedCheckpointsAreToldAndPassedOver) {
       process.send(SIGKILL);
       process.wait();
     }
-    if (!fs::exists(folder_.file("broken/checkpoint.bin"))) continue;  // It was done before the signal came.
+    if (!fs::exists(folder_.file("broken/checkpoint.bin"))) continue;  // finished before the signal
     folder_.write("broken/checkpoint.bin", "no checkpoint");
     if (both) folder_.write("broken/checkpoint-before.bin", "neither");
     const Outcome outcome = run(kResume);
@@ -167,7 +167,7 @@ TEST_F(Checkpointed, DamagedCheckpointsAreToldAndPassedOver) {
   }
 }
 
-/// A kill before the model was in its place: the folder is as good as empty.
+/// A kill before the model file was in place: the folder counts as empty.
 TEST_F(Checkpointed, TheDraftOfAModelIsNoHindrance) {
   fs::create_directory(folder_.file("broken"));
   folder_.write("broken/model.toml.part", "# but");

@@ -1,4 +1,4 @@
-// The command `butee stability` from outside.
+// The command `butee stability`, run as a program.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -19,10 +19,10 @@ TEST(StabilityCommand, WritesCurvesAndLimits) {
   const CsvTable curves(folder.file("out/stability.csv")), stops(folder.file("out/stops.csv"));
   EXPECT_EQ(curves.header(), (std::vector<std::string>{"method", "damping_ratio", "h_omega", "spectral_radius",
                                                        "numerical_damping", "period_error"}));
-  constexpr std::size_t kPoints = 4 * 60 + 1;  // 60 a decade, from 0.01 to 100
+  constexpr std::size_t kPoints = 4 * 60 + 1;  // 60 per decade, from 0.01 to 100
   EXPECT_EQ(curves.rows(), 2U * kPoints);
   EXPECT_EQ(stops.rows(), kPoints);
-  // Of RK4 without damping |R|^2 = 1 - y^6/72 + y^8/576 with y = h omega; a stop of 8 k triples y.
+  // RK4 without damping: |R|^2 = 1 - y^6/72 + y^8/576 with y = h omega; a stop of 8 k triples y.
   const auto square = [](double y) { return 1.0 - std::pow(y, 6) / 72.0 + std::pow(y, 8) / 576.0; };
   int checked = 0;
   for (std::size_t i = 0; i < kPoints; ++i) {

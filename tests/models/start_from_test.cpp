@@ -13,7 +13,7 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A beam and a mass in motion, with stops and a load; `rest` follows.
+/// A moving beam and mass with stops and a load; `rest` is appended.
 std::string scene(const std::string& rest, const std::string& elements = "4") {
   return R"(
 schema = 1
@@ -228,7 +228,7 @@ velocity = { nodes = "b:all", rotation = -3.8, about = 0.0 }
   EXPECT_DOUBLE_EQ(rows.column("tip.theta")[0], 0.01);
   EXPECT_DOUBLE_EQ(rows.column("tip.v")[0], -3.8);
   EXPECT_DOUBLE_EQ(rows.column("tip.theta_v")[0], -3.8);
-  // Nothing bends a rod that turns about its pin.
+  // A rod that turns about its pin does not bend.
   EXPECT_NEAR(rows.column("tip.u")[1], 0.01 - 0.38, 1e-9);
   EXPECT_NEAR(rows.column("tip.theta")[1], 0.01 - 0.38, 1e-9);
   std::filesystem::remove_all(folder_.file("second-results"));

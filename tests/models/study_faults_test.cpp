@@ -72,7 +72,8 @@ void PrintTo(const KillCase& c, std::ostream* out) {
 
 class KilledStudy : public testing::TestWithParam<KillCase> {};
 
-/// Killed after random times, again and again, until one lives. BUTEE_KILLS asks for more than the few of every day.
+/// Killed repeatedly after random times until one completes. BUTEE_KILLS sets the number of kills; the
+/// default is small.
 TEST_P(KilledStudy, EndsWithTheRowsOfTheUndisturbedOne) {
   const KillCase& c = GetParam();
   if (std::string(c.format) == "hdf5" && !has_hdf5()) GTEST_SKIP() << "built without HDF5";
@@ -116,7 +117,7 @@ std::string rows_in(const std::string& folder) {
   return "";
 }
 
-/// The files of a study that was interrupted once its file of rows had grown: some rows, not all.
+/// The files of a study that was interrupted once its file of rows had grown: it holds some rows, not all.
 std::string interrupted(const TemporaryFolder& folder, const std::string& format) {
   folder.write("scene.toml", kScene);
   folder.write("study.toml", sweep_of(2000, 4000));
@@ -139,7 +140,7 @@ std::string interrupted(const TemporaryFolder& folder, const std::string& format
   return rows;
 }
 
-/// A kill within a write leaves any part of it: whatever the file is cut to, rows are whole or not there.
+/// A kill during a write may leave any prefix of it: however the file is cut, rows are whole or absent.
 TEST(StudyStore, CutAnywhereItGivesWholeRowsAlone) {
   for (const char* format : {"csv", "hdf5"}) {
     if (std::string(format) == "hdf5" && !has_hdf5()) continue;
@@ -151,7 +152,7 @@ TEST(StudyStore, CutAnywhereItGivesWholeRowsAlone) {
     const std::string text = read_file(rows);
     std::mt19937 random(7);
     for (int i = 0; i < 40; ++i) {
-      // Near the end mostly, where a write was under way.
+      // Mostly near the end, where the last write was in progress.
       const std::size_t back = random() % (i % 2 == 0 ? std::min<std::size_t>(text.size(), 3000) : text.size());
       std::ofstream(folder.file("cut"), std::ios::binary) << text.substr(0, text.size() - back);
       const Names left = rows_in_file(folder.file("study.toml"), folder.file("cut"), format);

@@ -89,8 +89,8 @@ class StudyProgram : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// On the way up the motion with impacts goes on to the fold at W = 1.303214505, and the one without jumps up on the
-/// way down where it reaches the stop, at W = 1.1304366.
+/// In the upward sweep the motion with impacts continues to the fold at W = 1.303214505. In the downward
+/// sweep the motion without impacts jumps where it reaches the stop, at W = 1.1304366.
 TEST_F(StudyProgram, SweepsJumpWhereTheFoldsAre) {
   folder_.write("study.toml", R"(
 schema = 1
@@ -142,7 +142,7 @@ TEST_F(StudyProgram, GivesTheSameRowsUnderMpirun) {
       std::system("command -v mpirun >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "built without MPI";
   perform("one", {"--format", "csv"});
-  // Under the address sanitizer Open MPI's own leaks are left out.
+  // The address sanitizer's leak check is off because Open MPI itself leaks.
   const std::string command = "cd '" + folder_.path() +
                               "' && ASAN_OPTIONS=detect_leaks=0 OMPI_ALLOW_RUN_AS_ROOT=1 "
                               "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
@@ -150,7 +150,7 @@ TEST_F(StudyProgram, GivesTheSameRowsUnderMpirun) {
                               "' study study.toml --format csv -q -o team > mpi.out 2>&1 </dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0) << read_file(folder_.file("mpi.out"));
   EXPECT_EQ(rows("team"), rows("one"));
-  // A mistake ends all of them, with its own status and one message.
+  // A mistake ends all processes, with one exit status and one message.
   folder_.write("scene.toml", "schema = 1\n");
   const std::string bad = command.substr(0, command.find("-o team")) + "-o other > mpi.out 2>&1 </dev/null";
   EXPECT_EQ(WEXITSTATUS(std::system(bad.c_str())), 2) << read_file(folder_.file("mpi.out"));

@@ -59,7 +59,7 @@ bool has_hdf5() {
   return fs::exists(fs::path(BUTEE_TEST_PLUGINS).parent_path() / "study" / "study_hdf5.so");
 }
 
-/// Runs a line of shell in a folder, its output into the file `out` there; the exit status.
+/// Runs a shell command in a folder, with its output in the file `out` there; returns the exit status.
 int shell(const TemporaryFolder& folder, const std::string& line) {
   return WEXITSTATUS(std::system(("cd '" + folder.path() + "' && (" + line + ") > out 2>&1 </dev/null").c_str()));
 }
@@ -68,7 +68,7 @@ std::string program(const std::string& arguments) {
   return "'" BUTEE_TEST_PROGRAM "' " + arguments;
 }
 
-/// A limit on the size of files stands for a disk that is full: write() fails in the same way, with another reason.
+/// A file size limit simulates a full disk: write() fails in the same way, with another errno.
 class FullDisk : public testing::TestWithParam<const char*> {};
 
 TEST_P(FullDisk, LosesNothingAndIsGoneOnWith) {
@@ -79,7 +79,7 @@ TEST_P(FullDisk, LosesNothingAndIsGoneOnWith) {
   folder.write("study.toml", kStudy);
   const std::string call = program("study study.toml -q --format " + format);
   ASSERT_EQ(shell(folder, call + " -o whole"), 0);
-  // Blocks of 512 bytes: room for what is written at first, not for all rows.
+  // In blocks of 512 bytes: enough for the initial writes, too small for all rows.
   EXPECT_EQ(shell(folder, std::string("ulimit -f ") + (format == "csv" ? "800; " : "2400; ") + call + " -o full"), 1);
   const std::string message = read_file(folder.file("out"));
   EXPECT_NE(message.find("File too large"), std::string::npos) << message;
@@ -106,7 +106,7 @@ TEST(StudyPictures, AreDrawnOfAFolderWhoseStudyHasGone) {
   ASSERT_EQ(shell(folder, program("plot rows --format script -o pictures")), 0) << read_file(folder.file("out"));
   EXPECT_EQ(read_file(folder.file("out")), "pictures/response-peak-m.u.gp\n");
   EXPECT_NE(read_file(folder.file("pictures/response-peak-m.u.gp")).find("\n0.9 "), std::string::npos);
-  // Of a study that is under way, what is there.
+  // For a study in progress, the existing rows are drawn.
   const std::string rows = read_file(folder.file("rows/study.csv"));
   folder.write("rows/rows-0-0.csv", rows.substr(0, rows.find('\n', rows.find("\n1,") + 1) + 1));
   fs::remove(folder.file("rows/study.csv"));
@@ -126,7 +126,7 @@ TEST(StudyTrust, IsTheHorizonOfEachRun) {
       "[study]\nsettle = 2\nperiods = 3\ncollect = [\"trust\"]\n";
   folder.write("study.toml", study);
   ASSERT_EQ(shell(folder, program("study study.toml -q --format csv -o rows")), 0) << read_file(folder.file("out"));
-  // Stops stay open: a linear oscillator is trusted to the end.
+  // Stops stay open: the trust horizon of a linear oscillator is the end time.
   const CsvTable table(folder.file("rows/study.csv"));
   for (const double horizon : table.column("trust")) EXPECT_NEAR(horizon, 10.0 * std::numbers::pi, 1e-9);
   folder.write("study.toml", study + "follow = true\n");
@@ -134,7 +134,7 @@ TEST(StudyTrust, IsTheHorizonOfEachRun) {
   EXPECT_NE(read_file(folder.file("out")).find("take follow out"), std::string::npos);
 }
 
-/// What Dakota 6 writes for an evaluation in its standard format, and what it reads of its results.
+/// A parameter file in Dakota 6's standard format, and the results that Dakota reads.
 std::string parameters_of(const std::string& load, const std::string& gap) {
   return "                                          2 variables\n                      " + load +
          " v1\n                      " + gap +

@@ -12,7 +12,7 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A mass on a spring under a table; `table` holds its keys but type, node and dof.
+/// A mass on a spring under a table load; `table` holds its keys except type, node and dof.
 std::string scene(const std::string& table, const std::string& output = "") {
   return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
          "\"m\"\n"
@@ -129,7 +129,7 @@ TEST_F(TableFile, IsNamedInModelTomlAndFoundFromThere) {
 }
 
 TEST_F(TableFile, LongArraysOfASceneAreReadAsShortOnes) {
-  // 40000 numbers on one line: longer than any line that the parser would be given.
+  // 40000 numbers on one line: longer than any line passed to the parser.
   std::string times = "0.0", values = "0.0", rows = "0,0\n";
   for (int i = 1; i < 20000; ++i) {
     const std::string t = std::to_string(i) + "e-5", f = std::to_string(i * 7919 % 1001) + ".25";

@@ -1,5 +1,5 @@
-// --trust on scenes whose truth is known by 80-bit arithmetic (support/extended_motion): the error that it states
-// bounds the true one, its intervals hold the true peaks, and it calls chaotic what is.
+// --trust on scenes with solutions in 80-bit arithmetic (support/extended_motion): its stated error bounds
+// the true error, its intervals contain the true peaks, and it identifies chaotic scenes.
 #include "apps/butee/trust.hpp"
 
 #include <cmath>
@@ -29,7 +29,7 @@ struct Stop {
   int a, b;
   double gap, stiffness;
   int sides = 0;
-  double regularization = 0.0;  ///< of the arctan law; 0: linear
+  double regularization = 0.0;  ///< of the arctan law, 1/m; 0: linear law
 };
 struct Load {
   int dof;
@@ -37,7 +37,7 @@ struct Load {
 };
 enum class Growth { none, exponential };
 
-/// A scene, for the product and for 80-bit arithmetic.
+/// A scene in two forms: for butee and for 80-bit arithmetic.
 struct Scene {
   std::string name;
   std::vector<double> mass;
@@ -135,7 +135,7 @@ Scene single(const std::string& name, double mass, double stiffness, double damp
   return {name, {mass}, {{0, -1, stiffness, damping}}, std::move(stops), std::move(loads), {x0}, {v0}, end_time};
 }
 
-/// Free motion of one mass: integrable whatever its stops are, so that disturbances grow like t at most.
+/// Free motion of one mass: integrable for any stops, so that disturbances grow at most like t.
 std::vector<Scene> free_scenes() {
   const auto swing = [](const std::string& name, std::vector<Stop> stops, double v0, double end = 2.0, double c = 0.0) {
     return single(name, 1.0, 1e4, c, std::move(stops), {}, 0.0, v0, end);
@@ -188,7 +188,7 @@ std::vector<Scene> linear_scenes() {
   };
 }
 
-/// x'' + 0.1 x' + x + stops = F cos(W t): stable periodic motion by its Floquet multipliers.
+/// x'' + 0.1 x' + x + stops = F cos(W t): periodic motion, stable according to its Floquet multipliers.
 std::vector<Scene> periodic_scenes() {
   const auto bilinear = [](const std::string& name, double k, double omega) {
     return single(name, 1.0, 1.0, 0.1, {{0, -1, 0.0, k, 1}}, {{0, 1.0, omega}}, -0.86, 0.1, 100.0);
@@ -200,13 +200,13 @@ std::vector<Scene> periodic_scenes() {
       bilinear("bilinear_period_1", 8.0, 2.0),       // |multipliers| 0.855
       bilinear("bilinear_period_1_slow", 8.0, 1.5),  //
       bilinear("bilinear_period_2", 8.0, 2.4),       // 0.770 over two periods
-      bilinear("bilinear_weak", 3.0, 2.0),           // below the doubling at 2.2345
-      bilinear("bilinear_weak_fast", 3.0, 3.6),      // beyond that at 3.4584
+      bilinear("bilinear_weak", 3.0, 2.0),           // below the period doubling at 2.2345
+      bilinear("bilinear_weak_fast", 3.0, 3.6),      // above the period doubling at 3.4584
       with_gap("gap_one_stop", 1, 1.0, 1.012632, 0.797568),
       with_gap("gap_one_stop_upper", 1, 1.2, 0.590392, 2.020975),
       with_gap("gap_two_stops", 0, 1.0, 1.008032, 0.517477),
       with_gap("gap_two_stops_upper", 0, 1.2, 1.021683, 0.897054),
-      with_gap("gap_lower_branch", 0, 1.5, 0.0, 0.0),  // the small, linear one of two
+      with_gap("gap_lower_branch", 0, 1.5, 0.0, 0.0),  // the linear motion with the smaller amplitude, one of two
       {"two_masses_rattling",
        {1.0, 1.0},
        {{0, -1, 1e4, 20.0}, {1, -1, 4e4, 20.0}},
@@ -218,7 +218,7 @@ std::vector<Scene> periodic_scenes() {
   };
 }
 
-/// A stop that is hardly met.
+/// A stop that the motion barely reaches.
 std::vector<Scene> grazing_scenes() {
   const auto forced = [](const std::string& name, double part, int sides) {
     // Steady amplitude F/sqrt((k - m W^2)^2 + (c W)^2)
@@ -237,8 +237,8 @@ std::vector<Scene> grazing_scenes() {
           thrown("grazing_thrown_not", 0.1 * (1.0 - 1e-9))};
 }
 
-/// The same oscillator at amplitudes (N) and frequencies (rad/s) of which some are chaotic; 80-bit arithmetic from two
-/// starts says which.
+/// The same oscillator at amplitudes (N) and frequencies (rad/s), some of them chaotic; 80-bit arithmetic
+/// from two starts determines which.
 Scene driven(double amplitude, double omega, double end, Growth growth, int sides = 0) {
   Scene scene = single("driven_" + std::to_string(std::lround(amplitude)) + "_" + std::to_string(std::lround(omega)) +
                            (sides == 0 ? "" : "_one_side") + "_" + std::to_string(std::lround(10.0 * end)),
@@ -247,7 +247,7 @@ Scene driven(double amplitude, double omega, double end, Growth growth, int side
   return scene;
 }
 
-/// At 60 N and 80 rad/s small differences grow like e^(9 t) for a while, then the motion settles.
+/// At 60 N and 80 rad/s small differences grow like e^(9 t) for a while; then the motion becomes regular.
 std::vector<Scene> driven_scenes() {
   const auto chaos = Growth::exponential, order = Growth::none;
   return {driven(60, 80, 1, chaos),    driven(60, 80, 2, chaos),   driven(60, 80, 4, chaos),
@@ -313,12 +313,13 @@ TEST_P(Trust, BoundsTheErrorHoldsThePeaksAndKnowsChaos) {
   EXPECT_EQ(trust.chaotic, scene.growth == Growth::exponential) << trust.growth_rate;
   if (scene.growth == Growth::exponential) {
     const double rate = grow_extended(scene.extended(), trust.growth_until).rate;
-    EXPECT_NEAR(trust.growth_rate, rate, 0.3 * rate);  // two ways to take a slope from growth that scatters
+    EXPECT_NEAR(trust.growth_rate, rate, 0.3 * rate);  // two ways to fit the slope of a scattered growth
   } else if (scene.mass.size() == 1) {
     double factor = 1.0;
     for (const Disturbed disturbed : {Disturbed::velocity, Disturbed::displacement})
       factor = std::max(factor, grow_extended(scene.extended(), scene.end_time, disturbed).factor);
-    // At a thousand instants; where a stop is met by 1e-9, by the size of the disturbance too.
+    // Growth is sampled at a thousand instants. If a stop is reached by only 1e-9 m, it also depends on the
+    // size of the disturbance.
     EXPECT_GE(trust.amplification, 0.85 * factor);
     EXPECT_LE(trust.amplification, 1.5 * factor);
   }

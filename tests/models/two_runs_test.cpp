@@ -47,7 +47,7 @@ class TwoRuns : public testing::Test {
  protected:
   TwoRuns() { folder_.write("scene.toml", kScene); }
 
-  /// All files of the folder are of the run to `end_time`, from the first to the last row.
+  /// Checks that all files of the folder belong to the run to `end_time`, from the first to the last row.
   void expect_whole(double end_time) const {
     const Json summary = Json::parse(read_file(folder_.file("both/summary.json")));
     EXPECT_EQ(summary["status"], "completed");
@@ -71,8 +71,8 @@ TEST_F(TwoRuns, IntoOneFolderLeaveOneWholeResult) {
   ASSERT_EQ(run_program(run_to("2.0"), folder_.path()).status, 0);
   const auto alone = std::chrono::duration_cast<microseconds>(std::chrono::steady_clock::now() - begin);
   std::mt19937 random(20171);
-  // Halved where they did not meet and doubled where they did: the delays stay about the length of a run, however much
-  // faster or slower the machine has become since the first.
+  // The delay is halved if the runs did not overlap and doubled if they did. It thus stays near the length of
+  // a run even if the speed of the machine changes.
   std::int64_t longest_delay = alone.count();
   int refused = 0;
   for (int round = 0; round < 50 && !HasFailure(); ++round) {
@@ -88,7 +88,7 @@ TEST_F(TwoRuns, IntoOneFolderLeaveOneWholeResult) {
     if (met) ++refused;
     longest_delay =
         met ? std::min<std::int64_t>(2 * longest_delay, alone.count()) : std::max<std::int64_t>(longest_delay / 2, 1);
-    // Both were done: one after the other, in either order.
+    // Both completed: they ran one after the other, in either order.
     const double t_end = Json::parse(read_file(folder_.file("both/summary.json")))["t_end"];
     expect_whole(one == 2 ? 1.0 : other == 2 ? 2.0 : t_end);
   }
@@ -119,7 +119,7 @@ TEST_F(TwoRuns, AKilledOneBlocksNobody) {
   expect_whole(1.0);
 }
 
-/// A run that is killed before it has written anything leaves a folder that the next one takes.
+/// A run that is killed before it has written anything leaves a folder that the next run may use.
 TEST_F(TwoRuns, ALockAloneMakesNoFolderForeign) {
   fs::create_directory(folder_.file("both"));
   folder_.write("both/.butee-lock", "1\n");

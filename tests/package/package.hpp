@@ -4,10 +4,10 @@
 
 namespace butee::test {
 
-/// Runs a line of shell in `folder`. Its output becomes a failure of the test where it fails.
+/// Runs a shell command in `folder`; on failure its output is reported as a test failure.
 bool shell(const std::string& folder, const std::string& line);
 
-/// The folder of the package as installed and then moved elsewhere, once for all tests of this process.
+/// The folder of the installed package, moved to another place; made once for all tests of this process.
 const std::string& package();
 
 }  // namespace butee::test

@@ -33,7 +33,7 @@ TEST_F(Package, RunsASceneFromWhereItWasMovedTo) {
   EXPECT_TRUE(shell(folder.path(), "'" + package() + "/bin/butee' run '" + package() +
                                        "/share/butee/models/beam1.toml' --set integrator.end_time=0.01 -o results"));
   EXPECT_TRUE(fs::exists(folder.file("results/history.csv")));
-  // Nothing of the place it was built in is needed.
+  // The installed package does not need the folder in which it was built.
   EXPECT_FALSE(fs::exists(package() + "/../first"));
 }
 
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, NewPlugin, testing::Values("integrator", "law", 
 TEST_F(Package, RefusesAModuleThatWasBuiltOtherwise) {
   const TemporaryFolder folder;
   ASSERT_TRUE(shell(folder.path(), "'" + package() + "/bin/butee' new-plugin mine --kind load"));
-  // The build fails where the manifest is written: the program does not take the module.
+  // The build fails when the manifest is written, because the program refuses the module.
   const auto refused = [&](const std::string& flags, const std::string& reason) {
     const std::string line =
         "rm -rf build && cmake -B build -D CMAKE_PREFIX_PATH='" + package() + "' -D CMAKE_CXX_FLAGS='" + flags +
@@ -69,7 +69,7 @@ TEST_F(Package, RefusesAModuleThatWasBuiltOtherwise) {
 TEST_F(Package, RefusesAModuleOfAnotherInterfaceVersion) {
   const TemporaryFolder folder;
   ASSERT_TRUE(shell(folder.path(), "'" + package() + "/bin/butee' new-plugin mine --kind load"));
-  // As if the headers were of another version.
+  // Simulates headers of another version.
   const std::string copy = folder.file("other");
   fs::copy(package(), copy, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
   ASSERT_TRUE(shell(folder.path(),
@@ -93,7 +93,7 @@ TEST_F(Package, IsFoundByPkgConfig) {
   const TemporaryFolder folder;
   folder.write("version.c",
                "#include <butee.h>\n#include <stdio.h>\nint main(void) { return puts(butee_version()) < 0; }\n");
-  // A name without blanks, which pkg-config's output does not bear.
+  // A path without blanks, because pkg-config's output does not support them.
   fs::create_directory_symlink(package(), folder.file("package"));
   EXPECT_TRUE(shell(folder.path(),
                     "export PKG_CONFIG_PATH=$(dirname $(find -L package -name butee.pc)) && "

@@ -11,7 +11,8 @@
 namespace butee::test::run_path_test {
 namespace {
 
-/// The words in brackets of `readelf -d` lines with `tag`, by file, of all programs, libraries and modules in `tree`.
+/// The bracketed values of `readelf -d` lines with `tag`, by file, for all programs, libraries and modules in
+/// `tree`.
 std::map<std::string, std::vector<std::string>> entries(const std::string& tree, const std::string& tag) {
   const TemporaryFolder folder;
   EXPECT_TRUE(shell(folder.path(), "find '" + tree +
@@ -28,7 +29,7 @@ std::map<std::string, std::vector<std::string>> entries(const std::string& tree,
   return found;
 }
 
-/// Every entry of a run-time search path is a folder that does not depend on where the program is started.
+/// Every entry of a run-time search path must be a folder that does not depend on the current folder.
 void check_run_paths(const std::string& tree, std::size_t least) {
   std::size_t checked = 0;
   for (const char* tag : {"(RUNPATH)", "(RPATH)"})

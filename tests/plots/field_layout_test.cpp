@@ -1,4 +1,4 @@
-// Where the nodes of a field stand.
+// Coordinates of the nodes in fields.
 #include <algorithm>
 #include <array>
 
@@ -37,10 +37,10 @@ TEST(FieldLayout, PutsBeamsSideBySideAndEndToEnd) {
                             "[integrator]\ntype = \"rk4\"\ntime_step = 1e-3\nend_time = 1e-3\n";
   const model::FieldLayout layout = layout_of(parts);
   EXPECT_EQ(place(layout, "string:3"), (Place{3.0, 0.0, 0.0}));
-  EXPECT_EQ(place(layout, "casing:1"), (Place{2.0, 0.0, 0.5}));  // 5 % of 10 m beside it
-  EXPECT_EQ(place(layout, "next:1"), (Place{12.0, 0.0, 0.0}));   // goes on behind the string
-  EXPECT_EQ(place(layout, "branch:1"), (Place{6.0, 0.0, 1.0}));  // from the middle of the string, beside it
-  EXPECT_EQ(place(layout, "rotor"), (Place{3.0, 0.0, 1.5}));     // where its spring ties it to
+  EXPECT_EQ(place(layout, "casing:1"), (Place{2.0, 0.0, 0.5}));  // offset by 5 % of 10 m
+  EXPECT_EQ(place(layout, "next:1"), (Place{12.0, 0.0, 0.0}));   // continues after the string
+  EXPECT_EQ(place(layout, "branch:1"), (Place{6.0, 0.0, 1.0}));  // starts at the middle of the string, offset from it
+  EXPECT_EQ(place(layout, "rotor"), (Place{3.0, 0.0, 1.5}));     // at the node to which its spring connects it
   EXPECT_EQ(layout.lines.size(), 4U);
 }
 

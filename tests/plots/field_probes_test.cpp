@@ -1,5 +1,5 @@
-// The probes in fields.h5: bit for bit the columns of history.csv, read by h5py, at the end, under way, after a failure
-// and after a kill.
+// The probes in fields.h5, read by h5py, equal the columns of history.csv bit for bit: at the end, during a
+// run, after a failure and after a kill.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -49,7 +49,7 @@ quantities = ["u"]
 )";
 }
 
-/// What check_probes.py says of two files of the folder.
+/// The output of check_probes.py for two files of the folder.
 std::string compared(const TemporaryFolder& folder, const std::string& h5, const std::string& csv,
                      const std::string& how) {
   for (const char* python : {"python3", "/usr/bin/python3"}) {
@@ -83,7 +83,7 @@ class ProbesInFields : public testing::Test {
 };
 
 TEST_F(ProbesInFields, AreTheColumnsOfHistory) {
-  // Rows of their own, not those of the fields.
+  // The probes have their own rows, independent of those of the fields.
   ASSERT_EQ(run("interval = 2.0e-4\nformats = [\"csv\", \"hdf5\"]\nfields = {interval = 0.02}").status, 0);
   EXPECT_EQ(compared_whole(), "1501 rows of 9 columns agree\n");
 }
@@ -129,7 +129,7 @@ TEST_F(ProbesInFields, AreReadUnderWayAndAfterAKill) {
   process.wait();
   const std::string killed = compared(folder_, h5, csv, "part");
   EXPECT_TRUE(std::regex_match(killed, agreement)) << killed;
-  // Nothing goes on from there, and nothing is lost by asking for it.
+  // The run cannot be resumed, and the attempt loses nothing.
   const std::string before = read_file(folder_.file(h5));
   const Outcome resumed = run_program({"run", "--resume", "scene-results"}, folder_.path());
   EXPECT_EQ(resumed.status, 2);

@@ -1,5 +1,5 @@
-// Fields of all nodes: that they are what the probes say, that other programs read them, and that a run that is killed
-// leaves whole records.
+// Fields of all nodes: they equal the probes, other programs can read them, and a killed run leaves whole
+// records.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -97,7 +97,7 @@ TEST(Fields, AreWhatTheProbesSay) {
   EXPECT_EQ(course(*reader, "theta", "string:5"), history.column("mid.theta"));
   EXPECT_EQ(course(*reader, "contact_force", "string:5"), history.column("mid.contact_force"));
   EXPECT_EQ(course(*reader, "u", "rotor"), history.column("rotor.u"));
-  // A stop is closed exactly where u is beyond the gap, and on that side.
+  // A stop is closed exactly when u is beyond the gap, on that side.
   const auto u = course(*reader, "u", "string:5"), state = course(*reader, "stop_state", "string:5");
   int closed = 0;
   for (std::size_t i = 0; i < u.size(); ++i) {
@@ -105,7 +105,7 @@ TEST(Fields, AreWhatTheProbesSay) {
     closed += state[i] != 0.0 ? 1 : 0;
   }
   EXPECT_GT(closed, 20);
-  // Fixed, and absent: a lone mass does not turn.
+  // A fixed DOF, and an absent one: a lone mass has no rotation.
   for (const double value : course(*reader, "u", "string:0")) EXPECT_EQ(value, 0.0);
   for (const double value : course(*reader, "theta", "rotor")) EXPECT_EQ(value, 0.0);
 }
@@ -119,7 +119,7 @@ TEST(Fields, CostTheRunNothingAndChangeNothing) {
   ASSERT_EQ(run_program({"run", "both.toml", "-q"}, folder.path()).status, 0);
   EXPECT_EQ(read_file(folder.file("plain-results/history.csv")), read_file(folder.file("both-results/history.csv")));
   EXPECT_FALSE(fs::exists(folder.file("plain-results/fields.h5")));
-  // A folder that is used again keeps nothing of the run before.
+  // A reused folder keeps no files of the previous run.
   ASSERT_EQ(run_program({"run", "plain.toml", "-q", "-o", "both-results"}, folder.path()).status, 0);
   EXPECT_FALSE(fs::exists(folder.file("both-results/fields.h5")));
   EXPECT_FALSE(fs::exists(folder.file("both-results/fields.xdmf")));
@@ -130,7 +130,7 @@ TEST(Fields, OpenTheLibraryOnlyWhereTheyAreAskedFor) {
   const TemporaryFolder folder;
   folder.write("plain.toml", scene(""));
   folder.write("both.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
-  // What the dynamic loader says it opens.
+  // Makes the dynamic loader print the files it opens.
   const std::vector<std::string> telling = {"LD_DEBUG=files"};
   const Outcome plain = run_program({"run", "plain.toml", "-q"}, folder.path(), telling);
   EXPECT_NE(plain.errors.find("newmark.so"), std::string::npos);
@@ -156,7 +156,7 @@ TEST(Fields, KeepWhatIsAskedFor) {
   EXPECT_EQ(reader->times().back(), 0.3);
 }
 
-/// A Python that has the module, or "".
+/// A Python interpreter that has the module, or "".
 std::string python_with(const std::string& module) {
   for (const char* python : {"python3", "/usr/bin/python3"})
     if (std::system((std::string(python) + " -c 'import " + module + "' >/dev/null 2>&1").c_str()) == 0) return python;
@@ -178,8 +178,8 @@ TEST(Fields, AreReadByOthers) {
   const TemporaryFolder folder;
   folder.write("scene.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
   ASSERT_EQ(run_program({"run", "scene.toml", "-q"}, folder.path()).status, 0);
-  // The script compares fields with history.csv through h5py, and follows every reference of the XDMF; with VTK's
-  // reader of XDMF, where there is one, it reads that as ParaView does.
+  // The script compares fields with history.csv through h5py, and checks every reference of the XDMF. If VTK
+  // is available, it also reads the XDMF with VTK's reader, as ParaView does.
   const std::string said = run_and_check(python, folder);
   EXPECT_NE(said.find("h5py: 301 records of 12 nodes agree"), std::string::npos) << said;
   EXPECT_NE(said.find("xdmf: 301 grids agree"), std::string::npos) << said;
@@ -206,7 +206,7 @@ TEST(Fields, OfAKilledRunAreWhole) {
   const TemporaryFolder folder;
   folder.write("scene.toml", scene("formats = [\"csv\", \"hdf5\"]\n"));
   constexpr int kRuns = 3;
-  constexpr std::uintmax_t kSomeRecords = 100000;  // bytes of fields.xdmf, which grows as records are on disk
+  constexpr std::uintmax_t kSomeRecords = 100000;  // bytes of fields.xdmf, which grows as records are written
   for (int run = 0; run < kRuns; ++run) {
     const std::string results = "killed" + std::to_string(run), xdmf = folder.file(results + "/fields.xdmf");
     Process process(
@@ -252,7 +252,7 @@ TEST(Fields, NeedAFormatThatKeepsThem) {
   refused(with + "{node = \"rotor\"}\n", "did you mean \"nodes\"");
 }
 
-/// XML 1.0 has no control characters, not even as references.
+/// XML 1.0 allows no control characters, not even as character references.
 TEST(Fields, TitlesWithControlCharactersLeaveXmlWellFormed) {
   NEEDS_HDF5();
   const TemporaryFolder folder;

@@ -1,5 +1,5 @@
-// The command `butee plot`: what its scripts hold, what it refuses, and, where gnuplot is found, that pictures come
-// out.
+// The command `butee plot`: the contents of its scripts, its refusals and, if gnuplot is found, the existence
+// of pictures.
 #include <cstdlib>
 #include <filesystem>
 
@@ -94,7 +94,7 @@ TEST_F(Plot, DrawsWhatTheResultsAllow) {
   expect_in(displacement, "-20 with lines dt 2");
   expect_in(displacement, "title 'gap ±20 mm'");
   expect_in(displacement, "It's a swing / with 100 % 'quotes'");
-  expect_in(script("spectrum"), "from first 2, graph 0");  // Hz, of the load
+  expect_in(script("spectrum"), "from first 2, graph 0");  // Hz, frequency of the load
   expect_in(script("spectrum"), "title 'load 2 Hz'");
   expect_in(script("phase"), "title 'once per load period'");
   for (const char* part : {"kinetic", "strain", "contact", "total", "work - dissipated"})
@@ -156,7 +156,7 @@ TEST_F(Plot, RefusesWhatIsNotThere) {
 }
 
 TEST_F(Plot, SaysWhatToDoWithoutGnuplot) {
-  // A search path on which there is nothing but what the test itself needs.
+  // A search path with only the programs that the test itself needs.
   fs::create_directory(folder_.file("bin"));
   for (const char* tool : {"timeout", "sh"})
     for (const char* place : {"/usr/bin/", "/bin/"})
@@ -204,12 +204,12 @@ TEST_F(Plot, HasARowOfEnergiesForEachOutputTime) {
   const auto t = energy.column("t"), work = energy.column("work"), rows = history.column("t");
   double least = 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) {
-    // Steps of 1 ms end on the output times but for the rounding of n h.
+    // Steps of 1 ms end on the output times up to the rounding of n h.
     ASSERT_NEAR(t[i], rows[i], 1e-12);
     EXPECT_NEAR(kinetic[i], 0.5 * 2.0 * v[i] * v[i], 1e-9);
     EXPECT_NEAR(strain[i], 0.5 * 200.0 * u[i] * u[i], 1e-9);
     least = std::min(least, contact[i]);
-    // Nothing is dissipated; RK4 at this step keeps the balance to some 1e-5 of the energy.
+    // There is no dissipation; RK4 at this step keeps the balance to some 1e-5 of the energy.
     EXPECT_NEAR(kinetic[i] + strain[i] + contact[i], work[i], 1e-3);
   }
   EXPECT_GE(least, 0.0);

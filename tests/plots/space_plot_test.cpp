@@ -1,4 +1,4 @@
-// Pictures of shafts and frames, and their fields.
+// Pictures and fields of shafts and frames.
 #include <cmath>
 #include <filesystem>
 
@@ -15,7 +15,7 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A rotor that runs up, with probes in both planes.
+/// A rotor in a run-up, with probes in both planes.
 constexpr const char* kRotor = R"(schema = 1
 [[element]]
 type = "disc"
@@ -55,7 +55,7 @@ TEST(SpacePlot, ShowsOrbitsRunUpAndFullSpectrum) {
   };
   const CsvTable history(folder.file("rotor-results/history.csv"));
   const auto y = history.column("disc.uy"), z = history.column("disc.uz");
-  // Both axes in one scale: micrometres by the larger.
+  // Both axes have the same scale, in micrometres according to the larger one.
   EXPECT_TRUE(holds(script("orbit"), "set size ratio -1"));
   EXPECT_TRUE(holds(script("orbit"), "uy / ")) << script("orbit").substr(0, 500);
   // The last row: 100 rad/s.
@@ -148,7 +148,7 @@ TEST(SpacePlot, ShowsRingsContactsAndWear) {
   EXPECT_TRUE(holds(script("orbit-middle"), "with lines dt 2 lw 2 lc rgb '#222222' title 'ring 1 mm'"));
   EXPECT_TRUE(holds(script("orbit-side"), "ring 500 mm (out of sight)")) << script("orbit-side");
   EXPECT_TRUE(holds(script("orbit-other"), "gap of uz 3 mm")) << script("orbit-other");
-  // A row for each closing, at its node's place, from t_in on.
+  // A row for each closing, at its node's position, starting at t_in.
   const std::string impacts = read_file(folder.file("tube-results/impacts.csv")), map = script("contact-map");
   const auto count = [](const std::string& text, const std::string& part) {
     int found = 0;
@@ -163,10 +163,10 @@ TEST(SpacePlot, ShowsRingsContactsAndWear) {
   EXPECT_TRUE(holds(map, "set ylabel 'x / m'"));
   EXPECT_TRUE(holds(map, "largest force of a contact / "));
   const std::string wear = script("wear");
-  EXPECT_TRUE(holds(wear, "\n1 0 0\n")) << wear;  // never touches
+  EXPECT_TRUE(holds(wear, "\n1 0 0\n")) << wear;  // never in contact
   EXPECT_TRUE(holds(wear, "with impulses") && holds(wear, "share of the time in contact")) << wear;
 
-  // Lone bodies have names on the axis; nothing rubs.
+  // The axis shows names of lone bodies; no contact rubs.
   folder.write("body.toml",
                "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 1.0\n[[contact]]\ntype = "
                "\"stop\"\nnodes = \"ball\"\ngap = 0.01\nstiffness = 1e4\n[initial]\nvelocity = [{ nodes = "
@@ -293,7 +293,8 @@ TEST(SpaceFields, HoldAllDisplacementsAndRotations) {
   EXPECT_TRUE(holds(read_file(folder.file("frame-results/plots/frame.gp")), "splot $rest"));
 }
 
-/// The lowest mode of the bent arm turns about its leg: ux and rx of its end, as long as the modal mass of 1 kg allows.
+/// The lowest mode of the bent arm is a rotation about its leg: ux and rx of its end, scaled to the modal
+/// mass of 1 kg.
 TEST(SpaceModes, WriteShapesOfAllMotions) {
   const TemporaryFolder folder;
   folder.write("frame.toml", kFrame);

@@ -1,4 +1,4 @@
-// Spectra against signals in closed form, and that thinning a curve keeps what is seen.
+// Spectra compared with signals in closed form, and the thinning of curves.
 #include "apps/butee/plot/spectrum.hpp"
 
 #include <cmath>
@@ -32,7 +32,8 @@ std::vector<double> of(const std::vector<double>& t, Function&& f) {
 }
 
 TEST(Spectrum, ShowsTheAmplitudesOfCosinesAtTheirFrequencies) {
-  // 1000 samples at 1 kHz: lines at whole Hz, on which a Hann window leaves both neighbours half as high.
+  // 1000 samples at 1 kHz: lines at whole Hz; the Hann window gives both neighbouring lines half the
+  // amplitude.
   const auto t = times(1000, 1e-3);
   const auto x = of(t, [](double at) {
     return 5.0 + 3.0 * std::cos(kTwoPi * 50.0 * at + 0.4) + 0.01 * std::sin(kTwoPi * 120.0 * at);
@@ -94,7 +95,7 @@ TEST(Motion, MeetsAPeriodicMotionInOnePoint) {
   const auto u = of(t, [w](double at) { return std::cos(w * at - 0.3); });
   const auto v = of(t, [w](double at) { return -w * std::sin(w * at - 0.3); });
   const auto a = of(t, [w](double at) { return -w * w * std::cos(w * at - 0.3); });
-  // Cubics: (w h)^4 / 384 in u, and in v without a (w h)^3 sqrt(3) / 216.
+  // Errors of the cubics: (w h)^4 / 384 in u, and in v without a (w h)^3 sqrt(3) / 216.
   constexpr double kCubic = 2e-7, kSlope = 6e-6;
   for (const auto* given : {&a, static_cast<const std::vector<double>*>(nullptr)}) {
     const auto points = Motion(t, u, v, given).once_per(0.1);

@@ -27,7 +27,7 @@ struct Case {
   const char* says;
 };
 
-/// Whatever a method does after its fifth step, the rows before it are kept and the summary says what happened.
+/// However a method fails after its fifth step, earlier rows are kept and the summary states the failure.
 TEST(FaultyModules, AMethodThatBreaksInAStepFailsTheRun) {
   for (const Case& one : {Case{"throws_in_step", "the oracle is out"}, Case{"gives_nan", "no longer finite"},
                           Case{"goes_back", "a step ends where it was to end"},
@@ -59,7 +59,7 @@ TEST(FaultyModules, AMethodThatCannotBeMadeLeavesNothing) {
   }
 }
 
-/// Nothing can catch it, but the last line names the module.
+/// Such a crash cannot be caught, but the last line of output names the module.
 TEST(FaultyModules, OneThatCrashesWhileItIsLoadedIsNamed) {
   for (const char* name : {"static_crash", "static_throw"}) {
     const TemporaryFolder folder;

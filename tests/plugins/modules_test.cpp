@@ -33,7 +33,7 @@ void expect_mentions(const std::string& text, const std::vector<std::string>& pa
     EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" in: " << text;
 }
 
-/// The shared objects of the plugin folder that the dynamic linker opened.
+/// The shared objects in the plugin folder that the dynamic linker opened.
 std::set<std::string> opened_modules(const std::string& linker_log) {
   std::set<std::string> modules;
   std::istringstream lines(linker_log);
@@ -113,7 +113,8 @@ TEST(Modules, AFolderOfModulesIsFoundByEnvironmentAndOption) {
   fs::copy_file(broken("duplicate"), folder.file("more/duplicate.so"));
   const auto without = run_program({"plugins", "mine"}, folder.path());
   EXPECT_EQ(without.status, 2);
-  // Without a manifest a module in a folder is left out with a warning; named as a file it is loaded, and refused here.
+  // A module in a folder without a manifest is ignored with a warning; a module named as a file is loaded,
+  // and refused here.
   const auto by_folder = run_program({"plugins"}, folder.path(), {"BUTEE_PLUGIN_PATH=" + folder.file("more")});
   EXPECT_EQ(by_folder.status, 0);
   expect_mentions(by_folder.errors, {"duplicate.so", "no manifest"});
@@ -122,7 +123,7 @@ TEST(Modules, AFolderOfModulesIsFoundByEnvironmentAndOption) {
   expect_mentions(by_file.errors, {"registered twice", "rk4.so"});
 }
 
-/// One manifest that cannot be read is no reason to stop what does not need its module.
+/// An unreadable manifest must not stop commands that do not need its module.
 TEST(Modules, ABrokenManifestOnThePathIsWarnedOfAndItsModuleLeftOut) {
   const TemporaryFolder folder;
   fs::create_directory(folder.file("more"));
@@ -146,7 +147,7 @@ TEST(Modules, ABrokenManifestOnThePathIsWarnedOfAndItsModuleLeftOut) {
     EXPECT_EQ(needs.status, 2) << set;
     expect_mentions(needs.errors, {"may be of a module that could not be read", "more/mine.so: is left out"});
   }
-  // Asked for by name, it has to be right.
+  // If the module is named explicitly, its manifest must be valid.
   const auto named = run_program({"plugins", "--plugin", folder.file("more/mine.so")}, folder.path());
   EXPECT_EQ(named.status, 2);
   expect_mentions(named.errors, {"more/mine.toml:1: not valid TOML"});

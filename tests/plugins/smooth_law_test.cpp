@@ -1,4 +1,4 @@
-// A law that comes from a module: found by its manifest, loaded when a scene names it, and what it says of itself.
+// A law from a module: found by its manifest, loaded if a scene names it, and described by its declaration.
 #include <cmath>
 
 #include <butee/core/error.hpp>

@@ -1,4 +1,4 @@
-// SUNDIALS behind the common interface, where it was found.
+// SUNDIALS through the common interface, if it was found.
 #include <butee/plugin/catalogue.hpp>
 #include <gtest/gtest.h>
 
@@ -25,11 +25,11 @@ TEST_P(Sundials, AgreesWithAnotherMethodAcrossContact) {
     return run.simulation().state().x;
   };
   const Vector x = end(GetParam()), reference = end("exponential");
-  // Its tolerance of each component, some thousand steps long.
+  // Its tolerance applies to each component; the run has some thousand steps.
   EXPECT_LT((x - reference).norm(), 1e-3 * reference.norm());
 }
 
-/// In the middle of the run, and in the first step of all.
+/// The overflow occurs in the middle of the run, and in the first step.
 TEST_P(Sundials, StopsWithADiagnosisWhereALoadOverflows) {
   for (const char* times : {"[0.0, 0.1, 0.11]", "[0.0, 1e-9, 2e-9]"}) {
     const std::string text =

@@ -1,4 +1,4 @@
-// Laws from modules that dissipate by themselves: a product's, and one that tells approach from rebound.
+// Dissipative laws from modules: one of butee, and one that distinguishes approach from rebound.
 #include <cmath>
 
 #include <butee/config/toml.hpp>
@@ -31,7 +31,7 @@ class OneWay final : public model::BatchedLaw<OneWay> {
   double factor_;
 };
 
-/// The modules of the build tree and the law `one_way`.
+/// A catalogue with the modules of the build tree and the law `one_way`.
 const plugin::Catalogue& catalogue() {
   static const plugin::Catalogue instance = [] {
     plugin::Catalogue made;
@@ -59,7 +59,7 @@ scene::Scene scene_of(double mass, double speed, const std::string& contact, con
       catalogue());
 }
 
-/// The speed after an impact over that before.
+/// The speed after an impact over the speed before it.
 double restitution(double mass, double speed, const std::string& contact, const std::string& method) {
   scene::Scene scene = scene_of(mass, speed, contact, method);
   scene::Assembly assembly(scene);

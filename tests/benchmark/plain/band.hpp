@@ -5,10 +5,10 @@
 
 namespace plain {
 
-/// Entries that a row couples to on either side: two DOFs a node, neighbouring nodes only.
+/// Half bandwidth: two DOFs a node, coupling between neighbouring nodes only.
 inline constexpr int kHalfBandwidth = 3;
 
-/// A vector with zeros on both sides, so that band loops need no special first and last rows.
+/// A vector padded with zeros on both sides, so that band loops need no special first and last rows.
 template <typename Real>
 class Vector {
  public:
@@ -26,7 +26,7 @@ class Vector {
   std::vector<Real> data_;
 };
 
-/// A symmetric matrix by its diagonals: lower[k][i] = A(i, i - k).
+/// A symmetric matrix stored by diagonals: lower[k][i] = A(i, i - k).
 template <typename Real>
 struct Band {
   Band() = default;
@@ -35,7 +35,7 @@ struct Band {
   }
 
   int size() const { return lower[0].size(); }
-  /// Adds to A(i, j) and, where they differ, to A(j, i).
+  /// Adds to A(i, j) and, if i != j, to A(j, i).
   void add(int i, int j, Real value) {
     if (i >= j) lower[static_cast<std::size_t>(i - j)][i] += value;
   }

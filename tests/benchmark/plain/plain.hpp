@@ -6,7 +6,8 @@
 
 #include "band.hpp"
 
-// Beams and an oscillator between elastic stops, written by hand for one purpose: to check and to time other programs.
+// Beams and an oscillator between elastic stops, hand-written as a reference to check and time other
+// programs.
 namespace plain {
 
 enum class Law { kArctan, kLinear };
@@ -16,18 +17,18 @@ enum class Method { kRk41, kRk42, kRk43, kNm1, kNm2, kNmm1, kNmm2 };
 template <typename Real>
 struct ProblemOf {
   Band<Real> mass, damping, stiffness;
-  std::vector<int> stops;  // the DOFs that have one
+  std::vector<int> stops;  // DOFs with a stop
   Law law = Law::kArctan;
   Real gap = 0, contact_stiffness = 0, regularization = 0;
   Real amplitude = 0, angular_frequency = 0;
   int loaded = 0;     // DOF
-  int observed = -1;  // a second DOF to look at, none where negative
+  int observed = -1;  // a second recorded DOF; negative: none
 
   int size() const { return mass.size(); }
 };
 using Problem = ProblemOf<double>;
 
-/// Time step, end and the parameters of all methods; each method reads its own.
+/// Time step, end time and the parameters of all methods; each method reads only its own.
 struct Options {
   double time_step = 1e-5, end_time = 1.0;
   double tolerance = 0, shrink = 0, grow = 0, safety = 0;    // RK4-2, RK4-3
@@ -35,7 +36,7 @@ struct Options {
   int max_iterations = 10;                                   // NM1, NM2
   double target_error = 0, band_low = 0.5, band_high = 4.0;  // NM2, NMM2
   double beta = 0.25, gamma = 0.5;                           // all Newmark methods
-  std::vector<double> samples;                               // instants, ascending, at which u is wanted
+  std::vector<double> samples;                               // output instants of u, ascending
 };
 
 struct Result {
@@ -44,13 +45,13 @@ struct Result {
   double peak_u = 0, peak_v = 0;  // its largest |u| and |v| over t = 0 and all accepted steps
   std::vector<double> u_samples;  // u of the loaded DOF at options.samples, cubic between the steps
   double seconds = 0;             // of the integration alone
-  bool completed = true;          // false: the step fell below its floor
+  bool completed = true;          // false: the step fell below its lower limit
 };
 
 /// Integrates from rest to options.end_time.
 Result run(const Problem& problem, Method method, const Options& options);
 
-/// A case of the paper with the parameters of its table; beam4 comes with two end times.
+/// A case of the paper with the parameters of its table; beam4 occurs with two end times.
 struct Case {
   std::string name;
   double time_step, end_time;
@@ -67,14 +68,14 @@ template <typename Real>
 ProblemOf<Real> make_problem(const std::string& name, Law law);
 Options make_options(const Case& chosen, Method method);
 
-/// A row of a reference solution: the loaded DOF and the observed one.
+/// A row of a reference solution: the loaded and the observed DOF.
 struct ReferenceRow {
   long double t, u0, v0, fc0, u1, v1, fc1;
 };
-/// Solves the piecewise linear problem (law = linear) by Taylor series with every change of contact located.
+/// Solves the piecewise linear problem (law = linear) by Taylor series, with every contact change located.
 struct Reference {
   std::vector<ReferenceRow> rows;  // at 0, interval, ... count intervals
-  long changes = 0;                // of contact
+  long changes = 0;                // number of contact changes
 };
 Reference solve_reference(const ProblemOf<long double>& problem, long double interval, int count);
 

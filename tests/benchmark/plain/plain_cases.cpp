@@ -14,7 +14,7 @@ constexpr std::array<const char*, 7> kMethodNames = {"RK4-1", "RK4-2", "RK4-3", 
 constexpr int kElements = 34;
 constexpr double kTwoPi = 6.283185307179586;
 
-/// What the paper's tables give for a case.
+/// The parameters of a case in the paper's tables.
 struct Parameters {
   double rk42_tolerance, shrink, grow;
   double rk43_tolerance, safety;
@@ -29,10 +29,11 @@ Parameters parameters_of(const Case& chosen) {
   return {1e-1, 1.1, 1.01, 1e-1, 0.9, 1e-7, 1e-2, 1e-2};
 }
 
-/// Adds an element matrix of the DOFs (u_1, theta_1, u_2, theta_2) to the pinned beam: its first and last u are gone.
+/// Adds an element matrix of the DOFs (u_1, theta_1, u_2, theta_2) to the pinned beam, which lacks the first
+/// and the last u.
 template <typename Real>
 void add_element(Band<Real>& a, int element, const Real (&entries)[4][4]) {
-  const int last = 2 * kElements;  // the DOF number of the last u before the two are taken out
+  const int last = 2 * kElements;  // number of the last u before the two are removed
   const auto place = [last](int dof) { return dof == 0 || dof == last ? -1 : dof < last ? dof - 1 : dof - 2; };
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {

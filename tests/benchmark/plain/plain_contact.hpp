@@ -8,7 +8,7 @@
 
 namespace plain {
 
-/// The stops of a problem, evaluated together.
+/// All stops of a problem, evaluated together.
 class Contact {
  public:
   explicit Contact(const Problem& problem)
@@ -43,7 +43,7 @@ class Contact {
   std::vector<double> force, stiffness, offset;
 
  private:
-  static constexpr double kFar = 1e4;  // beyond it two terms of the series of atan are exact in double
+  static constexpr double kFar = 1e4;  // above it two terms of the series of atan are exact in double precision
 
   template <typename Store>
   void evaluate(const Vector<double>& x, const Store& store) {

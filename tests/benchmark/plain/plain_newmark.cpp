@@ -30,7 +30,7 @@ class Newmark {
     factored_for_ = 0.0;
   }
 
-  /// A step with Newton iterations, its result kept aside; false where they do not converge.
+  /// A step with Newton iterations, stored separately; false if they do not converge.
   bool try_newton(double t, double h, Result& result) {
     const int n = p_.size();
     const double gh = o_.gamma * h, bh2 = o_.beta * h * h, f = load(t + h);
@@ -60,7 +60,7 @@ class Newmark {
     return false;
   }
 
-  /// A step with the secant stiffness of its start, its result kept aside.
+  /// A step with the secant stiffness at its start, stored separately.
   void try_secant(double t, double h) {
     const int n = p_.size();
     const double gh = o_.gamma * h, bh2 = o_.beta * h * h;
@@ -131,7 +131,7 @@ class Newmark {
     return std::abs(f) + std::sqrt(contact) + std::sqrt(inertia) + std::sqrt(damping) + std::sqrt(stiffness);
   }
 
-  /// A = M + gamma h C + beta h^2 (K + stops), factorized unless it is the last one again.
+  /// A = M + gamma h C + beta h^2 (K + stops); factorized only if it has changed.
   void factorize(double h) {
     if (h == factored_for_ && contact_.stiffness == factored_stops_) return;
     const double gh = o_.gamma * h, bh2 = o_.beta * h * h;

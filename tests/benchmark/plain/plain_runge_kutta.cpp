@@ -21,7 +21,8 @@ class RungeKutta {
     step_from(t, h, x, v, x, v);
   }
 
-  /// One step of size h against two of h/2, which are kept aside; returns the error of the two.
+  /// One step of size h and two of size h/2, stored separately; returns the error estimate from their
+  /// difference.
   double step_doubled(double t, double h) {
     accelerate(t, x, v, a1_);
     step_from(t, h, x, v, x_full_, v_full_);
@@ -66,7 +67,7 @@ class RungeKutta {
     }
   }
 
-  /// The classical step, with a1_ = a(t, x0, v0) given; the result may replace the start.
+  /// The classical Runge-Kutta step, given a1_ = a(t, x0, v0); the result may overwrite the start.
   void step_from(double t, double h, const Vector<double>& x0, const Vector<double>& v0, Vector<double>& x1,
                  Vector<double>& v1) {
     stage(0.5 * h, x0, v0, v0, a1_, v2_);

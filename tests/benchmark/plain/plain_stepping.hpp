@@ -7,10 +7,10 @@
 
 namespace plain {
 
-/// An adaptive method gives up below this part of its initial step.
+/// An adaptive method stops below this fraction of its initial step.
 inline constexpr double kStepFloor = 1e-10;
 
-/// The step from t to t + h that ended with u and v.
+/// Records the step from t to t + h that ended with u and v.
 inline void record(Result& result, const Options& options, double t, double h, double u, double v) {
   ++result.steps;
   while (result.u_samples.size() < options.samples.size()) {
@@ -25,7 +25,7 @@ inline void record(Result& result, const Options& options, double t, double h, d
   result.peak_v = std::max(result.peak_v, std::abs(v));
 }
 
-/// Calls step(t, h) at t = n h, and for a shorter last step where the end is no multiple of h.
+/// Calls step(t, h) at t = n h; the last step is shorter if the end is not a multiple of h.
 template <typename Step>
 void march_fixed(const Options& options, const Step& step) {
   const double h = options.time_step;
@@ -35,13 +35,13 @@ void march_fixed(const Options& options, const Step& step) {
   if (options.end_time - t > 1e-9 * h) step(t, options.end_time - t);
 }
 
-/// What an attempt decides: whether it stands, and the step to go on with.
+/// The outcome of an attempted step: acceptance and the next step size.
 struct Verdict {
   bool accepted;
   double next;
 };
 
-/// Calls attempt(t, h) until the end, the last step shortened to reach it exactly.
+/// Calls attempt(t, h) until the end; the last step is shortened to reach it exactly.
 template <typename Attempt>
 void march_adaptive(const Options& options, Result& result, const Attempt& attempt) {
   double t = 0.0, h = options.time_step;

@@ -12,9 +12,9 @@ using Real = long double;
 
 constexpr int kOrder = 26;
 constexpr Real kReach = 1.4L;               // step times the highest angular frequency: kReach^26 / 26! = 1.6e-23
-constexpr int kPowerIterations = 200;       // for that frequency; a few per cent are enough
-constexpr Real kSmallestInterval = 1e-17L;  // s; a root is not looked for on a finer scale
-constexpr int kSameInstant = 1000;          // changes of contact at one instant before giving up
+constexpr int kPowerIterations = 200;       // iterations for that frequency; an error of a few per cent is acceptable
+constexpr Real kSmallestInterval = 1e-17L;  // s; the finest scale of the root search
+constexpr int kSameInstant = 1000;          // largest number of contact changes at one instant
 
 using Polynomial = std::array<Real, kOrder + 1>;
 
@@ -37,9 +37,10 @@ Polynomial shifted(Polynomial c, Real shift) {
   return c;
 }
 
-/// The first t in [from, to] at which c goes from positive to negative, or infinity. Intervals are halved until the
-/// coefficients about the middle prove that c has one sign or is monotone, so that no pair of roots can hide. A c that
-/// falls and is not positive at `from` has its root there: a change that another one at this instant uncovered.
+/// The first t in [from, to] at which c changes from positive to negative, or infinity. Intervals are halved
+/// until the coefficients about the midpoint prove that c has one sign or is monotone, so that no pair of
+/// roots is missed. If c decreases and is not positive at `from`, its root is there; this occurs if another
+/// change at this instant caused it.
 Real first_fall(const Polynomial& c, Real from, Real to) {
   const Real middle = (from + to) / 2, r = (to - from) / 2;
   const Polynomial local = shifted(c, middle);
@@ -51,7 +52,7 @@ Real first_fall(const Polynomial& c, Real from, Real to) {
   }
   constexpr Real kNone = std::numeric_limits<Real>::infinity();
   if (local[0] > spread) return kNone;
-  if (local[1] > slope_spread) return kNone;  // rises: no fall
+  if (local[1] > slope_spread) return kNone;  // increases: no root
   if (local[1] < -slope_spread) {
     Real low = from, high = to;
     if (value_of(c, high) >= 0) return kNone;
@@ -62,7 +63,7 @@ Real first_fall(const Polynomial& c, Real from, Real to) {
       (value_of(c, between) >= 0 ? low : high) = between;
     }
   }
-  if (r < kSmallestInterval) return kNone;  // a touch
+  if (r < kSmallestInterval) return kNone;  // touches zero without crossing
   const Real first = first_fall(c, from, middle);
   return first <= middle ? first : first_fall(c, middle, to);
 }
@@ -76,7 +77,7 @@ class Taylor {
     longest_ = kReach / highest_frequency();
   }
 
-  /// Expands about the present instant, valid up to the next change of contact or the longest step.
+  /// Expands about the present instant; valid up to the next contact change or the longest step.
   void expand() {
     closed_ = p_.stiffness;
     for (std::size_t s = 0; s < side_.size(); ++s)
@@ -98,7 +99,7 @@ class Taylor {
     }
   }
 
-  /// Finds the first change of contact within the expansion; the length is the longest step where there is none.
+  /// Finds the first contact change within the expansion; without one, the length is the longest step.
   void find_change() {
     length_ = longest_;
     changing_ = -1;
@@ -112,7 +113,7 @@ class Taylor {
     }
   }
 
-  /// Goes to the end of the expansion; returns whether a contact changed there.
+  /// Advances to the end of the expansion; returns true if a contact changed there.
   bool advance() {
     for (int i = 0; i < p_.size(); ++i) {
       const Polynomial c = polynomial(i);
@@ -174,7 +175,8 @@ class Taylor {
     return c;
   }
 
-  /// side u - gap, or with the other sign where the stop is open (side negated), so that a change is a fall below 0.
+  /// side u - gap; with the opposite sign if the stop is open (side negated). In both cases a change is a
+  /// crossing to below 0.
   Polynomial gap_polynomial(std::size_t stop, int side) const {
     Polynomial c = polynomial(p_.stops[stop]);
     for (Real& coefficient : c) coefficient *= side;

@@ -9,7 +9,7 @@ using butee::time::IntegratorType;
 
 enum class Fault { exception, not_a_number, wrong_time, no_exception };
 
-/// A method that takes five steps and then breaks.
+/// A method that fails after five steps.
 class Failing final : public butee::time::Integrator {
  public:
   Failing(butee::dynamics::Dynamics& dynamics, Fault fault) : Integrator(dynamics), fault_(fault) {}

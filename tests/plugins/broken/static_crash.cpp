@@ -4,7 +4,7 @@
 
 namespace {
 
-/// Code that runs as soon as the module is opened, before anybody can ask what it is.
+/// Crashes in static initialisation, as soon as the module is opened and before it can be queried.
 struct Crashes {
   Crashes() { std::raise(SIGSEGV); }
 } crashes;
