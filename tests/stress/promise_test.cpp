@@ -1,4 +1,4 @@
-// The judge itself: closed forms, and trajectories that are wrong on purpose.
+// Tests of Promise itself, with closed forms and deliberately wrong trajectories.
 #include "stress/suite/promise.hpp"
 
 #include <cmath>
@@ -13,7 +13,8 @@ namespace {
 constexpr Index kRows = 101;
 constexpr double kTolerance = 1e-4;
 
-/// Two displacements, the second a hundredth of the first, and a rotation far smaller than both: sin t, t from 0 to 10.
+/// Two displacements, the second a hundredth of the first, and a much smaller rotation: sin t, t from 0 to
+/// 10.
 Trajectory oscillation(double late = 0.0) {
   Trajectory motion(3, kRows);
   const double size[] = {1.0, 1e-2, 1e-6};
@@ -71,7 +72,7 @@ TEST(StressPromise, ScalesAreThoseSoFarAndAThousandthOfTheKind) {
   EXPECT_DOUBLE_EQ(judge.scales().x(0, 0), 1e-3 * judge.scales().x(0, kRows - 1));
   EXPECT_NEAR(judge.scales().x(0, 5), std::sin(0.5), 1e-15);
   EXPECT_DOUBLE_EQ(judge.scales().x(1, 0), judge.scales().x(0, 0));
-  // A rotation is not measured by displacements.
+  // Displacements do not enter the scale of a rotation.
   EXPECT_LT(judge.scales().x(2, kRows - 1), 1.01e-6);
 }
 
@@ -156,7 +157,7 @@ TEST(StressReference, AllowsAShiftInTimeAtAnImpactAndNoWrongSpeedInFlight) {
   const Promise& judge = reference.promise();
   EXPECT_GT(judge.rows(), 150);
   EXPECT_EQ(judge.judge(judge.reference()).excess, 0.0);
-  // Energy is conserved: the reference is one.
+  // The reference conserves energy, so it is a solution.
   const auto x = judge.reference().x.row(0), v = judge.reference().v.row(0);
   for (Index row = 0; row < judge.rows(); ++row) {
     const double depth = std::max(0.0, std::abs(x[row]) - 0.1);

@@ -11,16 +11,16 @@
 namespace butee::stress::stress_test {
 namespace {
 
-/// Evaluations and solves of a run, which is cut there: some ten thousand steps of a small scene.
+/// Work limit of a run in evaluations and solves; equals some ten thousand steps of a small scene.
 constexpr std::int64_t kWork = 20000;
-/// The sanitizers, under which a run takes ten times as long, see every fourth scene of a list and the ends of each
-/// axis: they look at the code, and the numbers are the optimised build's to check.
+/// Under the sanitizers a run takes ten times as long, so only every fourth scene of a list and the ends of
+/// each axis are run. They check the code; the optimised build checks the numbers.
 #ifdef __SANITIZE_ADDRESS__
 constexpr std::uint64_t kEvery = 4;
 constexpr int kPoints = 2;
 #else
 constexpr std::uint64_t kEvery = 1;
-constexpr int kPoints = 3;  ///< along an axis of the corners
+constexpr int kPoints = 3;  ///< points along an axis of the corner scenes
 #endif
 
 bool is_judged(const std::string& name) {
@@ -61,7 +61,7 @@ TEST(Stress, RandomScenes) {
   expect_no_failure(tally, scenes.size());
 }
 
-/// Shafts that turn and frames in space. Methods for symmetric matrices refuse the first.
+/// Rotating shafts and frames in space. Methods for symmetric matrices refuse rotating shafts.
 TEST(Stress, RandomScenesInSpace) {
   std::vector<Scene> scenes;
   for (std::uint64_t seed = 1; seed <= 12; seed += kEvery) scenes.push_back(space_scene(seed));
@@ -75,7 +75,7 @@ TEST(Stress, RandomScenesInSpace) {
   EXPECT_GT(tally.count(Verdict::correct), tally.scenes);
 }
 
-/// Rings, planes, dissipation and friction. Methods that end no steps where contacts change refuse them.
+/// Rings, planes, dissipation and friction. Methods that do not end steps at contact changes refuse them.
 TEST(Stress, RandomScenesThatRub) {
   std::vector<Scene> scenes;
   for (std::uint64_t seed = 1; seed <= 40; seed += kEvery) scenes.push_back(rubbing_scene(seed));
@@ -92,7 +92,7 @@ TEST(Stress, RandomScenesThatRub) {
   EXPECT_GT(tally.count(Verdict::correct), 2 * tally.scenes);
 }
 
-/// What wide_scene() is for is in its scenes.
+/// Every feature that wide_scene() should cover occurs in its scenes.
 TEST(StressScenes, ReachTheirCorners) {
   std::string all;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) all += wide_scene(seed).toml;
@@ -114,7 +114,7 @@ TEST(StressScenes, ReachTheirCorners) {
     EXPECT_NE(rubbing.find(what), std::string::npos) << what;
 }
 
-/// Scenes that once got a wrong answer, or grew without a word, in a wider run.
+/// Scenes from a larger run for which a method once gave a wrong answer or grew without a warning.
 TEST(Stress, ScenesThatWereWrongOnce) {
   Tally tally;
   std::vector<Scene> scenes;
@@ -126,22 +126,22 @@ TEST(Stress, ScenesThatWereWrongOnce) {
   expect_no_failure(tally, scenes.size());
 }
 
-/// Scenes that `exponential` alone got wrong in the long form, with what was wrong.
+/// Scenes for which only `exponential` once gave a wrong answer in the full suite; comments name the cause.
 TEST(Stress, ScenesThatExponentialGotWrongOnce) {
   const std::vector<std::string> names = {
-      "random 84",    // a stop that the pull of the others leads to within a step
-      "random 1389",  // the same of one DOF
+      "random 84",    // residual forces of other stops drive a stop to contact within a step
+      "random 1389",  // the same with one DOF
       "wide 638",     // a pulse that ends within the rounding of a step's length
-      "wide 608",     // a light body between a stop and a far faster one
+      "wide 608",     // a light body between a stop and a much faster one
       "wide 2086",    // a stop whose motion is a thousandth of the largest
-      "wide 3632",    // the pull on a body that hardly moves
-      "wide 1916",    // a body that is at rest until its stop to another closes
+      "wide 3632",    // residual force on a body that hardly moves
+      "wide 1916",    // a body at rest until its stop to another body closes
       "wide 3061",    // a start from rest on a closed stop
-      "wide 58727",   // a stop that the forces of others alone carry to its gap
-      "wide 50152",   // a residual force that jumps, unseen by fast modes
+      "wide 58727",   // only the forces of other stops drive this stop to its gap
+      "wide 50152",   // a discontinuous residual force, negligible for fast modes
       "wide 5498",    // a residual force between a light body and one that moves far more
-      "wide 20320",   // coupled modes: a step that ends before a kink
-      "wide 51490",   // loads that are faster than slow modes
+      "wide 20320",   // coupled modes: a step that ends before a slope discontinuity
+      "wide 51490",   // loads with higher frequencies than slow modes
       "wide 59590"    // a light part on a dashpot
   };
   std::vector<Method> chosen;
@@ -155,14 +155,14 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
   EXPECT_EQ(tally.count(Verdict::correct), static_cast<std::int64_t>(scenes.size()));
 }
 
-/// Scenes with friction that methods with error control got wrong, with what was wrong.
+/// Scenes with friction for which error-controlled methods once gave a wrong answer; comments name the cause.
 TEST(Stress, RubbingScenesThatWereWrongOnce) {
   const std::vector<std::string> names = {
-      "rubbing 85",   // friction changes its sense within a small part of a step
+      "rubbing 85",   // friction reverses within a small part of a step
       "rubbing 246",  // the same with tanh
-      "rubbing 837",  // a step that begins where a contact of Hertz closes
-      "rubbing 769",  // a start from rest against friction that is steep
-      "rubbing 573"   // the error of the integral of friction with tanh
+      "rubbing 837",  // a step that begins when a Hertz contact closes
+      "rubbing 769",  // a start from rest with a steep friction law
+      "rubbing 573"   // integration error of friction with tanh
   };
   std::vector<Method> chosen;
   for (const Method& method : methods())
@@ -217,7 +217,7 @@ TEST(StressScenes, AreTheSameForTheSameSeed) {
   EXPECT_EQ(random_scene_of("wide 7")->toml, wide_scene(7).toml);
   EXPECT_EQ(random_scene_of("random 7")->toml, random_scene(7).toml);
   EXPECT_FALSE(random_scene_of("wide 7a") || random_scene_of("gap 1e-3"));
-  // The generator's own numbers: another machine makes the same scenes.
+  // Fixed numbers of the generator: every machine makes the same scenes.
   Random random(1);
   EXPECT_EQ(random.next(), 0x910a2dec89025cc1U);
 }

@@ -11,11 +11,11 @@ using Real = long double;
 using Series = std::vector<Real>;
 
 constexpr std::size_t kOrder = 26;
-/// Looks for changes and turning points in a piece.
+/// Number of samples in a piece to detect changes and turning points.
 constexpr int kSamples = 8;
 constexpr int kBisections = 80;
 constexpr Real kAngle = 0.4L;
-/// Of the distance to the pole of the arctan law.
+/// Largest step as a fraction of the distance to the pole of the arctan law.
 constexpr Real kOfPole = 0.2L;
 
 Real value(const Series& series, Real s) {
@@ -30,7 +30,7 @@ Real slope(const Series& series, Real s) {
   return sum;
 }
 
-/// The place in (a, b) where f changes its sign, f(a) having the sign of `at_a`.
+/// The position in (a, b) where f changes sign; f(a) has the sign of `at_a`.
 template <class Function>
 Real bisect(Function f, Real a, Real b, Real at_a) {
   for (int i = 0; i < kBisections; ++i) {
@@ -77,7 +77,7 @@ class Integration {
     return y[static_cast<std::size_t>(stop.a)] - (stop.b >= 0 ? y[static_cast<std::size_t>(stop.b)] : 0.0L);
   }
 
-  /// Linear: the closed side or 0. Arctan: the nearer side.
+  /// Sets the branch: linear law: the closed side or 0; arctan law: the nearer side.
   void place() {
     for (std::size_t i = 0; i < system_.stops.size(); ++i) {
       const auto& stop = system_.stops[i];
@@ -171,16 +171,17 @@ class Integration {
     return w;
   }
 
-  /// The first place where phi, positive from `phi` > 0 on or just so, becomes negative; 1 where it does not.
+  /// The first position where phi becomes negative, if it is positive or increasing from zero at the start; 1
+  /// if there is none.
   Real first_fall(const Series& phi, Real until) const {
     Real before = 0.0L, slope_before = slope(phi, 0.0L);
     for (int j = 1; j <= kSamples && before < until; ++j) {
       const Real s = std::min(until, static_cast<Real>(j) / kSamples), now = value(phi, s), slope_now = slope(phi, s);
       Real low = s;
-      // It may fall and rise again in between.
+      // It may decrease and increase again in between.
       if (now > 0.0L && slope_before < 0.0L && slope_now > 0.0L)
         low = bisect([&](Real r) { return slope(phi, r); }, before, s, slope_before);
-      // Or, just changed at the beginning, rise first.
+      // Right after a change it may increase first.
       Real high = before;
       if (j == 1 && slope_before > 0.0L && slope_now < 0.0L)
         high = bisect([&](Real r) { return slope(phi, r); }, before, s, slope_before);
@@ -292,7 +293,7 @@ ExtendedGrowth grow_extended(const ExtendedSystem& system, double end_time, Dist
   else
     moved.displacement[0] += kApart * one.peak[0];
   const ExtendedMotion other = integrate_extended(moved, times);
-  // The largest differences in tenths of the run, until they are no longer small.
+  // The largest differences in tenths of the run, while they are small.
   double largest = 0.0, first = 0.0, t_first = 0.0, t_last = 0.0, last = 0.0;
   for (std::size_t i = 1; i < times.size(); ++i) {
     largest = std::max(largest, static_cast<double>(std::abs(one.rows[0][i] - other.rows[0][i])));

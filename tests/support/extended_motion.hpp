@@ -24,23 +24,24 @@ struct ExtendedSystem {
   std::vector<Load> loads;
 };
 
-/// Its motion: Taylor series of order 26 over 0.4 of the shortest 1/omega and less, each change of contact located by
-/// bisection to the last bit. It shares nothing with the framework.
+/// Its motion: Taylor series of order 26 over at most 0.4 of the shortest 1/omega; each contact change is
+/// located by bisection to the last bit. It shares no code with the framework.
 struct ExtendedMotion {
   std::vector<std::vector<long double>> rows;  ///< displacements of each DOF at the times
-  std::vector<double> peak;                    ///< largest |x| of each DOF, between rows too
-  double contact_force = 0.0;                  ///< largest of any stop
+  std::vector<double> peak;                    ///< largest |x| of each DOF, including motion between rows
+  double contact_force = 0.0;                  ///< largest contact force of any stop
   std::vector<long double> end_x, end_v;
 };
 
 ExtendedMotion integrate_extended(const ExtendedSystem& system, const std::vector<double>& times);
 
-/// Rate (1/s) of ln of the distance of two motions until they are 1e-4 of the peak apart; and the factor by which they
-/// part up to then.
+/// Growth rate (1/s) of the logarithm of the distance between two motions until it is 1e-4 of the peak, and
+/// the factor of growth up to then.
 struct ExtendedGrowth {
   double rate, factor;
 };
-/// They begin 1e-14 of the peak apart in DOF 0, in its displacement or in what velocity makes of it without stops.
+/// They start 1e-14 of the peak apart in DOF 0: in its displacement, or in its velocity scaled to
+/// displacement without stops.
 enum class Disturbed { velocity, displacement };
 ExtendedGrowth grow_extended(const ExtendedSystem& system, double end_time, Disturbed disturbed = Disturbed::velocity);
 

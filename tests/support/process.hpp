@@ -7,7 +7,7 @@
 
 namespace butee::test {
 
-/// `butee` under way, to be disturbed. Its output goes nowhere.
+/// A running `butee` process, to be disturbed by a test. Its output is discarded.
 class Process {
  public:
   Process(const std::vector<std::string>& arguments, const std::string& folder);
@@ -15,10 +15,10 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// True where it ended within so long.
+  /// True if it ended within `time`.
   bool ends_within(std::chrono::microseconds time);
   void send(int signal) const;
-  /// The exit status, or minus the signal that ended it.
+  /// The exit status, or minus the number of the signal that ended it.
   int wait();
 
  private:

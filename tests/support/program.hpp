@@ -5,7 +5,7 @@
 
 namespace butee::test {
 
-/// What a run of the program left behind.
+/// The result of a run of the program.
 struct Outcome {
   int status = -1;
   std::string output, errors;
@@ -15,7 +15,7 @@ struct Outcome {
 Outcome run_program(const std::vector<std::string>& arguments, const std::string& folder,
                     const std::vector<std::string>& environment = {});
 
-/// An empty folder of its own, removed when it goes out of scope.
+/// An empty folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder();

@@ -88,7 +88,7 @@ double Sampler::next_instant(double t) const {
 }
 
 void Sampler::step(const time::AcceptedStep& step) {
-  // A time that the end of a step misses by rounding belongs to that step.
+  // A time that exceeds the end of a step only by rounding belongs to that step.
   const double slack = 1e-9 * step.h;
   while (x.size() < times_.size() && times_[x.size()] <= step.to.t + slack) {
     const double t = std::min(times_[x.size()], step.to.t);

@@ -10,17 +10,17 @@
 
 namespace butee::test {
 
-/// A scene of apps/models by its stem: "beam1".
+/// Path of a scene of apps/models given its stem: "beam1".
 std::string model_path(const std::string& stem);
 std::string read_file(const std::string& path);
 /// A model of the paper with the linear law instead of its own.
 std::string with_linear_law(const std::string& stem);
 
-/// Reads a scene from TOML text with overrides ("integrator.type=NM1"), modules from the build tree. Throws InputError
-/// where the program would refuse the scene.
+/// Reads a scene from TOML text with overrides ("integrator.type=NM1"), with modules from the build tree.
+/// Throws InputError if the program would refuse the scene.
 scene::Scene read_scene(const std::string& toml, const std::vector<std::string>& overrides = {});
 
-/// A scene ready to run inside the test: read as by read_scene(), and assembled.
+/// A scene read by read_scene() and assembled, ready to run in a test.
 class SceneRun {
  public:
   explicit SceneRun(const std::string& toml, const std::vector<std::string>& overrides = {});
@@ -31,7 +31,7 @@ class SceneRun {
   const model::Model& model() const { return parts_->scene.model; }
   time::Integrator& integrator() { return *parts_->assembly.integrator; }
   time::Simulation& simulation() { return parts_->assembly.simulation; }
-  /// The free DOF of a selector that names one node.
+  /// The free DOF of the node named by a selector.
   Index dof(const std::string& selector, DofKind kind = DofKind::u) const;
 
   /// Runs to the end.

@@ -4,14 +4,14 @@
 
 namespace butee::test {
 
-/// A mass `m` of 1 kg on a spring of `stiffness`, N/m, with more tables behind it; rk4 for 1 s.
+/// A mass `m` of 1 kg on a spring of `stiffness`, N/m, followed by the tables `more`; rk4 for 1 s.
 std::string mass_on_spring(const std::string& stiffness, const std::string& more);
 
-/// Masses `a` of 4 kg and `b` of 1 kg with more tables behind them; rk4 for 1 s.
+/// Masses `a` of 4 kg and `b` of 1 kg, followed by the tables `more`; rk4 for 1 s.
 std::string two_masses(const std::string& more);
 
-/// A steel pipe of 120 x 80 mm that turns at 30 rad/s, strikes a ring at every node and rubs; an unbalance drives its
-/// middle.
+/// A steel pipe of 120 x 80 mm that turns at 30 rad/s and rubs against a ring at every node; an unbalance
+/// drives its middle.
 struct TurningPipe {
   std::string name;
   std::string motion;  ///< "lateral" or "spatial"
@@ -20,7 +20,7 @@ struct TurningPipe {
   std::string gap, slip_speed;  ///< of the rings, m and m/s
   std::string unbalance;        ///< kg m
 
-  /// The scene, with more tables behind it.
+  /// The scene, followed by the tables `more`.
   std::string scene(const std::string& more) const;
 };
 

@@ -7,11 +7,11 @@
 
 namespace butee::test {
 
-/// The rows of a study that is complete, in the order of the plan, as CSV lines without the columns of cost.
+/// The rows of a complete study, in the order of the plan, as CSV lines without the cost columns.
 std::vector<std::string> rows_without_cost(const std::string& study_file, const std::string& folder,
                                            const std::string& format);
 
-/// The same of one file of rows, of which not all may be there.
+/// The same for one file of rows, which may be incomplete.
 std::vector<std::string> rows_in_file(const std::string& study_file, const std::string& rows_file,
                                       const std::string& format);
 

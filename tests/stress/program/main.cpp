@@ -1,4 +1,5 @@
-// The whole stress suite: butee_stress --full [--report FILE]. Without --full the reduced one that ctest runs.
+// The stress suite as a program: butee_stress --full [--report FILE]. Without --full it runs the reduced
+// suite of ctest.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -21,7 +22,7 @@ namespace {
 
 using namespace butee::stress;
 
-/// Ends the program, with a word of what it was at, where a run neither ends nor is cut.
+/// Ends the program and prints the current scene and method if a run neither ends nor is cut.
 class Watchdog {
  public:
   explicit Watchdog(int seconds) : seconds_(seconds), thread_([this] { watch(); }) {}
@@ -62,7 +63,7 @@ class Watchdog {
   std::thread thread_;
 };
 
-/// Runs for slopes are to come to their end.
+/// Work limit of runs for slopes; large enough for them to complete.
 constexpr std::int64_t kSlopeWork = 200000;
 
 struct Options {

@@ -7,10 +7,10 @@
 namespace butee::stress {
 namespace {
 
-/// Points that a piece of `exact`, two or three radians of its highest frequency, is looked at.
+/// Number of sample points in a piece of `exact`, which spans two or three radians of its highest frequency.
 constexpr int kPoints = 6;
 
-/// The ends of the pieces of a step.
+/// The start and the ends of the pieces of a step.
 std::vector<double> ends_of(const time::AcceptedStep& step) {
   std::vector<double> ends = {step.from.t};
   const auto breakpoints = step.integrator.breakpoints(step.from, step.to);
@@ -161,7 +161,8 @@ double time_margin(const std::vector<ContactChange>& changes, const std::vector<
   for (const ContactChange& change : changes) {
     const auto& dofs = ends[static_cast<std::size_t>(change.contact)];
     const double size = sum_of_ends(dofs, scales.x.col(row)), way = parts * size;
-    // At rest on the border any time would do; the way that the acceleration takes is the larger of both then.
+    // At rest at the contact boundary the speed bound is infinite; the bound from the acceleration then
+    // applies.
     const double reach = std::min(way / change.speed, 2.0 * std::sqrt(2.0 * way / change.acceleration));
     if (!(reach > margin) || !std::isfinite(reach)) continue;
     const double own_time = size / sum_of_ends(dofs, scales.v.col(row));

@@ -8,10 +8,10 @@
 namespace butee::stress {
 namespace {
 
-constexpr double kPeriod = 0.0628;  ///< s, of the load
-/// Steps in a period, of fixed ones, and of methods with error control roughly.
+constexpr double kPeriod = 0.0628;  ///< s, period of the load
+/// Steps in a period: for fixed-step methods, and approximately for methods with error control.
 constexpr double kFixedSteps = 200.0, kChosenSteps = 40.0;
-/// Between the second tenth of a run, when the start has died away, and the last one.
+/// Accepted relative difference between the second tenth of a run, after transients, and the last tenth.
 constexpr double kAlike = 0.1;
 
 std::string scene(const Method& method, double end_time) {
@@ -37,7 +37,7 @@ class Tenths final : public time::Observer {
   void step(const time::AcceptedStep& step) override {
     if (!std::isfinite(step.to.x[0] + step.to.v[0] + step.to.a[0])) is_finite = false;
     take(step.to.t, step.to.x[0]);
-    // Some methods take much of a run in a step.
+    // In some methods a step covers much of the run.
     const Index dof = 0;
     for (const double t : step.integrator.breakpoints(step.from, step.to)) {
       double x = 0.0;

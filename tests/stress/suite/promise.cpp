@@ -8,7 +8,8 @@
 namespace butee::stress {
 namespace {
 
-/// S: `largest`, with a thousandth of the largest of the kind as the floor; 1 for a kind that never moves.
+/// The scales S: `largest`, but at least a thousandth of the largest value of the kind; 1 for a kind that
+/// never moves.
 Eigen::MatrixXd scales_of(const Eigen::MatrixXd& largest, const std::vector<bool>& is_rotation) {
   std::array<double, 2> of_kind{};
   const Index last = largest.cols() - 1;

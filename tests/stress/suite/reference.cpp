@@ -13,25 +13,27 @@
 namespace butee::stress {
 namespace {
 
-/// Of the tolerance: where two references differ by more, neither is one.
+/// Largest difference between two references, as a fraction of the tolerance; beyond it neither is valid.
 constexpr double kCertain = 0.1;
-/// The other one: its series are shorter, so that its steps and its rounding are others.
+/// Settings of the second reference: shorter series, so that its steps and its rounding differ.
 constexpr const char* kOther = "order = 24\nseries_tolerance = 1e-18\n";
 constexpr std::size_t kHardest = 3;
-/// Of the time since the change of contact before it: so long before an impact a disturbance comes.
+/// Lead time of a disturbance before an impact, as a fraction of the time since the previous contact change.
 constexpr double kBefore = 0.1;
-/// Instants before a wrong answer, and ways to disturb each, that are tried before it is called so.
+/// Number of instants before a wrong answer, and of disturbances at each, that are tried before the answer
+/// counts as wrong.
 constexpr int kDense = 30;
 constexpr int kPatterns = 6;
-/// A scene whose reference is too much work is followed for as long as it came, a little less for the instants on the
-/// way, and so again if that was too long as well.
+/// If the reference of a scene exceeds its work limit, the scene is shortened to slightly less than the time
+/// reached, to allow for the output instants. This is repeated if the shorter scene is still too expensive.
 constexpr int kTrials = 4;
 constexpr double kShorter = 0.9;
 constexpr double kTurn = 6.283185307179586;
-/// Periods of the slowest mode that moves, up to which the promise needs no allowance.
+/// Largest number of periods of the slowest active mode for which the promised bound needs no allowance.
 constexpr double kPeriods = 1000.0;
 
-/// Where exact cannot take a law: of the tolerance, and no less than rounding allows.
+/// Tolerance of extrapolation8, used if exact refuses a law, as a fraction of the scene's tolerance; and its
+/// lower limit due to rounding.
 constexpr double kTighter = 1e-3, kTightest = 1e-12;
 
 bool remembers_slip(const model::Model& model) {
@@ -40,7 +42,7 @@ bool remembers_slip(const model::Model& model) {
   });
 }
 
-/// 1, or how many thousand periods of the slowest mode that moves the run has.
+/// 1, or the run's length in thousands of periods of the slowest active mode.
 double allowance(const model::System& system, const dynamics::Modes& modes, const Trajectory& motion,
                  const Trajectory& largest, double end_time) {
   for (Index k = 0; k < modes.frequencies.size(); ++k) {
@@ -53,8 +55,9 @@ double allowance(const model::System& system, const dynamics::Modes& modes, cons
   return 1.0;
 }
 
-/// A disturbance that vibrates on with e = 1 in every mode, of random phases, scaled to e = 1 at once. Moving every
-/// component by itself instead makes fast modes vibrate with e = S_x omega/S_v, which no smooth error does.
+/// A disturbance in all modes with random phases; each mode has e = 1, and the sum is scaled to e = 1. If
+/// every component were disturbed independently, fast modes would vibrate with e = S_x omega/S_v, unlike the
+/// errors of smooth motion.
 void modal_pattern(const dynamics::Modes& modes, ConstVectorRef scale_x, ConstVectorRef scale_v, Random& random,
                    Vector& x, Vector& v) {
   x.setZero(scale_x.size());
@@ -74,7 +77,7 @@ void modal_pattern(const dynamics::Modes& modes, ConstVectorRef scale_x, ConstVe
   v /= size;
 }
 
-/// Every component by its own scale.
+/// Disturbs every component by its own scale.
 void any_pattern(ConstVectorRef scale_x, ConstVectorRef scale_v, Random& random, Vector& x, Vector& v) {
   x = scale_x;
   v = scale_v;
@@ -93,7 +96,7 @@ Reference::Reference(const Scene& scene, std::int64_t work) : scene_(scene), wor
   } catch (const InputError& error) {
     complaint_ = error.what();
   }
-  // exact refuses some laws of contacts.
+  // exact refuses some contact laws.
   is_exact_ = false;
   try {
     solve();
@@ -131,7 +134,7 @@ void Reference::solve() {
 }
 
 void Reference::place_instants() {
-  // At irregular distances, so that no output meets the same phase again and again.
+  // Irregularly spaced, so that outputs do not repeatedly fall on the same phase.
   instants_ = {0.0};
   for (int i = 1; i < kRows; ++i) {
     const double jitter = i < kRows - 1 ? 0.8 * (std::fmod(0.6180339887498949 * i, 1.0) - 0.5) : 0.0;
@@ -208,7 +211,7 @@ void Reference::disturb(double t, int pattern) {
     watch_->watches = CourseWatch::Watches::nothing;
   }
   Vector x = simulation.state().x, v = simulation.state().v, change_x, change_v;
-  // Patterns come in pairs, each the negative of the other; the first pair is a vibration.
+  // Patterns come in pairs of opposite sign; the first pair is a modal vibration.
   Random random(disturbed_.size() * 8U + static_cast<std::uint64_t>(pattern / 2));
   if (pattern < 2)
     modal_pattern(*modes_, watch_->largest_x, watch_->largest_v, random, change_x, change_v);
@@ -219,7 +222,7 @@ void Reference::disturb(double t, int pattern) {
   v += sign * change_v;
   follower_->trajectory = Trajectory(x.size(), instants_.size());
   follower_->trajectory.rows = before + 1;
-  // Beyond the horizon nothing is compared.
+  // Nothing is compared beyond the horizon.
   const Index last = std::clamp<Index>(promise_->rows(), before + 1, kRows - 1);
   const double end = instants_[static_cast<std::size_t>(last)];
   simulation.set_end_time(end);
@@ -232,7 +235,7 @@ void Reference::disturb(double t, int pattern) {
 void Reference::set_motion(const Vector& x, const Vector& v) {
   time::Simulation& simulation = run_->simulation();
   if (!remembers_slip(run_->model())) return simulation.set_motion(x, v);
-  // A start would forget what the stick springs remember.
+  // start() would reset the memory of stick springs.
   time::Snapshot snapshot = simulation.snapshot();
   snapshot.state.x = x;
   snapshot.state.v = v;

@@ -12,33 +12,36 @@
 
 namespace butee::stress {
 
-/// The solution of a scene by `exact`, or where that cannot take its contacts by extrapolation8 with a thousandth of
-/// the tolerance, and Gamma by runs of it that were disturbed by e = tolerance: at the start, at each tenth of the run
-/// and before the hardest impacts.
+/// The solution of a scene by `exact`, or by extrapolation8 with a thousandth of the tolerance if `exact`
+/// refuses its contacts, and the growth factor Gamma. Gamma is measured by runs disturbed by e = tolerance:
+/// at the start, at each tenth of the run and before the hardest impacts.
 ///
-/// Gamma is the largest over all disturbances, of which a few are tried; more can only raise it. To be within the
-/// promise of a few is to be within it, so that refine() tries more of them where a method seems to break it. The first
-/// few are vibrations of e = tolerance in all modes, the others move every component by itself.
+/// Gamma is the largest growth of all disturbances; only a few are tried, and more can only raise it. A
+/// method that keeps the bound for a few keeps it for all, so refine() tries more only if a method seems to
+/// violate it. The first disturbances are vibrations of e = tolerance in all modes; the others disturb every
+/// component independently.
 class Reference {
  public:
-  /// `work` bounds each of its runs; where that does not reach the scene's end, the run that is judged is shorter.
+  /// `work` limits each of its runs; if that does not suffice for the scene's end time, the judged run is
+  /// shortened.
   Reference(const Scene& scene, std::int64_t work);
 
-  /// Why the scene is none, or "".
+  /// Why the scene is invalid, or "".
   const std::string& complaint() const { return complaint_; }
-  /// False where there is nothing to compare with.
+  /// False if no comparison is possible.
   bool exists() const { return promise_ && promise_->rows() > kFewRows; }
-  /// The horizon where the reference's own uncertainty, a tenth of the tolerance, came before growth.
+  /// True if the reference's own uncertainty, a tenth of the tolerance, set the horizon rather than growth.
   bool is_uncertain() const { return is_uncertain_; }
-  /// How often refine() was called.
+  /// Number of calls of refine().
   int level() const { return level_; }
-  /// False where refine() has nothing more to try.
+  /// False if refine() has no more disturbances to try.
   bool can_refine() const { return promise_ && level_ < kLevels; }
-  /// Tries more disturbances: at each tenth of the run, then all along until the row of a judgement.
+  /// Tries more disturbances: at each tenth of the run, then at instants up to the row of a judgement.
   void refine(Index until);
 
   const Promise& promise() const { return *promise_; }
-  /// By `exact` with other series, whose difference from the reference is what that is worth.
+  /// Solution by `exact` with other series; its difference from the reference measures the reference's
+  /// accuracy.
   const Trajectory& other() const { return other_; }
   const std::vector<double>& instants() const { return instants_; }
   double end_time() const { return end_time_; }            ///< s
@@ -54,28 +57,28 @@ class Reference {
   static constexpr Index kFewRows = 4;
 
   struct Disturbed {
-    Index row;  ///< the first after it
+    Index row;  ///< first row after the disturbance
     double size;
-    bool is_over;  ///< it came to its end
+    bool is_over;  ///< the run reached its end
     Trajectory trajectory;
   };
 
   void solve();
-  /// The scene with the reference's method, or another one to compare with.
+  /// The scene with the reference's method, or with the method it is compared with.
   std::string toml(bool is_other) const;
-  /// Of the run, which goes on with the phases that its contacts are in.
+  /// Sets the motion of the run; contacts keep their present phases.
   void set_motion(const Vector& x, const Vector& v);
   void place_instants();
-  /// Runs to the end, keeping a snapshot at each row; how far it came, s.
+  /// Runs to the end and keeps a snapshot at each row; returns the time reached, s.
   double follow();
   void compare_with_another();
-  /// Before `until`, s.
+  /// Adds disturbances before `until`, s.
   void add_disturbances(double until);
   void disturb(double t, int pattern);
   std::vector<double> before_hardest_impacts(double until) const;
   /// The last row at or before t.
   Index row_at(double t) const;
-  /// Growth, the bands of velocities and the horizon from all disturbed runs.
+  /// Computes growth, velocity bands and the horizon from all disturbed runs.
   void measure();
   void place_bands();
   bool advance_to(double t);

@@ -16,7 +16,7 @@ std::string pair(const char* name, double a, double b) {
   return std::string(name) + " = [" + to_text(a) + ", " + to_text(b) + "]\n";
 }
 
-/// What a contact's keys are made for: mass m on springs k that moves by `size`, w = sqrt(k/m).
+/// Basis for the keys of a contact: mass m on springs k that moves by `size`, w = sqrt(k/m).
 struct Body {
   double mass, stiffness, size;
   double omega() const { return std::sqrt(stiffness / mass); }
@@ -67,11 +67,11 @@ std::string friction(const Body& body, double stiffness, Stick stick, bool may_t
   return text + " }\n";
 }
 
-/// The keys that all contacts have; the law of one in four is Hertz's.
+/// Keys common to all contacts; one law in four is Hertz's.
 std::string law(const Body& body, double gap, double& stiffness, Random& random) {
   stiffness = body.stiffness * random.decades(-0.5, 3.0);
   const bool is_hertz = random.chance(0.25);
-  // As stiff at a tenth of the size.
+  // Stiffness that gives the same force at a tenth of the size.
   const double factor = is_hertz ? stiffness / std::sqrt(0.1 * body.size) : stiffness;
   return key("gap", gap) + key("stiffness", factor) + (is_hertz ? "law = \"hertz\"\n" : "") +
          damping(body, stiffness, is_hertz, random);
@@ -103,7 +103,7 @@ std::string ring(const std::string& where, const Body& body, bool turns, Random&
   return text + (turns ? key("radius", body.size * random.decades(0.0, 1.5)) : "");
 }
 
-/// A rotor in a ring, or in one that another body carries.
+/// A rotor in a ring, which may be fixed or carried by another body.
 std::string rotor(const Body& body, Random& random) {
   std::string text = held("rotor", body, random), where = "nodes = \"rotor\"\n";
   if (random.chance(0.35)) {
@@ -125,10 +125,10 @@ std::string rotor(const Body& body, Random& random) {
   return text + ring(where, body, turns, random);
 }
 
-/// A shaft of some elements in rings.
+/// A shaft of several elements in rings.
 std::string shaft(const Body& body, Random& random) {
   constexpr double kYoung = 2e11, kDensity = 7800.0, kSteelSpeed = 5000.0;
-  // Its length from the frequency of a pinned beam whose radius is a fiftieth of it.
+  // Length from the frequency of a pinned beam whose radius is a fiftieth of it.
   const double length = std::pow(2.0 * kQuarterTurn, 2) * kSteelSpeed / (100.0 * body.omega()), radius = length / 50.0;
   const int elements = random.integer(1, 2) * 2;
   Body local = body;
@@ -152,7 +152,7 @@ std::string shaft(const Body& body, Random& random) {
          ring(elements == 2 ? "nodes = \"b:1\"\n" : "nodes = [\"b:1\", \"b:2\", \"b:3\"]\n", local, turns, random);
 }
 
-/// A block that is pressed on a plane and pushed along it.
+/// A block pressed on a plane and pushed along it.
 std::string block(const Body& body, Random& random) {
   double stiffness = 0.0;
   const double weight = body.stiffness * body.size * random.decades(-0.5, 0.5);

@@ -16,9 +16,9 @@ namespace {
 
 using test::SceneRun;
 
-/// A motion so many times as large as the true one is no inaccuracy.
+/// A motion larger than the true one by this factor counts as unbounded growth, not as inaccuracy.
 constexpr double kGrown = 1e3;
-/// CPU seconds; a bound of work is reached long before.
+/// Limit in CPU seconds, far above the time at which the work limit is reached.
 constexpr double kHung = 20.0;
 
 double cpu_seconds() {
@@ -100,8 +100,8 @@ std::vector<Method> methods() {
   for (const auto& entry : catalogue.integrators()) {
     const auto& type = entry.declaration;
     if (type.name == "exact") continue;
-    // The ones that need no first step are those whose tolerance is relative and kept. That of SUNDIALS is one of each
-    // component and step: it is there to compare with, and its errors are recorded.
+    // Methods that need no first step have a relative, guaranteed tolerance. SUNDIALS controls each component
+    // in each step; it is included for comparison, and its errors are only recorded.
     const bool is_foreign = entry.module.find("sundials") != std::string::npos;
     const bool is_controlled = type.finds_first_step && !is_foreign;
     all.push_back({type.name, is_controlled, is_foreign, is_controlled});

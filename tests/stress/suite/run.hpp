@@ -10,48 +10,48 @@ namespace butee::stress {
 /// A method with the keys that it runs with.
 struct Method {
   std::string name;
-  bool is_controlled = false;  ///< its tolerance is a promise: its answers are correct or it stops
-  bool is_foreign = false;     ///< of SUNDIALS
-  bool is_judged = false;      ///< by its promise; all others are recorded
+  bool is_controlled = false;  ///< its tolerance is guaranteed: answers are within it, or the run stops
+  bool is_foreign = false;     ///< a method of SUNDIALS
+  bool is_judged = false;      ///< judged by the guaranteed bound; other methods are only recorded
 };
 
-/// Every method of the catalogue but `exact`, which judges them.
+/// Every method of the catalogue except `exact`, the reference.
 std::vector<Method> methods();
 
-/// What became of a run.
+/// The outcome of a run.
 enum class Verdict {
-  correct,     ///< completed or cut, within the error that is allowed up to the trust horizon
-  inaccurate,  ///< of a method without error control: completed, finite and bounded, but with a larger error
-  diagnosed,   ///< stopped, and said why
+  correct,     ///< completed or cut, within the allowed error up to the trust horizon
+  inaccurate,  ///< method without error control: completed, finite and bounded, with a larger error
+  diagnosed,   ///< stopped with an explanation
   refused,     ///< refused before the first step, with a message
-  unjudged,    ///< finite and bounded, but there is no reference
-  wrong,       ///< of a method with error control: more error than is allowed
-  grown,       ///< larger than anything that the scene can do, without a word, a warning of its steps included
-  not_finite,  ///< a result is no number
-  silent,      ///< stopped without a diagnosis
-  hung         ///< took more time than any run may
+  unjudged,    ///< finite and bounded, but without a reference
+  wrong,       ///< method with error control: error above the allowed one
+  grown,       ///< grown beyond any possible motion of the scene without a message or a warning of its steps
+  not_finite,  ///< contains non-finite results
+  silent,      ///< stopped without an explanation
+  hung         ///< exceeded the time limit
 };
 inline constexpr int kVerdicts = 10;
 const char* name_of(Verdict verdict);
-/// The ones that must not happen.
+/// True for outcomes that count as failures.
 bool is_failure(Verdict verdict);
 
 struct Outcome {
   Verdict verdict = Verdict::unjudged;
   double error = 0.0;    ///< the largest e up to the horizon
-  double allowed = 0.0;  ///< at the instant where e was the largest part, or the most times, of it
+  double allowed = 0.0;  ///< at the instant where e/allowed was largest
   double excess = 0.0;   ///< e / allowed there
-  double part = 0.0;     ///< of the run that was compared
-  int level = 0;         ///< of the reference that it was compared with
+  double part = 0.0;     ///< fraction of the run that was compared
+  int level = 0;         ///< refinement level of the reference used
   std::int64_t steps = 0;
-  bool was_cut = false;  ///< at the bound of its work
+  bool was_cut = false;  ///< stopped at the work limit
   bool has_warned = false;
   double seconds = 0.0;
   std::string message;
 };
 
-/// Runs one method, bounded by `work` evaluations and solves.
-/// A wrong answer is one under the largest Gamma that `reference` finds, which is refined for it.
+/// Runs one method, limited to `work` evaluations and solves. An answer counts as wrong only under the
+/// largest Gamma that `reference` finds; the reference is refined for this.
 Outcome run(const Scene& scene, const Method& method, Reference& reference, std::int64_t work);
 
 /// The keys of [integrator] for a method, `type` and `end_time` included.

@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kPi = 3.141592653589793;
 
-/// What one mass on a spring, its stop and its load are made of.
+/// Parameters of a mass on a spring with a stop and a load.
 struct Recipe {
   double mass = 1.0, stiffness = 1e4, ratio = 0.02;  ///< kg, N/m, damping ratio
   double gap = 1e-3, stop = 1e6, lambda = 0.0;       ///< m, N/m, 1/m (0: the linear law)
   std::string sides = "both";
-  double force = 2.0, tuning = 0.7;  ///< in k size, and of the load's frequency in omega; force 0: none
+  double force = 2.0, tuning = 0.7;  ///< load amplitude over k size (0: no load), frequency over omega
   bool jumps = false;                ///< the load is switched on within a millionth of a period, and off again
-  double start = 0.0, speed = 0.0;   ///< of the start, in size and omega size
+  double start = 0.0, speed = 0.0;   ///< initial displacement and velocity, in units of size and omega size
   double periods = 6.0;
 
   double omega() const { return std::sqrt(stiffness / mass); }
@@ -67,7 +67,8 @@ Scene one_mass(const std::string& name, const Recipe& r) {
   return scene;
 }
 
-/// Masses in a row, the first one tied to ground; the last one has the stop, or the last two have it between them.
+/// Masses in a row, the first one connected to ground; the stop acts on the last one, or between the last
+/// two.
 Scene chain(const std::string& name, const Recipe& r, int count, bool between, bool with_dashpots, Random& random) {
   Scene scene;
   scene.name = name;
@@ -94,7 +95,7 @@ Scene chain(const std::string& name, const Recipe& r, int count, bool between, b
   return scene;
 }
 
-/// A pinned steel pipe with stops at all nodes; its first frequency takes the place of omega.
+/// A pinned steel pipe with stops at all nodes; its first frequency replaces omega.
 Scene beam(const std::string& name, Recipe r, Random& random) {
   const int elements = 2 * random.integer(1, 3);
   const double length = random.decades(0.0, 1.3), radius = length * random.decades(-2.5, -1.5);

@@ -8,12 +8,12 @@ namespace butee::stress {
 
 /// A scene without a method.
 struct Scene {
-  std::string name;          ///< tells what is special in it, and how to make it again
-  std::string toml;          ///< all but [integrator]
+  std::string name;          ///< describes the scene and allows it to be made again
+  std::string toml;          ///< all tables except [integrator]
   double end_time = 0.0;     ///< s
-  double tolerance = 1e-4;   ///< for methods with error control, and for the starts that tell the trust horizon
-  double step_factor = 0.1;  ///< of fixed steps, in critical steps of central differences with all stops closed
-  double size = 1e-3;        ///< m, of its motion, roughly
+  double tolerance = 1e-4;   ///< of methods with error control; also the size of disturbances for the trust horizon
+  double step_factor = 0.1;  ///< fixed steps, in critical steps of central differences with all stops closed
+  double size = 1e-3;        ///< m, approximate size of its motion
 };
 
 /// Reproducible everywhere: the 64-bit SplitMix generator.
@@ -22,7 +22,7 @@ class Random {
   explicit Random(std::uint64_t seed) : state_(seed) {}
   std::uint64_t next();
   double uniform(double low, double high);
-  /// 10 to a uniform power.
+  /// 10 to a uniformly distributed power.
   double decades(double low, double high);
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
   int integer(int low, int high);
@@ -34,8 +34,9 @@ class Random {
 /// A random scene: one to three masses, two bodies with a stop between them, or a short beam.
 Scene random_scene(std::uint64_t seed);
 
-/// One corner of the space of scenes after the other: stiffness, gap, lambda, damping, step, masses, resonance, stops
-/// without a gap, stops that are closed at the start, loads that jump. `points` of each sweep.
+/// Corners of the parameter space one after the other: stiffness, gap, lambda, damping, step, masses,
+/// resonance, stops without a gap, stops closed at the start, discontinuous loads. `points`: number of points
+/// of each sweep.
 std::vector<Scene> corner_scenes(int points);
 
 }  // namespace butee::stress

@@ -14,14 +14,15 @@ namespace butee::stress {
 namespace {
 
 constexpr double kAboveFloor = 10.0, kMost = 0.1;
-/// Of the tolerance: errors below are smaller than anyone asked for, where steps are short for other reasons.
+/// Errors below this fraction of the tolerance are ignored, because other criteria then limit the steps.
 constexpr double kSurplus = 0.01;
-/// Gamma in the middle of the range decides how far is compared.
+/// Gamma at this tolerance in the middle of the range sets the compared rows.
 constexpr double kMiddle = 1e-5;
-/// Gamma of disturbances a thousand times as small that is so many times as large is none of a smooth motion.
+/// If Gamma grows by this factor for disturbances a thousand times smaller, the motion is not smooth
+/// (grazing).
 constexpr double kRougher = 3.0;
 
-/// True where Gamma depends on the size of the disturbances.
+/// True if Gamma depends on the size of the disturbances.
 bool grazes(const Scene& scene, double coarse, double fine, std::int64_t work) {
   Index rows = Reference::kRows;
   std::array<double, 2> growth{};
@@ -82,7 +83,7 @@ std::vector<Slope> slopes(Scene scene, const std::vector<Method>& methods, std::
         const double error = largest_error(promise, follower.trajectory);
         if (error <= floor) break;
         if (error >= kMost || error < kSurplus * scene.tolerance) continue;
-        // The tolerance has no effect on methods without truncation error, nor on auto where it takes one.
+        // The tolerance has no effect on methods without truncation error, nor on auto if it chooses one.
         if (!slope.errors.empty() && error == slope.errors.back()) continue;
         slope.tolerances.push_back(scene.tolerance);
         slope.errors.push_back(error);

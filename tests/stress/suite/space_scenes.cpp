@@ -14,7 +14,7 @@ std::string key(const char* name, double value) {
   return std::string(name) + " = " + to_text(value) + "\n";
 }
 
-/// A beam of `length` m in n elements, whose first pinned frequency gives the scene its time.
+/// A beam of `length` m in n elements; its first pinned frequency sets the time scale of the scene.
 struct Shaft {
   double length, radius;
   int elements;
@@ -67,7 +67,7 @@ std::string bearing(const std::string& node, double stiffness, Random& random) {
          "]]\ndamping = [[" + to_text(c) + ", 0], [0, " + to_text(c) + "]]\n";
 }
 
-/// A shaft on two bearings, or pinned, with a disc that may strike a stop.
+/// A shaft on two bearings, or pinned, with a disc; the disc may have a stop.
 Scene rotor(Random& random) {
   const Shaft shaft = random_shaft(random);
   const double omega = shaft.omega(), size = shaft.length * random.decades(-5.0, -3.0);

@@ -9,9 +9,9 @@
 namespace butee::stress {
 namespace {
 
-/// Of a run by `exact`, whatever the bound of others: where it is cut a scene ends.
+/// Work limit of `exact`, independent of that of the methods; a scene that reaches it is shortened.
 constexpr std::int64_t kReferenceWork = 200000;
-/// Of methods that are recorded, at most.
+/// Largest work limit of methods that are only recorded.
 constexpr std::int64_t kRecordedWork = 40000;
 
 }  // namespace

@@ -6,20 +6,20 @@
 
 namespace butee::stress {
 
-/// The motion of all DOFs at given instants, a column for each; as far as the run came.
+/// The motion of all DOFs at given instants, one column for each, as far as the run came.
 struct Trajectory {
-  Eigen::MatrixXd x, v;  ///< m or rad, and a second
-  Index rows = 0;        ///< columns that are filled
+  Eigen::MatrixXd x, v;  ///< m or rad; m/s or rad/s
+  Index rows = 0;        ///< number of filled columns
   bool is_finite = true;
 
   Trajectory() = default;
   Trajectory(Index size, std::size_t instants) : x(Eigen::MatrixXd::Zero(size, static_cast<Index>(instants))), v(x) {}
 };
 
-/// Fills a Trajectory from the dense output of a run, and looks at the ends of all steps.
+/// Fills a Trajectory from the dense output of a run, and records the largest displacement at step ends.
 class Follower final : public time::Observer {
  public:
-  /// `instants` are ascending and must outlive it.
+  /// `instants` must ascend and outlive this object.
   Follower(Index size, const std::vector<double>& instants);
 
   void start(const time::State& state) override;

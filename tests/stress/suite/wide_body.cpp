@@ -35,7 +35,7 @@ Body row_of_masses(Random& random) {
     const std::string name = "m" + std::to_string(i);
     body.toml += mass_text(name, m);
     body.nodes.push_back(name);
-    // Springs of light parts are about as light, so that frequencies spread over four decades and no more.
+    // Springs of light parts are scaled with their masses, so that frequencies cover at most four decades.
     const double k = 1e4 * hardness * random.decades(-0.7, 0.7) * (is_light ? std::sqrt(m) : 1.0);
     const double c = has_dashpots && random.chance(0.7) ? random.decades(-4.0, 0.3) * std::sqrt(k * m) : 0.0;
     const bool has_spring = i == 0 ? is_tied : random.chance(0.9);
@@ -78,7 +78,7 @@ Body beams(Random& random) {
   body.stiffness = 3.0 / (flexibility * length * length);
   body.mass = 0.3 * mass;
   body.size = length * random.decades(-4.0, -2.0);
-  // Cantilever, pinned, clamped and pinned, held by springs alone, or free.
+  // Cantilever, pinned, clamped and pinned, supported by springs only, or free.
   const double hold = random.uniform(0.0, 1.0);
   const std::string first = body.nodes.front(), last = body.nodes.back();
   const auto support = [&](const std::string& node, const char* fixed) {
@@ -92,7 +92,7 @@ Body beams(Random& random) {
     support(first, is_clamped ? "\"u\", \"theta\"" : "\"u\"");
     drop(body.nodes, first);
     if (is_clamped) drop(body.turning, first);
-    // A single element between two pins moves by its rotations alone, and there is no place for a stop.
+    // A single element between two pins moves only by its rotations; a stop has no place there.
     const bool has_two = body.nodes.size() > 1 && (!is_clamped || random.chance(0.4));
     if (has_two) {
       support(last, "\"u\"");

@@ -66,7 +66,7 @@ std::string loads(const Body& body, Random& random) {
         break;
       }
       case 3: {
-        // A triangle with an impulse of force/omega.
+        // A triangular load with an impulse of force/omega.
         const double width = random.decades(-10.0, -4.0), at = period * random.uniform(0.1, 1.5);
         text += "type = \"table\"\ntimes = [" + to_text(at) + ", " + to_text(at + width) + ", " +
                 to_text(at + 2.0 * width) + "]\nvalues = [0.0, " + to_text(force / body.omega / width) + ", 0.0]\n";
@@ -99,7 +99,7 @@ std::string damping(const Body& body, Random& random) {
     case 2:
       return "[damping]\nstiffness_proportional = " + to_text(ratio / body.omega) + "\n";
     case 3:
-      // Rigid motion has no ratio.
+      // Rigid motion has no damping ratio.
       if (body.is_free) return "";
       return "[damping]\nmodal = " + to_text(ratio) + "\n";
     case 4:
@@ -148,7 +148,7 @@ Scene wide_scene(std::uint64_t seed) {
   scene.size = body.size;
   const double periods = random.chance(0.1) ? random.decades(1.5, 3.0) : random.decades(0.0, 1.3);
   scene.end_time = periods * 4.0 * kQuarterTurn / body.omega;
-  // Methods of order 2 refuse the rest.
+  // Methods of order 2 refuse the smaller tolerances.
   scene.tolerance = random.chance(0.65) ? random.decades(-6.0, -2.0) : random.decades(-10.0, -6.0);
   scene.step_factor = random.decades(-2.0, 1.0);
   return scene;

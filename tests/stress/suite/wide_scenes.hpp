@@ -8,15 +8,15 @@
 
 namespace butee::stress {
 
-/// A random scene with what random_scene() lacks, of lengths, masses and stiffnesses around 1, 1 and 1e4 in SI units:
-/// mass ratios to 1e-8, joined and uneven beams of several sections with rotary inertia, springs and dashpots on
-/// rotations and between parts, modal damping, several stops with both laws at all bluntness, overlapping, preloaded,
-/// without a gap or between parts, impulses of 1e-10 s, rotating loads, moments, free bodies, flights between hard
-/// stops. Tolerances from 1e-2 to 1e-10.
+/// A random scene with features that random_scene() lacks; lengths, masses and stiffnesses are around 1, 1
+/// and 1e4 in SI units. Mass ratios to 1e-8, joined and uneven beams of several sections with rotary inertia,
+/// springs and dashpots on rotations and between parts, modal damping, several stops with both laws at all
+/// values of regularization, overlapping, preloaded, without a gap or between parts, impulses of 1e-10 s,
+/// rotating loads, moments, free bodies, flights between hard stops. Tolerances from 1e-2 to 1e-10.
 Scene wide_scene(std::uint64_t seed);
 
-/// Every tenth one by space_scene(), another tenth by rubbing_scene(), every third other by random_scene(), the others
-/// by wide_scene().
+/// By seed: every tenth scene by space_scene(), another tenth by rubbing_scene(), every third of the rest by
+/// random_scene(), the others by wide_scene().
 inline Scene mixed_scene(std::uint64_t seed) {
   if (seed % 10 == 9) return space_scene(seed);
   if (seed % 10 == 4) return rubbing_scene(seed);

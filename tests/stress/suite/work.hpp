@@ -6,7 +6,7 @@
 
 namespace butee::stress {
 
-/// What bounds runs: evaluations and solves, of which the same scene takes as many on every machine.
+/// Measure of work that limits runs: evaluations and solves; their number is the same on every machine.
 inline std::int64_t work_of(const linalg::Counters& c) {
   return c.force_evaluations + c.contact_evaluations + c.solves + c.factorizations;
 }
