@@ -9,7 +9,7 @@
 namespace butee::test::assembly_test {
 namespace {
 
-/// A few operations on numbers of one size.
+/// Rounding of a few operations on numbers of similar size.
 constexpr double kRounding = 1e-13;
 
 std::string spring(const std::string& keys) {
@@ -97,7 +97,8 @@ TEST(Assembly, MatricesShareOnePatternWithPlacesForStopsBetweenNodes) {
   for (const SparseMatrix* other : {&system.stiffness, &system.dashpots})
     EXPECT_TRUE(std::equal(system.mass.innerIndexPtr(), system.mass.innerIndexPtr() + system.mass.nonZeros(),
                            other->innerIndexPtr()));
-  // Three nodes of two DOFs in a chain: 3 * 4 + 2 * 2 * 4 places, twice; and two places for each of three stops.
+  // Three nodes of two DOFs in a chain: 3 * 4 + 2 * 2 * 4 entries, twice; and two entries for each of three
+  // stops.
   EXPECT_EQ(system.mass.nonZeros(), 2 * 28 + 2 * 3);
 }
 
@@ -152,8 +153,8 @@ TEST(Assembly, AFreeDofWithoutMassIsAnErrorThatNamesIt) {
   EXPECT_TRUE(holds(message, "theta of ball has no mass")) << message;
 }
 
-/// A rotor in a flexible casing: two beams, bearing springs and stops between them. Nothing holds them to the ground,
-/// so that they can be shifted together without a force.
+/// A rotor in a flexible casing: two beams, bearing springs and stops between them. They are not connected to
+/// ground, so a common translation causes no force.
 TEST(Assembly, RotorInAFlexibleCasing) {
   SceneRun scene(
       kHeader + kSteelBar + beam("rotor", "length = 2.0\nelements = 8") + beam("casing", "length = 2.0\nelements = 8") +

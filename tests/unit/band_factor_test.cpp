@@ -7,7 +7,7 @@
 namespace butee::test::band_factor_test {
 namespace {
 
-/// A symmetric matrix of the band with entries of no pattern; positive definite by its diagonal where that is large.
+/// A symmetric band matrix with irregular entries; positive definite if the diagonal is large.
 SparseMatrix band_matrix(Index size, Index band, double diagonal) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
   for (Index i = 0; i < size; ++i) {
@@ -19,7 +19,7 @@ SparseMatrix band_matrix(Index size, Index band, double diagonal) {
 }
 
 TEST(BandFactor, SolvesWhatTheDenseMatrixSays) {
-  // Both are direct solutions; the matrices have condition numbers below 100.
+  // Both are direct solutions; the condition numbers are below 100.
   constexpr double kSolved = 1e-13;
   int cases = 0;
   for (Index band = 1; band <= linalg::BandFactor::kWidestBand; ++band)

@@ -10,9 +10,10 @@
 namespace butee::test::beam_frequency_test {
 namespace {
 
-/// The order of the frequencies in the element length; h^4 holds with an error of a higher power at these meshes.
+/// The order of the frequencies in the element length, and its tolerance: at these meshes higher powers of
+/// the length still contribute.
 constexpr double kOrder = 4.0, kOrderError = 0.2;
-/// (beta l)^4/1440 for the fourth mode on 32 elements, with some room.
+/// (beta l)^4/1440 for the fourth mode on 32 elements, with a margin.
 constexpr double kFineMeshError = 2e-5;
 /// Rounding of the dense eigenproblem: machine precision times the ratio of the largest to the lowest eigenvalue.
 constexpr double kEigenRounding = 1e-8;
@@ -25,8 +26,8 @@ double refined(double z, double s) {
   return z;
 }
 
-/// One kind of ends and its lowest roots beta L. Source: R. D. Blevins, Formulas for Natural Frequency and Mode Shape,
-/// 1979, table 8-1.
+/// A pair of end conditions and its lowest roots beta L. Source: R. D. Blevins, Formulas for Natural
+/// Frequency and Mode Shape, 1979, table 8-1.
 struct Ends {
   const char* name;
   std::string supports;
@@ -95,7 +96,7 @@ TEST_P(BeamFrequency, TheErrorFallsAsTheFourthPowerOfTheElementLength) {
 INSTANTIATE_TEST_SUITE_P(ends, BeamFrequency, testing::Values(pinned(), cantilever(), clamped(), sliding()),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-/// A free beam has two rigid motions, and above them the frequencies of the clamped one.
+/// A free beam has two rigid motions and the elastic frequencies of the clamped beam.
 TEST(FreeBeam, HasTwoRigidModesAndThenThoseOfTheClampedOne) {
   const Vector values = eigenvalues("", 32);
   const double lowest = std::pow(exact_frequency(clamped().roots[0]), 2);

@@ -12,9 +12,9 @@
 namespace butee::test::beam_test {
 namespace {
 
-/// Some operations on numbers of one size, relative to the largest of them.
+/// Rounding of some operations on numbers of similar size, relative to the largest.
 constexpr double kRounding = 1e-13;
-/// A direct solution: rounding times the condition number of the few elements used here.
+/// Error of a direct solution: rounding times the condition number of the few elements used here.
 constexpr double kSolved = 1e-9;
 
 const model::Material kMaterial{kYoung, kDensity};
@@ -86,7 +86,7 @@ TEST(Beam, UnevenFreeBeamHasTheInertiaOfAThinRod) {
   EXPECT_NEAR(shift.dot(mass * turn), 0.0, kRounding * kMass);
 }
 
-/// F L^3/(3 EI) and F L^2/(2 EI): any textbook of strength of materials.
+/// F L^3/(3 EI) and F L^2/(2 EI), from textbooks on strength of materials.
 TEST(Beam, CantileverUnderATipLoadBendsByTheClosedForm) {
   constexpr double kForce = -1000.0, kLength = 3.0;
   SceneRun scene(kHeader + kSteelBar + beam("arm", "length = 3.0\nelements = 7") +

@@ -1,4 +1,4 @@
-// Systems of several blocks of rows, against the sparse matrices themselves.
+// Systems of several blocks of rows, compared with the sparse matrices themselves.
 #include "butee/core/blocks.hpp"
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace butee::test::blocks_test {
 namespace {
 
-/// Relative to the largest entry; sums of a few products.
+/// Rounding of sums of a few products, relative to the largest entry.
 constexpr double kRounding = 1e-13;
 
 Vector wave(Index size, double phase) {

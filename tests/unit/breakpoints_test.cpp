@@ -45,7 +45,7 @@ TEST(Breakpoints, FindTheStepOfAnInstant) {
   EXPECT_EQ(points.before(1.0), 0u);
   EXPECT_EQ(points.before(2.0), 1u);
   EXPECT_EQ(points.before(7.0), 2u);
-  EXPECT_EQ(points.before(8.0), 2u);  // No step begins at the last.
+  EXPECT_EQ(points.before(8.0), 2u);  // No step begins at the last breakpoint.
   EXPECT_EQ(points.phases(1)[0].cosine, std::cos(10.0));
   points.clear();
   points.add(3.0, &q, &v, &w);
@@ -68,7 +68,7 @@ TEST(StepForces, DividedAreTheSamePolynomials) {
   EXPECT_EQ(second.constant[0], 0.5);
 }
 
-/// Turned, computed anew after 32 turns, and taken over by a state in between.
+/// Phases advanced by rotation, recomputed after 32 rotations, and restored from a state in between.
 TEST(LoadPhases, AreThoseOfTheTime) {
   SceneRun run(kScene);
   const integrators::SingleMode mode(run.dynamics().modal(0));
@@ -89,7 +89,7 @@ TEST(LoadPhases, AreThoseOfTheTime) {
     }
     if (k <= 20) continue;
     resumed.turn(k - 20, t, turn);
-    EXPECT_EQ(resumed.at(k - 20)[0].cosine, phases.at(k)[0].cosine) << k;  // to the last bit
+    EXPECT_EQ(resumed.at(k - 20)[0].cosine, phases.at(k)[0].cosine) << k;  // bitwise equal
     EXPECT_EQ(resumed.at(k - 20)[0].sine, phases.at(k)[0].sine) << k;
   }
 }

@@ -30,7 +30,7 @@ TEST(Bytes, ComeBackAsTheyWent) {
   EXPECT_TRUE(reader.at_end());
 }
 
-/// A length that the bytes cannot hold is refused before memory is asked for.
+/// A length that exceeds the remaining bytes is refused before allocation.
 TEST(Bytes, ThatEndEarlyAreRefused) {
   std::vector<std::byte> bytes;
   ByteWriter writer(bytes);

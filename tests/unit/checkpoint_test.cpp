@@ -72,7 +72,7 @@ TEST_F(Checkpoints, ADamagedOneIsTakenAwayAndTheOneBeforeItIsUsed) {
   EXPECT_FALSE(checkpoints_.newest());
 }
 
-/// A kill between the two renames, or while the draft is written.
+/// A kill between the two renames, or while the draft is being written.
 TEST_F(Checkpoints, AHalfWrittenOneIsNoHindrance) {
   checkpoints_.write(at(1.0));
   fs::rename(temporary_.file("checkpoint.bin"), temporary_.file("checkpoint-before.bin"));
@@ -117,7 +117,7 @@ TEST_F(Checkpoints, AnotherInstructionSetIsBadInput) {
   EXPECT_NE(refused().find("compiled for i386"), std::string::npos) << refused();
 }
 
-/// Any single byte that changed, and any end that is missing, is noticed.
+/// A change of any single byte, and any truncation, is detected.
 TEST_F(Checkpoints, NoDamagePasses) {
   const std::vector<std::byte> whole = to_bytes(at(1.0));
   EXPECT_NO_THROW(record::to_checkpoint(whole));

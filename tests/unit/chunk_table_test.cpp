@@ -14,7 +14,7 @@ double entry(Index chunk, Index i) {
   return static_cast<double>(100 * chunk + i);
 }
 
-/// Chunks of which each `period`-th is the same.
+/// A table of chunks that repeat with the given period.
 linalg::ChunkTable table(Index period) {
   linalg::ChunkTable all(kWidth, kCount);
   double* to = all.write();
@@ -44,7 +44,7 @@ TEST(ChunkTable, IsWrittenAgainAfterSharing) {
   EXPECT_EQ(all[kCount - 1][kWidth - 1], static_cast<double>(kWidth * kCount - 1));
 }
 
-/// Rows repeat with a period, but for a few in the middle; diagonally dominant.
+/// A diagonally dominant matrix whose rows repeat with a period, except a few in the middle.
 SparseMatrix repeating(Index size, Index band, Index period) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Index i = 0; i < size; ++i) {
@@ -67,7 +67,8 @@ Vector some_vector(Index size) {
   return x;
 }
 
-/// A band factor of a uniform structure repeats too, from some rows behind its ends; that of no uniform one does not.
+/// The band factor of a uniform structure also repeats, starting some rows from its ends; that of a
+/// nonuniform structure does not.
 TEST(SharedRows, SolveAndMultiplyWhatTheMatrixSays) {
   constexpr double kSolved = 1e-13;
   for (const Index band : {1, 3, 8})
@@ -80,7 +81,7 @@ TEST(SharedRows, SolveAndMultiplyWhatTheMatrixSays) {
         const linalg::SymmetricProduct symmetric(matrix);
         symmetric.multiply(x.data(), product.data());
         EXPECT_LE((product - right).norm(), kSolved * right.norm()) << size << " " << band << " " << period;
-        // By blocks, as in_blocks() cuts them.
+        // In the blocks that in_blocks() uses.
         symmetric.multiply(x.data(), 0, 2048, product.data());
         symmetric.multiply(x.data(), 2048, size - 2048, product.data() + 2048);
         EXPECT_LE((product - right).norm(), kSolved * right.norm()) << size << " " << band << " " << period;

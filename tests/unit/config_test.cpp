@@ -21,7 +21,7 @@ using config::parse_toml;
 using config::Table;
 using config::Value;
 
-/// True where two values are equal, tables in their order; places do not count.
+/// True if two values are equal, including the order of tables; source positions are ignored.
 bool same(const Value& a, const Value& b) {
   if (a.data.index() != b.data.index()) return false;
   if (const Table* table = a.table()) {

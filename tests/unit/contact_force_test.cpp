@@ -26,7 +26,7 @@ std::string scene(const std::string& law, const std::string& sides) {
          sides + "\"\n" + law + "\n[integrator]\ntype = \"rk4\"\ntime_step = 0.1\nend_time = 1.0\n";
 }
 
-/// The moments by Simpson's rule over very many intervals.
+/// The moments by Simpson's rule with very many intervals.
 ForceMoments by_simpson(dynamics::Contact& contact, const ContactPath& path) {
   constexpr int kIntervals = 200000;
   ForceMoments sum{};
@@ -41,8 +41,8 @@ ForceMoments by_simpson(dynamics::Contact& contact, const ContactPath& path) {
   return sum;
 }
 
-/// Paths of all kinds: random ends and quartic terms around a gap of 0.5. The number of those along which the stop is a
-/// spring.
+/// Compares random paths (end values and quartic terms) around a gap of 0.5. Returns the number of paths
+/// along which the stop acts as a spring.
 int compare(const std::string& law, double tolerance) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.5, 1.5);
@@ -82,13 +82,13 @@ TEST(ContactPath, MeetsItsEndsAndItsMiddle) {
   }
 }
 
-// Simpson's rule is off by (slope of F)(1/200000)^2 at each kink.
+// At each slope discontinuity Simpson's rule has an error of (slope of F)(1/200000)^2.
 TEST(ContactForce, OfALinearLawIsExact) {
   EXPECT_GT(compare("law = \"linear\"", 1e-9), 5);
 }
 
-// Panels of three Gauss points: 1e-4 of the force in the worst of the random paths of a law that bends within 1 % of
-// the gap, far less where the bend is as sharp as in the paper.
+// With panels of three Gauss points the error is 1e-4 of the force for the worst random path, if the law's
+// transition is 1 % of the gap wide; it is much smaller for a transition as narrow as in the paper.
 TEST(ContactForce, OfASmoothLawIsCloseToItsIntegral) {
   EXPECT_GT(compare("law = \"arctan\"\nregularization = 1e5", 1e-5), 5);
   compare("law = \"arctan\"\nregularization = 1e2", 1e-4);
@@ -122,11 +122,12 @@ TEST(ResidualForce, IsConstantUpToTheNextTermOfItsSeriesAndItsJump) {
   SceneRun run(scene("law = \"arctan\"\nregularization = 1e2", "both"));
   dynamics::Contact& contact = run.dynamics().contact();
   const integrators::ResidualForce pull(contact, 0);
-  // What the constant is off by, with the square of the steps.
+  // Error of the constant approximation times the square of the number of steps.
   const double off = std::abs(std::abs(contact.force_of(0, 0.25)) - pull.largest());
   const double bound = pull.constant_error(0.1, 0.2, 0.25, kCompliance, kSteps);
   EXPECT_NEAR(bound, off * kCompliance * kSteps * kSteps, 0.01 * bound);
-  // Through the middle: twice the pull over the part of the way that the pull itself is worth.
+  // Through the middle of the gap: twice the residual force, over the fraction of the path that the residual
+  // force's own displacement represents.
   const double shift = pull.largest() * kCompliance;
   EXPECT_NEAR(pull.constant_error(0.1, -0.1, 0.2, kCompliance, kSteps) -
                   pull.constant_error(0.05, 0.15, 0.2, kCompliance, kSteps),

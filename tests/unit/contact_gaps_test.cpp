@@ -17,7 +17,7 @@ using integrators::ContactGaps;
 using integrators::kBump;
 using integrators::TriedStep;
 
-/// One stop on both sides, one on the positive side, one on the negative side.
+/// Three stops: on both sides, on the positive side, and on the negative side.
 const std::string kScene = mass_on_spring("1.0", R"(
 [[contact]]
 type = "stop"
@@ -72,7 +72,7 @@ TEST(ContactGaps, TellTheTimeToTheFirstStopThatIsApproached) {
   EXPECT_NEAR(stops.gaps.time_to_contact(now), 0.45, 1e-15);  // the third
 }
 
-/// Against samples of the cubics through random ends.
+/// Compared with samples of the cubics through random end states.
 TEST(ContactGaps, BoundCubicPathsOnTheSidesOnWhichStopsAct) {
   Stops stops;
   std::mt19937 random(3);
@@ -110,7 +110,7 @@ TEST(DisplacementBounds, FindStopsThatForcesOfOthersCarryToTheirGap) {
   path.end = path.speed = path.middle = none;
   EXPECT_FALSE(bounds.find_carried(none, path, stops.step));
   EXPECT_FALSE(bounds.is_near(1));
-  // 0.3 m is behind the gap of the positive side alone; a fast path that comes back is behind all.
+  // 0.3 m is beyond the gap of the positive side only; a fast path that returns passes all gaps.
   path.end.setConstant(0.3);
   EXPECT_TRUE(bounds.find_carried(none, path, stops.step));
   EXPECT_EQ(stops.step.carried, std::vector<Index>{1});

@@ -12,7 +12,7 @@ namespace {
 
 using namespace integrators;
 
-/// Two masses with a spring between them, each with a stop to the ground, and a stop between them.
+/// Two masses with a spring between them, each with a stop to ground, and a stop between them.
 const std::string kScene = two_masses(R"(
 [[element]]
 type = "spring"
@@ -35,8 +35,8 @@ stiffness = 90.0
 )");
 constexpr double kStep = 0.05;
 
-/// The end, speed and middle of the paths by the propagator with the forces of all stops, and the forces by the
-/// projection along these paths: what the iteration is to have found.
+/// The end, velocity and middle of the paths from the propagator with the forces of all stops, and the forces
+/// from projection along these paths; the iteration must have found the same values.
 TEST(ContactIteration, FindsForcesAndPathsThatBelongTogether) {
   SceneRun run(kScene);
   dynamics::ModalSystem& modal = run.dynamics().modal(0);
@@ -62,7 +62,7 @@ TEST(ContactIteration, FindsForcesAndPathsThatBelongTogether) {
   propagate(modal, flow.half, start, 0.5 * kStep, step.middle.q, &step.middle.v);
   step.to.find_stops(modal.stop_shapes());
   step.iterated = {0, 1, 2};
-  step.breakpoint = 0.5 * kStep;  // so that the middle gets the forces too
+  step.breakpoint = 0.5 * kStep;  // so that the middle also receives the forces
   ContactIteration iteration(modal, goal, contacts, gaps, scales, step);
   ASSERT_TRUE(iteration.solve(flow).has_value());
   EXPECT_EQ(iteration.touched().size(), 3u);
@@ -78,7 +78,7 @@ TEST(ContactIteration, FindsForcesAndPathsThatBelongTogether) {
     EXPECT_NEAR(path.value(0.5), step.middle.w[i], 1e-14);
     ContactForce& force = contacts[static_cast<std::size_t>(i)];
     const ForceMoments projected = force.project(path, force.status(path)).force;
-    // The paths are known to the goal, 1e-10 m, the forces to the stiffness times that.
+    // The iteration finds the paths to 1e-10 m, and the forces to the stiffness times that.
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(iteration.moments(k)[i], projected[k], 1e-7) << i << " " << k;
   }
 }

@@ -10,7 +10,7 @@
 namespace butee::test::contact_law_test {
 namespace {
 
-/// A few dozen roundings: the tangent near |x| = 20 loses a factor of 1.5 x^2 to the difference that it is.
+/// A few dozen roundings: near |x| = 20 the tangent, a difference, loses a factor of 1.5 x^2.
 constexpr double kFormula = 2e-13;
 /// Fourth-order differences with a step of a thousandth: truncation 1e-12 of a derivative that varies, rounding 1e-13.
 constexpr double kDifference = 1e-9;
@@ -21,7 +21,8 @@ constexpr long double kPi = std::numbers::pi_v<long double>;
 struct Textbook {
   long double k, lambda;
 
-  /// atan(1/y) - y/(1 + y^2) = r^3 int_0^1 2 s^2/(1 + r^2 s^2)^2 ds with r = 1/y, which has nothing to cancel.
+  /// atan(1/y) - y/(1 + y^2) = r^3 int_0^1 2 s^2/(1 + r^2 s^2)^2 ds with r = 1/y; the integral has no
+  /// cancellation.
   static long double tangent_part(long double y) {
     if (y < 1.0L) return kPi / 2 - std::atan(y) - y / (1.0L + y * y);
     // Gauss-Legendre with three points on many panels: exact to 1e-18 here.
@@ -53,7 +54,8 @@ struct Textbook {
   }
 };
 
-/// |g| from 1e-9 to 1 m, 20 to a decade, both signs; and both sides of |x| = 20 and 1e4, where the code changes form.
+/// |g| from 1e-9 to 1 m, 20 per decade, both signs; and both sides of |x| = 20 and 1e4, where the code
+/// switches formulas.
 std::vector<double> penetrations(double lambda) {
   std::vector<double> all;
   for (const double sign : {1.0, -1.0}) {
@@ -118,7 +120,7 @@ TEST_P(ArctanLaw, AnOpenStopPullsWithItsFarForce) {
   EXPECT_NEAR(law_.asymptotic_force(), far, kFormula * far);
   for (const double g : {0.01, 0.1, 1.0}) {
     const double y = std::numbers::pi * GetParam().regularization * g;
-    // F = -far (1 - 1/(3 y^2) + ...), never more than far.
+    // F = -far (1 - 1/(3 y^2) + ...), at most far in absolute value.
     EXPECT_NEAR(law_.secant(-g) * -g, -far, (1.0 / (3 * y * y) + kFormula) * far);
     EXPECT_LE(law_.secant(-g) * g, far * (1 + kFormula));
   }
@@ -134,7 +136,8 @@ INSTANTIATE_TEST_SUITE_P(parameters, ArctanLaw, testing::Values(Case{1e6, 7e7}, 
                          [](const auto& instance) { return "set_" + std::to_string(instance.index); });
 
 TEST_P(ArctanLaw, TheSeriesIsTheForceAlongAPath) {
-  // Paths that pass the gap and paths on either side of it, within the radius of convergence |g|/|g'| of each.
+  // Paths that pass the gap, and paths on either side of it; each is within the radius of convergence
+  // |g|/|g'|.
   const auto series = law_.force_series();
   for (const double start : {-1e-2, -1e-5, 1e-5, 1e-2}) {
     const std::vector<double> path = {start, 0.3 * start, -0.1 * start};
@@ -147,7 +150,7 @@ TEST_P(ArctanLaw, TheSeriesIsTheForceAlongAPath) {
       double sum = 0.0;
       for (std::size_t k = force.size(); k > 0; --k) sum = sum * s + force[k - 1];
       const double at = path[0] + s * (path[1] + s * path[2]), expected = law_.secant(at) * at;
-      // What an open stop leaves of k_c g is a difference of terms of the size of its pull.
+      // At an open stop k_c g and terms of the size of the residual force cancel.
       EXPECT_NEAR(sum, expected, 1e-12 * std::abs(expected));
     }
   }
@@ -169,7 +172,7 @@ TEST(LinearLaw, ActsOnPenetrationAlone) {
   EXPECT_EQ(law.asymptotic_force(), 0.0);
 }
 
-/// Equal to 4 units in the last place: a vectorised loop may contract products and sums in another way.
+/// Equal to 4 units in the last place: a vectorised loop may contract products and sums differently.
 TEST(ContactLaw, BatchesAreTheScalarFunctions) {
   const contact::Arctan arctan(1e6, 7e7);
   const contact::Linear linear(2e6);

@@ -25,10 +25,12 @@ nodes = "m"
 gap = 0.5
 stiffness = 3.0
 )");
-/// End, speed and middle of a path by P_0, P_1 and P_2, as of a mass in a step of h = 0.6.
+/// Coupling of a path's end, velocity and middle to the force moments P_0, P_1 and P_2, as for a mass in a
+/// step of h = 0.6.
 constexpr PathCoupling kCoupling = {{{0.18, -0.06, 0.0}, {0.36, 0.0, 0.0}, {0.045, -0.0375, 0.0225}}};
 
-/// The path from w = w0 with h w' = hv0 that ends at 0.7 with -0.4 without the stop, moved by the force.
+/// The path from w = w0 with h w' = hv0. Without the stop it ends at 0.7 with h w' = -0.4; the force
+/// displaces it.
 ContactPath moved_path(double w0, double hv0, const ForceMoments& f, std::size_t orders) {
   std::array<double, 3> end = {0.7, -0.4, 0.75};
   for (std::size_t row = 0; row < 3; ++row)
@@ -52,8 +54,8 @@ TEST(ContactNewton, SolvesAClosedStopInOneStep) {
   }
 }
 
-/// The border of the closed part moves with the path, but the force is zero there: the inverse that takes the part as
-/// fixed is that of the derivative.
+/// The boundary of the closed interval moves with the path, but the force there is zero. The inverse computed
+/// with a fixed interval is therefore that of the exact derivative.
 TEST(ContactNewton, HasTheDerivativeOfAStopThatCloses) {
   SceneRun run(kScene);
   ContactForce force(run.dynamics().contact(), 0);
@@ -65,7 +67,7 @@ TEST(ContactNewton, HasTheDerivativeOfAStopThatCloses) {
     return force.project(path, ContactStatus::changing);
   };
   const ContactNewton::Matrix inverse = newton.inverse(project(f).closed, kCoupling);
-  // The place where the stop closes is found to some 1e-14, which the difference quotient divides by the step.
+  // The closing point is found to some 1e-14, which the difference quotient divides by the step.
   constexpr double kStep = 1e-5;
   for (std::size_t column = 0; column < 3; ++column) {
     ForceMoments more = f, less = f;

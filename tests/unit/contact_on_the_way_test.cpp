@@ -18,34 +18,34 @@ std::string mass_at_a_stop(const std::string& sides, const std::string& integrat
          sides + "\"\n" + more + "[integrator]\nend_time = 3.0\n" + integrator;
 }
 
-/// States of the free motion x = sin t, which is beyond 0.9 from t = 1.12 to 2.02.
+/// States of the free motion x = sin t, which exceeds 0.9 from t = 1.12 to 2.02.
 time::State at(double t) {
   return {t, Vector::Constant(1, std::sin(t)), Vector::Constant(1, std::cos(t)), Vector::Constant(1, -std::sin(t)), {},
           {}};
 }
 
-/// The largest speed of that motion, m/s.
+/// The largest velocity of that motion, m/s.
 const Vector kSpeed = Vector::Constant(1, 1.0);
 
 TEST(ContactOnTheWay, IsOneThatBothEndsOfAStepAreFreeOf) {
-  // A stop so soft that no impulse is felt.
+  // The stop is so soft that its impulse is negligible.
   SceneRun run(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"), {"contact[0].stiffness=1e-9"});
   const auto happened = [&](double from, double to, double tolerance) {
     integrators::ContactOnTheWay contact(run.dynamics(), tolerance);
     return contact.was_missed(at(from), at(to), to - from, kSpeed);
   };
   EXPECT_TRUE(happened(1.0, 2.1, 1e-3));
-  EXPECT_TRUE(happened(1.0, 2.1, 0.1));    // sin reaches 1, a depth of 0.1.
-  EXPECT_FALSE(happened(1.0, 2.1, 0.13));  // 0.1/0.9 is less than that.
-  EXPECT_TRUE(happened(0.2, 2.9, 0.08));   // The cubic alone stays below the gap; it is wrong by 0.11.
+  EXPECT_TRUE(happened(1.0, 2.1, 0.1));    // sin reaches 1, a penetration of 0.1
+  EXPECT_FALSE(happened(1.0, 2.1, 0.13));  // 0.1/0.9 is smaller
+  EXPECT_TRUE(happened(0.2, 2.9, 0.08));   // the cubic alone stays below the gap; its error is 0.11
   EXPECT_FALSE(happened(0.2, 2.9, 0.12));
-  EXPECT_FALSE(happened(0.2, 0.9, 1e-6));  // It does not turn.
-  EXPECT_FALSE(happened(0.2, 1.3, 1e-6));  // It ends in the stop, which every method sees.
+  EXPECT_FALSE(happened(0.2, 0.9, 1e-6));  // no turning point
+  EXPECT_FALSE(happened(0.2, 1.3, 1e-6));  // the step ends in the stop, which every method detects
   EXPECT_TRUE(happened(1.0 + 3.141592653589793, 2.1 + 3.141592653589793, 1e-3));
 }
 
 TEST(ContactOnTheWay, WeighsTheImpulseOfASmallPenetration) {
-  // From 1.5 to 1.65 sin passes 0.9999 by 1e-4, whose impulse is at most k 1e-4 m 0.15 s.
+  // From 1.5 to 1.65 sin exceeds 0.9999 by 1e-4; the impulse is at most k 1e-4 m 0.15 s.
   const auto is_missed = [&](const char* stiffness) {
     SceneRun run(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"),
                  {std::string("contact[0].stiffness=") + stiffness, "contact[0].gap=0.9999"});
@@ -71,12 +71,12 @@ TEST(ContactOnTheWay, HasChangedWhereOneEndAloneIsInTheStop) {
     EXPECT_EQ(changed(contact, 1.0, 1.3), above) << sides;
     EXPECT_EQ(changed(contact, 1.8, 2.1), above) << sides;
     EXPECT_EQ(changed(contact, kTurn + 1.0, kTurn + 1.3), below) << sides;
-    // From one side's stop into the other's.
+    // From the stop on one side to the stop on the other.
     EXPECT_TRUE(changed(contact, 1.5, kTurn + 1.5)) << sides;
   }
 }
 
-/// A pull of 1e6/(pi^2 1e7) N to either side changes the speed by 2e-3 m/s within 0.1 s.
+/// A residual force of 1e6/(pi^2 1e7) N to either side changes the velocity by 2e-3 m/s within 0.1 s.
 TEST(ContactOnTheWay, HasChangedWhereABluntLawJumpsAtTheMiddle) {
   const std::string blunt = "contact[0].law=\"arctan\"", exact = "type = \"rk4\"\ntime_step = 1e-3\n";
   for (const auto& [sides, lambda, tolerance, expected] :
@@ -104,7 +104,7 @@ std::string method(const std::string& name, double tolerance) {
   return "type = \"" + name + "\"\ntolerance = " + to_text(tolerance) + "\n";
 }
 
-/// A mass at rest gets 2 N s within a thousandth of a second, which is over long before a step would end.
+/// A mass at rest receives 2 N s within a thousandth of a second, much shorter than a step.
 TEST_P(ShortEvents, APulseIsNotPassedOver) {
   const std::string pulse =
       "[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = [0.0, 1.0, 1.0005, 1.001]\nvalues = [0.0, 0.0, 4000.0, 0.0]\n"
@@ -112,25 +112,26 @@ TEST_P(ShortEvents, APulseIsNotPassedOver) {
   SceneRun run(mass_at_a_stop("both", method(GetParam(), 1e-3), pulse),
                {"contact[0].gap=1e3", "integrator.end_time=2.0"});
   ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
-  // 2 sin(t - 1.0005) from the instant of the pulse on; a pulse is not quite an instant.
+  // 2 sin(t - 1.0005) from the pulse on; the pulse has a small duration.
   EXPECT_NEAR(run.simulation().state().x[0], 2.0 * std::sin(0.9995), 0.02);
 }
 
 /// A grazing impact on a hard stop, at the turning point of a slow motion.
 TEST_P(ShortEvents, AnImpactAtATurningPointIsNotPassedOver) {
-  const double speed = 0.9 * 1.002;  // 2e-3 beyond the gap, at 6 % of the speed
+  const double speed = 0.9 * 1.002;  // 2e-3 beyond the gap, at 6 % of the largest speed
   const std::string start = "[initial]\nvelocity = [{nodes = \"m\", value = " + to_text(speed) + "}]\n";
   SceneRun run(mass_at_a_stop("positive", method(GetParam(), 1e-4), start), {"integrator.end_time=3.0"});
   ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
   SceneRun exact(mass_at_a_stop("positive", "type = \"exact\"\ntime_step = 1e-2\n", start));
   ASSERT_TRUE(exact.run().completed);
   const double free = speed * std::sin(3.0), struck = exact.simulation().state().x[0];
-  ASSERT_GT(std::abs(struck - free), 0.05);  // What the impact is worth.
-  // An impact magnifies what came before it, here about tenfold.
+  ASSERT_GT(std::abs(struck - free), 0.05);  // the effect of the impact
+  // The impact amplifies earlier errors, here about tenfold.
   EXPECT_NEAR(run.simulation().state().x[0], struck, 5e-3);
 }
 
-/// A law that is blunt against the gap pulls from the middle on: a jump of the force in the middle of the motion.
+/// If the law's regularization is small relative to the gap, the residual force is large from the middle of
+/// the gap on: the force is discontinuous in the middle of the motion.
 TEST_P(ShortEvents, AJumpAtTheMiddleOfTheGapIsNotPassedOver) {
   const std::string start = "[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n";
   const std::vector<std::string> blunt = {"contact[0].law=\"arctan\"", "contact[0].regularization=2.0",

@@ -12,7 +12,7 @@ namespace {
 using integrators::ContactScales;
 using integrators::ModalState;
 
-/// A stop between masses of 4 kg and 1 kg, and one between the first and the ground.
+/// A stop between masses of 4 kg and 1 kg, and one between the first mass and ground.
 const std::string kScene = two_masses(R"(
 [[element]]
 type = "spring"
@@ -51,7 +51,7 @@ struct Scene {
   }
 };
 
-/// A force of the stop moves the masses by 1/5 and 4/5 of what it moves the stop by.
+/// A force of the stop moves the masses by 1/5 and 4/5 of the stop's relative displacement.
 TEST(ContactScales, OfAPairAreThoseOfTheBodyThatItsForceMovesMostForItsScale) {
   Scene scene;
   scene.scales.load(std::vector<double>(12, 0.0).data(), {1.0, 10.0});
@@ -60,7 +60,7 @@ TEST(ContactScales, OfAPairAreThoseOfTheBodyThatItsForceMovesMostForItsScale) {
   integrators::ContactScale scale = scene.scales.of(0, {}, 1.0);
   EXPECT_NEAR(scale.displacement, std::min(0.5 / 0.2, 0.9 / 0.8), 1e-14);
   EXPECT_NEAR(scale.speed, std::min(2.0 / 0.2, 3.0 / 0.8), 1e-14);
-  scene.scales.raise(scene.state_of(-0.1, -8.0, 0.0, 0.0));  // Scales never fall.
+  scene.scales.raise(scene.state_of(-0.1, -8.0, 0.0, 0.0));  // Scales never decrease.
   scale = scene.scales.of(0, {}, 1.0);
   EXPECT_NEAR(scale.displacement, 0.5 / 0.2, 1e-14);
 }
@@ -76,14 +76,14 @@ TEST(ContactScales, OfAStopAreItsLargestValuesSoFarAndAThousandthOfAllOthers) {
   EXPECT_NEAR(scene.scales.of(1, {0.3, 0.4}, 1.0).speed, 2.0, 1e-14);
 }
 
-/// The residual force of a stop between two bodies counts by the scale of the one that it moves most.
+/// The residual force of a stop between two bodies is weighted by the scale of the body that it moves most.
 TEST(ContactScales, TellTheShareOfEachStop) {
   Scene scene;
   scene.scales.load(std::vector<double>(12, 0.0).data(), {1.0, 10.0});
   scene.scales.raise(scene.state_of(0.01, 0.9, 2.0, -3.0));
   Eigen::ArrayXd shares;
   scene.scales.find_shares(Eigen::ArrayXd::Zero(scene.state_of(0.0, 0.0, 0.0, 0.0).w.size()), 1.0, shares);
-  EXPECT_NEAR(shares[0], 0.01 / 0.2, 1e-14);  // of |w| = 0.89
+  EXPECT_NEAR(shares[0], 0.01 / 0.2, 1e-14);  // fraction of |w| = 0.89
   EXPECT_NEAR(shares[1], 0.01, 1e-14);
 }
 

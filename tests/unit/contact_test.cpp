@@ -8,9 +8,9 @@
 namespace butee::test::contact_test {
 namespace {
 
-/// A few operations on numbers of one size.
+/// Rounding of a few operations on numbers of similar size.
 constexpr double kRounding = 1e-14;
-/// Fourth-order differences, whose step fits the boundary layer of the law.
+/// Fourth-order differences with a step adapted to the boundary layer of the law.
 constexpr double kDifference = 1e-8;
 
 constexpr double kStiffness = 1e6, kGap = 0.01, kLambda = 1e4;
@@ -20,7 +20,7 @@ std::string stop(const std::string& keys, const std::string& law) {
   return "\n[[contact]]\ntype = \"stop\"\nlaw = \"" + law + "\"\nstiffness = 1.0e6" + lambda + "\n" + keys + "\n";
 }
 
-/// One mass with one stop; displacement and force of the stop as numbers.
+/// One mass with one stop; displacement and force of the stop are scalars.
 class OneStop {
  public:
   OneStop(const std::string& law, const std::string& keys)
@@ -63,14 +63,15 @@ TEST(Contact, ArctanStopOnOneSideActsEverywhere) {
   }
 }
 
-/// With stops on both sides the nearer one acts, towards which an open arctan stop pulls; at w = 0 neither does.
+/// With stops on both sides the nearer one acts, with a residual force towards it if it is an open arctan
+/// stop; at w = 0 neither acts.
 TEST(Contact, ArctanStopOnBothSidesHasNoForceAtZero) {
   OneStop both("arctan", "gap = 0.01");
   const contact::Arctan law(kStiffness, kLambda);
   const double pull = law.secant(-kGap) * kGap;
   ASSERT_GT(pull, 0.0);
   EXPECT_EQ(both.force(0.0), 0.0);
-  EXPECT_NEAR(both.force(1e-12), pull, 1e-6 * pull);  // 1e-12 m is 1e-10 of the gap.
+  EXPECT_NEAR(both.force(1e-12), pull, 1e-6 * pull);  // 1e-12 m is 1e-10 of the gap
   EXPECT_NEAR(both.force(-1e-12), -pull, 1e-6 * pull);
   EXPECT_LE(pull, law.asymptotic_force());
 }
@@ -86,7 +87,7 @@ TEST_P(ContactDerivative, TangentSecantAndEnergyFitTheForce) {
   const auto [law, sides] = GetParam();
   OneStop one(law, std::string("gap = 0.01\nsides = \"") + sides + "\"");
   const auto slope = [](const auto& f, double w) {
-    constexpr double h = 1e-8;  // A thirtieth of 1/(pi lambda), the width of the boundary layer, is 1e-6.
+    constexpr double h = 1e-8;  // 1/30 of 1/(pi lambda); the boundary layer is 1e-6 wide
     return (8 * (f(w + h) - f(w - h)) - (f(w + 2 * h) - f(w - 2 * h))) / (12 * h);
   };
   for (const double w : {-0.03, -0.01001, -0.00999, -0.004, 0.004, 0.00997, 0.01003, 0.02}) {

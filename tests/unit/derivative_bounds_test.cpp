@@ -14,7 +14,8 @@ namespace {
 
 using integrators::Motion;
 
-/// The vibration cos(omega t), sampled between the ends of quintics in a step of 3 s, short and long beside its period.
+/// The vibration cos(omega t), sampled between the ends of quintics in a step of 3 s; its period is shorter
+/// or longer than the step.
 TEST(DerivativeBounds, BoundTheDepartureFromQuintics) {
   constexpr double kOmega = 2.0, kStep = 3.0;
   SceneRun run(mass_on_spring("4.0", ""));
@@ -46,7 +47,8 @@ TEST(DerivativeBounds, BoundTheDepartureFromQuintics) {
       EXPECT_LE(off_x, x + kRounding) << begin << " " << h;
       EXPECT_LE(off_v, v + kRounding) << begin << " " << h;
       EXPECT_LE(off_a, a + kRounding) << begin << " " << h;
-      // Of one mode with a known energy the bound of short steps is that of the sixth derivative, omega^6: sharp.
+      // For one mode with known energy the bound for short steps uses the sixth derivative, omega^6, and is
+      // sharp.
       const double sixth = std::pow(kOmega, 6);
       if (h < 0.5) {
         EXPECT_LE(x, 1.01 * integrators::quintic_error(h, sixth).x);

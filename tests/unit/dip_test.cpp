@@ -6,7 +6,8 @@
 namespace butee::test::dip_test {
 namespace {
 
-/// height - cos(t - 0.3) with a second harmonic, which no parabola is: its lowest value is height - 1.1, at t = 0.3.
+/// height - cos(t - 0.3) with a second harmonic, so that it is not a parabola: its minimum is height - 1.1,
+/// at t = 0.3.
 double function(double t, double height) {
   return height - std::cos(t - 0.3) - 0.1 * std::cos(2.0 * (t - 0.3));
 }

@@ -12,7 +12,7 @@
 namespace butee::test::element_forces_test {
 namespace {
 
-/// Of the largest value: the solution of a static system of 40 DOFs keeps some eleven digits.
+/// Relative to the largest value: the static solution of 40 DOFs has some eleven correct digits.
 constexpr double kStatic = 1e-9;
 
 std::string probe(const std::string& label, const std::string& node, const std::string& quantities,
@@ -29,7 +29,7 @@ const std::string kLineLoad = "\n[[load]]\ntype = \"distributed\"\nbeam = \"bar\
 
 using Values = std::map<std::string, double>;
 
-/// What the probes of a scene show of a motion.
+/// The probe values of a scene for a given motion.
 class Shown {
  public:
   explicit Shown(const std::string& toml) : session_(std::make_unique<scene::Scene>(read_scene(toml))) {
@@ -110,7 +110,8 @@ TEST(ElementForces, ACantileverUnderALineLoad) {
 }
 
 TEST(ElementForces, TwoSpansUnderALineLoad) {
-  // Of spans L = 1 m and q = 50 N/m upwards: reactions -3/8, -10/8, -3/8 q L, and q L^2 / 8 over the middle.
+  // Spans L = 1 m with q = 50 N/m upwards: reactions -3/8, -10/8, -3/8 q L, and the moment q L^2 / 8 over the
+  // middle support.
   expect_all(Shown(kHeader + kSteelBar + beam("bar", "length = 2.0\nelements = 8") +
                    support(R"(["bar:first", "bar:middle", "bar:last"])", "[\"u\"]") + kLineLoad +
                    probe("left", "bar:first", R"(["reaction", "V", "M"])") +
@@ -185,7 +186,7 @@ TEST(ElementForces, SpringsToGroundBetweenNodesAndAgainstASupport) {
 }
 
 TEST(ElementForces, BeamsThatShareANode) {
-  // The stub carries 40 N at its own tip to the shaft's end; the shaft has 60 N more there.
+  // The stub transmits 40 N from its tip to the shaft's end; another 60 N act on the shaft there.
   expect_all(
       Shown(kHeader + kSteelBar + beam("shaft", "length = 1.0\nelements = 2") +
             beam("stub", "length = 0.5\nelements = 2\nstart_node = \"shaft:last\"") +

@@ -10,14 +10,14 @@ using namespace integrators;
 TEST(ErrorIndicators, CountTheStepsOfACharacteristicTime) {
   EXPECT_EQ(characteristic_steps({2.0, 0.0}, 0.1), 1.0);  // nothing moves
   EXPECT_DOUBLE_EQ(characteristic_steps({2.0, 4.0}, 0.1), 5.0);
-  EXPECT_EQ(characteristic_steps({2.0, 4.0}, 3.0), 1.0);  // a step is longer
+  EXPECT_EQ(characteristic_steps({2.0, 4.0}, 3.0), 1.0);  // the step is longer
   EXPECT_DOUBLE_EQ(ContactScale({2.0, 4.0}).characteristic_time(), 0.5);
   EXPECT_EQ(share_of_run(0.1, 5.0, 1.0), 1.0);
   EXPECT_DOUBLE_EQ(share_of_run(0.1, 5.0, 50.0), 0.1);
 }
 
-/// A path wrong by the allowed change is wrong in its displacement by the tolerance at most, and so is the speed that a
-/// stop makes of it, sigma times the change over h.
+/// An error of the path by the allowed change causes an error within the tolerance in the displacement, and
+/// in the velocity that the stop's force produces, which is sigma times the change over h.
 TEST(ErrorIndicators, AllowChangesWithinTheToleranceOfDisplacementAndSpeed) {
   constexpr double kTolerance = 1e-4;
   for (const double stiff : {1e-6, 0.1, 3.0, 1e4})
@@ -30,7 +30,7 @@ TEST(ErrorIndicators, AllowChangesWithinTheToleranceOfDisplacementAndSpeed) {
         const double floor = kLeastPart * stiff * scale.displacement;
         EXPECT_LE(stiff * change, kTolerance * std::max(h * speed, floor) * (1.0 + 1e-15));
       }
-  EXPECT_GT(allowed_change(kTolerance, 1.0, 1e-3, {0.02, 0.0}), 0.0);  // A stop at rest converges as well.
+  EXPECT_GT(allowed_change(kTolerance, 1.0, 1e-3, {0.02, 0.0}), 0.0);  // a stop at rest converges as well
 }
 
 TEST(ErrorIndicators, WeighTheQuarticTermByTheSpeedThatAStiffStopMakesOfIt) {
@@ -44,7 +44,7 @@ TEST(ErrorIndicators, AskForALongerStepFarBelowTheirBoundAlone) {
   EXPECT_TRUE((StepError{0.0, 1.0}.is_below_growth_limit()));
   EXPECT_TRUE((StepError{0.09, 1.0}.is_below_growth_limit()));
   EXPECT_FALSE((StepError{0.11, 1.0}.is_below_growth_limit()));
-  EXPECT_FALSE((StepError{0.0, 0.0}.is_below_growth_limit()));  // nothing known
+  EXPECT_FALSE((StepError{0.0, 0.0}.is_below_growth_limit()));  // no error information
   EXPECT_EQ((StepError{3.0, 2.0}.ratio()), 1.5);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using namespace integrators;
 
-/// Two masses that strike their stops, which open and close within steps.
+/// Two masses that strike their stops; the stops open and close within steps.
 const std::string kScene = two_masses(R"(
 [[element]]
 type = "spring"
@@ -60,7 +60,8 @@ struct Steps {
   }
 };
 
-/// Outputs within a step end where the state goes on, whether the stops are open, closed or change their status.
+/// Outputs within a step join the end state continuously, whether stops are open, closed or change their
+/// status.
 TEST(ExponentialStep, HasContinuousOutputs) {
   Steps steps;
   EXPECT_GT(steps.contacts, 5);
@@ -78,7 +79,7 @@ TEST(ExponentialStep, HasContinuousOutputs) {
     }
 }
 
-/// The energy that the load puts in is what the masses, the springs and the stops have more.
+/// The work of the load equals the energy gained by masses, springs and stops.
 TEST(ExponentialStep, BalancesItsEnergies) {
   Steps steps;
   const std::vector<double> instants = {0.25 * steps.step.t(), 0.5 * steps.step.t(), steps.step.t()};

@@ -1,4 +1,4 @@
-// Steps that cannot pass a root, on functions whose roots are known by dense sampling.
+// A search that cannot miss a root, on functions whose roots are known by dense sampling.
 #include "integrators/first_change.hpp"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ TEST(SafeStep, NeverPassesARootAndReachesIt) {
     }
     double least = kNever;
     for (double s = 0.0; s < kEnd; s += kSampling) least = std::min(least, g.derivative(0, s));
-    // Some far away from zero, some that nearly touch it, and some that cross it.
+    // Some functions stay far from zero, some nearly touch it, and some cross it.
     const double lift = f % 3 == 0 ? 0.3 : f % 3 == 1 ? 1e-7 : -0.2;
     g.offset = lift - least;
     if (!(g.derivative(0, 0.0) > 0.0)) continue;

@@ -6,7 +6,7 @@
 namespace butee::test::free_motion_test {
 namespace {
 
-/// Three masses in a row: a tied to the ground, b to a; nothing holds c, but where `last` says so.
+/// Three masses in a row: a is connected to ground, b to a, and c only if `last` says so.
 std::string row(const std::string& last) {
   std::string text = "schema = 1\n";
   for (const std::string name : {"a", "b", "c"})
@@ -31,7 +31,7 @@ TEST(FreeMotion, NamesAllThatMoveTogether) {
 }
 
 TEST(FreeMotion, OfABeamWithoutSupportsIsThatOfItsNodes) {
-  for (const int elements : {4, 150}) {  // densely, and by a sparse factor
+  for (const int elements : {4, 150}) {  // dense, and with a sparse factor
     SceneRun run(
         "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = \"circle\"\nradius = "
         "0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nlength = 4.0\nelements "
@@ -39,7 +39,7 @@ TEST(FreeMotion, OfABeamWithoutSupportsIsThatOfItsNodes) {
         std::to_string(elements) +
         "\n[[support]]\nnodes = [\"b:first\"]\nfix = [\"u\"]\n[integrator]\ntype = \"rk4\"\n"
         "time_step = 1e-6\nend_time = 1.0\n");
-    // It turns about its one support: the far end moves most.
+    // It rotates about its single support, so the far end moves most.
     const std::string text = dynamics::describe_softest_motion(run.system().stiffness, run.system().dofs);
     EXPECT_EQ(text.find("u of b:" + std::to_string(elements)), 0U) << text;
     EXPECT_EQ(text.find("theta"), std::string::npos) << text;

@@ -1,4 +1,4 @@
-// Exponential growth told from everything else: growth like t, a jump, fading, and growth with scatter.
+// Distinguishes exponential growth from growth like t, a jump, decay, and growth with scatter.
 #include <cmath>
 #include <functional>
 
@@ -28,7 +28,7 @@ TEST(Growth, OfExponentialMotionIsItsRate) {
 TEST(Growth, OfMotionThatSettlesIsItsRateUpToThere) {
   const auto rate = growth_of([](double t) { return 9.0 * std::min(t, 1.3); }, 4.0).exponential();
   EXPECT_NEAR(rate.rate, 9.0, 0.2);
-  EXPECT_NEAR(rate.until, 1.3, 0.15);  // within e of the largest
+  EXPECT_NEAR(rate.until, 1.3, 0.15);  // within a factor e of the largest value
 }
 
 TEST(Growth, IsNotExponentialWhereItIsAPowerOfTimeAJumpOrFading) {
@@ -46,7 +46,7 @@ TEST(Growth, IsNotExponentialWhereItIsAPowerOfTimeAJumpOrFading) {
 }
 
 TEST(Growth, BetweenTwoInstantsIsTheLargestRise) {
-  // Fades to e^-50, then rises to e^-30: an error made at the turn has grown by e^20.
+  // Decays to e^-50, then grows to e^-30: an error made at the minimum has grown by e^20.
   const auto growth = growth_of([](double t) { return t < 1.0 ? -50.0 * t : -50.0 + 20.0 * (t - 1.0); }, 2.0);
   EXPECT_NEAR(growth.log_between(2.0), 20.0, 1e-9);
   EXPECT_EQ(growth.log_between(0.9), 0.0);

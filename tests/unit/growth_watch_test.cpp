@@ -1,4 +1,4 @@
-// What a run says where it goes wrong: each message names where, why and what to do.
+// Messages of a failing run: each states the place, the cause and a remedy.
 #include <cmath>
 
 #include <butee/core/error.hpp>
@@ -32,10 +32,10 @@ void expect_holds(const std::string& message, const std::vector<std::string>& pa
   for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
 }
 
-constexpr double kHighest = 10050.0;  ///< rad/s, of row_of_masses
+constexpr double kHighest = 10050.0;  ///< rad/s, highest frequency of row_of_masses
 
 TEST(GrowthWatch, StopsAnUnstableRunLongBeforeItOverflows) {
-  const double h = 2.9 / kHighest;  // RK4 grows by 19 % a step.
+  const double h = 2.9 / kHighest;  // RK4 grows by 19 % in each step
   SceneRun run(row_of_masses("type = \"rk4\"\ntime_step = " + to_text(h) + "\n"));
   const time::RunReport& report = run.run();
   EXPECT_FALSE(report.completed);
@@ -59,21 +59,21 @@ TEST(GrowthWatch, NamesTheCriticalStep) {
     const double h = 1.3 * limit / kHighest;
     const double named = critical_step_in(failure_of(row_of_masses(type + to_text(h) + "\n")));
     EXPECT_NEAR(named, limit / kHighest, 1e-2 * named) << method;
-    // What it recommends runs.
+    // A run with the recommended step completes.
     SceneRun stable(row_of_masses(type + to_text(0.9 * named) + "\n"), {"integrator.end_time=0.3"});
     EXPECT_TRUE(stable.run().completed) << stable.simulation().report().message;
   }
 }
 
 TEST(GrowthWatch, SeesGrowthThatIsTooSlowToOverflow) {
-  // 2.83 is beyond 2 sqrt 2 by a hair: the radius is 1.009.
+  // 2.83 is slightly above 2 sqrt 2: the spectral radius is 1.009.
   const std::string message =
       failure_of(row_of_masses("type = \"rk4\"\ntime_step = " + to_text(2.832 / kHighest) + "\n"));
   expect_holds(message, {"grows without a cause", "critical step"});
 }
 
 TEST(GrowthWatch, SeesWhatIsBeyondAnyNumberAtItsFirstLook) {
-  // Ten decades a step: the energy of the sixteenth is inf - inf.
+  // Ten decades in each step: the energy after the sixteenth is inf - inf.
   const double h = 1e3 / kHighest;
   SceneRun run(row_of_masses("type = \"rk4\"\ntime_step = " + to_text(h) + "\n"),
                {"integrator.end_time=" + to_text(16.0 * h)});
@@ -82,7 +82,8 @@ TEST(GrowthWatch, SeesWhatIsBeyondAnyNumberAtItsFirstLook) {
                {"grows without a cause", "more than a number can hold", "critical step"});
 }
 
-/// Gains much over 256 steps and loses little over the next, so that no run of looks grows without end.
+/// Gains much over 256 steps and loses little over the next 256, so that no sequence of checks shows
+/// continuous growth.
 class Ratchet final : public time::Integrator {
  public:
   using Integrator::Integrator;
@@ -111,7 +112,7 @@ TEST(GrowthWatch, SeesGrowthThatFallsBackNowAndThen) {
 }
 
 TEST(GrowthWatch, LetsLoadsDoTheirWork) {
-  // Resonance without damping for a thousand periods, and a load that comes after a long rest.
+  // Resonance without damping for a thousand periods, and a load that starts after a long rest.
   for (const std::string load :
        {"type = \"harmonic\"\namplitude = 5.0\nangular_frequency = 100.0\n",
         "type = \"table\"\ntimes = [0.0, 30.0, 30.001, 30.002]\nvalues = [0.0, 0.0, 1e6, 0.0]\n"})
@@ -178,7 +179,7 @@ TEST(Diagnosis, SaysWhyAStepFellBelowItsFloor) {
   expect_holds(message, {"floor", "t = 0.1", "u of small"});
 }
 
-/// Goes nowhere: after a first step of half the run it asks for steps of one length.
+/// Makes almost no progress: after a first step of half the run it requests very short steps of one length.
 class Crawler final : public time::Integrator {
  public:
   Crawler(dynamics::Dynamics& dynamics, double h) : Integrator(dynamics), controller_(h) {}
@@ -216,7 +217,8 @@ TEST(Diagnosis, StopsARunThatWouldNeverEnd) {
 }
 
 TEST(Diagnosis, NamesTheMotionThatNoMassResists) {
-  // Of two nodes, a beam's consistent mass gives its theta; a rotary inertia of 1e-30 beside 1e9 kg is lost.
+  // The beam's consistent mass gives inertia to theta of two nodes; a rotary inertia of 1e-30 beside 1e9 kg
+  // is lost in rounding.
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1e300\n[[element]]\ntype = \"mass\"\nname = "
       "\"b\"\nmass = 1e-320\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 1.0\n"

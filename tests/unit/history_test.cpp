@@ -13,7 +13,8 @@
 namespace butee::test::history_test {
 namespace {
 
-/// Every method and every interpolant here is exact for a parabola: rounding of some hundred steps is left.
+/// Every method and interpolant here is exact for a parabola; only the rounding of some hundred steps
+/// remains.
 constexpr double kExact = 1e-12;
 
 /// A mass under a constant force, u = F t^2/(2 m) = t^2, v = 2 t, a = 2.
@@ -27,7 +28,7 @@ quantities = ["v", "u", "a", "contact_force"]
 )";
 }
 
-/// Runs the scene with a history, as the program does, and reads the file back.
+/// Runs the scene with a history like the program, and reads the file.
 class Recorded {
  public:
   explicit Recorded(const std::string& toml) : run_(toml) {
@@ -152,14 +153,14 @@ node       = "ball"
 quantities = ["v"]
 )" + mass("ball", "2.0");
   const Recorded recorded(scene);
-  // u = -1.5 sin t, which is small in all rows; the step next to its peak misses it by less than h^2/8.
+  // u = -1.5 sin t is small in all rows; the step nearest to its peak differs from it by less than h^2/8.
   EXPECT_NEAR(recorded.peaks.at("swing.u"), 1.5, 1.5 * 0.01 * 0.01 / 8);
   EXPECT_NEAR(recorded.peaks.at("swing.v"), 1.5, kExact);
   EXPECT_EQ(recorded.table->header(), (std::vector<std::string>{"t", "swing.v", "h"}));
 }
 
 TEST(History, PeaksOfElementForcesAreThoseOfTheRows) {
-  // A soft spring: its force is a thousandth of the displacement, so that one cannot pass for the other.
+  // A soft spring: its force is a thousandth of the displacement, so the two cannot be confused.
   const std::string scene = R"(
 schema = 1
 
@@ -189,7 +190,7 @@ quantities = ["spring_force"]
   EXPECT_NEAR(recorded.peaks.at("swing.u"), 1.5, kExact);
 }
 
-/// The probe adds up all stops on the node: F = -k (u - gap) to ground, and the pair's share with its sign.
+/// The probe sums all stops at the node: F = -k (u - gap) to ground, and the force of the pair with its sign.
 TEST(History, ContactForceIsTheSumOverTheStopsOfANode) {
   const std::string scene = R"(
 schema = 1

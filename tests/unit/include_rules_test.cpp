@@ -23,7 +23,7 @@ Names with(Names names, const Names& others) {
 const Names kAllRooms = {"core",   "config", "model",  "linalg", "dynamics", "time",
                          "plugin", "scene",  "record", "run",    "study",    "embed"};
 
-/// The rooms of the framework that a folder may include.
+/// The framework folders from which a folder may include headers.
 Names allowed_rooms(const std::string& folder) {
   static const Names to_model = {"core", "config", "model"},
                      to_time = {"core", "config", "model", "linalg", "dynamics", "time"};
@@ -49,7 +49,7 @@ Names allowed_rooms(const std::string& folder) {
   return rules.at(folder);
 }
 
-/// Third-party headers and the only files, or folders, that may include them.
+/// Third-party headers, and the only files or folders that may include them.
 const std::map<std::string, Names> kDoors = {
     {"suitesparse/", {"framework/linalg/symmetric_factor.cpp", "framework/linalg/general_factor.cpp"}},
     {"toml.hpp", {"framework/config/toml.cpp"}},
@@ -120,7 +120,7 @@ TEST(IncludeRules, FoldersKnowEachOtherOnlyWhereTheyMay) {
   EXPECT_GT(checked, 20);
 }
 
-/// Which folders each folder includes, itself left out.
+/// For each folder, the other folders from which it includes headers.
 std::map<std::string, Names> folder_graph() {
   std::map<std::string, Names> graph;
   for (const Include& include : all_includes()) {
@@ -131,7 +131,7 @@ std::map<std::string, Names> folder_graph() {
   return graph;
 }
 
-/// Extends `way` to the first folder that is met again; false where there is none.
+/// Extends `way` along includes until a folder repeats; false if there is no cycle.
 bool comes_back(const std::map<std::string, Names>& graph, std::vector<std::string>& way) {
   const auto next = graph.find(way.back());
   if (next == graph.end()) return false;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The digest of layout() for each BUTEE_INTERFACE_VERSION since the test exists, of 64-bit libstdc++.
+/// The digest of layout() for each BUTEE_INTERFACE_VERSION recorded by this test, for 64-bit libstdc++.
 const std::map<int, std::uint64_t> kDigests = {
     {9, 0xbefe495462ff291b},
     {10, 0xd8555c349d44de36},
@@ -26,7 +26,8 @@ const std::map<int, std::uint64_t> kDigests = {
     {12, 0xd26b3f2cbf556dcd},
 };
 
-/// The rooms whose types modules derive from, hold or pass; what scenes, records and embedding have stays on one side.
+/// The folders whose types modules derive from, store or pass. Types of scenes, records and embedding do not
+/// cross this interface.
 constexpr const char* kRooms[] = {"core", "config", "model", "linalg", "dynamics", "time", "plugin"};
 
 template <class Type>
@@ -34,7 +35,7 @@ std::string line_of(const char* name) {
   return std::string(name) + " " + std::to_string(sizeof(Type)) + " " + std::to_string(alignof(Type)) + "\n";
 }
 
-/// How far a member lies behind the beginning of its struct.
+/// The offset of a member in its struct.
 template <class Struct, class Member>
 std::string place_of(const char* name, Member Struct::*member) {
   const Struct whole{};
@@ -42,7 +43,8 @@ std::string place_of(const char* name, Member Struct::*member) {
   return std::string(name) + " at " + std::to_string(reinterpret_cast<const char*>(&(whole.*member)) - begin) + "\n";
 }
 
-/// Every virtual function of the installed headers in its order, which is that of the table of functions.
+/// All virtual functions of the installed headers in order of declaration, which is their order in the
+/// virtual function table.
 std::string virtual_functions() {
   const std::regex declaration(R"(\n\s*virtual\s[^;{]*)"), space(R"(\s+)");
   std::string all;

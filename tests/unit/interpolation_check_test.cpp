@@ -75,8 +75,9 @@ TEST(InterpolationCheck, BoundsTheErrorOfQuintics) {
   EXPECT_EQ(within, 8);
 }
 
-/// Of the displacement in the middle, where an even error is largest, or of the speed there, by which an odd one is
-/// estimated; of a sum of both the larger part is known.
+/// The error is known from the middle of the step: from the displacement there, where an even error is
+/// largest, or from the velocity there, which gives an estimate of an odd error. For a sum of both, the
+/// larger part is known.
 TEST(InterpolationCheck, KnowsTheErrorOfQuinticsByTheMiddleOfTheStep) {
   Vibration vibration;
   InterpolationCheck check(vibration.modal, kTolerance);

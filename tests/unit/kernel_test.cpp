@@ -1,5 +1,5 @@
-// The kernels of framework/linalg and framework/dynamics on every instruction set that this processor has, against
-// plain loops; modules for one set.
+// The kernels of framework/linalg and framework/dynamics on every instruction set of this processor, compared
+// with plain loops; modules for one instruction set.
 #include <cmath>
 #include <filesystem>
 
@@ -21,7 +21,7 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::MatrixXd;
 
-/// Sums of up to 100 products of numbers up to 1, in another order and perhaps fused.
+/// Sums of up to 100 products of numbers up to 1, in another order and possibly with fused operations.
 constexpr double kRounding = 1e-14;
 
 Vector wave(Index size, double phase) {
@@ -36,7 +36,7 @@ MatrixXd waves(Index rows, Index columns) {
   return a;
 }
 
-/// One instruction set after the other.
+/// Runs a test on each instruction set.
 class Kernels : public testing::Test {
  protected:
   template <class Check>
@@ -68,7 +68,7 @@ TEST_F(Kernels, DenseProducts) {
       const MatrixXd a = waves(rows, columns);
       const linalg::DenseProduct product(a);
       const Vector x0 = wave(columns, 0.1), x1 = wave(columns, 0.9);
-      // What lies behind the rows is left alone.
+      // Data beyond the rows must not change.
       Vector y0 = Vector::Constant(rows + 1, 7.0), y1 = y0;
       product.multiply(x0.data(), y0.data());
       EXPECT_LE((y0.head(rows) - a * x0).lpNorm<Eigen::Infinity>(), kRounding * 10.0) << rows;
@@ -86,7 +86,7 @@ TEST_F(Kernels, DenseProducts) {
   });
 }
 
-/// `uniform`: rows repeat, so that large matrices share them.
+/// `uniform`: rows repeat, so that large matrices share them in storage.
 SparseMatrix band_matrix(Index size, Index band, bool uniform) {
   SparseMatrix matrix(size, size);
   std::vector<Eigen::Triplet<double>> entries;
@@ -167,7 +167,7 @@ TEST_F(Kernels, SumsOfForces) {
 
 constexpr double kStep = 0.01;
 
-/// Modes 0 ... n-1 rad/s, the first of them rigid, without damping.
+/// Modes of 0 ... n-1 rad/s without damping; the first is rigid.
 dynamics::ModalPropagator modes_over(double h, Index count,
                                      const std::vector<dynamics::ModalHarmonic>& harmonics = {}) {
   return {ArrayXd::LinSpaced(count, 0.0, static_cast<double>(count - 1)), ArrayXd::Zero(count), harmonics, h};
@@ -185,14 +185,14 @@ TEST_F(Kernels, SeriesOfModes) {
         EXPECT_NEAR(flow.vv()[i], std::cos(angle), kRounding);
         EXPECT_NEAR(flow.qv()[i], std::sin(angle) / omega, kRounding);
         EXPECT_NEAR(flow.vq()[i], -omega * std::sin(angle), kRounding * omega);
-        // By the constant 1 and by 2 t/h - 1.
+        // Response to the forces 1 and 2 t/h - 1.
         const double half = std::sin(0.5 * angle), constant = 2.0 * half * half / (omega * omega);
         EXPECT_NEAR(flow.force_q(0)[i], constant, kRounding * h * h);
         EXPECT_NEAR(flow.force_v(0)[i], std::sin(angle) / omega, kRounding * h);
         // Cancellation of the closed form
         const double linear = (1.0 - std::sin(angle) / angle) / (omega * omega);
         EXPECT_NEAR(flow.force_q(1)[i], 2.0 * linear - constant, 1e-15 / (omega * omega));
-        // q'' + omega^2 q = cos(Omega t), then sin: their cosine and sine parts, at rest at the start.
+        // Response of q'' + omega^2 q to cos(Omega t) and to sin(Omega t) from rest.
         const double rate = load.angular_frequency, below = omega * omega - rate * rate;
         const double by_cosine = (std::cos(rate * h) - std::cos(angle)) / below;
         const double by_sine = (std::sin(rate * h) - rate / omega * std::sin(angle)) / below;
@@ -228,7 +228,7 @@ TEST_F(Kernels, WhatForcesDoToStops) {
         v.array() += kStep * flow.whole.force_v(k) * shapes.col(i).array() * f;
       }
       const double f0 = force[0][i], f1 = force[1][i], f2 = force[2][i];
-      // P_1 and P_2 of the step in those of its first half
+      // Legendre polynomials P_1 and P_2 of the step, expressed in those of its first half
       q_half.array() +=
           shapes.col(i).array() * ((f0 - 0.5 * f1) * flow.half.force_q(0) +
                                    (0.5 * f1 - 0.75 * f2) * flow.half.force_q(1) + 0.25 * f2 * flow.half.force_q(2));
@@ -247,7 +247,7 @@ TEST_F(Kernels, WhatForcesDoToStops) {
       EXPECT_LE((motion.speed - expected.speed).abs().maxCoeff(), allowed);
       EXPECT_LE((motion.middle - expected.middle).abs().maxCoeff(), allowed);
     }
-    // In the second register alone, and a force that is no number.
+    // Only in the second register; then a force that is NaN.
     dynamics::StopMotion part = at_rest();
     flow.add_force(4, {1.0, 0.0, 0.0}, 0.3, std::vector<Index>{second}, part);
     EXPECT_EQ(part.end.head(second).abs().maxCoeff(), 0.0);
@@ -256,7 +256,7 @@ TEST_F(Kernels, WhatForcesDoToStops) {
   });
 }
 
-/// What is no module at all tells which file was taken.
+/// The message for a file that is not a module names the selected file.
 std::string taken(const std::string& path) {
   try {
     (void)plugin::load_module(path);

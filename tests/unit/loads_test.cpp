@@ -7,14 +7,14 @@
 namespace butee::test::loads_test {
 namespace {
 
-/// A few operations on numbers of one size.
+/// Rounding of a few operations on numbers of similar size.
 constexpr double kRounding = 1e-14;
 
 std::string load(const std::string& keys) {
   return "\n[[load]]\n" + keys + "\n";
 }
 
-/// F(t) on a lone mass under the given loads.
+/// F(t) on a lone mass for the given loads.
 class LoadedMass {
  public:
   explicit LoadedMass(const std::string& loads) : scene_(kHeader + mass("ball", "2.0") + loads) {}
@@ -92,8 +92,8 @@ TEST(Load, OnThetaIsAMoment) {
   EXPECT_EQ(force.lpNorm<1>(), 40.0);
 }
 
-/// q l/2 and q l^2/12 at the ends of every element, times the course in time. They do the
-/// same work as the load on the Hermite cubics.
+/// q l/2 and q l^2/12 at the ends of every element, times the time function. They do the same work as the
+/// load on the Hermite cubics.
 TEST(Load, DistributedHasConsistentNodalLoadsInTime) {
   constexpr double kLoad = -600.0;
   SceneRun scene(kHeader + kSteelBar + beam("arm", "coordinates = [0.0, 0.5, 2.0]") +

@@ -10,17 +10,18 @@
 namespace butee::test::modal_damping_test {
 namespace {
 
-/// Machine precision times the condition of these systems; the worst of all comparisons differs by 1.3e-12.
+/// Machine precision times the condition number of these systems; the largest difference is 1.3e-12.
 constexpr double kRounding = 1e-11;
-/// Of the lowest modes of a finer mesh alone, by two ways that reduce to a standard problem differently: they differ by
-/// rounding times the factor of 1e7 between highest and lowest eigenvalue. The worst difference is 1.2e-10.
+/// For the lowest modes of a finer mesh: two methods reduce the problem to standard form differently. They
+/// differ by rounding times the ratio 1e7 of the highest to the lowest eigenvalue. The largest difference is
+/// 1.2e-10.
 constexpr double kTwoReductions = 1e-9;
-/// For the mesh that Lanczos is used on, the dense solution it is compared with loses digits too: lowest and highest
-/// eigenvalue are a factor of 1e9 apart. The worst difference is 1e-9.
+/// On the mesh for which Lanczos is used, the dense reference solution also loses digits: the ratio of the
+/// highest to the lowest eigenvalue is 1e9. The largest difference is 1e-9.
 constexpr double kLanczos = 1e-8;
 
-/// Two pinned beams coupled by a spring with a dashpot, one on a spring to ground, stops to ground and between them: 4
-/// elements + 2 DOFs.
+/// Two pinned beams coupled by a spring with a dashpot, one of them on a spring to ground, with stops to
+/// ground and between the beams: 4 elements + 2 DOFs.
 std::string two_beams(int elements, const std::string& modal) {
   const std::string mesh = "length = 2.0\nelements = " + std::to_string(elements);
   return kHeader + kSteelBar + beam("rotor", mesh) + beam("casing", mesh) +
@@ -91,7 +92,7 @@ struct Case {
   const char* name;
   int elements;
   const char* modal;
-  std::vector<double> ratios;  ///< one for all modes, or the list
+  std::vector<double> ratios;  ///< one ratio for all modes, or a list
   double tolerance;
 };
 
@@ -99,7 +100,7 @@ std::ostream& operator<<(std::ostream& stream, const Case& one) {
   return stream << one.name;
 }
 
-/// Every way there is: an inverse, a dense factor, Woodbury on a narrow band and on a sparse factor, Lanczos.
+/// All algorithms: an inverse, a dense factor, Woodbury on a narrow band and on a sparse factor, Lanczos.
 std::vector<Case> cases() {
   return {{"all_modes_of_a_small_system", 4, "0.03", {0.03}, kRounding},
           {"all_modes_of_a_larger_one", 28, "0.03", {0.03}, kRounding},
@@ -211,7 +212,7 @@ TEST(ModalDampingOfAFreeBeam, LeavesRigidMotionAlone) {
       Vector shift = Vector::Zero(scene.system().size()), force(shift.size());
       for (Index i = 0; i < shift.size(); i += 2) shift[i] = 1.0;
       scene.dynamics().damping_force(shift, force);
-      // Of the damping force of a bending motion of the same size, 1e5 N s/m.
+      // Relative to the damping force of a bending motion of the same size, 1e5 N s/m.
       EXPECT_LE(force.norm(), 1e-3);
     }
 }
@@ -224,7 +225,7 @@ TEST(ModalDampingOfAFreeBeam, RefusesARatioForRigidMotion) {
 }
 
 TEST(LowestModes, AreFoundAlsoWhereTwoAreEqual) {
-  // Two beams that know nothing of each other: every frequency is there twice.
+  // Two uncoupled beams: every frequency occurs twice.
   const std::string mesh = "length = 2.0\nelements = 80";
   const SceneRun scene(kHeader + kSteelBar + beam("a", mesh) + beam("b", mesh) +
                        support(R"(["a:first", "a:last", "b:first", "b:last"])", R"(["u"])"));

@@ -13,10 +13,11 @@ using dynamics::ModalMotion;
 using dynamics::ModalPropagator;
 using Eigen::ArrayXd;
 
-/// Relative to the largest of what makes up the motion: rounding of that and of the flow's doublings.
+/// Rounding of the largest term of the motion, and of the propagator's doublings, relative to that term.
 constexpr double kTight = 1e-12;
 
-/// Rigid, rigid but braked, slow, damped, in resonance, near to critical, overdamped, and ever faster ones.
+/// Rigid, rigid with damping, slow, damped, resonant, nearly critical, overdamped, and increasingly fast
+/// modes.
 struct Modes {
   ArrayXd omega = ArrayXd(19), delta = ArrayXd::Zero(19);
   std::vector<ModalHarmonic> loads;
@@ -32,8 +33,8 @@ struct Modes {
   }
 };
 
-/// The largest difference between q and v from ModalMotion and from a ModalPropagator over the same time, each mode
-/// relative to the size of what it is made of.
+/// The largest difference in q and v between ModalMotion and a ModalPropagator over the same time, for each
+/// mode relative to its largest term.
 double difference(const Modes& modes, double h, double part) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
@@ -45,7 +46,8 @@ double difference(const Modes& modes, double h, double part) {
   for (ArrayXd& moment : f) moment *= modes.omega.square() + 1.0;
   const double t = 0.31, tau = part * h;
   ModalMotion motion(modes.omega, modes.delta, modes.loads, modes.others);
-  // The forces over the part alone, as the flow has them: one of them in the step, the others added.
+  // The forces over the partial step alone, as the propagator applies them: one within the step, the others
+  // added.
   const auto padded = [](const ArrayXd& array) {
     Vector all = Vector::Zero(ModalMotion::padded(array.size()));
     all.head(array.size()) = array;
@@ -87,7 +89,7 @@ TEST(ModalMotion, AgreesWithTheFlowOverTheSameTimeForEveryInstructionSet) {
 }
 
 TEST(ModalMotion, ForcesOfTheWholeStepHoldWithinIt) {
-  // f = 2 s - 1 and 6 s^2 - 6 s + 1 on a rigid mass from rest: closed forms.
+  // f = 2 s - 1 and 6 s^2 - 6 s + 1 on a rigid mass from rest, in closed form.
   const ArrayXd zero = ArrayXd::Zero(1);
   const std::vector<ModalHarmonic> none;
   const std::vector<dynamics::ModalSystem::OtherLoad> no_other;

@@ -21,13 +21,13 @@ ArrayXd array(std::initializer_list<double> values) {
   return a;
 }
 
-/// Rigid, rigid but braked, slow, fast, damped, critical, overdamped.
+/// Rigid, rigid with damping, slow, fast, damped, critical, overdamped.
 const ArrayXd kOmega = array({0.0, 0.0, 1e-3, 4.0, 900.0, 7.0, 3.0, 2.0});
 const ArrayXd kDelta = array({0.0, 0.5, 0.0, 0.1, 30.0, 7.0, 11.0, 400.0});
 const std::vector<ModalHarmonic> kLoads = {{4.0, ArrayXd::Constant(8, 1.5), ArrayXd::Constant(8, -0.7)},
                                            {50.0, ArrayXd::LinSpaced(8, -1, 1), ArrayXd::Zero(8)}};
 
-/// By Runge and Kutta with very many steps, of order 4: independent of the flow's series and doublings.
+/// Fourth-order Runge-Kutta with very many steps: independent of the propagator's series and doublings.
 struct State {
   double q, v;
 };
@@ -50,7 +50,7 @@ State integrate(double omega, double delta, double h, State s, Force force) {
 }
 
 TEST(ModalPropagator, AgreesWithManyRungeKuttaSteps) {
-  // Fourth order with (omega d) of 1/1500 a step leaves about 1e-12 and the rounding of 1e5 additions.
+  // Fourth order with a step of (omega d) = 1/1500 leaves about 1e-12, plus the rounding of 1e5 additions.
   constexpr double kRungeKutta = 1e-10;
   const double h = 0.07, t = 0.31;
   ModalPropagator flow(kOmega, kDelta, kLoads, h);
@@ -119,7 +119,7 @@ TEST(ModalPropagator, RefiningChangesNothingButRounding) {
   EXPECT_LT((flow.vv() - refined.vv()).abs().maxCoeff(), kTight);
 }
 
-/// The displacement of a stop by its own force, one way and the other.
+/// The displacement of a stop by its own force, computed in two ways.
 TEST(ContactPropagator, MobilitiesAreWhatAConstantForceDoes) {
   Eigen::MatrixXd shapes(8, 3);
   for (Index i = 0; i < 8; ++i)

@@ -16,13 +16,13 @@ using std::numbers::pi;
 constexpr double kLength = 35.0;
 /// The order of frequencies in the element length.
 constexpr double kOrder = 4.0, kOrderError = 0.05;
-/// Two ways to the same eigenvalue in double precision, of which the lowest is 1e-9 of the highest.
+/// Two algorithms for the same eigenvalue in double precision; the lowest eigenvalue is 1e-9 of the highest.
 constexpr double kDenseRounding = 1e-6;
-/// Of Phi^T M Phi and Phi^T K Phi: rounding of shapes.
+/// Tolerance of Phi^T M Phi and Phi^T K Phi: rounding of the shapes.
 constexpr double kOrthogonal = 1e-10;
-/// What the doubles of an element's matrix may move at 5e3 elements: 24 eps N^2 / pi^2.
+/// Relative change by double-precision rounding of the element matrices at 5e3 elements: 24 eps N^2 / pi^2.
 constexpr double kRoundingAtFiveThousand = 2e-8;
-/// The bound on that which the modes come with, several times larger; and their residuals.
+/// Limit for the rounding bound computed with the modes, several times larger, and for their residuals.
 constexpr double kBoundAtFiveThousand = 2e-7;
 
 std::string rod(const std::string& name, int elements) {
@@ -80,7 +80,7 @@ TEST(Modes, MeetClosedFormsWithOrderFourByBothSolvers) {
         const double frequency = exact(ends.roots[static_cast<std::size_t>(i)]);
         const double e1 = first.frequencies[i + ends.rigid] / frequency - 1.0;
         const double e2 = second.frequencies[i + ends.rigid] / frequency - 1.0;
-        // Of the finest meshes, only what is not within the rounding of their elements.
+        // On the finest meshes, modes dominated by the rounding of element matrices are skipped.
         if (second.rounding[i + ends.rigid] > kOrderError * e2) continue;
         ++checked;
         EXPECT_NEAR(std::log2(e1 / e2), kOrder, kOrderError) << ends.name << " mode " << i << ", " << coarse;
@@ -104,7 +104,7 @@ TEST(Modes, AreOrthonormalAndSolveTheEigenvalueProblem) {
   for (Index i = 6; i < 12; ++i) EXPECT_NEAR(modes.frequencies[i] / std::sqrt(dense[i]), 1.0, kDenseRounding) << i;
 }
 
-/// Numbered along the beam or any other way, which fills the mass matrix's factor.
+/// Numbered along the beam, or irregularly, which fills the factor of the mass matrix.
 TEST(DensePairs, OfSparseMatricesSolveTheEigenvalueProblem) {
   const SceneRun scene(kHeader + kSteelBar + rod("rod", 17) + pinned("rod"));
   const Index n = scene.system().mass.rows();
@@ -143,7 +143,7 @@ TEST(Modes, FindEveryCopyOfEqualFrequencies) {
   const auto modes = modes_of(run, 2 * kBeams + 3);
   EXPECT_FALSE(modes.dense);
   for (Index i = 0; i < modes.frequencies.size(); ++i)
-    EXPECT_NEAR(modes.frequencies[i] / exact(static_cast<double>(i / kBeams + 1) * pi), 1.0, 1e-4) << i;  // the mesh
+    EXPECT_NEAR(modes.frequencies[i] / exact(static_cast<double>(i / kBeams + 1) * pi), 1.0, 1e-4) << i;  // mesh error
   const Eigen::MatrixXd mass = modes.shapes.transpose() * run.system().mass * modes.shapes;
   EXPECT_LT((mass - Eigen::MatrixXd::Identity(mass.rows(), mass.cols())).cwiseAbs().maxCoeff(), kOrthogonal);
 }
@@ -153,12 +153,13 @@ TEST(Modes, CountTheRigidMotionsOfAllBodies) {
   const auto modes = modes_of(two, 6);
   EXPECT_FALSE(modes.dense);
   EXPECT_EQ(modes.rigid, 4);
-  EXPECT_NEAR(modes.frequencies[4] / exact(refined(4.730041, 1)), 1.0, 1e-5);  // the mesh
+  EXPECT_NEAR(modes.frequencies[4] / exact(refined(4.730041, 1)), 1.0, 1e-5);  // mesh error
   EXPECT_EQ(modes_of(two, 3).rigid, 3);
   EXPECT_EQ(modes_of(SceneRun(kHeader + mass("ball", "2.0")), 1).rigid, 1);
 }
 
-/// A body on a spring so soft that its frequency is 1e-7 of the first bending frequency is no rigid motion.
+/// A body on a spring so soft that its frequency is 1e-7 of the first bending frequency does not count as
+/// rigid.
 TEST(Modes, TellASoftSpringFromRigidMotion) {
   const std::string soft = "\n[[element]]\ntype = \"spring\"\nnode = \"ball\"\nstiffness = 2.0e-14\n";
   for (const int elements : {20, 100}) {
@@ -169,7 +170,7 @@ TEST(Modes, TellASoftSpringFromRigidMotion) {
   }
 }
 
-/// In double precision the factor of this K has lost most of the lowest frequency (N^4 eps = 0.1).
+/// In double precision the factor of this K would lose most digits of the lowest frequency (N^4 eps = 0.1).
 TEST(Modes, HoldABeamOfTenThousandDegreesOfFreedom) {
   for (const Ends& ends : all_ends()) {
     const SceneRun scene(kHeader + kSteelBar + rod("rod", 5000) + ends.supports);
@@ -184,7 +185,7 @@ TEST(Modes, HoldABeamOfTenThousandDegreesOfFreedom) {
   }
 }
 
-/// K with a closed stop is the same structure with a spring there.
+/// K with a closed stop equals that of the structure with a spring in its place.
 TEST(Modes, TakeAClosedStopAsASpring) {
   const std::string plain = kHeader + kSteelBar + rod("rod", 20) + pinned("rod");
   const SceneRun with_spring(plain + "\n[[element]]\ntype = \"spring\"\nnode = \"rod:7\"\nstiffness = 3.0e4\n");

@@ -11,7 +11,7 @@ using config::Array;
 using config::parse_toml;
 using config::Value;
 
-/// `count` numbers, each behind `before`, as the text of an array.
+/// The text of an array of `count` numbers, with `before` in front of each.
 std::string array_of(int count, const std::string& number, const std::string& before = " ") {
   std::string text = "[";
   for (int i = 0; i < count; ++i) text += (i > 0 ? "," : "") + before + number;

@@ -10,7 +10,7 @@
 namespace butee::test::obstacles_test {
 namespace {
 
-/// Two masses on springs in both directions, the contacts given.
+/// Two masses on springs in both directions, with the given contacts.
 std::string bodies(const std::string& contacts) {
   std::string toml = "schema = 1\n";
   if (contacts.find("radius") != std::string::npos) toml += "[rotation]\nspeed = 3.0\n";
@@ -25,7 +25,7 @@ std::string bodies(const std::string& contacts) {
 
 const std::string kRing = "[[contact]]\ntype = \"ring\"\nbetween = [\"a\", \"b\"]\ngap = 0.1\nradius = 0.3\n";
 
-/// Contacts of all kinds and laws, pressed at the motion below.
+/// Contacts of all kinds and laws, closed in the motion below.
 const std::vector<std::string>& all_contacts() {
   static const std::vector<std::string> all = {
       kRing + "stiffness = 100.0\n",
@@ -103,7 +103,8 @@ TEST(Obstacles, HaveTheTangentsThatDifferencesGive) {
   }
 }
 
-/// A node with rx is twisted by friction at a radius: the tangents hold the torque and what rx does to the slip.
+/// Friction at a radius twists a node with rx: the tangents contain the torque, and the contribution of rx to
+/// the slip.
 TEST(Obstacles, TwistANodeThatTurns) {
   const std::string body =
       "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"a\"\nmass = 2.0\ndiametral_inertia = 0.1\npolar_inertia = "
@@ -177,7 +178,7 @@ TEST(TangentSolver, SolvesAsAFullFactorizationDoes) {
   }
 }
 
-/// The closed forms of C1, C2 and C4, which impact_damping_test checks by integration.
+/// The closed forms C1, C2 and C4, which impact_damping_test checks by integration.
 TEST(ContactTables, InvertTheRestitution) {
   EXPECT_NEAR(scene::kelvin_voigt_ratio(0.4, true), 0.2799979933, 1e-9);
   EXPECT_NEAR(scene::kelvin_voigt_ratio(0.7440793977, false), 0.1, 1e-9);

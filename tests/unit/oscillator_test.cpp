@@ -9,11 +9,11 @@ namespace {
 using Eigen::ArrayXd;
 using integrators::Oscillator;
 
-/// Relative to the size of the motion; the closed form loses a digit where it takes over from the series.
+/// Relative to the size of the motion; the closed form loses a digit where it replaces the series.
 constexpr double kTight = 1e-11;
 
 TEST(Oscillator, AgreesWithTheFlowInSeriesAndClosedForm) {
-  // Force c_0 + c_1 s + c_2 s^2 of s = time/t, in powers of time for one and in Legendre polynomials for the other.
+  // The force c_0 + c_1 s + c_2 s^2 with s = time/t, in powers of time and in Legendre polynomials.
   const double c0 = 0.7, c1 = -1.3, c2 = 0.4, q = 0.3, v = -0.9;
   int moved = 0;
   for (const double omega : {0.0, 0.02, 1.0, 9.0})

@@ -1,4 +1,4 @@
-// A part of a system against the same scene with everything else supported.
+// A part of a system, compared with the same scene with all other DOFs supported.
 #include <algorithm>
 
 #include <butee/model/part.hpp>
@@ -17,8 +17,8 @@ std::string load(const std::string& node) {
   return "\n[[load]]\ntype = \"harmonic\"\nnode = \"" + node + "\"\namplitude = 2.0\nangular_frequency = 3.0\n";
 }
 
-/// Two beams side by side, tied in their middles by a dashpot, with a stop between two other nodes and some against the
-/// ground.
+/// Two beams side by side, connected in their middles by a dashpot, with a stop between two other nodes and
+/// stops to ground.
 std::string two_beams(const std::string& more = "") {
   const std::string mesh = "length = 8.0\nelements = 8";
   return kHeader + kSteelBar + "\n[damping]\nmass_proportional = 0.1\n" + beam("a", mesh) + beam("b", mesh) +

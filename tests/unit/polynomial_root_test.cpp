@@ -29,19 +29,19 @@ TEST(PolynomialRoot, SeparatesRootsThatLieClose) {
   PolynomialRoot finder(12);
   const auto root = finder.first(polynomial({0.5 + 1e-6, 0.5}, 1.0));
   ASSERT_TRUE(root);
-  EXPECT_NEAR(*root, 0.5, 1e-9);  // a root of a pair 1e-6 apart is known to rounding over that distance
+  EXPECT_NEAR(*root, 0.5, 1e-9);  // for two roots 1e-6 apart, the error is rounding over that distance
 }
 
 TEST(PolynomialRoot, FindsNoneOutsideOrWhereItOnlyTouches) {
   PolynomialRoot finder(12);
   EXPECT_FALSE(finder.first(polynomial({1.2, -0.3}, 1.0)));
-  EXPECT_FALSE(finder.first(std::vector<double>{1.0, -2.0, 1.0000001}));  // least value 1e-7 near s = 1
+  EXPECT_FALSE(finder.first(std::vector<double>{1.0, -2.0, 1.0000001}));  // minimum 1e-7 near s = 1
   EXPECT_FALSE(finder.first(std::vector<double>{0.0, 0.0, 0.0}));
 }
 
 TEST(PolynomialRoot, LeavesOutTheRootAtTheStart) {
   PolynomialRoot finder(12);
-  const auto root = finder.first(polynomial({0.0, 0.25}, -1.0));  // s (0.25 - s): leaves zero upwards
+  const auto root = finder.first(polynomial({0.0, 0.25}, -1.0));  // s (0.25 - s): increases from zero
   ASSERT_TRUE(root);
   EXPECT_NEAR(*root, 0.25, 1e-14);
 }

@@ -81,15 +81,15 @@ TEST_F(Program, RunWritesItsResults) {
   EXPECT_EQ(json["t_end"], 0.5);
   EXPECT_EQ(json["dofs"], 1);
   EXPECT_EQ(json["contacts"], 1);
-  EXPECT_EQ(json["force_evaluations"], 1 + 4 * 500 + 1);  // the last: what the load can do, for the watch over growth
+  EXPECT_EQ(json["force_evaluations"], 1 + 4 * 500 + 1);  // the last: possible effect of the load, for the growth watch
   EXPECT_GT(json["peak"]["ball.u"], 0.0);
   EXPECT_TRUE(json["energy"]["balance_error"].is_null());
   EXPECT_GT(json["wall_seconds"], 0.0);
 }
 
-/// On every instruction set that there is, with stops that are hit.
+/// On every available instruction set, with active stops.
 TEST_F(Program, InstructionSetsDifferInLastDigitsAlone) {
-  // 400 steps, each of which keeps rounding of 1e-16 or so, through a few impacts
+  // 400 steps with a rounding error of about 1e-16 each, through a few impacts
   constexpr double kSame = 1e-10;
   std::vector<double> first;
   for (const std::string& name : targets()) {
@@ -198,7 +198,7 @@ TEST_F(Program, BadInputIsStatus2AndWritesNothing) {
   EXPECT_EQ(folder_.entries(), (std::vector<std::string>{"swing.toml"}));
 }
 
-/// A step far beyond the stability limit: the run fails, and what was computed is kept in whole lines.
+/// A step far beyond the stability limit: the run fails, and computed rows are kept as whole lines.
 TEST_F(Program, ARunThatFailsIsStatus1AndKeepsItsRows) {
   const Outcome outcome = run({"swing.toml", "--set", "element[1].stiffness=1e12", "--set", "output.interval=1e-3"});
   EXPECT_EQ(outcome.status, 1);
@@ -214,7 +214,7 @@ TEST_F(Program, EnergyIsFollowedWhereAskedFor) {
   const Json energy = summary()["energy"];
   EXPECT_TRUE(energy["work"].is_number());
   EXPECT_EQ(energy["dissipated"], 0.0);
-  EXPECT_LT(std::abs(energy["balance_error"].get<double>()), 1e-3);  // The scene's own accuracy at its step.
+  EXPECT_LT(std::abs(energy["balance_error"].get<double>()), 1e-3);  // the scene's own accuracy at its step
 }
 
 }  // namespace

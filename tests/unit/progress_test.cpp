@@ -18,7 +18,7 @@ const std::string kScene = kHeader + mass("ball", "2.0") +
                            "[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 0.01\nstiffness = 1e4\n"
                            "[initial]\ndisplacement = [{ nodes = \"ball\", dof = \"u\", value = 0.009 }]\n";
 
-/// What a run of 1000 steps writes.
+/// The output of a run of 1000 steps.
 std::string written(bool bar, std::chrono::steady_clock::duration silence, int width = 80,
                     const std::vector<std::string>& overrides = {}) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
@@ -46,7 +46,7 @@ TEST(Progress, ABarFitsTheTerminal) {
   for (const int width : {40, 60, 80, 200}) {
     const std::string text = written(true, 0ms, width);
     for (std::size_t begin = text.find("\r["); begin != std::string::npos; begin = text.find("\r[", begin + 1))
-      EXPECT_LT(text.find("\033[K", begin) - begin - 1, static_cast<std::size_t>(width)) << text;  // \r takes no place
+      EXPECT_LT(text.find("\033[K", begin) - begin - 1, static_cast<std::size_t>(width)) << text;  // \r has no width
   }
   EXPECT_TRUE(holds(written(true, 0ms, 200), "0 of 1 stops closed"));
 }
@@ -65,7 +65,7 @@ TEST(Progress, ALogGetsWholeLinesAndTheEnd) {
   EXPECT_GT(std::count(often.begin(), often.end(), '\n'), 1);
 }
 
-/// The step is far beyond the stability limit, so that the run fails half-way.
+/// The step is far beyond the stability limit, so the run fails midway.
 TEST(Progress, AFailedRunLeavesNoBar) {
   const std::string text = written(true, 0ms, 80, {"integrator.type=rk4", "element[1].stiffness=1e9"});
   const std::string wiped = "\r\033[K";

@@ -14,7 +14,7 @@ namespace {
 using Eigen::ArrayXd;
 using integrators::Phase;
 
-/// omega = 2 rad/s; a harmonic load of 3 N at 5 rad/s, and a ramp of 4 N in 2 s.
+/// omega = 2 rad/s; a harmonic load of 3 N at 5 rad/s, and a ramp to 4 N in 2 s.
 const std::string kScene = mass_on_spring("4.0", R"(
 [[load]]
 type = "harmonic"
@@ -43,7 +43,7 @@ Motion propagated(dynamics::ModalSystem& modal, const Motion& from, double t, do
 TEST(Propagation, IsExactForConstantLinearAndHarmonicLoads) {
   SceneRun run(kScene);
   dynamics::ModalSystem& modal = run.dynamics().modal(0);
-  // The responses from rest to 0.7, to 2 t and to c cos 5 t + s sin 5 t
+  // The responses from rest to 0.7, to 2 t and to c cos 5 t + s sin 5 t.
   const model::TimeFunction& load = *run.system().loads[0].in_time;
   const double weight = run.system().loads[0].weights[0], c = weight * load.value(0.0),
                s = weight * load.value(std::acos(-1.0) / 10.0);

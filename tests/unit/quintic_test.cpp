@@ -27,7 +27,7 @@ TEST(Quintic, IsOfOrderSixWhereTheMotionIsSmooth) {
     const auto state = [](double t) { return at(t, std::sin(t), std::cos(t), -std::sin(t)); };
     return std::abs(middle(state(0.3), state(0.3 + h)) - std::sin(0.3 + 0.5 * h));
   };
-  EXPECT_LT(error(0.4), 1e-7);  // The cubic is wrong by h^4/384 = 7e-5.
+  EXPECT_LT(error(0.4), 1e-7);  // the error of the cubic is h^4/384 = 7e-5
   EXPECT_NEAR(std::log2(error(0.4) / error(0.2)), 6.0, 0.3);
 }
 
@@ -44,12 +44,13 @@ TEST(Quintic, IsOfItsOrderWhereTheFourthDerivativeVanishes) {
       worst = std::max(worst, std::abs(v - std::cos(t + part * kStep)));
     }
   }
-  // The quintic's bound is sqrt(5)/30000 h^5; the slope of the cubic is wrong by up to h^4/200.
+  // The quintic's error bound is sqrt(5)/30000 h^5; the slope of the cubic has an error of up to h^4/200.
   EXPECT_LT(worst, 1e-4 * std::pow(kStep, 5));
 }
 
 TEST(Quintic, IsNotBentByAnEndWithinAStiffStop) {
-  // Free flight at 1 m/s that has gone 1e-7 m into a stop of 1e14 N/m: -1e7 m/s^2, for a step of 1e-3 s.
+  // Free flight at 1 m/s that has penetrated 1e-7 m into a stop of 1e14 N/m: -1e7 m/s^2, with a step of 1e-3
+  // s.
   const double x = middle(at(0.0, 0.0, 1.0, 0.0), at(1e-3, 1e-3, 1.0, -1e7));
   EXPECT_NEAR(x, 5e-4, 1e-12);
 }

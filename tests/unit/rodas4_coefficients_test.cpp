@@ -1,5 +1,5 @@
-// The order conditions of Rosenbrock methods (Hairer and Wanner, Solving Ordinary Differential Equations II, table
-// IV.7.1) for the coefficients of rodas4, turned back from the form in which they are used.
+// The order conditions of Rosenbrock methods (Hairer and Wanner, Solving Ordinary Differential Equations II,
+// table IV.7.1) for the coefficients of rodas4, transformed back from the form used in the code.
 #include "integrators/rodas4_coefficients.hpp"
 
 #include <cmath>

@@ -8,7 +8,7 @@
 
 namespace butee::test {
 
-/// Schema and the shortest [integrator] there is, for scenes of which the assembly matters.
+/// Schema and a minimal [integrator], for scenes that are only assembled.
 inline const std::string kHeader = R"(
 schema = 1
 
@@ -33,7 +33,7 @@ area          = 2.0e-3
 second_moment = 3.0e-6
 )";
 
-/// A beam of steel and bar; `mesh` holds its length and elements, or coordinates, and whatever else it needs.
+/// A beam of steel and bar; `mesh` contains its length and elements, or coordinates, and other keys.
 inline std::string beam(const std::string& name, const std::string& mesh) {
   return "\n[[element]]\ntype = \"beam\"\nname = \"" + name + "\"\nmaterial = \"steel\"\nsection = \"bar\"\n" + mesh +
          "\n";
@@ -47,7 +47,7 @@ inline std::string support(const std::string& nodes, const std::string& fix) {
   return "\n[[support]]\nnodes = " + nodes + "\nfix = " + fix + "\n";
 }
 
-/// What the scene is refused with, or "" where it is taken.
+/// The message with which the scene is refused, or "" if it is accepted.
 inline std::string refusal(const std::string& toml) {
   try {
     const SceneRun scene(toml);

@@ -7,7 +7,7 @@ namespace {
 
 using model::NodeId;
 
-/// A beam of seven uneven nodes, one of six even ones, and a lone node.
+/// A beam of seven unevenly spaced nodes, one of six evenly spaced nodes, and a lone node.
 model::NodeTable table() {
   model::NodeTable nodes;
   nodes.add("string", {0.0, 1.0, 2.5, 3.0, 4.0, 5.5, 6.0});
@@ -30,7 +30,7 @@ TEST(Selector, NamesTheNodesOfABeam) {
   expect("string:2..4", {2, 3, 4});
   expect("string:all", {0, 1, 2, 3, 4, 5, 6});
   expect("string@2.5", {2});
-  expect("string@5.500000001", {5});  // 1e-9 of a length of 6 m is 6e-9 m.
+  expect("string@5.500000001", {5});  // 1e-9 of a length of 6 m is 6e-9 m
   expect("string@6", {6});
   expect("even:first", {7});
   expect("even:0..0", {7});

@@ -90,7 +90,7 @@ TEST(LatinHypercube, HasOnePointInEveryInterval) {
       correlation += (plan.at(i, d) - 0.5) * (plan.at(i, (d + 1) % 5) - 0.5) * 12.0 / kCount;
     }
     EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), static_cast<std::ptrdiff_t>(kCount)) << d;
-    EXPECT_LT(std::abs(correlation), 0.15) << d;  // five standard deviations of 1000 points
+    EXPECT_LT(std::abs(correlation), 0.15) << d;  // five standard deviations for 1000 points
   }
   EXPECT_NE(plan.at(0, 0), other.at(0, 0));
 }

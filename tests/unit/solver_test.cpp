@@ -11,7 +11,7 @@
 namespace butee::test::solver_test {
 namespace {
 
-/// Rounding of a direct solution: machine precision times the condition number of these small systems.
+/// Error of a direct solution: machine precision times the condition number of these small systems.
 constexpr double kSolved = 1e-9;
 
 /// Two beams with springs, dashpots, Rayleigh damping, stops to ground and between nodes, one end fixed.
@@ -75,13 +75,13 @@ TEST(EffectiveSolver, SolvesWhatTheDenseMatrixSays) {
       ++cases;
     }
   EXPECT_EQ(cases, 9U);
-  // Beside the nine, one a stop for each of the two pairs of factors.
+  // In addition to the nine, one for each stop and each of the two pairs of factors.
   EXPECT_EQ(scene.dynamics().counters().solves, 9 + 2 * contact.size());
 }
 
 TEST(EffectiveSolver, GivesTheSameWithLocalContactAsWithFullFactorization) {
-  // Relative to the largest entry; both are direct solutions of one system.
-  // Rounding is magnified by the condition of the matrix, which grows with h: 1.4e-12 in the worst of the 128 cases.
+  // Relative to the largest entry; both are direct solutions of one system. Rounding is amplified by the
+  // condition number of the matrix, which grows with h: 1.4e-12 in the worst of the 128 cases.
   constexpr double kSame = 5e-12;
   using Contacts = dynamics::EffectiveSolver::Contacts;
   SceneRun scene(coupled_scene());
@@ -94,7 +94,7 @@ TEST(EffectiveSolver, GivesTheSameWithLocalContactAsWithFullFactorization) {
   std::size_t cases = 0;
   for (const double h : {1e-5, 1e-4, 1e-3, 1e-2})
     for (int pattern = 0; pattern < 32; ++pattern) {
-      // Closed, nearly closed, far open as the arctan law leaves it, and wide open.
+      // Closed, nearly closed, far open with the residual stiffness of the arctan law, and fully open.
       for (Index i = 0; i < kappa.size(); ++i)
         kappa[i] = std::array{1e7, 3e3, 0.14, 0.0}[static_cast<std::size_t>((pattern >> (i % 4)) + i) % 4];
       Vector x = right, y = right;
@@ -148,7 +148,7 @@ TEST(EffectiveSolver, WantsItsFactorsFirst) {
   EXPECT_THROW((void)scene.dynamics().effective().solve(Vector(0), y), LogicError);
 }
 
-/// A chain of the given half bandwidth, `diagonal` on its diagonal and -1 beside it.
+/// A band matrix of the given half bandwidth with `diagonal` on its diagonal and -1 off it.
 SparseMatrix banded(Index size, Index half, double diagonal) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Index i = 0; i < size; ++i)
@@ -159,7 +159,7 @@ SparseMatrix banded(Index size, Index half, double diagonal) {
   return matrix;
 }
 
-/// Half bandwidths on both sides of the one up to which the natural order is kept.
+/// Half bandwidths on both sides of the limit up to which the natural order is kept.
 class SymmetricFactor : public testing::TestWithParam<int> {};
 
 TEST_P(SymmetricFactor, SolvesSeveralRightHandSides) {

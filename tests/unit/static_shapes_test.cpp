@@ -40,7 +40,7 @@ TEST_F(StaticShapes, HoldTheStaticResponseToTheirForces) {
   const Vector shares = add_static_shapes(system(), loads, modes);
   ASSERT_EQ(modes.frequencies.size(), kKept + 3);
   EXPECT_GT(before, 1e-3);
-  EXPECT_LT((response() - exact).norm() / exact.norm(), 2e-4 * before);  // the weak spring is 1e-4
+  EXPECT_LT((response() - exact).norm() / exact.norm(), 2e-4 * before);  // the artificial weak spring contributes 1e-4
   EXPECT_GT(shares.minCoeff(), 1e-4);
   EXPECT_LT(shares.maxCoeff(), 0.05);
 }

@@ -18,7 +18,7 @@ TEST(StepSizeControl, GrowsAfterContactsFarBelowTheErrorBoundAlone) {
   StepSizeControl control(kFirst);
   control.accept(kContact, true);
   EXPECT_EQ(control.next_index(), kFirst);
-  control.accept(kEasyContact, false);  // A shortened step says nothing.
+  control.accept(kEasyContact, false);  // a shortened step gives no information
   EXPECT_EQ(control.next_index(), kFirst);
   control.accept(kEasyContact, true);
   EXPECT_EQ(control.next_index(), kFirst + 1);
@@ -29,7 +29,7 @@ TEST(StepSizeControl, TakesLongerStepsWithoutContactAndReturnsToThoseWithIt) {
   control.accept(kContact, true);
   control.accept(kFree, true);
   EXPECT_EQ(control.next_index(), kFirst + 2);
-  control.accept({true, {0.0, 1.0}, 0.04}, true);  // ten times below: one index of a factor eight
+  control.accept({true, {0.0, 1.0}, 0.04}, true);  // ten times below: one index, which is a factor of eight
   EXPECT_EQ(control.next_index(), kFirst + 3);
   EXPECT_EQ(control.contact_index(), kFirst);
   control.accept(kContact, true);
@@ -47,7 +47,7 @@ TEST(StepSizeControl, EndsALongStepBeforeTheNextContact) {
   EXPECT_EQ(control.next_index(-1.0), kFirst);
 }
 
-/// The interpolation error grows by eight with each index: it stays below 0.4 of its bound.
+/// The interpolation error grows by a factor of eight with each index: it stays below 0.4 of its bound.
 TEST(StepSizeControl, LeavesTheInterpolationErrorAReserve) {
   for (double part = 1e-6; part < 1.0; part *= 1.7) {
     const int up = StepSizeControl::indices_up(part);
@@ -69,7 +69,7 @@ TEST(StepSizeControl, GoesDownByTheFifthPowerOfTheErrorOfContacts) {
   EXPECT_EQ(retry.index, kFirst - 2);  // sqrt 2^(5 * 2) < 100 < sqrt 2^(5 * 3)
   EXPECT_TRUE(retry.was_contact);
   EXPECT_EQ(control.contact_index(), kFirst - 2);
-  // Of a shortened step the next higher index counts.
+  // For a shortened step, the next larger index is the starting point.
   EXPECT_EQ(control.reject({false, {2.0, 1.0}, 0.0}, kFirst, false, 0.9 * std::exp2(0.5 * (kFirst - 4))).index,
             kFirst - 5);
 }

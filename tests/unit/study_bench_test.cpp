@@ -55,7 +55,7 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 class SharedSystem : public testing::TestWithParam<Case> {};
 
-/// What rows hold beside their cost.
+/// The contents of rows except their cost.
 std::string results_of(const study::Layout& layout, study::Row row) {
   for (std::size_t i = 0; i < layout.columns().size(); ++i) {
     const study::Column& column = layout.columns()[i];
@@ -65,7 +65,8 @@ std::string results_of(const study::Layout& layout, study::Row row) {
   return csv_line(layout, row);
 }
 
-/// Runs in one order, in the other one, and each by a worker of its own: the same rows, and parts made once.
+/// Runs in ascending and in descending order, and each by a separate worker: the rows are equal, and shared
+/// parts are made once.
 TEST_P(SharedSystem, GivesTheSameRowsAsOneMadeAnew) {
   const Case& c = GetParam();
   const TemporaryFolder folder;

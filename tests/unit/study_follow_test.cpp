@@ -12,8 +12,8 @@
 namespace butee::test::study_follow_test {
 namespace {
 
-/// A mass between a weak spring and a support that holds it by a stick spring, under a constant and a harmonic force
-/// that never reach the limit of 5 N.
+/// A mass between a weak spring and a support that holds it by a stick spring, under a constant and a
+/// harmonic force below the friction limit of 5 N.
 constexpr const char* kHeld = R"(
 schema = 1
 [[element]]
@@ -62,7 +62,7 @@ std::vector<double> entries(const study::Layout& layout, const study::Row& row, 
 TEST(StudyFollow, CarriesTheMemoryOfStickSprings) {
   const TemporaryFolder folder;
   folder.write("scene.toml", kHeld);
-  // The same values three times: a sweep of them is one long run.
+  // The same value three times: such a sweep is equivalent to one long run.
   folder.write("study.toml",
                "schema = 1\nscene = \"scene.toml\"\n[[vary]]\nkey = \"load[0].value\"\nvalues = [3.0, 3.0, 3.0]\n"
                "[study]\nfollow = \"up\"\nsettle = 0\nperiods = 4\ncollect = [\"section m.u\", \"wear\"]\n");
@@ -83,13 +83,14 @@ TEST(StudyFollow, CarriesTheMemoryOfStickSprings) {
   const auto expected = entries(whole.layout, *alone.perform(0, none, [] { return true; }), "section m.u");
   ASSERT_EQ(all.size(), expected.size());
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(all[i], expected[i], 1e-8) << i;
-  // A spring that forgets lets the mass go on by some 3 N / 1e4 N/m.
+  // Without the stick spring's memory the mass moves on by some 3 N / 1e4 N/m.
   motion.contact.resize(0);
   const auto forgetful = entries(sweep.layout, *worker.perform(2, motion, [] { return true; }), "section m.u");
   EXPECT_GT(forgetful.back() - expected.back(), 1e-4);
 }
 
-/// A belt of 0.1 m/s under a mass that a spring and a dashpot hold: it rubs at this speed, F_n w T = 10 N 0.1 m/s 2 s.
+/// A belt at 0.1 m/s under a mass held by a spring and a dashpot: the sliding speed is that of the belt, the
+/// work F_n w T = 10 N 0.1 m/s 2 s.
 TEST(StudyResults, WearIsTheWorkOfRubbing) {
   const TemporaryFolder folder;
   std::string scene = kHeld;
@@ -108,7 +109,7 @@ TEST(StudyResults, WearIsTheWorkOfRubbing) {
   EXPECT_EQ(entries(bound.layout, *row, "impacts")[0], 0.0);
 }
 
-/// A team in one process.
+/// A team of threads in one process.
 class Together final : public study::Team {
  public:
   explicit Together(std::atomic<std::int64_t>& shared) : shared_(shared) {}
@@ -147,7 +148,7 @@ TEST(StudyDealer, HandsOutEachChainOnceAndToWhoeverIsFree) {
           ++taken[static_cast<std::size_t>(chain)];
           ++by_process[p];
         }
-        // The first process is held up by its first chain until the others have done all the rest.
+        // The first process waits in its first chain until the others have done all the rest.
         if (p == 0) first_is_held = true;
         while (p == 0 && !others_are_done) std::this_thread::yield();
       }
@@ -158,7 +159,7 @@ TEST(StudyDealer, HandsOutEachChainOnceAndToWhoeverIsFree) {
   for (std::thread& process : processes) process.join();
   for (const int count : taken) EXPECT_EQ(count, 1);
   EXPECT_EQ(by_process[0], 1);
-  // Short chains go in portions.
+  // Short chains are assigned in portions.
   EXPECT_LT(calls, 300);
 }
 

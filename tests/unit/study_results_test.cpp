@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// x'' + 0.4 x' + 9 x = 2 cos(2 t), whose steady motion is known.
+/// x'' + 0.4 x' + 9 x = 2 cos(2 t), with a known steady-state motion.
 constexpr const char* kOscillator = R"(
 schema = 1
 [[element]]
@@ -67,7 +67,7 @@ TEST(StudyResults, MeetTheSteadyMotionOfAnOscillator) {
   const auto r = results_of(kOscillator, "settle = 50\nperiods = 8",
                             {"peak m.u", "max m.v", "min m.a", "rms m.u", "mean m.u", "end m.u", "section m.u",
                              "section m.v", "frequency m.u", "impacts", "lyapunov"});
-  // After 50 periods e^(-0.2 t) has left 2e-14 of the start; the rest is the tolerance.
+  // After 50 periods e^(-0.2 t) has reduced the transient to 2e-14; the remaining error is the tolerance.
   constexpr double kGood = 1e-7;
   EXPECT_NEAR(r[0][0], amplitude, kGood);
   EXPECT_NEAR(r[1][0], amplitude * kOmega, kGood);
@@ -78,7 +78,8 @@ TEST(StudyResults, MeetTheSteadyMotionOfAnOscillator) {
   ASSERT_EQ(r[6].size(), 8U);
   for (const double u : r[6]) EXPECT_NEAR(u, amplitude * std::cos(phase), kGood);
   for (const double v : r[7]) EXPECT_NEAR(v, -amplitude * kOmega * std::sin(phase), kGood);
-  // A line of 8 periods lies on a frequency of the transform; the parabola leaves 1e-3 of the distance of two lines.
+  // With 8 periods the line lies on a frequency of the transform; the parabola's error is 1e-3 of the
+  // distance of two lines.
   EXPECT_NEAR(r[8][0], kOmega / (2.0 * kPi), 1e-3 * kOmega / (2.0 * kPi));
   EXPECT_EQ(r[9][0], 0.0);
   // The free motion decays like e^(-0.2 t) in every direction.
@@ -86,7 +87,8 @@ TEST(StudyResults, MeetTheSteadyMotionOfAnOscillator) {
 }
 
 TEST(StudyResults, CountImpactsOfABouncingMass) {
-  // Free flight between two stops 2 mm apart each side, at 1 m/s: a round takes 8e-3 s and the times in the stops.
+  // Free flight between two stops at 2 mm on each side, at 1 m/s: a cycle takes 8e-3 s plus the contact
+  // times.
   const double omega = std::sqrt(1e8), round = 8e-3 + 2.0 * kPi / omega;
   const auto r = results_of(R"(
 schema = 1
@@ -117,22 +119,22 @@ interval = 1e-3
 TEST(StudyResults, LyapunovExponentIsZeroWhereADisturbanceStays) {
   std::string scene = kOscillator;
   scene.replace(scene.find("stiffness = 9.0"), 15, "stiffness = 1e-6");
-  // Almost no spring: a displacement stays but for e^(-2.5e-6 t).
+  // With almost no spring a displacement decays only like e^(-2.5e-6 t).
   const auto r = results_of(scene, "settle = 20\nperiods = 40", {"lyapunov"});
   EXPECT_NEAR(r[0][0], 0.0, 1e-3);
 }
 
-/// Peaks of what is followed by samples: the reaction of the spring's force in steady motion.
+/// Peaks of sampled quantities: the spring force in steady-state motion.
 TEST(StudyResults, PeaksOfForcesOfElementsAreThoseOfTheMotion) {
   const auto r = results_of(kOscillator, "settle = 50\nperiods = 8", {"peak m.spring_force", "rms m.spring_force"});
-  // k x + c v of the steady motion; 64 samples a period miss a peak by (pi/64)^2/2 of it at most.
+  // k x + c v of the steady-state motion; 64 samples in a period miss a peak by at most (pi/64)^2/2 of it.
   const double amplitude = 2.0 / std::hypot(9.0 - 4.0, 0.8) * std::hypot(9.0, 0.8);
   EXPECT_NEAR(r[0][0], amplitude, 1.3e-3 * amplitude);
   EXPECT_NEAR(r[1][0], amplitude / std::numbers::sqrt2, 1e-6 * amplitude);
 }
 
-/// A motion that repeats itself after two periods: the section stands on the same of its two points as after all
-/// periods, and one that never repeats itself settles to the end.
+/// For a motion that repeats after two periods, settling ends early, and the section takes the same one of
+/// its two points as after all periods. For a motion that never repeats, settling runs to its end.
 TEST(StudyResults, SettlingEndsEarlierWhereTheMotionIsSteady) {
   const std::string scene = R"(
 schema = 1

@@ -12,8 +12,8 @@ using config::parse_toml;
 using config::Table;
 using config::Value;
 
-/// The same document with tables behind their parts, which is TOML as well: equal, and lines are those of the text
-/// given.
+/// The same document with tables after their parts, which is also valid TOML: the values are equal, and line
+/// numbers are those of the given text.
 TEST(TableOrder, ATableMayComeAfterItsParts) {
   struct Pair {
     const char *given, *usual, *key;
@@ -26,10 +26,10 @@ TEST(TableOrder, ATableMayComeAfterItsParts) {
        "x = 1\n[i]\nb = 3\n[i.NM2]\na = 1\n[other]\nc = 2\n", "b", 8},
       {"[a.b.c]\nd = 1\n[a]\ne = 2\n[a.b]\nf = 3\n", "[a]\ne = 2\n[a.b]\nf = 3\n[a.b.c]\nd = 1\n", "e", 4},
       {"[a.b.c]\nd = 1\n[a.b]\nf = 3\n[a]\ne = 2\n", "[a]\ne = 2\n[a.b]\nf = 3\n[a.b.c]\nd = 1\n", "e", 6},
-      // Parts of the elements of a list are each element's own.
+      // Parts of list elements belong to the preceding element.
       {"[[l]]\n[l.a.b]\nx = 1\n[l.a]\ny = 2\n[[l]]\n[l.a.b]\nx = 3\n[l.a]\nz = 4\n",
        "[[l]]\n[l.a]\ny = 2\n[l.a.b]\nx = 1\n[[l]]\n[l.a]\nz = 4\n[l.a.b]\nx = 3\n", "z", 10},
-      // Headers in strings and arrays are none; keys may be quoted.
+      // Headers within strings and arrays are not headers; keys may be quoted.
       {"[\"o p\".q]\nt = \"\"\"\n[\"o p\"]\n\"\"\"\nu = [\n[1],\n[2]]\n[ 'o p' ]\nb = 3\n",
        "[\"o p\"]\nb = 3\n[\"o p\".q]\nt = \"\"\"\n[\"o p\"]\n\"\"\"\nu = [[1],[2]]\n", "b", 9},
   };

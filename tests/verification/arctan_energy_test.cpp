@@ -8,9 +8,9 @@
 namespace butee::test::arctan_energy_test {
 namespace {
 
-/// Rounding of the closed form, whose terms cancel to a part in a hundred.
+/// Rounding of the closed form; its terms cancel to a hundredth.
 constexpr double kFormula = 1e-12;
-/// Runge-Kutta with steps of 1e-5 s: 50 of them cross the width 1/(pi lambda) of the law's transition.
+/// Runge-Kutta with steps of 1e-5 s: the width 1/(pi lambda) of the law's transition takes 50 steps.
 constexpr double kRungeKutta = 1e-9;
 
 constexpr double kGap = 1e-3, kStop = 1e6, kLambda = 1e3;

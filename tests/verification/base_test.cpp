@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Values of probes at given times of a run, by the program's own path.
+/// Values of probes at given times of a run, evaluated as in the program.
 class Rows final : public time::Observer {
  public:
   Rows(dynamics::Dynamics& dynamics, const model::NodeTable& nodes, const std::string& node,
@@ -77,8 +77,9 @@ std::string wall(const std::string& keys, double gap, double stiffness) {
 
 const std::string kExact = "[integrator]\ntype = \"exact\"\nend_time = 1.0\n";
 
-/// SDND102: an oscillator on a base with acceleration sin(20 pi t), displacement -sin/Om^2, at rest relative to it,
-/// strikes a wall that is fixed in space. Absolute displacements by event-exact marching.
+/// SDND102: an oscillator on a base with acceleration sin(20 pi t) and displacement -sin/Om^2, initially at
+/// rest relative to the base, strikes a wall fixed in space. Reference: absolute displacements from an
+/// integration that locates events exactly.
 TEST(Pounding, MeetsAWallFixedInSpace) {
   SceneRun run("schema = 1\n" + oscillator("m", "") +
                wall("nodes = \"m\"\nsides = \"positive\"\nframe = \"space\"", 5e-4, 5.76e7) +
@@ -95,7 +96,7 @@ TEST(Pounding, MeetsAWallFixedInSpace) {
   run.simulation().add(*few);
   run.simulation().add(*many);
   ASSERT_TRUE(run.run().completed);
-  // Peaks are those between rows: 1e5 rows find them to some 1e-9.
+  // Peaks include motion between rows: 1e5 rows find them to some 1e-9.
   for (const char* column : {"m.u_abs", "m.u"})
     EXPECT_NEAR(few->peaks().at(column), many->peaks().at(column), 1e-6 * many->peaks().at(column)) << column;
   const double wanted[] = {-3.5800406896e-4, -1.2211672315e-4, -1.8870187799e-4, -1.8984007402e-4,
@@ -106,7 +107,7 @@ TEST(Pounding, MeetsAWallFixedInSpace) {
   }
 }
 
-/// Two mirror oscillators on two bases pound as the one meets the wall: the same numbers to rounding.
+/// Two mirrored oscillators on two bases strike each other as one strikes a wall: equal results to rounding.
 TEST(Pounding, OfTwinsIsThatOfOneAtAWall) {
   const auto supports = [](const std::string& nodes) {
     return "[[support]]\nnodes = [" + nodes + "]\nfix = [\"u\"]\n";
@@ -137,7 +138,7 @@ TEST(Pounding, OfTwinsIsThatOfOneAtAWall) {
   ASSERT_TRUE(one.run().completed);
   ASSERT_TRUE(two.run().completed);
   for (std::size_t i = 0; i < kTimes.size(); ++i) {
-    // A hundred instants of contact, each found to rounding of displacements of 5e-4 m.
+    // A hundred contact instants, each located to the rounding of displacements of 5e-4 m.
     EXPECT_NEAR(of_two.rows[i][0], of_one.rows[i][0], 1e-13) << kTimes[i];
     EXPECT_NEAR(of_foot.rows[i][0], std::sin(kOmega * kTimes[i]) / (kOmega * kOmega), 1e-15);
   }
@@ -167,7 +168,8 @@ elements = )" +
          text(2 * pi * frequency) + " }\n[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 1e-2\n";
 }
 
-/// Steady midspan of a pinned bar whose left support moves: K_dyn x = F at one frequency, from the loads of the scene.
+/// Steady-state midspan displacement of a pinned bar with a moving left support: K_dyn x = F at one
+/// frequency, with the loads of the scene.
 double steady_midspan(int elements, double frequency) {
   SceneRun run(moved_bar(elements, frequency));
   const double omega = 2 * pi * frequency;
@@ -181,7 +183,7 @@ double steady_midspan(int elements, double frequency) {
 TEST(MovedSupport, MovesTheMidspanAsTheClosedFormSays) {
   EXPECT_NEAR(steady_midspan(10, 3.0), .86372866, 5e-9);
   EXPECT_NEAR(steady_midspan(20, 3.0), .86373130, 5e-9);
-  // Rounding of a dense solution; the fourth order leaves 1e-9 of 80 elements.
+  // Rounding of a dense solution; with fourth order the mesh error of 80 elements is 1e-9.
   constexpr double kSolved = 1e-8;
   EXPECT_NEAR(steady_midspan(80, 3.0), .8637314800, kSolved);
   EXPECT_NEAR(steady_midspan(80, 8.0), -.5436484523, kSolved);
@@ -190,8 +192,8 @@ TEST(MovedSupport, MovesTheMidspanAsTheClosedFormSays) {
   EXPECT_NEAR(std::log2(std::abs(coarse / fine)), 4.0, 0.3);
 }
 
-/// One motion of all supports, said by its acceleration, its displacement, or support by support, and seen from the
-/// base or from space: the same motion.
+/// The same motion of all supports, given by acceleration, by displacement, or for each support; seen from
+/// the base or from space.
 TEST(MovedBase, IsTheSameHoweverItIsSaid) {
   const std::string bar = [] {
     std::string scene = moved_bar(8, 3.0);
@@ -223,22 +225,22 @@ TEST(MovedBase, IsTheSameHoweverItIsSaid) {
   EXPECT_GT(std::abs(expected[3][0]), 1e-4);
   for (std::size_t i = 0; i < times.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      // Modal sums of up to 14 modes; accelerations of the highest count most.
+      // Modal sums of up to 14 modes; in accelerations the highest modes dominate the error.
       const double tolerance = 1e-11 * std::pow(100.0, k);
       EXPECT_NEAR(supports[i][k], expected[i][k], tolerance) << i << " " << k;
       EXPECT_NEAR(in_space[i][k], expected[i][k], tolerance) << i << " " << k;
-      // An acceleration says nothing of where the base was: it begins at 0.
+      // An acceleration does not determine the initial displacement of the base; it starts at 0.
       const double shift = k == 0 ? 1e-3 : 0.0;
       EXPECT_NEAR(accelerated[i][k] + shift, expected[i][k], tolerance) << i << " " << k;
     }
 }
 
-/// A spline through samples of a smooth motion: accelerations as good as h^2.
+/// A spline through samples of a smooth motion: accelerations are accurate to h^2.
 TEST(MovedBase, GoesSmoothlyThroughATable) {
   std::vector<double> times, values;
   for (int i = 0; i <= 200; ++i) {
     times.push_back(0.01 * i);
-    values.push_back(std::pow(std::sin(0.5 * pi * times.back()), 4));  // At rest at both ends.
+    values.push_back(std::pow(std::sin(0.5 * pi * times.back()), 4));  // at rest at both ends
   }
   const auto d = model::PiecewisePolynomial::spline(times, values);
   const auto a = d.derivative().derivative();

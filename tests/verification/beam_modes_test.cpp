@@ -1,4 +1,4 @@
-// Natural frequencies of beams against theory and independent programs.
+// Natural frequencies of beams compared with theory and independent programs.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -10,10 +10,11 @@
 namespace butee::test::beam_modes_test {
 namespace {
 
-/// The references are printed with 8 to 10 digits; frequencies are found to rounding.
+/// The references have 8 to 10 printed digits; computed frequencies are exact to rounding.
 constexpr double kPrinted = 1e-8;
 
-/// Bending in both planes, torsion and axial motion, of an independent program with the same elements.
+/// Bending in both planes, torsion and axial motion, compared with an independent program with the same
+/// elements.
 TEST(Cantilever, HasTheModesOfAllSixMotions) {
   const auto found = frequencies(cantilever("[[0, 0, 0], [1, 0, 0]]", ""), 12);
   expect_all(found, {25.06549917, 50.13099836, 157.08312306, 314.16624612}, kPrinted);
@@ -29,7 +30,7 @@ TEST(Cantilever, HasTheSameModesInEveryDirection) {
   std::ostringstream diagonal;
   diagonal.precision(17);
   diagonal << "[[1, 2, 3], [" << 1 + a << ", " << 2 + a << ", " << 3 + a << "]]";
-  // Rounding of the coordinates, and of turned matrices relative to their highest frequency.
+  // Rounding of the coordinates and of rotated matrices, relative to the highest frequency.
   constexpr double kTurned = 1e-9;
   expect_all(frequencies(cantilever(diagonal.str(), ""), 10), along_x, kTurned);
   expect_all(frequencies(cantilever("[[0, 0, 0], [0, 1, 0]]", "[0.3, 0, 1]"), 10), along_x, kTurned);
@@ -48,8 +49,8 @@ TEST(Cantilever, ConvergesWithShearToTimoshenko) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1);
 }
 
-/// A stubby cantilever, 5 times as long as it is high: Euler and Bernoulli's second frequency is 20 % too high. Errors
-/// of order l^2, so that two meshes give the limit.
+/// A short cantilever, 5 times as long as high: the second Euler-Bernoulli frequency is 20 % too high. Errors
+/// are of order l^2, so two meshes give the limit.
 TEST(StubbyCantilever, HasTheExactFrequenciesOfTimoshenko) {
   const auto strong = [](const std::string& theory, int elements) {
     std::string scene = cantilever("[[0, 0, 0], [0.3, 0, 0]]", "", theory);
@@ -96,7 +97,7 @@ type = "newmark"
 time_step = 1e-4
 end_time = 1e-3
 )";
-  // Errors of order l^2: the limit of two meshes.
+  // Errors are of order l^2: extrapolation from two meshes.
   const auto mesh = [&](int elements) {
     std::string finer = scene;
     finer.replace(finer.find("elements = 160"), 14, "elements = " + std::to_string(elements));
@@ -110,7 +111,7 @@ end_time = 1e-3
   }
 }
 
-/// The same bar clamped and free along its axis: sqrt(E/rho)/(4 L).
+/// The same bar in axial motion, clamped and free: sqrt(E/rho)/(4 L).
 TEST(DeepBeam, HasTheAxialFrequencyOfABar) {
   std::string scene = cantilever("[[0, 0, 0], [10, 0, 0]]", "");
   scene.replace(scene.find("young_modulus"),

@@ -8,14 +8,14 @@
 namespace butee::test::chopra_test {
 namespace {
 
-/// A unit in the last printed digit: tables by hand carry rounded intermediate results.
+/// One unit in the last printed digit: hand-calculated tables contain rounded intermediate results.
 constexpr double kPrinted = 1e-4;
 
-/// An oscillator under half a sine of force, in kip, in and s: m = 0.2533, k = 10, a ratio of 5 %, F = 10 sin(pi t/0.6)
-/// until 0.6 s, steps of 0.1 s. Source: A. K. Chopra, Dynamics of Structures, examples 5.3 (average acceleration) and
-/// 5.4 (linear acceleration); the same problem is OpenSees' NewmarkIntegrator example. Values of these schemes at this
-/// step, recomputed by an independent program. The table holds the load at the ends of the steps, all that Newmark
-/// sees.
+/// An oscillator under a half-sine force, in kip, in and s: m = 0.2533, k = 10, a damping ratio of 5 %, F =
+/// 10 sin(pi t/0.6) until 0.6 s, steps of 0.1 s. Source: A. K. Chopra, Dynamics of Structures, examples 5.3
+/// (average acceleration) and 5.4 (linear acceleration); the same problem is OpenSees' NewmarkIntegrator
+/// example. The values are those of these schemes at this step, recomputed by an independent program. The
+/// table contains the load at the ends of the steps, which is all that Newmark evaluates.
 std::string scene(double beta, const std::string& method) {
   std::string times, values;
   for (int i = 0; i <= 6; ++i) {
@@ -57,7 +57,7 @@ TEST_P(Chopra, DisplacementsAreThoseOfTheSameScheme) {
   }
 }
 
-// beta = 1/6 to the digits of std::to_string moves the displacements by less than 1e-6.
+// The digits of std::to_string for beta = 1/6 change the displacements by less than 1e-6.
 INSTANTIATE_TEST_SUITE_P(
     tables, Chopra,
     testing::Values(Table{"average_acceleration",

@@ -9,17 +9,17 @@
 namespace butee::test::collision_test {
 namespace {
 
-/// Steps of h = 1e-6 s: a kink of the force within a step costs O((omega h)^2) = 1e-7, twice for each contact. Newmark
-/// lengthens a contact by (omega h)^2/12 besides.
+/// Steps of h = 1e-6 s: a slope discontinuity of the force within a step causes an error of O((omega h)^2) =
+/// 1e-7, twice for each contact. Newmark also lengthens a contact by (omega h)^2/12.
 constexpr double kKinks = 1e-6;
-/// Momentum is a linear invariant: rounding, and Newton's tolerance, over 20 000 steps.
+/// Momentum is a linear invariant: errors are rounding and Newton's tolerance, over 20 000 steps.
 constexpr double kMomentum = 1e-10;
 
 constexpr double kLight = 1.0, kHeavy = 3.0, kStiffness = 1e5, kSpeed = 2.0, kGap = 0.01;
 
-/// A free mass strikes another at rest through an elastic stop between them. Source: conservation of momentum and
-/// energy; the distance in contact is half a sine of the reduced mass mu = m1 m2/(m1 + m2), so that contact lasts pi
-/// sqrt(mu/k) and transfers the impulse 2 mu v.
+/// A free mass strikes another at rest through an elastic stop between them. Source: conservation of momentum
+/// and energy. During contact the relative displacement is half a sine of the reduced mass mu = m1 m2/(m1 +
+/// m2), so contact lasts pi sqrt(mu/k) and transfers the impulse 2 mu v.
 constexpr const char* kCollision = R"(
 schema = 1
 
@@ -82,9 +82,9 @@ TEST_P(Collision, OfTwoFreeMassesIsThatOfElasticBodies) {
 INSTANTIATE_TEST_SUITE_P(methods, Collision, testing::Values("rk4", "newmark"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-/// A mass that bounces on an elastic stop under its weight, without end. Source: closed form, the free fall sqrt(2 d/g)
-/// and the part of a sine about the sag m g/k put together: from release to release
-/// T = 2 [sqrt(2 d/g) + acos(-s/A)/w], w = sqrt(k/m), s = m g/k, A^2 = s^2 + (v/w)^2, v^2 = 2 g d.
+/// A mass bounces on an elastic stop under its weight. Source: closed form, composed of the free fall sqrt(2
+/// d/g) and a part of a sine about the static deflection m g/k. The period from release to release is T = 2
+/// [sqrt(2 d/g) + acos(-s/A)/w], w = sqrt(k/m), s = m g/k, A^2 = s^2 + (v/w)^2, v^2 = 2 g d.
 constexpr const char* kBouncing = R"(
 schema = 1
 
@@ -120,7 +120,8 @@ max_iterations      = 20
 class Bouncing : public testing::TestWithParam<const char*> {};
 
 TEST_P(Bouncing, PeriodAndDepthAreThoseOfTheClosedForm) {
-  // A kink of the force within a step costs a part of (omega h)^2 = 1e-5 of the energy, and the period follows.
+  // A slope discontinuity of the force within a step changes the energy by a fraction of (omega h)^2 = 1e-5,
+  // and the period accordingly.
   constexpr double kPeriodError = 5e-6, kDepthError = 1e-5;
   SceneRun scene(kBouncing, {std::string("integrator.type=") + GetParam()});
   TurningPoints lowest(scene.dof("ball"));

@@ -1,4 +1,4 @@
-// Outputs and peaks of exponential on coupled modes, against the closed form of piecewise.
+// Outputs and peaks of exponential on coupled modes, compared with the closed form of piecewise.
 #include <cmath>
 
 #include <butee/record/history.hpp>
@@ -9,7 +9,8 @@
 namespace butee::test::collocation_outputs_test {
 namespace {
 
-/// A light mass between two others, driven faster than the slow modes turn; nothing is approximated.
+/// A light mass between two others, driven at a frequency above those of the slow modes; the collocation
+/// makes no approximation.
 const std::string kLight = R"(
 schema = 1
 [[element]]
@@ -55,7 +56,7 @@ displacement = [{ nodes = "b", dof = "u", value = 0.013 }]
 end_time = 0.2
 )";
 
-/// Steps are longer than the light mass swings and the loads turn.
+/// Steps are longer than the periods of the light mass and of the loads.
 TEST(CollocationOutputs, GiveValuesAndPeaksOfFastMotion) {
   std::vector<double> times;
   for (int i = 1; i < 100; ++i) times.push_back(0.00199 * i);

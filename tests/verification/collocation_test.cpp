@@ -1,4 +1,5 @@
-// exponential on coupled structures and contacts in the plane, against exact (Taylor series with every change located).
+// exponential on coupled structures and contacts in the plane, compared with exact (Taylor series, every
+// change located).
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 namespace butee::test::collocation_test {
 namespace {
 
-/// A turning pipe with gyroscopic terms that strikes rings and rubs.
+/// A rotating pipe with gyroscopic terms that rubs on rings.
 const std::string kPipe = TurningPipe{"b", "lateral", "20.0", 8, "0.004", "0.05", "1.0"}.scene(R"(
 [damping]
 mass_proportional = 0.5
@@ -57,7 +58,7 @@ values = [0.0, 900.0, -700.0, 100.0]
 end_time = 0.6
 )";
 
-/// Two bodies without ground, joined by a dashpot, one of which strikes planes with loss.
+/// Two bodies without connection to ground, joined by a dashpot; one of them strikes dissipative planes.
 const std::string kFlight = R"(
 schema = 1
 [[element]]
@@ -94,7 +95,7 @@ velocity = [{ nodes = "a", dof = "uy", value = 1.0 }, { nodes = "b", dof = "uy",
 end_time = 0.4
 )";
 
-/// At rest, pressed into a ring and beside it held by friction until a load has grown.
+/// At rest: a body pressed into a ring, and another one held by friction until a load has grown.
 const std::string kRest = R"(
 schema = 1
 [[element]]
@@ -193,7 +194,8 @@ double distance(const time::State& a, const time::State& b) {
   return std::max((a.x - b.x).norm() / b.x.norm(), (a.v - b.v).norm() / b.v.norm());
 }
 
-/// Disturbances grow at most 30 times in these scenes (start displaced by 1e-6 of itself, exact).
+/// Disturbances grow at most 30 times in these scenes (measured by exact from a start displaced by a relative
+/// 1e-6).
 TEST_P(CoupledScenes, MeetExactTheNearerTheSmallerTheTolerance) {
   SceneRun exact(GetParam(), {"integrator.type=exact"});
   ASSERT_TRUE(exact.run().completed) << exact.simulation().report().message;
@@ -209,7 +211,7 @@ TEST_P(CoupledScenes, MeetExactTheNearerTheSmallerTheTolerance) {
   EXPECT_LT(errors[2], std::max(1e-2 * errors[0], 10.0 * 1e-7));
 }
 
-/// What a step makes of a state depends on nothing else.
+/// The result of a step depends only on the state.
 TEST_P(CoupledScenes, GoOnFromAStateWithTheSameBits) {
   SceneRun run(GetParam(), {"integrator.type=exponential"}), other(GetParam(), {"integrator.type=exponential"});
   time::State from, to, again;
@@ -223,7 +225,7 @@ TEST_P(CoupledScenes, GoOnFromAStateWithTheSameBits) {
     run.integrator().settle(from, h);
     const auto report = run.integrator().step(from, {h, from.t + h, true}, to);
     ASSERT_EQ(report.status, time::StepStatus::ok);
-    // The other has seen none of the steps before.
+    // The other integrator has not seen the previous steps.
     other.integrator().settle(from, h);
     other.integrator().step(from, {h, from.t + h, true}, again);
     EXPECT_TRUE(again.x == to.x && again.v == to.v && again.t == to.t && again.memory == to.memory);
@@ -232,7 +234,7 @@ TEST_P(CoupledScenes, GoOnFromAStateWithTheSameBits) {
   }
 }
 
-/// Outputs are the motion itself: the closed form of the step meets the end of shorter steps.
+/// Outputs are independent of the steps: the closed form within a step equals the end of shorter steps.
 TEST_P(CoupledScenes, HaveTheSameOutputsForAnySteps) {
   const std::vector<double> times = {0.0313, 0.1002, 0.177, 0.2811, 0.33};
   SceneRun exact(GetParam(), {"integrator.type=exact"}),
@@ -254,7 +256,7 @@ TEST_P(CoupledScenes, HaveTheSameOutputsForAnySteps) {
 INSTANTIATE_TEST_SUITE_P(Collocation, CoupledScenes, testing::Values(kPipe, kBeam, kFlight, kRest));
 
 TEST(Collocation, StaysInEquilibrium) {
-  // 128 x + 64 (x - 1/2) = 80
+  // Equilibrium: 128 x + 64 (x - 1/2) = 80
   SceneRun run(kBalance);
   const double begin = run.system().initial_displacement[0];
   ASSERT_TRUE(run.run().completed) << run.simulation().report().message;

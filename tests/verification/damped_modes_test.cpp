@@ -1,5 +1,5 @@
-// The damped modes of coupled structures, and their motion under polynomial and harmonic forces, against the matrix
-// exponential of the first-order system (Eigen's unsupported module).
+// The damped modes of coupled structures, and their motion under polynomial and harmonic forces, compared
+// with the matrix exponential of the first-order system (Eigen's unsupported module).
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -16,8 +16,8 @@ using dynamics::DampedModes;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A shaft on bearings with cross terms that turns, a dashpot on it, and two bodies without ground that a dashpot
-/// joins.
+/// A rotating shaft with a dashpot, on bearings with cross terms, and two bodies without ground joined by a
+/// dashpot.
 const std::string kShaft = R"(
 schema = 1
 [material.steel]
@@ -96,7 +96,7 @@ damping = 50.0
 end_time = 1.0
 )";
 
-/// A light part on a dashpot, whose motion dies out within a microsecond.
+/// A light part on a dashpot; its motion decays within a microsecond.
 const std::string kLight = R"(
 schema = 1
 [[element]]
@@ -129,7 +129,7 @@ damping = 20.0
 end_time = 1.0
 )";
 
-/// Displacements are taken times this, 1/s, so that the matrix is balanced and its exponential loses few digits.
+/// Scale of displacements, 1/s; it balances the matrix, so that its exponential loses few digits.
 constexpr double kScale = 1e5;
 
 /// The matrix of y' = A y + [0; M^-1 f] of the motion y = (kScale x, v).
@@ -184,7 +184,7 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
     for (const double place : {0.3, 1.0}) {
       VectorXd out(2 * p);
       integrators::PlaceResponse(modes, {load}, place, h).move(begin, z.data(), g.data(), out);
-      // The powers of s, and cosine and sine, as further unknowns of one linear system.
+      // The powers of s, and cosine and sine, as additional unknowns of one linear system.
       MatrixXd all = MatrixXd::Zero(2 * n + 9, 2 * n + 9);
       all.topLeftCorner(2 * n, 2 * n) = matrix;
       for (Index r = 0; r < 7; ++r) {
@@ -229,7 +229,7 @@ TEST(StepNodes, EstimateTheErrorOfTheirQuadrature) {
   int estimates = 0, generous = 0;
   for (const double at : {-0.4, 0.0, 0.3, 0.5, 0.8, 1.2})
     for (const double width : {0.15, 0.3, 0.6, 1.0, 1.5}) {
-      // Lobatto's weights are the integrals of the polynomials without the middle.
+      // Lobatto's weights are the integrals of the polynomials without the interior node.
       Eigen::Matrix<double, 1, 7> values;
       for (Index j = 0; j < 7; ++j) values[j] = smooth_step(StepNodes::kPlaces[static_cast<std::size_t>(j)], at, width);
       const Eigen::Matrix<double, 1, 7> powers = values * StepNodes::without_middle();

@@ -8,10 +8,11 @@
 namespace butee::test::damped_oscillator_test {
 namespace {
 
-/// Runge-Kutta at (omega h)^4/120 a radian with omega h = 0.02 or a tolerance below that: 40 rad at most 1e-7.
+/// Error of Runge-Kutta, (omega h)^4/120 per radian with omega h = 0.02, or a smaller tolerance: over 40 rad
+/// at most 1e-7.
 constexpr double kRungeKutta = 2e-7;
-/// Newmark's period is too long by (omega h)^2/12; with omega h = 0.002, 40 rad shift by 1.3e-5 rad. The adaptive ones
-/// keep their error estimate within a band of four around that.
+/// Newmark lengthens the period by (omega h)^2/12; with omega h = 0.002, the phase error over 40 rad is
+/// 1.3e-5 rad. The adaptive methods keep their error estimate within a factor of four of that.
 constexpr double kNewmark = 6e-5;
 
 constexpr const char* kScene = R"(

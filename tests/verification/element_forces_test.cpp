@@ -9,8 +9,8 @@
 namespace butee::test::element_forces_test {
 namespace {
 
-/// A beam on three supports and a spring, with a mass, dashpots, a line load, nodal loads, stops to ground and one
-/// between the beam's fixed end and a mass; `damping` and `integrator` are tables.
+/// A beam on three supports and a spring, with a mass, dashpots, a line load, nodal loads, stops to ground
+/// and a stop between the beam's fixed end and a mass; `damping` and `integrator` are tables.
 std::string scene(const std::string& integrator, const std::string& damping, bool has_dashpots) {
   const std::string foot = has_dashpots ? "40.0" : "0", link = has_dashpots ? "10.0" : "0";
   return R"(
@@ -134,8 +134,8 @@ quantities = ["spring_force"]
 const std::string kRayleigh = "[damping]\nmass_proportional = 4.0\nstiffness_proportional = 2.0e-5\n";
 const std::string kModal = "[damping]\nmodal = 0.03\n";
 
-/// Adds up the forces of all elements on the whole structure, supports included, from their own matrices: M a + C v and
-/// K x along rigid translation.
+/// Sums the forces of all elements of the structure, including supports, from their own matrices: M a + C v
+/// and K x along rigid translation.
 class WholeSum final : public model::MatrixSink {
  public:
   WholeSum(const model::System& system, const time::State& state) : system_(system), state_(state) {}
@@ -165,7 +165,7 @@ class WholeSum final : public model::MatrixSink {
   const time::State& state_;
 };
 
-/// Looks at the balances at the end of every step, and at the jumps at instants within.
+/// Checks the force balances at the end of every step, and the jumps of section forces also within steps.
 class Balances final : public time::Observer {
  public:
   Balances(SceneRun& run, const model::OutputRequest& output)
@@ -197,7 +197,8 @@ class Balances final : public time::Observer {
         700.0 * 2.2 * std::cos(90.0 * t) + 900.0 * std::cos(130.0 * t) + 400.0 * std::cos(250.0 * t + 1.0);
     Vector contact = Vector::Zero(run_.dynamics().size());
     run_.dynamics().add_contact_force(state.x, contact);
-    // The stop between the body and the fixed end is an inner force, of which only the body's end is in `contact`.
+    // The stop between the body and the fixed end is an internal force; `contact` contains only its part on
+    // the body.
     const double to_ground = contact[run_.dof("bar:2")] + contact[run_.dof("bar:3")];
     const double reactions = at("a.reaction") + at("b.reaction") + at("c.reaction");
     largest = std::max({largest, std::abs(reactions), std::abs(loads)});
@@ -206,7 +207,7 @@ class Balances final : public time::Observer {
   void look_at_jumps(double t) {
     const double v = at("before.V") - at("after.V") - 900.0 * std::cos(130.0 * t) - at("before.contact_force");
     const double m = at("left.M") - at("right.M") - 60.0 * std::min(t / 0.01, 1.0);
-    // The beginning of the first element is where the support acts, and nothing else does.
+    // At the start of the first element only the support acts.
     const double root = at("a.V") + at("a.reaction"), root_m = at("a.M") + at("a.reaction_moment");
     largest = std::max(largest, std::abs(at("before.V")));
     for (const double miss : {v, m, root, root_m, at("before.M") - at("after.M"), at("left.V") - at("right.V")})
@@ -220,7 +221,7 @@ class Balances final : public time::Observer {
 
 struct Method {
   std::string name, table;
-  double whole;  ///< of the largest force: how well the method's own accelerations meet the equation of motion
+  double whole;  ///< allowed residual of the equation of motion, as a fraction of the largest force
 };
 
 TEST(ElementForces, ReactionsAndLoadsAreInertiaAndDampingWithEveryMethod) {
@@ -230,14 +231,14 @@ TEST(ElementForces, ReactionsAndLoadsAreInertiaAndDampingWithEveryMethod) {
       {"rk4", "type = \"rk4\"\ntime_step = 2e-5", kRounding},
       {"exponential", "type = \"exponential\"\ntolerance = 1e-5", 1e-6},
       {"rodas4", "type = \"rodas4\"\ntolerance = 1e-5", kRounding},
-      // Newton's iteration ends at 1e-10 of the forces.
+      // Newton's iteration stops at 1e-10 of the forces.
       {"newmark",
        "type = \"newmark\"\ntime_step = 1e-4\nresidual_tolerance = 1e-10\nincrement_tolerance = 1e-10\n"
        "max_iterations = 30",
        1e-8}};
   for (const Method& method : methods)
     for (const std::string& damping : {kRayleigh, kModal}) {
-      // Dashpots couple the modes that exponential is made of.
+      // exponential works with uncoupled modes, which dashpots would couple.
       const bool has_dashpots = method.name != "exponential";
       const std::string text = scene(method.table, damping, has_dashpots);
       SceneRun run(text);

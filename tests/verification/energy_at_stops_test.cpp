@@ -1,5 +1,5 @@
-// A body that bounces between two stops without damping or load keeps its energy; a method that gains some at every
-// impact ends up anywhere.
+// A body that bounces between two stops without damping or load conserves its energy. A method that gains
+// energy at every impact gives an unbounded error.
 #include <cmath>
 
 #include <butee/record/energy.hpp>
@@ -10,7 +10,7 @@
 namespace butee::test::energy_at_stops_test {
 namespace {
 
-/// The largest relative change of the energy over some hundred impacts, each a few steps long.
+/// The largest relative change of the energy over some hundred impacts, each lasting a few steps.
 double largest_change(const std::string& method, double h, const std::string& law) {
   SceneRun run(
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
@@ -32,7 +32,7 @@ double largest_change(const std::string& method, double h, const std::string& la
 class DiscreteGradientKeepsEnergy : public testing::TestWithParam<std::string> {};
 
 TEST_P(DiscreteGradientKeepsEnergy, AtAnyStep) {
-  // Newton's tolerance of 1e-9 of the forces, some thousand times.
+  // Newton's tolerance of 1e-9 of the forces, accumulated some thousand times.
   constexpr double kNewton = 1e-6;
   for (const double h : {0.01, 0.003, 0.001})
     EXPECT_LT(largest_change("discrete_gradient", h, GetParam()), kNewton) << h;

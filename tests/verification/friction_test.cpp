@@ -1,4 +1,4 @@
-// Coulomb friction against closed forms of blocks that slide, stick and hit walls at an angle.
+// Coulomb friction compared with closed forms of blocks that slide, stick and hit walls at an angle.
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -23,7 +23,7 @@ std::string block(double mass, double stiffness, const std::string& friction, do
          " }\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-9\nend_time = " + std::to_string(end_time) + "\n" + rest;
 }
 
-/// The turning points of x among the ends of steps: slip changes its sense there.
+/// Turning points of x among the ends of steps, where slip reverses.
 class Turns final : public time::Observer {
  public:
   void step(const time::AcceptedStep& step) override {
@@ -44,7 +44,8 @@ class FrictionMethods : public testing::TestWithParam<const char*> {};
 
 constexpr const char* kSliding = "[initial]\ndisplacement = [{ nodes = \"block\", value = 0.85e-3 }]\n";
 
-/// SDND100: turning points 0.85 - 0.2 n mm, stopped for good at the fourth; each turn takes 0.2 mm off.
+/// SDND100: turning points 0.85 - 0.2 n mm; the block stops for good at the fourth, and each reversal reduces
+/// the amplitude by 0.2 mm.
 TEST_P(FrictionMethods, ASlidingBlockStopsWhereFrictionHoldsIt) {
   SceneRun run(block(1.0, 1e4, "coefficient = 0.1, stick = \"rigid\"", 0.2, kSliding), {GetParam()});
   Sampler sampler(0, {pi / 100, 2 * pi / 100, 3 * pi / 100, 4 * pi / 100, 0.2});
@@ -65,7 +66,8 @@ TEST_P(FrictionMethods, ABlockOnABeltSticksAndSlipsWithItsPeriod) {
   EXPECT_NEAR(period, 0.6712388980, 1e-10);
   SceneRun run(block(1.0, 100.0, friction, 3.5, "[initial]\nvelocity = [{ nodes = \"block\", value = 0.1 }]\n"),
                {GetParam(), "integrator.tolerance=1e-10"});
-  // First slip at 0.4 s; stuck again after each slip; half-way through the stick x is at the mean of its ends.
+  // First slip at 0.4 s; the block sticks again after each slip; midway through sticking x is the mean of its
+  // end values.
   std::vector<double> times;
   for (int i = 0; i < 4; ++i) times.push_back(0.4 + slip + i * period + 0.1);
   Sampler sampler(0, times);
@@ -75,7 +77,8 @@ TEST_P(FrictionMethods, ABlockOnABeltSticksAndSlipsWithItsPeriod) {
   for (const double speed : sampler.v) EXPECT_NEAR(speed, 0.1, 1e-10);
 }
 
-/// F2 (SDND104): mean of N |v| over 4 ... 12 s of a block on a shaken floor, friction power over mu.
+/// F2 (SDND104): mean of N |v| over 4 ... 12 s of a block on a shaking floor, which is the friction power
+/// over mu.
 TEST_P(FrictionMethods, AShakenBlockHasTheWearPowerOfTheEventSolution) {
   for (const auto& [amplitude, power] :
        {std::pair(15.0, 15.267099589), {1.5, 0.40906245102}, {1.01, 2.261641213e-4}, {0.99, 0.0}}) {
@@ -101,8 +104,8 @@ TEST_P(FrictionMethods, AShakenBlockHasTheWearPowerOfTheEventSolution) {
 
 /// F4: Den Hartog's amplitude of forced motion without stops, f = 0.3.
 TEST_P(FrictionMethods, ForcedMotionHasDenHartogsAmplitude) {
-  // At r = 0.5 the middle of the motion comes to 0 as 1/t alone, with rests below; half the way down is 4/3 to 1e-7 by
-  // then, and does not depend on friction.
+  // At r = 0.5 the mean of the motion approaches 0 only as 1/t, with rests at the lower turning points. Half
+  // the downward path has reached 4/3 to 1e-7 by then, and does not depend on friction.
   for (const auto& [ratio, amplitude, tolerance] : {std::tuple(0.7, 1.8856998504, 1e-7),
                                                     {1.3, 1.3153481967, 1e-7},
                                                     {1.6, 0.5763418178, 1e-7},
@@ -117,7 +120,7 @@ TEST_P(FrictionMethods, ForcedMotionHasDenHartogsAmplitude) {
     run.simulation().add(turns);
     ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
     ASSERT_GT(turns.at.size(), 80U);
-    // From the last turn above to the one below that follows it.
+    // Path from the last upper turning point to the following lower one.
     if (turns.at.back() > 0.0) turns.at.pop_back();
     const double way = *std::prev(turns.at.end(), 2) - turns.at.back();
     EXPECT_NEAR(0.5 * way, amplitude, tolerance * amplitude) << ratio;
@@ -128,7 +131,8 @@ INSTANTIATE_TEST_SUITE_P(Exact, FrictionMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
                                          "integrator.type=exact"));
 
-/// F1 with regularised friction: the published bias of the turning points, of order 2 in slip_speed for tanh.
+/// F1 with regularised friction: the published bias of the turning points, of second order in slip_speed for
+/// tanh.
 TEST(RegularisedFriction, HasTheBiasOfItsSmoothing) {
   for (const auto& [smoothing, bias] : {std::pair("tanh", 6.0e-4), {"clip", 2.6e-4}}) {
     SceneRun run(block(1.0, 1e4, "coefficient = 0.1, slip_speed = 1e-3, smoothing = \"" + std::string(smoothing) + "\"",
@@ -141,7 +145,8 @@ TEST(RegularisedFriction, HasTheBiasOfItsSmoothing) {
   }
 }
 
-/// The slip speed falls through the range in which tanh is 1 to rounding, where its series sees no other side.
+/// The slip speed decreases through the range in which tanh equals 1 to rounding, where its series does not
+/// show the sign change.
 TEST(RegularisedFriction, IsTheSameByItsSeriesAndByExtrapolation) {
   const std::string scene =
       block(1.0, 1e4, "coefficient = 0.1, slip_speed = 1e-4, smoothing = \"tanh\"", 0.2, kSliding);
@@ -153,7 +158,7 @@ TEST(RegularisedFriction, IsTheSameByItsSeriesAndByExtrapolation) {
   EXPECT_NEAR(series.simulation().state().v[0], other.simulation().state().v[0], 1e-10 * 0.085);
 }
 
-/// The phases and anchors of contacts are part of a snapshot: a run taken up elsewhere ends with the same bits.
+/// Contact status and anchors are part of a snapshot: a run resumed elsewhere ends with the same bits.
 TEST(StickSpring, RemembersAcrossARestart) {
   const std::string toml =
       block(1.0, 100.0, "coefficient = 0.3, static_coefficient = 0.4, stick_stiffness = 1e4, surface_speed = 0.1", 3.0,
@@ -169,9 +174,10 @@ TEST(StickSpring, RemembersAcrossARestart) {
   }
 }
 
-/// Jenkins: a spring k_t in series with a slider dissipates 4 mu N (A - mu N/k_t) in a cycle of amplitude A.
+/// Jenkins element: a spring k_t in series with a slider dissipates 4 mu N (A - mu N/k_t) in a cycle of
+/// amplitude A.
 TEST(StickSpring, DissipatesWhatJenkinsElementDoes) {
-  // A heavy mass on a stiff spring is moved with a given amplitude by its initial motion, friction hardly slows it.
+  // A heavy mass on a stiff spring gets a given amplitude by its initial motion; friction hardly reduces it.
   const double stiffness = 1e8, amplitude = 1e-3, limit = 1.0, stick = 5e3;
   const std::string toml = block(1.0, stiffness, "coefficient = 0.1, stick_stiffness = 5e3", 4 * pi / 1e4,
                                  "[initial]\ndisplacement = [{ nodes = \"block\", value = 1e-3 }]\n");
@@ -184,12 +190,13 @@ TEST(StickSpring, DissipatesWhatJenkinsElementDoes) {
   run.simulation().set_end_time(4 * pi / 1e4);
   ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
   const double cycle = recorder.wear()[0].dissipated - before, wanted = 4 * limit * (amplitude - limit / stick);
-  // The amplitude falls by 4e-5 of itself a cycle.
+  // The amplitude decreases by a relative 4e-5 in a cycle.
   EXPECT_NEAR(cycle, wanted, 1e-4 * wanted);
 }
 
-/// A disc of mass m, radius R and I = m R^2/2 that turns with W about x and is pressed on a wall above it: friction
-/// takes its rotation and drives it along the wall until it rolls, with the speed R W/3 whatever the law and the force.
+/// A disc of mass m, radius R and I = m R^2/2 rotates with W about x and is pressed against a wall above it.
+/// Friction slows its rotation and drives it along the wall until it rolls with the velocity R W/3, for any
+/// law and force.
 std::string spinning_disc(const std::string& rest, const std::string& friction) {
   return "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"disc\"\nmass = 2.0\ndiametral_inertia = 0.03\n"
          "polar_inertia = 0.04\n[[element]]\ntype = \"spring\"\nnode = \"disc\"\ndof = \"uy\"\nstiffness = 0.0\n"
@@ -205,7 +212,7 @@ std::string spinning_disc(const std::string& rest, const std::string& friction) 
 
 TEST(SpinningDisc, RollsWithAThirdOfItsSpeed) {
   const double radius = 0.2, speed = 9.0;
-  // Pressed with 20 N from the start: 2e3 N/m closed by 0.01 m.
+  // Pressed with 20 N from the start: 2e3 N/m with a penetration of 0.01 m.
   const std::string pressed = "{ nodes = \"disc\", dof = \"uz\", value = 0.01 }";
   const std::string by_itself = "[initial]\ndisplacement = [" + pressed +
                                 "]\nvelocity = [{ nodes = \"disc\", dof = \"rx\", value = 9.0 }]\n",
@@ -223,7 +230,7 @@ TEST(SpinningDisc, RollsWithAThirdOfItsSpeed) {
       ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
       const auto& state = run.simulation().state();
       const double along = state.v[run.dof("disc", DofKind::uy)], turning = state.v[run.dof("disc", DofKind::rx)];
-      // The rotation that the drive gives is not in rx.
+      // The rotation prescribed by [rotation] is not in rx.
       const double own = start == driven ? speed : 0.0;
       EXPECT_NEAR(along, radius * speed / 3.0, tolerance) << method << " " << friction;
       EXPECT_NEAR(turning + own, speed / 3.0, tolerance / radius) << method << " " << friction;
@@ -258,8 +265,8 @@ TEST(ObliqueImpact, TakesTheTangentialImpulseOfSlip) {
   EXPECT_NEAR(stuck.first, 0.0, 1e-9);
 }
 
-/// A dashpot with pull = true presses nothing while it pulls: v_t' = v_t - mu (1 + e) v_n with the restitution e of a
-/// contact that ends at F = 0, although this one ends at g = 0.
+/// A dashpot with pull = true exerts no normal pressure while it pulls: v_t' = v_t - mu (1 + e) v_n with the
+/// restitution e of a contact that ends at F = 0, although this contact ends at g = 0.
 TEST(ObliqueImpact, DoesNotRubWhileTheDashpotPulls) {
   for (const char* method : {"dopri5", "extrapolation8", "rodas4", "exact"}) {
     SceneRun run(
@@ -277,13 +284,14 @@ TEST(ObliqueImpact, DoesNotRubWhileTheDashpotPulls) {
   }
 }
 
-/// A slip speed that the tolerance does not resolve is said with the values that would do; others are not.
+/// If the tolerance does not resolve a slip speed, a warning gives suitable values; otherwise there is no
+/// warning.
 TEST(RegularisedFriction, TellsASlipSpeedThatTheToleranceDoesNotResolve) {
   SceneRun run(block(1.0, 1e4, "coefficient = 0.1, slip_speed = 1e-6", 0.02, kSliding));
   record::SlipWatch watch(run.dynamics());
   run.simulation().add(watch);
   ASSERT_TRUE(run.run().completed);
-  // The largest speed is that of 0.75 mm around the place where spring and friction balance, 0.075 m/s.
+  // The largest speed is that of an amplitude of 0.75 mm about the balance of spring and friction, 0.075 m/s.
   EXPECT_EQ(watch.complaint(1e-6), "");
   const std::string complaint = watch.complaint(1e-3);
   EXPECT_NE(complaint.find("slip_speed = 1e-06 m/s, but with the tolerance 0.001 the speed there"), std::string::npos)

@@ -1,4 +1,4 @@
-// Impacts with dissipation against closed forms of the restitution and of the largest penetration.
+// Dissipative impacts compared with closed forms of the restitution and of the largest penetration.
 #include <cmath>
 
 #include <butee/core/error.hpp>
@@ -15,7 +15,7 @@ struct Outcome {
   double restitution, impulse_time, peak_force, dissipated;
 };
 
-/// A mass flies at `speed` against a stop on its positive side.
+/// A mass moves at `speed` against a stop on its positive side.
 Outcome bounce(double mass, double speed, const std::string& contact, double end_time, const std::string& method) {
   char start[400];
   std::snprintf(
@@ -36,7 +36,7 @@ Outcome bounce(double mass, double speed, const std::string& contact, double end
 
 class ImpactMethods : public testing::TestWithParam<const char*> {};
 
-/// C1: m = 1, k = 1e4: the contact ends at F = 0 or, where it may pull, at g = 0.
+/// C1: m = 1, k = 1e4: the contact ends at F = 0, or at g = 0 if it may pull.
 TEST_P(ImpactMethods, KelvinAndVoigtsDashpotGivesItsRestitution) {
   struct Row {
     double zeta, pulls, released;
@@ -88,7 +88,7 @@ TEST_P(ImpactMethods, HertzLawHasTheDurationAndForceOfItsClosedForm) {
   EXPECT_NEAR(ball.peak_force, 1743.7755835, 1e-8 * 1743.8);
 }
 
-/// C4: what Jankowski's approximate formula really gives.
+/// C4: the restitution that results from Jankowski's approximate formula.
 TEST_P(ImpactMethods, JankowskisLawGivesTheRestitutionThatTheMessageStates) {
   for (const auto& [wanted, real] : {std::pair(0.5, 0.4945878), {0.65, 0.6470290}, {0.8, 0.7989438}}) {
     const std::string contact =
@@ -98,7 +98,8 @@ TEST_P(ImpactMethods, JankowskisLawGivesTheRestitutionThatTheMessageStates) {
   }
 }
 
-/// The dashpot of jankowski has an infinite slope where the contact closes, which Rosenbrock's stages cannot follow.
+/// The dashpot of jankowski has infinite slope when the contact closes; Rosenbrock's stages cannot resolve
+/// it.
 TEST(Jankowski, IsRefusedByRodas4AndTakenByAuto) {
   const std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[contact]]\ntype = \"stop\"\nnodes = "
@@ -114,8 +115,8 @@ TEST(Jankowski, IsRefusedByRodas4AndTakenByAuto) {
   EXPECT_TRUE(chosen.run().completed);
 }
 
-/// The peak of normal_force in a summary is that between rows and steps, and equals the one in wear.csv: an elastic
-/// impact of m = 2 at k = 1e6 with 0.5 m/s has v sqrt(k m).
+/// The peak of normal_force in a summary includes motion between rows and steps, and equals that in wear.csv:
+/// an elastic impact of m = 2 at k = 1e6 with 0.5 m/s gives v sqrt(k m).
 TEST_P(ImpactMethods, ThePeakOfTheNormalForceIsFoundBetweenRows) {
   SceneRun run(
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\n"

@@ -1,4 +1,4 @@
-// Long beams and many beams tied together: counts and errors. What they cost is for tests/benchmark.
+// Long beams and many coupled beams: counts and errors. tests/benchmark measures their cost.
 #include "support/large_scenes.hpp"
 
 #include <algorithm>
@@ -13,9 +13,10 @@
 namespace butee::test::large_scenes_test {
 namespace {
 
-// The same equations solved by a band factor for one beam and by a sparse one for sixteen: rounding alone.
+// The same equations solved with a band factor for one beam and with a sparse factor for sixteen: rounding
+// only.
 constexpr double kRounding = 1e-9;
-// Newmark's error in 2 ms at 1e-4 s, with the change of contact; Runge-Kutta is closer.
+// Newmark's error over 2 ms at 1e-4 s, including the contact change; Runge-Kutta is more accurate.
 constexpr double kMethodsApart = 0.02;
 constexpr int kSteps = 20;
 constexpr double kGap = 1e-3, kTie = 1e5;
@@ -39,7 +40,7 @@ const Vector& displacement_after_steps(SceneRun& scene) {
   return scene.simulation().state().x;
 }
 
-/// How many springs of the ties lie between different beams.
+/// The number of coupling springs between different beams.
 Index count_ties(const SparseMatrix& stiffness, Index dofs_of_one) {
   constexpr double kSame = 1e-12;
   Index count = 0;
@@ -68,7 +69,7 @@ TEST_P(LargeScenes, HoldWhatTheyDescribe) {
   EXPECT_EQ(count_ties(tied.system().stiffness, dofs_of_beam(elements)), (kTiedBeams - 1) * ties);
 }
 
-/// Springs between beams that move alike carry no force, so that each of the sixteen moves like one alone.
+/// Springs between beams with equal motion carry no force, so each of the sixteen moves like a single beam.
 TEST_P(LargeScenes, TiedBeamsLoadedAlikeMoveLikeOne) {
   const int elements = elements_of_tied_beams(GetParam().dofs);
   SceneRun one = make(long_beam(elements), GetParam().method), tied = make(tied_beams(elements), GetParam().method);

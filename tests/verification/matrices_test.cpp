@@ -14,7 +14,7 @@
 namespace butee::test::matrices_test {
 namespace {
 
-/// Matrices printed with 17 digits and summed in another order.
+/// Rounding of matrices printed with 17 digits and summed in another order.
 constexpr double kRounding = 1e-9;
 
 constexpr const char* kHead = R"(
@@ -43,7 +43,7 @@ Vector frequencies(const std::string& toml, Index count) {
 
 class MatricesOfABeam : public testing::Test {
  protected:
-  /// Writes the matrices of a part to files and returns the keys that name them.
+  /// Writes the matrices of a part to files and returns the keys that refer to them.
   std::string exported(const std::string& toml) {
     SceneRun part(toml);
     folder_.write("m.mtx", matrix_market(part.system().mass, "symmetric"));
@@ -67,7 +67,8 @@ std::string run_of(const std::string& middle, const std::string& end) {
   return text;
 }
 
-/// Half of a beam by its matrices, its first node that of an ordinary beam: modes and motion are those of the whole.
+/// Half of a beam is given by its matrices and shares its first node with an ordinary beam: modes and motion
+/// equal those of the whole beam.
 TEST_F(MatricesOfABeam, AreJoinedToABeamAtASharedNode) {
   const std::string whole = kHead + beam("string", 10.0, 8) + run_of("string:6", "string:last");
   const std::string keys = exported(kHead + beam("half", 5.0, 4) +
@@ -90,7 +91,7 @@ TEST_F(MatricesOfABeam, AreJoinedToABeamAtASharedNode) {
   EXPECT_LT(relative_rms(of_two.x, of_one.x), 1e-8);
 }
 
-/// The rows may be named by a file, in any order that the matrices have, and the nodes be all its own.
+/// A file may name the rows in any order of the matrices, and all nodes may belong to the element.
 TEST_F(MatricesOfABeam, TakeTheirRowsFromAFile) {
   const std::string pinned = kHead + beam("string", 10.0, 8) +
                              "[[support]]\nnodes = [\"string:first\", \"string:last\"]\nfix = [\"u\"]\n" +
@@ -108,7 +109,7 @@ TEST_F(MatricesOfABeam, TakeTheirRowsFromAFile) {
   for (Index i = 0; i < 8; ++i) EXPECT_NEAR(found[i], expected[i], kRounding * expected[i]) << i;
 }
 
-/// A turning shaft by M, K and G: whirling modes and those with damping that turns are the shaft's.
+/// A rotating shaft given by M, K and G: whirl modes, also with rotating damping, equal those of the shaft.
 TEST_F(MatricesOfABeam, TurnWithTheirGyroscopicMatrix) {
   const std::string disc =
       "[[element]]\ntype = \"disc\"\nnode = \"NAME:3\"\nmass = 10.0\ndiametral_inertia = "
@@ -140,9 +141,9 @@ TEST_F(MatricesOfABeam, TurnWithTheirGyroscopicMatrix) {
   EXPECT_GT(std::abs(expected[0].lambda.imag() - expected[1].lambda.imag()), 1e-3);
 }
 
-/// M and K of a membrane of 7 x 21 points as Kronecker products of bars with consistent masses, written here entry by
-/// entry: lambda = lambda_i + lambda_j with lambda_i = 6/h^2 (1 - cos)/(2 + cos) along each side. Frequencies and the
-/// motion under a step of force are those of the closed form.
+/// M and K of a membrane of 7 x 21 points as Kronecker products of bars with consistent masses, computed here
+/// entry by entry: lambda = lambda_i + lambda_j with lambda_i = 6/h^2 (1 - cos)/(2 + cos) along each side.
+/// Frequencies and the motion under a step force must equal the closed form.
 class Membrane : public testing::Test {
  protected:
   static constexpr int kRows = 7, kColumns = 21;
@@ -159,7 +160,7 @@ class Membrane : public testing::Test {
   };
   const Side down_{kRows, 0.31}, along_{kColumns, 0.017};
 
-  /// The lower triangle as a coordinate real symmetric file.
+  /// The lower triangle in the format "coordinate real symmetric".
   std::string file(bool is_mass) const {
     std::string entries;
     int count = 0;
@@ -200,7 +201,7 @@ TEST_F(Membrane, HasTheFrequenciesOfItsClosedForm) {
     const double omega = expected[static_cast<std::size_t>(i)];
     EXPECT_NEAR(found[i], omega, 1e-11 * omega) << i;
   }
-  // Both triangles count: the sums of all entries are those of the products.
+  // Both triangles count: the sums of all entries equal those of the products.
   SceneRun run(toml);
   const auto sum = [](const Side& side, bool is_mass) {
     double total = 0.0;
@@ -234,7 +235,7 @@ TEST_F(Membrane, AnswersAStepOfForceAsItsClosedForm) {
   }
 }
 
-/// C of a file comes beside [damping] and need not be symmetric.
+/// A matrix C from a file is added to [damping] and need not be symmetric.
 TEST_F(MatricesOfABeam, AddTheirDamping) {
   folder_.write("m.mtx", "%%MatrixMarket matrix array real symmetric\n2 2\n2.0\n0\n3.0\n");
   folder_.write("k.mtx", "%%MatrixMarket matrix array real symmetric\n2 2\n200.0\n-50\n300.0\n");

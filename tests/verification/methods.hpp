@@ -6,7 +6,8 @@
 
 namespace butee::test {
 
-/// One of the seven methods, with parameters for an accuracy of about 1e-5 on an oscillator of 20 rad/s.
+/// One of the seven methods, with parameters for a relative accuracy of about 1e-5 on an oscillator of 20
+/// rad/s.
 struct Method {
   std::string name;
   std::vector<std::string> settings;

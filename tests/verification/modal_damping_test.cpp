@@ -12,14 +12,15 @@ namespace {
 /// Half a unit in the last printed digit of each number.
 constexpr double kFrequencyPrinted = 5e-6, kStaticPrinted = 5e-10, kPeakPrinted = 5e-10, kPeakTimePrinted = 5e-6;
 
-/// Every mode decays at its own ratio and speed: q = e^(-zeta w t) [cos(w_d t) + zeta w/w_d sin(w_d t)],
-/// w_d = w sqrt(1 - zeta^2). Source: A. K. Chopra, Dynamics of Structures, 4th ed., sections 2.2 and 10.10.
+/// Every mode decays with its own damping ratio and frequency: q = e^(-zeta w t) [cos(w_d t) + zeta w/w_d
+/// sin(w_d t)], w_d = w sqrt(1 - zeta^2). Source: A. K. Chopra, Dynamics of Structures, 4th ed., sections 2.2
+/// and 10.10.
 double free_vibration(double omega, double zeta, double t) {
   const double wd = omega * std::sqrt(1.0 - zeta * zeta);
   return std::exp(-zeta * omega * t) * (std::cos(wd * t) + zeta * omega / wd * std::sin(wd * t));
 }
 
-/// A pinned beam of four elements, eight modes, with a stop that it never reaches.
+/// A pinned beam of four elements, with eight modes and a stop that it never reaches.
 std::string pinned_beam(const std::string& modal, const std::string& method, double h) {
   return R"(
 schema = 1
@@ -73,7 +74,7 @@ std::ostream& operator<<(std::ostream& stream, const Decay& decay) {
 
 class ModalDecay : public testing::TestWithParam<Decay> {
  protected:
-  /// The modal coordinates after two periods of the lowest mode, from rest and all of them 1.
+  /// The modal coordinates after two periods of the lowest mode; initially all are 1, at rest.
   Vector end(const std::string& method) {
     SceneRun scene(pinned_beam(GetParam().modal, method, 1e-6));
     modes_ = *dynamics::lowest_modes(scene.system(), 8);
@@ -92,7 +93,7 @@ class ModalDecay : public testing::TestWithParam<Decay> {
   double exact(Index mode) const {
     return free_vibration(modes_.frequencies[mode], GetParam().ratios[static_cast<std::size_t>(mode)], steps_ * h_);
   }
-  /// What is left of a phase error of this size, rad.
+  /// Relative error due to a phase error, rad.
   double left_of(double phase, Index mode) const {
     const double zeta = GetParam().ratios[static_cast<std::size_t>(mode)];
     return phase * std::exp(-zeta * modes_.frequencies[mode] * steps_ * h_);
@@ -103,12 +104,12 @@ class ModalDecay : public testing::TestWithParam<Decay> {
   int steps_ = 0;
 };
 
-/// Rounding of the projections on the modes, over some 50 000 steps.
+/// Rounding of the projections onto the modes, over some 50 000 steps.
 constexpr double kProjection = 1e-9;
 
 TEST_P(ModalDecay, FollowsTheClosedFormInEveryModeByRungeKutta) {
   const Vector q = end("rk4");
-  // (w h)^4/120 of each radian: 1.3e-9 of 1000 rad in the highest mode.
+  // Phase error (w h)^4/120 per radian: 1.3e-9 per radian over 1000 rad in the highest mode.
   for (Index i = 0; i < 8; ++i) {
     const double wh = modes_.frequencies[i] * h_;
     EXPECT_NEAR(q[i], exact(i), left_of(std::pow(wh, 4) / 100 * wh * steps_, i) + kProjection) << "mode " << i + 1;
@@ -117,7 +118,7 @@ TEST_P(ModalDecay, FollowsTheClosedFormInEveryModeByRungeKutta) {
 
 TEST_P(ModalDecay, FollowsTheClosedFormInEveryModeByNewmark) {
   const Vector q = end("newmark");
-  // (w h)^2/12 of each radian.
+  // Phase error (w h)^2/12 per radian.
   for (Index i = 0; i < 8; ++i) {
     const double wh = modes_.frequencies[i] * h_;
     EXPECT_NEAR(q[i], exact(i), left_of(wh * wh / 10 * wh * steps_, i) + kProjection) << "mode " << i + 1;
@@ -130,9 +131,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Decay{"a_list", "[0.05, 0.01, 0.03]", {0.05, 0.01, 0.03, 0.0, 0.0, 0.0, 0.0, 0.0}}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-/// The NAFEMS benchmark 5T as an Euler-Bernoulli beam: pinned, 10 m, 2 m square, a step load of 1e6 N/m, 2 % in every
-/// mode. Source: NAFEMS, Selected Benchmarks for Forced Vibration, 1989, test 5T; the numbers are those of the modal
-/// sum below, which an independent program confirmed. (The published ones are for a deep beam with shear.)
+/// The NAFEMS benchmark 5T as an Euler-Bernoulli beam: pinned, 10 m, 2 m square, a step load of 1e6 N/m, 2 %
+/// damping in every mode. Source: NAFEMS, Selected Benchmarks for Forced Vibration, 1989, test 5T. The
+/// numbers are those of the modal sum below, confirmed by an independent program. (The published ones are for
+/// a deep beam with shear.)
 constexpr const char* kNafems = R"(
 schema = 1
 
@@ -226,7 +228,7 @@ TEST(Nafems5t, LowestFrequencyOfTheMesh) {
   const SceneRun scene(kNafems);
   const auto modes = dynamics::lowest_modes(scene.system(), 1);
   ASSERT_TRUE(modes.has_value());
-  // The mesh errs by (pi/20)^4/1440 = 4e-7 of it.
+  // The relative mesh error is (pi/20)^4/1440 = 4e-7.
   EXPECT_NEAR(modes->frequencies[0] / (2 * std::numbers::pi), 45.34498, 5e-7 * 45.34498 + kFrequencyPrinted);
 }
 
@@ -239,13 +241,13 @@ TEST_P(Nafems, PeakAndItsTimeAreThoseOfTheModalSum) {
   scene.simulation().add(middle);
   scene.simulation().add(energy);
   ASSERT_TRUE(scene.run().completed);
-  // Newmark and the mesh change the period of the modes that matter by less than 1e-5; near a maximum that is nothing,
-  // so that half a unit of the last printed digit, 5e-7 of it, is doubled.
+  // Newmark and the mesh change the periods of the relevant modes by less than 1e-5, which hardly matters
+  // near a maximum. Half a unit of the last printed digit is 5e-7 of the value; it is doubled.
   EXPECT_NEAR(middle.largest.u, 0.947475e-3, 2 * kPeakPrinted);
-  // Four steps, in which the maximum changes by less than rounding to the printed digits.
+  // Four steps, in which the maximum changes by less than the rounding of the printed digits.
   EXPECT_NEAR(middle.largest.t, 0.01103, 2 * kPeakTimePrinted);
   EXPECT_GT(energy.dissipated(), 0.0);
-  // Simpson's rule over steps of w h up to 0.5 in modes that hardly take part.
+  // Error of Simpson's rule with steps of w h up to 0.5 in modes with little energy.
   EXPECT_LE(std::abs(energy.balance_error()), 1e-5);
 }
 

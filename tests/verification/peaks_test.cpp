@@ -18,11 +18,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A method's own error on these scenes, relative; 1e-3 s is a 800th of the shortest motion.
+/// Relative error of a method on these scenes; 1e-3 s is 1/800 of the shortest period.
 constexpr double kMethod = 2e-3;
-/// Between steps accelerations of rodas4 lie on straight lines; at its default tolerance those are longer.
+/// Between steps rodas4 interpolates accelerations linearly; at its default tolerance steps are longer.
 constexpr double kStraight = 4e-3;
-/// That of a peak's place on the dense output, and of printed digits.
+/// Errors of locating a peak on the dense output, and of printed digits.
 constexpr double kSame = 1e-9, kPrinted = 1e-5;
 
 std::string integrator(const MethodCase& method, const std::string& end_time) {
@@ -48,7 +48,7 @@ node = "ball"
 quantities = ["u", "v", "a", "contact_force"]
 )";
 
-/// Free motion with an energy of v^2/2 against a stop of 50 N/m at 0.01 m, whose rows and steps miss the peaks.
+/// Free motion with an energy of v^2/2 against a stop of 50 N/m at 0.01 m; rows and steps miss the peaks.
 const std::string kStop = kOscillator + R"(
 [[contact]]
 type = "stop"
@@ -73,7 +73,7 @@ std::map<std::string, double> closed_form_at_stop() {
   return {{"ball.u", v / std::sqrt(k)}, {"ball.v", v}, {"ball.a", k * u + force}, {"ball.contact_force", force}};
 }
 
-/// cos(2 t) on the oscillator, with a row every 2.5 turns of it.
+/// cos(2 t) on the oscillator, with a row every 2.5 periods.
 const std::string kDriven = kOscillator + R"(
 [[load]]
 type = "harmonic"
@@ -104,7 +104,7 @@ double largest(const std::vector<double>& values) {
   return largest;
 }
 
-/// Follows the peaks in a structure that is embedded, as a program that uses it would.
+/// Tracks the peaks in an embedded structure, as an embedding program would.
 std::map<std::string, double> embedded_peaks(const std::string& scene, double end) {
   auto structure = embed::Structure::from_toml(scene, {{}, {BUTEE_TEST_PLUGINS}, {}});
   using model::Quantity;
@@ -115,7 +115,7 @@ std::map<std::string, double> embedded_peaks(const std::string& scene, double en
 
 class PeaksOf : public testing::TestWithParam<MethodCase> {
  protected:
-  /// Runs the scene with the program, and compares all the places that a peak appears in.
+  /// Runs the scene with the program, and compares all outputs of a peak.
   Json run(const std::string& scene, const std::map<std::string, double>& truth, double tolerance) {
     folder.write("scene.toml", scene);
     const Outcome outcome = run_program({"run", "scene.toml", "-o", "results"}, folder.path());
@@ -148,7 +148,7 @@ TEST_P(PeaksOf, OscillatorAtAStopAreThoseOfItsEnergyInAllPlaces) {
   const CsvTable impacts(folder.file("results/impacts.csv"));
   EXPECT_EQ(impacts.rows(), 3U);
   EXPECT_NEAR(largest(impacts.column("peak_force")), force, kSame * force);
-  // The program's rows end steps of extrapolation8; an embedded structure has none, and its steps are others.
+  // Output rows end the steps of extrapolation8; an embedded structure has no rows, so its steps differ.
   const double same = GetParam().name == "extrapolation8" ? kPrinted : kSame;
   for (const auto& [column, peak] : embedded_peaks(scene, 4.0)) {
     const double printed = summary["peak"].at(column);
@@ -179,7 +179,7 @@ TEST(PeaksOfTrust, HoldTheTrueForceOfAStop) {
   EXPECT_NEAR(force["value"].get<double>(), truth, kSame * truth);
 }
 
-/// Two stops on one node: their forces add up, and their sum is the largest where neither may be.
+/// Two stops on one node: their forces add, and the sum may be largest when neither force is.
 TEST(PeaksOfSums, AreThoseOfTheRowsOfAFineHistory) {
   const std::string scene = R"(
 schema = 1

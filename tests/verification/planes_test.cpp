@@ -1,4 +1,4 @@
-// Motions in one plane, in two and in space are the same where they should be.
+// Equal motions in one plane, in two planes and in space.
 #include <cmath>
 
 #include <butee/model/element_choice.hpp>
@@ -10,7 +10,7 @@
 namespace butee::test::planes_test {
 namespace {
 
-/// The same motion, whichever way a scene says it: along z of a lateral beam as along y of a planar one.
+/// The same motion along z of a lateral beam and along y of a planar beam.
 TEST(Planes, AreAlike) {
   const auto run = [](const std::string& motion, const std::string& dof, DofKind kind) {
     const std::string fixed = dof == "u" ? "theta" : "ry", rest = motion == "planar" ? "" : ", \"u\", \"theta\"";
@@ -28,12 +28,13 @@ TEST(Planes, AreAlike) {
     return tip.x;
   };
   const auto y = run("planar", "u", DofKind::uy), z = run("lateral", "uz", DofKind::uz);
-  // Steps differ by rounding alone.
+  // Steps differ only by rounding.
   EXPECT_LT(relative_rms(z, y), 1e-9);
 }
 
-/// Round beams have equal frequencies in both planes, whose modes must not mix: beside a stop in the plane that stays
-/// at rest rounding would be motion, and no step short enough for it.
+/// Round beams have equal frequencies in both planes; the modes of the planes must not mix. Otherwise
+/// rounding would appear as motion in the unloaded plane, which has a stop, and no step would be short enough
+/// for it.
 TEST(Planes, ALoadInOneLeavesTheOtherAtRest) {
   const std::string scene =
       steel_bar() + std::string(

@@ -19,7 +19,7 @@ std::string support(const std::string& node, const std::string& fix) {
 
 const std::string kPinned = "\"u\"", kClamped = "\"u\", \"theta\"", kFree;
 
-/// code_aster's SDLL101: a round bar of 2 m.
+/// The bar of code_aster's case SDLL101: round, 2 m long.
 std::string bar(const std::string& preload, int elements, const std::string& first, const std::string& last) {
   return "schema = 1\n[material.steel]\nyoung_modulus = 2e11\ndensity = 7800.0\n[section.round]\nshape = "
          "\"circle\"\nradius = 0.005\n[integrator]\ntype = \"newmark\"\ntime_step = 1e-4\nend_time = 1e-3\n"
@@ -47,7 +47,8 @@ void expect_all(const std::vector<double>& found, const std::vector<double>& wan
   for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(found.at(i), wanted[i], tolerance) << i;
 }
 
-/// Euler's cases, and the same elements in an independent program; the error falls as the fourth power of the mesh.
+/// Euler's cases, and results of an independent program with the same elements; the error is of fourth order
+/// in the mesh size.
 TEST(Buckling, HappensAtEulersLoads) {
   const struct {
     std::string first, last;
@@ -89,10 +90,10 @@ TEST(Buckling, IsRefusedWithTheCriticalLoad) {
             "");
 }
 
-/// Published frequencies of SDLL101, and of the clamped bar by the exact equation.
+/// Published frequencies of SDLL101, and those of the clamped bar from the exact equation.
 TEST(TiedBar, HasThePublishedFrequencies) {
   constexpr double kPrinted = 6e-5;
-  // Published with 4 decimals; 80 elements are good to 1e-5 Hz of the third.
+  // Published with 4 decimals; with 80 elements the third is accurate to 1e-5 Hz.
   expect_all(frequencies(bar("0.0", 80, kPinned, kPinned), 5), {4.9713, 19.8851, 44.7414, 79.5403, 124.2818}, 7e-4);
   expect_all(frequencies(bar("10.0", 80, kPinned, kPinned), 3), {5.0728, 19.9874, 44.8439}, kPrinted);
   expect_all(frequencies(bar("100.0", 80, kPinned, kPinned), 3), {5.909, 20.886, 45.7561}, kPrinted);
@@ -104,7 +105,7 @@ TEST(TiedBar, HasThePublishedFrequencies) {
   expect_all(frequencies(bar("-300.0", 160, kClamped, kClamped), 2), {9.4096011653, 28.6669189405}, 1e-6);
 }
 
-/// A string that hangs along x, limp beside its weight.
+/// A string that hangs along x; its bending stiffness is small relative to its weight.
 std::string hanging(const std::string& preload, const std::string& more = "") {
   return "schema = 1\n[material.steel]\nyoung_modulus = 2e9\ndensity = 7800.0\npoisson_ratio = "
          "0.3\n[section.round]\nshape = "
@@ -117,7 +118,8 @@ std::string hanging(const std::string& preload, const std::string& more = "") {
 
 const std::string kWeight = "[gravity]\nacceleration = [9.81, 0.0, 0.0]\n";
 
-/// The weight below each part is its tension, and the frequencies are those of a hanging chain, j_(0,n) sqrt(g/L)/2.
+/// The tension equals the weight below each part, and the frequencies are those of a hanging chain, j_(0,n)
+/// sqrt(g/L)/2.
 TEST(Gravity, TightensWhatHangs) {
   SceneRun run(hanging("\"gravity\"", kWeight));
   const auto tension = run.model().elements.front()->preload();
@@ -127,7 +129,7 @@ TEST(Gravity, TightensWhatHangs) {
   const auto modes = dynamics::find_modes(dynamics::Structure(run.model(), run.system().dofs), 6);
   const double zeros[] = {2.404825557695773, 5.520078110286311, 8.653727912911013};
   for (Index i = 0; i < 3; ++i) {
-    // Bending stiffens the lowest part a little: E I/(T l^2) of some 1e-5; both planes.
+    // Bending slightly stiffens the lowest part: E I/(T l^2) is about 1e-5. Both planes are equal.
     const double chain = 0.5 * zeros[i] * std::sqrt(9.81 / 50.0);
     EXPECT_NEAR(modes.frequencies[2 * i], chain, 3e-3 * chain) << i;
     EXPECT_NEAR(modes.frequencies[2 * i + 1], modes.frequencies[2 * i], 1e-6 * chain) << i;

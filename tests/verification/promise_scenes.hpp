@@ -131,7 +131,7 @@ stiffness = 1e4
 velocity = [{ nodes = "a", value = 1.0 }]
 )";
 
-// From rest, so that the first step leaps over most of what is a displacement so far.
+// Starts from rest, so that the first step covers most of the displacement reached so far.
 inline constexpr const char* kSwitchedOn = R"(
 [[element]]
 type = "mass"
@@ -149,7 +149,7 @@ start = 0.02
 end = 0.02000006
 )";
 
-/// Fast modes that a stop in the middle excites, seen in velocities and rotations.
+/// A stop in the middle excites fast modes, visible in velocities and rotations.
 inline constexpr const char* kStruckBeam = R"(
 [material.steel]
 young_modulus = 2.1e11

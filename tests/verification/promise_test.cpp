@@ -1,6 +1,7 @@
-// The promise of every method with a local error control (integrators/error-control.md): the error of each
-// displacement, rotation and velocity, relative to its own scale, is at most 10 tolerance max(1, Gamma). References and
-// Gamma, the growth of disturbances, come from the method `exact`, whose pieces have no truncation error.
+// The error bound promised by every method with local error control (integrators/error-control.md): the error
+// of each displacement, rotation and velocity, relative to its own scale, is at most 10 tolerance max(1,
+// Gamma). The method `exact`, whose pieces have no truncation error, gives the references and Gamma, the
+// growth of disturbances.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +18,7 @@ namespace {
 constexpr double kPromise = 10.0, kFloor = 1e-3;
 constexpr int kRows = 200;
 
-/// All components at all rows: x, then v, a column for each row.
+/// All components at all rows: x and v, one column for each row.
 struct Motion {
   Eigen::MatrixXd x, v;
 };
@@ -52,7 +53,8 @@ class Recorder final : public time::Observer {
   Index row_ = 0;
 };
 
-/// A run to the end; where `disturbed` is one of ten instants, x and v get `change` times their scales there.
+/// A complete run; at one of ten instants, `disturbed`, x and v change by `change` times their scales (-1: no
+/// disturbance).
 Motion motion_of(const Scene& scene, const std::string& keys, int disturbed = -1, double change = 0.0,
                  const Motion* scales = nullptr) {
   SceneRun run("schema = 1\n" + std::string(scene.text) + "[integrator]\nend_time = " + to_text(scene.end_time) + "\n" +
@@ -80,7 +82,7 @@ Motion motion_of(const Scene& scene, const std::string& keys, int disturbed = -1
   return recorder.motion;
 }
 
-/// S of each component at each row.
+/// The scales S of each component at each row.
 Motion scales_of(const Motion& motion, const std::vector<bool>& is_rotation) {
   Motion scales = motion;
   for (Eigen::MatrixXd* all : {&scales.x, &scales.v}) {
@@ -98,7 +100,7 @@ Motion scales_of(const Motion& motion, const std::vector<bool>& is_rotation) {
   return scales;
 }
 
-/// e at each row. Velocities count where no stop is about to close or open.
+/// e at each row. Velocities are ignored if a stop is about to close or open.
 Vector error_of(const Motion& motion, const Motion& reference, const Motion& scales, const Vector& is_near) {
   Vector e = Vector::Zero(kRows);
   for (Index row = 0; row < kRows; ++row) {
@@ -116,13 +118,13 @@ TEST_P(Promise, IsKeptForEveryComponent) {
   for (const Scene& scene : kScenes)
     for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
       SceneRun run("schema = 1\n" + std::string(scene.text) + "[integrator]\nend_time = 1.0\ntype = \"exact\"\n");
-      // exponential takes no dashpots between parts.
+      // exponential refuses dashpots between parts.
       if (GetParam() == "exponential" && run.dynamics().size() > 1 && run.system().dashpots.size() > 0) continue;
       std::vector<bool> is_rotation;
       for (const model::NodalDof& dof : run.system().dofs.free()) is_rotation.push_back(dof.kind == DofKind::theta);
       const Motion reference = motion_of(scene, "type = \"exact\"\n");
       const Motion scales = scales_of(reference, is_rotation);
-      // Twice what is compared, for the errors of both.
+      // Twice the compared bound, for the errors of both solutions.
       const double margin = 2.0 * kPromise * tolerance;
       Vector is_near = Vector::Zero(kRows), w(run.dynamics().stop_count()), size(run.dynamics().stop_count());
       for (Index row = 0; row < kRows; ++row) {
@@ -154,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Promise,
                          [](const auto& one) { return one.param; });
 
 TEST(PromiseTest, SeesWhatIsBroken) {
-  // A method whose error in one light part is a tenth of its motion at a tolerance of 1e-4.
+  // The error of this method in one light part is a tenth of its motion, at a tolerance of 1e-4.
   const Scene& scene = kScenes[1];
   const Motion reference = motion_of(scene, "type = \"exact\"\n");
   const Motion scales = scales_of(reference, {false, false});

@@ -8,17 +8,17 @@
 namespace butee::test::rigid_motion_test {
 namespace {
 
-/// Momentum is a linear invariant and grows linearly under a constant force, which every method here keeps but for
-/// rounding (and Newton's tolerance) over some thousand steps.
+/// Momentum is a linear invariant and grows linearly under a constant force; every method here reproduces
+/// this up to rounding (and Newton's tolerance) over some thousand steps.
 constexpr double kMomentum = 1e-8;
-/// Newton's stopping rule and rounding, relative to the motion.
+/// Newton's stopping criterion and rounding, relative to the motion.
 constexpr double kRigid = 1e-8;
 
 constexpr double kLength = 2.0, kMass = 8000.0 * 2e-3 * kLength, kInertia = kMass * kLength * kLength / 12;
 constexpr double kEnd = 0.02;
 
-/// A free beam. Source: Newton and Euler: the centre of mass moves with F/m, the moment of momentum grows with the
-/// moment of the force; a uniform force does not bend the beam at all.
+/// A free beam. Source: Newton and Euler: the centre of mass accelerates with F/m, and the angular momentum
+/// grows with the moment of the force. A uniform force does not bend the beam.
 std::string free_beam(const std::string& load) {
   return R"(
 schema = 1
@@ -46,7 +46,7 @@ end_time = 0.02
 )" + load;
 }
 
-/// All nodes moved or turned about the middle as one.
+/// Translation of all nodes, and rotation of all nodes about the middle.
 struct RigidModes {
   explicit RigidModes(const SceneRun& scene) : shift(Vector::Zero(scene.system().size())), turn(shift) {
     const double x[] = {0.0, 0.3, 0.8, 1.2, 1.5, 2.0};
@@ -62,7 +62,7 @@ struct RigidModes {
 
 class RigidMotion : public testing::TestWithParam<Method> {
  protected:
-  /// The beam's fastest mode wants smaller steps of the explicit method than the oscillator.
+  /// The beam's fastest mode requires smaller steps of the explicit method than the oscillator.
   static std::vector<std::string> overrides() {
     auto all = GetParam().overrides();
     if (GetParam().name == "rk4") all.emplace_back("integrator.time_step=2e-5");

@@ -1,4 +1,5 @@
-// Rubbing and whirling within rings against closed forms of Jiang and Ulbrich's rotor, and between two bodies.
+// Rubbing and whirling in rings, compared with closed forms of Jiang and Ulbrich's rotor, and between two
+// bodies.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -51,10 +52,10 @@ Complex position(SceneRun& run, const std::string& node) {
 }
 
 class RingMethods : public testing::TestWithParam<const char*> {};
-/// exponential takes no stick springs.
+/// exponential refuses stick springs.
 class StickMethods : public RingMethods {};
 
-/// S1: a forward rub of constant amplitude A, stable: it stays for 100 units of time.
+/// S1: a stable forward rub of constant amplitude A; it persists for 100 units of time.
 TEST_P(RingMethods, ASynchronousRubKeepsItsAmplitude) {
   struct Row {
     double mu, speed, amplitude;
@@ -77,13 +78,13 @@ TEST_P(RingMethods, ASynchronousRubKeepsItsAmplitude) {
   }
 }
 
-/// S1: the rub loses its stability by friction beyond mu_c (a Hopf bifurcation in the rotating frame): of runs that
-/// start a little off the closed form, those with less friction come back to it and those with more leave. Bisection to
-/// 1e-3.
+/// S1: the rub becomes unstable for friction above mu_c (a Hopf bifurcation in the rotating frame). Of runs
+/// that start near the closed form, those with less friction return to it and those with more depart from it.
+/// Bisection to 1e-3.
 TEST(SynchronousRub, LosesItsStabilityAtItsThreshold) {
   const double zeta = 0.05, b = 0.04, gap = 1.05;
   const auto amplitude = [&](double w, double mu) {
-    // [(b + 1 - W^2) A - R0]^2 + [(2 z W + mu) A - mu R0]^2 = W^4, the larger root, which is the rub.
+    // [(b + 1 - W^2) A - R0]^2 + [(2 z W + mu) A - mu R0]^2 = W^4; the larger root is the rub.
     const double p = b + 1.0 - w * w, q = 2.0 * zeta * w + mu;
     const double two = p * p + q * q, one = -2.0 * gap * (p + mu * q),
                  none = gap * gap * (1.0 + mu * mu) - std::pow(w, 4);
@@ -98,8 +99,8 @@ TEST(SynchronousRub, LosesItsStabilityAtItsThreshold) {
     SceneRun run(rotor(w, 20.0, "friction = { coefficient = " + text(mu) + ", slip_speed = 1e-5 }\n", 1.0,
                        (1.0 + kOff) * r, Complex(0, w) * r, kTime),
                  {"integrator.type=extrapolation8"});
-    // The mean square distance from the closed form in an early and in the last part of the run; what dies out fast is
-    // gone by then.
+    // Mean square distance from the closed form in an early and in the last part of the run; rapidly decaying
+    // parts have vanished by then.
     double early = 0.0, late = 0.0;
     constexpr int kSamples = 400;
     std::vector<double> times;
@@ -124,7 +125,8 @@ TEST(SynchronousRub, LosesItsStabilityAtItsThreshold) {
   }
 }
 
-/// Frequencies with contacts closed hold rings, planes along their normal and stick springs.
+/// Frequencies with closed contacts include the stiffness of rings, of planes along their normal and of stick
+/// springs.
 TEST(ClosedContacts, StiffenTheStructure) {
   const auto highest = [](const std::string& contact) {
     SceneRun run("schema = 1\n" + body("m", 2.0, 100.0, 0.0) + contact +
@@ -143,8 +145,8 @@ TEST(ClosedContacts, StiffenTheStructure) {
   EXPECT_NEAR(plane.second, 20.0, 1e-9);
 }
 
-/// S3: without unbalance, a start above the threshold of backward whirl ends in it, one below comes to rest. A wrong
-/// sense of friction lets both grow without bound.
+/// S3: without unbalance, a start above the threshold of backward whirl ends in whirl, and one below it comes
+/// to rest. With the wrong sign of friction both would grow without bound.
 TEST_P(RingMethods, DryWhirlHasItsThresholdAndItsEndState) {
   const double w = 0.5701562119, a = 1.4686919071;
   for (const double factor : {1.05, 0.95}) {
@@ -165,11 +167,11 @@ TEST_P(RingMethods, DryWhirlHasItsThresholdAndItsEndState) {
   }
 }
 
-/// A stick spring that is carried around its ring three times and a half, unstressed at the start, pulls back with
-/// k_t gap times the whole angle.
+/// A stick spring, unstressed at the start, is moved 3.5 turns around its ring; its force is k_t gap times
+/// the total angle.
 TEST_P(StickMethods, AStickSpringFollowsAroundTheRing) {
   const double gap = 0.01, stick = 50.0, w = 7.0 * pi;  // 3.5 turns in 1 s
-  // Pressed with about 200 N, far more than k_t gap 7 pi = 11 N at mu = 10.
+  // Pressed with about 200 N; at mu = 10 the friction limit is far above k_t gap 7 pi = 11 N.
   std::string toml = "schema = 1\n" + body("m", 1.0, 1e4, 50.0) +
                      "[[contact]]\ntype = \"ring\"\nnodes = \"m\"\ngap = 0.01\nstiffness = 1e4\n"
                      "friction = { coefficient = 10.0, stick_stiffness = 50.0 }\n[initial]\ndisplacement = [" +
@@ -178,7 +180,7 @@ TEST_P(StickMethods, AStickSpringFollowsAroundTheRing) {
     toml += "[[load]]\ntype = \"harmonic\"\nnode = \"m\"\ndof = \"" + std::string(dof) +
             "\"\namplitude = 300.0\nangular_frequency = " + text(w) + "\nphase = " + text(phase) + "\n";
   SceneRun run(toml + "[integrator]\ntype = \"dopri5\"\ntolerance = 1e-8\nend_time = 1.0\n", {GetParam()});
-  /// The angle without its jumps.
+  /// The angle, unwrapped.
   class Turned final : public time::Observer {
    public:
     void step(const time::AcceptedStep& step) override {
@@ -198,9 +200,10 @@ TEST_P(StickMethods, AStickSpringFollowsAroundTheRing) {
   EXPECT_NEAR(energy.balance_error(), 0.0, 1e-6);
 }
 
-/// A shaft's surface that turns by many circumferences of a narrow ring winds the stick spring of a body that it holds.
+/// A shaft's surface that moves by many circumferences of a narrow ring winds the stick spring of a body in
+/// contact.
 TEST_P(StickMethods, ATurningSurfaceWindsAStickSpring) {
-  // The surface goes 0.4 m, gap 2 pi is 6 mm; the force is 20 N of 100 N.
+  // The surface moves 0.4 m, while gap 2 pi is 6 mm; the force is 20 N of a limit of 100 N.
   const double stick = 50.0, path = 0.4;
   const std::string toml =
       "schema = 1\n" + body("m", 1.0, 1e5, 600.0) +
@@ -218,7 +221,7 @@ TEST_P(StickMethods, ATurningSurfaceWindsAStickSpring) {
   EXPECT_NEAR(forces[0].friction, stick * (path + arc), 1e-9 * stick * path);
 }
 
-/// S2: a rotor that rubs on an elastic stator, both bodies free to move, at four speeds.
+/// S2: a rotor rubbing on an elastic stator, both free to move, at four speeds.
 TEST_P(RingMethods, ARotorAndItsStatorWhirlTogether) {
   const double m = 10, k = 986960.4401, c = 125.6637061, ms = 5, ks = 2842446.0675, cs = 376.9911184, kc = 2e6,
                gap = 2e-4, mu = 0.1, e = 1e-4;

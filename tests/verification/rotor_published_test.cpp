@@ -1,4 +1,4 @@
-// Whirling frequencies and critical speeds of published rotors that rotor_test.cpp leaves out.
+// Whirl frequencies and critical speeds of published rotors that rotor_test.cpp does not contain.
 #include <cmath>
 
 #include <butee/dynamics/whirl.hpp>
@@ -40,7 +40,7 @@ TEST(FriswellsOthers, CrossCoupledBearingsAndCriticalSpeedsOfTheOverhungDisc) {
              {832.695018, 890.771302, 5025.827667, 6063.312984}, kRpm, 1e-9);
 }
 
-/// Lalanne and Ferraris' rotor at rest with its damping ratios, its critical speeds, and the published values.
+/// Lalanne and Ferraris' rotor: damping ratios at rest, critical speeds, and the published values.
 class ThreeDiscs : public testing::Test {
  protected:
   static std::string rotor(const std::string& theory, double c) {
@@ -72,8 +72,8 @@ TEST_F(ThreeDiscs, HasItsUndampedCriticalSpeeds) {
              {3620.359, 3798.069, 10016.900, 11278.247, 16768.908, 24398.844, 26602.668}, kRpm, 2e-7);
 }
 
-/// The example rotor of ROSS at 500 rpm, consistent matrices and masses lumped at seven stations, as the commercial
-/// program RAPPID has them: from the fifth mode on they differ by 8 to 13 %.
+/// The example rotor of ROSS at 500 rpm, with consistent matrices and with masses lumped at seven stations as
+/// in the commercial program RAPPID: they differ by 8 to 13 % from the fifth mode on.
 TEST(RossExample, HasTheModesOfConsistentAndOfLumpedMasses) {
   const double mass = 32.58972765, diametral = 0.1780892826, polar = 0.3295636209;
   const std::string rest = disc("@0.5", mass, diametral, polar) + disc("@1.0", mass, diametral, polar) +
@@ -97,7 +97,8 @@ TEST(RossExample, HasTheModesOfConsistentAndOfLumpedMasses) {
   expect_all(found, {14.6152, 15.3284, 43.3459, 46.9251, 105.902, 112.760, 150.907, 155.810}, 2 * pi, 1e-3);
 }
 
-/// (rho A -+ rho I b^2) W^2 = E I b^4: where a pinned shaft with rotary inertia turns as fast as it whirls.
+/// (rho A -+ rho I b^2) W^2 = E I b^4: speeds at which the whirl frequency of a pinned shaft with rotary
+/// inertia equals the speed of rotation.
 TEST(RayleighShaft, HasTheExactCriticalSpeedsOfRayleigh) {
   const auto mesh = [](int elements) {
     SceneRun run(steel("rayleigh", elements, 1.0, 0.05, "young_modulus = 2.1e11\ndensity = 7800.0") +
@@ -111,7 +112,7 @@ TEST(RayleighShaft, HasTheExactCriticalSpeedsOfRayleigh) {
     for (const double f : frequencies(whirl.modes(60000 * kRpm, 2))) list.push_back(f);
     return list;
   };
-  // Of order 4: the limit of two meshes.
+  // Order 4: extrapolation from two meshes.
   const auto coarse = mesh(8), fine = mesh(16);
   const double exact[] = {12114.117760 * kRpm, 12263.575349 * kRpm, 197.0977949 * 2 * pi, 209.3591661 * 2 * pi};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -120,7 +121,8 @@ TEST(RayleighShaft, HasTheExactCriticalSpeedsOfRayleigh) {
   }
 }
 
-/// An overhung disc on a cantilever without mass: every speed of the table, forward whirl goes up.
+/// An overhung disc on a massless cantilever: every speed of the table; the frequency of forward whirl
+/// increases.
 TEST(OverhungDisc, OneElementIsExactAtEverySpeed) {
   SceneRun run(steel("euler", 1, 0.5, 0.01, "young_modulus = 2e11\ndensity = 1e-9") + disc(":last", 10, 0.05, 0.1) +
                "[[support]]\nnodes = \"shaft:first\"\nfix = [\"uy\", \"uz\", \"ry\", \"rz\"]\n" + turning(1.0));

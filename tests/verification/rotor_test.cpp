@@ -19,8 +19,8 @@ using namespace rotors;
 
 using std::numbers::pi;
 
-/// M. I. Friswell, J. E. T. Penny, S. D. Garvey, A. W. Lees, Dynamics of Rotating Machines, 2010, examples 5.9.1 to
-/// 5.9.9; the digits beyond those printed there are of an independent program with the same elements.
+/// M. I. Friswell, J. E. T. Penny, S. D. Garvey, A. W. Lees, Dynamics of Rotating Machines, 2010, examples
+/// 5.9.1 to 5.9.9. Digits beyond the printed ones come from an independent program with the same elements.
 class Friswell : public testing::Test {
  protected:
   static std::string scene(const std::string& theory, const std::string& rest) {
@@ -41,7 +41,7 @@ class Friswell : public testing::Test {
 TEST_F(Friswell, IsotropicBearings) {
   const std::string timoshenko = scene("timoshenko", two_discs(1e6)), euler = scene("euler", two_discs(1e6));
   expect_all(at(timoshenko, 0, 6), {86.658114, 86.658114, 274.312854, 274.312854, 716.786312, 716.786312}, 1, kPrinted);
-  // A wrong sense of the shaft's gyroscopic matrix beside the discs' is 3e-4 off.
+  // With the wrong sign of the shaft's gyroscopic matrix relative to the discs' the error would be 3e-4.
   expect_all(at(timoshenko, 4000, 6), {85.389467, 87.795864, 251.784604, 294.713331, 600.179362, 827.075362}, 1,
              kPrinted);
   expect_all(at(euler, 4000, 6), {85.460304, 87.840900, 252.215047, 295.237007, 601.248663, 827.702816}, 1, kPrinted);
@@ -78,8 +78,8 @@ TEST_F(Friswell, CriticalSpeeds) {
   EXPECT_NEAR(found[1].direction, 1.0, 1e-6);
 }
 
-/// Damping that makes most modes overdamped: the two equal modes of a disc in the middle of its shaft, which does not
-/// tilt, meet the speed once each, at w sqrt(1 - zeta^2), and no other mode does.
+/// Damping makes most modes overdamped. The two equal modes of a disc in the middle of its shaft, which does
+/// not tilt, each have one critical speed, w sqrt(1 - zeta^2); no other mode has one.
 TEST(OverdampedShaft, HasTwoCriticalSpeeds) {
   SceneRun run(R"(
 schema = 1
@@ -122,8 +122,8 @@ end_time = 1.0
     EXPECT_NEAR(critical.speed, size * std::sqrt((1.0 - zeta) * (1.0 + zeta)), 1e-8 * size);
 }
 
-/// M. Lalanne, G. Ferraris, Rotordynamics Prediction in Engineering, 1998: the rotor with three discs, code_aster's
-/// SDLL124. Digits of an independent program with the same elements.
+/// M. Lalanne, G. Ferraris, Rotordynamics Prediction in Engineering, 1998: the rotor with three discs,
+/// code_aster's SDLL124. Digits from an independent program with the same elements.
 TEST(LalanneFerraris, ModesAtSpeed) {
   const std::string scene =
       steel("timoshenko", 13, 1.3, 0.05, "young_modulus = 2e11\ndensity = 7800.0\npoisson_ratio = 0.3") +
@@ -137,7 +137,8 @@ TEST(LalanneFerraris, ModesAtSpeed) {
   expect_all(frequencies(whirl.modes(30000 * kRpm, 4)), {54.083145, 68.094495, 154.311300, 195.740073}, 2 * pi, 2e-8);
 }
 
-/// A spinning pinned shaft with rotary inertia: (rho A + rho I b^2) w^2 -+ 2 rho I b^2 W w - E I b^4 = 0, b = n pi/L.
+/// A rotating pinned shaft with rotary inertia: (rho A + rho I b^2) w^2 -+ 2 rho I b^2 W w - E I b^4 = 0, b =
+/// n pi/L.
 TEST(PinnedShaft, ConvergesWithOrder4ToTheRayleighBeam) {
   constexpr double kSpeed = 30000 * kRpm, kLength = 1.0, kRadius = 0.05, kE = 2.1e11, kRho = 7800.0;
   constexpr double kArea = pi * kRadius * kRadius, kMoment = kArea * kRadius * kRadius / 4, b = pi / kLength;
@@ -156,18 +157,19 @@ TEST(PinnedShaft, ConvergesWithOrder4ToTheRayleighBeam) {
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 4.0, 0.1);
 }
 
-/// Beyond Whirl::kDense DOFs Arnoldi's method finds the same modes.
+/// Above Whirl::kDense DOFs Arnoldi's method finds the same modes.
 TEST(PinnedShaft, HasTheSameModesByArnoldi) {
   SceneRun run(steel("rayleigh", 120, 1.0, 0.05, "young_modulus = 2.1e11\ndensity = 7800.0") +
                "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
   const dynamics::Whirl whirl(run.model());
   ASSERT_FALSE(whirl.is_dense());
-  // Sums of 120 elements in double precision; the exact frequencies are printed with 10 digits.
+  // Sums over 120 elements in double precision; the exact frequencies have 10 printed digits.
   expect_all(frequencies(whirl.modes(30000 * kRpm, 6)),
              {200.0937730, 206.2244586, 793.2233760, 817.3032401, 1758.8707928, 1811.4673400}, 2 * pi, 1e-7);
 }
 
-/// An overhung disc on a cantilever without mass: (K11 - m w^2)(K22 - I_d w^2 + I_p W w) = K12^2; one element is exact.
+/// An overhung disc on a massless cantilever: (K11 - m w^2)(K22 - I_d w^2 + I_p W w) = K12^2; one element is
+/// exact.
 TEST(OverhungDisc, OneElementIsExact) {
   SceneRun run(steel("euler", 1, 0.5, 0.01, "young_modulus = 2e11\ndensity = 1e-9") + disc(":last", 10, 0.05, 0.1) +
                "[[support]]\nnodes = \"shaft:first\"\nfix = [\"uy\", \"uz\", \"ry\", \"rz\"]\n" + turning(1.0));
@@ -176,7 +178,8 @@ TEST(OverhungDisc, OneElementIsExact) {
   expect_all(frequencies(whirl.modes(600.0, 4)), {36.2601702, 82.4925200, 229.0641891, 1382.8318392}, 1, 2e-9);
 }
 
-/// A mass on springs with damping at rest c_e and turning c_i: unstable from W = w0 (1 + c_e/c_i) on.
+/// A mass on springs with nonrotating damping c_e and rotating damping c_i: unstable above W = w0 (1 +
+/// c_e/c_i).
 TEST(InternalDamping, IsUnstableFromItsThresholdOn) {
   constexpr const char* kScene = R"(
 schema = 1
@@ -214,7 +217,7 @@ end_time = 1.0
   EXPECT_LT(std::abs(growth(threshold)), 1e-12 * 100.0);
   EXPECT_GT(growth(1.001 * threshold), 0.0);
   EXPECT_LT(growth(0.999 * threshold), 0.0);
-  // The drive feeds the motion: the balance holds with its work.
+  // The drive supplies energy: the balance includes its work.
   record::EnergyRecorder energy(run.dynamics());
   run.simulation().add(energy);
   EXPECT_TRUE(run.run().completed);
@@ -222,8 +225,8 @@ end_time = 1.0
   EXPECT_LT(std::abs(energy.balance_error()), 1e-9);
 }
 
-/// Modal damping of a shaft that turns is that of the modes at rest: free motion is a sum of the damped modes that
-/// Whirl finds, those of the start by least squares.
+/// Modal damping of a rotating shaft is that of its modes at rest. Free motion is a sum of the damped modes
+/// found by Whirl; a least-squares fit of the initial state gives their amplitudes.
 TEST(ModalDamping, OfATurningShaftIsThatOfTheModesAtRest) {
   const std::string shaft = steel("rayleigh", 4, 1.0, 0.02, "young_modulus = 2.1e11\ndensity = 7800.0") +
                             disc(":1", 10.0, 0.2, 0.39) +
@@ -233,7 +236,7 @@ TEST(ModalDamping, OfATurningShaftIsThatOfTheModesAtRest) {
   const std::string damping = "[damping]\nmodal = 0.02\n";
   SceneRun run(shaft + damping + "[rotation]\nspeed = 300.0\n");
   const dynamics::Whirl whirl(run.model());
-  // At rest every mode has the ratio that was asked for.
+  // At rest every mode has the specified ratio.
   for (const auto& mode : whirl.modes(0.0, 8)) EXPECT_NEAR(mode.damping_ratio(), 0.02, 1e-9);
   const Index n = run.system().size();
   const auto modes = whirl.modes(300.0, n);
@@ -300,7 +303,7 @@ TEST(CrossCoupling, MovesAStaticPositionAcrossTheForce) {
   EXPECT_NEAR(x[1], 100.0 * 3e3 / 1.09e8, 1e-15);
 }
 
-/// `auto` holds what does not move yet of a long shaft, gyroscopic forces included.
+/// `auto` holds the part of a long shaft that does not move yet at rest; gyroscopic forces are included.
 TEST(LongShaft, GetsTheSameAnswerFromThePartThatMoves) {
   const std::string scene = steel("rayleigh", 240, 6.0, 0.025, "young_modulus = 2.1e11\ndensity = 7800.0") +
                             "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"u\", \"w\"]\n"

@@ -13,7 +13,7 @@ namespace butee::test::rotors {
 
 using std::numbers::pi;
 
-/// The references are printed with 8 to 10 digits.
+/// The references have 8 to 10 printed digits.
 constexpr double kPrinted = 2e-8;
 constexpr double kRpm = pi / 30.0;
 

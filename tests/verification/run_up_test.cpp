@@ -18,7 +18,7 @@ using namespace rotors;
 /// The run-up of a Jeffcott rotor: r'' + 2 z w0 r' + w0^2 r = e (W^2 - i W') exp(i phi), phi = a t^2/2, from rest.
 class RunUp : public testing::TestWithParam<const char*> {
  protected:
-  /// |r| at `times` (s), m; the speed goes up by `rate` turns a second in a second.
+  /// |r| at `times` (s), m; the speed increases by `rate` turns per second in each second.
   static std::vector<double> radius(double rate, const std::vector<double>& times) {
     constexpr double kW0 = 20.0 * pi;
     std::ostringstream scene;
@@ -41,7 +41,8 @@ class RunUp : public testing::TestWithParam<const char*> {
     for (std::size_t i = 0; i < times.size(); ++i) all.push_back(std::hypot(y.x.at(i), z.x.at(i)));
     return all;
   }
-  /// Times around a peak, so near that a parabola's top is 1e-9 of it above the highest.
+  /// Times around a peak, so dense that the maximum of a parabola exceeds the largest sample by a relative
+  /// 1e-9.
   static std::vector<double> around(double peak) {
     std::vector<double> times;
     for (int i = -40; i <= 40; ++i) times.push_back(peak + 5e-5 * i);
@@ -50,10 +51,10 @@ class RunUp : public testing::TestWithParam<const char*> {
 };
 
 constexpr double kPeak = 12.1674717e-4, kPeakOfFast = 7.5681051e-4;  // m
-/// Of the peak; the references are printed with ten digits, the peaks with nine.
+/// Relative to the peak; the references have ten printed digits, the peaks nine.
 constexpr double kRunUp = 1e-7;
 
-/// By the Faddeeva function.
+/// Reference by the Faddeeva function.
 TEST_P(RunUp, PassesTheResonance) {
   const auto slow = radius(5.0, {1.0, 2.0, 2.2, 2.5, 3.0});
   const double of_slow[] = {3.3051780460e-5, 5.7474092598e-4, 1.0184387964e-3, 8.1198775103e-4, 5.4410342818e-4};
@@ -83,8 +84,8 @@ std::string gyroscopic_run_up() {
          "[integrator]\nend_time = 0.08\n";
 }
 
-/// The equations of motion hold at the end of a long implicit step, at whatever speed the matrices were factorized
-/// before.
+/// The equations of motion hold at the end of a long implicit step, for any speed at which the matrices were
+/// factorized before.
 TEST(RunUp, EffectiveEquationsAreThoseOfTheirInstant) {
   SceneRun run(gyroscopic_run_up(), {"integrator.type=rodas4"});
   dynamics::Dynamics& dynamics = run.dynamics();
@@ -96,13 +97,13 @@ TEST(RunUp, EffectiveEquationsAreThoseOfTheirInstant) {
     ASSERT_TRUE(dynamics.solve_secant(t, kOnV, kOnX, none, none, x, v, a));
     dynamics.total_force(t, x + kOnX * a, v + kOnV * a, force);
     dynamics.inertia_force(a, inertia);
-    // Rounding of forces that cancel.
+    // Rounding of cancelling forces.
     EXPECT_LT((force - inertia).norm(), 1e-9 * (inertia.norm() + run.system().stiffness.norm() * x.norm()));
   }
 }
 
-/// With gyroscopic moments a run-up adds Omega' G to K, and rotating damping Omega W: methods of different families
-/// agree, and the energy balance holds with the work of the drive.
+/// With gyroscopic moments a run-up adds Omega' G to K, and rotating damping adds Omega W: methods of
+/// different families agree, and the energy balance holds with the work of the drive.
 TEST(RunUp, OfAGyroscopicShaftAgreesBetweenMethods) {
   const std::string scene = gyroscopic_run_up();
   std::vector<std::vector<double>> ends;
@@ -121,8 +122,8 @@ TEST(RunUp, OfAGyroscopicShaftAgreesBetweenMethods) {
   ASSERT_TRUE(exact.run().completed);
   const Vector& found = exact.simulation().state().x;
   EXPECT_LT(relative_rms({found.begin(), found.end()}, ends[2]), 1e-7);
-  // Newton's iteration would end right with a factorization of another speed; the linear step of newmark_modified would
-  // not.
+  // Newton's iteration would converge correctly even with a factorization for another speed; the linear step
+  // of newmark_modified would not.
   for (const char* method : {"newmark", "newmark_modified"}) {
     SceneRun run(scene, {std::string("integrator.type=") + method, "integrator.time_step=1e-5"});
     ASSERT_GT(run.system().size(), linalg::LinearSolver::kTiny);

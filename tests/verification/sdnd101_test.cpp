@@ -10,14 +10,15 @@
 namespace butee::test::sdnd101_test {
 namespace {
 
-/// The published numbers carry 7 digits.
+/// The published numbers have 7 digits.
 constexpr double kPrinted = 2e-7;
-/// Newmark lengthens a period by (omega h)^2/12 and misses the instant of a contact change by O(h^2): h = 1e-5 s here.
+/// Newmark lengthens a period by (omega h)^2/12 and has an error of O(h^2) in the instant of a contact
+/// change: h = 1e-5 s here.
 constexpr double kNewmark = 1e-5;
 
-/// A mass thrown on an elastic stop without a gap. Source: the validation case SDND101 of code_aster.
-/// Its numbers follow from half sines: contact lasts pi/w1, the free flight pi/w0, the force peaks at
-/// k_c v0/w1, the impulse is 2 k_c v0/w1^2, w0 = sqrt(k/m), w1 = sqrt((k + k_c)/m).
+/// A mass moves against an elastic stop without a gap. Source: the validation case SDND101 of code_aster. Its
+/// numbers follow from half sines: contact lasts pi/w1, free flight pi/w0, the peak force is k_c v0/w1, the
+/// impulse is 2 k_c v0/w1^2, w0 = sqrt(k/m), w1 = sqrt((k + k_c)/m).
 constexpr const char* kScene = R"(
 schema = 1
 

@@ -5,12 +5,12 @@
 namespace butee::test::sdnl104_test {
 namespace {
 
-/// The published numbers carry 6 digits.
+/// The published numbers have 6 digits.
 constexpr double kPrinted = 5e-6;
 
-/// A cantilever pressed on an elastic stop by a step force at its tip. Source: the validation case SDNL104 of
-/// code_aster, its run with Newmark (1/4, 1/2) and Newton at h = 1e-4 s. The numbers are those of that scheme at that
-/// step, not converged ones; recomputed by an independent program.
+/// A cantilever pressed against an elastic stop by a step force at its tip. Source: the validation case
+/// SDNL104 of code_aster, computed with Newmark (1/4, 1/2) and Newton at h = 1e-4 s. The numbers are those of
+/// that scheme at that step, not converged ones; an independent program recomputed them.
 constexpr const char* kScene = R"(
 schema = 1
 

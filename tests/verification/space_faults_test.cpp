@@ -1,4 +1,4 @@
-// Mistakes in scenes in two planes and in space, with their remedies.
+// Mistakes in scenes in two planes and in space, and their messages with remedies.
 #include <string>
 
 #include <butee/core/error.hpp>

@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Statics of cubic elements are exact: what is left is rounding of the solution.
+/// Statics of cubic elements are exact; only the rounding of the solution remains.
 constexpr double kStatics = 1e-9;
 
 constexpr const char* kHead = R"(
@@ -41,7 +41,7 @@ std::string load(const std::string& node, const std::string& dof, double value) 
          "\"\nvalue = " + std::to_string(value) + "\n";
 }
 
-/// Forces of elements in the static position of a scene, by the names of quantities.
+/// Element forces in the static position of a scene, by names of quantities.
 class Static {
  public:
   explicit Static(const std::string& toml) : run_(toml), x_(run_.system().size()) {
@@ -63,8 +63,8 @@ class Static {
   Vector x_;
 };
 
-/// A cantilever along any direction under three forces and a moment at its tip: N, V, T and M of statics in its own
-/// axes, reactions in those of space.
+/// A cantilever in any direction under three forces and a moment at its tip: N, V, T and M from statics in
+/// its own axes, reactions in the axes of space.
 TEST(Cantilever, HasTheSectionForcesOfStatics) {
   const Eigen::Vector3d x = Eigen::Vector3d(1.0, 2.0, -2.0) / 3.0, z = x.cross(Eigen::Vector3d(0, 1, 0)).normalized();
   const Eigen::Vector3d y = z.cross(x), force(300.0, -500.0, 700.0), moment(40.0, 50.0, -60.0);
@@ -77,7 +77,7 @@ TEST(Cantilever, HasTheSectionForcesOfStatics) {
                load("arm:last", "rx", moment[0]) + load("arm:last", "ry", moment[1]) +
                load("arm:last", "rz", moment[2]));
   for (const int node : {0, 1, 3}) {
-    // What the part at larger x exerts at the node.
+    // Force and moment exerted at the node by the part at larger x.
     const Eigen::Vector3d arm = (3.0 - node) * x, bending = moment + arm.cross(force);
     const std::string at = "arm:" + std::to_string(node);
     const double size = bending.norm();
@@ -103,7 +103,8 @@ TEST(Cantilever, HasTheSectionForcesOfStatics) {
   }
 }
 
-/// Two spans of 2 m under their weight along z: 3/8, 10/8 and 3/8 of q L, -q L^2/8 over the middle support.
+/// Two spans of 2 m under their weight along z: reactions 3/8, 10/8 and 3/8 of q L, and -q L^2/8 over the
+/// middle support.
 TEST(TwoSpans, CarryTheirWeight) {
   Static scene(kHead + std::string("[[element]]\ntype = \"beam\"\nname = \"bar\"\nmotion = \"lateral\"\nmaterial = "
                                    "\"steel\"\nsection = \"pipe\"\nlength = 4.0\nelements = 8\n[[support]]\nnodes = "
@@ -114,7 +115,8 @@ TEST(TwoSpans, CarryTheirWeight) {
   EXPECT_NEAR(scene("bar:middle", "reaction_uz"), 10.0 / 8 * q * span, kStatics * q);
   EXPECT_NEAR(scene("bar:last", "reaction_uz"), 3.0 / 8 * q * span, kStatics * q);
   EXPECT_NEAR(scene("bar:first", "reaction_uy"), 0.0, kStatics * q);
-  // The side of larger x lifts at the end of the first span: 5/8 q L; My = -E I w'' is positive over the support.
+  // At the end of the first span the part at larger x pulls up with 5/8 q L; My = -E I w'' is positive over
+  // the support.
   EXPECT_NEAR(scene("bar:4", "Vz", "bar:3"), 5.0 / 8 * q * span, kStatics * q);
   EXPECT_NEAR(scene("bar:4", "Vz", "bar:4"), -5.0 / 8 * q * span, kStatics * q);
   EXPECT_NEAR(scene("bar:4", "My"), q * span * span / 8, kStatics * q);
@@ -122,7 +124,7 @@ TEST(TwoSpans, CarryTheirWeight) {
   EXPECT_NEAR(scene("bar:2", "von_mises"), q * span * span / 16 * 0.03 / (pi / 4 * (81e-8 - 16e-8)), 1e-3);
 }
 
-/// code_aster's bar under its weight: reactions q L/2, whatever the tension.
+/// code_aster's bar under its weight: reactions q L/2 for any tension.
 TEST(TiedBar, HangsOnItsSupports) {
   for (const char* preload : {"0.0", "1000.0"}) {
     Static scene(std::string("schema = 1\n[material.steel]\nyoung_modulus = 2e11\ndensity = 7800.0\n[section.round]\n"
@@ -140,8 +142,9 @@ TEST(TiedBar, HangsOnItsSupports) {
   }
 }
 
-/// A turning shaft with discs, bearings with cross terms, internal damping, weight and a base that moves, in a run-up:
-/// at every instant forces and rates of momentum balance, of the whole and of each disc with its gyroscopic moment.
+/// A rotating shaft with discs, bearings with cross terms, internal damping, weight and a moving base, in a
+/// run-up. At every instant forces and rates of momentum balance, for the whole and for each disc with its
+/// gyroscopic moment.
 TEST(TurningShaft, BalancesAtEveryInstant) {
   const std::string scene = kHead + std::string(R"(
 [[element]]
@@ -199,7 +202,8 @@ rotating_stiffness_proportional = 2e-5
   };
   const double omega = run.model().rotation->speed(state.t), rate = run.model().rotation->acceleration(state.t);
   const double base = 3.0 * std::cos(80.0 * state.t) / std::sqrt(2.0);
-  // Momentum of all masses in space, by nodes: those of the supported node are in the elements' mass alone.
+  // Momentum of all masses in space; that of the supported node is contained only in the elements' mass
+  // matrices.
   for (const auto& [kind, quantity, gravity] :
        {std::tuple(DofKind::uy, "uy", -9.81), std::tuple(DofKind::uz, "uz", 0.0)}) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(state.x.size());
@@ -235,7 +239,7 @@ rotating_stiffness_proportional = 2e-5
         unbalance += load.in_time->value(state.t);
     const double reaction = force("shaft:last", std::string("reaction_") + quantity);
     const double bearing = force("shaft:first", std::string("spring_") + quantity, "left");
-    // Mass-proportional damping is a force from outside on the relative momentum.
+    // Mass-proportional damping is an external force proportional to the relative momentum.
     const double sum = reaction + bearing + unbalance + mass * (gravity - base) - 2.0 * momentum;
     EXPECT_NEAR(sum, momentum_rate, 1e-9 * (std::abs(reaction) + std::abs(bearing) + 12.0 * 9.81)) << quantity;
   }
@@ -250,7 +254,7 @@ rotating_stiffness_proportional = 2e-5
   EXPECT_NEAR(jump_y, -(0.1 * at(a, DofKind::ry) + damped_y + gyro_y), 1e-9 * std::abs(force("shaft:2", "My")));
 }
 
-/// Where supports move, a reaction carries the stiffness and inertia of what is fixed to them.
+/// For moving supports, a reaction includes the stiffness and inertia of the parts fixed to them.
 TEST(MovedSupport, PullsAtWhatItMoves) {
   SceneRun run(
       std::string("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = "

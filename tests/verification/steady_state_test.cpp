@@ -8,10 +8,10 @@
 namespace butee::test::steady_state_test {
 namespace {
 
-/// The free motion has decayed to e^(-0.2 20 6) = 4e-11 when the sampling starts.
+/// At the first sample the free motion has decayed to e^(-0.2 20 6) = 4e-11.
 constexpr double kRungeKutta = 1e-7;
-/// Newmark sees the natural frequency too low by (omega h)^2/24 of itself; with omega h up to 0.004 and an
-/// amplification of 2 that is 3e-6 of the amplitude, and the interpolant errs by less.
+/// Newmark lowers the natural frequency by a relative (omega h)^2/24; with omega h up to 0.004 and an
+/// amplification of 2 that is 3e-6 of the amplitude. The interpolant's error is smaller.
 constexpr double kNewmark = 1e-5;
 
 constexpr double kMass = 2.0, kStiffness = 800.0, kRatio = 0.2, kForce = 6.0, kSpeed = 18.0, kPhase = 0.3;
@@ -43,8 +43,9 @@ phase             = 0.3
 end_time = 8.0
 )";
 
-/// Steady vibration x = X cos(w t + phi - delta) with X = (F/k)/sqrt((1 - r^2)^2 + (2 zeta r)^2), tan delta = 2 zeta
-/// r/(1 - r^2), r = w/w_0. Source: W. T. Thomson, Theory of Vibration with Applications, 4th ed., section 3.1.
+/// Steady-state vibration x = X cos(w t + phi - delta) with X = (F/k)/sqrt((1 - r^2)^2 + (2 zeta r)^2), tan
+/// delta = 2 zeta r/(1 - r^2), r = w/w_0. Source: W. T. Thomson, Theory of Vibration with Applications, 4th
+/// ed., section 3.1.
 struct SteadyState {
   double r = kSpeed / std::sqrt(kStiffness / kMass);
   double amplitude = kForce / kStiffness / std::hypot(1 - r * r, 2 * kRatio * r);
@@ -62,7 +63,7 @@ TEST_P(SteadyVibration, HasTheAmplitudeAndThePhaseOfTheClosedForm) {
   const time::RunReport& report = scene.run();
   ASSERT_TRUE(report.completed) << report.message;
 
-  // Least squares: x = a cos(w t + phi) + b sin(w t + phi).
+  // Least-squares fit of x = a cos(w t + phi) + b sin(w t + phi).
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
   ASSERT_EQ(sampler.x.size(), times.size());

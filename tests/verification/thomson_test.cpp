@@ -8,14 +8,14 @@
 namespace butee::test::thomson_test {
 namespace {
 
-/// The published numbers carry 5 to 7 digits; the closed forms are met to this.
+/// Tolerance for the closed forms; the published numbers have 5 to 7 digits.
 constexpr double kClosedForm = 1e-7;
-/// Half a unit in the last printed digit of each.
+/// Half a unit in the last printed digit of each number.
 constexpr double kTimePrinted = 5e-7, kSpeedPrinted = 5e-4, kPeakPrinted = 5e-7, kPeakTimePrinted = 5e-8;
 
-/// A ball falls on a spring. Source: W. T. Thomson, Vibration Theory and Applications, 2nd printing, 1965, example
-/// 4.6-1 (ANSYS VM65), in lbf, in and s. The spring is a one-sided stop that is reached after a fall of 1 in. After
-/// that u = d + m g/k + A cos(w (t - t_peak)) with w = sqrt(k/m) and A^2 = (m g/k)^2 + (v/w)^2.
+/// A ball falls on a spring. Source: W. T. Thomson, Vibration Theory and Applications, 2nd printing, 1965,
+/// example 4.6-1 (ANSYS VM65), in lbf, in and s. The spring is a one-sided stop, reached after a fall of 1
+/// in. Afterwards u = d + m g/k + A cos(w (t - t_peak)) with w = sqrt(k/m) and A^2 = (m g/k)^2 + (v/w)^2.
 constexpr const char* kScene = R"(
 schema = 1
 

@@ -1,4 +1,4 @@
-// Preload, gravity, static starts and accelerated bases against closed forms.
+// Preload, gravity, static starts and accelerated bases, compared with closed forms.
 #include <cmath>
 #include <numbers>
 
@@ -57,12 +57,13 @@ TEST(TiedBar, SagsUnderGravity) {
   EXPECT_NEAR(sag(-30.0), .0145618950, 5e-8 * .0146);
 }
 
-/// Started in its static position on a stop, a bar stays there; the stop carries what the sag beyond it asks for.
+/// Started in its static position on a stop, a bar stays there; the stop carries the force due to the sag
+/// beyond it.
 TEST(TiedBar, RestsWhereGravityAndAStopHoldIt) {
   const std::string stop =
       "[[contact]]\ntype = \"stop\"\nnodes = \"bar:middle\"\ngap = 0.005\nlaw = \"linear\"\nstiffness = 1e4\n";
   SceneRun run(tied_bar(0.0, 20, "[gravity]\nacceleration = [0.0, -9.81, 0.0]\nstatic = true\n" + stop));
-  // u = sag - F L^3/(48 E I) with F = k (u - gap), elements with cubic shape functions being exact at nodes.
+  // u = sag - F L^3/(48 E I) with F = k (u - gap); elements with cubic shape functions are exact at nodes.
   constexpr double kBar = 48.0 * 2e11 * (pi / 4 * 0.005 * 0.005 * 0.005 * 0.005) / 8.0;
   const double wanted = (.0127530000 + 1e4 * 0.005 / kBar) / (1.0 + 1e4 / kBar);
   const Index middle = run.dof("bar:middle");
@@ -72,7 +73,7 @@ TEST(TiedBar, RestsWhereGravityAndAStopHoldIt) {
   EXPECT_NEAR(run.simulation().state().x[middle], start, 1e-9 * wanted);
 }
 
-/// A base that accelerates is a force -M r a: of one mass the closed form.
+/// An accelerating base is a force -M r a: closed form for one mass.
 TEST(Base, AcceleratesEveryMass) {
   SceneRun run(R"(
 schema = 1

@@ -1,5 +1,5 @@
-// What a tolerance is worth: the error at the end of methods that control it, from 1e-2 to 1e-7 (order 2: 1e-6), on a
-// forced oscillator that strikes a stop again and again, against the method `exact`.
+// End error of methods with error control as a function of the tolerance, from 1e-2 to 1e-7 (order 2: 1e-6),
+// on a forced oscillator that strikes a stop repeatedly, compared with the method `exact`.
 #include <cmath>
 
 #include <butee/core/text.hpp>
@@ -39,7 +39,7 @@ std::vector<double> course(const std::string& integrator, Index* impacts = nullp
 class Tolerance : public testing::TestWithParam<std::string> {};
 
 TEST_P(Tolerance, IsWhatComesOut) {
-  // By how much this scene magnifies a disturbance at its start until its end, as the last test measures it.
+  // Factor by which this scene amplifies an initial disturbance until its end, as measured by the last test.
   constexpr double kAmplification = 3.0, kReserve = 10.0;
   const std::vector<double> reference = course("type = \"exact\"\ntime_step = 1e-3\n");
   double slope = 0.0, squares = 0.0;
@@ -77,7 +77,7 @@ TEST(ToleranceScene, StrikesItsStopAndMagnifiesLittle) {
   Sampler sampler(disturbed.dof("a"), times);
   disturbed.simulation().add(sampler);
   ASSERT_TRUE(disturbed.run().completed);
-  // A change of 1e-6 of the initial velocity.
+  // A relative change of 1e-6 of the initial velocity.
   EXPECT_LT(relative_rms(sampler.x, first), 3e-6);
 }
 

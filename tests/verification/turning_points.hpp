@@ -6,7 +6,8 @@
 
 namespace butee::test {
 
-/// The maxima of one DOF: instants at which v falls through zero, by halving on the method's interpolant.
+/// The maxima of one DOF: instants at which v changes from positive to negative, by bisection on the method's
+/// interpolant.
 class TurningPoints final : public time::Observer {
  public:
   explicit TurningPoints(Index dof) : dof_(dof) {}
@@ -26,7 +27,7 @@ class TurningPoints final : public time::Observer {
   std::vector<double> t, x;
 
  private:
-  /// Takes a step below the spacing of doubles.
+  /// Reduces a step below the spacing of doubles.
   static constexpr int kHalvings = 60;
 
   Index dof_;

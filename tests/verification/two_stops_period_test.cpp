@@ -7,18 +7,19 @@
 namespace butee::test::two_stops_period_test {
 namespace {
 
-/// Runge-Kutta with steps of h = 2e-6 s, and Newmark with 1e-5 s: crossing a kink of the force within a step costs
-/// O(h^2), 40 times here; Newmark lengthens the period by (omega h)^2/12 = 8e-6 besides while in contact.
+/// Runge-Kutta with steps of h = 2e-6 s, and Newmark with 1e-5 s: a slope discontinuity of the force within a
+/// step causes an error of O(h^2), 40 times here. Newmark also lengthens the period by (omega h)^2/12 = 8e-6
+/// while in contact.
 constexpr double kFixedSteps = 5e-7, kNewmark = 1e-5, kNewmarkEnergy = 1e-4;
-/// Step doubling that shrinks its steps at the kinks: the error follows its tolerance.
+/// Step doubling reduces its steps at slope discontinuities: the error follows its tolerance.
 constexpr double kAdaptive = 1e-9;
 
 constexpr double kStiffness = 1000.0, kStop = 1e6, kGap = 1e-3, kTotalEnergy = 1e-3;
 
-/// Free motion of a mass between two elastic stops. With A = sqrt(2 E/k), d0 = k g/(k + k_c),
-/// A1^2 = 2 E/(k + k_c) - k k_c g^2/(k + k_c)^2:  T = 4 [asin(g/A)/w0 + acos(d0/A1)/w1].
-/// Source: closed form, the two regimes of a piecewise linear oscillator put together over its four quarters; T =
-/// 0.1054996060 s was confirmed by an independent program.
+/// Free motion of a mass between two elastic stops. With A = sqrt(2 E/k), d0 = k g/(k + k_c), A1^2 = 2 E/(k +
+/// k_c) - k k_c g^2/(k + k_c)^2:  T = 4 [asin(g/A)/w0 + acos(d0/A1)/w1]. Source: closed form, composed of the
+/// two regimes of a piecewise linear oscillator over its four quarters. An independent program confirmed T =
+/// 0.1054996060 s.
 double closed_form_period() {
   const double sum = kStiffness + kStop, amplitude = std::sqrt(2 * kTotalEnergy / kStiffness);
   const double d0 = kStiffness * kGap / sum;
@@ -61,7 +62,7 @@ max_iterations      = 20
 )";
 
 TEST(TwoStops, ClosedFormIsTheRecomputedNumber) {
-  EXPECT_NEAR(closed_form_period(), 0.1054996060, 5e-11);  // Half a unit in its last digit.
+  EXPECT_NEAR(closed_form_period(), 0.1054996060, 5e-11);  // half a unit in the last digit
 }
 
 void expect_period(const std::vector<std::string>& overrides, double period_tolerance, double energy_tolerance) {

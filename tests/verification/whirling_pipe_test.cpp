@@ -1,4 +1,4 @@
-// A pipe that turns in rings along its length: methods of different families agree, bending and torsion.
+// A pipe that rotates in rings along its length: methods of different families agree in bending and torsion.
 #include <cmath>
 
 #include <butee/record/energy.hpp>
@@ -10,8 +10,8 @@
 namespace butee::test::whirling_pipe_test {
 namespace {
 
-/// A pipe that turns, strikes rings all along and rubs: methods of three families agree, the tighter the better, and
-/// the energy balance closes.
+/// A rotating pipe that rubs on rings along its length. Methods of three families agree, more closely with
+/// smaller tolerances, and the energy balance holds.
 TEST(WhirlingPipe, IsTheSameForMethodsOfDifferentFamilies) {
   const std::string toml = TurningPipe{"string", "lateral", "35.0", 10, "0.01", "0.01", "3.0"}.scene(R"(
 [damping]
@@ -31,14 +31,14 @@ end_time = 0.3
     EXPECT_LT((run.simulation().state().x - wanted).norm(), 1e-6 * wanted.norm()) << method;
     EXPECT_NEAR(energy.balance_error(), 0.0, 1e-6) << method;
   }
-  // rk4 takes the contacts as the instant has them, and errs where they change within a step.
+  // rk4 evaluates contacts at its stages only, and loses accuracy if they change within a step.
   SceneRun fixed(toml, {"integrator.type=rk4", "integrator.time_step=5e-5"});
   ASSERT_TRUE(fixed.run().completed) << fixed.simulation().report().message;
   EXPECT_LT((fixed.simulation().state().x - wanted).norm(), 1e-3 * wanted.norm());
 }
 
-/// A string in space that is driven at its upper end: rubbing along its rings sets off torsion. Series,
-/// Rosenbrock's method, an explicit one and collocation of damped modes agree in the torsion.
+/// A string in space driven at its upper end: friction on its rings causes torsion. Series, Rosenbrock's
+/// method, an explicit method and collocation of damped modes agree in the torsion.
 TEST(WhirlingPipe, IsTwistedByFriction) {
   const std::string toml = TurningPipe{"string", "spatial", "35.0", 4, "0.01", "0.01", "3.0"}.scene(R"(
 [[support]]
