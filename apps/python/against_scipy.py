@@ -1,4 +1,4 @@
-"""The same M, C, K and stops by butee and by scipy.integrate.solve_ivp: the answers, and what they cost."""
+"""The same M, C, K and stops by butee and by scipy.integrate.solve_ivp: results and run times."""
 
 import pathlib
 import time

@@ -1,4 +1,4 @@
-"""Bifurcation diagram of a rotor against a stop: the displacement once per turn of the load, over its amplitude.
+"""Bifurcation diagram of a rotor against a stop: displacement once per period of the load, over the load amplitude.
 
     python3 bifurcation.py [POINTS [TURNS]]     (291 points, 1500 turns: half a minute)
 """
@@ -17,7 +17,7 @@ scene = butee.Scene.load(pathlib.Path(__file__).with_name("rattle.toml"))
 turn = 2 * np.pi / scene["load[0].angular_frequency"]
 scene.update({"output.interval": turn, "integrator.end_time": turns * turn, "output.probe[0].quantities": ["u"]})
 many = scene.batch({"load[0].amplitude": np.linspace(1e3, 30e3, points)},
-                   collect=lambda result: result["rotor.u"][-60:].copy())  # what has settled
+                   collect=lambda result: result["rotor.u"][-60:].copy())  # after the transient
 
 for amplitude, u in zip(many.values("load[0].amplitude"), many):
     plt.plot(np.full(u.size, amplitude / 1e3), u * 1e3, ".", markersize=1, color="tab:blue")

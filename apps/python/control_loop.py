@@ -1,4 +1,4 @@
-"""A controller and a structure, coupled: a beam in its stops is damped by a force that follows its velocity.
+"""A coupled controller and structure: a beam between stops is damped by a force proportional to its velocity.
 
 The controller samples the middle of the beam every millisecond and holds its force until the next sample, as a computer does.
 """
@@ -12,7 +12,7 @@ import butee
 
 MODELS = pathlib.Path(__file__).parents[1] / "models"
 PERIOD, END = 1e-3, 2.0  # s
-LIMIT = 20e3  # N, of the actuator
+LIMIT = 20e3  # N, largest force of the actuator
 
 scene = butee.Scene.load(MODELS / "beam3.toml", {"integrator.type": "auto"})
 

@@ -22,7 +22,7 @@ scene = butee.Scene({
     "output": {"interval": 1.0e-3, "probe": [{"label": "disc", "node": "shaft:middle", "quantities": ["uy", "uz"]}]},
 })
 
-critical = scene.modes(1).angular_frequencies[0]  # the disc in the middle does not tilt, so that it turns without gyroscopic moments
+critical = scene.modes(1).angular_frequencies[0]  # no gyroscopic moments: the disc in the middle does not tilt
 result = scene.run()
 speed = 400.0 / 8.0 * result.t
 radius = np.hypot(result["disc.uy"], result["disc.uz"])

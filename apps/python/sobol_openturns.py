@@ -1,4 +1,4 @@
-"""Sobol' indices of a beam's peak by OpenTURNS (Debian: python3-openturns): which of the keys its spread comes from.
+"""Sobol' indices of a beam's peak by OpenTURNS (Debian: python3-openturns): the contribution of each key to its variance.
 
     python3 sobol_openturns.py [SIZE]        (2^SIZE points for each of five samples; 6: half a minute)
 """
@@ -18,7 +18,7 @@ scene = butee.Scene.load(MODELS / "beam1.toml", {"integrator.type": "auto"})
 
 
 def peaks(points):
-    """The peak of the middle at each point, m; all points at once, on all processors."""
+    """The peak displacement of the middle at each point, m; all points in one call, on all processors."""
     values = dict(zip(KEYS, np.array(points).T))
     rows = scene.study(values, "peak mid.u", plan="list")
     assert not rows.failed

@@ -21,7 +21,7 @@ for tries_left in range(20 if sys.argv[3] == "growing" else 1)[::-1]:
             raise
     time.sleep(0.05)
 with open(sys.argv[2]) as file:
-    lines = file.read().split("\n")[:-1]  # a line that is not ended is left out
+    lines = file.read().split("\n")[:-1]  # ignore an incomplete last line
 header = lines[0].split(",")
 history = [[float(cell) if cell else np.nan for cell in line.split(",")] for line in lines[1:]]
 

@@ -1,4 +1,4 @@
-"""What the tests of the Python package share."""
+"""Common fixtures of the tests of the Python package."""
 
 import pathlib
 

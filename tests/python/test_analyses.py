@@ -1,4 +1,4 @@
-"""The analyses of the program, on scenes in memory."""
+"""Analyses of the program applied to scenes in memory."""
 
 import json
 import os
@@ -34,7 +34,7 @@ def test_compare_gives_work_and_precision(rotor):
 
 def test_stability_of_the_classical_method():
     found = butee.stability("rk4")
-    # h omega = 2 sqrt(2) bounds the classical Runge-Kutta method on the imaginary axis.
+    # The stability limit of the classical Runge-Kutta method on the imaginary axis is h omega = 2 sqrt(2).
     assert np.isclose(found["undamped"]["value"], 2.0 * np.sqrt(2.0), rtol=1e-6)
 
 
@@ -92,7 +92,7 @@ def test_a_run_that_was_interrupted_goes_on_to_the_same_bits(rotor, tmp_path):
 
 
 def test_every_command_for_one_scene_has_its_method(program):
-    """The commands of the program and what does the same here; the others have no scene."""
+    """The commands of the program and the equivalent methods; the other commands do not use a scene."""
     here = {"run": ["run", "batch", "draw", "trust"], "check": ["check", "picture"], "modes": ["modes", "whirl", "campbell"],
             "compare": ["compare"], "stability": ["stability"], "plot": ["draw"], "study": ["study"]}
     elsewhere = {"plugins": butee.plugins, "test-plugin": butee.conformance}

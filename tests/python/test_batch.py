@@ -1,4 +1,4 @@
-"""Many runs on threads."""
+"""Batches of runs on threads."""
 
 import numpy as np
 import pytest
@@ -94,6 +94,6 @@ def test_memory_does_not_grow():
     before = kilobytes()
     for _ in range(3):
         assert len(run(1000)) == 1000
-    # Arenas of malloc come and go by some hundred kB, and the address sanitizer keeps what was freed for a while (15 MB
-    # were seen); a leak of one result of 1000 rows would be 24 MB for each 1000 runs.
+    # Memory varies by some hundred kB of malloc arenas, and the address sanitizer delays freeing (15 MB were observed). A leak
+    # of one result of 1000 rows in each run would be 24 MB for 1000 runs.
     assert kilobytes() - before < 40000

@@ -33,7 +33,7 @@ def test_the_tutorial_runs(tmp_path):
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     assert len(blocks) >= 6
     code = "\n".join(blocks)
-    # As in the text, with fewer and shorter runs.
+    # The code of the tutorial with fewer and shorter runs.
     shorter = [("291", "9"), ("1500 * turn", "100 * turn"), ("settle=1440", "settle=40")]
     for long, short in shorter:
         assert long in code
@@ -100,7 +100,7 @@ def test_example_control_loop(tmp_path):
 def test_example_run_up(tmp_path):
     words = run_example("run_up.py", tmp_path).split()
     critical, peak = float(words[2]), float(words[-2])
-    assert critical < peak < 1.2 * critical  # a run-up passes the critical speed before its orbit is the largest
+    assert critical < peak < 1.2 * critical  # in a run-up the largest orbit follows the critical speed
 
 
 def test_example_against_scipy(tmp_path):
@@ -109,7 +109,7 @@ def test_example_against_scipy(tmp_path):
 
 
 def test_the_stub_has_the_names_of_the_extension():
-    """What type checkers read of the extension module is what it holds."""
+    """The type stub of the extension module matches its contents."""
     tree = ast.parse((SOURCE / "framework" / "python" / "butee" / "_butee.pyi").read_text())
     stub = {}
     for node in tree.body:

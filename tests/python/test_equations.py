@@ -1,4 +1,4 @@
-"""Matrices, forces and modes against closed forms and against scipy."""
+"""Matrices, forces and modes compared with closed forms and with scipy."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ import butee
 
 E, RHO, WIDTH, HEIGHT, LENGTH = 2.0e11, 7800.0, 0.02, 0.01, 1.5
 AREA, INERTIA = WIDTH * HEIGHT, WIDTH * HEIGHT**3 / 12.0
-#: Sums of two elements and products in another order.
+#: Rounding of sums of two elements and of products in another order.
 ROUNDING = 1e-13
 
 
@@ -76,7 +76,7 @@ def test_modes_of_a_pinned_bar_are_the_closed_form():
     modes = beam(40, PINNED, {"modal": 0.02}).modes(4)
     n = np.arange(1, 5)
     expected = (n * np.pi / LENGTH) ** 2 * np.sqrt(E * INERTIA / (RHO * AREA))
-    # Cubic elements are too stiff by (n pi / 40)^4 / 1440, and by less than a tenth of the next power beyond that.
+    # Cubic elements are too stiff by (n pi / 40)^4 / 1440, plus less than a tenth of the next power.
     expected *= 1 + (n * np.pi / 40) ** 4 / 1440
     assert np.allclose(modes.angular_frequencies, expected, rtol=1e-7)
     assert np.array_equal(modes.frequencies, modes.angular_frequencies / (2 * np.pi))
@@ -139,6 +139,6 @@ def test_a_shaft_turns_at_its_speed():
     gyroscopic = (equations.matrices(1.0)[1] - equations.matrices(0.0)[1]).toarray()
     assert np.allclose(gyroscopic, -gyroscopic.T) and abs(gyroscopic[ry, rz]) >= 50.0 * 0.02
     K = equations.matrices(1.0)[2].toarray() - equations.matrices(3.0)[2].toarray()
-    assert np.allclose(K, gyroscopic)  # Omega' G, with Omega = Omega' (1 s), and 0 when the ramp is over
+    assert np.allclose(K, gyroscopic)  # Omega' G, with Omega = Omega' (1 s); 0 after the ramp
     whirl = scene.whirl(50.0, 2)
     assert len(whirl["modes"]) == 2

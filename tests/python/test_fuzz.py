@@ -1,4 +1,4 @@
-"""Calls with arguments of all kinds: errors, never the end of the interpreter."""
+"""Calls with arbitrary arguments raise errors and never crash the interpreter."""
 
 import pathlib
 import subprocess

@@ -24,7 +24,7 @@ def test_a_load_in_python_is_a_load():
     ours = with_load(type="python_cosine", amplitude=2e5)
     theirs = with_load(type="harmonic", amplitude=2e5, angular_frequency=1256.6)
     u, expected = ours.run()["rotor.u"], theirs.run()["rotor.u"]
-    # One differentiates its load by hand and the other by differences, so that their steps differ.
+    # One uses the load's exact derivative and the other finite differences, so their steps differ.
     assert np.abs(u - expected).max() < 1e-5 * np.abs(expected).max()
     assert np.isclose(ours.equations().external_force(0.001)[0], cosine(0.001, 2e5), rtol=1e-15)
     many = ours.batch({"load[0].amplitude": [1e5, 2e5]}, threads=2)

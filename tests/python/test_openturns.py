@@ -1,4 +1,4 @@
-"""The examples with OpenTURNS, held against variances of the same numbers by hand."""
+"""The examples with OpenTURNS, compared with directly computed variances of the same numbers."""
 
 import re
 
@@ -22,7 +22,7 @@ def test_example_sobol(tmp_path):
 def test_example_of_a_driver(tmp_path):
     drivers = SOURCE / "apps" / "studies" / "drivers"
     found = indices(run_example(drivers / "sobol-openturns.py", tmp_path, "7"))
-    # The same indices from a grid: variances of means over the other key.
+    # The same indices from a grid: variances of the means over the other key.
     scene = butee.Scene.load(SOURCE / "apps" / "studies" / "rattle-scene.toml")
     middle = (np.arange(40) + 0.5) / 40
     rows = scene.study({"load[0].amplitude": 1000.0 + 8000.0 * middle, "contact[0].gap": 0.5e-3 + 1e-3 * middle}, "peak rotor.u",
@@ -30,5 +30,5 @@ def test_example_of_a_driver(tmp_path):
     peaks = rows["peak rotor.u"].reshape(40, 40)
     for axis, key in enumerate(("load[0].amplitude", "contact[0].gap")):
         expected = peaks.mean(axis=1 - axis).var() / peaks.var()
-        # Saltelli's estimate from 128 points has a standard deviation of 0.1 or so.
+        # Saltelli's estimate from 128 points has a standard deviation of about 0.1.
         assert abs(found[key][0] - expected) < 0.35, (key, found, expected)

@@ -1,4 +1,4 @@
-"""Options of the commands, on scenes in memory."""
+"""Options of the commands, applied to scenes in memory."""
 
 import os
 import subprocess
@@ -57,7 +57,7 @@ def test_a_comparison_is_kept(rotor, tmp_path):
     runs = rotor.compare(method, end_time=0.005, quantities="rotor.v", output=tmp_path / "kept", targets=np.array([1e-2]))
     assert (tmp_path / "kept" / "runs.csv").exists() and len(runs) == 1
     again = rotor.compare(method, end_time=0.005, quantities="rotor.v", output=tmp_path / "kept", targets=[1e-2])
-    assert again == runs  # gone on with, not measured again
+    assert again == runs  # continued, not measured again
     with pytest.raises(butee.InputError, match="rotor.w"):
         rotor.compare(method, end_time=0.005, quantities="rotor.w")
 
@@ -159,7 +159,7 @@ def test_what_the_program_cannot_know_is_said():
             call()
 
 
-#: Options of the commands for one scene, and where they are found here; None: of no use without a terminal or files.
+#: Options of the commands for one scene, and their equivalents in Python; None: only useful with a terminal or files.
 OPTIONS = {
     "run": {"set": "with_values", "plugin": "load", "output": "run", "repeat": "run", "resume": "run", "trust": "trust",
             "plot": "draw", "progress": "run", "quiet": None, "verbose": None},
@@ -171,7 +171,7 @@ OPTIONS = {
              "quiet": None},
     "stability": {"set": "stability", "damping": "stability", "stops": "stability", "output": "stability", "json": "stability",
                   "plugin": "stability", "quiet": None},
-    # Job arrays, processes and pipes are the program's.
+    # Job arrays, processes and pipes exist only in the program.
     "study": {"set": "with_values", "plugin": "load", "output": "study", "threads": "study", "format": "study", "fresh": "study",
               "shard": None, "merge": None, "points": None, "results": None, "plot": "study", "plot-format": None,
               "progress": "study", "quiet": None},

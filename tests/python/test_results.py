@@ -1,4 +1,4 @@
-"""Results are those of `butee run`, to the bit, and show the memory of the run."""
+"""Results equal those of `butee run` bit for bit, and are views of the run's memory."""
 
 import csv
 import gc
@@ -31,7 +31,7 @@ def same_bits(array, texts):
 
 @pytest.fixture(scope="module", params=["rotor", "damped", "beam3"])
 def both(request, tmp_path_factory):
-    """A run by Python and the folder of the program's run of the same scene."""
+    """A run in Python, and the result folder of the program for the same scene."""
     from conftest import MODELS, ROTOR
 
     folder = tmp_path_factory.mktemp("results")
@@ -128,7 +128,7 @@ def test_views_outlive_everything_else(rotor):
     kinetic = energy.copy()
     del rotor, result
     gc.collect()
-    filling = [np.full(copy.size, float(i)) for i in range(200)]  # would take the memory if it were free
+    filling = [np.full(copy.size, float(i)) for i in range(200)]  # would reuse the memory if it were freed
     assert np.array_equal(view, copy[::2]) and np.array_equal(energy, kinetic)
     assert len(filling) == 200
 

@@ -1,4 +1,4 @@
-"""Nothing that Python code does ends the interpreter, and Ctrl-C ends what is under way."""
+"""No Python code crashes the interpreter, and Ctrl-C ends a running computation."""
 
 import gc
 import os
@@ -26,7 +26,7 @@ LONG = """
 
 
 def interrupted(method, options, code, after=0.4):
-    """Runs `code` in another interpreter, sends SIGINT and gives what it printed."""
+    """Runs `code` in another interpreter, sends SIGINT and returns its output."""
     text = textwrap.dedent(LONG.format(path=[str(pathlib.Path(__file__).parent)], method=method, options={"end_time": 1.0e6, **options}))
     text += textwrap.dedent(code)
     process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -93,7 +93,7 @@ def test_other_threads_go_on_meanwhile(rotor):
     while running.is_alive():
         count += 1
         time.sleep(0.001)
-    # A run that kept the lock would let this loop through a few times, before and after it.
+    # If a run kept the lock, this loop would execute only a few times, before and after the run.
     assert count > 20
 
 
@@ -104,7 +104,7 @@ def test_one_scene_on_many_threads(rotor):
     def work(i):
         for k in range(10):
             if i == 0:
-                rotor["contact[0].gap"] = 4.0e-4  # as before: what runs has the scene to itself
+                rotor["contact[0].gap"] = 4.0e-4  # the same value; running computations use their own scene
             same.append(np.array_equal(rotor.run()["rotor.u"], expected))
 
     threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
@@ -122,7 +122,7 @@ def test_one_structure_on_two_threads_is_refused(rotor):
         while True:
             try:
                 return part.advance_to(0.2)
-            except butee.RunError:  # the other thread was first
+            except butee.RunError:  # the other thread has the structure
                 pass
 
     running = threading.Thread(target=work)
@@ -158,7 +158,7 @@ def test_equations_on_many_threads(rotor):
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 def test_a_forked_process_goes_on_by_itself(rotor):
-    """With what was made before the fork, and while other threads compute."""
+    """Uses objects created before the fork, while other threads compute."""
     expected, part = rotor.run()["rotor.u"], rotor.structure()
     slow = rotor.with_values({"integrator.tolerance": None, "output.interval": 0.01}, type="rk4", time_step=1e-7, end_time=0.3)
     running = threading.Thread(target=slow.run)
@@ -197,7 +197,7 @@ def test_owners_may_go_first(rotor):
 
 @pytest.mark.parametrize("name", ["Session", "Outcome", "Batch", "Equations", "Part", "Snapshot"])
 def test_objects_without_content_are_not_made(name):
-    """What __new__ gives before __init__ would be no object yet."""
+    """Objects cannot be created by __new__ alone, because they would be incomplete."""
     kind = getattr(butee._butee, name)
     for make in (kind, lambda: kind.__new__(kind), lambda: object.__new__(kind), lambda: super(kind, kind).__new__(kind)):
         with pytest.raises(TypeError):

@@ -25,7 +25,7 @@ def test_a_force_acts_as_a_load_does(rotor):
     for begin, end in zip(windows, windows[1:]):
         part.set_forces([5.0e7 * begin], [5.0e7 * end], end)
         part.advance_to(end)
-    # The same straight line, cut into ten: the Taylor series of exact are cut where the windows end.
+    # The same linear force in ten windows: the Taylor series of exact end at the window boundaries.
     assert part.time == 0.01 and np.isclose(part.x[0], expected, rtol=1e-9)
     assert part.x[0] > 4.0e-4 and part.contact_force(0) < 0.0
 

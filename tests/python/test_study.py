@@ -27,7 +27,7 @@ def test_rows_are_those_of_runs(rotor):
     period = 2.0 * np.pi / 1256.6
     for i, amplitude in enumerate(AMPLITUDES):
         one = rotor.run({"load[0].amplitude": amplitude, "output.interval": period}, end_time=7 * period)
-        # A run with rows steps to them, a study to the periods that count; the tolerance is 1e-4 of the largest displacement.
+        # A run ends steps at its rows, a study at the collected periods; the tolerance is 1e-4 of the largest displacement.
         assert np.allclose(one["rotor.u"][4:8], rows["section rotor.u"][i], rtol=0, atol=1e-4 * rows["peak rotor.u"][i])
     assert not rows.failed and set(rows["status"]) == {"completed"}
 
@@ -118,7 +118,7 @@ def test_a_law_in_python_is_a_law(name, keys, law):
     ours, theirs = with_law(law=name, **keys), with_law(**law)
     assert ours.equations().contact_force([5e-4]) == pytest.approx(theirs.equations().contact_force([5e-4]), rel=1e-12)
     u, expected = ours.run()["rotor.u"], theirs.run()["rotor.u"]
-    # Steps differ where one is differentiated by differences.
+    # Steps differ because one of them uses finite differences.
     assert np.abs(u - expected).max() < 1e-4 * np.abs(expected).max()
     assert np.array_equal(pickle.loads(pickle.dumps(ours)).run()["rotor.u"], u)
 

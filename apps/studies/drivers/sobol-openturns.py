@@ -1,4 +1,4 @@
-"""Sobol' indices of the peak of a study by OpenTURNS: which of the keys its spread comes from.
+"""Sobol' indices of the peak of a study by OpenTURNS: the contribution of each key to its variance.
 
     python3 sobol-openturns.py [SIZE]        (butee in the PATH, or named by BUTEE; 2^SIZE points for each of four samples, 7)
 """
@@ -17,7 +17,7 @@ study = pathlib.Path(__file__).with_name("sample.toml")
 
 
 def peaks(points):
-    """The peak at each point, by one call of the program, which uses all processors."""
+    """The peak at each point, from one call of the program, which uses all processors."""
     lines = [",".join(KEYS)] + [",".join(repr(float(value)) for value in point) for point in points]
     answer = subprocess.run([os.environ.get("BUTEE", "butee"), "study", study, "-q", "--points", "-", "--results", "-"],
                             input="\n".join(lines) + "\n", check=True, capture_output=True, text=True).stdout

@@ -7,7 +7,7 @@
     result = scene.run(end_time=1.0)
     result.t, result["mid.u"], result.summary["peak"], result.impacts
 
-Names, defaults and units are those of the program: ``butee help`` explains scenes, methods and results.
+Names, defaults and units are the same as in the program; ``butee help`` explains scenes, methods and results.
 """
 
 from ._analyses import plugins, stability

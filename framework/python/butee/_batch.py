@@ -12,15 +12,15 @@ import numpy as np
 from . import _butee
 from ._result import Result
 
-#: All points are held in memory.
+#: Largest number of points; all points are held in memory.
 MOST_POINTS = 10_000_000
 
 
 class Batch(Sequence[Any]):
-    """The runs of ``Scene.batch``: a sequence of their results, or of what ``collect`` made of each.
+    """The runs of ``Scene.batch``: a sequence of their results, or of the values that ``collect`` returned.
 
-    ``batch.points[i]`` is a dict of the values by key of run i; ``batch.values(key)`` has them of one key for all runs, as an
-    array of shape (runs,). ``batch.failed`` has the numbers of the runs that failed.
+    ``batch.points[i]`` is a dict of the values of run i by key; ``batch.values(key)`` is an array of the values of one key for
+    all runs, shape (runs,). ``batch.failed`` contains the numbers of the failed runs.
     """
 
     def __init__(self, keys: Tuple[str, ...], rows: List[Tuple[Any, ...]]):
@@ -37,20 +37,20 @@ class Batch(Sequence[Any]):
 
     @property
     def points(self) -> List[Dict[str, Any]]:
-        """The values by key, of each run."""
+        """The values of each run, by key."""
         return [dict(zip(self.keys, row)) for row in self._rows]
 
     def values(self, key: str) -> np.ndarray:
-        """The values of one key, of each run; shape (runs,)."""
+        """The values of one key in all runs; shape (runs,)."""
         return np.array([row[self.keys.index(key)] for row in self._rows])
 
     @property
     def failed(self) -> Dict[int, str]:
-        """The numbers of the runs that failed, each with its message. Their results go as far as they came."""
+        """The numbers of the failed runs, each with its message. Their results end at the failure."""
         return dict(sorted(self._failed.items()))
 
     def peaks(self, column: str) -> np.ndarray:
-        """The peak of a column in each run (``Result.peaks``), where results are kept; shape (runs,)."""
+        """The peak of a column in each run (``Result.peaks``), if results are kept; shape (runs,)."""
         return np.array([result.peaks[column] for result in self._items])
 
     def __repr__(self) -> str:

@@ -17,8 +17,8 @@ class Equations:
     """M a + C v + K x = F(t) + F_c(x, v) on the n free degrees of freedom of a scene, for other solvers.
 
     Vectors are arrays of shape (n,), displacements in m or rad, forces in N or N m, in the order of ``dofs``. C = c_m M + c_k K +
-    dashpots, or modal damping and dashpots. Where shafts turn at a varying speed, C and K are those of an instant. A motion is
-    taken relative to the base where the scene has one.
+    dashpots, or modal damping and dashpots. If shafts turn at a varying speed, C and K depend on time. If the scene has a
+    moving base, the motion is relative to the base.
 
     >>> equations = scene.equations()
     >>> equations.dofs
@@ -78,8 +78,8 @@ class Equations:
         return self._core.external_force(t)
 
     def contact_force(self, x: np.ndarray, v: Optional[np.ndarray] = None, t: float = 0.0) -> np.ndarray:
-        """The forces of all contacts, (n,), at the displacements ``x`` and the velocities ``v`` (0 where they are None). Velocities
-        matter to contacts with dissipation or friction alone, and the time ``t`` to those that turn at a varying speed."""
+        """The forces of all contacts, (n,), at the displacements ``x`` and the velocities ``v`` (default: 0). Velocities
+        matter only for contacts with dissipation or friction, and the time ``t`` only if shafts turn at a varying speed."""
         return self._core.contact_force(t, x, np.zeros(np.shape(x)) if v is None else v)
 
     def acceleration(self, t: float, x: np.ndarray, v: np.ndarray) -> np.ndarray:
@@ -106,7 +106,7 @@ class Modes:
     damping_ratios: np.ndarray
     """(modes,), 1 = critical; NaN for rigid motion"""
     effective_masses: np.ndarray
-    """(modes,), kg, of a transverse acceleration of all nodes alike"""
+    """(modes,), kg, for a uniform transverse acceleration of all nodes"""
     total_mass: float
     """kg"""
     shapes: np.ndarray

@@ -1,4 +1,4 @@
-"""What can go wrong."""
+"""Errors and warnings."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ _PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+): (?P<message>.*)", re.DOTALL)
 
 
 class Error(Exception):
-    """Every error of butee itself."""
+    """Base class of the errors of butee."""
 
 
 class Mistake(NamedTuple):
     """One mistake of a scene."""
 
     file: str
-    """The file, or ``--set KEY=VALUE`` for a value that was set by its key."""
+    """The file, or ``--set KEY=VALUE`` for a value set by its key."""
     line: int
-    """From 1; 0 where the whole of ``file`` is meant."""
+    """Line number from 1; 0 for the whole ``file``."""
     key: str
-    """``contact[0].gap``; "" where the text could not be read as far as that."""
+    """``contact[0].gap``; "" if the text could not be parsed up to a key."""
     message: str
-    """The value, what is wrong with it and what is allowed."""
+    """The value, the reason why it is wrong, and the allowed values."""
 
 
 class InputError(Error, ValueError):
-    """Bad input. ``mistakes`` lists all mistakes of a scene, not the first alone.
+    """Bad input. ``mistakes`` lists all mistakes of a scene, not only the first.
 
     >>> try:
     ...     butee.Scene({"schema": 1, "title": 5})
@@ -58,7 +58,7 @@ def _mistake_of(text: str) -> Mistake:
 class RunError(Error, RuntimeError):
     """A run that failed: a step that did not converge, a file that could not be written.
 
-    ``result`` holds what was computed up to there, or None.
+    ``result`` contains the results up to the failure, or is None.
     """
 
     def __init__(self, text: str, result: Optional["Result"] = None):
@@ -70,4 +70,4 @@ class RunError(Error, RuntimeError):
 
 
 class SceneWarning(UserWarning):
-    """What the program would warn of: a likely mistake in a scene, or a result with a limit."""
+    """A warning as given by the program: a likely mistake in a scene, or a limitation of a result."""

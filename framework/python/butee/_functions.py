@@ -1,4 +1,4 @@
-"""What loads and laws written in Python share."""
+"""Common code for loads and laws written in Python."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Set, Tuple
 from . import _butee
 
 
-#: The laws and loads that were written in Python so far.
+#: Names of the laws and loads in Python that have been registered.
 written: Set[str] = set()
 
 
 def names_in(value: Any) -> Set[str]:
-    """Those of them that the tables of a scene name."""
+    """The registered names that the tables of a scene use."""
     if isinstance(value, dict):
         here = {value.get(key) for key in ("law", "type") if isinstance(value.get(key), str)} & written
         return here.union(*map(names_in, value.values()))
@@ -21,7 +21,7 @@ def names_in(value: Any) -> Set[str]:
 
 
 def declared(name: str, function: Callable[..., float], first: str) -> List[Tuple[str, Optional[float]]]:
-    """The parameters behind the first one, with their defaults; TypeError where a scene could not give them."""
+    """The parameters after the first one, with their defaults; raises TypeError if a scene cannot set them."""
     parameters = list(inspect.signature(function).parameters.values())
     if not parameters:
         raise TypeError(f"{name}: the function takes {first}, and its parameters behind that")
@@ -40,14 +40,14 @@ class Finding(NamedTuple):
     name: str
     """``derivatives``"""
     demand: str
-    """What is demanded of every law or load."""
+    """The requirement on every law or load."""
     passed: bool
     details: str
-    """Figures, or what is wrong."""
+    """Figures, or the reason of the failure."""
 
 
 def conformance(name: str, **keys: Any) -> List[Finding]:
-    """Runs the suite of ``butee test-plugin`` on a law or load, one written in Python included; ``keys`` are its keys in a scene.
+    """Runs the suite of ``butee test-plugin`` on a law or load, which may be written in Python; ``keys`` are its keys in a scene.
 
     >>> @butee.law("cubic")
     ... def cubic(g, stiffness):

@@ -11,17 +11,17 @@ from ._functions import declared, written
 
 def law(name: str, *, tangent: Optional[Callable[..., float]] = None,
         energy: Optional[Callable[..., float]] = None) -> Callable[[Callable[..., float]], Callable[..., float]]:
-    """Makes a function of the penetration a law of stops that scenes made later may name, ``law = "name"`` in ``contact``.
+    """Registers a function of the penetration as a contact law of stops. Scenes created later can use ``law = "name"`` in ``contact``.
 
-    The function gets the penetration g in m (negative while the stop is open) and its parameters, and returns the force in N that
-    pushes the body back; 0 at g = 0. Its further arguments are keys of the contact, all of them numbers; those without a default
-    have to be given. ``tangent`` and ``energy`` are functions of the same arguments, dF/dg in N/m and the integral of F from 0 to g
-    in J; where they are absent, the force is differentiated by differences and summed up by Gauss' rule in intervals that shrink
-    towards 0, a few hundred calls for each value of the energy.
+    The function receives the penetration g in m (negative while the stop is open) and its parameters, and returns the restoring
+    force in N; it must be 0 at g = 0. Its other arguments are keys of the contact and must be numbers; those without a default
+    are required. ``tangent`` and ``energy`` are functions of the same arguments: dF/dg in N/m and the integral of F from 0 to g
+    in J. If they are absent, the force is differentiated by finite differences and integrated by Gauss' rule over intervals that
+    shrink towards 0, with a few hundred calls for each value of the energy.
 
-    For trying out: each call takes some microseconds and the interpreter's lock, so that a scene of one mass runs a hundred times
-    slower than with a law in C++, and threads wait for each other. The method ``exact`` refuses the law. ``butee.conformance``
-    holds it against the suite that laws in C++ pass.
+    Intended for experiments: each call takes some microseconds and the interpreter's lock, so a scene of one mass runs a hundred
+    times slower than with a law in C++, and threads wait for each other. The method ``exact`` refuses the law.
+    ``butee.conformance`` runs the test suite that laws in C++ pass.
 
     >>> @butee.law("hardening")
     ... def hardening(g, stiffness, cubic=0.0):

@@ -10,12 +10,12 @@ from ._functions import declared, written
 
 
 def load(name: str) -> Callable[[Callable[..., float]], Callable[..., float]]:
-    """Makes a function of the time a type of load that scenes made later may name, in ``load`` and ``in_time``.
+    """Registers a function of time as a type of load. Scenes created later can use its name in ``load`` and ``in_time``.
 
-    The function gets the time in s and its parameters, and returns N (N m on rotations). Its further arguments are the keys of the
-    load, all of them numbers; those without a default have to be given. For trying out: every value takes about a microsecond
+    The function receives the time in s and its parameters, and returns N (N m on rotations). Its other arguments are keys of the
+    load and must be numbers; those without a default are required. Intended for experiments: every value takes about a microsecond
     and the interpreter's lock, some ten times the cost of a step of a small scene, and threads of a batch wait for each other. Methods
-    that need a Taylor series or a load made of parabolas (``exact``, ``exponential``) refuse it, and ``auto`` takes another one.
+    that need a Taylor series or a piecewise parabolic load (``exact``, ``exponential``) refuse it, and ``auto`` chooses another method.
 
     >>> @butee.load("half_sine")
     ... def half_sine(t, amplitude, width=0.01):
@@ -28,8 +28,8 @@ def load(name: str) -> Callable[[Callable[..., float]], Callable[..., float]]:
     >>> scene.run(end_time=0.001).completed
     True
 
-    A name that is registered again is replaced, in scenes that are made later. A pickled scene needs the same registration where it is
-    unpickled.
+    Registering a name again replaces the load in scenes created later. To unpickle a scene, the same load must be registered in
+    that process.
     """
 
     def register(function: Callable[..., float]) -> Callable[..., float]:

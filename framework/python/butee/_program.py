@@ -1,4 +1,4 @@
-"""The analyses that the program does, on scenes in memory."""
+"""Runs the program ``butee`` for analyses of scenes in memory."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def program() -> str:
-    """The program that belongs to this package."""
+    """The path of the program that belongs to this package."""
     folder = os.path.dirname(os.path.dirname(_butee.plugin_folder))
     found = os.path.normpath(os.path.join(folder, _butee.lib_to_program))
     if not os.path.exists(found):
@@ -27,7 +27,7 @@ def program() -> str:
 
 
 def call(arguments: Sequence[str], folder: str = ".") -> str:
-    """Runs the program; what it printed. Its errors become exceptions."""
+    """Runs the program and returns its output. Its errors become exceptions."""
     process = subprocess.Popen([program(), *arguments], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         out, errors = process.communicate()
@@ -41,7 +41,7 @@ def call(arguments: Sequence[str], folder: str = ".") -> str:
 
 
 def words(option: str, values: Sequence[Any]) -> List[str]:
-    """An option with values parted by commas, or nothing where there are none."""
+    """An option with comma-separated values; empty if there are no values."""
     if isinstance(values, (str, int, float)):
         values = [values]
     return [option, ",".join(value if isinstance(value, str) else repr(float(value)) for value in values)] if len(values) else []
@@ -54,7 +54,7 @@ def with_plugins(plugins: Sequence[Any]) -> List[str]:
 
 
 def refuse_functions(tables: Any) -> None:
-    """The program cannot call laws and loads written in Python."""
+    """Raises InputError if the scene uses laws or loads written in Python, which the program cannot call."""
     names = sorted(names_in(tables))
     if names:
         raise InputError(f"the scene names {', '.join(names)}, which is written in Python; this analysis is done by the program butee, "
@@ -63,7 +63,7 @@ def refuse_functions(tables: Any) -> None:
 
 @contextlib.contextmanager
 def saved(scene: "Scene") -> Iterator[Tuple[str, List[str]]]:
-    """A folder with the scene as ``scene.toml``, while it is needed, and the options that name its modules."""
+    """A temporary folder with the scene as ``scene.toml``, and the options that name its modules."""
     refuse_functions(scene.to_dict())
     with tempfile.TemporaryDirectory(prefix="butee-") as folder:
         scene.save(os.path.join(folder, "scene.toml"))
@@ -71,19 +71,19 @@ def saved(scene: "Scene") -> Iterator[Tuple[str, List[str]]]:
 
 
 def json_of(scene: "Scene", command: str, arguments: Sequence[str] = ()) -> Any:
-    """What a command says of a scene with --json."""
+    """The output of a command on a scene with --json."""
     with saved(scene) as (folder, plugins):
         return json.loads(call([command, "scene.toml", *arguments, *plugins, "--json"], folder))
 
 
 def text_of(scene: "Scene", command: str, arguments: Sequence[str] = ()) -> str:
-    """What a command prints of a scene."""
+    """The text output of a command on a scene."""
     with saved(scene) as (folder, plugins):
         return call([command, "scene.toml", *arguments, *plugins], folder)
 
 
 def pictures_of(scene: "Scene", to: str, options: Sequence[str]) -> List[str]:
-    """Runs a scene and draws it into a folder; the paths of the pictures."""
+    """Runs a scene, draws it into a folder and returns the paths of the pictures."""
     to = os.path.abspath(to)
     with saved(scene) as (folder, plugins):
         call(["run", "scene.toml", "-q", "-o", "results", *plugins], folder)
@@ -91,7 +91,7 @@ def pictures_of(scene: "Scene", to: str, options: Sequence[str]) -> List[str]:
 
 
 def files_of(scene: "Scene", command: str, to: str, options: Sequence[str]) -> List[str]:
-    """The paths of the files that a command with -o writes of a scene."""
+    """The paths of the files that a command with -o writes for a scene."""
     to = os.path.abspath(to)
     with saved(scene) as (folder, plugins):
         call([command, "scene.toml", "-q", "-o", to, *options, *plugins], folder)

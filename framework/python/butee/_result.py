@@ -1,4 +1,4 @@
-"""What a run gives."""
+"""Results of runs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Result(Mapping[str, np.ndarray]):
     """The history of a run, by column, with its summary and its impacts.
 
     A mapping from the names of the columns, ``"t"``, ``"mid.u"``, ..., ``"h"``, to arrays of shape (rows,): the columns of
-    ``history.csv``. They are views of the run's own memory, read-only and without a copy, and keep it alive.
+    ``history.csv``. They are read-only views of the run's own memory, without a copy, and keep it alive.
 
     >>> result = scene.run(end_time=0.01)
     >>> result["rotor.u"].shape == result.t.shape
@@ -62,7 +62,7 @@ class Result(Mapping[str, np.ndarray]):
         """The instants of the rows, s; shape (rows,)."""
         return self._core.column("t", self)
 
-    # --- what the run came to
+    # --- outcome of the run
 
     @property
     def title(self) -> str:
@@ -71,36 +71,36 @@ class Result(Mapping[str, np.ndarray]):
 
     @property
     def completed(self) -> bool:
-        """Whether the run came to its end time."""
+        """Whether the run reached its end time."""
         return self._core.completed
 
     @property
     def message(self) -> str:
-        """Why the run failed; "" where it was completed."""
+        """Why the run failed; "" if it completed."""
         return self._core.message
 
     @property
     def summary(self) -> Dict[str, Any]:
-        """What ``summary.json`` holds: status, counters, times, peaks, energies."""
+        """The contents of ``summary.json``: status, counters, times, peaks, energies."""
         if self._summary is None:
             self._summary = json.loads(self._core.summary)
         return self._summary
 
     @property
     def peaks(self) -> Dict[str, float]:
-        """The largest magnitude of each column over the whole motion, between rows and steps too."""
+        """The largest magnitude of each column over the whole motion, including between rows and steps."""
         return self.summary["peak"]
 
     @property
     def warnings(self) -> List[str]:
-        """What the program would warn of."""
+        """The warnings of the run."""
         return list(self._core.warnings)
 
     @property
     def impacts(self) -> np.ndarray:
-        """The closings of stops where the scene has ``output.impacts = true``, as a structured array of shape (impacts,).
+        """The closings of stops, if the scene has ``output.impacts = true``, as a structured array of shape (impacts,).
 
-        Fields: ``node``, ``side`` (+1 or -1), ``t_in`` and ``t_out`` (s; NaN where still closed), ``peak_force`` (N), ``impulse``
+        Fields: ``node``, ``side`` (+1 or -1), ``t_in`` and ``t_out`` (s; NaN if still closed), ``peak_force`` (N), ``impulse``
         (N s), ``impact_speed`` (m/s), ``tangential_impulse`` (N s), ``slip`` (m), ``dissipated`` (J).
         """
         rows = self._core.impacts()
@@ -109,22 +109,22 @@ class Result(Mapping[str, np.ndarray]):
 
     @property
     def wear(self) -> List[Dict[str, Any]]:
-        """What each contact in the plane, with dissipation or friction did over the run: the rows of ``wear.csv`` as dicts with
+        """Friction work and dissipation of each contact in the plane, with dissipation or friction: the rows of ``wear.csv`` as dicts with
         ``node``, ``kind``, ``work`` (J), ``mean_power`` (W), ``contact_share``, ``slip`` (m), ``dissipated`` (J), ..."""
         rows = csv.DictReader(io.StringIO(self._core.wear))
         return [{key: value if key in ("node", "kind") else float(value or "nan") for key, value in row.items()} for row in rows]
 
     @property
     def energy(self) -> Optional[Dict[str, np.ndarray]]:
-        """The energies in J at the output times where the scene has ``output.energy = true``, else None.
+        """The energies in J at the output times if the scene has ``output.energy = true``, otherwise None.
 
-        Keys: ``t``, ``kinetic``, ``strain``, ``contact``, ``work``, ``dissipated``; views as those of the history.
+        Keys: ``t``, ``kinetic``, ``strain``, ``contact``, ``work``, ``dissipated``; arrays are views, as in the history.
         """
         views = self._core.energy(self)
         return views if views["t"].size else None
 
     def check(self) -> "Result":
-        """This result, or RunError where the run failed."""
+        """Returns this result, or raises RunError if the run failed."""
         if not self.completed:
             raise RunError(self.message, self)
         return self
@@ -136,14 +136,14 @@ class Result(Mapping[str, np.ndarray]):
         return self._core.history(self)
 
     def to_dataframe(self):
-        """The history as a ``pandas.DataFrame`` with the time as its index (pandas has to be installed)."""
+        """The history as a ``pandas.DataFrame`` with the time as its index (requires pandas)."""
         import pandas
 
         frame = pandas.DataFrame({name: np.array(column) for name, column in self.items()})
         return frame.set_index("t")
 
     def plot(self, *columns: str, axes=None):
-        """Draws columns over time by matplotlib, those of the probes where none are named; returns the axes.
+        """Draws columns over time by matplotlib (default: those of the probes) and returns the axes.
 
         >>> axes = scene.run(end_time=0.01).plot("rotor.u")
         """

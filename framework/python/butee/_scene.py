@@ -1,4 +1,4 @@
-"""Scenes: what is to be computed."""
+"""Scenes: descriptions of computations."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from scipy.sparse import csc_matrix
 
 Plugins = Sequence[Union[str, "os.PathLike[str]"]]
-#: Called some times a second with the present time and the end time, s; what it raises ends the run.
+#: Called some times a second with the present time and the end time, s; an exception from it ends the run.
 Progress = Callable[[float, float], None]
 
 
@@ -36,11 +36,11 @@ def _warn(messages: Iterable[str]) -> None:
 
 
 class Scene(Analyses):
-    """A scene: elements, stops, loads, a method, and what is asked of its output; as in a model file, in SI units.
+    """A scene: elements, stops, loads, a method and the requested output; as in a model file, in SI units.
 
-    ``source`` is a dict of the tables of a model file, or the text of one. A scene is valid at any time: whatever would make it
-    invalid raises InputError with every mistake, and changes nothing. Values are read and set by the keys that ``--set``
-    takes on the command line:
+    ``source`` is a dict of the tables of a model file, or its text. A scene is always valid: a change that would make it invalid
+    raises InputError with all mistakes and has no effect. Values are read and set by the keys that ``--set`` takes on the
+    command line:
 
     >>> scene["contact[0].gap"]
     0.0004
@@ -51,7 +51,7 @@ class Scene(Analyses):
     >>> scene["contact[0].gap"]
     0.0005
 
-    Scenes can be copied and pickled. A run goes on with the scene as it was when the run began.
+    Scenes can be copied and pickled. A run uses the scene as it was when the run began.
     """
 
     __slots__ = ("_core", "__weakref__")
@@ -68,8 +68,8 @@ class Scene(Analyses):
              plugins: Plugins = ()) -> "Scene":
         """Reads a model file.
 
-        ``overrides`` are texts ``KEY=VALUE`` as after ``--set``, or a dict of keys and values. ``plugins`` are modules or folders of
-        modules, as after ``--plugin``.
+        ``overrides`` are texts ``KEY=VALUE`` as for ``--set``, or a dict of keys and values. ``plugins`` are modules or folders of
+        modules, as for ``--plugin``.
         """
         texts = [] if isinstance(overrides, Mapping) else [overrides] if isinstance(overrides, str) else list(overrides)
         core = _butee.load(os.fspath(path), texts, _paths(plugins))
@@ -99,11 +99,11 @@ class Scene(Analyses):
         return self._core.contains(key)
 
     def get(self, key: str, default: Any = None) -> Any:
-        """The value at ``key``, or ``default`` where nothing is written there."""
+        """The value at ``key``, or ``default`` if the scene does not contain the key."""
         return self._core.find(key) if self._core.contains(key) else default
 
     def update(self, values: Mapping[str, Any]) -> None:
-        """Sets several keys at once, for values that are valid together alone. None takes a key out."""
+        """Sets several keys at once, for values that are only valid together. None removes a key."""
         self._core = self._core.with_values(dict(values))
         _warn(self._core.warnings)
 
@@ -123,7 +123,7 @@ class Scene(Analyses):
         return self._core.with_values(changes)
 
     def copy(self) -> "Scene":
-        """A copy, which may be changed alone."""
+        """An independent copy."""
         return self._of(self._core)
 
     __copy__ = copy
@@ -138,7 +138,7 @@ class Scene(Analyses):
 
     @property
     def title(self) -> str:
-        """The scene's title, "" where it has none."""
+        """The scene's title, "" if it has none."""
         return self._core.title
 
     @property
@@ -148,11 +148,11 @@ class Scene(Analyses):
 
     @property
     def warnings(self) -> List[str]:
-        """What reading the scene warned of."""
+        """The warnings from reading the scene."""
         return self._core.warnings
 
     def to_dict(self) -> Dict[str, Any]:
-        """The tables of the scene; ``Scene(scene.to_dict())`` is an equal one."""
+        """The tables of the scene; ``Scene(scene.to_dict())`` is an equal scene."""
         return self._core.to_dict()
 
     def to_toml(self) -> str:
@@ -160,7 +160,7 @@ class Scene(Analyses):
         return self._core.to_toml("")
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes a model file. Files that the scene names are found from there, with their size and checksum."""
+        """Writes a model file. Paths in it are adjusted to its folder; the size and checksum of the named files are stored."""
         path = os.fspath(path)
         text = self._core.to_toml(os.path.dirname(path) or ".")
         with open(path, "w", encoding="utf-8") as file:
@@ -169,22 +169,22 @@ class Scene(Analyses):
     def __repr__(self) -> str:
         return f"<butee.Scene {self._core.name!r}: {self.title!r}, {self.method} to t = {self._core.end_time:g} s>"
 
-    # --- what can be done with it
+    # --- runs and analyses
 
     def run(self, values: Optional[Mapping[str, Any]] = None, *, progress: Union[bool, Progress] = False,
             output: Union[str, "os.PathLike[str]", None] = None, resume: bool = False, repeat: int = 1,
             **integrator: Any) -> Result:
-        """Integrates the scene, with other ``values`` where given, and leaves the scene as it is.
+        """Integrates the scene, with changed ``values`` if given; the scene itself is not changed.
 
         Keywords are keys of ``[integrator]``: ``end_time``, ``time_step``, ``type``, ``tolerance``, ...
         ``progress`` is True for a bar on standard error, or a function of the present time and the end time (s) that is called
-        some times a second. ``output`` is a folder for the files that ``butee run -o`` writes, checkpoints among them where the
-        scene asks for them (``output.checkpoint``); with ``resume`` an interrupted run goes on from the newest of them, to the
-        same bits, and the result has the rows from there on. With ``repeat`` the scene is integrated so many times, and the result is
-        that of the fastest (``summary["wall_seconds"]``); files are those of the last.
+        some times a second. ``output`` is a folder for the files that ``butee run -o`` writes, including checkpoints if the scene
+        requests them (``output.checkpoint``). With ``resume`` an interrupted run continues from the newest checkpoint to the same
+        bits, and the result contains the rows from there on. ``repeat`` integrates the scene this many times and returns the result
+        of the fastest run (``summary["wall_seconds"]``); files are those of the last run.
 
-        Other Python threads go on meanwhile. Ctrl-C ends the run after a step. Raises InputError where the scene cannot be run,
-        and RunError, with the result so far, where the run fails.
+        Other Python threads continue meanwhile. Ctrl-C ends the run after a step. Raises InputError if the scene cannot be run,
+        and RunError, with the result so far, if the run fails.
 
         >>> scene.run(end_time=0.01).summary["status"]
         'completed'
@@ -209,11 +209,11 @@ class Scene(Analyses):
     def batch(self, values: Mapping[str, Sequence[Any]], *, threads: Optional[int] = None, plan: str = "grid",
               collect: Optional[Callable[[Result], Any]] = None, progress: Optional[Callable[[int, int], None]] = None,
               **integrator: Any) -> Batch:
-        """Runs the scene once for each combination of ``values``, on threads without the interpreter's lock.
+        """Runs the scene once for each combination of ``values``, on threads that do not hold the interpreter's lock.
 
-        ``values`` is a dict of keys, each with a sequence of values. ``plan`` is ``"grid"``, every combination with the last key the
-        fastest, or ``"list"``, value by value. ``threads`` is the number of processors where it is None. ``collect`` makes what is
-        kept of each result, so that results need not all stay in memory; it and ``progress(done, runs)`` are called on this thread.
+        ``values`` is a dict of keys, each with a sequence of values. ``plan`` is ``"grid"``, all combinations with the last key varying
+        fastest, or ``"list"``, value by value. ``threads`` defaults to the number of processors. ``collect`` maps each result to the
+        value that is kept, so that results need not stay in memory; it and ``progress(done, runs)`` are called on this thread.
         Keywords are keys of ``[integrator]`` for all runs. Results are the same bits as those of ``run``.
 
         Bad input raises InputError. A run that fails does not end the others: see ``Batch.failed``.
@@ -229,17 +229,17 @@ class Scene(Analyses):
               period: Optional[float] = None, steady: Optional[float] = None, threads: Optional[int] = None,
               output: Union[str, "os.PathLike[str]"] = "", format: str = "", fresh: bool = False,
               progress: Optional[Callable[[int, int], None]] = None, **integrator: Any) -> Study:
-        """Runs the scene at many points and keeps a row of numbers of each, as ``butee study``, on threads without the interpreter's lock.
+        """Runs the scene at many points and keeps a row of numbers for each, as ``butee study``, on threads without the interpreter's lock.
 
         ``vary`` is a dict of keys, each with a sequence of values, or with ``{"from": ..., "to": ..., "count": ...}``; ``collect``
         names the results, ``"peak rotor.u"``, ``"section rotor.u"``, ``"impacts"``, ``"lyapunov"``, ...; ``butee help study``
-        explains them and the other arguments. Where the systems of the points differ in loads, gaps and laws alone they are assembled
-        and factorized once for each thread. ``output`` is a folder as after ``butee study -o``: what is done is kept there, and
-        the same call goes on after Ctrl-C, or with ``fresh`` begins anew; ``format`` is ``"hdf5"`` (where it is installed) or ``"csv"``.
+        explains them and the other arguments. If the points differ only in loads, gaps and laws, each thread assembles and
+        factorizes the system once. ``output`` is a folder as for ``butee study -o``: finished runs are kept there, and the same
+        call continues after Ctrl-C, or starts again with ``fresh``; ``format`` is ``"hdf5"`` (if installed) or ``"csv"``.
         ``progress(done, runs)`` is called some times a second. Keywords are keys of ``[integrator]``
-        for all runs. Rows do not depend on the threads.
+        for all runs. Rows do not depend on the number of threads.
 
-        Bad input raises InputError; a run that fails is a row, see ``Study.failed``.
+        Bad input raises InputError; a failed run gives a row, see ``Study.failed``.
 
         >>> rows = scene.study({"load[0].amplitude": [1e5, 2e5]}, ["peak rotor.u", "impacts"], settle=5, periods=10)
         >>> rows["peak rotor.u"].shape, rows.units["peak rotor.u"], list(rows["status"])
@@ -265,7 +265,7 @@ class Scene(Analyses):
         return equations.M, equations.C, equations.K
 
     def modes(self, n: int = 0, *, closed: Union[str, Sequence[str]] = ()) -> Modes:
-        """The ``n`` lowest natural modes (10, or all of a smaller scene, where it is 0), as ``butee modes``.
+        """The ``n`` lowest natural modes (0: 10, or all of a smaller scene), as from ``butee modes``.
 
         ``closed`` are selectors of nodes whose stops count as closed, or ``"all"``.
         """
@@ -274,7 +274,7 @@ class Scene(Analyses):
         return Modes(**_butee.modes(self._core, n, [closed] if isinstance(closed, str) else list(closed)))
 
     def structure(self, forced: Union[str, Sequence[str]] = ()) -> Structure:
-        """The scene as a part of another computation. ``forced`` are selectors of the nodes that forces will act on,
+        """The scene as a part of another computation. ``forced`` are selectors of the nodes on which forces will act,
         ``"string:middle"``, or ``"string:all.theta"`` for moments."""
         return Structure(_butee.part(self._core, [forced] if isinstance(forced, str) else list(forced)))
 

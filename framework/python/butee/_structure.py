@@ -12,11 +12,11 @@ Snapshot = _butee.Snapshot
 
 
 class Structure:
-    """A scene that another solver advances, reads, pushes and sets back; made by ``Scene.structure``.
+    """A scene that another solver advances in time, reads, loads by forces and resets; created by ``Scene.structure``.
 
-    Forces act on the degrees of freedom of ``forced`` and are straight lines in time between two calls of ``advance_to``, so that a
+    Forces act on the degrees of freedom of ``forced`` and are linear in time between two calls of ``advance_to``, so that a
     partitioned iteration is of second order in its windows. Vectors are arrays of shape (n,) over the free degrees of freedom
-    ``dofs``, those of forces of shape (forced,). Each structure serves one thread at a time; another one gets a RunError.
+    ``dofs``; force vectors have shape (forced,). Only one thread at a time can use a structure; another one gets a RunError.
 
     >>> part = scene.structure(forced=["rotor"])
     >>> part.forces = [1000.0]                          # N, from now on
@@ -27,8 +27,8 @@ class Structure:
     >>> part.time
     0.001
 
-    After a failed step (RunError) the state is that of the last good one; other forces, another motion or ``restore`` give a way
-    to go on. A wrong call raises ValueError or InputError and changes nothing. Structures and snapshots can be pickled.
+    After a failed step (RunError) the state is that of the last good step; the structure can continue after other forces, another
+    motion or ``restore``. A wrong call raises ValueError or InputError and has no effect. Structures and snapshots can be pickled.
     """
 
     __slots__ = ("_core", "__weakref__")
@@ -45,7 +45,7 @@ class Structure:
 
     @property
     def forced_dofs(self) -> List[int]:
-        """The degrees of freedom that forces act on, in the order of ``forced``: indices into ``dofs``."""
+        """The degrees of freedom on which forces act, in the order of ``forced``: indices into ``dofs``."""
         return self._core.forced_dofs()
 
     def dof(self, node: str, kind: str = "u") -> int:
@@ -53,7 +53,7 @@ class Structure:
         return self._core.dof(node, kind)
 
     def dof_list(self, nodes: str, kind: str = "u") -> List[int]:
-        """The indices of the free ones among several nodes: ``part.dof_list("string:all")``."""
+        """The indices of the free degrees of freedom of one kind at several nodes: ``part.dof_list("string:all")``."""
         return self._core.dof_list(nodes, kind)
 
     # --- time
@@ -64,7 +64,7 @@ class Structure:
         return self._core.time()
 
     def advance_to(self, t: float) -> None:
-        """Goes on to ``t`` exactly, s. Other Python threads go on meanwhile, and Ctrl-C ends it after a step."""
+        """Advances exactly to ``t``, s. Other Python threads continue meanwhile, and Ctrl-C stops after a step."""
         self._core.advance_to(t)
 
     def advance_step(self, limit: float) -> float:
@@ -101,14 +101,14 @@ class Structure:
         return self._core.acceleration(dof)
 
     def set_motion(self, x: Sequence[float], v: Sequence[float]) -> None:
-        """Takes other displacements and velocities, (n,) each, at the present instant; the method starts anew from them."""
+        """Sets the displacements and velocities, (n,) each, at the present instant; the method restarts from them."""
         self._core.set_motion(x, v)
 
     # --- forces
 
     @property
     def forces(self) -> np.ndarray:
-        """The forces on ``forced_dofs`` at the present instant, (forced,), N and N m. Set, they hold from now on."""
+        """The forces on ``forced_dofs`` at the present instant, (forced,), N and N m. Values that are set remain constant from now on."""
         return self._core.forces()
 
     @forces.setter
@@ -116,11 +116,11 @@ class Structure:
         self._core.set_forces(values)
 
     def set_forces(self, start: Sequence[float], end: Sequence[float], until: float) -> None:
-        """Forces that go from ``start`` now to ``end`` at ``until`` (s) in straight lines, and on beyond; (forced,) each."""
+        """Sets forces that vary linearly from ``start`` now to ``end`` at ``until`` (s), and continue beyond; (forced,) each."""
         self._core.set_lines(start, end, until)
 
     def set_force(self, dof: int, value: float) -> None:
-        """A force on one of ``forced_dofs`` from now on, N or N m."""
+        """Sets a constant force on one of ``forced_dofs`` from now on, N or N m."""
         self._core.set_force(dof, value)
 
     def contact_force(self, dof: int) -> float:
@@ -128,7 +128,7 @@ class Structure:
         return self._core.contact_force(dof)
 
     def quantity(self, name: str, node: str, element: str = "") -> float:
-        """A quantity of probes (``M``, ``reaction``, ...) at the present instant; ``element`` names the beam or spring meant."""
+        """A quantity of probes (``M``, ``reaction``, ...) at the present instant; ``element`` selects the beam or spring."""
         return self._core.quantity(name, node, element)
 
     @property
@@ -136,14 +136,14 @@ class Structure:
         """The energies ``kinetic``, ``strain`` and ``contact``, J."""
         return self._core.energy()
 
-    # --- back and forth
+    # --- snapshots
 
     def snapshot(self) -> Snapshot:
-        """The state with the method's memory and the forces, to go back to; it refers to nothing and can be pickled."""
+        """The state with the method's memory and the forces, for ``restore``; it is independent of the structure and can be pickled."""
         return self._core.snapshot()
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Goes to a snapshot of this structure, or of another one of the same scene and ``forced``, bit for bit."""
+        """Restores a snapshot of this structure, or of another one with the same scene and ``forced``, bit for bit."""
         self._core.restore(snapshot)
 
     @property

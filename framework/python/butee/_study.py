@@ -1,4 +1,4 @@
-"""Studies: many runs of one scene, of which a row of numbers is kept."""
+"""Studies: many runs of one scene, each with a row of numbers as its result."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ Collected = Union[str, Sequence[str]]
 
 
 class Study(Mapping[str, np.ndarray]):
-    """The rows of ``Scene.study``: a mapping of columns to arrays of shape (runs,), or (runs, periods) of sections.
+    """The rows of ``Scene.study``: a mapping of columns to arrays of shape (runs,), or (runs, periods) for sections.
 
     Columns are those of ``butee study``: ``run``, ``point``, the keys that vary, ``status`` (``completed``, ``failed``, ``refused``),
-    ``reason``, what was collected, ``steps`` and what the run cost. Results of a run that has none are NaN.
+    ``reason``, the collected results, ``steps`` and the cost of the run. Missing results of a run are NaN.
     """
 
     def __init__(self, rows: np.ndarray, units: Dict[str, str]):
         self.rows = rows
         """All rows, a structured array."""
         self.units = units
-        """By column; "1" for pure numbers, "" where none is known."""
+        """Units by column; "1" for pure numbers, "" if unknown."""
 
     @classmethod
     def load(cls, folder: Union[str, "os.PathLike[str]"]) -> "Study":
         """The rows in a folder of ``butee study -o`` or ``Scene.study(..., output=...)``, in the order of the plan.
 
-        While the study is under way, by threads, processes or shards, those that are there so far.
+        While the study is running, in threads, processes or shards, the rows that exist so far.
         """
         return cls._of(_butee.study_rows(os.fspath(folder)))
 
@@ -62,7 +62,7 @@ class Study(Mapping[str, np.ndarray]):
         return {int(i): str(self["reason"][i]) for i in np.flatnonzero(self["status"] != "completed")}
 
     def to_dataframe(self):
-        """The rows as a ``pandas.DataFrame`` (pandas has to be installed); sections become columns ``NAME[1]``, ``NAME[2]``, ..."""
+        """The rows as a ``pandas.DataFrame`` (requires pandas); sections become columns ``NAME[1]``, ``NAME[2]``, ..."""
         import pandas
 
         columns: Dict[str, np.ndarray] = {}
@@ -74,8 +74,8 @@ class Study(Mapping[str, np.ndarray]):
         return pandas.DataFrame(columns)
 
     def plot(self, result: str, axes=None):
-        """Draws one result by matplotlib over the first key that varies, returns the axes: sections as dots, a bifurcation diagram;
-        sweeps up and down as lines of their own; over two keys of a grid a map.
+        """Draws one result by matplotlib over the first varied key and returns the axes. Sections are drawn as dots (a bifurcation
+        diagram), upward and downward sweeps as separate lines, a grid over two keys as a map.
 
         >>> axes = scene.study({"contact[0].gap": [1e-4, 2e-4]}, "section rotor.u", periods=5).plot("section rotor.u")
         """
@@ -85,7 +85,7 @@ class Study(Mapping[str, np.ndarray]):
 
     @property
     def keys_varied(self) -> List[str]:
-        """The keys that vary, in the order they were given."""
+        """The varied keys, in the order given."""
         names = list(self.units)
         return [name for name in names[:names.index("status")] if name not in ("run", "point", "direction")]
 
