@@ -23,7 +23,7 @@ void add_model_arguments(CLI::App& command, ModelArguments& arguments);
 /// Adds --plugin.
 void add_plugin_option(CLI::App& command, std::vector<std::string>& plugins);
 
-/// Adds -q, and -v where `with_verbose`; they set the level of the log as soon as they are read.
+/// Adds -q, and -v if `with_verbose`. They set the log level as soon as they are parsed.
 void add_log_options(CLI::App& command, bool with_verbose);
 
 Command add_run_command(CLI::App& program);

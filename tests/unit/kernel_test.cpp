@@ -189,7 +189,7 @@ TEST_F(Kernels, SeriesOfModes) {
         const double half = std::sin(0.5 * angle), constant = 2.0 * half * half / (omega * omega);
         EXPECT_NEAR(flow.force_q(0)[i], constant, kRounding * h * h);
         EXPECT_NEAR(flow.force_v(0)[i], std::sin(angle) / omega, kRounding * h);
-        // Cancellation of the closed form
+        // The tolerance allows for cancellation in the closed form.
         const double linear = (1.0 - std::sin(angle) / angle) / (omega * omega);
         EXPECT_NEAR(flow.force_q(1)[i], 2.0 * linear - constant, 1e-15 / (omega * omega));
         // Response of q'' + omega^2 q to cos(Omega t) and to sin(Omega t) from rest.

@@ -6,7 +6,7 @@
 namespace butee::test::subnormals_test {
 namespace {
 
-/// Half of the smallest normal number, computed where the compiler cannot.
+/// Half of the smallest normal number, computed at run time, not by the compiler.
 double half_of_smallest() {
   volatile double smallest = std::numeric_limits<double>::min();
   return 0.5 * smallest;

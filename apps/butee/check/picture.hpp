@@ -19,7 +19,7 @@ std::string picture_in_space(const model::Model& model, const Survey& survey);
 /// The beams of a scene in space with the coordinates of their ends, one line each.
 std::string list_in_space(const model::Model& model);
 
-/// Any scene as a few lines of text of at most `width` columns, with box-drawing characters where `utf8`.
+/// Any scene as a few lines of text of at most `width` columns, with box-drawing characters if `utf8`.
 std::string picture_text(const Layout& layout, int width, bool utf8);
 
 /// True if the locale of the environment (LC_ALL, LC_CTYPE, LANG) is UTF-8.

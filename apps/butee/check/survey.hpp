@@ -15,7 +15,7 @@ struct Stretch {
   double mass_per_length;  ///< kg/m
 };
 
-/// A spring on u, to ground where b < 0.
+/// A spring on u, to ground if b < 0.
 struct SpringPlace {
   model::NodeId a, b;
   double stiffness;  ///< N/m

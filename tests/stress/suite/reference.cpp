@@ -229,7 +229,7 @@ void Reference::disturb(double t, int pattern) {
   set_motion(x, v);
   const bool is_over = advance_to(end);
   disturbed_.push_back({before + 1, size, is_over, follower_->trajectory});
-  follower_->trajectory.rows = kRows;  // it rests
+  follower_->trajectory.rows = kRows;  // stops recording
 }
 
 void Reference::set_motion(const Vector& x, const Vector& v) {
