@@ -30,7 +30,7 @@ std::vector<Index> moving_first(dynamics::Dynamics& dynamics, double tolerance) 
   moves += force.cwiseAbs();
   for (const model::FreeLoad& load : system.loads)
     for (const Index dof : load.dofs) moves[dof] = 1.0;
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   for (Index i = 0; i < contact.size(); ++i) {
     const model::ContactLaw& law = contact.law_of(i);
     if (law.asymptotic_force() <= kNegligibleForce * tolerance * law.closed_stiffness() * contact.play_of(i).gap)

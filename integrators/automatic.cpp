@@ -31,7 +31,7 @@ struct Cost {
 /// were measured on beams of 68 to 600 DOFs with a stop at every node, from 3 ms to 0.3 s at a
 /// tolerance of 1e-3. Another machine changes all of them by about the same factor.
 Cost estimate(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
-  const auto& contact = dynamics.contact();
+  const auto& contact = dynamics.stops();
   const model::System& system = dynamics.system();
   const Vector stiffness = contact.closed_stiffness();
   double square = 0.0;
@@ -54,7 +54,7 @@ constexpr double kTight = 1e-5;
 /// modes, all contact states have them; otherwise those with none, one or all stops closed are
 /// checked.
 bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
-  const Index contacts = dynamics.stop_count() + (dynamics.obstacles() != nullptr ? dynamics.obstacles()->size() : 0);
+  const Index contacts = dynamics.contact_count();
   if (dynamics.size() > (tolerance <= kTight ? kFewAtTight : kFew) || contacts == 0 ||
       !SmallSystem::obstacle_to(dynamics).empty())
     return false;
@@ -83,7 +83,7 @@ bool suits_collocation(dynamics::Dynamics& dynamics) {
       !system.is_symmetric || !system.obstacles.empty() || (system.size() > 1 && system.dashpots.size() > 0);
   if (!is_coupled || system.rotation != nullptr || system.size() > kQuickModes) return false;
   for (Index i = 0; i < dynamics.stop_count(); ++i)
-    if (!dynamics.contact().law_of(i).is_piecewise_linear()) return false;
+    if (!dynamics.stops().law_of(i).is_piecewise_linear()) return false;
   for (const model::FreeObstacles& obstacles : system.obstacles)
     if (obstacles.group->friction.has_memory() ||
         (obstacles.group->law != nullptr && !obstacles.group->law->is_piecewise_linear()))

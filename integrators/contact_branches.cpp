@@ -18,7 +18,7 @@ constexpr double kOnBorder = 1e-14;
 
 }  // namespace
 
-ContactBranches::ContactBranches(const dynamics::Contact& contact, int order)
+ContactBranches::ContactBranches(const dynamics::ElasticStops& contact, int order)
     : contact_(contact), branches_(static_cast<std::size_t>(contact.size())), root_(order) {
   const auto terms = static_cast<std::size_t>(order) + 1;
   polynomial_.resize(terms);

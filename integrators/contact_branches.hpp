@@ -21,7 +21,7 @@ class ContactBranches {
  public:
   /// Throws InputError for a law that is not piecewise linear and gives no series. `contact` must
   /// outlive it.
-  ContactBranches(const dynamics::Contact& contact, int order);
+  ContactBranches(const dynamics::ElasticStops& contact, int order);
 
   /// Sets the branches at displacements w; a stop on a border is undecided.
   void place(ConstVectorRef w);
@@ -59,7 +59,7 @@ class ContactBranches {
   /// end there.
   void watch_bend(const Eigen::MatrixXd& w, Index stop, double until, std::optional<Change>& first);
 
-  const dynamics::Contact& contact_;
+  const dynamics::ElasticStops& contact_;
   std::vector<Branch> branches_;
   std::vector<std::unique_ptr<model::ForceSeries>> series_;  ///< nullptr for piecewise linear laws
   PolynomialRoot root_;

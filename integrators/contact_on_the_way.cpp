@@ -28,7 +28,7 @@ double peak(double h, double w0, double v0, double a0, double w1, double v1) {
 }  // namespace
 
 ContactOnTheWay::ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance)
-    : contact_(&dynamics.contact()), tolerance_(tolerance) {
+    : contact_(&dynamics.stops()), tolerance_(tolerance) {
   w0_ = w1_ = v0_ = v1_ = a0_ = Vector::Zero(contact_->size());
   jumps_ = w0_;
   closed_ = contact_->closed_stiffness();

@@ -39,7 +39,7 @@ class ContactOnTheWay {
   /// True if the impulse of the jump of a stop within a step of h exceeds its bound.
   bool is_noticeable(Index stop, double h, ConstVectorRef scale_v) const;
 
-  dynamics::Contact* contact_;
+  dynamics::ElasticStops* contact_;
   double tolerance_;
   /// The largest 1/(m S_v) of the DOFs of a stop: the change of speed by an impulse, over the
   /// velocity scale, 1/(N s).

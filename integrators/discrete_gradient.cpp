@@ -18,7 +18,7 @@ constexpr NewtonOptions kNewtonOfEnergies = {1e-9, 1e-7, 40, false, false};
 }  // namespace
 
 void DiscreteGradientStage::begin(ConstVectorRef x) {
-  dynamics::Contact& contact = dynamics().contact();
+  dynamics::ElasticStops& contact = dynamics().stops();
   if (contact.size() == 0) return;
   for (Vector* vector : {&start_, &end_, &force_start_, &force_end_, &tangent_end_}) vector->resize(contact.size());
   contact.displacement(x, start_);
@@ -26,7 +26,7 @@ void DiscreteGradientStage::begin(ConstVectorRef x) {
 }
 
 void DiscreteGradientStage::contact(ConstVectorRef w, bool, VectorRef f, VectorRef k) {
-  dynamics::Contact& contact = dynamics().contact();
+  dynamics::ElasticStops& contact = dynamics().stops();
   end_ = 2.0 * w - start_;
   contact.tangent(end_, force_end_, tangent_end_);
   for (Index i = 0; i < end_.size(); ++i) {

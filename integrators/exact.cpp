@@ -23,7 +23,7 @@ constexpr const char* kTolerance = "tolerance";
 /// 1/omega of the stiffest DOF with its stops closed, s; 1 s where nothing has a stiffness.
 double natural_time(dynamics::Dynamics& dynamics) {
   Vector stiffness = dynamics.system().stiffness.diagonal();
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})

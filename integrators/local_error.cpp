@@ -75,7 +75,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   const Vector mass = system.mass.diagonal();
   const double square = highest(stiffness, mass);
   first_step_ = square > 0.0 ? 0.1 / std::sqrt(square) : 1e-6;
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})

@@ -29,7 +29,7 @@ namespace butee::integrators {
 ///
 ///     epsilon = max(|e_x|_M/largest |x|_M so far, |e_v|_M/largest |v|_M so far),    |y|_M^2 = y^T M y
 ///
-/// and every step keeps epsilon <= tolerance^(q/p) for any length of the run. A fine mesh has waves
+/// and every step keeps epsilon <= share tolerance^(q/p) for any length of the run. A fine mesh has waves
 /// that no output shows, whose rotations a control of every component would resolve. A step that
 /// misses contact with a stop is repeated with half its length (ContactOnTheWay). The memory
 /// (previous r, account, scales) is the first part of State::memory. Sources: K. Gustafsson, ACM

@@ -56,17 +56,17 @@ void Rodas4::tangent_force(ConstVectorRef y) {
     all.scatter(tangent.contact, tangent.stiffness * all.gather(tangent.contact, y), work_);
   }
   if (dynamics().stop_count() == 0) return;
-  dynamics().contact().displacement(y, stop_work_);
+  dynamics().stops().displacement(y, stop_work_);
   stop_work_.array() *= tangent_.array();
-  dynamics().contact().scatter(stop_work_, work_);
+  dynamics().stops().scatter(stop_work_, work_);
 }
 
 time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step, time::State& to) {
   const double h = step.h, d = kGamma * h;
   dynamics().set_time(from.t);
   if (dynamics().stop_count() > 0) {
-    dynamics().contact().displacement(from.x, stop_displacement_);
-    dynamics().contact().tangent(stop_displacement_, stop_force_, tangent_);
+    dynamics().stops().displacement(from.x, stop_displacement_);
+    dynamics().stops().tangent(stop_displacement_, stop_force_, tangent_);
   }
   dynamics().external_force_rate(from.t, 1e-3 * h, rate_);
   dynamics().subtract_matrix_rate(from.x, from.v, rate_);

@@ -69,7 +69,7 @@ SmallSystem::SmallSystem(dynamics::Dynamics& dynamics) {
 }
 
 void SmallSystem::add_stops(dynamics::Dynamics& dynamics) {
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   for (Index i = 0; i < contact.size(); ++i) {
     LinearStop stop{contact.dof_a(i), contact.dof_b(i), contact.play_of(i).gap, contact.law_of(i).closed_stiffness()};
     stop.positive = contact.play_of(i).has_positive();

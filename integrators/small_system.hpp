@@ -43,7 +43,7 @@ class SmallSystem {
   bool add_polynomials(double t, Eigen::MatrixXd& force) const;
 
   LongMatrix mass, damping, stiffness;  ///< n x n, with all stops open
-  std::vector<LinearStop> stops;        ///< those of dynamics::Contact first, then those with dissipation
+  std::vector<LinearStop> stops;        ///< those of dynamics::ElasticStops first, then those with dissipation
   std::vector<double> frequencies;      ///< distinct frequencies of the harmonic loads, rad/s
   LongMatrix cosine, sine;              ///< n x number of frequencies: F = cosine cos(W t) + sine sin(W t)
 

@@ -81,7 +81,7 @@ StageSolver::Change StageSolver::add_correction(double velocity_factor, double d
 linalg::ForceBalance StageSolver::evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a,
                                                     bool with_tangent) {
   if (dynamics_.stop_count() > 0) {
-    dynamics_.contact().displacement(x, stop_displacement_);
+    dynamics_.stops().displacement(x, stop_displacement_);
     contact(stop_displacement_, with_tangent, stop_force_, stop_tangent_);
   }
   return dynamics_.residual(load_, stop_force_, x, v, a, residual_);
@@ -89,9 +89,9 @@ linalg::ForceBalance StageSolver::evaluate_residual(ConstVectorRef x, ConstVecto
 
 void StageSolver::contact(ConstVectorRef w, bool with_tangent, VectorRef f, VectorRef k) {
   if (with_tangent)
-    dynamics_.contact().tangent(w, f, k);
+    dynamics_.stops().tangent(w, f, k);
   else
-    dynamics_.contact().force(w, f);
+    dynamics_.stops().force(w, f);
 }
 
 }  // namespace butee::integrators

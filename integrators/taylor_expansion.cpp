@@ -79,7 +79,7 @@ void TaylorExpander::expand_loads(double t, double length) {
 }
 
 void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
-  dynamics::Contact& contact = dynamics_.contact();
+  dynamics::ElasticStops& contact = dynamics_.stops();
   const double h = to.length;
   if (obstacles_) obstacles_->begin(to.begin, to.x.col(0), to.x.col(1) / h, h);
   for (Index k = 0; k <= order_; ++k) {

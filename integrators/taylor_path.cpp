@@ -10,7 +10,7 @@ using time::StepStatus;
 TaylorPath::TaylorPath(dynamics::Dynamics& dynamics, int order, double series_tolerance)
     : dynamics_(dynamics),
       expander_(dynamics, order, series_tolerance),
-      branches_(dynamics.contact(), order),
+      branches_(dynamics.stops(), order),
       discontinuities_(dynamics.load_discontinuities()),
       stops_(dynamics.stop_count()) {}
 
@@ -26,7 +26,7 @@ double TaylorPath::first_length(const State& state, double length) {
 }
 
 void TaylorPath::place_branches() {
-  dynamics_.contact().displacement(x_, stops_);
+  dynamics_.stops().displacement(x_, stops_);
   branches_.place(stops_);
 }
 

@@ -24,7 +24,7 @@ void clear(VectorRef y) {
 
 Dynamics::Dynamics(const model::System& system)
     : system_(system),
-      contact_(system, counters_),
+      stops_(system, counters_),
       obstacles_(system.obstacles.empty() ? nullptr : std::make_unique<Obstacles>(system, counters_)),
       modal_(ModalDamping::of(system)),
       has_damping_(system.damping.is_rayleigh() || system.dashpots.size() > 0 || modal_ != nullptr),
@@ -33,8 +33,8 @@ Dynamics::Dynamics(const model::System& system)
       stiffness_product_(system.stiffness, system.stiffness_is_symmetric),
       load_time_(std::numeric_limits<double>::quiet_NaN()),
       load_values_(system.loads.size()),
-      contact_force_(zeros(contact_.size() > 0 ? system.size() : 0)),
-      stop_displacement_(Vector::Zero(contact_.size())),
+      contact_force_(zeros(stops_.size() > 0 ? system.size() : 0)),
+      stop_displacement_(Vector::Zero(stops_.size())),
       stop_velocity_(stop_displacement_),
       stop_force_(stop_displacement_),
       other_vector_(Vector::Zero(turning_ ? system.size() : 0)),
@@ -52,7 +52,7 @@ Dynamics::Dynamics(const model::System& system)
     if (dof >= 0) blocks[block_of(dof, size())] = true;
   };
   for (Index i = 0; i < stop_count(); ++i)
-    for (const Index dof : {contact_.dof_a(i), contact_.dof_b(i)}) mark(has_stops_, dof);
+    for (const Index dof : {stops_.dof_a(i), stops_.dof_b(i)}) mark(has_stops_, dof);
   if (system.dashpots.size() > 0) dashpot_product_ = linalg::SymmetricProduct(system.dashpots, system.is_symmetric);
   if (modal_ && !system.is_symmetric)
     throw InputError(
@@ -70,7 +70,7 @@ Dynamics::Dynamics(const model::System& system)
 }
 
 void Dynamics::loads_replaced() {
-  contact_ = Contact(system_, counters_);
+  stops_ = ElasticStops(system_, counters_);
   loads_changed();
   if (modal_system_) modal_system_->replace_loads(*this);
 }
@@ -103,9 +103,9 @@ void Dynamics::external_force_rate(double t, double h, VectorRef rate) {
 
 void Dynamics::add_contact_force(ConstVectorRef x, VectorRef force) {
   if (stop_count() == 0) return;
-  contact_.displacement(x, stop_displacement_);
-  contact_.force(stop_displacement_, stop_force_);
-  contact_.scatter(stop_force_, force);
+  stops_.displacement(x, stop_displacement_);
+  stops_.force(stop_displacement_, stop_force_);
+  stops_.scatter(stop_force_, force);
 }
 
 void Dynamics::elastic_force(ConstVectorRef x, VectorRef y) const {
@@ -303,7 +303,7 @@ linalg::LinearSolver& Dynamics::mass_solver() {
 }
 
 EffectiveSolver& Dynamics::effective() {
-  if (!effective_) effective_.emplace(system_, contact_, counters_, modal_.get(), turning_.get());
+  if (!effective_) effective_.emplace(system_, stops_, counters_, modal_.get(), turning_.get());
   return *effective_;
 }
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 
-#include "butee/dynamics/contact.hpp"
 #include "butee/dynamics/effective_solver.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 #include "butee/dynamics/modal_damping.hpp"
 #include "butee/dynamics/modal_system.hpp"
 #include "butee/dynamics/obstacles.hpp"
@@ -30,9 +30,11 @@ class BUTEE_EXPORT Dynamics {
 
   const model::System& system() const { return system_; }
   Index size() const { return system_.size(); }
-  Index stop_count() const { return contact_.size(); }
+  Index stop_count() const { return stops_.size(); }
+  /// All contacts: stops() and obstacles().
+  Index contact_count() const { return stop_count() + (obstacles_ ? obstacles_->size() : 0); }
   bool has_damping() const { return has_damping_; }
-  Contact& contact() { return contact_; }
+  ElasticStops& stops() { return stops_; }
   /// Contacts in the plane, with dissipation or friction; null if the scene has none.
   Obstacles* obstacles() { return obstacles_.get(); }
   /// The forces that hold the rigidly sticking contacts at a motion, in the order of
@@ -150,7 +152,7 @@ class BUTEE_EXPORT Dynamics {
 
   const model::System& system_;
   linalg::Counters counters_;
-  Contact contact_;
+  ElasticStops stops_;
   std::unique_ptr<Obstacles> obstacles_;       ///< null if there are none
   std::unique_ptr<const ModalDamping> modal_;  ///< null without modal damping
   bool has_damping_;

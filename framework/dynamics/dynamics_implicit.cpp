@@ -5,8 +5,8 @@
 namespace butee::dynamics {
 
 void Dynamics::secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c) {
-  contact_.displacement(x, stop_displacement_);
-  contact_.secant(stop_displacement_, kappa, c);
+  stops_.displacement(x, stop_displacement_);
+  stops_.secant(stop_displacement_, kappa, c);
 }
 
 bool Dynamics::solve_secant(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
@@ -26,13 +26,13 @@ bool Dynamics::solve_secant_of_many(double t, double velocity_factor, double dis
   subtract_products(From::nothing, shifted(x, shift, v), 1.0 - s * velocity_factor, v, a);
   add_external_force(t, a);
   if (stop_count() > 0) {
-    contact_.displacement(x, stop_displacement_);
+    stops_.displacement(x, stop_displacement_);
     if (s != 0.0) {
-      contact_.displacement(v, stop_velocity_);
+      stops_.displacement(v, stop_velocity_);
       stop_displacement_ -= s * displacement_factor * stop_velocity_;
     }
     stop_force_ = c - kappa.cwiseProduct(stop_displacement_);
-    contact_.scatter(stop_force_, a);
+    stops_.scatter(stop_force_, a);
   }
   if (modal_) {
     modal_force_.setZero();
@@ -52,7 +52,7 @@ bool Dynamics::solve_single_secant(double t, double velocity_factor, double disp
   double stiffness = stiffness_product_.first(), force = a[0];
   for (Index i = 0; i < stop_count(); ++i) {
     stiffness += kappa[i];
-    force += contact_.dof_a(i) >= 0 ? c[i] : -c[i];
+    force += stops_.dof_a(i) >= 0 ? c[i] : -c[i];
   }
   ++counters_.factorizations;
   ++counters_.solves;
@@ -71,7 +71,7 @@ linalg::ForceBalance Dynamics::residual(ConstVectorRef load, ConstVectorRef stop
       if (has_stops_[block_of(begin, size())]) contact_force_.segment(begin, count).setZero();
     });
   }
-  if (has_stops) contact_.scatter(stop_force, contact_force_);
+  if (has_stops) stops_.scatter(stop_force, contact_force_);
   linalg::ForceBalance balance;
   if (size() == 1) {
     const double inertia = mass_product_.first() * a[0], damping = single_damping_ * v[0],

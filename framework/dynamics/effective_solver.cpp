@@ -20,7 +20,7 @@ Index place_of(const SparseMatrix& matrix, Index row, Index column) {
   return found - matrix.innerIndexPtr();
 }
 
-bool prefers_local(const model::System& system, const Contact& contact, const ModalDamping* modal) {
+bool prefers_local(const model::System& system, const ElasticStops& contact, const ModalDamping* modal) {
   if (system.size() == 1) return contact.size() == 0;
   if (!system.is_symmetric) return true;
   return contact.size() <= LocalContact::kMostStops || (modal != nullptr && modal->matrix().prefers_dense());
@@ -28,12 +28,12 @@ bool prefers_local(const model::System& system, const Contact& contact, const Mo
 
 }  // namespace
 
-EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
+EffectiveSolver::EffectiveSolver(const model::System& system, const ElasticStops& contact, linalg::Counters& counters,
                                  const ModalDamping* modal, const Turning* turning)
     : EffectiveSolver(system, contact, counters,
                       prefers_local(system, contact, modal) ? Contacts::local : Contacts::factorized, modal, turning) {}
 
-EffectiveSolver::EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
+EffectiveSolver::EffectiveSolver(const model::System& system, const ElasticStops& contact, linalg::Counters& counters,
                                  Contacts contacts, const ModalDamping* modal, const Turning* turning)
     : system_(system),
       contact_(contact),

@@ -35,11 +35,11 @@ class BUTEE_EXPORT EffectiveSolver {
 
   /// All arguments must outlive this object; `modal` is null without modal damping, `turning` is
   /// null unless the speed of rotation varies. The treatment of contacts is chosen by their number.
-  EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters,
+  EffectiveSolver(const model::System& system, const ElasticStops& contact, linalg::Counters& counters,
                   const ModalDamping* modal = nullptr, const Turning* turning = nullptr);
   /// With a given treatment of contacts, for comparisons.
-  EffectiveSolver(const model::System& system, const Contact& contact, linalg::Counters& counters, Contacts contacts,
-                  const ModalDamping* modal = nullptr, const Turning* turning = nullptr);
+  EffectiveSolver(const model::System& system, const ElasticStops& contact, linalg::Counters& counters,
+                  Contacts contacts, const ModalDamping* modal = nullptr, const Turning* turning = nullptr);
 
   /// Sets the feedback factors; does work only if they have changed.
   void set_factors(double damping, double stiffness);
@@ -68,7 +68,7 @@ class BUTEE_EXPORT EffectiveSolver {
   void prepare_factorized();
 
   const model::System& system_;
-  const Contact& contact_;
+  const ElasticStops& contact_;
   linalg::Counters& counters_;
   const ModalDamping* modal_;
   const Turning* turning_;

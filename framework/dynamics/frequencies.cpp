@@ -8,7 +8,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/core/memory.hpp"
-#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/lanczos.hpp"
 
@@ -124,7 +124,7 @@ void add_obstacles(const model::System& system, SparseMatrix& stiffness) {
 
 }  // namespace
 
-double contact_frequency(const model::System& system, const Contact& contact) {
+double contact_frequency(const model::System& system, const ElasticStops& contact) {
   double square = 0.0;
   const Vector stiffness = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i)
@@ -137,7 +137,7 @@ SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) 
   SparseMatrix stiffness = system.stiffness;
   if (stops == StopState::open) return stiffness;
   linalg::Counters counters;
-  const Contact contact(system, counters);
+  const ElasticStops contact(system, counters);
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);

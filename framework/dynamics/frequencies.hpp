@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 
 namespace butee::dynamics {
 
@@ -37,7 +37,7 @@ BUTEE_EXPORT std::optional<Modes> lowest_modes(const model::System& system, Inde
 /// The largest sqrt(k_c/m) of all stops, rad/s, with the masses on the diagonal of M at the stop's
 /// DOFs: a lower estimate of the frequency of an impact, whose duration is pi divided by it. 0
 /// without stops.
-BUTEE_EXPORT double contact_frequency(const model::System& system, const Contact& contact);
+BUTEE_EXPORT double contact_frequency(const model::System& system, const ElasticStops& contact);
 
 /// K, or K + S^T k_c S with all stops closed.
 BUTEE_EXPORT SparseMatrix stiffness_with_stops(const model::System& system, StopState stops);

@@ -20,7 +20,7 @@ constexpr double kLostInRounding = 1e-17;
 
 }  // namespace
 
-LocalContact::LocalContact(const Contact& contact)
+LocalContact::LocalContact(const ElasticStops& contact)
     : contact_(contact), compliance_(contact.size(), contact.size()), near_matrix_(compliance_) {
   contraction_bound_ = free_ = force_ = sum_ = near_ = Vector::Zero(contact.size());
   near_places_.resize(static_cast<std::size_t>(contact.size()));

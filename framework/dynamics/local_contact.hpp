@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 #include "butee/linalg/linear_solver.hpp"
 
 namespace butee::dynamics {
@@ -22,7 +22,7 @@ class BUTEE_EXPORT LocalContact {
   /// With more stops than this a full factorization of a sparse system is faster.
   static constexpr Index kMostStops = 256;
 
-  explicit LocalContact(const Contact& contact);
+  explicit LocalContact(const ElasticStops& contact);
   LocalContact(const LocalContact&) = delete;
   LocalContact& operator=(const LocalContact&) = delete;
 
@@ -45,7 +45,7 @@ class BUTEE_EXPORT LocalContact {
   void spread_far();
   void apply(linalg::LinearSolver& base, double k, VectorRef y);
 
-  const Contact& contact_;
+  const ElasticStops& contact_;
   Eigen::MatrixXd compliance_;            ///< G, m x m
   linalg::DenseProduct fast_compliance_;  ///< the same, for few stops
   linalg::DenseProduct influence_;        ///< W, n x m, or empty

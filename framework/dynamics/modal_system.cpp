@@ -63,7 +63,7 @@ ModalSystem::ModalSystem(Dynamics& dynamics, Index count) {
   if (shapes_.rows() <= linalg::DenseProduct::kMostRows) fast_shapes_ = linalg::DenseProduct(shapes_);
   find_decay(dynamics);
   project_loads(dynamics);
-  if (dynamics.stop_count() > 0) project_stops(dynamics.contact());
+  if (dynamics.stop_count() > 0) project_stops(dynamics.stops());
 }
 
 void ModalSystem::add_static(const model::System& system, Modes& modes) {
@@ -129,7 +129,7 @@ void ModalSystem::replace_loads(const Dynamics& dynamics) {
   oldest_ = 0;
 }
 
-void ModalSystem::project_stops(const Contact& contact) {
+void ModalSystem::project_stops(const ElasticStops& contact) {
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(size(), contact.size());
   for (Index i = 0; i < contact.size(); ++i) {
     if (contact.dof_a(i) >= 0) shapes.col(i) += rows_.col(contact.dof_a(i));

@@ -77,7 +77,7 @@ class BUTEE_EXPORT ModalSystem {
   void add_static(const model::System& system, Modes& modes);
   void find_decay(Dynamics& dynamics);
   void project_loads(const Dynamics& dynamics);
-  void project_stops(const Contact& contact);
+  void project_stops(const ElasticStops& contact);
   ModalPropagator refined_propagator(int level);
   const ModalPropagator& raw_propagator(int level);
 

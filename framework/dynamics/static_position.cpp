@@ -13,7 +13,7 @@ constexpr int kMostIterations = 200, kMostHalvings = 40;
 constexpr double kConverged = 1e-12;
 
 /// K + S^T diag(k) S
-SparseMatrix with_stops(const Dynamics& dynamics, const Contact& contact, const Vector& stiffness) {
+SparseMatrix with_stops(const Dynamics& dynamics, const ElasticStops& contact, const Vector& stiffness) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](Index i, Index j, double value) {
     if (i >= 0 && j >= 0) entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
@@ -60,10 +60,10 @@ class Equilibrium {
   SparseMatrix tangent(const Vector& x) {
     Vector force(w_.size()), stiffness(w_.size());
     if (w_.size() > 0) {
-      dynamics_.contact().displacement(x, w_);
-      dynamics_.contact().tangent(w_, force, stiffness);
+      dynamics_.stops().displacement(x, w_);
+      dynamics_.stops().tangent(w_, force, stiffness);
     }
-    SparseMatrix sum = with_stops(dynamics_, dynamics_.contact(), stiffness.cwiseMax(0.0));
+    SparseMatrix sum = with_stops(dynamics_, dynamics_.stops(), stiffness.cwiseMax(0.0));
     Obstacles* obstacles = dynamics_.obstacles();
     if (obstacles == nullptr) return sum;
     std::vector<Eigen::Triplet<double>> entries;

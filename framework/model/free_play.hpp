@@ -9,8 +9,8 @@ enum class Sides { both, positive, negative };
 
 /// The free play of a scalar stop with the displacement w (of node a to ground, or u_a - u_b), m or rad.
 ///
-/// A stop on side s = +1 or -1 closes at s w = gap. With one side the penetration is g = s w - gap for every w, with both
-/// g = |w| - gap on the nearer side s = sign(w).
+/// A stop on side s = +1 or -1 closes at s w = gap. With one side the penetration is g = s w - gap for every w, with
+/// both g = |w| - gap on the nearer side s = sign(w).
 struct FreePlay {
   double gap = 0.0;  ///< on each side
   Sides sides = Sides::both;

@@ -108,7 +108,7 @@ void ElementForces::add_obstacles(model::Quantity quantity, model::NodeId node, 
   const model::DofTable& dofs = dynamics_.system().dofs;
   if (quantity == model::Quantity::contact_force) {
     sum.dof = dofs.index({node, kind_of(quantity)});
-    const dynamics::Contact& contact = dynamics_.contact();
+    const dynamics::ElasticStops& contact = dynamics_.stops();
     for (Index i = 0; i < contact.size(); ++i) {
       if (sum.dof >= 0 && contact.dof_a(i) == sum.dof) sum.stops.push_back({i, 1.0});
       if (sum.dof >= 0 && contact.dof_b(i) == sum.dof) sum.stops.push_back({i, -1.0});
@@ -236,7 +236,7 @@ std::size_t ElementForces::add_piece(std::span<const NodalDof> dofs, const model
 }
 
 double ElementForces::force_of_stop(Index stop, ConstVectorRef x) {
-  dynamics::Contact& contact = dynamics_.contact();
+  dynamics::ElasticStops& contact = dynamics_.stops();
   const Index a = contact.dof_a(stop), b = contact.dof_b(stop);
   return contact.force_of(stop, (a >= 0 ? x[a] : 0.0) - (b >= 0 ? x[b] : 0.0));
 }

@@ -26,8 +26,8 @@ Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics) {
   energy.strain = 0.5 * state.x.dot(force);
   if (dynamics.stop_count() > 0) {
     Vector w(dynamics.stop_count());
-    dynamics.contact().displacement(state.x, w);
-    energy.contact = dynamics.contact().energy(w);
+    dynamics.stops().displacement(state.x, w);
+    energy.contact = dynamics.stops().energy(w);
   }
   if (dynamics.obstacles() != nullptr) {
     energy.in_obstacles = dynamics.obstacles()->energy(state.t, state.x, state.v);

@@ -82,7 +82,7 @@ void FieldRecorder::find_stops() {
   std::vector<std::int32_t> places(static_cast<std::size_t>(dynamics_.size()), -1);
   for (std::size_t i = 0; i < kept; ++i) places[static_cast<std::size_t>(dofs_[i])] = static_cast<std::int32_t>(i);
   const auto place = [&](Index dof) { return dof < 0 ? -1 : places[static_cast<std::size_t>(dof)]; };
-  const dynamics::Contact& contact = dynamics_.contact();
+  const dynamics::ElasticStops& contact = dynamics_.stops();
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
     if (place(a) < 0 && place(b) < 0) continue;
@@ -103,8 +103,8 @@ void FieldRecorder::evaluate_stops(std::span<const double> x) {
   std::fill(state_.begin(), state_.end(), 0.0);
   for (const KeptStop& stop : stops_) {
     const double w = at(x, stop.a) - at(x, stop.b);
-    const double force = dynamics_.contact().force_of(stop.stop, w);
-    const double side = dynamics_.contact().play_of(stop.stop).closed_side(w);
+    const double force = dynamics_.stops().force_of(stop.stop, w);
+    const double side = dynamics_.stops().play_of(stop.stop).closed_side(w);
     for (const auto& [place, sign] : {std::pair(stop.a, 1.0), std::pair(stop.b, -1.0)}) {
       if (place < 0) continue;
       force_[static_cast<std::size_t>(place)] += sign * force;

@@ -36,7 +36,7 @@ void take_impact(Impact& impact, ByteReader& from) {
 }
 
 ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   const auto node = [&](Index dof) {
     const std::string name = dynamics.dof_name(dof);
     return name.substr(name.rfind(' ') + 1);
@@ -58,7 +58,7 @@ ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamic
 }
 
 double ImpactRecorder::force(const Watch& watch, const Point& point) {
-  return std::abs(dynamics_.contact().force_of(watch.stop, point.of[0]));
+  return std::abs(dynamics_.stops().force_of(watch.stop, point.of[0]));
 }
 
 void ImpactRecorder::start(const time::State& state) {

@@ -8,7 +8,7 @@ constexpr int kMostHalvingsOfSum = 4000;
 
 /// The largest |force| of a stop whose displacement is between `least` and `greatest`. With two
 /// sides the force also jumps at the middle if the law has a force at open stops.
-double largest_force(dynamics::Contact& contact, Index stop, double least, double greatest) {
+double largest_force(dynamics::ElasticStops& contact, Index stop, double least, double greatest) {
   const auto size_at = [&](double w) { return std::abs(contact.force_of(stop, w)); };
   double largest = std::max(size_at(least), size_at(greatest));
   if (contact.play_of(stop).has_both() && least < 0.0 && greatest > 0.0 &&
@@ -42,7 +42,7 @@ std::size_t Peaks::follow(Index a, Index b, std::size_t order) {
 }
 
 std::vector<Peaks::Stop> Peaks::stops_on(Index dof) {
-  const dynamics::Contact& contact = dynamics_.contact();
+  const dynamics::ElasticStops& contact = dynamics_.stops();
   std::vector<Stop> stops;
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
@@ -94,7 +94,7 @@ void Peaks::follow_sum(const time::AcceptedStep& step, Column& column, const std
   double bound = 0.0;
   for (std::size_t i = 0; i < column.stops.size(); ++i) {
     const auto [least, greatest] = tracks_.path(step, column.stops[i].track).enclose(0, from[i], to[i]);
-    bound += largest_force(dynamics_.contact(), column.stops[i].index, least, greatest);
+    bound += largest_force(dynamics_.stops(), column.stops[i].index, least, greatest);
   }
   const double t = 0.5 * (from.front().t + to.front().t);
   if (!(bound > (1.0 + kGoodSum) * column.largest) || halvings == kMostHalvingsOfSum || !(t > from.front().t)) return;
@@ -109,7 +109,7 @@ void Peaks::follow_sum(const time::AcceptedStep& step, Column& column, const std
 double Peaks::sum_at(const Column& column, const std::vector<Point>& points) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i)
-    sum += column.stops[i].sign * dynamics_.contact().force_of(column.stops[i].index, points[i].of[0]);
+    sum += column.stops[i].sign * dynamics_.stops().force_of(column.stops[i].index, points[i].of[0]);
   return std::abs(sum);
 }
 
@@ -118,7 +118,7 @@ double Peaks::value_of(const Column& column) const {
   if (column.stops.size() != 1) return column.largest;
   const Stop& stop = column.stops.front();
   const Range& range = followed_[stop.track].ranges[0];
-  return range.is_empty() ? 0.0 : largest_force(dynamics_.contact(), stop.index, range.least, range.greatest);
+  return range.is_empty() ? 0.0 : largest_force(dynamics_.stops(), stop.index, range.least, range.greatest);
 }
 
 std::map<std::string, double> Peaks::largest() const {

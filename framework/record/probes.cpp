@@ -70,7 +70,7 @@ std::size_t Probes::slot(Index dof) {
 }
 
 void Probes::add_stops(Index dof) {
-  const dynamics::Contact& contact = dynamics_.contact();
+  const dynamics::ElasticStops& contact = dynamics_.stops();
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
     if (a != dof && b != dof) continue;
@@ -143,7 +143,7 @@ double Probes::contact_force(const Column& column, const double* x) {
   for (std::size_t i = column.first_stop; i < column.last_stop; ++i) {
     const ProbedStop& stop = stops_[i];
     const double a = stop.slot_a == kFixed ? 0.0 : x[stop.slot_a], b = stop.slot_b == kFixed ? 0.0 : x[stop.slot_b];
-    force += stop.sign * dynamics_.contact().force_of(stop.stop, a - b);
+    force += stop.sign * dynamics_.stops().force_of(stop.stop, a - b);
   }
   return force;
 }

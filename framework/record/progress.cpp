@@ -90,8 +90,8 @@ void Progress::look() {
 }
 
 Index Progress::closed_stops() {
-  dynamics_.contact().displacement(x_, displacement_);
-  dynamics_.contact().penetration(displacement_, penetration_);
+  dynamics_.stops().displacement(x_, displacement_);
+  dynamics_.stops().penetration(displacement_, penetration_);
   return (penetration_.array() > 0.0).count();
 }
 

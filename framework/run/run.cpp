@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kMoreThanPull = 1.1;
 
 /// The largest residual force of an open stop, N; nonzero for the arctan law.
-double largest_pull(const dynamics::Contact& contact) {
+double largest_pull(const dynamics::ElasticStops& contact) {
   double largest = 0.0;
   for (Index i = 0; i < contact.size(); ++i) largest = std::max(largest, contact.law_of(i).asymptotic_force());
   return largest;
@@ -154,8 +154,7 @@ void Run::summarize() {
   summary_.choice = assembly_.integrator->choice();
   summary_.counters = checkpointer_ ? checkpointer_->counters() : assembly_.dynamics.counters();
   summary_.dofs = assembly_.dynamics.size();
-  summary_.contacts = assembly_.dynamics.stop_count();
-  if (dynamics::Obstacles* obstacles = assembly_.dynamics.obstacles()) summary_.contacts += obstacles->size();
+  summary_.contacts = assembly_.dynamics.contact_count();
   if (history_) summary_.peaks = history_->peaks();
   summary_.energy = record::energy_of(assembly_.simulation.state(), assembly_.dynamics);
   if (energy_) summary_.followed = {energy_->work(), energy_->dissipated(), energy_->balance_error()};
@@ -171,11 +170,11 @@ void Run::look_at_slips() {
 
 void Run::look_at_rows() {
   const model::OutputRequest& output = scene_.output;
-  const double frequency = dynamics::contact_frequency(assembly_.system, assembly_.dynamics.contact());
+  const double frequency = dynamics::contact_frequency(assembly_.system, assembly_.dynamics.stops());
   if (!output.interval || output.impacts || !(frequency > 0.0)) return;
   const double contact = std::numbers::pi / frequency;
   if (*output.interval * kRowsInContact <= contact) return;
-  const double pull = largest_pull(assembly_.dynamics.contact());
+  const double pull = largest_pull(assembly_.dynamics.stops());
   const bool has_struck = std::any_of(summary_.peaks.begin(), summary_.peaks.end(), [&](const auto& peak) {
     return peak.first.ends_with(".contact_force") && peak.second > kMoreThanPull * pull;
   });

@@ -66,7 +66,7 @@ void GrowthWatch::start(const State& state) {
   last_time_ = begin_time_ = start_time_ = state.t;
   last_energy_ = begin_energy_ = start_energy_ = energy(state);
   sound_energy_ = 0.0;
-  if (may_be_coarse_) contact_frequency_ = dynamics::contact_frequency(dynamics_.system(), dynamics_.contact());
+  if (may_be_coarse_) contact_frequency_ = dynamics::contact_frequency(dynamics_.system(), dynamics_.stops());
 }
 
 void GrowthWatch::prepare() {
@@ -100,7 +100,7 @@ double GrowthWatch::energy(const State& state) {
   sum += 0.5 * state.x.dot(work_);
   if (dynamics_.obstacles() != nullptr) sum += dynamics_.obstacles()->energy(state.t, state.x, state.v);
   if (stops_.size() == 0) return sum;
-  const dynamics::Contact& contact = dynamics_.contact();
+  const dynamics::ElasticStops& contact = dynamics_.stops();
   contact.displacement(state.x, stops_);
   contact.penetration(stops_, stops_);
   for (Index i = 0; i < stops_.size(); ++i) {

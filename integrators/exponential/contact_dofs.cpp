@@ -33,7 +33,7 @@ ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedMod
       need_velocity_ = need_velocity_ || group.damping.kind != model::ImpactDamping::Kind::none ||
                        group.friction.rule != model::Friction::Rule::none;
     }
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i) {
     if (!contact.law_of(i).is_piecewise_linear()) refuse_law();
@@ -69,7 +69,7 @@ bool ActiveDofs::find(dynamics::Dynamics& dynamics, const dynamics::DampedModes&
       for (const auto& side : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
         for (const Index dof : side) take(dof);
     }
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) take(dof);
   sort_once(found);

@@ -76,7 +76,7 @@ double root(const std::array<double, 5>& c, double low, double high) {
 
 }  // namespace
 
-ContactForce::ContactForce(dynamics::Contact& contact, Index stop)
+ContactForce::ContactForce(dynamics::ElasticStops& contact, Index stop)
     : contact_(contact),
       stop_(stop),
       gap_(contact.play_of(stop).gap),

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 #include "integrators/exponential/contact_path.hpp"
 #include "integrators/exponential/force_moments.hpp"
 
@@ -27,7 +27,7 @@ enum class ContactStatus {
 class ContactForce {
  public:
   /// `contact` must outlive it.
-  ContactForce(dynamics::Contact& contact, Index stop);
+  ContactForce(dynamics::ElasticStops& contact, Index stop);
 
   ContactStatus status(const ContactPath& path) const {
     const double low = path.lowest(), high = path.highest();
@@ -103,7 +103,7 @@ class ContactForce {
   /// and beside kSharp, kPreciseError for kPrecisePanels.
   static constexpr double kShortcuts = 3e-3, kPreciseError = 2e-4;
 
-  dynamics::Contact& contact_;
+  dynamics::ElasticStops& contact_;
   Index stop_;
   double gap_, stiffness_, transition_width_, residual_;
   bool is_precise_ = false, is_finest_ = false;

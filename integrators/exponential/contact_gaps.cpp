@@ -15,7 +15,7 @@ constexpr double kNoContact = 1e100;
 
 }  // namespace
 
-ContactGaps::ContactGaps(const dynamics::Contact& contact) {
+ContactGaps::ContactGaps(const dynamics::ElasticStops& contact) {
   const Index padded = dynamics::ContactPropagator::padded(contact.size());
   gaps_.setConstant(padded, kNoGap);
   limits_ = gaps_;
@@ -46,7 +46,7 @@ double ContactGaps::time_to_contact(const ModalState& now) const {
   return time;
 }
 
-DisplacementBounds::DisplacementBounds(const dynamics::ModalSystem& modal, const dynamics::Contact& contact)
+DisplacementBounds::DisplacementBounds(const dynamics::ModalSystem& modal, const dynamics::ElasticStops& contact)
     : modal_(modal), gaps_(contact), longest_near_(longest_near_stops(modal)) {
   bounds_.setZero(gaps_.gaps().size());
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 #include "integrators/exponential/tried_step.hpp"
 
 namespace butee::integrators {
@@ -9,7 +9,7 @@ namespace butee::integrators {
 /// registers. Checked in tests/unit/contact_gaps_test.cpp.
 class ContactGaps {
  public:
-  explicit ContactGaps(const dynamics::Contact& contact);
+  explicit ContactGaps(const dynamics::ElasticStops& contact);
 
   const Eigen::ArrayXd& gaps() const { return gaps_; }
   /// The displacements at which a stop closes, m; infinite on a side on which it does not act.
@@ -46,7 +46,7 @@ class ContactGaps {
 class DisplacementBounds {
  public:
   /// `modal` must outlive it.
-  DisplacementBounds(const dynamics::ModalSystem& modal, const dynamics::Contact& contact);
+  DisplacementBounds(const dynamics::ModalSystem& modal, const dynamics::ElasticStops& contact);
 
   const ContactGaps& gaps() const { return gaps_; }
   /// longest_near_stops(), s

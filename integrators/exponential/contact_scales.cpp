@@ -12,7 +12,8 @@ namespace {
 constexpr double kTiny = 1e-300;
 }  // namespace
 
-ContactScales::ContactScales(const dynamics::ModalSystem& modal, const dynamics::Contact& contact) : modal_(modal) {
+ContactScales::ContactScales(const dynamics::ModalSystem& modal, const dynamics::ElasticStops& contact)
+    : modal_(modal) {
   for (ArrayXd* array : {&w_, &wv_}) array->setZero(dynamics::ContactPropagator::padded(contact.size()));
   for (Index i = 0; i < contact.size(); ++i) {
     pair_of_.push_back(-1);

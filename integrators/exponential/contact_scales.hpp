@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 #include "integrators/exponential/tried_step.hpp"
 
 namespace butee::integrators {
@@ -17,7 +17,7 @@ class ContactScales {
   static constexpr double kFloor = 1e-3;
 
   /// `modal` must outlive it.
-  ContactScales(const dynamics::ModalSystem& modal, const dynamics::Contact& contact);
+  ContactScales(const dynamics::ModalSystem& modal, const dynamics::ElasticStops& contact);
 
   /// Number of entries in a state: the largest |w| and |w'| of each stop, then |x_a|, |x_b|, |v_a|,
   /// |v_b| of each pair.

@@ -68,7 +68,7 @@ Exponential<Step>::Exponential(dynamics::Dynamics& dynamics, const ExponentialOp
 template <class Step>
 int Exponential<Step>::first_index() const {
   if (!step_.has_stops()) return 0;
-  const Vector stiffness = dynamics().contact().closed_stiffness();
+  const Vector stiffness = dynamics().stops().closed_stiffness();
   double square = 0.0;
   for (Index i = 0; i < modal_.stop_count(); ++i)
     square = std::max(square, stiffness[i] * modal_.stop_shapes().of(i).squaredNorm());

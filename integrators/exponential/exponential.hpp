@@ -21,7 +21,7 @@ struct ExponentialOptions {
 ///
 ///     q(t+h) = propagate(q, load) + sum_k R_k(omega h) Phi^T f_k, f_k = (2k+1) int_0^1 P_k(s) F_c(w(s)) ds
 ///
-/// Modes, damping and harmonic or piecewise linear loads are integrated without error; without
+/// Modes, damping and harmonic or piecewise parabolic loads are integrated without error; without
 /// stops a step reaches from one output to the next. Over a step the force of a stop is projected
 /// onto the Legendre polynomials P_0, P_1, P_2 along its path w(s), a quartic through the
 /// displacements and speeds at both ends and the displacement in the middle. These values depend on

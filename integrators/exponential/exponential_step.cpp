@@ -13,7 +13,7 @@ using dynamics::ContactPropagator;
 using dynamics::ModalPropagator;
 using Eigen::ArrayXd;
 
-std::vector<ContactForce> contact_forces(dynamics::Contact& contact) {
+std::vector<ContactForce> contact_forces(dynamics::ElasticStops& contact) {
   std::vector<ContactForce> forces;
   for (Index i = 0; i < contact.size(); ++i) forces.emplace_back(contact, i);
   return forces;
@@ -33,12 +33,12 @@ ExponentialStep::ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSy
                                  std::size_t most)
     : modal_(modal),
       goal_(goal),
-      contacts_(contact_forces(dynamics.contact())),
+      contacts_(contact_forces(dynamics.stops())),
       record_(dynamics, modal, contacts_, 2 * most),
-      bounds_(modal, dynamics.contact()),
-      scales_(modal, dynamics.contact()),
-      errors_(dynamics.contact(), goal_, bounds_, scales_, step_),
-      residual_(modal, dynamics.contact()),
+      bounds_(modal, dynamics.stops()),
+      scales_(modal, dynamics.stops()),
+      errors_(dynamics.stops(), goal_, bounds_, scales_, step_),
+      residual_(modal, dynamics.stops()),
       jumps_(modal, contacts_),
       iteration_(modal, goal_, contacts_, bounds_.gaps(), scales_, step_),
       contact_error_(goal_, contacts_, bounds_, scales_, iteration_, errors_),

@@ -46,7 +46,7 @@ void ModalEnergy::go_on(const Breakpoint& point, const double* w, bool is_last) 
   if (!is_due) return;
   const Column q(point.q, modal_.size()), v(point.v, modal_.size());
   const Index stops = dynamics_.stop_count();
-  const double contact = stops > 0 ? dynamics_.contact().energy(Eigen::Map<const Vector>(w, stops)) : 0.0;
+  const double contact = stops > 0 ? dynamics_.stops().energy(Eigen::Map<const Vector>(w, stops)) : 0.0;
   told_.push_back(
       {point.t, 0.5 * v.square().sum(), 0.5 * (modal_.frequencies() * q).square().sum(), contact, work_, dissipated_});
 }

@@ -62,7 +62,7 @@ const Motion& ModalOutput::motion_at(std::size_t breakpoint, View& view) {
   const bool has_stops = view.of_stops.size() > 0;
   if (has_stops) {
     const auto k = static_cast<Index>(breakpoint);
-    if (!has_forces_[breakpoint]) dynamics_.contact().force(breakpoints_.w(breakpoint), stop_forces_.col(k));
+    if (!has_forces_[breakpoint]) dynamics_.stops().force(breakpoints_.w(breakpoint), stop_forces_.col(k));
     has_forces_[breakpoint] = true;
     forces_at_ = stop_forces_.col(k);
   }

@@ -76,7 +76,7 @@ const Vector* MotionInStep::find_forces(std::size_t from, double t) {
   }
   const Eigen::Map<const Vector> q(motion_.q(), modal_.size());
   for (const Contact& contact : changing_)
-    forces_[contact.stop] = dynamics_.contact().force_of(contact.stop, modal_.stop_shapes().of(contact.stop).dot(q));
+    forces_[contact.stop] = dynamics_.stops().force_of(contact.stop, modal_.stop_shapes().of(contact.stop).dot(q));
   return &forces_;
 }
 

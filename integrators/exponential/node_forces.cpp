@@ -162,7 +162,7 @@ void NodeForces::end_at(double part, const StepResponse& response) {
 }
 
 double NodeForces::first_contact_change(double last) const {
-  const dynamics::Contact& contact = dynamics_.contact();
+  const dynamics::ElasticStops& contact = dynamics_.stops();
   const auto row = [&](Index dof) -> StepNodes::Row {
     if (dof < 0) return StepNodes::Row::Zero();
     return moved_.row(active_.place(dof));

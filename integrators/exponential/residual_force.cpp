@@ -5,7 +5,7 @@
 
 namespace butee::integrators {
 
-ResidualForce::ResidualForce(const dynamics::Contact& contact, Index stop)
+ResidualForce::ResidualForce(const dynamics::ElasticStops& contact, Index stop)
     : largest_(contact.law_of(stop).asymptotic_force()),
       bend_(contact.law_of(stop).transition_width()),
       gap_(contact.play_of(stop).gap),
@@ -20,7 +20,7 @@ double ResidualForce::constant_error(double w0, double w1, double bound, double 
   return largest_ * compliance * (varying + jump * steps);
 }
 
-double constant_force_limit(const dynamics::Contact& contact, Index stop) {
+double constant_force_limit(const dynamics::ElasticStops& contact, Index stop) {
   constexpr double kBends = 10.0, kHuge = 1e100, kBlunt = 100.0;
   const model::ContactLaw& law = contact.law_of(stop);
   const double bend = std::min(law.transition_width(), kHuge), gap = contact.play_of(stop).gap;

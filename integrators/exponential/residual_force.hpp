@@ -1,6 +1,6 @@
 #pragma once
 
-#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 
 namespace butee::integrators {
 
@@ -9,7 +9,7 @@ namespace butee::integrators {
 /// linear law.
 class ResidualForce {
  public:
-  ResidualForce(const dynamics::Contact& contact, Index stop);
+  ResidualForce(const dynamics::ElasticStops& contact, Index stop);
 
   double largest() const { return largest_; }  ///< N
   /// Bound of the displacement error, m, over one characteristic time of the motion (`steps` steps)
@@ -28,6 +28,6 @@ inline constexpr double kResidualError = 0.02;
 
 /// The |w| up to which the force of an open stop is constant to 0.3 %, m: ten widths of the law's
 /// bend before the border of the gap. -1e100 if the bend is wider than a hundredth of the gap.
-double constant_force_limit(const dynamics::Contact& contact, Index stop);
+double constant_force_limit(const dynamics::ElasticStops& contact, Index stop);
 
 }  // namespace butee::integrators

@@ -11,8 +11,8 @@ using Eigen::ArrayXd;
 
 }  // namespace
 
-ResidualErrors::ResidualErrors(const dynamics::Contact& contact, const StepGoal& goal, const DisplacementBounds& bounds,
-                               const ContactScales& scales, const TriedStep& step)
+ResidualErrors::ResidualErrors(const dynamics::ElasticStops& contact, const StepGoal& goal,
+                               const DisplacementBounds& bounds, const ContactScales& scales, const TriedStep& step)
     : goal_(goal), bounds_(bounds), scales_(scales), step_(step) {
   const Index padded = bounds.gaps().gaps().size();
   largest_.setZero(padded);
@@ -65,7 +65,7 @@ bool ResidualErrors::shows_jump(Index stop, double compliance) const {
   return kJumpImpulse * step_.h * compliance * jump > goal_.outputs * step_.reached.speed;
 }
 
-ResidualForces::ResidualForces(const dynamics::ModalSystem& modal, dynamics::Contact& contact)
+ResidualForces::ResidualForces(const dynamics::ModalSystem& modal, dynamics::ElasticStops& contact)
     : modal_(modal), contact_(contact) {
   forces_.setZero(contact.size());
   next_forces_.setZero(contact.size());

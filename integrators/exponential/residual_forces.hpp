@@ -15,7 +15,7 @@ namespace butee::integrators {
 class ResidualErrors {
  public:
   /// All must outlive it.
-  ResidualErrors(const dynamics::Contact& contact, const StepGoal& goal, const DisplacementBounds& bounds,
+  ResidualErrors(const dynamics::ElasticStops& contact, const StepGoal& goal, const DisplacementBounds& bounds,
                  const ContactScales& scales, const TriedStep& step);
 
   /// True if a law has a residual force.
@@ -67,7 +67,7 @@ class ResidualErrors {
 class ResidualForces {
  public:
   /// Both must outlive it.
-  ResidualForces(const dynamics::ModalSystem& modal, dynamics::Contact& contact);
+  ResidualForces(const dynamics::ModalSystem& modal, dynamics::ElasticStops& contact);
 
   void begin();  ///< sets the forces to zero at the start of a macro step
   /// If the law at the middle of the step differs so much that a stop would move by more than the
@@ -79,7 +79,7 @@ class ResidualForces {
 
  private:
   const dynamics::ModalSystem& modal_;
-  dynamics::Contact& contact_;
+  dynamics::ElasticStops& contact_;
   Vector forces_, next_forces_;
   Eigen::ArrayXd modal_force_, old_modal_force_, w_middle_;
 };

@@ -25,7 +25,7 @@ SingleMotion::SingleMotion(dynamics::Dynamics& dynamics, const dynamics::ModalSy
 }
 
 Motion SingleMotion::motion_of(Oscillator::Point at, double load) const {
-  const double force = dynamics_.contact().force_of(0, mode_.stop_shape * at.q);
+  const double force = dynamics_.stops().force_of(0, mode_.stop_shape * at.q);
   const double a = load + mode_.stop_shape * force - mode_.square * at.q - 2.0 * mode_.decay * at.v;
   return {mode_.shape * at.q, mode_.shape * at.v, mode_.shape * a};
 }

@@ -24,7 +24,7 @@ std::array<double, 3> move(std::array<double, 3>& path, const PathCoupling& coup
 
 }  // namespace
 
-SingleStep::Gap::Gap(const dynamics::Contact& contact)
+SingleStep::Gap::Gap(const dynamics::ElasticStops& contact)
     : upper(contact.play_of(0).upper()), lower(contact.play_of(0).lower()), limit(constant_force_limit(contact, 0)) {}
 
 bool SingleStep::can_take(const dynamics::Dynamics& dynamics) {
@@ -37,10 +37,10 @@ SingleStep::SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& moda
                        std::size_t most)
     : goal_(goal),
       mode_(modal),
-      contact_(dynamics.contact(), 0),
+      contact_(dynamics.stops(), 0),
       newton_(contact_.stiffness(), goal.orders),
-      residual_(dynamics.contact(), 0),
-      gap_(dynamics.contact()),
+      residual_(dynamics.stops(), 0),
+      gap_(dynamics.stops()),
       longest_near_(longest_near_stops(modal)),
       flows_(modal, mode_, newton_),
       record_(dynamics, modal, mode_, contact_, goal.outputs, most) {}

@@ -50,7 +50,7 @@ class SingleStep {
   /// constant_force_limit(), m.
   struct Gap {
     double upper, lower, limit;
-    explicit Gap(const dynamics::Contact& contact);
+    explicit Gap(const dynamics::ElasticStops& contact);
   };
   struct Tried {
     const SingleFlow* flow = nullptr;

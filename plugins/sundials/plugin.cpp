@@ -26,7 +26,7 @@ time::IntegratorType type_of(std::string name, std::string summary, plugins::Fam
       .restarts_exactly = false,
       .make = [family](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         double length = 0.0;
-        for (Index i = 0; i < dynamics.stop_count(); ++i) length = std::max(length, dynamics.contact().play_of(i).gap);
+        for (Index i = 0; i < dynamics.stop_count(); ++i) length = std::max(length, dynamics.stops().play_of(i).gap);
         if (length == 0.0) length = 1e-3;
         const double given = p.number("absolute_tolerance");
         return std::make_unique<plugins::SundialsIntegrator>(dynamics, family, p.number("tolerance"),

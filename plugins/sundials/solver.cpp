@@ -153,7 +153,7 @@ int SundialsIntegrator::solve(double* z, const double* r) {
   // (M + gamma C + gamma^2 (K + K_t)) z_v = M r_v - gamma (K + K_t) r_x,   z_x = r_x + gamma z_v
   dynamics().elastic_force(r_x, work_);
   if (dynamics().stop_count() > 0) {
-    dynamics::Contact& contact = dynamics().contact();
+    dynamics::ElasticStops& contact = dynamics().stops();
     contact.displacement(x, stop_displacement_);
     contact.tangent(stop_displacement_, stop_force_, tangent_);
     contact.displacement(r_x, stop_work_);

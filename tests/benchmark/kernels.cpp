@@ -124,7 +124,7 @@ void add_solutions() {
 }
 
 /// Displacements with the first stops closed or touching and all others open.
-Vector with_closed_stops(const dynamics::Contact& contact, Index closed, double displacement) {
+Vector with_closed_stops(const dynamics::ElasticStops& contact, Index closed, double displacement) {
   Vector x = Vector::Constant(contact.system_size(), kOpen);
   for (Index i = 0; i < closed; ++i) x[contact.dof_a(i)] = displacement;
   return x;
@@ -134,7 +134,7 @@ Vector with_closed_stops(const dynamics::Contact& contact, Index closed, double 
 void add_laws() {
   struct Laws {
     explicit Laws(double displacement)
-        : scene(beam1()), x(with_closed_stops(scene->dynamics().contact(), 3, displacement)), w(33), f(33), k(33) {}
+        : scene(beam1()), x(with_closed_stops(scene->dynamics().stops(), 3, displacement)), w(33), f(33), k(33) {}
     std::shared_ptr<test::SceneRun> scene;
     Vector x, w, f, k;
   };
@@ -151,7 +151,7 @@ void add_laws() {
     const double at = displacement;
     add(std::string("force/33") + suffix + "/butee", [at] {
       return [laws = std::make_shared<Laws>(at)] {
-        dynamics::Contact& contact = laws->scene->dynamics().contact();
+        dynamics::ElasticStops& contact = laws->scene->dynamics().stops();
         contact.displacement(laws->x, laws->w);
         contact.force(laws->w, laws->f);
       };
@@ -160,7 +160,7 @@ void add_laws() {
         [at] { return [laws = std::make_shared<PlainLaws>(at)] { laws->contact.evaluate_force(laws->x); }; });
     add(std::string("tangent/33") + suffix + "/butee", [at] {
       return [laws = std::make_shared<Laws>(at)] {
-        dynamics::Contact& contact = laws->scene->dynamics().contact();
+        dynamics::ElasticStops& contact = laws->scene->dynamics().stops();
         contact.displacement(laws->x, laws->w);
         contact.tangent(laws->w, laws->f, laws->k);
       };
@@ -175,7 +175,7 @@ void add_laws() {
 void add_effective_solutions() {
   for (const Index closed : {0, 3, 33}) {
     const auto stiffness = [closed](test::SceneRun& scene) {
-      dynamics::Contact& contact = scene.dynamics().contact();
+      dynamics::ElasticStops& contact = scene.dynamics().stops();
       const Vector x = with_closed_stops(contact, closed, kPressed);
       Vector w(33), f(33), kappa(33);
       contact.displacement(x, w);

@@ -80,7 +80,7 @@ TEST_P(LargeScene, HasTheResidualOfItsEquations) {
   Vector r(size()), load(size()), contact = Vector::Zero(size());
   dynamics().external_force(0.3, load);
   const linalg::ForceBalance balance = dynamics().residual(load, stop_force, x, v, a, r);
-  dynamics().contact().scatter(stop_force, contact);
+  dynamics().stops().scatter(stop_force, contact);
   const Vector inertia = system().mass * a, elastic = system().stiffness * x, damping = damping_force(v);
   expect_near(r, load + contact - inertia - damping - elastic);
   EXPECT_NEAR(balance.residual() / r.norm(), 1.0, 1e-12);
@@ -111,8 +111,8 @@ TEST_P(LargeScene, FulfilsItsEquationsAfterASecantSolve) {
   ASSERT_TRUE(dynamics().solve_secant(t, velocity_factor, displacement_factor, kappa, c, x, v, a));
   const Vector end = x + displacement_factor * a;
   dynamics().external_force(t, load);
-  dynamics().contact().displacement(end, w);
-  dynamics().contact().scatter(c - kappa.cwiseProduct(w), contact);
+  dynamics().stops().displacement(end, w);
+  dynamics().stops().scatter(c - kappa.cwiseProduct(w), contact);
   const Vector inertia = system().mass * a, damping = damping_force(v + velocity_factor * a),
                elastic = system().stiffness * end;
   const double scale = inertia.norm() + damping.norm() + elastic.norm() + contact.norm() + load.norm();

@@ -4,7 +4,7 @@
 #include <random>
 
 #include <butee/core/text.hpp>
-#include <butee/dynamics/contact.hpp>
+#include <butee/dynamics/elastic_stops.hpp>
 #include <gtest/gtest.h>
 
 #include "contact/arctan.hpp"
@@ -27,7 +27,7 @@ std::string scene(const std::string& law, const std::string& sides) {
 }
 
 /// The moments by Simpson's rule with very many intervals.
-ForceMoments by_simpson(dynamics::Contact& contact, const ContactPath& path) {
+ForceMoments by_simpson(dynamics::ElasticStops& contact, const ContactPath& path) {
   constexpr int kIntervals = 200000;
   ForceMoments sum{};
   for (int i = 0; i <= kIntervals; ++i) {
@@ -50,7 +50,7 @@ int compare(const std::string& law, double tolerance) {
   int springs = 0;
   for (const std::string sides : {"both", "positive", "negative"}) {
     SceneRun run(scene(law, sides));
-    dynamics::Contact& contact = run.dynamics().contact();
+    dynamics::ElasticStops& contact = run.dynamics().stops();
     ContactForce force(contact, 0);
     for (int i = 0; i < 60; ++i) {
       const double w0 = number(random), w1 = i % 3 == 0 ? w0 + 0.1 * number(random) : number(random);
@@ -97,7 +97,7 @@ TEST(ContactForce, OfASmoothLawIsCloseToItsIntegral) {
 TEST(ContactForce, OfASmoothLawIsCloseBesideABendThatThePathEndsAt) {
   for (const double lambda : {1e2, 1e3}) {
     SceneRun run(scene("law = \"arctan\"\nregularization = " + to_text(lambda), "both"));
-    dynamics::Contact& contact = run.dynamics().contact();
+    dynamics::ElasticStops& contact = run.dynamics().stops();
     ContactForce force(contact, 0);
     for (const double beside : {-1e-2, -1e-3, -1e-4, 1e-4, 1e-3, 1e-2})
       for (const double from : {0.3, 0.7})
@@ -117,10 +117,10 @@ TEST(ResidualForce, IsConstantUpToTheNextTermOfItsSeriesAndItsJump) {
   constexpr double kCompliance = 0.01, kSteps = 5.0;
   SceneRun linear(scene("law = \"linear\"", "both"));
   EXPECT_EQ(
-      integrators::ResidualForce(linear.dynamics().contact(), 0).constant_error(0.1, -0.1, 0.2, kCompliance, kSteps),
+      integrators::ResidualForce(linear.dynamics().stops(), 0).constant_error(0.1, -0.1, 0.2, kCompliance, kSteps),
       0.0);
   SceneRun run(scene("law = \"arctan\"\nregularization = 1e2", "both"));
-  dynamics::Contact& contact = run.dynamics().contact();
+  dynamics::ElasticStops& contact = run.dynamics().stops();
   const integrators::ResidualForce pull(contact, 0);
   // Error of the constant approximation times the square of the number of steps.
   const double off = std::abs(std::abs(contact.force_of(0, 0.25)) - pull.largest());
@@ -133,9 +133,9 @@ TEST(ResidualForce, IsConstantUpToTheNextTermOfItsSeriesAndItsJump) {
                   pull.constant_error(0.05, 0.15, 0.2, kCompliance, kSteps),
               2.0 * shift * (shift / 0.2) * kSteps, 1e-12);
   SceneRun one_sided(scene("law = \"arctan\"\nregularization = 1e2", "positive"));
-  EXPECT_EQ(integrators::ResidualForce(one_sided.dynamics().contact(), 0)
-                .constant_error(0.1, -0.1, 0.25, kCompliance, kSteps),
-            bound);
+  EXPECT_EQ(
+      integrators::ResidualForce(one_sided.dynamics().stops(), 0).constant_error(0.1, -0.1, 0.25, kCompliance, kSteps),
+      bound);
 }
 
 }  // namespace

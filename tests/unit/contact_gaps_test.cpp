@@ -40,7 +40,7 @@ sides = "negative"
 
 struct Stops {
   SceneRun run{kScene};
-  ContactGaps gaps{run.dynamics().contact()};
+  ContactGaps gaps{run.dynamics().stops()};
   TriedStep step;
 
   Stops() {
@@ -101,7 +101,7 @@ TEST(ContactGaps, BoundCubicPathsOnTheSidesOnWhichStopsAct) {
 TEST(DisplacementBounds, FindStopsThatForcesOfOthersCarryToTheirGap) {
   Stops stops;
   dynamics::ModalSystem& modal = stops.run.dynamics().modal(0);
-  integrators::DisplacementBounds bounds(modal, stops.run.dynamics().contact());
+  integrators::DisplacementBounds bounds(modal, stops.run.dynamics().stops());
   stops.step.h = 1e-3;
   bounds.find(modal.odd(1e-3), stops.step);
   stops.step.iterated = {0};

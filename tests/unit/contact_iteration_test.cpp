@@ -40,7 +40,7 @@ constexpr double kStep = 0.05;
 TEST(ContactIteration, FindsForcesAndPathsThatBelongTogether) {
   SceneRun run(kScene);
   dynamics::ModalSystem& modal = run.dynamics().modal(0);
-  dynamics::Contact& contact = run.dynamics().contact();
+  dynamics::ElasticStops& contact = run.dynamics().stops();
   const StepGoal goal = {3, 1e-9, 1e-9, 1e-9, 1.0};
   std::vector<ContactForce> contacts;
   for (Index i = 0; i < contact.size(); ++i) contacts.emplace_back(contact, i);

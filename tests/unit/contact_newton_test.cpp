@@ -41,7 +41,7 @@ ContactPath moved_path(double w0, double hv0, const ForceMoments& f, std::size_t
 
 TEST(ContactNewton, SolvesAClosedStopInOneStep) {
   SceneRun run(kScene);
-  ContactForce force(run.dynamics().contact(), 0);
+  ContactForce force(run.dynamics().stops(), 0);
   for (const std::size_t orders : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
     const ContactNewton newton(kStiffness, orders);
     const ContactPath start = moved_path(0.9, -0.1, {}, orders);
@@ -58,7 +58,7 @@ TEST(ContactNewton, SolvesAClosedStopInOneStep) {
 /// with a fixed interval is therefore that of the exact derivative.
 TEST(ContactNewton, HasTheDerivativeOfAStopThatCloses) {
   SceneRun run(kScene);
-  ContactForce force(run.dynamics().contact(), 0);
+  ContactForce force(run.dynamics().stops(), 0);
   const ContactNewton newton(kStiffness, 3);
   const ForceMoments f = {-0.2, 0.1, 0.05};
   const auto project = [&](const ForceMoments& at) {

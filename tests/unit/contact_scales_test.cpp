@@ -37,7 +37,7 @@ stiffness = 3.0
 struct Scene {
   SceneRun run{kScene};
   dynamics::ModalSystem& modal = run.dynamics().modal(0);
-  ContactScales scales{modal, run.dynamics().contact()};
+  ContactScales scales{modal, run.dynamics().stops()};
 
   ModalState state_of(double a, double b, double va, double vb) {
     ModalState state;

@@ -28,11 +28,11 @@ class OneStop {
 
   double force(double w) {
     Vector f(1);
-    contact().force(Vector::Constant(1, w), f);
+    stops().force(Vector::Constant(1, w), f);
     return f[0];
   }
-  double energy(double w) { return contact().energy(Vector::Constant(1, w)); }
-  dynamics::Contact& contact() { return scene_.dynamics().contact(); }
+  double energy(double w) { return stops().energy(Vector::Constant(1, w)); }
+  dynamics::ElasticStops& stops() { return scene_.dynamics().stops(); }
 
  private:
   SceneRun scene_;
@@ -92,11 +92,11 @@ TEST_P(ContactDerivative, TangentSecantAndEnergyFitTheForce) {
   };
   for (const double w : {-0.03, -0.01001, -0.00999, -0.004, 0.004, 0.00997, 0.01003, 0.02}) {
     Vector at = Vector::Constant(1, w), f(1), k(1), c(1);
-    one.contact().tangent(at, f, k);
+    one.stops().tangent(at, f, k);
     EXPECT_DOUBLE_EQ(f[0], one.force(w));
     EXPECT_NEAR(k[0], -slope([&](double y) { return one.force(y); }, w), kDifference * kStiffness) << w;
     EXPECT_NEAR(f[0], -slope([&](double y) { return one.energy(y); }, w), kDifference * kStiffness * kGap) << w;
-    one.contact().secant(at, k, c);
+    one.stops().secant(at, k, c);
     EXPECT_NEAR(-k[0] * w + c[0], f[0], kRounding * (k[0] * std::abs(w) + std::abs(c[0]))) << w;
     EXPECT_GE(k[0], 0.0);
   }
@@ -121,12 +121,12 @@ TEST(Contact, StopBetweenTwoNodesActsOnBothWithOppositeForces) {
   EXPECT_EQ(force[casing], -force[rotor]);
 
   Vector w(1), g(1);
-  scene.dynamics().contact().displacement(x, w);
-  scene.dynamics().contact().penetration(w, g);
+  scene.dynamics().stops().displacement(x, w);
+  scene.dynamics().stops().penetration(w, g);
   EXPECT_DOUBLE_EQ(w[0], 0.03);
   EXPECT_NEAR(g[0], 0.02, kRounding);
-  EXPECT_EQ(scene.dynamics().contact().dof_a(0), rotor);
-  EXPECT_EQ(scene.dynamics().contact().dof_b(0), casing);
+  EXPECT_EQ(scene.dynamics().stops().dof_a(0), rotor);
+  EXPECT_EQ(scene.dynamics().stops().dof_b(0), casing);
 }
 
 TEST(Contact, StopsOnOneNodeAddUp) {
@@ -135,8 +135,8 @@ TEST(Contact, StopsOnOneNodeAddUp) {
   Vector force = Vector::Zero(1);
   scene.dynamics().add_contact_force(Vector::Constant(1, 0.04), force);
   EXPECT_NEAR(force[0], -kStiffness * (0.03 + 0.01), kRounding * kStiffness);
-  EXPECT_EQ(scene.dynamics().contact().play_of(1).gap, 0.03);
-  EXPECT_EQ(scene.dynamics().contact().play_of(1).sides, model::Sides::positive);
+  EXPECT_EQ(scene.dynamics().stops().play_of(1).gap, 0.03);
+  EXPECT_EQ(scene.dynamics().stops().play_of(1).sides, model::Sides::positive);
 }
 
 TEST(Contact, StopsOnSupportsAreSkippedAndNeverEvaluated) {
@@ -150,7 +150,7 @@ TEST(Contact, StopsOnSupportsAreSkippedAndNeverEvaluated) {
   const linalg::Counters& counters = scene.dynamics().counters();
   EXPECT_EQ(counters.contact_evaluations, 1);
   EXPECT_EQ(counters.law_evaluations, 3);
-  scene.dynamics().contact().force_of(1, 0.02);
+  scene.dynamics().stops().force_of(1, 0.02);
   EXPECT_EQ(counters.contact_evaluations, 1);
   EXPECT_EQ(counters.law_evaluations, 4);
 }

@@ -77,7 +77,7 @@ std::string layout() {
           line_of<EnergyAt>("EnergyAt") + line_of<AcceptedStep>("AcceptedStep");
   text += line_of<Integrator>("Integrator") + line_of<IntegratorType>("IntegratorType") +
           line_of<StepController>("StepController") + line_of<MethodLimits>("MethodLimits");
-  text += line_of<dynamics::Dynamics>("Dynamics") + line_of<dynamics::Contact>("Contact") +
+  text += line_of<dynamics::Dynamics>("Dynamics") + line_of<dynamics::ElasticStops>("Contact") +
           line_of<dynamics::EffectiveSolver>("EffectiveSolver") + line_of<dynamics::ModalSystem>("ModalSystem") +
           line_of<dynamics::ModalPropagator>("ModalPropagator") +
           line_of<dynamics::ContactPropagator>("ContactPropagator") + line_of<dynamics::StopShapes>("StopShapes");

@@ -141,7 +141,7 @@ TEST_P(ModalDamping, DecelerationIsThatOfTheDenseMatrix) {
 }
 
 TEST_P(ModalDamping, EffectiveEquationsAreSolvedWithStopsOpenAndClosed) {
-  const dynamics::Contact& contact = scene_.dynamics().contact();
+  const dynamics::ElasticStops& contact = scene_.dynamics().stops();
   Eigen::MatrixXd pick = Eigen::MatrixXd::Zero(contact.size(), system_.size());
   for (Index i = 0; i < contact.size(); ++i) {
     if (contact.dof_a(i) >= 0) pick(i, contact.dof_a(i)) += 1.0;

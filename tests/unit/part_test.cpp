@@ -57,7 +57,7 @@ TEST(Part, IsTheSceneWithAllElseSupported) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(part.stops[i].a, expected.stops[i].a);
     EXPECT_EQ(part.stops[i].b, expected.stops[i].b);
-    EXPECT_EQ(part.stops[i].gap, expected.stops[i].gap);
+    EXPECT_EQ(part.stops[i].play.gap, expected.stops[i].play.gap);
   }
   ASSERT_EQ(part.loads.size(), 1u);
   EXPECT_EQ(part.loads[0].dofs, expected.loads.at(0).dofs);

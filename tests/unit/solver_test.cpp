@@ -42,7 +42,7 @@ stiffness_proportional = 1.0e-4
 )";
 }
 
-Eigen::MatrixXd dense_effective(const SceneRun& scene, dynamics::Contact& contact, double c, double k,
+Eigen::MatrixXd dense_effective(const SceneRun& scene, dynamics::ElasticStops& contact, double c, double k,
                                 const Vector& kappa) {
   const model::System& system = scene.system();
   const Eigen::MatrixXd mass(system.mass), stiffness(system.stiffness);
@@ -58,7 +58,7 @@ Eigen::MatrixXd dense_effective(const SceneRun& scene, dynamics::Contact& contac
 
 TEST(EffectiveSolver, SolvesWhatTheDenseMatrixSays) {
   SceneRun scene(coupled_scene());
-  dynamics::Contact& contact = scene.dynamics().contact();
+  dynamics::ElasticStops& contact = scene.dynamics().stops();
   ASSERT_EQ(contact.size(), 10);
   dynamics::EffectiveSolver& solver = scene.dynamics().effective();
   Vector kappa(contact.size()), right(scene.system().size());
@@ -85,7 +85,7 @@ TEST(EffectiveSolver, GivesTheSameWithLocalContactAsWithFullFactorization) {
   constexpr double kSame = 5e-12;
   using Contacts = dynamics::EffectiveSolver::Contacts;
   SceneRun scene(coupled_scene());
-  const dynamics::Contact& contact = scene.dynamics().contact();
+  const dynamics::ElasticStops& contact = scene.dynamics().stops();
   linalg::Counters local_counters, full_counters;
   dynamics::EffectiveSolver local(scene.system(), contact, local_counters, Contacts::local);
   dynamics::EffectiveSolver full(scene.system(), contact, full_counters, Contacts::factorized);
@@ -120,7 +120,7 @@ TEST(EffectiveSolver, SaysWhereTheMatrixIsNotPositiveDefinite) {
   EXPECT_FALSE(solver.solve(Vector::Constant(10, std::numeric_limits<double>::quiet_NaN()), right));
   right.setOnes();
   EXPECT_TRUE(solver.solve(Vector::Zero(10), right));
-  const Vector expected = dense_effective(scene, scene.dynamics().contact(), 5e-4, 2.5e-7, Vector::Zero(10))
+  const Vector expected = dense_effective(scene, scene.dynamics().stops(), 5e-4, 2.5e-7, Vector::Zero(10))
                               .ldlt()
                               .solve(Vector::Ones(right.size()));
   EXPECT_LE((right - expected).norm(), kSolved * expected.norm());

@@ -59,7 +59,7 @@ TEST(ArctanEnergy, IsTheClosedFormAndZeroAtRest) {
   for (const double u : {0.0, 1e-4, 9e-4, 1e-3, 1.1e-3, 2e-3, 5e-3, -1e-3}) {
     w[0] = u;
     const double expected = closed_form(u) - closed_form(0.0);
-    EXPECT_NEAR(scene.dynamics().contact().energy(w), expected, kFormula * closed_form(5e-3)) << u;
+    EXPECT_NEAR(scene.dynamics().stops().energy(w), expected, kFormula * closed_form(5e-3)) << u;
   }
 }
 

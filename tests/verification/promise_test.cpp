@@ -128,10 +128,9 @@ TEST_P(Promise, IsKeptForEveryComponent) {
       const double margin = 2.0 * kPromise * tolerance;
       Vector is_near = Vector::Zero(kRows), w(run.dynamics().stop_count()), size(run.dynamics().stop_count());
       for (Index row = 0; row < kRows; ++row) {
-        run.dynamics().contact().displacement(reference.x.col(row), w);
+        run.dynamics().stops().displacement(reference.x.col(row), w);
         for (Index i = 0; i < w.size(); ++i)
-          if (std::abs(std::abs(w[i]) - run.dynamics().contact().play_of(i).gap) <=
-              margin * scales.x.col(row).maxCoeff())
+          if (std::abs(std::abs(w[i]) - run.dynamics().stops().play_of(i).gap) <= margin * scales.x.col(row).maxCoeff())
             is_near[row] = 1.0;
       }
       Vector gamma = Vector::Ones(kRows);

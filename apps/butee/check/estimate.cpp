@@ -84,8 +84,8 @@ class Watcher final : public time::Observer {
  private:
   void look_at_stops(const time::State& state) {
     Vector penetration(stops_.size());
-    dynamics_.contact().displacement(state.x, stops_);
-    dynamics_.contact().penetration(stops_, penetration);
+    dynamics_.stops().displacement(state.x, stops_);
+    dynamics_.stops().penetration(stops_, penetration);
     has_struck_ = penetration.maxCoeff() > 0.0;
   }
 

@@ -94,7 +94,7 @@ std::vector<TurningPoints::Path> paths_of(const scene::Scene& session, dynamics:
   const auto& table = dynamics.system().dofs;
   for (const model::ProbeRequest& probe : session.output.probes)
     paths.push_back({table.index({probe.node, model::kind_of(model::Quantity::u)}), -1});
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   for (Index i = 0; i < contact.size(); ++i) paths.push_back({contact.dof_a(i), contact.dof_b(i)});
   return paths;
 }
@@ -102,7 +102,7 @@ std::vector<TurningPoints::Path> paths_of(const scene::Scene& session, dynamics:
 /// An upper estimate of the highest frequency with all stops closed, from the largest k/m of a DOF, rad/s.
 double highest_frequency(dynamics::Dynamics& dynamics) {
   Vector stiffness = dynamics.system().stiffness.diagonal();
-  const dynamics::Contact& contact = dynamics.contact();
+  const dynamics::ElasticStops& contact = dynamics.stops();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i)
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
@@ -126,7 +126,7 @@ void sum_up(const scene::Scene& session, dynamics::Dynamics& dynamics, const std
   for (Index i = 0; i < dynamics.stop_count(); ++i) {
     const auto& path = paths[session.output.probes.size() + static_cast<std::size_t>(i)];
     for (const double w : {path.least, path.greatest})
-      largest = std::max(largest, std::abs(dynamics.contact().force_of(i, w)));
+      largest = std::max(largest, std::abs(dynamics.stops().force_of(i, w)));
   }
   run.numbers.push_back({"largest contact force", largest, false});
 }

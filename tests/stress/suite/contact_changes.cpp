@@ -28,10 +28,7 @@ double sum_of_ends(const std::vector<Index>& ends, ConstVectorRef values) {
 }  // namespace
 
 CourseWatch::CourseWatch(dynamics::Dynamics& dynamics)
-    : contact_(dynamics.contact()),
-      obstacles_(dynamics.obstacles()),
-      w_(contact_.size()),
-      penetration_(contact_.size()) {
+    : contact_(dynamics.stops()), obstacles_(dynamics.obstacles()), w_(contact_.size()), penetration_(contact_.size()) {
   const Vector of_stops = contact_.closed_stiffness();
   const Index stops = contact_.size(), obstacles = obstacles_ != nullptr ? obstacles_->size() : 0;
   ends_.resize(static_cast<std::size_t>(stops + obstacles));

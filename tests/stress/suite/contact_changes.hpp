@@ -44,7 +44,7 @@ class CourseWatch final : public time::Observer {
   /// Speed and acceleration of a contact at an instant.
   std::pair<double, double> motion_of(const time::AcceptedStep& step, double t, Index contact);
 
-  const dynamics::Contact& contact_;
+  const dynamics::ElasticStops& contact_;
   const dynamics::Obstacles* obstacles_;  ///< null if there are none
   std::vector<std::vector<Index>> ends_;
   Vector stiffness_;

@@ -7,14 +7,14 @@
 
 namespace butee::dynamics {
 
-/// The stops of a system, evaluated in stop space: displacements w = S x (m stops), forces F_c = S^T f.
+/// The elastic scalar stops of a system (m = 1, no memory, no dissipation), all at once in stop space: displacements w = S x (m stops), forces F_c = S^T f.
 ///
 /// S selects u_a, or u_a - u_b for a stop between two nodes. All vectors here have one entry per
 /// stop.
-class BUTEE_EXPORT Contact {
+class BUTEE_EXPORT ElasticStops {
  public:
   /// `system` and `counters` must outlive this object.
-  Contact(const model::System& system, linalg::Counters& counters);
+  ElasticStops(const model::System& system, linalg::Counters& counters);
 
   Index size() const { return static_cast<Index>(a_.size()); }
   /// n, the free DOFs of the system.

@@ -1,4 +1,4 @@
-#include "butee/dynamics/contact.hpp"
+#include "butee/dynamics/elastic_stops.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ std::span<double> part(double* v, Index begin, Index count) {
 
 }  // namespace
 
-Contact::Contact(const model::System& system, linalg::Counters& counters)
+ElasticStops::ElasticStops(const model::System& system, linalg::Counters& counters)
     : counters_(&counters), system_size_(system.size()) {
   for (const FreeStops& stops : system.stops) {
     groups_.push_back({stops.law, stops.play, size(), static_cast<Index>(stops.size())});
@@ -27,7 +27,7 @@ Contact::Contact(const model::System& system, linalg::Counters& counters)
   penetration_ = side_ = secant_ = Vector::Zero(size());
 }
 
-void Contact::difference(ConstVectorRef x, VectorRef w) const {
+void ElasticStops::difference(ConstVectorRef x, VectorRef w) const {
   for (std::size_t i = 0; i < a_.size(); ++i) {
     const double ua = a_[i] >= 0 ? x[a_[i]] : 0.0;
     const double ub = b_[i] >= 0 ? x[b_[i]] : 0.0;
@@ -35,7 +35,7 @@ void Contact::difference(ConstVectorRef x, VectorRef w) const {
   }
 }
 
-void Contact::scatter_both(ConstVectorRef f, VectorRef force) const {
+void ElasticStops::scatter_both(ConstVectorRef f, VectorRef force) const {
   for (std::size_t i = 0; i < a_.size(); ++i) {
     const double value = f[static_cast<Index>(i)];
     if (a_[i] >= 0) force[a_[i]] += value;
@@ -43,7 +43,7 @@ void Contact::scatter_both(ConstVectorRef f, VectorRef force) const {
   }
 }
 
-void Contact::locate(ConstVectorRef w) {
+void ElasticStops::locate(ConstVectorRef w) {
   for (const Group& group : groups_) {
     const model::FreePlay play = group.play;
     const double* displacement = w.data() + group.begin;
@@ -56,17 +56,17 @@ void Contact::locate(ConstVectorRef w) {
   }
 }
 
-double Contact::force_at(const Group& group, double w) {
+double ElasticStops::force_at(const Group& group, double w) {
   const double g = group.play.penetration(w);
   return -group.play.side(w) * group.law->secant(g) * g;
 }
 
-void Contact::count_evaluation() {
+void ElasticStops::count_evaluation() {
   ++counters_->contact_evaluations;
   counters_->law_evaluations += size();
 }
 
-void Contact::force(ConstVectorRef w, VectorRef f) {
+void ElasticStops::force(ConstVectorRef w, VectorRef f) {
   count_evaluation();
   if (size() == 1) {
     const Group& group = groups_.front();
@@ -79,7 +79,7 @@ void Contact::force(ConstVectorRef w, VectorRef f) {
   f = -side_.array() * secant_.array() * penetration_.array();
 }
 
-void Contact::tangent(ConstVectorRef w, VectorRef f, VectorRef k) {
+void ElasticStops::tangent(ConstVectorRef w, VectorRef f, VectorRef k) {
   count_evaluation();
   if (size() == 1) {
     const Group& group = groups_.front();
@@ -94,7 +94,7 @@ void Contact::tangent(ConstVectorRef w, VectorRef f, VectorRef k) {
   f = -side_.array() * secant_.array() * penetration_.array();
 }
 
-void Contact::secant(ConstVectorRef w, VectorRef k, VectorRef c) {
+void ElasticStops::secant(ConstVectorRef w, VectorRef k, VectorRef c) {
   count_evaluation();
   if (size() == 1) {
     const Group& group = groups_.front();
@@ -110,35 +110,35 @@ void Contact::secant(ConstVectorRef w, VectorRef k, VectorRef c) {
   }
 }
 
-const Contact::Group& Contact::group_of(Index i) const {
+const ElasticStops::Group& ElasticStops::group_of(Index i) const {
   if (groups_.size() == 1) return groups_.front();
   const auto after = std::upper_bound(groups_.begin(), groups_.end(), i,
                                       [](Index stop, const Group& group) { return stop < group.begin; });
   return *(after - 1);
 }
 
-double Contact::force_of(Index i, double w) {
+double ElasticStops::force_of(Index i, double w) {
   ++counters_->law_evaluations;
   return force_at(group_of(i), w);
 }
 
-double Contact::energy_of(Index i, double w) const {
+double ElasticStops::energy_of(Index i, double w) const {
   const Group& group = group_of(i);
   return group.law->energy(group.play.penetration(w)) - group.law->energy(-group.play.gap);
 }
 
-double Contact::energy(ConstVectorRef w) const {
+double ElasticStops::energy(ConstVectorRef w) const {
   double sum = 0.0;
   for (Index i = 0; i < size(); ++i) sum += energy_of(i, w[i]);
   return sum;
 }
 
-void Contact::penetration(ConstVectorRef w, VectorRef g) const {
+void ElasticStops::penetration(ConstVectorRef w, VectorRef g) const {
   for (const Group& group : groups_)
     for (Index i = group.begin; i < group.begin + group.count; ++i) g[i] = group.play.penetration(w[i]);
 }
 
-Vector Contact::closed_stiffness() const {
+Vector ElasticStops::closed_stiffness() const {
   Vector k(size());
   for (const Group& group : groups_) k.segment(group.begin, group.count).setConstant(group.law->closed_stiffness());
   return k;
