@@ -1,17 +1,14 @@
 #pragma once
 
-#include <array>
-#include <limits>
-#include <optional>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "butee/dynamics/effective_solver.hpp"
 #include "butee/dynamics/elastic_stops.hpp"
-#include "butee/dynamics/modal_damping.hpp"
 #include "butee/dynamics/modal_system.hpp"
 #include "butee/dynamics/obstacles.hpp"
-#include "butee/dynamics/turning.hpp"
 #include "butee/linalg/force_balance.hpp"
-#include "butee/linalg/symmetric_product.hpp"
 
 namespace butee::dynamics {
 
@@ -27,16 +24,19 @@ class BUTEE_EXPORT Dynamics {
   /// `system` must outlive this object. Throws InputError if modes with modal damping could not be
   /// computed.
   explicit Dynamics(const model::System& system);
+  ~Dynamics();
+  Dynamics(const Dynamics&) = delete;
+  Dynamics& operator=(const Dynamics&) = delete;
 
   const model::System& system() const { return system_; }
   Index size() const { return system_.size(); }
-  Index stop_count() const { return stops_.size(); }
+  Index stop_count() const { return stops_->size(); }
   /// All contacts: stops() and obstacles().
   Index contact_count() const { return stop_count() + (obstacles_ ? obstacles_->size() : 0); }
-  bool has_damping() const { return has_damping_; }
-  ElasticStops& stops() { return stops_; }
+  bool has_damping() const;
+  ElasticStops& stops() { return *stops_; }
   /// Contacts in the plane, with dissipation or friction; null if the scene has none.
-  Obstacles* obstacles() { return obstacles_.get(); }
+  Obstacles* obstacles() { return obstacles_; }
   /// The forces that hold the rigidly sticking contacts at a motion, in the order of
   /// Obstacles::rigid_sticks(), N.
   const Vector& stick_forces(double t, ConstVectorRef x, ConstVectorRef v);
@@ -47,17 +47,15 @@ class BUTEE_EXPORT Dynamics {
   void hold_sticks(double t, VectorRef a);
   /// v := the velocity after the impulse that stops the sliding of the contacts that stick rigidly
   void stop_sliding(double t, VectorRef v);
-  linalg::Counters& counters() { return counters_; }
-  const linalg::Counters& counters() const { return counters_; }
+  linalg::Counters& counters() { return *counters_; }
+  const linalg::Counters& counters() const { return *counters_; }
 
   /// Sets C and K to those of an instant, if the speed of rotation varies.
-  void set_time(double t) {
-    if (turning_) turning_->set_time(t);
-  }
+  void set_time(double t);
   /// F := F(t)
   void external_force(double t, VectorRef force);
   /// Invalidates cached load values, after time functions of loads have changed.
-  void loads_changed() { load_time_ = std::numeric_limits<double>::quiet_NaN(); }
+  void loads_changed();
   /// To be called after model::replace_loads() has given the system the stops and loads of another
   /// model. Factorizations and modes are kept; otherwise the object is as if newly constructed.
   void loads_replaced();
@@ -66,9 +64,7 @@ class BUTEE_EXPORT Dynamics {
   void external_force_rate(double t, double h, VectorRef rate);
   /// rate -= dC/dt v + dK/dt x at the last instant that was asked for; zero unless the speed of
   /// rotation varies
-  void subtract_matrix_rate(ConstVectorRef x, ConstVectorRef v, VectorRef rate) const {
-    if (turning_) turning_->subtract_rate(x, v, rate);
-  }
+  void subtract_matrix_rate(ConstVectorRef x, ConstVectorRef v, VectorRef rate) const;
   /// F += F_c(x) of the stops
   void add_contact_force(ConstVectorRef x, VectorRef force);
   /// F += the forces of obstacles()
@@ -118,65 +114,22 @@ class BUTEE_EXPORT Dynamics {
   std::string dof_name(Index dof) const;
 
  private:
-  struct LoadedDof {
-    Index dof;
-    double weight;
-    std::size_t load;
-  };
+  struct Parts;
 
   linalg::LinearSolver& mass_solver();
-  /// Updates the matrices for the contacts that stick now; false if none sticks.
-  bool prepare_sticks();
-  void solve_sticks(VectorRef y);
-  enum class From { given, nothing };
-
-  /// F += F(t)
-  void add_external_force(double t, VectorRef force);
-  /// x + shift v
-  const double* shifted(ConstVectorRef x, double shift, ConstVectorRef v);
   bool solve_secant_of_many(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
                             ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a);
   bool solve_single_secant(double t, double velocity_factor, double displacement_factor, ConstVectorRef kappa,
                            ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a);
-  /// r -= C v + K x
-  void subtract_internal_force(ConstVectorRef x, ConstVectorRef v, VectorRef r);
-  /// r -= the part of C v + K x that is neither a multiple of M v nor modal damping. From::nothing:
-  /// r is zero on entry.
-  void subtract_from(From from, ConstVectorRef x, ConstVectorRef v, VectorRef r);
-  /// r -= K x + velocity_factor D v with the dashpots D
-  void subtract_products(From from, const double* x, double velocity_factor, ConstVectorRef v, VectorRef r);
-  /// a := M^-1 a, minus the deceleration by the damping that subtract_from() left out
+  /// a := M^-1 a minus the deceleration by the damping that InternalForces::subtract_from() omits
   void solve_mass(ConstVectorRef v, VectorRef a);
-  /// y := a block of rows of C v without modal damping
-  void damping_rows(ConstVectorRef v, Index begin, Index count, double* y);
 
   const model::System& system_;
-  linalg::Counters counters_;
-  ElasticStops stops_;
-  std::unique_ptr<Obstacles> obstacles_;       ///< null if there are none
-  std::unique_ptr<const ModalDamping> modal_;  ///< null without modal damping
-  bool has_damping_;
-  std::unique_ptr<Turning> turning_;  ///< null unless the speed of rotation varies
-  double single_damping_ = 0.0;       ///< C of a system with one DOF
-  linalg::SymmetricProduct mass_product_, stiffness_product_, dashpot_product_;
-  std::optional<linalg::LinearSolver> mass_solver_;
-  std::optional<EffectiveSolver> effective_;
-  std::unique_ptr<ModalSystem> modal_system_;
-  std::vector<LoadedDof> loaded_dofs_;
-  double load_time_;
-  std::array<double, 2> load_series_{};
-  std::vector<double> load_values_;  ///< values of the loads at load_time_, since several stages of a method often
-                                     ///< share an instant
-  std::vector<bool> has_stops_, has_loads_;  ///< for each block of rows
-  Vector contact_force_, stop_displacement_, stop_velocity_, stop_force_;
-  Vector other_vector_, turning_damping_, turning_inertia_;  ///< for systems whose speed of rotation varies
-  Vector shifted_, modal_force_;             ///< x + s v and C v, for systems with Rayleigh and with modal damping
-  Vector work_, other_, inertia_, damping_;  ///< for a block of rows
-  // Contacts that stick rigidly: their indices, M^-1 T^T (n x number of contacts), T M^-1 T^T, and
-  // the holding forces.
-  std::vector<Index> sticks_;
-  Eigen::MatrixXd stick_motion_, stick_compliance_;
-  Vector stick_force_, stick_acceleration_;
+  std::unique_ptr<Parts> parts_;
+  // Of the parts, for access without a call.
+  linalg::Counters* counters_;
+  ElasticStops* stops_;
+  Obstacles* obstacles_;  ///< null if there are none
 };
 
 }  // namespace butee::dynamics

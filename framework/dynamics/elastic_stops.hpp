@@ -7,7 +7,8 @@
 
 namespace butee::dynamics {
 
-/// The elastic scalar stops of a system (m = 1, no memory, no dissipation), all at once in stop space: displacements w = S x (m stops), forces F_c = S^T f.
+/// The elastic scalar stops of a system (m = 1, no memory, no dissipation), all at once in stop space: displacements w
+/// = S x (m stops), forces F_c = S^T f.
 ///
 /// S selects u_a, or u_a - u_b for a stop between two nodes. All vectors here have one entry per
 /// stop.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "butee/dynamics/obstacles.hpp"
+#include "butee/linalg/linear_solver.hpp"
+
+namespace butee::dynamics {
+
+/// The forces that hold the contacts that stick rigidly: T v = b(t) with a row of T for each.
+/// M^-1 T^T and T M^-1 T^T are kept until another set of contacts sticks.
+class RigidSticks {
+ public:
+  /// `obstacles` must outlive this object.
+  explicit RigidSticks(Obstacles& obstacles) : obstacles_(obstacles) {}
+
+  /// a += M^-1 T^T times the forces that keep T a = db/dt
+  void hold(double t, linalg::LinearSolver& mass, VectorRef a);
+  /// v += M^-1 T^T times the impulses that give T v = b
+  void stop(double t, linalg::LinearSolver& mass, VectorRef v);
+  /// The forces of the last hold() since clear(), N, in the order of Obstacles::rigid_sticks().
+  const Vector& forces() const { return force_; }
+  void clear() { force_.resize(0); }
+
+ private:
+  /// Updates the matrices to the contacts that stick now; false if none does.
+  bool prepare(linalg::LinearSolver& mass);
+  void solve(VectorRef y);
+
+  Obstacles& obstacles_;
+  std::vector<Index> contacts_;
+  Eigen::MatrixXd motion_, compliance_;  ///< M^-1 T^T and T M^-1 T^T
+  Vector force_;
+};
+
+}  // namespace butee::dynamics
