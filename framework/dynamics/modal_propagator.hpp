@@ -24,7 +24,7 @@ struct ModalHarmonic {
 /// column with one entry per mode; modes may be rigid, vibrating, or overdamped. The propagator is
 /// built from a Taylor series over a length that is short for every mode, followed by doublings;
 /// neither has special cases. The free motion of the result can then be replaced by its closed
-/// form. Checked against closed forms in tests/unit/modal_flow_test.cpp.
+/// form. Checked against closed forms in tests/unit/modal_propagator_test.cpp.
 class BUTEE_EXPORT ModalPropagator {
  public:
   /// omega and delta in 1/s; `h` in s.

@@ -4,7 +4,7 @@
 #include <butee/dynamics/contact_propagator.hpp>
 #include <gtest/gtest.h>
 
-namespace butee::test::modal_flow_test {
+namespace butee::test::modal_propagator_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -137,4 +137,4 @@ TEST(ContactPropagator, MobilitiesAreWhatAConstantForceDoes) {
 }
 
 }  // namespace
-}  // namespace butee::test::modal_flow_test
+}  // namespace butee::test::modal_propagator_test
