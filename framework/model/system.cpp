@@ -1,130 +1,13 @@
 #include "butee/model/system.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "butee/core/error.hpp"
-#include "butee/model/turning_matrices.hpp"
+#include "butee/model/matrix_collector.hpp"
 
 namespace butee::model {
 namespace {
-
-using Triplet = Eigen::Triplet<double>;
-
-/// Differences between a(i, j) and a(j, i) up to this fraction of them are rounding.
-constexpr double kRounding = 1e-12;
-
-bool is_symmetric(const Eigen::MatrixXd& matrix) {
-  for (Index j = 0; j < matrix.cols(); ++j)
-    for (Index i = 0; i < j; ++i) {
-      const double a = matrix(i, j), b = matrix(j, i);
-      if (a != b && !(std::abs(a - b) <= kRounding * (std::abs(a) + std::abs(b)))) return false;
-    }
-  return true;
-}
-
-/// The values of one matrix at a sequence of places shared by all matrices, from the first nonzero
-/// value on.
-class Entries {
- public:
-  void add(const std::vector<Triplet>& places, int i, int j, double value) {
-    if (value != 0.0 && !is_used_) {
-      is_used_ = true;
-      for (const Triplet& place : places) triplets_.emplace_back(place.row(), place.col(), 0.0);
-    }
-    if (is_used_) triplets_.emplace_back(i, j, value);
-  }
-  SparseMatrix build(Index n) {
-    if (!is_used_) return {};
-    SparseMatrix matrix(n, n);
-    matrix.setFromTriplets(triplets_.begin(), triplets_.end());
-    triplets_ = {};
-    return matrix;
-  }
-
- private:
-  std::vector<Triplet> triplets_;
-  bool is_used_ = false;
-};
-
-/// Collects M, K, D, G and W with one common sequence of places, so that all have the same pattern.
-class TripletSink final : public MatrixSink {
- public:
-  TripletSink(const DofTable& dofs, double rotating_damping) : dofs_(dofs), rotating_damping_(rotating_damping) {}
-
-  void begin_element(bool turns) { turns_ = turns; }
-  bool turns() const override { return turns_; }
-
-  void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) override {
-    if (!is_symmetric(matrices.mass))
-      throw InputError("the mass matrix of an element on " + dofs_.name(dofs.front()) + " is not symmetric");
-    stiffness_is_symmetric_ = stiffness_is_symmetric_ && is_symmetric(matrices.stiffness);
-    damping_is_symmetric_ = damping_is_symmetric_ && is_symmetric(matrices.damping);
-    if (turns_) return add_turning(dofs, matrices);
-    visit(dofs, [&](int row, int column, Index p, Index q) {
-      add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q));
-    });
-  }
-
-  void add_place(Index row, Index column) { add_entry(static_cast<int>(row), static_cast<int>(column), 0.0, 0.0, 0.0); }
-
-  void build(System& system) {
-    const Index n = dofs_.free_count();
-    const auto make = [n](std::vector<Triplet>& triplets) {
-      SparseMatrix matrix(n, n);
-      matrix.setFromTriplets(triplets.begin(), triplets.end());
-      triplets = {};
-      return matrix;
-    };
-    system.dashpots = dashpots_.build(n);
-    system.gyroscopic = gyroscopic_.build(n);
-    system.circulatory = circulatory_.build(n);
-    system.stiffness = make(stiffness_);
-    system.mass = make(mass_);
-    system.stiffness_is_symmetric = stiffness_is_symmetric_;
-    system.is_symmetric = stiffness_is_symmetric_ && damping_is_symmetric_;
-  }
-
- private:
-  template <class Visit>
-  void visit(std::span<const NodalDof> dofs, Visit entry) {
-    for (std::size_t j = 0; j < dofs.size(); ++j) {
-      const Index column = dofs_.index(dofs[j]);
-      if (column < 0) continue;
-      for (std::size_t i = 0; i < dofs.size(); ++i)
-        if (const Index row = dofs_.index(dofs[i]); row >= 0)
-          entry(static_cast<int>(row), static_cast<int>(column), static_cast<Index>(i), static_cast<Index>(j));
-    }
-  }
-
-  void add_turning(std::span<const NodalDof> dofs, const ElementMatrices& matrices) {
-    const auto size = matrices.mass.rows();
-    const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(size, size);
-    Eigen::MatrixXd turning = rotating_damping_ * matrices.stiffness;
-    if (matrices.rotating_damping.size() > 0) turning += matrices.rotating_damping;
-    const Eigen::MatrixXd circulatory = circulatory_of(dofs, turning);
-    const Eigen::MatrixXd& gyroscopic = matrices.gyroscopic.size() > 0 ? matrices.gyroscopic : none;
-    visit(dofs, [&](int row, int column, Index p, Index q) {
-      add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q) + turning(p, q),
-                gyroscopic(p, q), circulatory(p, q));
-    });
-  }
-
-  void add_entry(int i, int j, double m, double k, double c, double g = 0.0, double w = 0.0) {
-    dashpots_.add(mass_, i, j, c);
-    gyroscopic_.add(mass_, i, j, g);
-    circulatory_.add(mass_, i, j, w);
-    mass_.emplace_back(i, j, m);
-    stiffness_.emplace_back(i, j, k);
-  }
-
-  const DofTable& dofs_;
-  double rotating_damping_;
-  bool turns_ = false, stiffness_is_symmetric_ = true, damping_is_symmetric_ = true;
-  std::vector<Triplet> mass_, stiffness_;
-  Entries dashpots_, gyroscopic_, circulatory_;
-};
 
 /// Sets D and K for a constant speed, or the data from which Dynamics computes them at every
 /// instant.
@@ -309,7 +192,7 @@ System assemble(const Model& model, TurningParts turning) {
     FreeObstacles free = reduce(group, dofs, model.nodes, system.skipped_stops);
     if (!free.ends.empty()) system.obstacles.push_back(std::move(free));
   }
-  TripletSink sink(dofs, model.rotating_damping);
+  MatrixCollector sink(dofs, model.rotating_damping);
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
     sink.begin_element(model.rotation != nullptr && i < model.turns.size() && model.turns[i]);
     model.elements[i]->assemble(sink);

@@ -1,0 +1,82 @@
+#include "butee/model/matrix_collector.hpp"
+
+#include <cmath>
+
+#include "butee/core/error.hpp"
+#include "butee/model/turning_matrices.hpp"
+
+namespace butee::model {
+namespace {
+
+/// Differences between a(i, j) and a(j, i) up to this fraction of them are rounding.
+constexpr double kRounding = 1e-12;
+
+bool is_symmetric(const Eigen::MatrixXd& matrix) {
+  for (Index j = 0; j < matrix.cols(); ++j)
+    for (Index i = 0; i < j; ++i) {
+      const double a = matrix(i, j), b = matrix(j, i);
+      if (a != b && !(std::abs(a - b) <= kRounding * (std::abs(a) + std::abs(b)))) return false;
+    }
+  return true;
+}
+
+SparseMatrix built(Index n, std::vector<Eigen::Triplet<double>>& triplets) {
+  SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  triplets = {};
+  return matrix;
+}
+
+}  // namespace
+
+SparseMatrix MatrixCollector::Entries::build(Index n) {
+  return is_used_ ? built(n, triplets_) : SparseMatrix();
+}
+
+template <class Visit>
+void MatrixCollector::visit(std::span<const NodalDof> dofs, Visit entry) const {
+  for (std::size_t j = 0; j < dofs.size(); ++j) {
+    const Index column = dofs_.index(dofs[j]);
+    if (column < 0) continue;
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      if (const Index row = dofs_.index(dofs[i]); row >= 0)
+        entry(static_cast<int>(row), static_cast<int>(column), static_cast<Index>(i), static_cast<Index>(j));
+  }
+}
+
+void MatrixCollector::add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) {
+  if (!is_symmetric(matrices.mass))
+    throw InputError("the mass matrix of an element on " + dofs_.name(dofs.front()) + " is not symmetric");
+  stiffness_is_symmetric_ = stiffness_is_symmetric_ && is_symmetric(matrices.stiffness);
+  damping_is_symmetric_ = damping_is_symmetric_ && is_symmetric(matrices.damping);
+  if (turns_) return add_turning(dofs, matrices);
+  visit(dofs, [&](int row, int column, Index p, Index q) {
+    add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q));
+  });
+}
+
+void MatrixCollector::add_turning(std::span<const NodalDof> dofs, const ElementMatrices& matrices) {
+  const auto size = matrices.mass.rows();
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(size, size);
+  Eigen::MatrixXd turning = rotating_damping_ * matrices.stiffness;
+  if (matrices.rotating_damping.size() > 0) turning += matrices.rotating_damping;
+  const Eigen::MatrixXd circulatory = circulatory_of(dofs, turning);
+  const Eigen::MatrixXd& gyroscopic = matrices.gyroscopic.size() > 0 ? matrices.gyroscopic : none;
+  visit(dofs, [&](int row, int column, Index p, Index q) {
+    add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q) + turning(p, q),
+              gyroscopic(p, q), circulatory(p, q));
+  });
+}
+
+void MatrixCollector::build(System& system) {
+  const Index n = dofs_.free_count();
+  system.dashpots = dashpots_.build(n);
+  system.gyroscopic = gyroscopic_.build(n);
+  system.circulatory = circulatory_.build(n);
+  system.stiffness = built(n, stiffness_);
+  system.mass = built(n, mass_);
+  system.stiffness_is_symmetric = stiffness_is_symmetric_;
+  system.is_symmetric = stiffness_is_symmetric_ && damping_is_symmetric_;
+}
+
+}  // namespace butee::model
