@@ -9,14 +9,13 @@ namespace {
 /// in a step.
 constexpr double kNearPeak = 0.9;
 
-bool is_of_contact(dynamics::Dynamics& dynamics, model::NodeId node, model::Quantity quantity) {
-  if (source_of(quantity) == model::Source::contacts) return true;
-  if (quantity != model::Quantity::contact_force) return false;
+std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node) {
   const model::System& system = dynamics.system();
   const dynamics::Obstacles& obstacles = *dynamics.obstacles();
+  std::vector<Index> contacts;
   for (Index i = 0; i < obstacles.size(); ++i)
-    if (obstacles.touches_node(i, system.dofs, system.model->nodes.canonical(node))) return true;
-  return false;
+    if (obstacles.touches_node(i, system.dofs, system.model->nodes.canonical(node))) contacts.push_back(i);
+  return contacts;
 }
 
 }  // namespace
@@ -26,9 +25,14 @@ ContactPeaks::ContactPeaks(const std::vector<model::ProbeRequest>& requests, dyn
   if (dynamics.obstacles() == nullptr || dynamics.system().model == nullptr) return;
   std::vector<model::ProbeRequest> chosen;
   for (model::ProbeRequest request : requests) {
-    std::erase_if(request.quantities,
-                  [&](model::Quantity quantity) { return !is_of_contact(dynamics, request.node, quantity); });
-    if (!request.quantities.empty()) chosen.push_back(std::move(request));
+    const std::vector<Index> contacts = contacts_of(dynamics, request.node);
+    std::erase_if(request.quantities, [&](model::Quantity quantity) {
+      return source_of(quantity) != model::Source::contacts &&
+             (quantity != model::Quantity::contact_force || contacts.empty());
+    });
+    if (request.quantities.empty()) continue;
+    contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
+    chosen.push_back(std::move(request));
   }
   if (chosen.empty()) return;
   probes_ = std::make_unique<Probes>(chosen, dynamics);
@@ -46,10 +50,9 @@ void ContactPeaks::start(const time::State& state) {
 bool ContactPeaks::is_active() const {
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
   if (obstacles.is_live()) return true;
-  for (Index i = 0; i < obstacles.size(); ++i)
-    if (obstacles.phase(i).normal != dynamics::ContactPhase::Normal::apart || obstacles.group_of(i).shape == nullptr)
-      return true;
-  return false;
+  return std::any_of(contacts_.begin(), contacts_.end(), [&](Index i) {
+    return obstacles.phase(i).normal != dynamics::ContactPhase::Normal::apart || obstacles.group_of(i).shape == nullptr;
+  });
 }
 
 void ContactPeaks::step(const time::AcceptedStep& step) {
@@ -69,7 +72,7 @@ void ContactPeaks::follow_piece(const time::AcceptedStep& step, double begin, do
     if (t <= step.from.t)
       probes_->evaluate(step.from, values_);
     else
-      probes_->evaluate(step, t, values_);
+      probes_->evaluate(step, t, values_, Probes::View::contacts);
     now_ = values_;
     for (std::size_t i = 0; i < count; ++i) {
       const Sampled sample{t, std::abs(now_[i])};

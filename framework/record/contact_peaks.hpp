@@ -8,8 +8,8 @@
 namespace butee::record {
 
 /// Records the largest |value| of probes of contacts in the plane, with dissipation or friction,
-/// over the whole motion: at kSamples instants of each piece of a step, from which local maxima are
-/// refined on the method's dense output.
+/// over the whole motion: at kSamples instants of each piece of a step, as the method sees its
+/// contacts, from which local maxima are refined on its dense output.
 class BUTEE_EXPORT ContactPeaks {
  public:
   static constexpr int kSamples = 8;
@@ -27,12 +27,13 @@ class BUTEE_EXPORT ContactPeaks {
   void add_to(std::map<std::string, double>& peaks) const;
 
  private:
-  /// False if no contact can exert a force within the step.
+  /// False if no contact of the probes can exert a force within the step.
   bool is_active() const;
   void follow_piece(const time::AcceptedStep& step, double begin, double end);
 
   dynamics::Dynamics& dynamics_;
   std::unique_ptr<Probes> probes_;  ///< null if there are none
+  std::vector<Index> contacts_;     ///< of the probes
   std::vector<double> largest_, values_, now_;
   std::vector<std::array<Sampled, 2>> last_;  ///< for each column, the two previous samples
 };

@@ -1,7 +1,9 @@
 #include "butee/record/element_forces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "butee/core/error.hpp"
 #include "butee/model/element_choice.hpp"
@@ -15,6 +17,11 @@ using model::NodalDof;
 
 void gather(const std::vector<Index>& dofs, ConstVectorRef from, Eigen::VectorXd& to) {
   for (std::size_t i = 0; i < dofs.size(); ++i) to[static_cast<Index>(i)] = dofs[i] >= 0 ? from[dofs[i]] : 0.0;
+}
+
+void sort_once(std::vector<Index>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 const model::Model& model_of(const dynamics::Dynamics& dynamics) {
@@ -117,7 +124,37 @@ void ElementForces::add_obstacles(model::Quantity quantity, model::NodeId node, 
   if (dynamics_.obstacles() == nullptr) return;
   for (Index i = 0; i < dynamics_.obstacles()->size(); ++i)
     if (dynamics_.obstacles()->touches_node(i, dofs, model_.nodes.canonical(node))) sum.obstacles.push_back(i);
-  has_obstacles_ = has_obstacles_ || !sum.obstacles.empty();
+  obstacles_.insert(obstacles_.end(), sum.obstacles.begin(), sum.obstacles.end());
+  sort_once(obstacles_);
+}
+
+std::vector<Index> ElementForces::dofs() const {
+  std::vector<Index> needed;
+  if (!pieces_.empty() || (!obstacles_.empty() && dynamics_.obstacles()->has_rigid_friction())) {
+    needed.resize(static_cast<std::size_t>(dynamics_.size()));
+    std::iota(needed.begin(), needed.end(), Index{0});
+    return needed;
+  }
+  const auto take = [&needed](Index dof) {
+    if (dof >= 0) needed.push_back(dof);
+  };
+  for (const Index i : obstacles_)
+    for (const auto& ends : {dynamics_.obstacles()->ends_of(i).a, dynamics_.obstacles()->ends_of(i).b})
+      for (const Index dof : ends) take(dof);
+  for (const Column& column : columns_)
+    for (const Sum& sum : column.sums)
+      for (const StopShare& stop : sum.stops)
+        for (const Index dof : {dynamics_.stops().dof_a(stop.stop), dynamics_.stops().dof_b(stop.stop)}) take(dof);
+  sort_once(needed);
+  return needed;
+}
+
+void ElementForces::evaluate_contacts(double t, ConstVectorRef x, ConstVectorRef v) {
+  if (obstacles_.empty()) return;
+  dynamics::Obstacles& all = *dynamics_.obstacles();
+  if (all.has_rigid_friction()) return dynamics_.contact_forces(t, x, v, contacts_);
+  contacts_.resize(static_cast<std::size_t>(all.size()));
+  for (const Index i : obstacles_) contacts_[static_cast<std::size_t>(i)] = all.forces(i, t, x, v);
 }
 
 double ElementForces::sum_of_obstacles(const Sum& of) const {
@@ -273,7 +310,7 @@ double ElementForces::value_of(const Sum& sum, double t, ConstVectorRef x) {
 
 void ElementForces::evaluate(double t, ConstVectorRef x, ConstVectorRef v, std::span<double> values) {
   evaluate_pieces(t, x, v);
-  if (has_obstacles_) dynamics_.contact_forces(t, x, v, contacts_);
+  evaluate_contacts(t, x, v);
   std::array<double, 4> forces{};
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const Column& column = columns_[i];

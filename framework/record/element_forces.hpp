@@ -27,8 +27,11 @@ class BUTEE_EXPORT ElementForces {
   void add(model::Quantity quantity, model::NodeId node, const std::string& element);
 
   std::size_t size() const { return columns_.size(); }
+  /// The free DOFs whose motion the columns need, ascending: those of their contacts alone, or all.
+  std::vector<Index> dofs() const;
 
-  /// The values at `t` (s) of a motion x, v of all free DOFs, one for each column.
+  /// The values at `t` (s) of a motion x, v, one for each column. x and v have an entry for every
+  /// free DOF, of which those in dofs() are read.
   void evaluate(double t, ConstVectorRef x, ConstVectorRef v, std::span<double> values);
 
  private:
@@ -102,13 +105,14 @@ class BUTEE_EXPORT ElementForces {
   void evaluate_pieces(double t, ConstVectorRef x, ConstVectorRef v);
   double value_of(const Sum& sum, double t, ConstVectorRef x);
   double force_of_stop(Index stop, ConstVectorRef x);
+  void evaluate_contacts(double t, ConstVectorRef x, ConstVectorRef v);
 
   dynamics::Dynamics& dynamics_;
   const model::Model& model_;
   std::vector<Piece> pieces_;
   std::vector<Column> columns_;
-  bool has_mass_ = false;  ///< true if any piece has mass
-  bool has_obstacles_ = false;
+  bool has_mass_ = false;         ///< true if any piece has mass
+  std::vector<Index> obstacles_;  ///< of all columns, each once, ascending
   std::vector<dynamics::ContactForces> contacts_;
   Vector a_;
 };

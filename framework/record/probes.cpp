@@ -1,15 +1,24 @@
 #include "butee/record/probes.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "butee/core/error.hpp"
 
 namespace butee::record {
 namespace {
 
-/// Number of values of a motion interpolated together if all DOFs are needed.
+/// Number of values of a motion that are interpolated together for forces.
 constexpr std::size_t kLargestSample = 1U << 14U;
+
+void interpolate(const time::AcceptedStep& step, std::span<const double> times, std::span<const Index> dofs,
+                 time::Interpolated out, Probes::View view) {
+  if (view == Probes::View::output) return step.integrator.interpolate(step.from, step.to, times, dofs, out);
+  const auto part = [&](std::span<double> values, std::size_t i) {
+    return values.empty() ? values : values.subspan(i * dofs.size(), dofs.size());
+  };
+  for (std::size_t i = 0; i < times.size(); ++i)
+    step.integrator.trace(step.from, step.to, times[i], dofs, {part(out.x, i), part(out.v, i), part(out.a, i)});
+}
 
 }  // namespace
 
@@ -36,8 +45,7 @@ Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynam
       sources_.push_back(column);
     }
   if (element_forces_ == nullptr) return;
-  all_.resize(static_cast<std::size_t>(dynamics.size()));
-  std::iota(all_.begin(), all_.end(), Index{0});
+  force_dofs_ = element_forces_->dofs();
   all_x_ = all_v_ = Vector::Zero(dynamics.size());
 }
 
@@ -94,33 +102,34 @@ void Probes::copy(const time::State& state, std::size_t instant) {
   }
 }
 
-void Probes::sample(const time::AcceptedStep& step, std::span<const double> times) {
+void Probes::sample(const time::AcceptedStep& step, std::span<const double> times, View view) {
   if (times.empty()) return;
   make_room(times.size());
   if (has_base_shares_) times_.assign(times.begin(), times.end());
   std::size_t within = times.size();
   for (; within > 0 && times[within - 1] == step.to.t; --within) copy(step.to, within - 1);
-  step.integrator.interpolate(step.from, step.to, times.first(within), dofs_, {x_, v_, a_});
-  if (element_forces_ != nullptr) sample_forces(step, times);
+  if (!dofs_.empty()) interpolate(step, times.first(within), dofs_, {x_, v_, a_}, view);
+  if (element_forces_ != nullptr) sample_forces(step, times, view);
 }
 
-void Probes::sample_forces(const time::AcceptedStep& step, std::span<const double> times) {
-  const std::size_t n = all_.size(), most = std::max<std::size_t>(1, kLargestSample / n);
+void Probes::sample_forces(const time::AcceptedStep& step, std::span<const double> times, View view) {
+  const std::size_t n = force_dofs_.size(),
+                    most = std::max<std::size_t>(1, kLargestSample / std::max<std::size_t>(n, 1));
   std::size_t within = times.size();
   for (; within > 0 && times[within - 1] == step.to.t; --within)
     evaluate_forces(step.to.t, step.to.x, step.to.v, within - 1);
   for (std::size_t first = 0, count = 0; first < within; first += count) {
     count = std::min(most, within - first);
-    for (Vector* samples : {&all_x_, &all_v_})
-      if (samples->size() < std::ssize(all_) * static_cast<Index>(count))
-        samples->resize(static_cast<Index>(n * count));
-    step.integrator.interpolate(step.from, step.to, times.subspan(first, count), all_,
-                                {{all_x_.data(), n * count}, {all_v_.data(), n * count}, {}});
+    for (std::vector<double>* samples : {&force_x_, &force_v_}) samples->resize(std::max(samples->size(), n * count));
+    if (n > 0)
+      interpolate(step, times.subspan(first, count), force_dofs_,
+                  {{force_x_.data(), n * count}, {force_v_.data(), n * count}, {}}, view);
     for (std::size_t i = 0; i < count; ++i) {
-      const auto row = [&](const Vector& samples) {
-        return samples.segment(static_cast<Index>(i * n), std::ssize(all_));
-      };
-      evaluate_forces(times[first + i], row(all_x_), row(all_v_), first + i);
+      for (std::size_t k = 0; k < n; ++k) {
+        all_x_[force_dofs_[k]] = force_x_[i * n + k];
+        all_v_[force_dofs_[k]] = force_v_[i * n + k];
+      }
+      evaluate_forces(times[first + i], all_x_, all_v_, first + i);
     }
   }
 }

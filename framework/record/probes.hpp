@@ -12,7 +12,7 @@
 namespace butee::record {
 
 /// Evaluates the probes of a run, reading only the DOFs and stops that they need. Forces of
-/// elements need all DOFs.
+/// elements need all DOFs, forces of contacts those of their nodes.
 class BUTEE_EXPORT Probes {
  public:
   /// `dynamics` must outlive this object.
@@ -23,13 +23,17 @@ class BUTEE_EXPORT Probes {
   /// One name for each column: "mid.u".
   const std::vector<std::string>& columns() const { return columns_; }
 
+  /// The dense output that is read: Integrator::interpolate(), or trace(), which is cheaper and as
+  /// good as the method's own view of its contacts.
+  enum class View { output, contacts };
+
   /// Samples the step at these instants, ascending; take(i, ...) then gives the values at the i-th.
-  void sample(const time::AcceptedStep& step, std::span<const double> times);
+  void sample(const time::AcceptedStep& step, std::span<const double> times, View view = View::output);
   void take(std::size_t instant, std::span<double> values);
 
   /// The values at `t` in the step, one for each column.
-  void evaluate(const time::AcceptedStep& step, double t, std::span<double> values) {
-    sample(step, {&t, 1});
+  void evaluate(const time::AcceptedStep& step, double t, std::span<double> values, View view = View::output) {
+    sample(step, {&t, 1}, view);
     take(0, values);
   }
   /// True if a column is measured in another frame than x: columns in space, or relative to a
@@ -68,7 +72,7 @@ class BUTEE_EXPORT Probes {
   double contact_force(const Column& column, const double* x);
   void make_room(std::size_t instants);
   void copy(const time::State& state, std::size_t instant);
-  void sample_forces(const time::AcceptedStep& step, std::span<const double> times);
+  void sample_forces(const time::AcceptedStep& step, std::span<const double> times, View view);
   void evaluate_forces(double t, ConstVectorRef x, ConstVectorRef v, std::size_t instant);
 
   dynamics::Dynamics& dynamics_;
@@ -80,8 +84,9 @@ class BUTEE_EXPORT Probes {
   bool needs_v_ = false, needs_a_ = false, has_base_shares_ = false;
   std::vector<double> times_;                      ///< instants, if base shares need them
   std::unique_ptr<ElementForces> element_forces_;  ///< null if no probe needs one
-  std::vector<Index> all_;                         ///< all DOFs, for element_forces_
-  Vector all_x_, all_v_;
+  std::vector<Index> force_dofs_;                  ///< ElementForces::dofs()
+  std::vector<double> force_x_, force_v_;          ///< their motion at several instants
+  Vector all_x_, all_v_;                           ///< of all DOFs at one instant, zero apart from force_dofs_
   std::vector<double> forces_;
 };
 

@@ -72,6 +72,21 @@ int kill_until_done(const TemporaryFolder& folder, const std::string& checkpoint
   }
 }
 
+/// A mass that rubs round its ring, with every kind of output.
+std::string ring_scene(const std::string& integrator, const std::string& friction) {
+  std::string toml = "schema = 1\n[rotation]\nspeed = 30.0\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n";
+  for (const char* dof : {"uy", "uz"})
+    toml += "[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = \"" + std::string(dof) +
+            "\"\nstiffness = 2e3\ndamping = 2.0\n";
+  return toml +
+         "[[contact]]\ntype = \"ring\"\nnodes = \"m\"\ngap = 1e-3\nstiffness = 1e6\nradius = 0.05\nfriction = { "
+         "coefficient = 0.2, " +
+         friction +
+         " }\n[[load]]\ntype = \"unbalance\"\nnode = \"m\"\nmoment = 5e-3\n[initial]\n"
+         "velocity = [{ nodes = \"m\", dof = \"uz\", value = 0.1 }]\n[integrator]\nend_time = 0.5\n" +
+         integrator + "[output]\ninterval = 1e-3\nenergy = true\nimpacts = true\n";
+}
+
 class Resume : public testing::TestWithParam<MethodCase> {};
 
 /// BUTEE_KILLS sets the number of kills for each method; the default is small.
@@ -96,6 +111,35 @@ TEST_P(Resume, AKilledRunEndsLikeTheUnbrokenOne) {
     if (HasFailure()) break;
   }
   RecordProperty("kills", kills);
+}
+
+/// Phases of contacts, the anchors of stick springs and the rows of impacts and wear go on as in the unbroken run.
+TEST(ResumeInARing, EndsLikeTheUnbrokenOne) {
+  const std::string regularised = "slip_speed = 0.01", stick = "static_coefficient = 0.3, stick_stiffness = 1e6";
+  const std::vector<std::pair<std::string, std::string>> cases = {{"rodas4", regularised}, {"exponential", regularised},
+                                                                  {"exact", regularised},  {"rodas4", stick},
+                                                                  {"dopri5", stick},       {"exact", stick}};
+  std::mt19937 random(5);
+  for (const auto& [method, friction] : cases) {
+    const TemporaryFolder folder;
+    const std::string keys =
+        "type = \"" + method + "\"\n" + (method == "exact" ? "time_step = 1e-4\n" : "tolerance = 1e-6\n");
+    folder.write("scene.toml", ring_scene(keys, friction));
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome unbroken = run_program({"run", "scene.toml", "-o", "whole", "-q"}, folder.path());
+    ASSERT_EQ(unbroken.status, 0) << unbroken.output;
+    const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+    EXPECT_GT(results(folder.file("whole/summary.json"))["contacts"].get<int>(), 0);
+    const std::int64_t steps = results(folder.file("whole/summary.json"))["steps"];
+    const std::string checkpoint = "output.checkpoint=" + std::to_string(1 + steps / 20);
+    for (int kills = 0; kills < 2;) {
+      fs::remove_all(folder.file("broken"));
+      kills += kill_until_done(folder, checkpoint, random, whole);
+      expect_same_results(folder, "whole", "broken");
+      EXPECT_TRUE(read_file(folder.file("whole/wear.csv")) == read_file(folder.file("broken/wear.csv"))) << method;
+      ASSERT_FALSE(HasFailure()) << method << " " << friction;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, Resume, testing::ValuesIn(method_cases()),
