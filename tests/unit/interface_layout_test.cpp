@@ -77,12 +77,12 @@ std::string layout() {
           line_of<EnergyAt>("EnergyAt") + line_of<AcceptedStep>("AcceptedStep");
   text += line_of<Integrator>("Integrator") + line_of<IntegratorType>("IntegratorType") +
           line_of<StepController>("StepController") + line_of<MethodLimits>("MethodLimits");
-  text += line_of<dynamics::Dynamics>("Dynamics") + line_of<dynamics::ElasticStops>("Contact") +
+  text += line_of<dynamics::Dynamics>("Dynamics") + line_of<dynamics::ElasticStops>("ElasticStops") +
           line_of<dynamics::EffectiveSolver>("EffectiveSolver") + line_of<dynamics::ModalSystem>("ModalSystem") +
           line_of<dynamics::ModalPropagator>("ModalPropagator") +
           line_of<dynamics::ContactPropagator>("ContactPropagator") + line_of<dynamics::StopShapes>("StopShapes");
   text += line_of<linalg::Counters>("Counters") + line_of<linalg::ForceBalance>("ForceBalance") +
-          line_of<linalg::DenseProduct>("DenseProduct") + line_of<linalg::SymmetricProduct>("SymmetricProduct");
+          line_of<linalg::DenseProduct>("DenseProduct");
   text += line_of<model::System>("System") + line_of<model::Model>("Model") + line_of<model::Damping>("Damping") +
           line_of<model::Load>("Load") + line_of<model::StopGroup>("StopGroup") + line_of<model::DofTable>("DofTable") +
           line_of<model::NodeTable>("NodeTable") + line_of<model::NodalDof>("NodalDof");
