@@ -9,13 +9,13 @@ namespace butee::model {
 namespace {
 
 /// Differences between a(i, j) and a(j, i) up to this fraction of them are rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kAsymmetry = 1e-12;
 
 bool is_symmetric(const Eigen::MatrixXd& matrix) {
   for (Index j = 0; j < matrix.cols(); ++j)
     for (Index i = 0; i < j; ++i) {
       const double a = matrix(i, j), b = matrix(j, i);
-      if (a != b && !(std::abs(a - b) <= kRounding * (std::abs(a) + std::abs(b)))) return false;
+      if (a != b && !(std::abs(a - b) <= kAsymmetry * (std::abs(a) + std::abs(b)))) return false;
     }
   return true;
 }
