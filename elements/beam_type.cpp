@@ -32,7 +32,7 @@ model::ElementType::Nodes read_coordinates(const Parameters& p, Diagnostics& dia
     for (const char* key : {"length", "elements", "points"})
       if (p.has(key)) {
         p.complain(diagnostics, "coordinates",
-                   std::string("stands in place of length and elements, or of points; remove it or ") + key);
+                   std::string("replaces length and elements, or points; remove it or ") + key);
         break;
       }
     auto x = p.numbers("coordinates");
@@ -42,7 +42,7 @@ model::ElementType::Nodes read_coordinates(const Parameters& p, Diagnostics& dia
     return x;
   }
   if (p.has("points")) {
-    if (p.has("length")) p.complain(diagnostics, "points", "stands in place of length; remove one of the two");
+    if (p.has("length")) p.complain(diagnostics, "points", "replaces length; remove one of the two");
     if (!p.has("elements"))
       p.complain(diagnostics, "elements", "missing; give the number of elements between the points");
     if (!(along(p).norm() > 0.0)) p.complain(diagnostics, "points", "are one point; a beam has two ends");
@@ -161,13 +161,12 @@ model::ElementType beam_type() {
            number("length", "m", "the length along x, divided evenly").above(0).optional(),
            integer("elements", "the number of elements").at_least(1).at_most(kMostElements).optional(),
            numbers("coordinates", "m", "the nodes of an uneven mesh along x, ascending").optional(),
-           matrix("points", "m", "in place of length, both ends in space", 2, 3).optional(),
+           matrix("points", "m", "instead of length, both ends in space", 2, 3).optional(),
            numbers("up", "1", "with points, a direction in the plane of the beam's own axes x and y")
                .of_length(3)
                .or_else(config::Array{config::Value(0.0), config::Value(1.0), config::Value(0.0)}),
            number("preload", "N",
-                  "the axial force that is there before, tension positive; gravity: that of the static "
-                  "position under [gravity]")
+                  "the constant axial force, tension positive; gravity: that of the static position under [gravity]")
                .one_of({"gravity"})
                .or_else(0.0),
            text("start_node", "a node of another element that is this beam's first").optional(),

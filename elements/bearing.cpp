@@ -78,7 +78,7 @@ model::ElementType bearing_type() {
           [](const Parameters& p, config::Diagnostics& diagnostics) -> model::ElementType::Nodes {
             if (p.has("node") == p.has("nodes"))
               p.complain(diagnostics, p.has("node") ? "nodes" : "node",
-                         p.has("node") ? "stands beside node; give one of them"
+                         p.has("node") ? "conflicts with node; give one of them"
                                        : "missing; give node (to ground) or nodes (between two)");
             return std::nullopt;
           },

@@ -64,14 +64,14 @@ model::ElementType disc_type() {
           {number("mass", "kg", "the mass").above(0),
            number("diametral_inertia", "kg m2", "the moment of inertia about a diameter").at_least(0).or_else(0.0),
            number("polar_inertia", "kg m2", "the moment of inertia about the axis").at_least(0).or_else(0.0),
-           config::text("node", "the node it sits on; without it one is created with the element's name").optional()},
+           config::text("node", "the node of the disc; default: one is created with the element's name").optional()},
           [](const Parameters& p, config::Diagnostics& diagnostics) -> model::ElementType::Nodes {
             if (p.number("polar_inertia") > 2.0 * p.number("diametral_inertia") * (1.0 + 1e-9) &&
                 p.number("diametral_inertia") > 0.0)
-              p.complain(diagnostics, "polar_inertia", "is more than twice diametral_inertia, which no body has");
+              p.complain(diagnostics, "polar_inertia", "is more than twice diametral_inertia, which is impossible");
             if (p.number("polar_inertia") > 0.0 && p.number("diametral_inertia") == 0.0)
               p.complain(diagnostics, "diametral_inertia",
-                         "missing; a disc with polar_inertia has one of at least half of it");
+                         "missing; a disc with polar_inertia needs one of at least half of it");
             if (p.has("node")) return std::nullopt;
             return std::vector<double>{};
           },

@@ -50,7 +50,7 @@ std::vector<DofRow> rows_in(std::string_view text, const std::string& name) {
     if (words.empty() || words.front().front() == '#' || words.front().front() == '%') continue;
     if (words.size() != 2) refuse("must hold a node and a degree of freedom, such as \"17 uy\" or \"shaft:last rz\"");
     const auto kind = dof_named(words[1]);
-    if (!kind) refuse("\"" + printable(words[1]) + "\" is no degree of freedom; give one of ux, uy, uz, rx, ry, rz");
+    if (!kind) refuse("\"" + printable(words[1]) + "\" is not a degree of freedom; give one of ux, uy, uz, rx, ry, rz");
     DofRow row{words[0], number_in(words[0]).value_or(largest_own(words[0], name)), kind, std::to_string(number)};
     if (row.own >= kMostNodes) refuse("own nodes are numbered below " + std::to_string(kMostNodes));
     rows.push_back(std::move(row));

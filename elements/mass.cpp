@@ -39,7 +39,7 @@ model::ElementType mass_type() {
           "lumped mass, on a node of its own or on one of a beam",
           {number("mass", "kg", "the mass").at_least(0),
            number("rotary_inertia", "kg m2", "the moment of inertia about y and z").at_least(0).or_else(0.0),
-           config::text("node", "the node it sits on; without it one is created with the element's name").optional()},
+           config::text("node", "the node of the mass; default: one is created with the element's name").optional()},
           [](const Parameters& p, config::Diagnostics& diagnostics) -> model::ElementType::Nodes {
             if (p.number("mass") == 0.0 && p.number("rotary_inertia") == 0.0)
               p.complain(diagnostics, "mass", "and rotary_inertia are both zero; give one of them");

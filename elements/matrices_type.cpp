@@ -71,7 +71,7 @@ model::ElementType::Nodes own_nodes(const Parameters& p, Diagnostics& diagnostic
   NodeId count = 0;
   if (!names_kinds(p)) {
     if (p.has("nodes")) {
-      p.complain(diagnostics, "nodes", "stands beside a file of dofs, which names the nodes; give one of the two");
+      p.complain(diagnostics, "nodes", "conflicts with a file of dofs, which names the nodes; give one of the two");
       return std::nullopt;
     }
     if (!with_file(p, "dofs", diagnostics, [&](const std::string& text) {
@@ -88,7 +88,7 @@ model::ElementType::Nodes own_nodes(const Parameters& p, Diagnostics& diagnostic
     if (kinds == 0 || mass->rows() % kinds != 0) {
       p.complain(diagnostics, "dofs",
                  "names " + std::to_string(kinds) + " degrees of freedom of each node, and mass has " +
-                     std::to_string(mass->rows()) + " rows, which is no multiple of that");
+                     std::to_string(mass->rows()) + " rows, which is not a multiple of that");
       return std::nullopt;
     }
     count = static_cast<NodeId>(mass->rows() / kinds);
@@ -240,22 +240,22 @@ class Maker {
 
 model::ElementType matrices_type() {
   using config::text, config::texts;
-  return {"matrices",
-          "any linear structure, by Matrix Market files of its matrices",
-          {text("mass", "the file of M, relative to the scene; symmetric"), text("stiffness", "the file of K"),
-           text("damping", "the file of C, beside what [damping] gives").optional(),
-           text("gyroscopic", "the file of G, skew-symmetric: the force -Omega G v where the part turns").optional(),
-           texts("dofs",
-                 "the degrees of freedom of each node, such as [\"uy\", \"rz\"], or a file with a row \"NODE DOF\" for "
-                 "each row of the matrices"),
-           texts("nodes",
-                 "the nodes of the rows, node by node, own ones (NAME:0..48) and those of other elements; all "
-                 "own where absent")
-               .optional(),
-           config::numbers("coordinates", "m", "of the own nodes, for pictures; 0, 1, 2 ... where absent").optional(),
-           texts("checksums", "CRC-64 of the files in the order above, as model.toml has them").optional()},
-          own_nodes,
-          [](const Parameters& p, model::ElementContext& context) { return Maker(p, context).make(); }};
+  return {
+      "matrices",
+      "any linear structure, by Matrix Market files of its matrices",
+      {text("mass", "the file of M, relative to the scene; symmetric"), text("stiffness", "the file of K"),
+       text("damping", "the file of C, in addition to [damping]").optional(),
+       text("gyroscopic", "the file of G, skew-symmetric: the force -Omega G v if the part turns").optional(),
+       texts("dofs",
+             "the degrees of freedom of each node, such as [\"uy\", \"rz\"], or a file with a row \"NODE DOF\" for "
+             "each row of the matrices"),
+       texts("nodes",
+             "the nodes of the rows, node by node, own ones (NAME:0..48) and those of other elements; default: all own")
+           .optional(),
+       config::numbers("coordinates", "m", "of the own nodes, for pictures; default 0, 1, 2 ...").optional(),
+       texts("checksums", "CRC-64 of the files in the order above, as in model.toml").optional()},
+      own_nodes,
+      [](const Parameters& p, model::ElementContext& context) { return Maker(p, context).make(); }};
 }
 
 }  // namespace butee::elements

@@ -95,7 +95,7 @@ Header read_header(Reader& reader) {
       std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
     }
   if (words[0] != "%%matrixmarket" || words[1] != "matrix")
-    throw InputError(std::string(":1: is no Matrix Market file, which begins with a line such as ") + kHeader);
+    throw InputError(std::string(":1: is not a Matrix Market file; such a file begins with a line such as ") + kHeader);
   Header header;
   header.is_coordinate = words[2] == "coordinate";
   if (words[2] != "coordinate" && words[2] != "array")
@@ -157,7 +157,7 @@ class MatrixReader {
     else
       read_array();
     if (reader_.next_entry())
-      reader_.refuse("there are more entries than the " + std::to_string(count_) + " that the header promises");
+      reader_.refuse("there are more entries than the " + std::to_string(count_) + " that the header states");
     refuse_doubles(entries_);
     std::vector<Eigen::Triplet<double>> triplets;
     for (const Entry& entry : entries_) {
@@ -206,8 +206,8 @@ class MatrixReader {
     const auto value = reader_.number<double>("the value of entry " + place(row, column));
     if (header_.structure != Header::Structure::general && row < column)
       reader_.refuse("entry " + place(row, column) +
-                     " lies above the diagonal; of a symmetric or skew-symmetric matrix the file holds the lower "
-                     "triangle alone");
+                     " lies above the diagonal; of a symmetric or skew-symmetric matrix the file contains only the "
+                     "lower triangle");
     if (header_.structure == Header::Structure::skew && row == column)
       reader_.refuse("entry " + place(row, column) + " lies on the diagonal, which is zero in a skew-symmetric matrix");
     if (value != 0.0) entries_.push_back({row, column, value, reader_.line()});

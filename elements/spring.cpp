@@ -13,7 +13,7 @@ namespace {
 std::unique_ptr<model::Element> make_spring(const Parameters& p, model::ElementContext& context) {
   const DofKind kind = *dof_named(p.text("dof"));
   if (p.flag("rotating") && axis_of(kind) == 0) {
-    p.complain(context.diagnostics(), "rotating", "is of a dashpot across the shaft, not along or about it");
+    p.complain(context.diagnostics(), "rotating", "applies to a dashpot across the shaft, not along or about it");
     return nullptr;
   }
   std::vector<NodeId> a, b;
@@ -97,7 +97,7 @@ model::ElementType spring_type() {
           [](const Parameters& p, config::Diagnostics& diagnostics) -> model::ElementType::Nodes {
             if (p.has("node") == p.has("nodes"))
               p.complain(diagnostics, p.has("node") ? "nodes" : "node",
-                         p.has("node") ? "stands beside node; give one of them"
+                         p.has("node") ? "conflicts with node; give one of them"
                                        : "missing; give node (to ground) or nodes (between two)");
             return std::nullopt;
           },

@@ -106,29 +106,30 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   if (suits_piecewise(dynamics, tolerance, end_time))
     return {Method::piecewise, size + " with linear stops, so that the motion between impacts is known in closed form"};
   if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
-    return {Method::dopri5, "contacts stick rigidly, which it locates and implicit methods cannot treat"};
+    return {Method::dopri5, "contacts stick rigidly; it locates the changes, and implicit methods cannot treat them"};
   if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
     return {Method::dopri5, "the slope of a contact's dissipation is infinite where it closes"};
   if (suits_collocation(dynamics))
-    return {Method::exponential, "the linear part is exact in its damped modes, and contacts alone are approximated"};
+    return {Method::exponential, "the linear part is exact in its damped modes, and only contacts are approximated"};
   if (dynamics.obstacles() != nullptr)
-    return {Method::rodas4, "contacts act in the plane, dissipate or rub, and it ends its steps where they change"};
+    return {Method::rodas4,
+            "contacts act in the plane, with dissipation or friction, and it ends its steps at contact changes"};
   if (!dynamics.system().is_symmetric)
     return {Method::rodas4, "shafts turn or bearings have cross terms, so that the matrices are not symmetric"};
-  if (n > most) return {Method::rodas4, size + " are too many to take all their modes"};
+  if (n > most) return {Method::rodas4, size + " are too many for all their modes"};
   if (n > 1 && dynamics.system().dashpots.size() > 0) return {Method::rodas4, "dashpots couple the modes"};
   for (const model::FreeLoad& load : dynamics.system().loads)
     if (!load.in_time->harmonic() && !load.in_time->is_piecewise_parabolic())
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
   if (tolerance < kSmallestWithStops)
-    return {Method::rodas4, "the tolerance is below what exponential promises where stops act"};
+    return {Method::rodas4, "the tolerance is below the smallest one of exponential with stops"};
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
     if (cost.rodas4 < cost.exponential)
-      return {Method::rodas4, "the modes of " + size + " would take longer than so short a run"};
+      return {Method::rodas4, "the modes of " + size + " would take longer to compute than this short run"};
   }
-  return {Method::exponential, size + " have all their modes, and the stops alone are left to approximate"};
+  return {Method::exponential, "all modes of " + size + " are used; only the stops are approximated"};
 }
 
 std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
@@ -146,7 +147,7 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
     what = "dopri5" + with;
     integrator = std::make_unique<DormandPrince>(dynamics, Goal{tolerance, end_time});
   } else if (ActivePart::can_take(dynamics, tolerance)) {
-    what = "rodas4" + with + " on the part that moves";
+    what = "rodas4" + with + " on the moving part";
     integrator = std::make_unique<ActivePart>(dynamics, Goal{tolerance, end_time}, make_rodas4);
   } else {
     what = "rodas4" + with;
@@ -159,7 +160,7 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
 time::IntegratorType auto_type() {
   return {.name = "auto",
           .aliases = {"AUTO"},
-          .summary = "looks at the scene and takes the method that suits it; the default",
+          .summary = "chooses a method for the scene; the default",
           .parameters = {LocalErrorControl::parameter(1e-4, 1e-10)},
           .finds_first_step = true,
           .contacts = time::ContactSupport::all,

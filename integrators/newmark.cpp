@@ -58,11 +58,11 @@ std::vector<Parameter> newton_parameters() {
   all.push_back(number("increment_tolerance", "1", "eps_delta, relative to the norm of the displacements")
                     .above(0)
                     .or_else(1e-9));
-  all.push_back(config::integer("max_iterations", "i_max, the most linear solves of a step")
+  all.push_back(config::integer("max_iterations", "i_max, the largest number of linear solves in a step")
                     .at_least(1)
                     .at_most(1000)
                     .or_else(std::int64_t{20}));
-  all.push_back(config::text("on_newton_failure", "what happens where they do not suffice")
+  all.push_back(config::text("on_newton_failure", "stop: the run ends if they do not suffice; keep: the step is kept")
                     .one_of({"stop", "keep"})
                     .or_else("stop"));
   return all;

@@ -62,7 +62,8 @@ IntegratorType rk4_fixed_factors_type() {
           .summary = "Runge-Kutta 4 with step doubling, the step changed by constant factors",
           .parameters = {tolerance(),
                          number("shrink", "1", "a, by which a rejected step is divided").above(1).try_first(1.1),
-                         number("grow", "1", "b, by which the step is multiplied where the error is below a hundredth")
+                         number("grow", "1",
+                                "b, by which the step is multiplied if the error is below a hundredth of the tolerance")
                              .at_least(1)
                              .try_first(2.0)},
           .order = 4.0,

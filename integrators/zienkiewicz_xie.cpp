@@ -33,7 +33,7 @@ std::unique_ptr<ZienkiewiczXie> ZienkiewiczXie::make(const config::Parameters& p
 void ZienkiewiczXie::check(const config::Parameters& p, config::Diagnostics& diagnostics) {
   const auto band = p.numbers("band");
   if (!(band[0] <= 1.0 && 1.0 <= band[1]))
-    p.complain(diagnostics, "band", "must hold 1 between its two values, or the step would never settle");
+    p.complain(diagnostics, "band", "must contain 1 between its two values, or the step would never settle");
   if (std::abs(p.number("beta") - 1.0 / 6.0) < 1e-6)
     p.complain(diagnostics, "beta",
                "makes the error estimate vanish: it is |beta - 1/6| h^2 |da|/|dx|; choose another, such as 0.25");

@@ -42,7 +42,7 @@ void write_picture(const model::Model& model, const check::Survey& survey, const
 int check_command(const CheckArguments& arguments) {
   if (studies::names_study(arguments.model.model)) {
     if (!arguments.picture.empty())
-      throw InputError("--picture: is of a scene; " + arguments.model.model +
+      throw InputError("--picture: draws a scene; " + arguments.model.model +
                        " is a study, which `butee study --plot` draws");
     studies::print_study_survey(arguments.model, arguments.json);
     return kDone;
@@ -81,7 +81,7 @@ int check_command(const CheckArguments& arguments) {
 Command add_check_command(CLI::App& program) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* app = program.add_subcommand(
-      "check", "what a model holds and skips: picture, frequencies, likely mistakes, what a run costs");
+      "check", "contents of a model and skipped parts: picture, frequencies, likely mistakes, cost of a run");
   add_model_arguments(*app, arguments->model);
   app->add_option("--picture", arguments->picture, "draw the scene as SVG into this file")->type_name("FILE.svg");
   app->add_flag("--json", arguments->json, "print JSON");

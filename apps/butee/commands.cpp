@@ -5,7 +5,7 @@
 namespace butee::app {
 
 void add_plugin_option(CLI::App& command, std::vector<std::string>& plugins) {
-  command.add_option("--plugin", plugins, "a module, or a folder of modules, to be found as well")
+  command.add_option("--plugin", plugins, "an additional module, or a folder of modules")
       ->type_name("FILE|DIR")
       ->allow_extra_args(false);
 }
@@ -20,7 +20,7 @@ void add_model_arguments(CLI::App& command, ModelArguments& arguments) {
 
 void add_log_options(CLI::App& command, bool with_verbose) {
   auto* quiet = command.add_flag_callback(
-      "-q,--quiet", [] { log::set_level(log::Level::quiet); }, "say nothing but results, warnings and errors");
+      "-q,--quiet", [] { log::set_level(log::Level::quiet); }, "print only results, warnings and errors");
   if (with_verbose)
     command
         .add_flag_callback(

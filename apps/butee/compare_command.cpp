@@ -71,7 +71,7 @@ class Comparison {
       write(results);
     }
     if (interrupted == 0) return kDone;
-    log::warning("interrupted; what was done is in " + folder_ + ", and the same command goes on from there");
+    log::warning("interrupted; completed runs are in " + folder_ + "; the same command continues from there");
     return kFailed;
   }
 
@@ -202,9 +202,9 @@ Command add_compare_command(CLI::App& program) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* app = program.add_subcommand("compare", "run time against error of several integrators");
   add_model_arguments(*app, arguments->model);
-  app->add_option("-o,--output", arguments->folder, "the folder for the results; <stem>-compare where not given")
+  app->add_option("-o,--output", arguments->folder, "the folder for the results; default <stem>-compare")
       ->type_name("DIR");
-  app->add_flag("--fresh", arguments->fresh, "run again what an earlier call left in the folder");
+  app->add_flag("--fresh", arguments->fresh, "run everything again, without the results of an earlier call");
   add_log_options(*app, false);
   return {app, [arguments] { return Comparison(*arguments, read_study(arguments->model)).perform(); }};
 }

@@ -48,7 +48,7 @@ int help_command(const CLI::App& program, const HelpArguments& arguments) {
 Command add_help_command(CLI::App& program) {
   const auto arguments = std::make_shared<HelpArguments>();
   CLI::App* app = program.add_subcommand("help", "explain a topic or a command; without one, list them");
-  auto* topic = app->add_option("topic", arguments->topic, "what is to be explained")->type_name("TOPIC|COMMAND");
+  auto* topic = app->add_option("topic", arguments->topic, "the topic or command")->type_name("TOPIC|COMMAND");
   app->add_flag("--man", arguments->man, "the whole manual page, in roff")->excludes(topic);
   return {app, [arguments, &program] { return help_command(program, *arguments); }};
 }

@@ -34,7 +34,8 @@ int init_command(const InitArguments& arguments) {
     throw InputError("butee init " + arguments.kind + ": there is no such kind" + suggestion(arguments.kind, known) +
                      "; known: " + join(known));
   const std::string path = arguments.file.empty() ? arguments.kind + ".toml" : arguments.file;
-  if (std::filesystem::exists(path)) throw InputError(path + ": exists and is left alone; choose another name with -o");
+  if (std::filesystem::exists(path))
+    throw InputError(path + ": exists and is not overwritten; choose another name with -o");
   std::ofstream file(path, std::ios::binary);
   file << wanted->text;
   file.close();
@@ -49,8 +50,8 @@ int init_command(const InitArguments& arguments) {
 Command add_init_command(CLI::App& program) {
   const auto arguments = std::make_shared<InitArguments>();
   CLI::App* app = program.add_subcommand("init", "write a commented scene to start from; without a kind, list them");
-  app->add_option("kind", arguments->kind, "what kind of scene")->type_name("KIND");
-  app->add_option("-o,--output", arguments->file, "the file; KIND.toml where not given")->type_name("FILE");
+  app->add_option("kind", arguments->kind, "the kind of scene")->type_name("KIND");
+  app->add_option("-o,--output", arguments->file, "the file; default KIND.toml")->type_name("FILE");
   return {app, [arguments] { return init_command(*arguments); }};
 }
 

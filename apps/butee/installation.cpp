@@ -16,8 +16,7 @@ fs::path prefix() {
 }
 
 std::string existing(const fs::path& path) {
-  if (!fs::exists(path))
-    throw RunError(path.string() + ": is missing; this butee is not installed as a whole, or was only partly built");
+  if (!fs::exists(path)) throw RunError(path.string() + ": is missing; this butee is only partly installed or built");
   return path.string();
 }
 

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     butee::log::error(error.what());
   } catch (...) {
-    butee::log::error("a module threw something that is no exception of the standard library");
+    butee::log::error("a module threw an exception that is not a std::exception");
   }
   return kFailed;
 }

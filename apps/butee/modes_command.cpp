@@ -72,13 +72,13 @@ void warn_of_rounding(const dynamics::Whirl& whirl, const std::vector<dynamics::
 
 int whirl_command(const ModesArguments& arguments) {
   scene::Scene session = open_session(arguments.model);
-  if (!arguments.closed.empty()) throw InputError("--closed goes without --speed and --campbell");
+  if (!arguments.closed.empty()) throw InputError("--closed cannot be combined with --speed or --campbell");
   let_turn(session.model);
   const dynamics::Whirl whirl(session.model);
   const Index count = std::min(arguments.count > 0 ? arguments.count : kDefaultCount, 2 * whirl.size());
   if (arguments.campbell.empty()) {
     if (arguments.plot || !arguments.folder.empty())
-      throw InputError("--speed writes nothing; with -o and --plot take --campbell FROM TO N");
+      throw InputError("--speed writes no files; with -o and --plot use --campbell FROM TO N");
     const auto analysis = modes::whirl_at(whirl, session.model.title, *arguments.speed, count);
     warn_of_rounding(whirl, analysis.modes);
     if (arguments.json)
@@ -88,7 +88,7 @@ int whirl_command(const ModesArguments& arguments) {
     return kDone;
   }
   const double from = arguments.campbell[0], to = arguments.campbell[1], steps = arguments.campbell[2];
-  if (arguments.speed) throw InputError("--speed goes without --campbell, which has speeds of its own");
+  if (arguments.speed) throw InputError("--speed cannot be combined with --campbell, which has its own speeds");
   if (!(from < to) || !(from >= 0.0)) throw InputError("--campbell: FROM and TO are speeds in rad/s, 0 <= FROM < TO");
   if (steps != std::floor(steps) || steps < 1 || steps > static_cast<double>(kMostCampbellSteps))
     throw InputError("--campbell: N is the number of steps between FROM and TO, 1 to " +
@@ -159,22 +159,22 @@ Command add_modes_command(CLI::App& program) {
   const auto arguments = std::make_shared<ModesArguments>();
   CLI::App* app = program.add_subcommand("modes", "natural frequencies, damping, effective masses and mode shapes");
   add_model_arguments(*app, arguments->model);
-  app->add_option("-n,--number", arguments->count, "so many of the lowest modes; 10 where not given")
+  app->add_option("-n,--number", arguments->count, "the number of lowest modes; default 10")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
-  app->add_option("--closed", arguments->closed, "stops that hold: all, or those on the nodes of a selector")
+  app->add_option("--closed", arguments->closed, "closed stops: all, or those on the nodes of a selector")
       ->type_name("SELECTOR|all")
       ->allow_extra_args(false);
   app->add_option("-o,--output", arguments->folder, "write frequencies.csv and shapes.csv into this folder")
       ->type_name("DIR");
   app->add_flag("--json", arguments->json, "print JSON");
-  app->add_flag("--plot", arguments->plot, "draw the shapes by gnuplot; into <model>-modes where -o is not given");
+  app->add_flag("--plot", arguments->plot, "draw the shapes by gnuplot; into <model>-modes without -o");
   app->add_option("--speed", arguments->speed, "damped, whirling modes at this speed of rotation, rad/s")
       ->type_name("OMEGA");
   app->add_option("--campbell", arguments->campbell, "whirling modes at N + 1 speeds (rad/s), and critical speeds")
       ->expected(3)
       ->type_name("FROM TO N");
-  app->add_option("--order", arguments->order, "of critical speeds: oscillations for each turn; 1 where not given")
+  app->add_option("--order", arguments->order, "order of critical speeds: oscillations per revolution; default 1")
       ->check(CLI::Range(1e-3, 1e3))
       ->type_name("X");
   add_log_options(*app, false);

@@ -39,11 +39,11 @@ void check_name(const std::string& name) {
   });
   if (!fits)
     throw InputError("NAME = \"" + name +
-                     "\": must be lower-case letters, digits and _, beginning with a letter: it "
-                     "becomes a C++ name and what scenes write, such as my_method");
+                     "\": must be lower-case letters, digits and _, beginning with a letter: it becomes a C++ name and "
+                     "the name in scenes, such as my_method");
   static constexpr std::array kTaken = {"butee", "std", "auto", "double", "int", "class", "new", "long"};
   if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end())
-    throw InputError("NAME = \"" + name + "\": is a word of C++ or of butee; take another one");
+    throw InputError("NAME = \"" + name + "\": is a keyword of C++ or a name of butee; choose another one");
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
@@ -74,7 +74,7 @@ int new_plugin_command(const NewPluginArguments& arguments) {
   check_name(arguments.name);
   const fs::path folder = arguments.folder.empty() ? arguments.name : arguments.folder;
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
-    throw InputError(folder.string() + ": is there already; choose another folder with -o, or remove it");
+    throw InputError(folder.string() + ": exists already; choose another folder with -o, or remove it");
   const fs::path source = shared_folder("template");
   fs::create_directories(folder);
   write_files(source, folder, arguments);
@@ -93,13 +93,12 @@ int new_plugin_command(const NewPluginArguments& arguments) {
 Command add_new_plugin_command(CLI::App& program) {
   const auto arguments = std::make_shared<NewPluginArguments>();
   CLI::App* app = program.add_subcommand("new-plugin", "write a small project that builds a module of your own");
-  app->add_option("name", arguments->name, "what scenes will write: lower-case letters, digits and _")
+  app->add_option("name", arguments->name, "the name in scenes: lower-case letters, digits and _")
       ->required()
       ->type_name("NAME");
-  app->add_option("--kind", arguments->kind, "what it brings; integrator where not given")
+  app->add_option("--kind", arguments->kind, "the kind of module; default integrator")
       ->check(CLI::IsMember({"integrator", "law", "contact", "load", "element"}));
-  app->add_option("-o,--output", arguments->folder, "the folder for the project; NAME where not given")
-      ->type_name("DIR");
+  app->add_option("-o,--output", arguments->folder, "the folder for the project; default NAME")->type_name("DIR");
   return {app, [arguments] { return new_plugin_command(*arguments); }};
 }
 

@@ -20,10 +20,10 @@ struct PlotArguments {
 int plot_study(const PlotArguments& arguments) {
   const plot::Request& request = arguments.request;
   const std::string& folder = request.folders.front();
-  if (request.folders.size() > 1) throw InputError(folder + ": is a study; its pictures are drawn by themselves");
+  if (request.folders.size() > 1) throw InputError(folder + ": is a study; draw each study in a separate call");
   if (!request.kinds.empty() || !request.probes.empty() || request.window.from > plot::Window{}.from ||
       request.window.to < plot::Window{}.to)
-    throw InputError(folder + ": is a study, for which --kind, --probe, --from and --to do not hold");
+    throw InputError(folder + ": is a study, for which --kind, --probe, --from and --to do not apply");
   plot::require_gnuplot(request.formats);
   for (const std::string& file : studies::draw_folder(folder, request.output, request.formats))
     if (!log::is_quiet()) std::printf("%s\n", file.c_str());
@@ -50,7 +50,7 @@ Command add_plot_command(CLI::App& program) {
   app->add_option("folder", request.folders, "result folders of `butee run`, or one of `butee study`")
       ->required()
       ->type_name("DIR");
-  app->add_option("--kind", request.kinds, "what to draw; what the results allow where not given")
+  app->add_option("--kind", request.kinds, "kinds of pictures; default: all that the results allow")
       ->delimiter(',')
       ->check(CLI::IsMember(plot::kind_names()))
       ->allow_extra_args(false)
@@ -60,13 +60,14 @@ Command add_plot_command(CLI::App& program) {
       ->check(CLI::IsMember(plot::picture_formats()))
       ->allow_extra_args(false)
       ->type_name("FORMAT,...");
-  app->add_option("--probe", request.probes, "the probes to draw; all where not given")
+  app->add_option("--probe", request.probes, "the probes to draw; default: all")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LABEL,...");
-  app->add_option("--from", request.window.from, "draw from this instant on, s")->type_name("T");
-  app->add_option("--to", request.window.to, "and up to this one, s")->type_name("T");
-  app->add_option("-o,--output", request.output, "the folder for the pictures; DIR/plots, of several runs plots")
+  app->add_option("--from", request.window.from, "the first instant drawn, s")->type_name("T");
+  app->add_option("--to", request.window.to, "the last instant drawn, s")->type_name("T");
+  app->add_option("-o,--output", request.output,
+                  "the folder for the pictures; default DIR/plots, for several runs plots")
       ->type_name("DIR");
   add_plugin_option(*app, arguments->plugins);
   add_log_options(*app, false);

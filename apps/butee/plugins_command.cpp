@@ -32,10 +32,10 @@ struct Row {
 std::string properties_of(const time::IntegratorType& type) {
   std::vector<std::string> said;
   if (type.order > 0.0) said.push_back("order " + to_short_text(type.order));
-  said.emplace_back(type.fixed_step ? "fixed steps" : "steps of its own");
+  said.emplace_back(type.fixed_step ? "fixed steps" : "adaptive steps");
   if (std::isfinite(type.stability_limit))
-    said.push_back("free motion stays bounded up to h omega = " + to_short_text(type.stability_limit));
-  if (type.finds_first_step) said.emplace_back("time_step may be left out");
+    said.push_back("free motion is stable up to h omega = " + to_short_text(type.stability_limit));
+  if (type.finds_first_step) said.emplace_back("time_step may be omitted");
   return join(said);
 }
 
@@ -166,7 +166,7 @@ int plugins_command(const PluginsArguments& arguments) {
 Command add_plugins_command(CLI::App& program) {
   const auto arguments = std::make_shared<PluginsArguments>();
   CLI::App* app = program.add_subcommand(
-      "plugins", "list what a scene may name: methods, elements, laws, contacts, loads, formats");
+      "plugins", "list the names that a scene may use: methods, elements, laws, contacts, loads, formats");
   app->add_option("name", arguments->name, "show the parameters of this one")->type_name("NAME");
   add_plugin_option(*app, arguments->plugins);
   app->add_flag("--json", arguments->json, "print JSON");

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kExamples =
     "A first scene:\n"
     "  butee init beam             a commented scene, beam.toml\n"
-    "  butee check beam.toml       a picture of it, likely mistakes, what a run will cost\n"
+    "  butee check beam.toml       a picture of it, likely mistakes, the cost of a run\n"
     "  butee run beam.toml         beam-results/history.csv and summary.json\n"
     "\n`butee help TOPIC` explains scenes, methods, results; `butee help` lists the topics.";
 

@@ -71,8 +71,8 @@ int run(scene::Scene& session, const RunArguments& arguments, const record::Resu
   if (goes_on) lock.emplace(folder.lock());
   const auto checkpoint = goes_on ? record::CheckpointFolder(folder).newest() : std::nullopt;
   if (goes_on)
-    log::info(checkpoint ? "going on from t = " + to_short_text(checkpoint->snapshot.state.t) + " s"
-                         : "there is no checkpoint yet: the run begins anew");
+    log::info(checkpoint ? "resuming from t = " + to_short_text(checkpoint->snapshot.state.t) + " s"
+                         : "there is no checkpoint yet: the run starts again");
   const bool with_progress =
       arguments.progress == "always" || (arguments.progress == "auto" && is_terminal(stderr) && !log::is_quiet());
   Run first(session, with_progress);
@@ -84,7 +84,7 @@ int run(scene::Scene& session, const RunArguments& arguments, const record::Resu
   folder.write("summary.json", record::to_json(best));
   if (best.report.completed) record::CheckpointFolder(folder).clear();
   if (session.output.trust && best.report.completed) {
-    log::info("running the scene again, some times, to see how far to trust it");
+    log::info("running the scene several more times to estimate its accuracy");
     best.trust = find_trust(session);
     folder.write("summary.json", record::to_json(best));
   }
@@ -96,9 +96,9 @@ int run(scene::Scene& session, const RunArguments& arguments, const record::Resu
       if (!log::is_quiet()) std::printf("  picture %s\n", file.c_str());
   }
   if (best.report.completed) return kDone;
-  log::error("the run failed: " + best.report.message + ". What was computed is in " + folder.path() +
+  log::error("the run failed: " + best.report.message + ". Partial results are in " + folder.path() +
              (interruption() != nullptr && session.output.checkpoint > 0
-                  ? "; butee run --resume " + folder.path() + " goes on with it"
+                  ? "; butee run --resume " + folder.path() + " continues it"
                   : ""));
   return kFailed;
 }
@@ -108,15 +108,15 @@ int run_command(const RunArguments& arguments) {
     const record::ResultFolder folder(arguments.resume);
     folder.check_is_ours();
     if (folder.is_complete()) {
-      log::info(folder.path() + ": the run is complete, nothing is left to do");
+      log::info(folder.path() + ": the run is complete, nothing remains to be done");
       return kDone;
     }
     scene::Scene session = open_session({folder.file("model.toml"), {}, arguments.model.plugins});
     if (session.output.checkpoint == 0)
-      throw InputError(folder.path() +
-                       ": the run kept no checkpoints ([output] checkpoint), so nothing can go on from "
-                       "there; run it anew: butee run " +
-                       folder.file("model.toml") + " -o DIR");
+      throw InputError(
+          folder.path() +
+          ": the run saved no checkpoints ([output] checkpoint), so it cannot be resumed; run it again: butee run " +
+          folder.file("model.toml") + " -o DIR");
     return run(session, arguments, folder);
   }
   if (arguments.model.model.empty())
@@ -136,20 +136,20 @@ Command add_run_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("run", "integrate a model and write its results");
   add_model_arguments(*app, arguments->model);
   auto* output =
-      app->add_option("-o,--output", arguments->folder, "the folder for the results; <model>-results where not given")
+      app->add_option("-o,--output", arguments->folder, "the folder for the results; default <model>-results")
           ->type_name("DIR");
   auto* repeat = app->add_option("--repeat", arguments->repeat, "integrate N times and report the fastest")
                      ->check(CLI::Range(1, 1000000))
                      ->type_name("N");
   auto* model = app->get_option("model")->required(false);
-  app->add_option("--resume", arguments->resume, "go on with the run in DIR from its newest checkpoint")
+  app->add_option("--resume", arguments->resume, "continue the run in DIR from its newest checkpoint")
       ->type_name("DIR")
       ->excludes(model)
       ->excludes(app->get_option("--set"))
       ->excludes(output)
       ->excludes(repeat);
   app->add_flag("--trust", arguments->trust,
-                "find out how far the answer can be trusted: runs the scene again, by another method too");
+                "estimate the accuracy of the result: runs the scene again, also by another method");
   app->add_flag("--plot", arguments->plot, "draw the results, as `butee plot` does, into plots in the result folder");
   app->add_option("--progress", arguments->progress, "a progress bar on a terminal; always: lines in a log too")
       ->check(CLI::IsMember({"auto", "always", "never"}));

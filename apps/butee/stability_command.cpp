@@ -38,7 +38,7 @@ std::vector<std::string> methods_of(const plugin::Catalogue& catalogue, const st
 
 int stability_command(const StabilityArguments& arguments) {
   if (arguments.method.empty() && !arguments.request.settings.empty())
-    throw InputError("--set goes with a METHOD: parameters belong to one method");
+    throw InputError("--set requires a METHOD: parameters belong to one method");
   const auto catalogue = plugin::Catalogue::with_plugins(arguments.plugins);
   const auto methods = methods_of(catalogue, arguments.method);
   const record::ResultFolder folder(!arguments.folder.empty()
@@ -66,22 +66,22 @@ int stability_command(const StabilityArguments& arguments) {
 Command add_stability_command(CLI::App& program) {
   const auto arguments = std::make_shared<StabilityArguments>();
   CLI::App* app =
-      program.add_subcommand("stability", "how far a method is stable, its numerical damping and period error");
-  app->add_option("method", arguments->method, "an integrator; all of them where not given")->type_name("METHOD");
+      program.add_subcommand("stability", "stability limit, numerical damping and period error of a method");
+  app->add_option("method", arguments->method, "an integrator; default: all")->type_name("METHOD");
   app->add_option("--set", arguments->request.settings, "a parameter of the method: rho_inf=0.5")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app->add_option("--damping", arguments->request.ratios, "damping ratios, parted by commas")
+  app->add_option("--damping", arguments->request.ratios, "damping ratios, separated by commas")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("RATIO");
-  app->add_option("--stops", arguments->request.stop_ratios, "stiffnesses k_c/k of a closed stop, parted by commas")
+  app->add_option("--stops", arguments->request.stop_ratios, "stiffnesses k_c/k of a closed stop, separated by commas")
       ->delimiter(',')
       ->check(CLI::Range(1e-12, 1e12))
       ->type_name("RATIO");
-  app->add_option("-o,--output", arguments->folder, "the folder for the results; <method>-stability where not given")
+  app->add_option("-o,--output", arguments->folder, "the folder for the results; default <method>-stability")
       ->type_name("DIR");
-  app->add_flag("--json", arguments->json, "print what was found as JSON");
+  app->add_flag("--json", arguments->json, "print JSON");
   add_plugin_option(*app, arguments->plugins);
   add_log_options(*app, false);
   return {app, [arguments] { return stability_command(*arguments); }};

@@ -64,7 +64,7 @@ class FolderStudy {
         layout_(layout_of(study_)),
         format_(study::row_format(arguments.format)),
         store_(folder(), study_, layout_, *format_) {
-    if (team != nullptr && !arguments.shard.empty()) throw InputError("--shard: mpirun shares the study out already");
+    if (team != nullptr && !arguments.shard.empty()) throw InputError("--shard: mpirun already distributes the runs");
     study::check_first_point(study_);
     if (shard_.count > 1) study::Store::refuse_foreign(main_folder());
     if (arguments.plot) plot::require_gnuplot(arguments.plot_formats);
@@ -78,7 +78,7 @@ class FolderStudy {
   int perform() {
     if (store_.is_complete() || arguments_.merge || store_.done_count() == study_.plan.run_count()) return kDone;
     if (store_.done_count() > 0 && is_first() && !log::is_quiet())
-      log::info("going on: " + std::to_string(store_.done_count()) + " runs are there already");
+      log::info("continuing: " + std::to_string(store_.done_count()) + " runs are done already");
     store_.begin(store_.next_session(), team_ != nullptr ? team_->rank() : 0);
     studies::ProgressLine line(is_first() &&
                                (arguments_.progress == "always" ||
@@ -94,8 +94,8 @@ class FolderStudy {
     options.report = [&](const study::Progress& progress) { line.report(progress); };
     if (study::perform(study_, layout_, store_, options)) return kDone;
     if (is_first())
-      log::error(std::string("interrupted by ") + interruption() + "; the rows that are done are in " +
-                 store_.folder() + ", and the same command goes on from there");
+      log::error(std::string("interrupted by ") + interruption() + "; the finished rows are in " + store_.folder() +
+                 "; the same command continues from there");
     return kFailed;
   }
 
@@ -109,13 +109,13 @@ class FolderStudy {
     std::int64_t missing = 0;
     if (!store_.merge(missing))
       throw RunError(store_.folder() + ": run " + std::to_string(missing) +
-                     " is missing, and perhaps more: not all shards are done. Without --merge, `butee study` does what "
-                     "is left");
+                     " is missing, and perhaps more: not all shards are done. Without --merge, `butee study` performs "
+                     "the remaining runs");
     const study::Store::Count count = store_.count();
     const std::int64_t all = count.completed + count.failed;
     if (count.failed > 0)
       log::warning(std::to_string(count.failed) + " of " + std::to_string(all) +
-                   " runs have no results; the rows say why, the first: " + count.first_reason);
+                   " runs have no results; the rows give the reasons, the first: " + count.first_reason);
     if (!log::is_quiet()) std::printf("%lld runs, rows in %s\n", static_cast<long long>(all), store_.result().c_str());
     if (arguments_.plot)
       for (const std::string& file : studies::draw_study(study_, layout_, store_, arguments_.plot_formats))
@@ -213,7 +213,7 @@ int study_points(const StudyArguments& arguments) {
   study::Study study = study::load_study(arguments.model.model, {arguments.model.overrides, arguments.model.plugins,
                                                                  header + "\n" + first + "\n", studies::horizon_of});
   if (study.plan.follow() != study::Follow::no)
-    throw InputError("study.follow: points that are given one by one are no sweep; set it to false");
+    throw InputError("study.follow: points given one by one are not a sweep; set it to false");
   study::check_first_point(study);
   const study::Layout layout = streamed_layout(study);
   if (arguments.results != "-") {
@@ -258,21 +258,22 @@ Command add_study_command(CLI::App& program) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   add_plugin_option(*app, arguments->model.plugins);
-  auto* output =
-      app->add_option("-o,--output", arguments->folder, "the folder for the rows; <stem>-study where not given")
-          ->type_name("DIR");
-  app->add_option("-j,--threads", arguments->threads, "threads; as many as there are processors where not given")
+  auto* output = app->add_option("-o,--output", arguments->folder, "the folder for the rows; default <stem>-study")
+                     ->type_name("DIR");
+  app->add_option("-j,--threads", arguments->threads, "the number of threads; default: the number of processors")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   auto* format =
-      app->add_option("--format", arguments->format, "of the rows: hdf5 (default where it is installed) or csv")
+      app->add_option("--format", arguments->format, "format of the rows: hdf5 (default if installed) or csv")
           ->check(CLI::IsMember({"hdf5", "csv"}));
-  auto* fresh = app->add_flag("--fresh", arguments->fresh, "do again what an earlier call left in the folder");
-  auto* shard = app->add_option("--shard", arguments->shard, "do one of N parts, as of a job array")->type_name("I/N");
-  auto* merge = app->add_flag("--merge", arguments->merge, "put the rows of all shards together, and do no more")
+  auto* fresh =
+      app->add_flag("--fresh", arguments->fresh, "run everything again, without the results of an earlier call");
+  auto* shard =
+      app->add_option("--shard", arguments->shard, "perform one of N parts, for a job array")->type_name("I/N");
+  auto* merge = app->add_flag("--merge", arguments->merge, "join the rows of all shards without further runs")
                     ->excludes(shard)
                     ->excludes(fresh);
-  auto* points = app->add_option("--points", arguments->points, "points from a CSV file or -, in place of [[vary]]")
+  auto* points = app->add_option("--points", arguments->points, "points from a CSV file or -, instead of [[vary]]")
                      ->type_name("FILE|-")
                      ->excludes(shard)
                      ->excludes(merge)
@@ -283,7 +284,7 @@ Command add_study_command(CLI::App& program) {
       ->type_name("FILE|-");
   app->add_flag("--plot", arguments->plot, "draw what the rows allow: bifurcation, response, map, histogram")
       ->excludes(points);
-  app->add_option("--plot-format", arguments->plot_formats, "of pictures: png (default), svg, pdf")
+  app->add_option("--plot-format", arguments->plot_formats, "format of pictures: png (default), svg, pdf")
       ->delimiter(',')
       ->check(CLI::IsMember(gnuplot::formats()))
       ->allow_extra_args(false)

@@ -40,16 +40,18 @@ int test_plugin_command(const TestPluginArguments& arguments) {
 
 Command add_test_plugin_command(CLI::App& program) {
   const auto arguments = std::make_shared<TestPluginArguments>();
-  CLI::App* app = program.add_subcommand("test-plugin", "run the conformance suite on what a module brings");
+  CLI::App* app = program.add_subcommand("test-plugin", "run the conformance suite on the types of a module");
   app->add_option("module", arguments->module, "a module, or a folder of modules")->required()->type_name("FILE|DIR");
   app->add_option("--set", arguments->given, "a value for a parameter of its types")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app->add_option("--only", arguments->only, "only this type of it")->type_name("NAME")->allow_extra_args(false);
-  app->add_option("--time-limit", arguments->time_limit, "for each check; 60 where not given")
+  app->add_option("--only", arguments->only, "only this type of the module")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  app->add_option("--time-limit", arguments->time_limit, "time limit of each check; default 60")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
-  app->add_flag("--json", arguments->as_json, "the report for machines");
+  app->add_flag("--json", arguments->as_json, "print JSON");
   return {app, [arguments] { return test_plugin_command(*arguments); }};
 }
 

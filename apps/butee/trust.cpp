@@ -95,7 +95,7 @@ double largest_perturbation(Index size) {
 
 FollowedRun follow_or_throw(scene::Scene& session, double disturbance, Wanted wanted) {
   FollowedRun run = follow(session, disturbance, kInfinite, wanted);
-  if (!run.completed) throw RunError("a run that was to tell how far to trust the first one failed: " + run.message);
+  if (!run.completed) throw RunError("a run for the accuracy estimate failed: " + run.message);
   return run;
 }
 
@@ -141,8 +141,8 @@ class Judgement {
       again_ = follow_or_throw(other_->again, kRounding * peak_of(run_), {});
     else
       log::warning(
-          "no method of another family takes this scene within reason; errors that are the method's own stay "
-          "unseen by --trust");
+          "no method of another family can run this scene at reasonable cost; --trust cannot detect systematic errors "
+          "of the method");
   }
 
   /// The size of disturbances to follow with a method whose error in a step is `noise`.

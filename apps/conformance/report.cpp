@@ -123,7 +123,7 @@ bool test_module(const Request& request) {
                         {"details", finding.details}});
     }
   }
-  if (count == 0) throw InputError(request.module + ": brings no type that could be tested");
+  if (count == 0) throw InputError(request.module + ": contains no type that can be tested");
   if (request.as_json)
     std::printf("%s\n", report.dump(2).c_str());
   else

@@ -117,7 +117,7 @@ std::string read_text(const std::string& path) {
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError("does not exist");
   if (fs::is_directory(status)) throw InputError("is a folder, not a file");
-  if (!fs::is_regular_file(status)) throw InputError("is no regular file");
+  if (!fs::is_regular_file(status)) throw InputError("is not a regular file");
   const std::uintmax_t size = fs::file_size(path, error);
   if (!error && size > kLargestFile) throw InputError("is larger than " + std::to_string(kLargestFile >> 30U) + " GiB");
   errno = 0;
@@ -149,7 +149,7 @@ std::string change_of(const std::string& bytes, std::int64_t size, const std::st
   return "is not the file that the model was run with: it has " + std::to_string(bytes.size()) +
          " bytes and the checksum " + checksum_text(bytes) + (size > 0 ? ", not " + std::to_string(size) : ", not") +
          (checksum.empty() ? "" : (size > 0 ? " and " : " ") + checksum) +
-         "; put the old file back, or leave size and checksum out";
+         "; put the old file back, or remove size and checksum";
 }
 
 }  // namespace butee::config

@@ -123,7 +123,8 @@ class NumberFile {
       any = lines_.next();
     } else if (const auto name = std::find_if(names_.begin(), names_.end(), [](auto& n) { return !n.empty(); });
                any && name != names_.end()) {
-      refuse(lines_.number, "has no names, and columns asks for \"" + *name + "\"; count columns from 1 instead");
+      refuse(lines_.number,
+             "has no column names, but columns requests \"" + *name + "\"; count columns from 1 instead");
     }
     if (!any) throw InputError(": holds no numbers");
     for (; any; any = lines_.next()) read_row();
@@ -160,7 +161,7 @@ class NumberFile {
     for (std::size_t place = 0; place <= last; ++place) {
       if (!fields.next())
         refuse(lines_.number,
-               "has " + std::to_string(place) + " columns, and column " + std::to_string(last + 1) + " is wanted");
+               "has " + std::to_string(place) + " columns, but column " + std::to_string(last + 1) + " is requested");
       for (std::size_t i = 0; i < row.size(); ++i)
         if (places_[i] == place) row[i] = number_at(place, fields.field);
     }
@@ -175,10 +176,10 @@ class NumberFile {
     const auto number = number_in(field);
     const std::string where = "column " + std::to_string(place + 1) + ": ";
     if (!number)
-      refuse(lines_.number,
-             where + shown(field) + " is no number" +
-                 (separator_ == ';' && field.find(',') != std::string_view::npos ? "; decimals are written with a point"
-                                                                                 : ""));
+      refuse(
+          lines_.number,
+          where + shown(field) + " is not a number" +
+              (separator_ == ';' && field.find(',') != std::string_view::npos ? "; write decimals with a point" : ""));
     if (!std::isfinite(*number)) refuse(lines_.number, where + shown(field) + " is not finite");
     return *number;
   }
@@ -194,13 +195,13 @@ class NumberFile {
 }  // namespace
 
 std::vector<Parameter> number_file_parameters() {
-  Parameter columns = texts("columns", "the two columns of the file, counted from 1 or by name; [1, 2] where absent");
+  Parameter columns = texts("columns", "the two columns of the file, counted from 1 or by name; default [1, 2]");
   columns.unit = "column";
-  return {text("file", "a text file of columns of numbers, relative to the scene, in place of the numbers").optional(),
+  return {text("file", "a text file of columns of numbers, relative to the scene, instead of the numbers").optional(),
           columns.of_length(2).optional(),
           integer("skip", "lines at the beginning of the file that are not read").at_least(0).or_else(std::int64_t{0}),
           number("scale", "1", "a factor on the values of the file").or_else(1.0),
-          integer("size", "bytes of the file, as model.toml has it: another file is refused").at_least(0).optional(),
+          integer("size", "bytes of the file, as in model.toml; another file is refused").at_least(0).optional(),
           text("checksum", "CRC-64 of the file, likewise").optional()};
 }
 

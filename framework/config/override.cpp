@@ -74,7 +74,7 @@ void remove(Value& root, std::vector<Step> path, const std::string& assignment) 
   for (const Step& step : path) parent = &descend(*parent, step, assignment);
   Table* table = parent->table();
   if (table == nullptr || table->find(last.key) == nullptr || !last.indices.empty())
-    refuse(assignment, "there is no such key to take out; an empty string is written KEY=\"\"");
+    refuse(assignment, "there is no such key to remove; an empty string is written KEY=\"\"");
   std::erase_if(table->entries, [&](const Table::Entry& entry) { return entry.first == last.key; });
 }
 

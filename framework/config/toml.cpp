@@ -117,7 +117,7 @@ Value convert(const Parsed& from, const std::string& key, Source& source) {
     case toml::value_t::table:
       return {convert_table(from, source), at};
     default:
-      refuse(from, key, source.places, "dates and times have no place in a model file");
+      refuse(from, key, source.places, "dates and times are not allowed in a model file");
   }
 }
 

@@ -32,7 +32,7 @@ void check_encoding(const std::string& text) {
     const std::size_t length = sequence_at(text, at);
     if (length == 0)
       throw InputError(":" + std::to_string(line) + ": byte " + std::to_string(at + 1) +
-                       " of the file is no UTF-8 text, which TOML is; save the file in that encoding");
+                       " of the file is not UTF-8, the encoding of TOML; save the file in UTF-8");
     if (text[at] == '\n') ++line;
     at += length;
   }
@@ -104,7 +104,7 @@ void check_lines(const std::string& text) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     if (end - begin > kLongestLine)
       throw InputError(":" + std::to_string(line) + ": the line is longer than " + std::to_string(kLongestLine) +
-                       " characters; an array may go over many lines");
+                       " characters; an array may span several lines");
     begin = end + 1;
   }
 }

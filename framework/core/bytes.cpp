@@ -27,7 +27,7 @@ void ByteWriter::put(std::span<const std::byte> bytes) {
 }
 
 const std::byte* ByteReader::next(std::size_t count, std::size_t size) {
-  if (count > rest_.size() / size) throw RunError("the bytes end before what they are to hold");
+  if (count > rest_.size() / size) throw RunError("the data end too early");
   const std::byte* first = rest_.data();
   rest_ = rest_.subspan(count * size);
   return first;
@@ -35,7 +35,7 @@ const std::byte* ByteReader::next(std::size_t count, std::size_t size) {
 
 std::size_t ByteReader::count(std::size_t size) {
   const auto number = take<std::uint64_t>();
-  if (number > rest_.size() / size) throw RunError("the bytes end before what they are to hold");
+  if (number > rest_.size() / size) throw RunError("the data end too early");
   return static_cast<std::size_t>(number);
 }
 

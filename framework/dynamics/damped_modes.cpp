@@ -94,11 +94,12 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   const Index n = system.size();
   const char* const others = "; take rodas4, dopri5, extrapolation8 or exact, or auto, which chooses among them";
   if (system.rotation != nullptr)
-    throw InputError(std::string("integrator.type: the speed of rotation varies, so that there are no modes to take") +
-                     others);
+    throw InputError(
+        std::string("integrator.type: the speed of rotation varies, so the structure has no constant modes") + others);
   if (n > kMost)
-    throw InputError("integrator.type: " + std::to_string(n) + " DOFs whose damping, turning parts or contacts need " +
-                     "all their modes are more than " + std::to_string(kMost) + others);
+    throw InputError("integrator.type: " + std::to_string(n) +
+                     " DOFs whose damping, turning parts or contacts require " + "all modes are more than " +
+                     std::to_string(kMost) + others);
   SparseMatrix transposed = system.stiffness.transpose();
   SparseMatrix even = 0.5 * (system.stiffness + transposed);
   const auto natural = linalg::dense_pairs(even, system.mass);
@@ -140,7 +141,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
     if (!solve(k, c, block)) {
       for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];
       if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
-        throw InputError(std::string("integrator.type: this structure's motion has no basis of modes") + others);
+        throw InputError(std::string("integrator.type: the modes of this structure do not form a basis") + others);
     }
     for (Index i = 0; i < 2 * b; ++i)
       if (block.values[i].imag() >= 0.0) kept.emplace_back(blocks.size() - 1, i);

@@ -139,7 +139,8 @@ linalg::LinearSolver& Dynamics::mass_solver() {
     solver.emplace(system_.mass, *counters_);
     if (!solver->factorize(system_.mass))
       throw InputError(
-          "the mass matrix is not positive definite: no mass, or too little beside the others, resists the motion of " +
+          "the mass matrix is not positive definite: no mass, or too small a mass relative to the others, resists the "
+          "motion of " +
           describe_softest_motion(system_.mass, system_.dofs) + "; check the masses and sections there");
   }
   return *solver;

@@ -13,7 +13,7 @@ Index count_modes(const model::System& system) {
   const auto listed = static_cast<Index>(damping.lowest_modes.size());
   const Index count = damping.every_mode != 0.0 ? system.size() : listed;
   if (count > model::Damping::kMostModes)
-    throw InputError("modal damping of " + std::to_string(count) + " modes is too much: give a list of at most " +
+    throw InputError("modal damping of " + std::to_string(count) + " modes is not supported: give a list of at most " +
                      std::to_string(model::Damping::kMostModes) + " ratios for the lowest modes");
   if (count > system.size())
     throw InputError("modal damping names " + std::to_string(count) + " modes, but the system has only " +
@@ -35,8 +35,8 @@ void check_listed(const model::Damping& damping, const Modes& modes) {
   for (std::size_t i = 0; i < damping.lowest_modes.size(); ++i)
     if (damping.lowest_modes[i] > 0.0 && modes.frequencies[static_cast<Index>(i)] == 0.0)
       throw InputError("[damping] modal gives a ratio to mode " + std::to_string(i + 1) +
-                       ", whose frequency is zero, or so far below the highest that rounding cannot tell it from zero: "
-                       "write 0 for rigid motion, or use longer elements");
+                       ", whose frequency is zero, or so far below the highest that it cannot be distinguished from "
+                       "zero in rounding: write 0 for rigid motion, or use longer elements");
 }
 
 }  // namespace

@@ -21,10 +21,10 @@ SparseMatrix with_all_places(const Eigen::MatrixXd& matrix) {
 void make_modal_damping_explicit(const model::Model& model, model::System& system) {
   if (!system.damping.is_modal() || system.is_symmetric) return;
   if (system.size() > kMostModalDashpots)
-    throw InputError("damping.modal: where shafts turn or bearings have cross terms, systems of more than " +
-                     std::to_string(kMostModalDashpots) + " free DOFs (this one has " + std::to_string(system.size()) +
-                     ") go without modal damping, whose matrix is full; give mass_proportional and "
-                     "stiffness_proportional");
+    throw InputError(
+        "damping.modal: if shafts turn or bearings have cross terms, systems of more than " +
+        std::to_string(kMostModalDashpots) + " free DOFs (this one has " + std::to_string(system.size()) +
+        ") cannot have modal damping, whose matrix is dense; give mass_proportional and stiffness_proportional");
   model::System rest = assemble(model, model::TurningParts::apart);
   rest.stiffness = SparseMatrix(0.5 * (rest.stiffness + SparseMatrix(rest.stiffness.transpose())));
   rest.is_symmetric = rest.stiffness_is_symmetric = true;

@@ -52,8 +52,8 @@ ModalSystem::ModalSystem(Dynamics& dynamics, Index count) {
   if (!system.is_symmetric)
     throw InputError(
         "integrator.type: shafts turn or bearings have cross terms in this scene, so that its matrices are not "
-        "symmetric and its modes are not those that this method takes; take rodas4, dopri5, extrapolation8 or exact, "
-        "or auto, which chooses among them");
+        "symmetric and it lacks the real modes that this method requires; take rodas4, dopri5, extrapolation8 or "
+        "exact, or auto, which chooses among them");
   Modes modes = find_modes(system, count);
   if (modes.frequencies.size() < system.size()) add_static(system, modes);
   frequencies_ = modes.frequencies.array();
@@ -88,9 +88,9 @@ void ModalSystem::find_decay(Dynamics& dynamics) {
   const Eigen::MatrixXd beside = modal - Eigen::MatrixXd(modal.diagonal().asDiagonal());
   if (beside.cwiseAbs().maxCoeff() > kUncoupled * largest)
     throw InputError(
-        "integrator.type: the dashpots couple the modes of this scene, whose flow is then not known in closed form; "
-        "take generalized_alpha or rodas4, or write the damping as [damping] mass_proportional, "
-        "stiffness_proportional or modal");
+        "integrator.type: the dashpots couple the modes of this scene, which then have no closed-form solution; take "
+        "generalized_alpha or rodas4, or write the damping as [damping] mass_proportional, stiffness_proportional or "
+        "modal");
 }
 
 void ModalSystem::project_loads(const Dynamics& dynamics) {
@@ -101,8 +101,8 @@ void ModalSystem::project_loads(const Dynamics& dynamics) {
     if (!harmonic && !load.in_time->is_piecewise_parabolic())
       throw InputError(
           "integrator.type: a load of this scene is neither harmonic nor made of straight lines or parabolas in time, "
-          "such as the unbalance of a run-up, so that its response is not known in closed form; take rodas4, dopri5, "
-          "extrapolation8 or exact, or auto, which chooses among them");
+          "such as the unbalance of a run-up, so its response has no closed form; take rodas4, dopri5, extrapolation8 "
+          "or exact, or auto, which chooses among them");
     if (!harmonic) {
       other_loads_.push_back({load.in_time, std::move(shape)});
       continue;

@@ -99,7 +99,7 @@ Whirl::Whirl(const model::Model& model) : system_(assemble(model, model::Turning
   if (!is_dense()) {
     if (system_.damping.is_modal())
       throw InputError("whirling modes of " + std::to_string(n) +
-                       " DOFs go without modal damping, whose matrix is full");
+                       " DOFs cannot be computed with modal damping, whose matrix is dense");
     return;
   }
   const auto pairs = linalg::dense_pairs(stiffness_, system_.mass);

@@ -56,7 +56,7 @@ void need(const Pointers*... pointers) {
 butee::model::Quantity checked_quantity(const std::string& name) {
   const auto known = butee::model::probe_quantities();
   if (std::find(known.begin(), known.end(), name) == known.end())
-    throw butee::InputError(name + ": no quantity of a node; " + butee::join(known, ", ") + " are");
+    throw butee::InputError(name + ": not a quantity of a node; allowed: " + butee::join(known, ", "));
   return butee::model::quantity_of(name);
 }
 
@@ -77,7 +77,7 @@ butee::DofKind checked_kind(int kind) {
       return DofKind::rz;
     default:
       throw butee::LogicError("the kind " + std::to_string(kind) +
-                              " is none of BUTEE_U, BUTEE_THETA, BUTEE_UX ... BUTEE_RZ");
+                              " is not one of BUTEE_U, BUTEE_THETA, BUTEE_UX ... BUTEE_RZ");
   }
 }
 

@@ -82,7 +82,7 @@ void Structure::Parts::add_forces(const std::string& selector,
     scene.model.loads.push_back({{{dof, 1.0}}, std::move(force), nullptr, 0.0});
   }
   if (made.size() == before)
-    throw InputError(selector + ": names no free " + name_of(kind) + " that a force could act on");
+    throw InputError(selector + ": names no free " + name_of(kind) + " on which a force could act");
 }
 
 NodalForce& Structure::Parts::force_on(Index dof) {
@@ -90,7 +90,7 @@ NodalForce& Structure::Parts::force_on(Index dof) {
   if (found != forces.end()) return *found->second;
   throw InputError(
       (dof >= 0 && dof < assembly->system.size() ? assembly->dynamics.dof_name(dof) : "DOF " + std::to_string(dof)) +
-      ": no forces were announced for it; name its node in StructureOptions::forced");
+      ": it was not declared for forces; name its node in StructureOptions::forced");
 }
 
 Structure::Structure(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -258,7 +258,8 @@ double Structure::quantity(const std::string& name, const std::string& node, con
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw InputError("there is no quantity \"" + name + "\"" + suggestion(name, known) + "; known: " + join(known));
   const auto nodes = parts_->select(node, DofKind::u);
-  if (nodes.size() != 1) throw InputError(node + ": names " + std::to_string(nodes.size()) + " nodes; one is wanted");
+  if (nodes.size() != 1)
+    throw InputError(node + ": names " + std::to_string(nodes.size()) + " nodes; exactly one is required");
   const model::Quantity quantity = model::quantity_of(name);
   const std::string problem =
       model::why_not(quantity, parts_->scene.model, parts_->assembly->system.dofs, nodes.front().node, element);

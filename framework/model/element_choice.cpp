@@ -80,16 +80,16 @@ std::string cut_problem(Quantity quantity, const SectionCut& cut) {
   const auto has = [&](Index row) { return !cut.resultants.row(row).isZero(0.0); };
   const bool needs_modulus = quantity == Quantity::bending_stress || quantity == Quantity::von_mises;
   if (needs_modulus && !cut.modulus)
-    return "the section of the beam does not know its outer fibre; give outer_fibre (m) beside second_moment";
+    return "the section of the beam has no outer fibre; give outer_fibre (m) beside second_moment";
   const auto row = resultant_row(quantity);
   if (row && !has(*row) && !(*row == 0 && cut.preload != 0.0))
     return *row == 0 || *row == 3 ? "the beam has no such motion; write motion = \"spatial\""
                                   : "the beam has no such motion; write motion = \"lateral\" or \"spatial\"";
   if (quantity != Quantity::von_mises || !has(4)) return "";
   if (has(3) && !cut.torsion_modulus)
-    return "the stress of torsion is known of round sections alone (tube, circle); bending_stress is that of bending "
-           "along u";
-  if (!cut.modulus_y) return "the section of the beam does not know its outer fibre along z; give outer_fibre_z (m)";
+    return "the stress of torsion is available only for round sections (tube, circle); bending_stress is that of "
+           "bending along u";
+  if (!cut.modulus_y) return "the section of the beam has no outer fibre along z; give outer_fibre_z (m)";
   return "";
 }
 
@@ -158,9 +158,9 @@ std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs,
   const NodalDof dof{node, kind_of(quantity)};
   const std::string none = std::string("there is no ") + name_of(quantity) + ": ";
   if (is_absolute(quantity) && model.bases.empty())
-    return none + "the base does not move, so that u, v and a are those in space; give [base], or ask for them";
+    return none + "the base does not move, so that u, v and a are those in space; give [base], or request these";
   if (is_absolute(quantity) && !knows_base_motion(model))
-    return none + "the motion of the base is known of harmonic, constant, ramp and table alone";
+    return none + "only a base motion of type harmonic, constant, ramp or table can be integrated";
   switch (source_of(quantity)) {
     case Source::section: {
       const CutChoice choice = choose_cut(model, node, element);

@@ -49,7 +49,7 @@ std::string SavedMotions::difference_from(const NodeTable& nodes, const DofTable
   const auto count = [](std::size_t number, const char* what) { return std::to_string(number) + " " + what; };
   for (std::size_t i = 0; i < std::max(groups.size(), other.groups.size()); ++i) {
     if (i >= groups.size()) return "it has no \"" + other.groups[i].name + "\"";
-    if (i >= other.groups.size()) return "it has \"" + groups[i].name + "\" besides";
+    if (i >= other.groups.size()) return "it also has \"" + groups[i].name + "\" besides";
     const Group &a = groups[i], &b = other.groups[i];
     if (a.name != b.name) return "it has \"" + a.name + "\" where this scene has \"" + b.name + "\"";
     if (a.coordinates.size() != b.coordinates.size())
@@ -61,7 +61,7 @@ std::string SavedMotions::difference_from(const NodeTable& nodes, const DofTable
   if (here == other.free.end() && there == free.end()) return "";
   const bool is_here = there == free.end() || (here != other.free.end() &&
                                                std::pair(here->node, here->kind) < std::pair(there->node, there->kind));
-  return is_here ? table.name(*here) + " is free here and not there" : table.name(*there) + " is free there, not here";
+  return is_here ? table.name(*here) + " is free here, not there" : table.name(*there) + " is free there, not here";
 }
 
 std::vector<std::byte> to_bytes(const SavedMotions& saved) {
@@ -93,7 +93,7 @@ std::vector<std::byte> to_bytes(const SavedMotions& saved) {
 
 SavedMotions to_saved_motions(std::span<const std::byte> bytes) {
   ByteReader outer(bytes);
-  if (outer.take<std::uint64_t>() != kStatesMark) throw RunError("is no file of motions of butee");
+  if (outer.take<std::uint64_t>() != kStatesMark) throw RunError("is not a file of motions of butee");
   if (const auto format = outer.take<std::uint32_t>(); format != kStatesFormat)
     throw RunError("is of format " + std::to_string(format) + "; this butee reads " + std::to_string(kStatesFormat));
   const auto sum = outer.take<std::uint64_t>();
@@ -118,7 +118,7 @@ SavedMotions to_saved_motions(std::span<const std::byte> bytes) {
     inner.take(motion.x);
     inner.take(motion.v);
     if (motion.x.size() != std::ssize(saved.free) || motion.v.size() != std::ssize(saved.free))
-      throw RunError("is damaged: a motion has not as many DOFs as its structure");
+      throw RunError("is damaged: a motion and its structure have different numbers of DOFs");
   }
   return saved;
 }

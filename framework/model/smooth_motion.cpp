@@ -151,7 +151,7 @@ SmoothMotion SmoothMotion::of(const TimeFunction& function, std::string& problem
     PiecewisePolynomial::Piece piece{start, {}};
     std::array<double, 3> coefficients{};
     if (!function.is_piecewise_parabolic() || !function.taylor(start, 1.0, coefficients)) {
-      problem = "its integral is known of harmonic, constant, ramp and table alone";
+      problem = "only harmonic, constant, ramp and table can be integrated";
       return motion;
     }
     std::copy(coefficients.begin(), coefficients.end(), piece.coefficients.begin());

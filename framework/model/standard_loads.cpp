@@ -108,7 +108,7 @@ LoadType ramp() {
           "`from` until start, linear to `to` at end, `to` from then on",
           {number("from", "N", "the value before the ramp (N m on theta)").or_else(0.0),
            number("to", "N", "the value after the ramp (N m on theta)"),
-           number("start", "s", "where the ramp begins").or_else(0.0), number("end", "s", "where the ramp ends")},
+           number("start", "s", "the start of the ramp").or_else(0.0), number("end", "s", "the end of the ramp")},
           [](const Parameters& p, Diagnostics& diagnostics) -> std::unique_ptr<TimeFunction> {
             const double start = p.number("start"), end = p.number("end");
             if (!(end > start)) {
@@ -123,7 +123,7 @@ LoadType ramp() {
 std::optional<config::NumberTable> inline_table(const Parameters& p, Diagnostics& diagnostics) {
   for (const auto& [key, what] :
        {std::pair("times", "the instants, ascending"), std::pair("values", "the values there")})
-    if (!p.has(key)) p.complain(diagnostics, key, std::string("missing; give ") + what + ", or a file that holds both");
+    if (!p.has(key)) p.complain(diagnostics, key, std::string("missing; give ") + what + ", or a file with both");
   for (const char* key : {"columns", "skip", "scale", "size", "checksum"})
     if (p.given(key)) p.complain(diagnostics, key, "belongs to file, which is not given");
   if (!p.has("times") || !p.has("values")) return std::nullopt;
@@ -149,7 +149,7 @@ LoadType table() {
           [](const Parameters& p, Diagnostics& diagnostics) -> std::unique_ptr<TimeFunction> {
             for (const char* key : {"times", "values"})
               if (p.has("file") && p.has(key)) {
-                p.complain(diagnostics, key, "stands beside file; give one of the two");
+                p.complain(diagnostics, key, "conflicts with file; give one of the two");
                 return nullptr;
               }
             auto read = p.has("file") ? read_number_file(p, diagnostics) : inline_table(p, diagnostics);

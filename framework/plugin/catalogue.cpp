@@ -88,7 +88,7 @@ void Catalogue::add_folder(const std::string& path) {
 }
 
 void Catalogue::leave_out(const std::string& path, const std::string& reason) {
-  left_out_.push_back(path + ": is left out: " + reason);
+  left_out_.push_back(path + ": is ignored: " + reason);
   log::warning(left_out_.back());
 }
 

@@ -161,7 +161,7 @@ ModuleTypes read_manifest(const std::string& path) {
   const config::Document document = config::load_toml(path);
   try {
     const Table& root = *document.root.table();
-    if (get<std::int64_t>(root, "manifest") != kManifestSchema) throw InputError("is of another schema");
+    if (get<std::int64_t>(root, "manifest") != kManifestSchema) throw InputError("has another schema");
     ModuleTypes types;
     read_types(root, "integrator", types.integrators);
     for (std::size_t i = 0; i < types.integrators.size(); ++i) {
@@ -183,7 +183,7 @@ ModuleTypes read_manifest(const std::string& path) {
       throw InputError("names no type");
     return types;
   } catch (const std::exception& error) {
-    throw InputError(path + ": is no manifest of a butee module: " + error.what());
+    throw InputError(path + ": is not a manifest of a butee module: " + error.what());
   }
 }
 

@@ -21,7 +21,8 @@ std::string last_error() {
 template <class Function>
 Function symbol(void* handle, const char* name, const std::string& path) {
   auto* address = dlsym(handle, name);
-  if (address == nullptr) throw RunError(path + ": is no butee module: it has no " + name + " (" + last_error() + ")");
+  if (address == nullptr)
+    throw RunError(path + ": is not a butee module: it has no " + name + " (" + last_error() + ")");
   return reinterpret_cast<Function>(address);
 }
 
@@ -88,7 +89,7 @@ Registrar load_module(const std::string& any_path) {
   } catch (const std::exception& error) {
     throw RunError(path + ": failed while registering: " + error.what());
   } catch (...) {
-    throw RunError(path + ": failed while registering, with something that is no exception of the standard library");
+    throw RunError(path + ": failed while registering, with an exception that is not a std::exception");
   }
   return registrar;
 }

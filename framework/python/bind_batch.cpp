@@ -30,7 +30,7 @@ std::unique_ptr<Batch, Joined> start(const Session& session, std::vector<std::st
   for (const py::handle point : points) {
     auto& row = values.emplace_back();
     for (const py::handle value : point) row.push_back(value.is_none() ? std::nullopt : std::optional(to_value(value)));
-    if (row.size() != keys.size()) throw py::value_error("a point has not one value for each key");
+    if (row.size() != keys.size()) throw py::value_error("a point must have one value for each key");
   }
   return std::unique_ptr<Batch, Joined>(new Batch(session, std::move(keys), std::move(values), threads));
 }

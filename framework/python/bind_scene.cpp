@@ -46,7 +46,8 @@ std::vector<Assignment> to_assignments(const py::dict& values) {
   std::vector<Assignment> assignments;
   for (const auto& [key, value] : values) {
     if (!py::isinstance<py::str>(key))
-      throw py::type_error("a key is a text, such as \"contact[0].gap\", not " + py::repr(key).cast<std::string>());
+      throw py::type_error("a key must be a string, such as \"contact[0].gap\", not " +
+                           py::repr(key).cast<std::string>());
     assignments.emplace_back(key.cast<std::string>(), value.is_none() ? std::nullopt : std::optional(to_value(value)));
   }
   return assignments;

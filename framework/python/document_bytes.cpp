@@ -34,7 +34,7 @@ config::Value take(ByteReader& from, std::int32_t sources, int depth) {
   from.take(value.at.line);
   const auto kind = from.take<std::uint8_t>();
   if (depth > kDeepest || kind > 5 || value.at.source < 0 || value.at.source >= sources)
-    throw RunError("the bytes are no scene");
+    throw RunError("the bytes are not a scene");
   if (kind == 0) value.data = from.take<bool>();
   if (kind == 1) value.data = from.take<std::int64_t>();
   if (kind == 2) value.data = from.take<double>();
@@ -81,7 +81,7 @@ config::Document to_document(std::span<const std::byte> bytes) {
   config::Document document;
   for (std::size_t count = from.count(); count > 0; --count) document.sources.push_back(from.take<std::string>());
   document.root = take(from, static_cast<std::int32_t>(document.sources.size()), 0);
-  if (document.root.table() == nullptr || !from.at_end()) throw RunError("the bytes are no scene");
+  if (document.root.table() == nullptr || !from.at_end()) throw RunError("the bytes are not a scene");
   return document;
 }
 

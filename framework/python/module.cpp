@@ -5,7 +5,7 @@
 
 PYBIND11_MODULE(_butee, module) {
   using namespace butee::python;
-  module.doc() = "What the package butee is made of; import butee instead.";
+  module.doc() = "Extension module of the package butee; import butee instead.";
   module.attr("version") = BUTEE_VERSION;
   module.attr("plugin_folder") = butee::plugin::standard_plugin_folder();
   module.attr("lib_to_program") = BUTEE_LIB_TO_PROGRAM;

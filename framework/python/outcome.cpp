@@ -39,7 +39,8 @@ class Files {
     const std::string model = config::write_toml(config::with_files_found_from(scene.document, folder_.path()));
     if (options.resumes && std::filesystem::exists(folder_.file("model.toml"))) {
       if (!config::read_text(folder_.file("model.toml")).ends_with("\n" + model))
-        throw InputError(folder_.path() + ": the run there is of another scene, so that this one cannot go on with it");
+        throw InputError(folder_.path() +
+                         ": the run in this folder is of another scene and cannot be resumed with this one");
       checkpoint_ = record::CheckpointFolder(folder_).newest();
     }
     if (!checkpoint_) folder_.prepare(model);

@@ -18,8 +18,7 @@ Part::Part(const Session& session, std::vector<std::string> forced)
 
 Part::Locked Part::use() {
   std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock.owns_lock())
-    throw RunError("another thread is at work on this structure; each thread needs one of its own");
+  if (!lock.owns_lock()) throw RunError("another thread is using this structure; each thread needs its own structure");
   return {structure_, std::move(lock)};
 }
 
@@ -39,10 +38,10 @@ std::vector<std::byte> to_bytes(const embed::Structure::Snapshot& snapshot) {
 
 embed::Structure::Snapshot to_snapshot(std::span<const std::byte> bytes) {
   std::uint64_t sum = 0;
-  if (bytes.size() < sizeof sum) throw RunError("the bytes are no snapshot");
+  if (bytes.size() < sizeof sum) throw RunError("the bytes are not a snapshot");
   const auto content = bytes.first(bytes.size() - sizeof sum);
   ByteReader(bytes.last(sizeof sum)).take(sum);
-  if (sum != checksum(content)) throw RunError("the bytes are no snapshot");
+  if (sum != checksum(content)) throw RunError("the bytes are not a snapshot");
   ByteReader from(content);
   std::vector<std::byte> run;
   from.take(run);

@@ -96,9 +96,8 @@ void register_law(const std::string& name, const py::function& force, const py::
     for (const std::string& one : names) values.push_back(given.number(one));
     auto law = std::make_unique<PythonLaw>(functions, std::move(values));
     if (!(law->closed_stiffness() > 0.0) || !std::isfinite(law->closed_stiffness()) || law->force(0.0) != 0.0) {
-      given.complain(
-          diagnostics, "law",
-          "the function in Python has to give a force of 0 at a penetration of 0, and one that grows with it");
+      given.complain(diagnostics, "law",
+                     "the function in Python must return a force that is 0 at a penetration of 0 and grows with it");
       return nullptr;
     }
     return law;

@@ -15,7 +15,7 @@ config::Value table_of(py::handle from, int depth) {
   config::Table table;
   for (const py::handle key : py::reinterpret_borrow<py::object>(from)) {
     if (!py::isinstance<py::str>(key))
-      throw py::type_error("the keys of a scene are texts, not " + py::repr(key).cast<std::string>());
+      throw py::type_error("the keys of a scene must be strings, not " + py::repr(key).cast<std::string>());
     table[key.cast<std::string>()] = convert(from[key], depth + 1);
   }
   return {std::move(table)};
@@ -41,7 +41,7 @@ config::Value number_of(py::handle from) {
 }
 
 config::Value convert(py::handle from, int depth) {
-  if (depth > kDeepest) throw py::value_error("the tables of a scene are not nested that deeply");
+  if (depth > kDeepest) throw py::value_error("the tables of a scene are nested too deeply");
   if (PyBool_Check(from.ptr())) return {from.ptr() == Py_True};
   if (PyFloat_Check(from.ptr())) return {PyFloat_AS_DOUBLE(from.ptr())};
   if (py::isinstance<py::str>(from)) return {from.cast<std::string>()};
@@ -53,7 +53,7 @@ config::Value convert(py::handle from, int depth) {
   if (PyNumber_Check(from.ptr()) != 0) return number_of(from);
   if (py::hasattr(from, "keys")) return table_of(from, depth);
   if (py::hasattr(from, "__iter__")) return array_of(from, depth);
-  throw py::type_error("a scene holds numbers, texts, booleans, lists and dicts, not " +
+  throw py::type_error("a scene contains numbers, strings, booleans, lists and dicts, not " +
                        py::repr(from).cast<std::string>());
 }
 

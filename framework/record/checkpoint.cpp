@@ -33,20 +33,20 @@ auto all(Counters& c) {
 /// Throws InputError if the rest of the run would not be bit-identical.
 void check_target(const std::string& path, const Checkpoint& checkpoint) {
   const std::string& mine = butee::target();
-  const std::string anew = "run the model anew";
+  const std::string anew = "run the model again";
   if (checkpoint.target != mine) {
     const std::vector<std::string> here = targets();
     const bool is_here = std::find(here.begin(), here.end(), checkpoint.target) != here.end();
-    throw InputError(path + ": was written with the instruction set " + checkpoint.target + ", and this run takes " +
+    throw InputError(path + ": was written with the instruction set " + checkpoint.target + ", but this run uses " +
                      mine + ", whose results differ in their last digits; " +
                      (is_here
-                          ? "set BUTEE_TARGET=" + checkpoint.target + " to go on with it, or " + anew
+                          ? "set BUTEE_TARGET=" + checkpoint.target + " to resume it, or " + anew
                           : "this processor has no " + checkpoint.target + " (it has " + join(here) + "): " + anew));
   }
   if (checkpoint.compiled_for != compiled_for())
     throw InputError(path + ": was written by a butee compiled for " + checkpoint.compiled_for +
-                     ", and this one is compiled for " + compiled_for() +
-                     ", whose results differ in their last digits; go on with it by that butee, or " + anew);
+                     ", but this one is compiled for " + compiled_for() +
+                     ", whose results differ in their last digits; resume it with that butee, or " + anew);
 }
 
 }  // namespace
@@ -73,14 +73,14 @@ std::vector<std::byte> to_bytes(const Checkpoint& checkpoint) {
 
 Checkpoint to_checkpoint(std::span<const std::byte> bytes) {
   ByteReader outer(bytes);
-  if (outer.take<std::uint64_t>() != kMark) throw RunError("is no checkpoint of butee");
+  if (outer.take<std::uint64_t>() != kMark) throw RunError("is not a checkpoint of butee");
   if (const auto format = outer.take<std::uint32_t>(); format != kFormat)
     throw RunError("is of format " + std::to_string(format) + "; this butee reads " + std::to_string(kFormat));
   std::string version;
   outer.take(version);
   if (version != BUTEE_VERSION)
     throw RunError("was written by butee " + version +
-                   "; this is " BUTEE_VERSION ", whose results need not be the same to the last bit");
+                   "; this is " BUTEE_VERSION ", whose results may differ in the last digits");
   const auto sum = outer.take<std::uint64_t>();
   std::vector<std::byte> content;
   outer.take(content);
@@ -122,7 +122,7 @@ std::optional<Checkpoint> CheckpointFolder::read(const std::string& name) const 
     Checkpoint checkpoint = to_checkpoint(std::as_bytes(std::span(text)));
     if (checkpoint.model != folder_.checksum_of("model.toml"))
       throw InputError(folder_.file("model.toml") + ": is not the model that " + path +
-                       " was written for; put it back as it was, or run the model anew");
+                       " was written for; put it back as it was, or run the model again");
     check_target(path, checkpoint);
     const auto size = fs::file_size(folder_.file("history.csv"), error);
     if (error || size < checkpoint.history)

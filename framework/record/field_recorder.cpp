@@ -164,7 +164,7 @@ void FieldRecorder::write(double t) {
 }
 
 void FieldRecorder::restore(ByteReader&) {
-  throw RunError("a run that keeps fields cannot go on from a checkpoint");
+  throw RunError("a run that writes fields cannot resume from a checkpoint");
 }
 
 void FieldRecorder::finish() {

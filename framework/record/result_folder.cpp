@@ -83,7 +83,7 @@ void ResultFolder::refuse_foreign() const {
   if (error) throw InputError(path_ + ": cannot be read: " + error.message());
   if (!foreign.empty())
     throw InputError(path_ + ": is not empty and holds no results of butee (" + foreign +
-                     "), so it is left alone; choose another folder with -o");
+                     "), so it is not touched; choose another folder with -o");
 }
 
 void ResultFolder::check() const {
@@ -94,7 +94,7 @@ void ResultFolder::check() const {
 FolderLock ResultFolder::lock() const {
   std::error_code error;
   fs::create_directories(path_, error);
-  if (error) throw RunError(path_ + ": cannot be made: " + error.message());
+  if (error) throw RunError(path_ + ": cannot be created: " + error.message());
   FolderLock lock(path_);
   refuse_foreign();
   return lock;
@@ -104,7 +104,7 @@ void ResultFolder::check_is_ours() const {
   if (is_ours(path_)) return;
   std::error_code error;
   const std::string foreign = foreign_part(path_, error);
-  throw InputError(path_ + ": holds no results of butee that a run could go on from" +
+  throw InputError(path_ + ": contains no results of butee from which a run could resume" +
                    (foreign.empty() ? "" : " (" + foreign + ")"));
 }
 

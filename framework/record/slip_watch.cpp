@@ -32,9 +32,9 @@ std::string SlipWatch::complaint(double tolerance) const {
   if (worst == contacts_.size()) return "";
   const double slip_speed = obstacles_.group_of(contacts_[worst]).friction.slip_speed;
   return "the friction at " + obstacles_.name_of(contacts_[worst]) +
-         " changes its sense over slip_speed = " + to_short_text(slip_speed) + " m/s, but with the tolerance " +
-         to_short_text(tolerance) + " the speed there, up to " + to_short_text(largest_[worst]) +
-         " m/s, may be wrong by " + to_short_text(tolerance * largest_[worst]) +
+         " reverses within slip_speed = " + to_short_text(slip_speed) + " m/s, but for the tolerance " +
+         to_short_text(tolerance) + " the error of the speed there, which reaches " + to_short_text(largest_[worst]) +
+         " m/s, may be " + to_short_text(tolerance * largest_[worst]) +
          " m/s. Take slip_speed = " + to_short_text(tolerance * largest_[worst]) +
          " or more, tolerance = " + to_short_text(slip_speed / largest_[worst]) +
          " or less, or stick_stiffness or stick = \"rigid\", which need no slip_speed";

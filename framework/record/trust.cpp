@@ -98,20 +98,21 @@ std::string describe(const Trust& trust) {
   std::vector<std::string> beside;
   if (!trust.other.empty()) beside.push_back("a run by " + trust.other);
   if (!trust.tightened.empty()) beside.push_back("one with " + trust.tightened);
-  std::string text = "  trust: beside " + join(beside, " and ") + ", the error of the probes is ";
+  std::string text = "  trust: compared with " + join(beside, " and ") + ", the error of the probes is ";
   const std::string accuracy = to_short_text(trust.accuracy) + " of the peak";
   if (trust.to_the_end)
-    text += "at most " + to_short_text(trust.bound) + " of the peak to the end: the run stands to " + accuracy;
+    text += "at most " + to_short_text(trust.bound) + " of the peak to the end: the run is accurate to " + accuracy;
   else
-    text += "at most " + accuracy + " up to t = " + to_short_text(trust.horizon) + " s: up to there the run stands" +
+    text += "at most " + accuracy + " up to t = " + to_short_text(trust.horizon) +
+            " s: the run is accurate up to that time" +
             (trust.end_bound < kMeaningless ? "; to the end it is at most " + to_short_text(trust.end_bound) : "");
-  text +=
-      trust.chaotic
-          ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) + " t)" +
-                (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
-                ", by " + to_short_text(trust.amplification) +
-                " in all: beyond its horizon no run tells the course of this scene; what does hold:"
-          : "\n  trust: small differences grew at most " + to_short_text(trust.amplification) + " times; what holds:";
+  text += trust.chaotic
+              ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) + " t)" +
+                    (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
+                    ", by " + to_short_text(trust.amplification) +
+                    " in all: beyond the horizon the motion cannot be predicted; reliable results:"
+              : "\n  trust: small differences grew at most " + to_short_text(trust.amplification) +
+                    " times; reliable results:";
   text += "\n";
   for (const Trust::Statistic& s : trust.statistics)
     text += "  trust: " + s.name + " = " + to_short_text(s.value) + ", between " + to_short_text(s.least) + " and " +

@@ -16,7 +16,7 @@ void check_start(const scene::Scene& scene, const record::ResultFolder& folder) 
   if (std::filesystem::equivalent(config::path_beside(scene.document, *from->text()), folder.path(), error))
     throw InputError(key + "is the folder that the results of this run would replace; choose another with -o");
   if (scene.output.trust && scene.model.initial_motion->time != 0.0)
-    throw InputError(key + "runs that begin at t = 0 alone can be asked how far they are trusted; leave keep_time out");
+    throw InputError(key + "trust works only for runs that begin at t = 0; remove keep_time");
 }
 
 }  // namespace butee::run

@@ -24,13 +24,12 @@ void check_checkpoints(scene::Scene& scene) {
   const config::Value& given = *scene.document.root.table()->find("output")->table()->find("checkpoint");
   const std::string key = describe(scene.document, given.at) + ": output.checkpoint: ";
   if (!scene.output.fields.formats.empty())
-    throw InputError(key + "a run that keeps fields (output.formats: " + join(scene.output.fields.formats) +
-                     ") cannot go on from a checkpoint; leave one of the two out");
+    throw InputError(key + "a run that writes fields (output.formats: " + join(scene.output.fields.formats) +
+                     ") cannot resume from a checkpoint; remove one of the two");
   if (type.restarts_exactly) return;
-  throw InputError(
-      key + type.name +
-      " keeps a history of its own that no checkpoint holds, so that a run could not go on from one to the "
-      "last bit; leave checkpoint out, or take another method");
+  throw InputError(key + type.name +
+                   " has an internal history that checkpoints do not contain, so a resumed run would not be identical "
+                   "to the last bit; remove checkpoint, or use another method");
 }
 
 Checkpointer::Checkpointer(const scene::Scene& scene, scene::Assembly& assembly, const record::ResultFolder& folder,

@@ -64,7 +64,7 @@ void Run::guarded(Work work) {
   } catch (const std::exception& error) {
     fail(error.what());
   } catch (...) {
-    fail("something was thrown that is no exception of the standard library");
+    fail("an exception that is not a std::exception was thrown");
   }
 }
 
@@ -181,7 +181,7 @@ void Run::look_at_rows() {
   if (!has_struck) return;
   summary_.report.warnings.push_back("an impact lasts about " + to_short_text(contact) +
                                      " s and history.csv has a row every " + to_short_text(*output.interval) +
-                                     " s, which do not show the course of its force. Take interval = " +
+                                     " s, too few to resolve its force. Take interval = " +
                                      to_short_text(contact / (2.5 * kRowsInContact)) + ", or impacts = true");
 }
 

@@ -102,10 +102,10 @@ std::optional<ImpactDamping> ContactTables::damping(const model::LawType* law) {
       given, path_ + ".damping",
       {text("type", "the kind of dissipation").one_of({"kelvin_voigt", "hunt_crossley", "jankowski"}),
        number("coefficient", "N s/m", "c of kelvin_voigt").at_least(0).optional(),
-       config::boolean("pull", "kelvin_voigt: the contact ends at g = 0 and may pull before; else at F = 0")
+       config::boolean("pull", "kelvin_voigt: the contact ends at g = 0, with tension before; false: at F = 0")
            .or_else(false),
        number("factor", "s/m", "a of hunt_crossley").at_least(0).optional(),
-       number("restitution", "1", "speed after an impact over that before, in place of a coefficient")
+       number("restitution", "1", "speed after an impact over that before, instead of a coefficient")
            .above(0)
            .at_most(1)
            .optional(),
@@ -136,7 +136,8 @@ std::optional<ImpactDamping> ContactTables::kelvin_voigt(const Parameters& p) {
   const auto e = restitution(p, "mass");
   if (!e) return std::nullopt;
   if (law_ != "linear") {
-    p.complain(diagnostics_, "restitution", "gives a coefficient with law = \"linear\" alone; give the coefficient");
+    p.complain(diagnostics_, "restitution",
+               "determines a coefficient only with law = \"linear\"; give the coefficient");
     return std::nullopt;
   }
   damping.coefficient =
@@ -168,12 +169,12 @@ std::optional<ImpactDamping> ContactTables::jankowski(const Parameters& p) {
   const auto e = restitution(p, "mass");
   if (!e) return std::nullopt;
   if (law_ != "hertz" || contact_.number("exponent") != 1.5) {
-    p.complain(diagnostics_, "type", "jankowski is made for law = \"hertz\" with the exponent 1.5");
+    p.complain(diagnostics_, "type", "jankowski requires law = \"hertz\" with the exponent 1.5");
     return std::nullopt;
   }
   const double ratio = jankowski_ratio(*e);
   diagnostics_.warning(p.key("restitution"), p.value("restitution").at,
-                       "jankowski's formula is approximate: the restitution comes out as " +
+                       "jankowski's formula is approximate: the resulting restitution is " +
                            to_short_text(jankowski_restitution(ratio)));
   return ImpactDamping{ImpactDamping::Kind::jankowski, ratio, p.number("mass"), false};
 }

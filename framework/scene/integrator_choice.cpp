@@ -18,7 +18,7 @@ using config::Value;
 constexpr const char* kDefault = "auto";
 
 std::vector<Parameter> common_parameters() {
-  return {number("time_step", "s", "the step, of an adaptive method the first").above(0),
+  return {number("time_step", "s", "the step; for an adaptive method the first step").above(0),
           number("end_time", "s", "the end of the run, which starts at t = 0").above(0)};
 }
 
@@ -67,7 +67,7 @@ class ChoiceReader {
     }
     if (end_time + time_step == end_time) {
       parameters->complain(diagnostics_, "time_step",
-                           "is lost in rounding beside end_time = " + to_text(end_time) + " s; make it larger");
+                           "is lost in rounding relative to end_time = " + to_text(end_time) + " s; make it larger");
       return std::nullopt;
     }
     return IntegratorChoice{
@@ -195,9 +195,10 @@ std::string set_aside_keys(config::Document& document, const plugin::Catalogue& 
         !owners_of(key, catalogue).empty())
       aside.push_back(key);
   if (aside.empty()) return "";
-  const std::string line = describe(document, type->at) + ": the file's " + join(aside) +
-                           (aside.size() == 1 ? " is" : " are") + " set aside, which " + chosen->declaration.name +
-                           " does not have";
+  const bool is_one = aside.size() == 1;
+  const std::string line = describe(document, type->at) + ": the file's " + (is_one ? "key " : "keys ") + join(aside) +
+                           (is_one ? " is" : " are") + " ignored, because " + chosen->declaration.name +
+                           " does not have " + (is_one ? "it" : "them");
   std::erase_if(table->entries, [&](const Table::Entry& entry) {
     return std::find(aside.begin(), aside.end(), entry.first) != aside.end();
   });
@@ -236,8 +237,7 @@ std::optional<IntegratorChoice> read_integrator(const Value& root, const plugin:
   if (integrator == nullptr) {
     diagnostics.error(
         "integrator", root.at,
-        "missing; a scene says how long it is integrated: [integrator] with end_time, and type and tolerance where the "
-        "default does not do");
+        "missing; give [integrator] with end_time, and with type and tolerance if the defaults do not suit");
     return std::nullopt;
   }
   if (integrator->table() == nullptr) {

@@ -12,10 +12,10 @@ namespace {
 /// A displacement with jumps in velocity, such as a ramp, would be an impact.
 std::string complaint_about(const std::string& type, const TimeFunction& displacement) {
   if (type == "ramp")
-    return "a ramp of displacement has jumps of velocity; give a table of the displacement, through which a smooth "
-           "curve goes, or the acceleration";
+    return "a ramp of displacement has jumps of velocity; give a table of the displacement, which is interpolated "
+           "smoothly, or the acceleration";
   if (type == "table" && !displacement.discontinuities().empty() && displacement.discontinuities().front() > 0.0)
-    return "a table of displacement begins at t = 0 or before";
+    return "a table of displacement must begin at t = 0 or before";
   return "";
 }
 
@@ -33,8 +33,7 @@ void SceneReader::read_base() {
     }
   }
   if (given == nullptr && has_still_stops)
-    diagnostics_.error("contact", root_.at,
-                       "frame = \"space\" is of stops beside a base that moves: give [base], or leave frame out");
+    diagnostics_.error("contact", root_.at, "frame = \"space\" requires a moving base: give [base], or remove frame");
   if (model_.bases.empty() || lacks_elements_ || diagnostics_.error_count() > 0) return;
   const auto is_of_some = [](const BaseMotion& base) { return !base.nodes.empty(); };
   const auto some = std::count_if(model_.bases.begin(), model_.bases.end(), is_of_some);
@@ -50,10 +49,10 @@ void SceneReader::read_base() {
 void SceneReader::read_base_entry(const Value& entry, const std::string& path, bool takes_nodes) {
   std::vector<config::Parameter> declared = {
       config::table("acceleration", "the acceleration of the supports, m/s2, with its direction").optional(),
-      config::table("displacement", "in its place their displacement, m, with its direction").optional(),
+      config::table("displacement", "instead, their displacement, m, with its direction").optional(),
       config::number("initial_velocity", "m/s", "with acceleration, their velocity at t = 0").or_else(0.0)};
   if (takes_nodes)
-    declared.push_back(config::texts("nodes", "the supports that move; all, with the ground, where absent").optional());
+    declared.push_back(config::texts("nodes", "the supports that move; default: all, with the ground").optional());
   const auto p = read_table(entry, path, declared);
   if (!p) return;
   const std::string key = p->has("acceleration") ? "acceleration" : "displacement";
@@ -64,7 +63,8 @@ void SceneReader::read_base_entry(const Value& entry, const std::string& path, b
                                   : "give acceleration or displacement, such as { direction = [0, 1, 0], type = "
                                     "\"table\", file = \"quake.csv\" }");
   if (p->has("displacement") && p->given("initial_velocity"))
-    return p->complain(diagnostics_, "initial_velocity", "belongs to acceleration; displacement has a velocity itself");
+    return p->complain(diagnostics_, "initial_velocity",
+                       "belongs to acceleration; displacement already defines the velocity");
   const Value& motion = p->value(key);
   if (motion.table() == nullptr) return diagnostics_.error(path + "." + key, motion, "must be one table, not several");
   const auto in_time = read_in_time(motion, path + "." + key, {"direction"});
@@ -93,12 +93,12 @@ void SceneReader::read_base_entry(const Value& entry, const std::string& path, b
       model_.loads.push_back(std::move(load));
     } else {
       return p->complain(diagnostics_, key,
-                         "its integral is known of harmonic, constant, ramp and table alone, and stops in space and "
-                         "supports apart need it");
+                         "stops with frame = \"space\" and independently moving supports need its integral; only "
+                         "harmonic, constant, ramp and table can be integrated");
     }
   }
   if (base.nodes.empty() && !lacks_elements_ && inertia_pattern(model_, base.direction).empty())
-    return along->complain(diagnostics_, "direction", "is along no displacement that the scene has");
+    return along->complain(diagnostics_, "direction", "acts along no displacement of the scene");
   model_.bases.push_back(std::move(base));
 }
 
@@ -112,9 +112,9 @@ bool SceneReader::read_base_nodes(const Parameters& p, BaseMotion& base) {
       if (base.direction[axis_of(kind)] != 0.0)
         moves = moves || (dofs_->exists({node, kind}) && dofs_->is_fixed({node, kind}));
     if (moves || lacks_elements_) continue;
-    p.complain(
-        diagnostics_, "nodes",
-        "no [[support]] holds " + model_.nodes.name(node) + " along the direction; a base moves what is fixed to it");
+    p.complain(diagnostics_, "nodes",
+               "no [[support]] holds " + model_.nodes.name(node) +
+                   " along the direction; a base moves only nodes that are fixed to it");
     return false;
   }
   return true;
@@ -157,12 +157,13 @@ bool SceneReader::can_be_still(const Value& given) {
     diagnostics_.error("base", given.at, what);
     return false;
   };
-  const std::string where = model_.bases.front().nodes.empty() ? "stops with frame = \"space\"" : "supports apart";
+  const std::string where =
+      model_.bases.front().nodes.empty() ? "stops with frame = \"space\"" : "independently moving supports";
   if (model_.damping.is_modal())
-    return refuse("modal damping is that of motion with the base, which " + where +
-                  " do not have; give mass_proportional and stiffness_proportional");
+    return refuse("modal damping requires motion relative to one base and cannot be combined with " + where +
+                  "; give mass_proportional and stiffness_proportional");
   if (model_.initial_motion)
-    return refuse("[initial] from is of motion relative to one base, and this scene has " + where +
+    return refuse("[initial] from requires motion relative to one base, but this scene has " + where +
                   "; give displacement and velocity");
   const auto moves = [&](NodeId node) {
     const NodalDof dof{node, DofKind::u};
@@ -178,8 +179,8 @@ bool SceneReader::can_be_still(const Value& given) {
     for (const auto* side : {&group.a, &group.b})
       for (const NodeId node : *side)
         if (!group.b.empty() && moves(node))
-          return refuse("moves " + model_.nodes.name(node) + ", which a stop between two bodies names; where " + where +
-                        " are, both bodies of a stop have a free u");
+          return refuse("moves " + model_.nodes.name(node) + ", a body of a stop between two bodies; with " + where +
+                        ", both bodies of a stop need a free u");
   for (std::size_t i = 0; i < model_.elements.size(); ++i) {
     if (model_.bases.front().nodes.empty() || i >= model_.turns.size() || !model_.turns[i]) continue;
     DofTable claims(model_.nodes);
@@ -198,7 +199,7 @@ bool SceneReader::can_be_still(const Value& given) {
 void SceneReader::read_frame(const Parameters& p) {
   if (p.has("between")) {
     if (p.given("frame"))
-      p.complain(diagnostics_, "frame", "is of stops to ground (nodes), not of stops between bodies");
+      p.complain(diagnostics_, "frame", "applies to stops to ground (nodes), not to stops between bodies");
     return;
   }
   const BaseFrame frame = p.text("frame") == "space" ? BaseFrame::still : BaseFrame::moving;

@@ -49,8 +49,8 @@ std::vector<config::Parameter> gap_parameters(const config::Table& entry) {
   const config::Parameter gap = number("gap", "m", "the free play on each side").at_least(0);
   const bool has_other = entry.find("gaps") != nullptr || entry.find("gaps_from") != nullptr;
   return {has_other ? gap.optional() : gap,
-          config::numbers("gaps", "m", "the free play of each contact, in place of gap").optional(),
-          config::table("gaps_from", "a file with a column of gaps, in place of gap").optional()};
+          config::numbers("gaps", "m", "the free play of each contact, instead of gap").optional(),
+          config::table("gaps_from", "a file with a column of gaps, instead of gap").optional()};
 }
 
 std::vector<std::string> stop_dof_names() {
@@ -100,7 +100,7 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
                  .of_length(2)
                  .or_else(config::Array{Value(std::string("uy")), Value(std::string("uz"))})});
   }
-  declare({number("radius", "m", "of the turning body where it touches").at_least(0).optional()});
+  declare({number("radius", "m", "of the turning body at the contact").at_least(0).optional()});
   if (law != nullptr) {
     declare(law->parameters);
   } else if (!is_support) {
@@ -134,10 +134,10 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
   const auto gaps = is_support ? std::optional(std::vector<double>{0.0}) : read_gaps(*p, a.size());
   if (!gaps || !damping || !friction) return;
   if (is_support && friction->rule == Friction::Rule::none)
-    return diagnostics_.error(path + ".friction", entry.at, "missing; a friction support is nothing without it");
+    return diagnostics_.error(path + ".friction", entry.at, "missing; a friction support requires it");
   if (is_stop && friction->rule != Friction::Rule::none)
     return p->complain(diagnostics_, "friction",
-                       "has no direction to slip in on a stop, which knows one displacement; take type = \"plane\"");
+                       "is not possible on a stop, which has no slip direction; use type = \"plane\"");
   if (!check_radius(*p, friction->rule != Friction::Rule::none, a, b)) return;
 
   const auto ends_of = [&](auto& group, std::size_t i) {
@@ -151,7 +151,7 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
     const bool dissipates = made_law != nullptr && made_law->rate_dependence() != ContactLaw::RateDependence::none;
     if (dissipates && damping->kind != ImpactDamping::Kind::none)
       return p->complain(diagnostics_, "damping",
-                         "stands beside law = \"" + *law_name + "\", which dissipates by itself");
+                         "conflicts with law = \"" + *law_name + "\", which has its own dissipation");
     if (is_stop && !dissipates && damping->kind == ImpactDamping::Kind::none) {
       StopGroup group;
       group.law = std::move(made_law);
@@ -285,7 +285,7 @@ bool SceneReader::read_pairs(const Parameters& parameters, const std::vector<Dof
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
     if (model_.nodes.canonical(a.nodes[i]) == model_.nodes.canonical(b.nodes[i]))
       return complain(model_.nodes.name(a.nodes[i]) + " and " + model_.nodes.name(b.nodes[i]) +
-                      " are one node, which has no motion against itself");
+                      " are the same node, which has no relative motion");
     for (const NodeId node : {a.nodes[i], b.nodes[i]})
       if (!check_directions(parameters, "between", node, directions)) return false;
   }

@@ -35,16 +35,16 @@ void SceneReader::read_damping() {
       *table, "damping",
       {number("mass_proportional", "1/s", "Rayleigh damping by the mass matrix").at_least(0).or_else(0.0),
        number("stiffness_proportional", "s", "Rayleigh damping by the stiffness matrix").at_least(0).or_else(0.0),
-       number("rotating_stiffness_proportional", "s", "of the parts that turn, damping that turns with them")
+       number("rotating_stiffness_proportional", "s", "of rotating parts, damping that rotates with them")
            .at_least(0)
            .or_else(0.0)},
       diagnostics_, {"modal"});
   if (p) {
     model_.rotating_damping = p->number("rotating_stiffness_proportional");
     if (model_.rotating_damping != 0.0 && root_.table()->find("rotation") == nullptr)
-      p->complain(diagnostics_, "rotating_stiffness_proportional",
-                  "is of parts that turn, but nothing does: give [rotation] with a speed, or use "
-                  "stiffness_proportional");
+      p->complain(
+          diagnostics_, "rotating_stiffness_proportional",
+          "applies to rotating parts, but nothing turns: give [rotation] with a speed, or use stiffness_proportional");
     model_.damping.mass_proportional = p->number("mass_proportional");
     model_.damping.stiffness_proportional = p->number("stiffness_proportional");
   }
@@ -52,7 +52,7 @@ void SceneReader::read_damping() {
   if (modal == nullptr) return;
   if (table->table()->find("mass_proportional") != nullptr || table->table()->find("stiffness_proportional") != nullptr)
     diagnostics_.error("damping.modal", *modal,
-                       "stands in place of mass_proportional and stiffness_proportional; remove it, or those");
+                       "replaces mass_proportional and stiffness_proportional; remove it, or those");
   read_modal_damping(*modal);
 }
 

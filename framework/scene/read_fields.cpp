@@ -57,15 +57,15 @@ void refuse_absent(const Parameters& p, const model::Model& model, const model::
     const auto has = [&](model::NodeId node) { return dofs.exists({node, kind}); };
     if (std::none_of(request.nodes.begin(), request.nodes.end(), has))
       p.complain(diagnostics, "quantities",
-                 std::string("no node that is kept has ") + name_of(quantity) + ": no element there uses it");
+                 std::string("no recorded node has ") + name_of(quantity) + ": no element there uses it");
   }
 }
 
 std::vector<config::Parameter> field_keys(const config::Array& usual) {
   return {
-      config::texts("nodes", "the nodes that are kept: selectors; all where absent").optional(),
-      config::texts("quantities", "what is kept of them").one_of(model::field_quantities()).or_else(usual),
-      config::number("interval", "s", "the time between two records; as the rows where absent").above(0).optional()};
+      config::texts("nodes", "the recorded nodes: selectors; default: all").optional(),
+      config::texts("quantities", "the recorded quantities").one_of(model::field_quantities()).or_else(usual),
+      config::number("interval", "s", "the time between two records; default: that of the rows").above(0).optional()};
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ model::FieldRequest read_fields(const Parameters& output, std::vector<std::strin
   request.formats = std::move(formats);
   const bool wanted = !request.formats.empty();
   if (output.has("fields") && !wanted)
-    output.complain(diagnostics, "fields", "no format keeps them; write formats = [\"csv\", \"hdf5\"] beside it");
+    output.complain(diagnostics, "fields", "no format writes them; set formats = [\"csv\", \"hdf5\"] beside it");
   const Value none, &table = output.has("fields") ? output.value("fields") : none;
   if (table.table() == nullptr) {
     output.complain(diagnostics, "fields", "must be one table, not several");

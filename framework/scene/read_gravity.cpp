@@ -17,7 +17,7 @@ void SceneReader::read_gravity() {
   const auto g = p->numbers("acceleration");
   auto pattern = inertia_pattern(model_, Eigen::Vector3d(g[0], g[1], g[2]));
   if (pattern.empty()) {
-    p->complain(diagnostics_, "acceleration", "acts along no displacement that the scene has");
+    p->complain(diagnostics_, "acceleration", "acts along no displacement of the scene");
     return;
   }
   config::Table unity;

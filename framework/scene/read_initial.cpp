@@ -44,10 +44,11 @@ void SceneReader::read_initial() {
       *table, "initial",
       {config::table("displacement", "initial displacements").optional(),
        config::table("velocity", "initial velocities").optional(),
-       config::text("from", "a result folder whose run this one goes on from, relative to the scene").optional(),
-       config::number("at", "s", "the instant of that run; its end where absent").optional(),
-       config::boolean("keep_time", "begin at that instant; at t = 0 where false").or_else(false),
-       config::integer("size", "bytes of its states.bin, as model.toml has it").at_least(0).optional(),
+       config::text("from", "the result folder of the run from which this one starts, relative to the scene")
+           .optional(),
+       config::number("at", "s", "the instant of that run; default: its end").optional(),
+       config::boolean("keep_time", "true: begin at that instant; false: at t = 0").or_else(false),
+       config::integer("size", "bytes of its states.bin, as in model.toml").at_least(0).optional(),
        config::text("checksum", "CRC-64 of its states.bin, likewise").optional()},
       diagnostics_);
   if (p && p->has("from")) read_initial_motion(*p);
@@ -81,10 +82,10 @@ void SceneReader::read_initial_motion(const Parameters& p) {
   if (diagnostics_.error_count() > 0) return;  // The structure may be incomplete because of errors.
   const std::string difference = saved.difference_from(model_.nodes, *dofs_);
   if (!difference.empty()) return complain("from", "is a run of another structure: " + difference);
-  if (saved.motions.empty()) return complain("from", "keeps no motion");
+  if (saved.motions.empty()) return complain("from", "contains no motion");
   const SavedMotion* motion = p.has("at") ? find_motion(saved, p.number("at")) : &saved.motions.back();
   if (motion == nullptr)
-    return complain("at", "is no instant that the run kept, which are: " + times_of(saved) + " s. Add it to [output] " +
+    return complain("at", "is not an instant saved by that run; saved: " + times_of(saved) + " s. Add it to [output] " +
                               "states of that scene and run it again");
   model_.initial_motion = InitialMotion{motion->x, motion->v, p.flag("keep_time") ? motion->t : 0.0};
 }
@@ -104,8 +105,8 @@ void SceneReader::read_initial_entry(const Value& entry, const std::string& path
       {config::texts("nodes", "the nodes"),
        config::text("dof", "the degree of freedom").one_of(dof_names()).or_else("u"),
        config::number("value", moves ? "m/s" : "m", "the value").optional(),
-       config::number("rotation", moves ? "rad/s" : "rad", "in place of value, a rigid rotation of a beam").optional(),
-       config::number("about", "m", "the coordinate that it leaves in place").optional()});
+       config::number("rotation", moves ? "rad/s" : "rad", "instead of value, a rigid rotation of a beam").optional(),
+       config::number("about", "m", "the coordinate that stays in place").optional()});
   if (!p) return;
   const bool rotates = p->has("rotation");
   if (!rotates && !p->has("value"))
@@ -113,12 +114,12 @@ void SceneReader::read_initial_entry(const Value& entry, const std::string& path
         diagnostics_, "value",
         std::string("missing; give the value (number, ") + (moves ? "m/s" : "m") + ")" + ", or rotation and about");
   if (rotates && p->has("value"))
-    return p->complain(diagnostics_, "rotation", "stands beside value; give one of the two");
+    return p->complain(diagnostics_, "rotation", "conflicts with value; give one of the two");
   if (rotates && p->given("dof"))
-    return p->complain(diagnostics_, "dof", "stands beside rotation, which is of u and theta");
+    return p->complain(diagnostics_, "dof", "conflicts with rotation, which sets u and theta");
   if (rotates != p->has("about"))
     return p->complain(diagnostics_, "about",
-                       rotates ? "missing; give the coordinate that the rotation leaves in place (number, m)"
+                       rotates ? "missing; give the coordinate that stays in place (number, m)"
                                : "belongs to rotation, which is not given");
   const auto nodes = select(*p, "nodes");
   if (!nodes) return;
@@ -147,7 +148,7 @@ std::vector<NodalValue> SceneReader::rigid_rotation(const Parameters& p, const s
   for (const NodeId node : nodes) {
     const NodeGroup& group = model_.nodes.group_of(node);
     if (group.lone()) {
-      p.complain(diagnostics_, "nodes", model_.nodes.name(node) + " is no node of a beam, so it has no coordinate");
+      p.complain(diagnostics_, "nodes", model_.nodes.name(node) + " is not a node of a beam, so it has no coordinate");
       return {};
     }
     const double x = group.coordinates[static_cast<std::size_t>(node - group.first)];

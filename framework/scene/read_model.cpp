@@ -57,7 +57,7 @@ std::optional<NodeId> read_node(const NodeTable& nodes, const Parameters& parame
   if (!selected) return std::nullopt;
   if (selected->size() != 1) {
     parameters.complain(diagnostics, key,
-                        "names " + std::to_string(selected->size()) + " nodes; exactly one is wanted");
+                        "names " + std::to_string(selected->size()) + " nodes; exactly one is required");
     return std::nullopt;
   }
   return selected->front();
@@ -106,12 +106,12 @@ void SceneReader::read_materials() {
         entry, "material." + name,
         {number("young_modulus", "Pa", "Young's modulus").above(0), number("density", "kg/m3", "the density").above(0),
          number("poisson_ratio", "1", "Poisson's ratio").above(-1).at_most(0.5).optional(),
-         number("shear_modulus", "Pa", "the shear modulus, in place of poisson_ratio").above(0).optional()},
+         number("shear_modulus", "Pa", "the shear modulus, instead of poisson_ratio").above(0).optional()},
         diagnostics_);
     auto& material = materials_[name];
     if (!p) continue;
     if (p->has("poisson_ratio") && p->has("shear_modulus")) {
-      p->complain(diagnostics_, "shear_modulus", "stands beside poisson_ratio; give one of the two");
+      p->complain(diagnostics_, "shear_modulus", "conflicts with poisson_ratio; give one of the two");
       continue;
     }
     material = Material{p->number("young_modulus"), p->number("density")};

@@ -69,20 +69,18 @@ class OutputReader {
     const auto p = read_parameters(
         table, "output",
         {config::number("interval", "s", "the time between two rows").above(0).optional(),
-         config::integer("every", "a row at every so manyth accepted step").at_least(1).optional(),
-         config::integer("checkpoint", "keep the run on disk after every so manyth accepted step")
-             .at_least(1)
-             .optional(),
-         config::numbers("states", "s", "instants of which the whole motion is kept in states.bin").optional(),
+         config::integer("every", "a row at every N-th accepted step").at_least(1).optional(),
+         config::integer("checkpoint", "save a checkpoint at every N-th accepted step").at_least(1).optional(),
+         config::numbers("states", "s", "instants at which the whole motion is saved in states.bin").optional(),
          config::boolean("energy", "follow work, dissipation and the balance").or_else(false),
          config::boolean("impacts", "write impacts.csv").or_else(false),
-         config::boolean("trust", "find out how far the answer can be trusted").or_else(false),
-         config::number("trust_accuracy", "1", "the accuracy it is to be trusted to, of the peak")
+         config::boolean("trust", "estimate the accuracy of the result").or_else(false),
+         config::number("trust_accuracy", "1", "accuracy required by trust, relative to the peak")
              .above(0)
              .at_most(1)
              .or_else(1e-2),
          config::texts("formats", "the file formats").optional(),
-         config::table("fields", "what the formats of fields keep").optional(),
+         config::table("fields", "contents of the formats of fields").optional(),
          config::table("probe", "the recorded nodes: [[output.probe]]").optional()},
         diagnostics_);
     if (const Value* probes = table.table() != nullptr ? table.table()->find("probe") : nullptr)
@@ -91,7 +89,7 @@ class OutputReader {
       request.probes = default_probes(model_);
     if (!p) return request;
     if (p->has("interval") && p->has("every"))
-      p->complain(diagnostics_, "every", "stands beside interval; give one of them");
+      p->complain(diagnostics_, "every", "conflicts with interval; give one of them");
     if (p->has("every"))
       request.every = p->integer("every");
     else
@@ -135,7 +133,7 @@ class OutputReader {
           (*list.array())[i], "output.probe[" + std::to_string(i) + "]",
           {config::text("label", "the name of its columns"), config::text("node", "the node"),
            config::texts("quantities", "what is recorded").one_of(model::probe_quantities()),
-           config::text("element", "the beam or spring whose forces are recorded, where there are several").optional()},
+           config::text("element", "the beam or spring whose forces are recorded, if the node has several").optional()},
           diagnostics_);
       if (!p) continue;
       const std::string& label = p->text("label");
@@ -162,7 +160,7 @@ class OutputReader {
       probe.quantities.push_back(quantity);
     }
     if (p.has("element") && std::none_of(probe.quantities.begin(), probe.quantities.end(), takes_element))
-      p.complain(diagnostics_, "element", "no quantity of this probe is the force of an element; leave it out");
+      p.complain(diagnostics_, "element", "no quantity of this probe is the force of an element; remove it");
     request.probes.push_back(std::move(probe));
   }
 

@@ -97,7 +97,7 @@ void SceneReader::check_buckling() {
   if (model_.stops.empty())
     diagnostics_.error(key, element_places_[at].second, what + "; make it smaller, or hold the beam sideways");
   else
-    diagnostics_.warning(key, element_places_[at].second, what + "; the stops alone hold it");
+    diagnostics_.warning(key, element_places_[at].second, what + "; only the stops hold it");
 }
 
 }  // namespace butee::scene

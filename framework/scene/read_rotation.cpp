@@ -19,10 +19,9 @@ void SceneReader::read_rotation() {
                            "has rotating damping, but nothing turns: give [rotation] with a speed");
     return;
   }
-  const auto p =
-      read_parameters(*given, "rotation",
-                      {config::texts("parts", "the beams and discs that turn; all that can where absent").optional()},
-                      diagnostics_, {"speed"});
+  const auto p = read_parameters(
+      *given, "rotation", {config::texts("parts", "the beams and discs that turn; default: all that can").optional()},
+      diagnostics_, {"speed"});
   if (!p) return;
   model_.rotation = read_speed(*given);
   choose_turning(*p);

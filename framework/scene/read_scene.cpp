@@ -52,7 +52,8 @@ class LeftOut {
   }
 
   void report(const std::string& key, const config::Value& name) {
-    diagnostics_.error(key, name, "may be of a module that could not be read. " + join(catalogue_.left_out(), "; "));
+    diagnostics_.error(key, name,
+                       "may belong to a module that could not be read. " + join(catalogue_.left_out(), "; "));
   }
 
   const plugin::Catalogue& catalogue_;

@@ -40,11 +40,11 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
   };
   for (const Item& item : items)
     if ((item.kind == Kind::max || item.kind == Kind::min) && !is_followed(item))
-      throw InputError("\"" + item.text + "\": is measured from another frame than the motion is solved in; take peak");
+      throw InputError("\"" + item.text + "\": refers to another frame than the solution; use peak");
 
   for (const Item& item : items)
     if (item.kind == Kind::wear && dynamics.obstacles() == nullptr)
-      throw InputError("\"wear\": no contact of the scene rubs; give one friction, or take it out");
+      throw InputError("\"wear\": no contact of the scene has friction; add friction, or remove it");
 
   if (const auto chosen = chosen_by([&](const Item& i) { return i.kind == Kind::peak && is_followed(i); });
       !chosen.empty())

@@ -65,10 +65,10 @@ void Store::check_identity(const std::string& folder) const {
       {"build", {identity_.build, "butee itself"}}};
   for (const auto& [key, part] : parts)
     if (const std::string was = text_in(known, key); was != part.first)
-      throw InputError(folder + ": " + part.second + " has changed since the rows there were computed (" + was +
-                       ", now " + part.first +
-                       "), so that they do not belong together; choose another folder with -o, "
-                       "or --fresh to begin anew");
+      throw InputError(
+          folder + ": " + part.second + " has changed since the rows there were computed (" + was + ", now " +
+          part.first +
+          "), so that they do not belong together; choose another folder with -o, or --fresh to start again");
 }
 
 }  // namespace butee::study

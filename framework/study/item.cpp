@@ -25,18 +25,18 @@ std::string known_kinds() {
 
 const std::vector<ItemKind>& item_kinds() {
   static const std::vector<ItemKind> all = {
-      {Kind::peak, "peak", "largest |value| over the motion that counts, between steps too"},
+      {Kind::peak, "peak", "largest |value| over the periods that count, including between steps"},
       {Kind::max, "max", "largest value, of displacements, velocities and accelerations"},
-      {Kind::min, "min", "smallest value, of the same"},
+      {Kind::min, "min", "smallest value, of the same quantities"},
       {Kind::mean, "mean", "mean over time"},
       {Kind::rms, "rms", "root of the mean square over time"},
       {Kind::end, "end", "value at the end"},
       {Kind::section, "section", "value at the end of each period (Poincare section)"},
       {Kind::frequency, "frequency", "frequency of the largest line of the spectrum, Hz"},
       {Kind::impacts, "impacts", "closings of stops"},
-      {Kind::wear, "wear", "work of rubbing of all contacts, the integral of |F_n w| (Archard), J"},
+      {Kind::wear, "wear", "wear work of all contacts, the integral of |F_n w| (Archard), J"},
       {Kind::lyapunov, "lyapunov", "largest Lyapunov exponent: growth of a small disturbance, 1/s"},
-      {Kind::trust, "trust", "instant up to which the run can be trusted (butee run --trust), s: several runs"}};
+      {Kind::trust, "trust", "time up to which the run is accurate (butee run --trust), s: several runs"}};
   return all;
 }
 
@@ -67,7 +67,7 @@ Item read_item(const std::string& text) {
   item.quantity = model::quantity_of(quantity);
   const bool is_motion = source_of(item.quantity) == model::Source::motion;
   if ((item.kind == Kind::max || item.kind == Kind::min) && !is_motion)
-    throw InputError("\"" + text + "\": " + name + " is of displacements, velocities and accelerations; take peak");
+    throw InputError("\"" + text + "\": " + name + " applies to displacements, velocities and accelerations; use peak");
   return item;
 }
 

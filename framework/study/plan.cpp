@@ -67,8 +67,7 @@ Plan::Plan(std::vector<Axis> axes, PlanKind kind, std::int64_t count, std::optio
     throw InputError("nothing varies: the study has no [[vary]], which this plan takes its values from");
   const bool is_random = kind == PlanKind::sobol || kind == PlanKind::latin;
   if (is_random && follow != Follow::no)
-    throw InputError(
-        "study.follow: points of a plan that is spread at random are no sweep; take plan = \"grid\" or \"list\"");
+    throw InputError("study.follow: the points of a random plan are not a sweep; use plan = \"grid\" or \"list\"");
   switch (kind) {
     case PlanKind::grid:
       points_ = grid_size(axes_);

@@ -67,7 +67,7 @@ class AxisReader {
     }
     const bool is_random = kind == PlanKind::sobol || kind == PlanKind::latin;
     if (is_random) {
-      if (p.has("count")) p.complain(diagnostics_, "count", "is that of the whole plan here: write it in [study]");
+      if (p.has("count")) p.complain(diagnostics_, "count", "applies to the whole plan: write it in [study]");
       if (!(axis.range->to != axis.range->from)) p.complain(diagnostics_, "to", "the range is empty");
       return axis;
     }
@@ -82,7 +82,7 @@ class AxisReader {
       return std::nullopt;
     }
     if (count > 1 && axis.range->to == axis.range->from) {
-      p.complain(diagnostics_, "to", "the range is empty, but is to hold " + std::to_string(count) + " values");
+      p.complain(diagnostics_, "to", "the range is empty, but count requests " + std::to_string(count) + " values");
       return std::nullopt;
     }
     if (count == 1 && axis.range->to != axis.range->from) {

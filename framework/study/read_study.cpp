@@ -45,7 +45,8 @@ class Reader {
     read_parameters(
         document_.root, "",
         {config::integer("schema", "the version of this format").at_least(1).at_most(1),
-         config::text("scene", "the model file, beside the study"), config::text("title", "of pictures").optional(),
+         config::text("scene", "the model file, beside the study"),
+         config::text("title", "the title of pictures").optional(),
          config::table("vary", "[[vary]]: the keys that vary").optional(), config::table("study", "how").optional()},
         diagnostics_);
   }
@@ -149,12 +150,12 @@ std::vector<Parameter> study_parameters() {
           .at_least(0)
           .at_most(kMostPeriods)
           .or_else(std::int64_t{0}),
-      config::integer("periods", "periods that count; absent: to end_time of the scene")
+      config::integer("periods", "periods that count; default: to end_time of the scene")
           .at_least(1)
           .at_most(kMostPeriods)
           .optional(),
-      config::number("period", "s", "of settle, periods and sections; absent: that of the loads").above(0).optional(),
-      config::number("steady", "1", "ends settle earlier where the motion repeats itself to this part")
+      config::number("period", "s", "of settle, periods and sections; default: that of the loads").above(0).optional(),
+      config::number("steady", "1", "ends settling early if the motion repeats within this relative difference")
           .above(0)
           .at_most(1e-2)
           .optional(),
@@ -169,8 +170,8 @@ std::vector<Parameter> vary_parameters() {
           config::integer("count", "values from one to the other").at_least(1).optional(),
           config::text("spacing", "of the values of a range").one_of({"linear", "log"}).or_else("linear"),
           config::text("file", "a CSV file with a line of names, beside the study").optional(),
-          config::text("label", "of its axis in pictures: \"load / N\"; absent: the key").optional(),
-          config::text("column", "its column; absent: the only one, or that of the key's name").optional()};
+          config::text("label", "of its axis in pictures: \"load / N\"; default: the key").optional(),
+          config::text("column", "its column; default: the only one, or that of the key's name").optional()};
 }
 
 bool is_study(const config::Document& document) {
@@ -249,9 +250,9 @@ Study study_of(const config::Document& document, const config::Document* known_s
   for (const Item& item : items)
     if (item.kind == Item::Kind::trust && reader.follow() != Follow::no)
       p->complain(diagnostics, "collect",
-                  "names \"trust\", which judges runs that begin as the scene says; take follow out");
+                  "names \"trust\", which requires runs that start as the scene states; remove follow");
     else if (item.kind == Item::Kind::trust && !options.horizon)
-      p->complain(diagnostics, "collect", "names \"trust\", which the program `butee study` alone gives");
+      p->complain(diagnostics, "collect", "names \"trust\", which only the program `butee study` computes");
   diagnostics.throw_if_any();
 
   const std::optional<std::uint64_t> seed =

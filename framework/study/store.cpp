@@ -94,8 +94,8 @@ std::vector<std::string> Store::row_files(const std::string& folder) const {
     if (path.extension() == format_.extension() && is_row_file) files.push_back(path.string());
     if (path.extension() != format_.extension() && (is_row_file || path.stem() == kResult) && name != kStudyFile &&
         path.extension() != ".part")
-      throw InputError(folder + ": the study there has its rows in " + name + ", and now they are to go into " +
-                       format_.extension() + " files; take the --format that it was begun with, or --fresh");
+      throw InputError(folder + ": the existing study has its rows in " + name + ", but the requested format is " +
+                       format_.extension() + "; use the --format of the existing study, or --fresh");
   }
   return files;
 }
@@ -108,7 +108,7 @@ void Store::refuse_foreign(const std::string& folder) {
   for (const std::string& name : entries_of(folder))
     if (name != record::FolderLock::kName && name != std::string(kStudyFile) + ".part" && !begins_with(name, kShard))
       throw InputError(folder + ": is not empty and holds no study of butee (it has " + name +
-                       "), so it is left alone; choose another folder with -o");
+                       "), so it is not touched; choose another folder with -o");
 }
 
 void Store::clear() const {
@@ -124,7 +124,7 @@ void Store::open(bool fresh) {
   if (fs::exists(folder_)) record::FolderLock::check(folder_);
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) throw InputError(folder_ + ": cannot be made: " + error.message() + "; choose another folder with -o");
+  if (error) throw InputError(folder_ + ": cannot be created: " + error.message() + "; choose another folder with -o");
   try {
     lock_ = std::make_unique<record::FolderLock>(folder_);
   } catch (const RunError& cause) {
@@ -189,14 +189,15 @@ void Store::read_done() {
     for (std::int64_t i = 0; source != nullptr && i < source->size(); ++i) {
       if (!source->read(i, bytes)) continue;
       const std::int64_t run = Row(layout_, bytes).integer(run_column);
-      if (run < 0 || run >= std::ssize(done_)) throw RunError(path + ": holds a row of no run of this study");
+      if (run < 0 || run >= std::ssize(done_))
+        throw RunError(path + ": contains a row that belongs to no run of this study");
       if (done_[static_cast<std::size_t>(run)]) continue;
       done_[static_cast<std::size_t>(run)] = true;
       ++done_count_;
     }
   }
   if (is_complete_ && done_count_ != std::ssize(done_))
-    throw RunError(result() + ": does not hold all rows; take --fresh to begin anew");
+    throw RunError(result() + ": does not hold all rows; use --fresh to start again");
 }
 
 void Store::begin(int session, int process) {

@@ -36,7 +36,8 @@ Store::Found Store::find_rows(const std::vector<std::string>& files) const {
     for (std::int64_t i = 0; source != nullptr && i < source->size(); ++i) {
       if (!source->read(i, bytes)) continue;
       const std::int64_t run = Row(layout_, bytes).integer(run_column);
-      if (run < 0 || run >= std::ssize(found.places)) throw RunError(path + ": holds a row of no run of this study");
+      if (run < 0 || run >= std::ssize(found.places))
+        throw RunError(path + ": contains a row that belongs to no run of this study");
       Found::Place& place = found.places[static_cast<std::size_t>(run)];
       if (place.file < 0) place = {static_cast<std::int32_t>(found.sources.size() - 1), i};
     }
@@ -97,11 +98,11 @@ void Store::visit(const std::function<void(const Row&)>& look) const {
 
 Study Store::read(const std::string& folder) {
   const std::string from = study_in(folder);
-  if (from.empty()) throw InputError(folder + ": is no folder of a study");
+  if (from.empty()) throw InputError(folder + ": is not a folder of a study");
   const config::Document known = config::load_toml((fs::path(from) / kStudyFile).string());
   const config::Value *study = known.root.table()->find("study"), *scene = known.root.table()->find("scene");
   if (study == nullptr || study->table() == nullptr || scene == nullptr || scene->table() == nullptr)
-    throw InputError(folder + ": " + kStudyFile + " there is no study as butee writes it");
+    throw InputError(folder + ": " + kStudyFile + " there is not a study written by butee");
   return read_study({known.sources, *study}, {known.sources, *scene}, {.horizon = [](scene::Scene&) { return 0.0; }});
 }
 

@@ -32,7 +32,7 @@ std::int64_t Store::kept(std::int64_t chain, Motion& motion) const {
   const auto sum = from.take<std::uint64_t>();
   std::vector<std::byte> body;
   from.take(body);
-  if (checksum(body) != sum) throw RunError(path + ": is damaged; take it away, and its sweep begins anew");
+  if (checksum(body) != sum) throw RunError(path + ": is damaged; delete it to compute its sweep again");
   ByteReader inner(body);
   const auto run = inner.take<std::int64_t>();
   inner.take(motion.x);

@@ -144,7 +144,7 @@ Row from_csv(const Layout& layout, const std::string& line) {
   const auto read = [&](auto& value) {
     const auto end = cell->data() + cell->size();
     if (const auto result = std::from_chars(cell->data(), end, value); result.ec != std::errc() || result.ptr != end)
-      throw RunError("\"" + *cell + "\" is no number");
+      throw RunError("\"" + *cell + "\" is not a number");
   };
   for (std::size_t i = 0; i < layout.columns().size(); ++i) {
     const Column& column = layout.columns()[i];

@@ -50,8 +50,8 @@ Counted counted_of(const Study& study, const scene::Scene& scene) {
                               : scene.integrator.options.end_time;
   if (!(counted.begin < counted.end))
     throw InputError("study.settle: " + std::to_string(study.settle) + " periods of " + to_short_text(counted.period) +
-                     " s are not over at the end of the run, " + to_short_text(counted.end) +
-                     " s; make end_time larger, or give `periods`, those that count after it");
+                     " s exceed the end of the run, " + to_short_text(counted.end) +
+                     " s; make end_time larger, or give `periods`, the number that counts after settling");
   if (const double step = scene.integrator.options.time_step; step > counted.end)
     throw InputError("integrator.time_step = " + to_text(step) + " s is longer than the run, which ends after " +
                      to_short_text(counted.end) + " s");
@@ -88,7 +88,7 @@ scene::Scene Worker::read(const std::vector<config::Value>& values, Counted& cou
   catalogue_.reset();
   scene::Scene scene = scene::read_scene(scene_at(study_, values), std::move(catalogue));
   if (scene.model.initial_motion && scene.model.initial_motion->time != 0.0)
-    throw InputError("initial.keep_time: runs of a study begin at t = 0; leave keep_time out");
+    throw InputError("initial.keep_time: runs of a study begin at t = 0; remove keep_time");
   counted = counted_of(study_, scene);
   if (study_.periods) set_end(scene, counted.end);
   return scene;

@@ -75,7 +75,7 @@ std::string overflowing_load(dynamics::Dynamics& dynamics, double t) {
   for (Index i = 0; i < force.size(); ++i)
     if (!(std::abs(force[i]) < kHuge))
       return "the load on " + dynamics.dof_name(i) + " is " + to_short_text(force[i]) +
-             " N at t = " + to_short_text(t) + " s, which no motion can follow; check [[load]]";
+             " N at t = " + to_short_text(t) + " s, which is too large to integrate; check [[load]]";
   return {};
 }
 
@@ -90,7 +90,7 @@ std::string singular(dynamics::Dynamics& dynamics, const Step& step) {
   const model::System& system = dynamics.system();
   const SparseMatrix effective =
       system.mass + 0.25 * step.h * step.h * dynamics::stiffness_with_stops(system, dynamics::StopState::closed);
-  return "the effective matrix is not positive definite; what resists least is the motion of " +
+  return "the effective matrix is not positive definite; the least resistance is to the motion of " +
          dynamics::describe_softest_motion(effective, system.dofs) +
          ". Check the masses and stiffnesses there, which may be too far apart for 16 digits, or use a smaller step "
          "than " +
@@ -125,8 +125,7 @@ std::string describe_remedy(dynamics::Dynamics& dynamics, const MethodLimits& li
   std::string text;
   if (critical)
     text = "h = " + to_short_text(h) + " s is within the stability of " + limits.name + " (critical step " +
-           to_short_text(critical->closed) + " s)" + (has_stops ? ", so that changes of contact are to blame" : "") +
-           ": ";
+           to_short_text(critical->closed) + " s)" + (has_stops ? ", so changes of contact are the cause" : "") + ": ";
   text += "take a time_step of " + to_short_text(0.25 * h) + " s or less, or a method with error control, such as auto";
   if (has_stops) text += "; discrete_gradient cannot gain energy at a stop";
   return text;
@@ -172,7 +171,7 @@ std::string describe_failure(dynamics::Dynamics& dynamics, const MethodLimits& l
                      " stays above the tolerance; it moves fastest in " + fastest_dof(dynamics, from);
   for (const double t : {from.t, step.t_end})
     if (const std::string load = overflowing_load(dynamics, t); !load.empty()) return text + ", and " + load;
-  return text + ". Loosen the tolerance, or look for a jump there: a load, or a stop too stiff for its mass";
+  return text + ". Loosen the tolerance, or check for a jump there: a load, or a stop too stiff for its mass";
 }
 
 std::string describe_start(dynamics::Dynamics& dynamics, const State& state) {

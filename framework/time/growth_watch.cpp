@@ -188,11 +188,11 @@ double GrowthWatch::explained(double energy, double since, double t) {
 }
 
 std::string GrowthWatch::describe(const State& state, double h) const {
-  return "the motion grows without a cause: from t = " + to_short_text(begin_time_) + " s to " +
+  return "the motion grows without a physical cause: from t = " + to_short_text(begin_time_) + " s to " +
          to_short_text(state.t) + " s its energy rose from " + to_short_text(begin_energy_) + " J to " +
          (std::isfinite(last_energy_) ? to_short_text(last_energy_) + " J, at least " +
-                                            to_short_text(std::exp(excess_)) + " times what loads explain"
-                                      : "more than a number can hold") +
+                                            to_short_text(std::exp(excess_)) + " times the energy from loads"
+                                      : "a value beyond the range of numbers") +
          ". It moves fastest in " + fastest_dof(dynamics_, state) + ". " + describe_remedy(dynamics_, limits_, h);
 }
 
@@ -223,7 +223,7 @@ std::vector<std::string> GrowthWatch::warnings() const {
   const std::string prefix = limits_.name + ": ";
   if (coarseness_ > kCoarse)
     all.push_back(prefix + "steps of " + to_short_text(coarse_step_) +
-                  " s are too long for the motion that they follow; the error of a single one was up to " +
+                  " s are too long for this motion; the error of a single step was up to " +
                   to_short_text(coarseness_) + " of the largest displacement" +
                   take(coarse_step_ * std::cbrt(kFine / coarseness_)));
   if (is_met_ && longest_step_ * contact_frequency_ > kCoarseImpact)

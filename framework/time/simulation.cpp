@@ -162,8 +162,8 @@ bool Simulation::advance() {
     const Step step = propose();
     if (rejections == 0) integrator_.settle(state_, step.h);
     if (!(step.t_end > state_.t)) {
-      fail(step, "the step is lost in the rounding of t; it moves fastest in " + fastest_dof(dynamics_, state_) +
-                     ", where the scene is too stiff or a law too sharp for this method");
+      fail(step, "the step is below the rounding of t; it moves fastest in " + fastest_dof(dynamics_, state_) +
+                     ", where the scene is too stiff or a contact law too steep for this method");
       return false;
     }
     const StepReport result = integrator_.step(state_, step, next_);
@@ -216,8 +216,8 @@ void Simulation::accept(const Step& step, const StepReport& result) {
   if (accepted_ % kStallLooks == 0 && !is_last && has_stalled()) {
     fail({h, state_.t}, "the last " + std::to_string(kStallLooks) + " steps went over " +
                             to_short_text(state_.t - stall_t_) +
-                            " s, so that the end is out of reach; it moves fastest in " +
-                            fastest_dof(dynamics_, state_) + ". Loosen the tolerance, or take another method");
+                            " s, too little to reach the end; it moves fastest in " + fastest_dof(dynamics_, state_) +
+                            ". Loosen the tolerance, or take another method");
     return;
   }
   if (!is_last) return;

@@ -10,9 +10,8 @@ namespace {
 
 [[noreturn]] void refuse_law() {
   throw InputError(
-      "integrator.type: the law of a contact is not piecewise linear; the form of exponential for coupled modes and "
-      "contacts in the plane would not see where it bends; take rodas4, dopri5, extrapolation8 or exact, or auto, "
-      "which chooses among them");
+      "integrator.type: the law of a contact is not piecewise linear, as exponential requires for coupled modes and "
+      "contacts in the plane; take rodas4, dopri5, extrapolation8 or exact, or auto, which chooses among them");
 }
 
 void sort_once(std::vector<Index>& dofs) {

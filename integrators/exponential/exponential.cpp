@@ -105,8 +105,9 @@ void Exponential<Step>::do_start(State& state) {
   for (const Vector* given : {&state.x, &state.v}) {
     modal_.to_physical(state.memory.data() + (given == &state.v ? n : 0), kept);
     if ((kept - *given).norm() > options_.tolerance * given->norm())
-      throw InputError("integrator.modes: " + std::to_string(n) +
-                       " modes do not hold the initial displacements and velocities to the tolerance; take more modes");
+      throw InputError(
+          "integrator.modes: " + std::to_string(n) +
+          " modes do not represent the initial displacements and velocities within the tolerance; take more modes");
   }
 }
 

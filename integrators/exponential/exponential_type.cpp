@@ -14,13 +14,15 @@ std::string describe_basis(const dynamics::ModalSystem& modal, Index dofs) {
   std::string text = "exponential with the lowest " + std::to_string(modal.size() - modal.static_count()) + " of " +
                      std::to_string(dofs) + " modes";
   if (modal.static_count() > 0)
-    text += " and " + std::to_string(modal.static_count()) + " static shapes: the modes left out hold up to " +
-            to_short_text(100.0 * modal.truncation()) +
-            " % of what a stop or a load moves itself by; they follow forces slower than " +
-            to_short_text(modal.highest_mode()) + " rad/s, and what faster ones lose no tolerance makes good";
+    text +=
+        " and " + std::to_string(modal.static_count()) + " static shapes: the omitted modes contribute up to " +
+        to_short_text(100.0 * modal.truncation()) +
+        " % of the static displacement at a stop or load; the static shapes include this part for forces slower than " +
+        to_short_text(modal.highest_mode()) +
+        " rad/s, and the error for faster forces does not depend on the tolerance";
   else
-    text += ": what the others hold is left out, whatever the tolerance";
-  return text + "; give more modes, or another type, where that is too much";
+    text += ": the contribution of the others is omitted at any tolerance";
+  return text + "; give more modes, or use another type, if this error is too large";
 }
 
 /// True if the modes are coupled or contacts act in the plane.
@@ -36,8 +38,8 @@ std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics,
     return std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
   if (dynamics.stop_count() > 0 && options.tolerance < kSmallestWithStops)
     throw InputError("integrator.tolerance: must be at least " + to_short_text(kSmallestWithStops) +
-                     " for exponential where stops act: below it the errors of many impacts add up to more than it "
-                     "promises; take rodas4, extrapolation8, exact or piecewise, or auto, which chooses among them");
+                     " for exponential with stops: below it the errors of many impacts exceed the error bound; take "
+                     "rodas4, extrapolation8, exact or piecewise, or auto, which chooses among them");
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
   auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
   const dynamics::ModalSystem& modal = dynamics.modal(options.modes);
@@ -46,26 +48,27 @@ std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics,
 }
 
 time::IntegratorType exponential_type() {
-  return {.name = "exponential",
-          .aliases = {"EXP"},
-          .summary = "the linear part exactly, mode by mode; the stops by the projection of their force; adaptive",
-          .parameters = {LocalErrorControl::parameter(1e-4, 1e-10),
-                         config::integer("order", "2, 4 or 6").at_least(2).at_most(6).or_else(std::int64_t{6}),
-                         config::integer(
-                             "modes", "the lowest modes to take; 0: all up to 600 DOFs, 300 above, with static shapes")
-                             .at_least(0)
-                             .or_else(std::int64_t{0})},
-          .finds_first_step = true,
-          .contacts = time::ContactSupport::without_memory,
-          .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-            return make_exponential(dynamics,
-                                    {p.number("tolerance"), p.number("end_time"), static_cast<int>(p.integer("order")),
-                                     static_cast<Index>(p.integer("modes"))});
-          },
-          .check =
-              [](const config::Parameters& p, config::Diagnostics& diagnostics) {
-                if (p.integer("order") % 2 != 0) p.complain(diagnostics, "order", "must be 2, 4 or 6");
-              }};
+  return {
+      .name = "exponential",
+      .aliases = {"EXP"},
+      .summary = "exact linear part, mode by mode; stops by projection of their force; adaptive",
+      .parameters = {LocalErrorControl::parameter(1e-4, 1e-10),
+                     config::integer("order", "2, 4 or 6").at_least(2).at_most(6).or_else(std::int64_t{6}),
+                     config::integer("modes",
+                                     "the number of lowest modes; 0: all up to 600 DOFs, 300 above, with static shapes")
+                         .at_least(0)
+                         .or_else(std::int64_t{0})},
+      .finds_first_step = true,
+      .contacts = time::ContactSupport::without_memory,
+      .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
+        return make_exponential(dynamics,
+                                {p.number("tolerance"), p.number("end_time"), static_cast<int>(p.integer("order")),
+                                 static_cast<Index>(p.integer("modes"))});
+      },
+      .check =
+          [](const config::Parameters& p, config::Diagnostics& diagnostics) {
+            if (p.integer("order") % 2 != 0) p.complain(diagnostics, "order", "must be 2, 4 or 6");
+          }};
 }
 
 }  // namespace butee::integrators

@@ -10,9 +10,9 @@ using butee::config::Parameters;
 
 butee::model::LawType smooth_type() {
   return {"smooth",
-          "no force while open, a smooth bend of stated width, linear beyond",
+          "no force while open, a smooth transition of given width, linear beyond",
           {number("stiffness", "N/m", "k_c of the closed stop").above(0),
-           number("width", "m", "of the bend, from g = 0 on").above(0)},
+           number("width", "m", "width of the transition, from g = 0").above(0)},
           [](const Parameters& p, Diagnostics&) -> std::unique_ptr<butee::model::ContactLaw> {
             return std::make_unique<butee::plugins::Smooth>(p.number("stiffness"), p.number("width"));
           }};

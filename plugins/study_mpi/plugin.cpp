@@ -58,7 +58,7 @@ class World final : public study::Team {
 
  private:
   static void check(int status) {
-    if (status != MPI_SUCCESS) throw RunError("MPI: a process of the study is gone");
+    if (status != MPI_SUCCESS) throw RunError("MPI: a process of the study has ended");
   }
 
   int rank_ = 0, size_ = 1;

@@ -32,7 +32,7 @@ std::string long_string() {
 }
 
 bool is_on_a_part(SceneRun& run) {
-  return run.integrator().choice().find("on the part that moves") != std::string::npos;
+  return run.integrator().choice().find("on the moving part") != std::string::npos;
 }
 
 std::vector<double> instants() {

@@ -36,10 +36,10 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
   // Computing the modes of 400 DOFs takes longer than integrating a few waves, but less than half a second of
   // impacts.
   EXPECT_EQ(choice(beam(200, kStops, "end_time = 1e-4\ntolerance = 1e-3\n"))
-                .rfind("rodas4 with tolerance 0.001 on the part that moves: the modes of 400", 0),
+                .rfind("rodas4 with tolerance 0.001 on the moving part: the modes of 400", 0),
             0U);
   EXPECT_EQ(choice(beam(200, kStops, "end_time = 0.5\n")).rfind("exponential with tolerance 0.0001: 400 DOFs", 0), 0U);
-  EXPECT_EQ(choice(beam(400, kStops)).rfind("rodas4 with tolerance 0.0001 on the part that moves: 800 DOFs", 0), 0U);
+  EXPECT_EQ(choice(beam(400, kStops)).rfind("rodas4 with tolerance 0.0001 on the moving part: 800 DOFs", 0), 0U);
   const std::string weight =
       "[[load]]\ntype = \"distributed\"\nbeam = \"b\"\nvalue = 10.0\nin_time = {type = \"constant\", value = 1.0}\n";
   EXPECT_EQ(choice(beam(400, kStops + weight)).rfind("rodas4 with tolerance 0.0001: 800 DOFs", 0), 0U);

@@ -17,10 +17,10 @@ std::vector<BadScene> bad_damping_scenes() {
        {"damping = [{ mass_proportional = 0.03 }]: must be a table, not an array"}},
       {"modal beside Rayleigh damping",
        {{rayleigh, rayleigh + "\nmodal = 0.02 #!"}},
-       {"damping.modal = 0.02: stands in place of mass_proportional and stiffness_proportional; remove it, or those"}},
+       {"damping.modal = 0.02: replaces mass_proportional and stiffness_proportional; remove it, or those"}},
       {"modal beside Rayleigh damping by the stiffness, and itself wrong",
        {{rayleigh, "stiffness_proportional = 0\nmodal = -0.02 #!!"}},
-       {"damping.modal = -0.02: stands in place of", "damping.modal = -0.02: must be >= 0"}},
+       {"damping.modal = -0.02: replaces", "damping.modal = -0.02: must be >= 0"}},
       {"modal a text",
        {modal("\"2 %\"")},
        {"damping.modal = \"2 %\": must be a number, the damping ratio of every mode, or an array of numbers, those of "

@@ -16,7 +16,7 @@ std::vector<BadScene> bad_selector_scenes() {
       load_on("dangling and unlike every name", "casing",
               {"there is no node or beam \"casing\"; known: string, rotor"}),
       load_on("beam alone", "string", {"string is a beam of 5 nodes; " + forms}),
-      load_on("many nodes where one is wanted", "string:1..3", {"names 3 nodes; exactly one is wanted"}),
+      load_on("many nodes where one is wanted", "string:1..3", {"names 3 nodes; exactly one is required"}),
       load_on("index out of range", "string:5", {"string has the nodes 0 ... 4"}),
       load_on("negative index", "string:-1", {"string has the nodes 0 ... 4"}),
       load_on("range beyond the end", "string:3..9", {"string has the nodes 0 ... 4"}),

@@ -53,15 +53,15 @@ TEST(CheckAdvice, FindsLikelyMistakesThatTheSoundSceneHasNot) {
       {"contact-step", "an impact can be as short as", {"integrator.time_step=5e-3", "integrator.type=newmark"}},
       {"load-step", "in the shortest period of a load", {"integrator.time_step=0.1", "integrator.type=newmark"}},
       {"mesh", "a bending wave", {"load[0].angular_frequency=2000.0"}},
-      {"unused", "[material.copper] is used by no element", {"material.copper={young_modulus=1e11,density=8e3}"}},
-      {"unused", "[section.rod] is used by no element", {"section.rod={shape=\"circle\",radius=0.1}"}},
+      {"unused", "[material.copper] is not used by any element", {"material.copper={young_modulus=1e11,density=8e3}"}},
+      {"unused", "[section.rod] is not used by any element", {"section.rod={shape=\"circle\",radius=0.1}"}},
       {"start", "closed at the start", {"initial={displacement=[{nodes=\"string:5\",dof=\"u\",value=0.02}]}"}},
       {"gap",
        "gap below the static deflection",
        {"load[0].type=constant", "load[0].amplitude=", "load[0].angular_frequency=", "load[0].value=900.0"}},
       {"critical-step", "larger than the critical step", {"integrator.type=rk4", "integrator.time_step=4e-4"}},
       {"trial", "a trial run failed", {"integrator.type=rk4", "integrator.time_step=1e-3", "integrator.end_time=10.0"}},
-      {"pull", "pulls every open stop", {}},
+      {"pull", "at every open stop", {}},
       {"jump", "jumps by", {}}};
   for (const Mistake& mistake : mistakes) {
     const std::string text = advice(check(beam1(), mistake.overrides), mistake.about);

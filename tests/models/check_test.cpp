@@ -27,7 +27,7 @@ TEST(Check, FindsTheFrequenciesOfTheOscillator) {
   // sqrt(1e9/100) and sqrt(1.1e10/100) rad/s.
   const Outcome outcome = check("oscillator");
   expect_holds(outcome.output, {"1 free", "stops open:   3162.28", "stops closed: 10488.1", "0.00026968 s"});
-  expect_holds(outcome.errors, {"14.4745 N", "jumps by 28.9489 N at u = 0", "decided by rounding"});
+  expect_holds(outcome.errors, {"14.4745 N", "jumps by 28.9489 N at u = 0", "rounding decides the direction"});
 }
 
 TEST(Check, SaysWhatTheBeamHoldsAndSkips) {

@@ -223,7 +223,7 @@ TEST(Init, OverwritesNothing) {
   folder.write("beam.toml", "mine");
   const Outcome refused = run_program({"init", "beam"}, folder.path());
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(holds(refused.errors, "beam.toml: exists and is left alone")) << refused.errors;
+  EXPECT_TRUE(holds(refused.errors, "beam.toml: exists and is not overwritten")) << refused.errors;
   EXPECT_EQ(read_file(folder.file("beam.toml")), "mine");
   EXPECT_EQ(run_program({"init", "beam", "-o", "other.toml"}, folder.path()).status, 0);
   EXPECT_TRUE(holds(run_program({"init", "baem"}, folder.path()).errors, "did you mean \"beam\"?"));
@@ -239,7 +239,7 @@ TEST(Run, SaysWhereRowsAreTooFarApartForAnImpact) {
                        folder.path())
         .errors;
   };
-  const std::string mark = "do not show the course of its force";
+  const std::string mark = "too few to resolve its force";
   EXPECT_TRUE(holds(errors("1e-3", "output.impacts=false"), mark));
   EXPECT_FALSE(holds(errors("2e-5", "output.impacts=false"), mark));
   EXPECT_FALSE(holds(errors("1e-3", "output.impacts=true"), mark));

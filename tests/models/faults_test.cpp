@@ -83,7 +83,7 @@ TEST_F(Faults, AFolderThatCannotBeMadeIsTold) {
   EXPECT_NE(outcome.errors.find("file/deeper: "), std::string::npos) << outcome.errors;
   const Outcome device = shell(folder_, "$BUTEE run scene.toml -o /proc/butee-results");
   EXPECT_EQ(device.status, 1);
-  EXPECT_NE(device.errors.find("/proc/butee-results: cannot be made"), std::string::npos) << device.errors;
+  EXPECT_NE(device.errors.find("/proc/butee-results: cannot be created"), std::string::npos) << device.errors;
 }
 
 TEST_F(Faults, AReaderThatGoesAwayEndsTheOutputAndNotTheRun) {

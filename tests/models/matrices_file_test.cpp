@@ -46,7 +46,7 @@ TEST_F(MatricesFile, MistakesAreSaidWithTheirLine) {
           "s.toml:9: element[1].mass = \"none.mtx\": does not exist");
   folder_.write("bad.mtx", kSymmetric + "2 2 2\n1 1 2.0\n2 2 x\n");
   refused("mass = \"m.mtx\"\nstiffness = \"bad.mtx\"\ndofs = \"u\"",
-          "s.toml:10: element[1].stiffness = \"bad.mtx\": bad.mtx:4: the value of entry (2, 2): \"x\" is no number");
+          "s.toml:10: element[1].stiffness = \"bad.mtx\": bad.mtx:4: the value of entry (2, 2): \"x\" is not a number");
   folder_.write("large.mtx", kSymmetric + "3 3 1\n1 1 2.0\n");
   refused("mass = \"m.mtx\"\nstiffness = \"large.mtx\"\ndofs = \"u\"", "has 3 rows, and mass has 2");
   folder_.write("general.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 2\n2 2 3\n1 2 0.5\n");
@@ -75,7 +75,7 @@ TEST_F(MatricesFile, RowsThatDoNotFitAreSaid) {
   refused(files_ + "dofs = \"rows.txt\"", "rows.txt:2: \"bal\": there is no node or beam \"bal\"");
   folder_.write("rows.txt", "0 u\n");
   refused(files_ + "dofs = \"rows.txt\"", "names 1 rows, and mass has 2");
-  refused(files_ + "dofs = \"rows.txt\"\nnodes = [\"two:0\"]", "stands beside a file of dofs");
+  refused(files_ + "dofs = \"rows.txt\"\nnodes = [\"two:0\"]", "conflicts with a file of dofs");
 }
 
 TEST_F(MatricesFile, AreNamedInModelTomlAndFoundFromThere) {

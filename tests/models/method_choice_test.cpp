@@ -114,10 +114,9 @@ TEST(MethodChoice, BySetPutsKeysOfOtherMethodsAside) {
   folder.write("scene.toml", driven("type = \"NM2\"\ntime_step = 1e-4\ntarget_error = 1e-3\nmax_iterations = 9\n"));
   const Outcome outcome = run_program({"run", "scene.toml", "-q", "--set", "integrator.type=rk4"}, folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  EXPECT_NE(
-      outcome.errors.find("--set integrator.type=rk4: the file's target_error, max_iterations are set aside, which "
-                          "rk4 does not have"),
-      std::string::npos)
+  EXPECT_NE(outcome.errors.find("--set integrator.type=rk4: the file's keys target_error, max_iterations are ignored, "
+                                "because rk4 does not have them"),
+            std::string::npos)
       << outcome.errors;
   // The written scene can be run again unchanged.
   EXPECT_EQ(run_program({"run", "scene-results/model.toml", "-q", "-o", "again"}, folder.path()).errors, "");
@@ -143,7 +142,7 @@ TEST(MethodChoice, BySetPutsKeysAsideInACompareToo) {
                "[[study.method]]\ntype = \"rk4\"\nsweep = \"time_step\"\nvalues = [1e-4]\n");
   const Outcome outcome = run_program({"compare", "study.toml", "-q"}, folder.path());
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("the file's target_error is set aside"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("the file's key target_error is ignored"), std::string::npos) << outcome.errors;
 }
 
 }  // namespace

@@ -230,11 +230,11 @@ TEST_F(Checkpointed, WhatCannotGoOnSaysSo) {
   ASSERT_EQ(run({"run", "scene.toml", "-o", "broken", "-q"}).status, 0);
   const Outcome complete = run({"run", "--resume", "broken"});
   EXPECT_EQ(complete.status, 0);
-  EXPECT_NE(complete.errors.find("nothing is left to do"), std::string::npos) << complete.errors;
+  EXPECT_NE(complete.errors.find("nothing remains to be done"), std::string::npos) << complete.errors;
   fs::remove(folder_.file("broken/summary.json"));
   const Outcome without = run(kResume);
   EXPECT_EQ(without.status, 2);
-  EXPECT_NE(without.errors.find("kept no checkpoints"), std::string::npos) << without.errors;
+  EXPECT_NE(without.errors.find("saved no checkpoints"), std::string::npos) << without.errors;
   EXPECT_EQ(run({"run", "scene.toml", "--resume", "broken"}).status, 2);
   EXPECT_EQ(run({"run", "--resume", "broken", "--set", "integrator.end_time=2.0"}).status, 2);
 }

@@ -148,7 +148,7 @@ TEST_F(StartFrom, TakesTheInstantThatIsAskedFor) {
   EXPECT_EQ(history("second").column("mid.theta")[0], history("first").column("mid.theta")[5]);
   std::filesystem::remove_all(folder_.file("second-results"));
   refused(scene(method("rk4", "0.1") + from + "at = 0.1\n"),
-          "is no instant that the run kept, which are: 0.05, 0.12, 0.2 s");
+          "is not an instant saved by that run; saved: 0.05, 0.12, 0.2 s");
   refused(scene(method("rk4", "0.1") + kGoOn + "at = 0.12\n"),
           "begins the run at t = 0.12 s, and its end_time is 0.1 s");
 }
@@ -158,7 +158,7 @@ TEST_F(StartFrom, RefusesOtherStructuresAndFolders) {
   refused(scene(method("rk4", "0.4") + kGoOn, "6"), "\"string\" has 5 nodes there and 7 here");
   std::string free_end = scene(method("rk4", "0.4") + kGoOn);
   free_end.replace(free_end.find(", \"string:last\"]"), 16, "]");
-  refused(free_end, "is a run of another structure: u of string:4 is free here and not there");
+  refused(free_end, "is a run of another structure: u of string:4 is free here, not there");
   std::string longer = scene(method("rk4", "0.4") + kGoOn);
   longer.replace(longer.find("length = 4.0"), 12, "length = 5.0");
   refused(longer, "the nodes of \"string\" have other coordinates");
@@ -240,8 +240,8 @@ velocity = { nodes = "b:all", rotation = -3.8, about = 0.0 }
   refused(with(line, "rotation = -3.8"), "initial.velocity[0].about: missing; give the coordinate");
   refused(with(line, "about = 0.0, value = 1"), "initial.velocity[0].about = 0.0: belongs to rotation");
   refused(with(line, "rotation = 1, about = 0.5"), "u of b:0 is fixed by a [[support]]");
-  refused(with(line, "rotation = 1, about = 0, dof = \"u\""), "stands beside rotation, which is of u and theta");
-  refused(with(line, "rotation = 1, about = 0, value = 1"), "stands beside value; give one of the two");
+  refused(with(line, "rotation = 1, about = 0, dof = \"u\""), "conflicts with rotation, which sets u and theta");
+  refused(with(line, "rotation = 1, about = 0, value = 1"), "conflicts with value; give one of the two");
 }
 
 }  // namespace

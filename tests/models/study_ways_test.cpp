@@ -86,7 +86,7 @@ TEST_P(FullDisk, LosesNothingAndIsGoneOnWith) {
   EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
   EXPECT_FALSE(fs::exists(folder.file("full/study." + std::string(format == "csv" ? "csv" : "h5"))));
   ASSERT_EQ(shell(folder, program("study study.toml --format " + format + " -o full")), 0);
-  EXPECT_NE(read_file(folder.file("out")).find("runs are there already"), std::string::npos);
+  EXPECT_NE(read_file(folder.file("out")).find("runs are done already"), std::string::npos);
   EXPECT_EQ(rows_without_cost(folder.file("study.toml"), folder.file("full"), format),
             rows_without_cost(folder.file("study.toml"), folder.file("whole"), format));
 }
@@ -131,7 +131,7 @@ TEST(StudyTrust, IsTheHorizonOfEachRun) {
   for (const double horizon : table.column("trust")) EXPECT_NEAR(horizon, 10.0 * std::numbers::pi, 1e-9);
   folder.write("study.toml", study + "follow = true\n");
   EXPECT_EQ(shell(folder, program("study study.toml -q --format csv -o other")), 2);
-  EXPECT_NE(read_file(folder.file("out")).find("take follow out"), std::string::npos);
+  EXPECT_NE(read_file(folder.file("out")).find("remove follow"), std::string::npos);
 }
 
 /// A parameter file in Dakota 6's standard format, and the results that Dakota reads.

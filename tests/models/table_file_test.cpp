@@ -76,21 +76,21 @@ TEST_F(TableFile, StandsUnderInTimeToo) {
 
 TEST_F(TableFile, RefusesWhatIsNoTableWithItsLine) {
   refused("0,0\n1,2\n1,3\n", "t.csv:3: column 1 must ascend, and 1 follows 1");
-  refused("t,f\n0,0\n# more\n1,abc\n", "t.csv:4: column 2: \"abc\" is no number");
-  refused("0,0\n1\n", "t.csv:2: has 1 columns, and column 2 is wanted");
-  refused("0,0\n1,\n", "t.csv:2: column 2: \"\" is no number");
-  refused("0,0\n1,,2\n", "t.csv:2: column 2: \"\" is no number");
+  refused("t,f\n0,0\n# more\n1,abc\n", "t.csv:4: column 2: \"abc\" is not a number");
+  refused("0,0\n1\n", "t.csv:2: has 1 columns, but column 2 is requested");
+  refused("0,0\n1,\n", "t.csv:2: column 2: \"\" is not a number");
+  refused("0,0\n1,,2\n", "t.csv:2: column 2: \"\" is not a number");
   refused("0,0\n1,nan\n", "t.csv:2: column 2: \"nan\" is not finite");
   refused("0,0\n1,inf\n", "t.csv:2: column 2: \"inf\" is not finite");
-  refused("0,0\n1,1e999\n", "t.csv:2: column 2: \"1e999\" is no number");
-  refused("0;0\n1;0,5\n", "t.csv:2: column 2: \"0,5\" is no number; decimals are written with a point");
+  refused("0,0\n1,1e999\n", "t.csv:2: column 2: \"1e999\" is not a number");
+  refused("0;0\n1;0,5\n", "t.csv:2: column 2: \"0,5\" is not a number; write decimals with a point");
   refused("", "t.csv: holds no numbers");
   refused("t,f\n", "t.csv: holds no numbers");
   refused("0,0\n1,1\n", "t.csv: holds no numbers", "skip = 9");
   refused("time,force\n0,0\n", "t.csv:1: names no column \"forc\" (did you mean \"force\"?); it names: time, force",
           "columns = [\"time\", \"forc\"]");
-  refused("0,0\n", "t.csv:1: has no names, and columns asks for \"t\"", "columns = [\"t\", \"f\"]");
-  refused("0,0\n1,1\n", "t.csv:1: has 2 columns, and column 7 is wanted", "columns = [1, 7]");
+  refused("0,0\n", "t.csv:1: has no column names, but columns requests \"t\"", "columns = [\"t\", \"f\"]");
+  refused("0,0\n1,1\n", "t.csv:1: has 2 columns, but column 7 is requested", "columns = [1, 7]");
 }
 
 TEST_F(TableFile, RefusesWhatIsNoFile) {
@@ -101,8 +101,8 @@ TEST_F(TableFile, RefusesWhatIsNoFile) {
   };
   says("none.csv", "does not exist");
   says(".", "is a folder, not a file");
-  says("/dev/zero", "is no regular file");
-  EXPECT_TRUE(holds(run(scene(kInline + "file = \"a.csv\"")).errors, "stands beside file; give one of the two"));
+  says("/dev/zero", "is not a regular file");
+  EXPECT_TRUE(holds(run(scene(kInline + "file = \"a.csv\"")).errors, "conflicts with file; give one of the two"));
   EXPECT_TRUE(holds(run(scene("times = [0]")).errors, "load[0].values: missing; give the values there, or a file"));
   EXPECT_TRUE(holds(run(scene(kInline + "skip = 2")).errors, "load[0].skip = 2: belongs to file, which is not given"));
   EXPECT_TRUE(holds(run(scene("file = \"a.csv\"\ncolumns = [0, 1]")).errors, "columns are counted from 1"));

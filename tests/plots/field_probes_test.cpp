@@ -133,7 +133,7 @@ TEST_F(ProbesInFields, AreReadUnderWayAndAfterAKill) {
   const std::string before = read_file(folder_.file(h5));
   const Outcome resumed = run_program({"run", "--resume", "scene-results"}, folder_.path());
   EXPECT_EQ(resumed.status, 2);
-  EXPECT_NE(resumed.errors.find("the run kept no checkpoints"), std::string::npos) << resumed.errors;
+  EXPECT_NE(resumed.errors.find("the run saved no checkpoints"), std::string::npos) << resumed.errors;
   EXPECT_TRUE(read_file(folder_.file(h5)) == before);
 }
 

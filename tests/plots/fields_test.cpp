@@ -238,13 +238,13 @@ TEST(Fields, NeedAFormatThatKeepsThem) {
   refused("formats = [\"csv\", \"hdf\"]\n", "known: csv");
   refused("formats = []\n", "must name at least one format");
   refused("formats = [\"csv\", \"csv\"]\n", "names csv twice");
-  refused("fields = {quantities = \"u\"}\n", "no format keeps them; write formats = [\"csv\", \"hdf5\"]");
+  refused("fields = {quantities = \"u\"}\n", "no format writes them; set formats = [\"csv\", \"hdf5\"]");
   if (hdf5() == nullptr) {
     refused("formats = [\"hdf5\"]\n", "install it (Debian: libhdf5-dev) and build butee again");
     return;
   }
   const std::string with = "formats = \"hdf5\"\nfields = ";
-  refused("formats = \"hdf5\"\ncheckpoint = 100\n", "cannot go on from a checkpoint; leave one of the two out");
+  refused("formats = \"hdf5\"\ncheckpoint = 100\n", "cannot resume from a checkpoint; remove one of the two");
   refused(with + "{quantities = [\"u\", \"w\"]}\n", "output.fields.quantities");
   refused(with + "{quantities = []}\n", "must name at least one quantity");
   refused(with + "{nodes = \"sting:all\"}\n", "did you mean \"string\"");

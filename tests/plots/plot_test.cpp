@@ -144,7 +144,7 @@ TEST_F(Plot, RefusesWhatIsNotThere) {
     EXPECT_EQ(outcome.status, 2) << outcome.output;
     EXPECT_NE(outcome.errors.find(part), std::string::npos) << outcome.errors;
   };
-  refused({"nowhere"}, "nowhere: is no folder; name the result folder");
+  refused({"nowhere"}, "nowhere: is not a folder; name the result folder");
   refused({"."}, "model.toml is missing");
   refused({"swing-results", "--kind", "shap"}, "--kind");
   refused({"swing-results", "--format", "gif"}, "--format");
@@ -165,7 +165,7 @@ TEST_F(Plot, SaysWhatToDoWithoutGnuplot) {
   const std::vector<std::string> alone = {"PATH=" + folder_.file("bin")};
   const Outcome plotted = plot({"swing-results"}, alone);
   EXPECT_EQ(plotted.status, 2);
-  expect_in(plotted.errors, "gnuplot is not found; install it (Debian: gnuplot-nox), or take --format script");
+  expect_in(plotted.errors, "gnuplot is not found; install it (Debian: gnuplot-nox), or use --format script");
   const Outcome run = run_program({"run", "swing.toml", "--plot", "-o", "new"}, folder_.path(), alone);
   EXPECT_EQ(run.status, 2);
   EXPECT_FALSE(fs::exists(folder_.file("new"))) << "nothing is run in vain";

@@ -29,9 +29,9 @@ struct Case {
 
 /// However a method fails after its fifth step, earlier rows are kept and the summary states the failure.
 TEST(FaultyModules, AMethodThatBreaksInAStepFailsTheRun) {
-  for (const Case& one : {Case{"throws_in_step", "the oracle is out"}, Case{"gives_nan", "no longer finite"},
-                          Case{"goes_back", "a step ends where it was to end"},
-                          Case{"throws_a_number", "no exception of the standard library"}}) {
+  for (const Case& one :
+       {Case{"throws_in_step", "the oracle is out"}, Case{"gives_nan", "no longer finite"},
+        Case{"goes_back", "a step ends where it was to end"}, Case{"throws_a_number", "not a std::exception"}}) {
     SCOPED_TRACE(one.method);
     const TemporaryFolder folder;
     folder.write("scene.toml", scene_with(one.method));

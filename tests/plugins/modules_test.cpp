@@ -78,7 +78,7 @@ TEST(Modules, ManifestsSayWhatTheModulesDeclare) {
 }
 
 TEST(Modules, BrokenOnesAreRefusedWithTheReason) {
-  expect_mentions(complaint(broken("no_door")), {"no_door.so", "no butee module", "butee_plugin_abi"});
+  expect_mentions(complaint(broken("no_door")), {"no_door.so", "not a butee module", "butee_plugin_abi"});
   expect_mentions(complaint(broken("other_interface")), {"other_interface.so", "built for another butee",
                                                          "interface version", "Eigen alignment", "16 instead of 64"});
   expect_mentions(complaint(broken("throwing")), {"throwing.so", "no licence for this machine"});
@@ -130,7 +130,7 @@ TEST(Modules, ABrokenManifestOnThePathIsWarnedOfAndItsModuleLeftOut) {
   fs::copy_file(broken("duplicate"), folder.file("more/mine.so"));
   folder.write("more/mine.toml", "manifest = [");
   const std::vector<std::string> path = {"BUTEE_PLUGIN_PATH=" + folder.file("more")};
-  const std::vector<std::string> warning = {"warning", "more/mine.so: is left out", "more/mine.toml:1: not valid TOML"};
+  const std::vector<std::string> warning = {"warning", "more/mine.so: is ignored", "more/mine.toml:1: not valid TOML"};
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"plugins"}, {"help", "loads"}, {"check", model_path("beam1")}}) {
     const auto outcome = run_program(command, folder.path(), path);
@@ -145,7 +145,7 @@ TEST(Modules, ABrokenManifestOnThePathIsWarnedOfAndItsModuleLeftOut) {
                                 "element[0].type=mine", "output.formats=[\"mine\"]"}) {
     const auto needs = run_program({"check", model_path("oscillator"), "--set", set}, folder.path(), path);
     EXPECT_EQ(needs.status, 2) << set;
-    expect_mentions(needs.errors, {"may be of a module that could not be read", "more/mine.so: is left out"});
+    expect_mentions(needs.errors, {"may belong to a module that could not be read", "more/mine.so: is ignored"});
   }
   // If the module is named explicitly, its manifest must be valid.
   const auto named = run_program({"plugins", "--plugin", folder.file("more/mine.so")}, folder.path());

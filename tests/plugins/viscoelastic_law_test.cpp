@@ -38,7 +38,7 @@ const plugin::Catalogue& catalogue() {
     made.add(BUTEE_TEST_PLUGINS);
     plugin::ModuleTypes own;
     own.laws.push_back({"one_way",
-                        "dissipates in approach alone",
+                        "dissipates only during approach",
                         {config::number("factor", "s/m", "a").at_least(0)},
                         [](const config::Parameters& p, config::Diagnostics&) -> std::unique_ptr<model::ContactLaw> {
                           return std::make_unique<OneWay>(p.number("factor"));
@@ -111,7 +111,7 @@ TEST(LawThatDissipates, IsRefusedWhereItCannotBeTreated) {
   for (const char* method : {"rodas4", "exact", "exponential", "piecewise"})
     EXPECT_NE(why(law, "type = \"" + std::string(method) + "\"\n").find("dopri5"), std::string::npos) << method;
   EXPECT_NE(why(law + "damping = { type = \"kelvin_voigt\", coefficient = 3.0 }\n", "")
-                .find("stands beside law = \"viscoelastic\", which dissipates by itself"),
+                .find("conflicts with law = \"viscoelastic\", which has its own dissipation"),
             std::string::npos);
   EXPECT_EQ(why(law, "type = \"rk4\"\ntime_step = 1e-6\n"), "");
 }

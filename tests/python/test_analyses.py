@@ -49,7 +49,7 @@ def test_errors_of_the_program_are_errors(rotor):
 
 def test_a_program_that_is_missing_is_named(monkeypatch, tmp_path):
     monkeypatch.setattr(butee._butee, "plugin_folder", os.fspath(tmp_path / "lib" / "butee" / "plugins"))
-    with pytest.raises(butee.RunError, match="not installed as a whole"):
+    with pytest.raises(butee.RunError, match="only partly installed"):
         butee.stability("rk4")
 
 

@@ -125,7 +125,7 @@ collect = ["peak rotor.u", "section rotor.v"]
                               capture_output=True, text=True).stdout
         assert "bifurcation-section-rotor.v.gp" in made
     for wrong in ("nowhere", "."):
-        with pytest.raises(butee.InputError, match="no folder of a study"):
+        with pytest.raises(butee.InputError, match="not a folder of a study"):
             butee.Study.load(tmp_path / wrong)
 
 

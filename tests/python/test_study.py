@@ -65,7 +65,7 @@ def test_mistakes_are_told(rotor):
     for call, text in [(lambda: rotor.study(vary, "peek rotor.u", periods=2), "did you mean \"peak\""),
                        (lambda: rotor.study({"load[1].amplitude": [1.0]}, "peak rotor.u", periods=2), "there is no load"),
                        (lambda: rotor.study({"load[0].amplitude": []}, "peak rotor.u", periods=2), "vary"),
-                       (lambda: rotor.study(vary, "trust", periods=2, follow=True), "take follow out"),
+                       (lambda: rotor.study(vary, "trust", periods=2, follow=True), "remove follow"),
                        (lambda: with_law(law="python_linear", stiffness=1e10).study(vary, ["trust"], periods=2), "written in Python"),
                        (lambda: rotor.study(vary, "section rotor.u"), "periods")]:
         with pytest.raises(butee.InputError, match=text):
@@ -158,7 +158,7 @@ def test_laws_that_are_none():
     def preloaded(g, k):
         return k * (g + 1.0)
 
-    with pytest.raises(butee.InputError, match="force of 0"):
+    with pytest.raises(butee.InputError, match="force that is 0"):
         with_law(law="python_preloaded", k=1e6)
     with pytest.raises(butee.InputError):
         with_law(law="python_linear")

@@ -47,9 +47,9 @@ const std::string kCoordinate = "%%MatrixMarket matrix coordinate real symmetric
 INSTANTIATE_TEST_SUITE_P(
     texts, BadMatrix,
     testing::Values(
-        Mistake{"empty", "", ":1: is no Matrix Market file"},
-        Mistake{"other_text", "1 2 3\n", ":1: is no Matrix Market file"},
-        Mistake{"vector", "%%MatrixMarket vector coordinate real general\n", ":1: is no Matrix Market"},
+        Mistake{"empty", "", ":1: is not a Matrix Market file"},
+        Mistake{"other_text", "1 2 3\n", ":1: is not a Matrix Market file"},
+        Mistake{"vector", "%%MatrixMarket vector coordinate real general\n", ":1: is not a Matrix Market"},
         Mistake{"format", "%%MatrixMarket matrix sparse real general\n", ":1: the format must be"},
         Mistake{"complex", "%%MatrixMarket matrix coordinate complex general\n", ":1: entries must be real"},
         Mistake{"pattern", "%%MatrixMarket matrix coordinate pattern general\n", ":1: entries must be real"},

@@ -202,7 +202,7 @@ TEST_F(Program, BadInputIsStatus2AndWritesNothing) {
 TEST_F(Program, ARunThatFailsIsStatus1AndKeepsItsRows) {
   const Outcome outcome = run({"swing.toml", "--set", "element[1].stiffness=1e12", "--set", "output.interval=1e-3"});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_TRUE(holds(outcome.errors, "grows without a cause")) << outcome.errors;
+  EXPECT_TRUE(holds(outcome.errors, "grows without a physical cause")) << outcome.errors;
   EXPECT_EQ(summary()["status"], "failed");
   EXPECT_TRUE(holds(summary()["message"], "stability")) << summary()["message"];
   EXPECT_EQ(result("history.csv").back(), '\n');

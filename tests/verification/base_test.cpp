@@ -292,16 +292,16 @@ INSTANTIATE_TEST_SUITE_P(
                 kMass +
                     "[base]\ndisplacement = { direction = [0, 1, 0], type = \"table\", times = [1, 2], values = [0, "
                     "1] }\n",
-                "begins at t = 0 or before"},
+                "must begin at t = 0 or before"},
         Mistake{"no_direction", kMass + "[base]\nacceleration = { type = \"constant\", value = 1.0 }\n",
                 "base.acceleration.direction: missing"},
         Mistake{"along_nothing",
                 kMass + "[base]\nacceleration = { direction = [0, 0, 1], type = \"constant\", value = 1.0 }\n",
-                "is along no displacement that the scene has"},
+                "acts along no displacement of the scene"},
         Mistake{"free_node", kMass + "[[base]]\nnodes = \"m\"\nacceleration = " + kMotion,
                 "no [[support]] holds m along the direction"},
         Mistake{"frame_without_base", kMass + wall("nodes = \"m\"\nframe = \"space\"", 1.0, 1.0),
-                "give [base], or leave frame out"},
+                "give [base], or remove frame"},
         Mistake{"two_frames",
                 kMass + wall("nodes = \"m\"\nframe = \"space\"", 1.0, 1.0) + wall("nodes = \"m\"", 2.0, 1.0) +
                     "[base]\nacceleration = " + kMotion,

@@ -294,7 +294,8 @@ TEST(RegularisedFriction, TellsASlipSpeedThatTheToleranceDoesNotResolve) {
   // The largest speed is that of an amplitude of 0.75 mm about the balance of spring and friction, 0.075 m/s.
   EXPECT_EQ(watch.complaint(1e-6), "");
   const std::string complaint = watch.complaint(1e-3);
-  EXPECT_NE(complaint.find("slip_speed = 1e-06 m/s, but with the tolerance 0.001 the speed there"), std::string::npos)
+  EXPECT_NE(complaint.find("slip_speed = 1e-06 m/s, but for the tolerance 0.001 the error of the speed there"),
+            std::string::npos)
       << complaint;
   EXPECT_NE(complaint.find("Take slip_speed = 7."), std::string::npos) << complaint;
   EXPECT_NE(complaint.find("tolerance = 1.3"), std::string::npos) << complaint;

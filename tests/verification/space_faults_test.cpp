@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "the scene has no disc and no beam along x"},
         Mistake{"damping_of_nothing_that_turns",
                 kShaft + "motion = \"lateral\"\n[damping]\nrotating_stiffness_proportional = 1e-5\n",
-                "is of parts that turn, but nothing does"},
+                "applies to rotating parts, but nothing turns"},
         Mistake{"load_along_nothing",
                 kShaft + "[[load]]\ntype = \"constant\"\nnode = \"shaft:1\"\ndof = \"uz\"\nvalue = 1.0\n",
                 "load[0].dof = \"uz\": uz of shaft:1 does not exist"},

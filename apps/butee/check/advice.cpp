@@ -104,16 +104,16 @@ class Adviser {
     if (pull == 0.0) return;
     const auto moved = pull_displacement(system_);
     if (!moved || *moved > kNoticeablePull * smallest_gap)
-      add("pull", "the arctan law pulls every open stop with up to " + to_short_text(pull) +
-                      " N however far it is open" +
-                      (moved ? "; all together move the structure at rest by " + to_short_text(*moved) + " m, " +
-                                   to_short_text(*moved / smallest_gap) + " of the gap"
+      add("pull", "the arctan law has a residual force of up to " + to_short_text(pull) +
+                      " N at every open stop, for any opening" +
+                      (moved ? "; together these forces displace the structure at rest by " + to_short_text(*moved) +
+                                   " m, " + to_short_text(*moved / smallest_gap) + " of the gap"
                              : "") +
-                      ". A larger regularization weakens it, law = \"linear\" has none");
+                      ". A larger regularization reduces it, law = \"linear\" has none");
     if (at_rest)
       add("jump", "with the arctan law the force of a stop on both sides jumps by " + to_short_text(2.0 * pull) +
-                      " N at u = 0, where this scene starts: which way it is pulled is decided by rounding, and "
-                      "answers are reproducible only so far. law = \"linear\" has no jump");
+                      " N at u = 0, where this scene starts: rounding decides the direction of the force, which limits "
+                      "reproducibility. law = \"linear\" has no jump");
   }
 
   void judge_gaps() {
@@ -124,7 +124,7 @@ class Adviser {
     if (mechanics.closed_by_constants > 0)
       add("gap", std::to_string(mechanics.closed_by_constants) +
                      " stops have a gap below the static deflection under the lasting part of the loads: they are "
-                     "pressed shut, and stay shut unless the rest of the motion opens them");
+                     "pressed closed, and stay closed unless the rest of the motion opens them");
   }
 
   void judge_output() {
@@ -134,7 +134,7 @@ class Adviser {
       return;
     add("output-interval", "a row every " + to_short_text(*interval) + " s, and an impact can be as short as " +
                                to_short_text(contact) +
-                               " s: history.csv will miss most of its course. Take interval = " +
+                               " s: history.csv will not resolve the impact. Take interval = " +
                                to_short_text(contact / (2.5 * run::kRowsInContact)) +
                                " or less, or [output] impacts = true, which lists every impact with its peak force");
   }
@@ -176,7 +176,7 @@ class Adviser {
     for (const auto& [name, value] : tables->table()->entries)
       if (!used.contains(name))
         add("unused",
-            config::describe(session_.document, value.at) + ": [" + kind + "." + name + "] is used by no element");
+            config::describe(session_.document, value.at) + ": [" + kind + "." + name + "] is not used by any element");
   }
 
   const scene::Scene& session_;

@@ -36,7 +36,7 @@ double seconds_since(Clock::time_point begin) {
 class TrialFolder {
  public:
   TrialFolder() : path_((fs::temp_directory_path() / "butee-check-XXXXXX").string()) {
-    if (mkdtemp(path_.data()) == nullptr) throw RunError(path_ + ": a folder for a trial run cannot be made");
+    if (mkdtemp(path_.data()) == nullptr) throw RunError(path_ + ": a folder for a trial run cannot be created");
   }
   ~TrialFolder() {
     std::error_code error;

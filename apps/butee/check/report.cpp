@@ -66,7 +66,7 @@ std::vector<std::string> skipped(const scene::Scene& session, const model::Syste
     lines.push_back(std::to_string(system.skipped_stops) + " stops whose ends are all fixed: they can never act");
   if (system.skipped_loads > 0)
     lines.push_back(std::to_string(system.skipped_loads) +
-                    " loads that are zero at all times or act on fixed DOFs alone");
+                    " loads that are zero at all times or act only on fixed DOFs");
   if (system.loads.empty()) lines.emplace_back("loads: nothing drives the free DOFs");
   if (system.stops.empty() && system.obstacles.empty())
     lines.emplace_back("contact: the scene has no stops, so an implicit method factorizes once for each step size");
@@ -74,8 +74,8 @@ std::vector<std::string> skipped(const scene::Scene& session, const model::Syste
     lines.emplace_back("damping: C is zero");
   else if (!system.damping.is_modal() && system.dashpots.size() == 0)
     lines.emplace_back("a damping matrix: C is Rayleigh's, made of M and K");
-  if (!session.output.energy) lines.emplace_back("the energy balance: [output] does not ask for energy");
-  if (!session.output.impacts) lines.emplace_back("the list of impacts: [output] does not ask for impacts");
+  if (!session.output.energy) lines.emplace_back("the energy balance: [output] does not request energy");
+  if (!session.output.impacts) lines.emplace_back("the list of impacts: [output] does not request impacts");
   const plugin::IntegratorEntry* chosen = session.catalogue.find(session.integrator.name);
   std::set<std::string> others;
   for (const plugin::IntegratorEntry& entry : session.catalogue.integrators())
@@ -109,7 +109,7 @@ void print_step(const scene::Scene& session, double open, double closed) {
       to_short_text(kRungeKutta4 / open).c_str(), to_short_text(kRungeKutta4 / closed).c_str(),
       to_short_text(kCentralDifferences / open).c_str(), to_short_text(kCentralDifferences / closed).c_str());
   if (h == 0.0) {
-    std::printf("method     %s, which finds its steps itself\n", choice.name.c_str());
+    std::printf("method     %s, which chooses its own steps\n", choice.name.c_str());
     return;
   }
   std::printf("method     %s, time_step %s s\n", choice.name.c_str(), to_short_text(h).c_str());
@@ -130,8 +130,7 @@ void print_mechanics(const Mechanics& mechanics) {
     std::printf("contact    an impact lasts about %s s or longer\n", to_short_text(mechanics.shortest_contact).c_str());
   if (mechanics.static_deflection && mechanics.smallest_gap > 0.0)
     std::printf(
-        "static     the loads' largest values, at rest, would move a stop's node by %s m; the smallest gap is "
-        "%s m\n",
+        "static     the static displacement at a stop under the load amplitudes is %s m; the smallest gap is %s m\n",
         to_short_text(*mechanics.static_deflection).c_str(), to_short_text(mechanics.smallest_gap).c_str());
 }
 
@@ -147,11 +146,10 @@ void print_cost(const Estimate& cost, bool trust) {
   if (cost.failure.empty() && cost.seconds)
     std::printf("estimate   %s%.2g s in all%s, %s (%s)\n", cost.whole ? "" : "about ", *cost.seconds,
                 trust ? " without trust" : "", steps.c_str(),
-                cost.whole ? "tried out to the end" : "from a short trial");
+                cost.whole ? "from a complete trial run" : "from a short trial");
   else if (cost.failure.empty())
     std::printf(
-        "estimate   none: a trial of %.2g s went through %.2g %% of the time, which does not tell what the rest "
-        "costs%s\n",
+        "estimate   none: a trial of %.2g s covered %.2g %% of the time; this does not suffice for an estimate%s\n",
         cost.trial_seconds, 100.0 * cost.part, steps.empty() ? "" : ("; " + steps).c_str());
   if (cost.rows) std::printf("results    %.4g rows, about %s\n", *cost.rows, size_of(*cost.bytes).c_str());
 }

@@ -41,7 +41,7 @@ Values compute(const config::Document& scene, const plugin::Catalogue& catalogue
   config::Document document = with_method(scene, type, sweep, 0.0);
   scene::Scene session = scene::read_scene(std::move(document), own);
   Answer answer = run_once(session, question, kTimeLimit, perturbation);
-  if (interrupted != 0) throw RunError("interrupted in the reference; what was compared before is kept");
+  if (interrupted != 0) throw RunError("interrupted during the reference; earlier comparisons are kept");
   if (!answer.completed)
     throw RunError("the reference by " + method + " failed: " + answer.message +
                    "; give one as a file ([study] reference) or another horizon (end_time)");
@@ -112,7 +112,7 @@ Reference find_reference(const Study& study, const config::Document& scene, plug
     return reference;
   }
   if (catalogue.find("exact") == nullptr)
-    throw InputError("the method exact is not installed, which references are made by; give a file: [study] reference");
+    throw InputError("the method exact, which computes references, is not installed; give a file: [study] reference");
   const auto by = [&](const std::string& method, const std::string& key, config::Value value, double perturbation) {
     config::Table settings;
     settings[key] = std::move(value);

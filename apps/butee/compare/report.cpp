@@ -51,9 +51,9 @@ void write_reference(std::ostream& out, const SceneResult& result) {
   out << "Reference: " << r.origin << "; its uncertainty (relative rms of two computations) is "
       << number(r.uncertainty) << ".\n";
   if (r.parted)
-    out << "The two computations part company at t = " << number(r.horizon, 4)
-        << " s: from there on the motion cannot be computed this way, and errors are taken up to there alone; "
-           "times are those of runs to the end, t = "
+    out << "The two computations diverge at t = " << number(r.horizon, 4)
+        << " s: later motion cannot be computed this way, and errors are evaluated only up to that time; run times are "
+           "those of runs to the end, t = "
         << number(result.end_time, 4) << " s.\n";
   else
     out << "They agree to the end, t = " << number(result.end_time, 4) << " s.\n";

@@ -35,13 +35,15 @@ std::vector<Parameter> study_parameters() {
       config::text("title", "the title of the report").or_else(std::string()),
       config::texts("scenes", "the model files, beside the study"),
       config::texts("set", "overrides for every scene: KEY=VALUE").optional(),
-      config::texts("quantity", "the columns of history.csv that are compared; a run counts with its worst").optional(),
+      config::texts("quantity", "the compared columns of history.csv; the worst one counts for a run").optional(),
       config::number("end_time", "s", "the end of every run").above(0).optional(),
-      config::numbers("end_times", "s", "the end of the runs of each scene, instead").above(0).optional(),
-      config::numbers("targets", "1", "relative rms errors to name the fastest method for").above(0).optional(),
+      config::numbers("end_times", "s", "the end of the runs of each scene, instead of end_time").above(0).optional(),
+      config::numbers("targets", "1", "relative rms errors for which the fastest method is reported")
+          .above(0)
+          .optional(),
       config::number("time_limit", "s", "the longest single run").above(0).or_else(2.0),
       config::text("reference", "a CSV file with columns t and the quantities").or_else(std::string()),
-      config::table("method", "[[study.method]]: the methods; without it all that are found").optional()};
+      config::table("method", "[[study.method]]: the methods; default: all that are found").optional()};
 }
 
 std::string beside(const std::string& study, const std::string& file) {
@@ -54,7 +56,7 @@ Sweep read_sweep(const Value& table, const std::string& path, const plugin::Cata
   const auto p = read_parameters(
       table, path,
       {config::text("type", "the method").one_of(catalogue.integrator_names()),
-       config::text("sweep", "the key whose values are taken; none: a single run as the scene is written").optional(),
+       config::text("sweep", "the key that takes the values; default: a single run as the scene is written").optional(),
        config::numbers("values", "", "its values, from coarse to fine").above(0).optional(),
        config::table("with", "further keys of [integrator] for this method").optional()},
       diagnostics);
@@ -89,7 +91,7 @@ Study read_study_file(const config::Document& document, const ModelArguments& ar
     if (study.end_times.size() != study.scenes.size() || study.end_time)
       p->complain(diagnostics, "end_times",
                   "must hold one value for each of the " + std::to_string(study.scenes.size()) +
-                      " scenes, and stand instead of end_time");
+                      " scenes, and replaces end_time");
   }
   if (p->has("targets")) study.targets = p->numbers("targets");
   study.time_limit = p->number("time_limit");

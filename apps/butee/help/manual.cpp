@@ -74,8 +74,8 @@ std::string manual_page(const CLI::App& program) {
   text += section("SYNOPSIS") + ".B butee\n.I COMMAND\n[\\fIOPTION\\fR]...\n";
   text += section("DESCRIPTION") +
           escaped(
-              "Takes a scene, a TOML file with beams, masses, springs, stops and loads, through time, and says what "
-              "its motion is worth. \"butee help TOPIC\" explains what a scene holds.") +
+              "Computes the motion of a scene, a TOML file with beams, masses, springs, stops and loads, and "
+              "estimates its accuracy. \"butee help TOPIC\" explains the contents of a scene.") +
           "\n";
   text += section("COMMANDS");
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {

@@ -71,7 +71,7 @@ std::vector<std::string> picture_formats() {
 void require_gnuplot(const std::vector<std::string>& formats) {
   const bool needed = std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f != kScript; });
   if (needed && !gnuplot::is_installed())
-    throw InputError(gnuplot::remedy() + ", or take --format script for the scripts alone and draw them elsewhere");
+    throw InputError(gnuplot::remedy() + ", or use --format script to write only the scripts and draw them elsewhere");
 }
 
 std::vector<std::string> draw(const Request& request, const plugin::Catalogue& catalogue) {
@@ -100,14 +100,14 @@ std::vector<std::string> draw(const Request& request, const plugin::Catalogue& c
       throw InputError("--kind " + name + ": " + join(request.folders) + " lacks " + requirement_of(kind));
     for (Picture& picture : found) all.push_back(std::move(picture));
   }
-  if (all.empty()) throw InputError(join(request.folders) + ": nothing can be drawn of this");
+  if (all.empty()) throw InputError(join(request.folders) + ": there is nothing to draw");
 
   std::vector<std::string> drawn_formats = request.formats, made;
   std::erase(drawn_formats, kScript);
   const std::string folder = folder_of(request);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw RunError(folder + ": cannot be made: " + error.message());
+  if (error) throw RunError(folder + ": cannot be created: " + error.message());
   for (const Picture& picture : all) {
     const std::string path = (fs::path(folder) / picture.name).string();
     gnuplot::write_script(folder, picture.name,

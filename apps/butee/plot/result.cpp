@@ -72,7 +72,7 @@ std::string field_format_of(const config::Document& document, const std::string&
 Result read_result(const std::string& folder, const plugin::Catalogue& catalogue, Window window) {
   const std::string model_path = (fs::path(folder) / "model.toml").string();
   const std::string history_path = (fs::path(folder) / "history.csv").string();
-  if (!fs::is_directory(folder)) throw InputError(folder + ": is no folder; name the result folder of `butee run`");
+  if (!fs::is_directory(folder)) throw InputError(folder + ": is not a folder; name the result folder of `butee run`");
   if (!fs::exists(model_path)) throw InputError(folder + ": holds no results of `butee run`: model.toml is missing");
   // Pictures do not need the time functions of loads, and the result folder may have been moved away from
   // their files.

@@ -77,7 +77,7 @@ std::optional<Eigen::Vector3d> OneStepMap::step(const Eigen::Vector3d& from, dou
     return std::nullopt;
   }
   if (end.t < h || report.inner_steps > 1) {
-    refusal_ = "given a step of h = " + to_short_text(h) + " s it takes shorter ones of its own";
+    refusal_ = "given a step of h = " + to_short_text(h) + " s it takes shorter steps of its own choice";
     return std::nullopt;
   }
   // A step that error control would reject may come without an updated acceleration.

@@ -244,7 +244,7 @@ std::vector<std::string> draw_study(const study::Study& study, const study::Layo
   const std::string folder = to.empty() ? store.file("plots") : to;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw RunError(folder + ": cannot be made: " + error.message());
+  if (error) throw RunError(folder + ": cannot be created: " + error.message());
   std::vector<std::string> made, drawn = formats;
   const bool keeps_script = std::erase(drawn, "script") > 0;
   for (const Picture& picture : study_pictures(study, layout, store)) {

@@ -78,7 +78,7 @@ record::Growth follow_disturbance(scene::Scene& session, const FollowedRun& run,
     simulation.set_motion(x, v);
     simulation.set_end_time(run.state_times[next]);
     const time::RunReport& report = simulation.run([] { return interruption() == nullptr; });
-    if (interruption() != nullptr) throw RunError("interrupted while finding out how far to trust the run");
+    if (interruption() != nullptr) throw RunError("interrupted during the accuracy estimate");
     if (!report.completed) return {{}, {}, {}, 1.0, measure.omega()};
     x = simulation.state().x - run.x.col(i + 1);
     v = simulation.state().v - run.v.col(i + 1);

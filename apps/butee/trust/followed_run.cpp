@@ -173,7 +173,7 @@ FollowedRun follow(scene::Scene& session, double disturbance, double most, Wante
                static_cast<double>(dynamics.stop_count());
   };
   const time::RunReport& report = assembly.simulation.run([&] { return interruption() == nullptr && work() < most; });
-  if (interruption() != nullptr) throw RunError("interrupted while finding out how far to trust the run");
+  if (interruption() != nullptr) throw RunError("interrupted during the accuracy estimate");
   run.completed = report.completed;
   run.message = report.message.empty() ? "it takes too long" : report.message;
   run.work = work();

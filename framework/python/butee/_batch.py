@@ -67,13 +67,13 @@ def points_of(values: Mapping[str, Sequence[Any]], plan: str) -> Tuple[Tuple[str
     if plan == "grid":
         points = math.prod(map(len, columns))
         if points > MOST_POINTS:
-            raise ValueError(f"the grid has {points:.3g} points, and {MOST_POINTS:.0e} is the most of a batch; take fewer values, or study")
+            raise ValueError(f"the grid has {points:.3g} points, but a batch has at most {MOST_POINTS:.0e}; use fewer values, or study")
         return keys, list(itertools.product(*columns))
     if plan != "list":
         raise ValueError(f'plan = {plan!r}: "grid" (every combination) or "list" (value by value) is allowed')
     if len({len(column) for column in columns}) > 1:
         lengths = ", ".join(f"{key}: {len(column)}" for key, column in zip(keys, columns))
-        raise ValueError(f'plan = "list" takes as many values of each key; there are {lengths}')
+        raise ValueError(f'plan = "list" needs the same number of values for each key; given are {lengths}')
     return keys, list(zip(*columns))
 
 

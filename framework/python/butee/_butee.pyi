@@ -1,4 +1,4 @@
-"""What the package butee is made of; import butee instead."""
+"""Extension module of the package butee; import butee instead."""
 
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, final
 

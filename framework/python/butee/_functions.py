@@ -24,11 +24,11 @@ def declared(name: str, function: Callable[..., float], first: str) -> List[Tupl
     """The parameters after the first one, with their defaults; raises TypeError if a scene cannot set them."""
     parameters = list(inspect.signature(function).parameters.values())
     if not parameters:
-        raise TypeError(f"{name}: the function takes {first}, and its parameters behind that")
+        raise TypeError(f"{name}: the function must take {first}, followed by its parameters")
     found = []
     for parameter in parameters[1:]:
         if parameter.kind not in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
-            raise TypeError(f"{name}: {parameter} is no plain argument")
+            raise TypeError(f"{name}: {parameter} is not a plain argument")
         default: Optional[float] = None if parameter.default is parameter.empty else float(parameter.default)
         found.append((parameter.name, default))
     return found

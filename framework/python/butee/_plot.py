@@ -29,14 +29,14 @@ def plot_rows(study, result, axes):
 
     values, keys = study[result], study.keys_varied
     if values.dtype.kind == "U" or not keys:
-        raise ValueError(f"{result}: is no result over a key that varies")
+        raise ValueError(f"{result}: is not a result over a key that varies")
     if axes is None:
         _, axes = plt.subplots()
     unit = study.units[result]
     label = f"{result} / {unit}" if unit not in ("", "1") else result
     x = study[keys[0]]
     if x.dtype.kind == "U":
-        raise ValueError(f"{keys[0]}: has texts, over which nothing is drawn")
+        raise ValueError(f"{keys[0]}: has strings, which cannot be an axis")
     axes.set_xlabel(keys[0])
     if values.ndim > 1:
         axes.plot(np.repeat(x, values.shape[1]), values.ravel(), ".", markersize=1)

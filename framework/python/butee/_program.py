@@ -22,7 +22,7 @@ def program() -> str:
     folder = os.path.dirname(os.path.dirname(_butee.plugin_folder))
     found = os.path.normpath(os.path.join(folder, _butee.lib_to_program))
     if not os.path.exists(found):
-        raise RunError(f"{found}: is missing; this butee is not installed as a whole, or was only partly built")
+        raise RunError(f"{found}: is missing; this butee is only partly installed or built")
     return found
 
 
@@ -57,8 +57,8 @@ def refuse_functions(tables: Any) -> None:
     """Raises InputError if the scene uses laws or loads written in Python, which the program cannot call."""
     names = sorted(names_in(tables))
     if names:
-        raise InputError(f"the scene names {', '.join(names)}, which is written in Python; this analysis is done by the program butee, "
-                         "which knows laws and loads of modules alone")
+        raise InputError(f"the scene names {', '.join(names)}, which is written in Python; this analysis runs the program butee, "
+                         "which supports only laws and loads of modules")
 
 
 @contextlib.contextmanager

@@ -190,7 +190,7 @@ class Scene(Analyses):
         'completed'
         """
         if resume and output is None:
-            raise ValueError("resume: output has to name the folder of the run that is to go on")
+            raise ValueError("resume: output must name the folder of the run to resume")
         if repeat < 1 or (resume and repeat > 1):
             raise ValueError(f"repeat = {repeat}: 1 or more is needed, and 1 with resume")
         core = self._with(values, integrator)
@@ -270,7 +270,7 @@ class Scene(Analyses):
         ``closed`` are selectors of nodes whose stops count as closed, or ``"all"``.
         """
         if n < 0:
-            raise ValueError(f"n = {n}: a number of modes is wanted")
+            raise ValueError(f"n = {n}: a positive number of modes is required")
         return Modes(**_butee.modes(self._core, n, [closed] if isinstance(closed, str) else list(closed)))
 
     def structure(self, forced: Union[str, Sequence[str]] = ()) -> Structure:
