@@ -7,7 +7,7 @@ namespace butee::contact {
 model::ContactType ring_type() {
   return {"ring",
           "circular clearance in the plane (uy, uz)",
-          {config::numbers("centre", "m", "of the ring, [y, z]")
+          {config::numbers("centre", "m", "the centre of the ring, [y, z]")
                .of_length(2)
                .or_else(config::Array{config::Value(0.0), config::Value(0.0)}),
            config::text("side", "where the body is: within the ring, or outside of a circle of radius gap")

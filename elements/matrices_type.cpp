@@ -252,7 +252,8 @@ model::ElementType matrices_type() {
        texts("nodes",
              "the nodes of the rows, node by node, own ones (NAME:0..48) and those of other elements; default: all own")
            .optional(),
-       config::numbers("coordinates", "m", "of the own nodes, for pictures; default 0, 1, 2 ...").optional(),
+       config::numbers("coordinates", "m", "the coordinates of the own nodes, for pictures; default 0, 1, 2 ...")
+           .optional(),
        texts("checksums", "CRC-64 of the files in the order above, as in model.toml").optional()},
       own_nodes,
       [](const Parameters& p, model::ElementContext& context) { return Maker(p, context).make(); }};

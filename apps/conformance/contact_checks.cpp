@@ -111,8 +111,8 @@ Finding check_energy(const Subject& subject) {
 
 std::vector<Check> contact_checks() {
   return {{"normal", "the normal is the slope of the penetration, and has length 1", check_normal},
-          {"curvature", "the curvature is what the normal turns by along the tangent", check_curvature},
-          {"energy", "an elastic obstacle gives back what it took", check_energy}};
+          {"curvature", "the curvature is the rotation of the normal along the tangent", check_curvature},
+          {"energy", "an elastic obstacle returns the energy it absorbed", check_energy}};
 }
 
 }  // namespace butee::conformance

@@ -183,10 +183,10 @@ Finding check_rate(const Subject& subject) {
 std::vector<Check> law_checks() {
   return {{"bounds", "force, stiffness and energy are finite, and a closed stop never pulls", check_bounds},
           {"derivatives", "the force is the slope of the energy, the tangent that of the force", check_derivatives},
-          {"batches", "the loops over many stops give what a single stop gives", check_batches},
-          {"series", "a Taylor series, where there is one, sums to the force", check_series},
-          {"rate", "what depends on the rate dissipates, and has the slopes it states", check_rate},
-          {"rebound", "a stop gives back what it took, or less", check_rebound}};
+          {"batches", "the loops over many stops give the values of single stops", check_batches},
+          {"series", "a Taylor series, if there is one, sums to the force", check_series},
+          {"rate", "the rate-dependent part dissipates, and has the stated slopes", check_rate},
+          {"rebound", "a stop returns at most the energy it absorbed", check_rebound}};
 }
 
 }  // namespace butee::conformance

@@ -57,7 +57,7 @@ Finding check_values(const Subject& subject) {
       jump = step, at = t;
   }
   if (jump > 1e-3 * largest(*load))
-    return {false, "jumps at t = " + to_short_text(at) + " s, which discontinuities() does not say"};
+    return {false, "jumps at t = " + to_short_text(at) + " s, which discontinuities() does not list"};
   return {true, "finite, largest value " + to_short_text(largest(*load)) + " in 10 s"};
 }
 
@@ -123,10 +123,10 @@ Finding check_motion(const Subject& subject) {
 }  // namespace
 
 std::vector<Check> load_checks() {
-  return {{"values", "finite, and jumps only where discontinuities() says so", check_values},
+  return {{"values", "finite, and jumps only at the instants of discontinuities()", check_values},
           {"discontinuities", "the discontinuities are ascending", check_discontinuities},
-          {"series", "the Taylor series, where there is one, sums to the value", check_taylor},
-          {"harmonic", "harmonic(), where it says something, is the value", check_harmonic},
+          {"series", "the Taylor series, if there is one, sums to the value", check_taylor},
+          {"harmonic", "harmonic(), if defined, equals the value", check_harmonic},
           {"motion", "two methods agree on the motion under the load", check_motion}};
 }
 

@@ -70,7 +70,7 @@ Finding check_order(const Subject& subject) {
   const Errors coarse = errors_of(subject, steps), fine = errors_of(subject, 2 * steps);
   if (!std::isfinite(coarse.x + fine.x + coarse.v + fine.v))
     return {false, "one of " + std::to_string(2 * steps) + " equal steps was refused or cut short"};
-  if (fine.x < kRounding && fine.v < kRounding) return {true, "errors of rounding alone"};
+  if (fine.x < kRounding && fine.v < kRounding) return {true, "only rounding errors"};
   const double x = std::log2(coarse.x / fine.x), v = std::log2(coarse.v / fine.v);
   std::string measured = to_short_text(x) + " in x, " + to_short_text(v) + " in v";
   if (declaration.order == 0.0) return {true, measured + "; not declared"};

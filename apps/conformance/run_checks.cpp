@@ -56,8 +56,8 @@ Finding check_independence(const Subject& subject) {
   }
   while (one.simulation().advance() && one.simulation().state().t < 0.5 * kEnd) other.simulation().advance();
   const bool holds = alone.simulation().state().x == one.simulation().state().x;
-  return {holds, holds ? "two simulations by turns, the same bits as alone"
-                       : "a second simulation beside it changes the result: there is state that they share"};
+  return {holds, holds ? "two alternating simulations, the same bits as alone"
+                       : "a second simulation changes the result: the simulations share state"};
 }
 
 Finding check_skipped_contact(const Subject& subject) {
@@ -71,17 +71,17 @@ Finding check_skipped_contact(const Subject& subject) {
 }
 
 std::vector<Check> integrator_checks() {
-  return {
-      {"order", "equal steps of forced, damped motion converge in x and v with the declared order", check_order},
-      {"purity", "a step depends on its state and length alone", check_purity},
-      {"restart", "a new integrator goes on bit for bit", check_restart},
-      {"interpolation", "the interpolant meets both ends of a step", check_interpolation},
-      {"end", "a run ends at end_time exactly", check_end_time},
-      {"agreement", "a beam that strikes its stops moves as with the method `exact`", check_agreement},
-      {"overflow", "what is not finite is never accepted, and a run that meets it ends with a message", check_overflow},
-      {"allocation", "a step allocates no memory after the first use of its length", check_allocation},
-      {"independence", "simulations share no state", check_independence},
-      {"no stops", "a scene without stops evaluates no contact", check_skipped_contact}};
+  return {{"order", "equal steps of forced, damped motion converge in x and v with the declared order", check_order},
+          {"purity", "a step depends only on its state and length", check_purity},
+          {"restart", "a new integrator continues bit for bit", check_restart},
+          {"interpolation", "the interpolant meets both ends of a step", check_interpolation},
+          {"end", "a run ends at end_time exactly", check_end_time},
+          {"agreement", "a beam that strikes its stops moves as with the method `exact`", check_agreement},
+          {"overflow", "non-finite values are never accepted, and a run that meets them ends with a message",
+           check_overflow},
+          {"allocation", "a step allocates no memory after the first use of its length", check_allocation},
+          {"independence", "simulations share no state", check_independence},
+          {"no stops", "a scene without stops evaluates no contact", check_skipped_contact}};
 }
 
 }  // namespace butee::conformance

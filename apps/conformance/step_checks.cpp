@@ -50,7 +50,7 @@ Finding check_purity(const Subject& subject) {
   const std::string found = difference(first, again);
   return {found.empty(), found.empty() ? "the same bits after other steps"
                                        : "the same step from the same state, after others: " + found +
-                                             ". What a method remembers belongs into State::memory"};
+                                             ". Keep the memory of a method in State::memory"};
 }
 
 Finding check_restart(const Subject& subject) {
@@ -62,8 +62,8 @@ Finding check_restart(const Subject& subject) {
   fresh.integrator().step(from, {3e-6, from.t + 3e-6}, restarted);
   const std::string found = difference(continued, restarted);
   return {found.empty(), found.empty() ? "the same bits from a new integrator"
-                                       : "a new integrator goes on differently from the same state: " + found +
-                                             ". What a method remembers belongs into State::memory"};
+                                       : "a new integrator continues differently from the same state: " + found +
+                                             ". Keep the memory of a method in State::memory"};
 }
 
 Finding check_interpolation(const Subject& subject) {

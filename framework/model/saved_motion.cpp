@@ -49,7 +49,7 @@ std::string SavedMotions::difference_from(const NodeTable& nodes, const DofTable
   const auto count = [](std::size_t number, const char* what) { return std::to_string(number) + " " + what; };
   for (std::size_t i = 0; i < std::max(groups.size(), other.groups.size()); ++i) {
     if (i >= groups.size()) return "it has no \"" + other.groups[i].name + "\"";
-    if (i >= other.groups.size()) return "it also has \"" + groups[i].name + "\" besides";
+    if (i >= other.groups.size()) return "it also has \"" + groups[i].name + "\"";
     const Group &a = groups[i], &b = other.groups[i];
     if (a.name != b.name) return "it has \"" + a.name + "\" where this scene has \"" + b.name + "\"";
     if (a.coordinates.size() != b.coordinates.size())

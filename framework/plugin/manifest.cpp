@@ -154,7 +154,7 @@ std::string write_manifest(const ModuleTypes& types) {
   write_types(types.loads, "load", root);
   write_types(types.elements, "element", root);
   write_types(types.formats, "format", root);
-  return "# Made from the module beside it when that was built.\n" + config::write_toml(root);
+  return "# Generated from the module of the same name when it was built.\n" + config::write_toml(root);
 }
 
 ModuleTypes read_manifest(const std::string& path) {

@@ -110,7 +110,7 @@ std::optional<ImpactDamping> ContactTables::damping(const model::LawType* law) {
            .at_most(1)
            .optional(),
        number("mass", "kg", "effective mass of the impact").above(0).optional(),
-       number("impact_speed", "m/s", "at which the restitution holds").above(0).optional()},
+       number("impact_speed", "m/s", "the impact speed at which the restitution holds").above(0).optional()},
       diagnostics_);
   if (!p) return std::nullopt;
   const std::string& type = p->text("type");
@@ -184,13 +184,17 @@ std::optional<Friction> ContactTables::friction() {
   const auto p = read_parameters(
       contact_.value("friction"), path_ + ".friction",
       {number("coefficient", "1", "mu of slip").at_least(0),
-       number("static_coefficient", "1", "mu of stick; absent: coefficient").at_least(0).optional(),
-       number("slip_speed", "m/s", "over which regularised friction changes its sign").above(0).optional(),
-       text("smoothing", "of regularised friction").one_of({"sqrt", "tanh", "clip"}).or_else("sqrt"),
-       number("stick_stiffness", "N/m", "of the spring that holds a sticking contact").above(0).optional(),
-       number("stick_damping", "N s/m", "of the dashpot beside it").at_least(0).optional(),
+       number("static_coefficient", "1", "mu of stick; default: coefficient").at_least(0).optional(),
+       number("slip_speed", "m/s", "the slip speed over which regularised friction changes its sign")
+           .above(0)
+           .optional(),
+       text("smoothing", "the smoothing of regularised friction").one_of({"sqrt", "tanh", "clip"}).or_else("sqrt"),
+       number("stick_stiffness", "N/m", "the stiffness of the spring that holds a sticking contact")
+           .above(0)
+           .optional(),
+       number("stick_damping", "N s/m", "the damping of the dashpot parallel to it").at_least(0).optional(),
        text("stick", "a sticking contact does not move at all").one_of({"rigid"}).optional(),
-       number("surface_speed", "m/s", "of the obstacle along the tangent").or_else(0.0)},
+       number("surface_speed", "m/s", "the speed of the obstacle along the tangent").or_else(0.0)},
       diagnostics_);
   if (!p) return std::nullopt;
   Friction friction;

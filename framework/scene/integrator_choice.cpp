@@ -18,7 +18,7 @@ using config::Value;
 constexpr const char* kDefault = "auto";
 
 std::vector<Parameter> common_parameters() {
-  return {number("time_step", "s", "the step; for an adaptive method the first step").above(0),
+  return {number("time_step", "s", "the step, or the first step of an adaptive method").above(0),
           number("end_time", "s", "the end of the run, which starts at t = 0").above(0)};
 }
 

@@ -88,19 +88,19 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
   }
   if (is_stop)
     declare({text("sides", "the sides that have a stop").one_of({"both", "positive", "negative"}).or_else("both")});
-  declare({text("frame", "of a contact with ground under [base]: it moves with the base, or stays in space")
+  declare({text("frame", "for a contact with ground under [base]: it moves with the base, or stays in space")
                .one_of({"base", "space"})
                .or_else("base")});
   if (is_stop || is_support)
     declare({text("dof", "the displacement or rotation it acts on").one_of(stop_dof_names()).or_else("u")});
-  if (is_support) declare({number("normal_force", "N", "that presses the support on").above(0)});
+  if (is_support) declare({number("normal_force", "N", "the force that presses the support").above(0)});
   if (shape != nullptr) {
     declare(shape->parameters);
     declare({config::texts("dofs", "the two displacements of its plane")
                  .of_length(2)
                  .or_else(config::Array{Value(std::string("uy")), Value(std::string("uz"))})});
   }
-  declare({number("radius", "m", "of the turning body at the contact").at_least(0).optional()});
+  declare({number("radius", "m", "the radius of the turning body at the contact").at_least(0).optional()});
   if (law != nullptr) {
     declare(law->parameters);
   } else if (!is_support) {

@@ -96,7 +96,7 @@ model::FieldRequest read_fields(const Parameters& output, std::vector<std::strin
   request.formats = std::move(formats);
   const bool wanted = !request.formats.empty();
   if (output.has("fields") && !wanted)
-    output.complain(diagnostics, "fields", "no format writes them; set formats = [\"csv\", \"hdf5\"] beside it");
+    output.complain(diagnostics, "fields", "no format writes them; set formats = [\"csv\", \"hdf5\"]");
   const Value none, &table = output.has("fields") ? output.value("fields") : none;
   if (table.table() == nullptr) {
     output.complain(diagnostics, "fields", "must be one table, not several");

@@ -132,7 +132,7 @@ class OutputReader {
       const auto p = read_parameters(
           (*list.array())[i], "output.probe[" + std::to_string(i) + "]",
           {config::text("label", "the name of its columns"), config::text("node", "the node"),
-           config::texts("quantities", "what is recorded").one_of(model::probe_quantities()),
+           config::texts("quantities", "the recorded quantities").one_of(model::probe_quantities()),
            config::text("element", "the beam or spring whose forces are recorded, if the node has several").optional()},
           diagnostics_);
       if (!p) continue;

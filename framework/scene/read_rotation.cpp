@@ -71,7 +71,7 @@ void SceneReader::choose_turning(const Parameters& p) {
     if (const std::string problem = element.turning_problem(); !problem.empty())
       diagnostics_.error(element_places_[i].first, element_places_[i].second,
                          "turns with [rotation], but " + problem +
-                             (p.has("parts") ? "" : "; if it stands still, name what turns in rotation.parts"));
+                             (p.has("parts") ? "" : "; if it stands still, name the rotating parts in rotation.parts"));
   }
   for (const std::string& part : parts)
     if (std::find(able.begin(), able.end(), part) == able.end() && !lacks_elements_)

@@ -42,13 +42,13 @@ class Reader {
       : document_(document), diagnostics_(diagnostics), root_(*document.root.table()) {}
 
   void check_root() {
-    read_parameters(
-        document_.root, "",
-        {config::integer("schema", "the version of this format").at_least(1).at_most(1),
-         config::text("scene", "the model file, beside the study"),
-         config::text("title", "the title of pictures").optional(),
-         config::table("vary", "[[vary]]: the keys that vary").optional(), config::table("study", "how").optional()},
-        diagnostics_);
+    read_parameters(document_.root, "",
+                    {config::integer("schema", "the version of this format").at_least(1).at_most(1),
+                     config::text("scene", "the model file, beside the study"),
+                     config::text("title", "the title of pictures").optional(),
+                     config::table("vary", "[[vary]]: the keys that vary").optional(),
+                     config::table("study", "plan, periods and results").optional()},
+                    diagnostics_);
   }
 
   std::optional<Parameters> settings() {
@@ -142,35 +142,36 @@ config::Document with_overrides(config::Document scene, const Parameters& p, con
 }  // namespace
 
 std::vector<Parameter> study_parameters() {
-  return {
-      config::text("plan", "how the values are combined").one_of(kPlans).or_else("grid"),
-      config::integer("count", "points of plan sobol or latin").at_least(1).optional(),
-      config::integer("seed", "of plan sobol (digital shift) or latin").at_least(0).optional(),
-      config::integer("settle", "periods before results count")
-          .at_least(0)
-          .at_most(kMostPeriods)
-          .or_else(std::int64_t{0}),
-      config::integer("periods", "periods that count; default: to end_time of the scene")
-          .at_least(1)
-          .at_most(kMostPeriods)
-          .optional(),
-      config::number("period", "s", "of settle, periods and sections; default: that of the loads").above(0).optional(),
-      config::number("steady", "1", "ends settling early if the motion repeats within this relative difference")
-          .above(0)
-          .at_most(1e-2)
-          .optional(),
-      config::texts("collect", "the results of each run"),
-      config::texts("set", "overrides of the scene for all runs: KEY=VALUE").optional()};
+  return {config::text("plan", "how the values are combined").one_of(kPlans).or_else("grid"),
+          config::integer("count", "the number of points of plan sobol or latin").at_least(1).optional(),
+          config::integer("seed", "the seed of plan sobol (digital shift) or latin").at_least(0).optional(),
+          config::integer("settle", "the number of periods before results count")
+              .at_least(0)
+              .at_most(kMostPeriods)
+              .or_else(std::int64_t{0}),
+          config::integer("periods", "the number of periods that count; default: to end_time of the scene")
+              .at_least(1)
+              .at_most(kMostPeriods)
+              .optional(),
+          config::number("period", "s", "the period for settle, periods and sections; default: that of the loads")
+              .above(0)
+              .optional(),
+          config::number("steady", "1", "ends settling early if the motion repeats within this relative difference")
+              .above(0)
+              .at_most(1e-2)
+              .optional(),
+          config::texts("collect", "the results of each run"),
+          config::texts("set", "overrides of the scene for all runs: KEY=VALUE").optional()};
 }
 
 std::vector<Parameter> vary_parameters() {
   return {config::text("key", "a key of the scene, as --set takes it: load[0].amplitude"),
           config::number("from", "", "the first value of a range").optional(),
-          config::number("to", "", "the last").optional(),
-          config::integer("count", "values from one to the other").at_least(1).optional(),
-          config::text("spacing", "of the values of a range").one_of({"linear", "log"}).or_else("linear"),
+          config::number("to", "", "the last value of a range").optional(),
+          config::integer("count", "the number of values of a range").at_least(1).optional(),
+          config::text("spacing", "the spacing of the values of a range").one_of({"linear", "log"}).or_else("linear"),
           config::text("file", "a CSV file with a line of names, beside the study").optional(),
-          config::text("label", "of its axis in pictures: \"load / N\"; default: the key").optional(),
+          config::text("label", "the label of its axis in pictures: \"load / N\"; default: the key").optional(),
           config::text("column", "its column; default: the only one, or that of the key's name").optional()};
 }
 

@@ -67,7 +67,7 @@ Sweep read_sweep(const Value& table, const std::string& path, const plugin::Cata
   if (sweep.as_written) sweep.knob.clear();
   if (p->has("values")) sweep.values = p->numbers("values");
   if (!sweep.values.empty() && sweep.knob.empty() && !sweep.as_written)
-    p->complain(diagnostics, "sweep", "is missing beside values: name the key that takes them");
+    p->complain(diagnostics, "sweep", "is missing: values require a key that takes them");
   if (const Value* with = table.table()->find("with"); with != nullptr && with->table() != nullptr)
     sweep.settings = *with->table();
   return sweep;

@@ -37,17 +37,17 @@ every rotation and their velocities:
 
   e <= 10 tolerance max(1, G) at every output of a run of end_time.
 
-Near a contact change the bound for velocities allows a time shift of 10 tolerance S/|w'|, w' being the speed of the stop.
-For a longer end_time steps are shorter, because period errors accumulate. After end_time, in a structure that another
-program advances, the error continues to grow at the same rate. The smallest tolerances are 1e-6 for methods of order 2,
-1e-8 for exponential if stops act on modes that no damping couples, otherwise 1e-10 as for auto and rodas4, 1e-11 for dopri5
-and 1e-12 for extrapolation8. Smaller tolerances are refused because of rounding, the number of steps or the accumulated
-errors of many impacts.
+Near a contact change the bound for velocities allows a time shift of 10 tolerance S/|w'|, w' being the speed of the
+stop. For a longer end_time steps are shorter, because period errors accumulate. After end_time, in a structure that
+another program advances, the error continues to grow at the same rate. The smallest tolerances are 1e-6 for methods
+of order 2, 1e-8 for exponential if stops act on modes that no damping couples, otherwise 1e-10 as for auto and
+rodas4, 1e-11 for dopri5 and 1e-12 for extrapolation8. Smaller tolerances are refused because of rounding, the number
+of steps or the accumulated errors of many impacts.
 
-Exceptions: for structures of more than 600 DOFs the tolerance limits the error of each step, for any number of steps, in
-the norm of the mass matrix over the whole structure. exact and piecewise have no truncation error. newmark_adaptive,
-newmark_modified_adaptive, rk4_fixed_factors, rk4_error_scaled and sundials control the error in the way of their
-sources or libraries. `butee run --trust` bounds the error of a run, whatever the method.
+Exceptions: for structures of more than 600 DOFs the tolerance limits the error of each step, for any number of steps,
+in the norm of the mass matrix over the whole structure. exact and piecewise have no truncation error.
+newmark_adaptive, newmark_modified_adaptive, rk4_fixed_factors, rk4_error_scaled and sundials control the error in the
+way of their sources or libraries. `butee run --trust` bounds the error of a run, whatever the method.
 )";
 }
 
@@ -75,21 +75,21 @@ std::string results_text(const plugin::Catalogue&) {
 Columns of history.csv are LABEL.QUANTITY: m, m/s, m/s2, N; rad, rad/s and rad/s2 of theta, which is du/dx. The
 counters of summary.json count operations; factor_updates is always 0, because no factorization is changed in place.
 
-model.toml names the files that the scene reads (file, from) relative to its own folder, with size and checksum: if one of
-them has changed, running model.toml again is refused.
+model.toml names the files that the scene reads (file, from) relative to its own folder, with size and checksum: if
+one of them has changed, running model.toml again is refused.
 
-A peak is the largest |value| over the whole motion, including the time between steps and rows: a stationary point of the
-method's own dense output, found to 1e-10 of it (the sum of several stops on a node to 1e-6), so its accuracy is that of
-the run. For normal_force, friction_force, slip and wear_power it is searched between eight instants of a step. For
-forces of elements (M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. If a node has one
-stop, the largest peak_force of impacts.csv is the peak of contact_force. Work and dissipation, with energy = true, are
-integrals over that output; each row of energy.csv is at the end of a step.
+A peak is the largest |value| over the whole motion, including the time between steps and rows: a stationary point of
+the method's own dense output, found to 1e-10 of it (the sum of several stops on a node to 1e-6), so its accuracy is
+that of the run. For normal_force, friction_force, slip and wear_power it is searched between eight instants of a
+step. For forces of elements (M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. If a
+node has one stop, the largest peak_force of impacts.csv is the peak of contact_force. Work and dissipation, with
+energy = true, are integrals over that output; each row of energy.csv is at the end of a step.
 
 Files of an earlier run in the folder are replaced, other files stay; a folder that is not empty and was not created by
 butee is refused. A run that fails keeps its partial results, in whole lines, and reports the failure in summary.json.
 
-`butee modes -o DIR` writes frequencies.csv and shapes.csv: node, coordinate, and u and theta of each mode (and ux, uz, rx, ry
-if the scene has them), scaled so that the modal mass is 1 kg.
+`butee modes -o DIR` writes frequencies.csv and shapes.csv: node, coordinate, and u and theta of each mode (and ux,
+uz, rx, ry if the scene has them), scaled so that the modal mass is 1 kg.
 )";
 }
 
@@ -105,16 +105,17 @@ std::string limits_text(const plugin::Catalogue&) {
   Results      stresses of transverse shear, of torsion in sections that are not round; fatigue; optimal parameters; static
                solutions without a run
 
-A motion that strikes stops may be chaotic: then no method can predict the motion for long (butee help trust). Scenes are
-limited by memory; butee check tells how much is needed. New elements, laws, contacts and loads come as modules (butee help plugins).
+A motion that strikes stops may be chaotic: then no method can predict the motion for long (butee help trust). Scenes
+are limited by memory; butee check tells how much is needed. New elements, laws, contacts and loads come as modules
+(butee help plugins).
 )";
 }
 
 std::string compare_text(const plugin::Catalogue&) {
-  return R"(`butee compare MODEL.toml` runs every installed method from coarse to fine, and writes into MODEL-compare report.md (the
-fastest method for each target error), runs.csv and a picture (if gnuplot is installed). The reference is the method `exact`,
-computed twice, so that the uncertainty of the reference is known. Ctrl-C keeps completed runs; the same command continues,
---fresh starts again.
+  return R"(`butee compare MODEL.toml` runs every installed method from coarse to fine, and writes into MODEL-compare
+report.md (the fastest method for each target error), runs.csv and a picture (if gnuplot is installed). The reference
+is the method `exact`, computed twice, so that the uncertainty of the reference is known. Ctrl-C keeps completed runs;
+the same command continues, --fresh starts again.
 
 A study defines the comparison in detail:
 
@@ -133,12 +134,12 @@ A study defines the comparison in detail:
 }
 
 std::string trust_text(const plugin::Catalogue&) {
-  return R"(`butee run --trust`, or [output] trust = true, runs the scene again: as it is, with half the step or a tenth of the tolerance,
-by a method of another family (`exact` where it can), and from disturbed states. It prints an error bound of the probes,
-the time up to which this bound is within trust_accuracy (1 % of the peak), the growth of small differences, whether the
-motion is chaotic, and bounds of rms values, peaks and forces. summary.json contains the same under `trust`. It takes about
-ten times as long as the run; if no method of another family needs less than a few times the run's work, a message says so
-and the bound is wider.
+  return R"(`butee run --trust`, or [output] trust = true, runs the scene again: as it is, with half the step or a
+tenth of the tolerance, by a method of another family (`exact` where it can), and from disturbed states. It prints an
+error bound of the probes, the time up to which this bound is within trust_accuracy (1 % of the peak), the growth of
+small differences, whether the motion is chaotic, and bounds of rms values, peaks and forces. summary.json contains
+the same under `trust`. It takes about ten times as long as the run; if no method of another family needs less than a
+few times the run's work, a message says so and the bound is wider.
 
 Motion against stops is often chaotic: differences grow like e^(20 t) in one of the paper's scenes. Then no method can
 predict the motion for long, while peaks and rms values may still be accurate.
@@ -146,10 +147,10 @@ predict the motion for long, while peaks and rms values may still be accurate.
 }
 
 std::string plugins_text(const plugin::Catalogue& catalogue) {
-  return "Methods are modules: shared objects, each with a manifest file that gives names and parameters without loading "
-         "the\nmodule; only the module that a scene names is loaded. Modules may also provide laws, contacts, loads "
-         "and\nelements. " +
-         std::to_string(catalogue.integrators().size()) + " methods are\ninstalled here.\n" +
+  return "Methods are modules: shared objects, each with a manifest file that gives names and parameters without\n"
+         "loading the module; only the module that a scene names is loaded. Modules may also provide laws, contacts,\n"
+         "loads and elements. " +
+         std::to_string(catalogue.integrators().size()) + " methods are installed here.\n" +
          R"(
 They are searched in butee/plugins beside the library, in the folders of BUTEE_PLUGIN_PATH (separated by ':'), and in
 FILE or DIR of --plugin FILE|DIR.

@@ -46,11 +46,11 @@ std::string model_text(const plugin::Catalogue&) {
   keep_time = true               # begin at that instant instead of t = 0: loads continue, end_time counts from the same zero
   # model.toml also stores size and checksum of states.bin, so that a changed run is detected
 
-The equations are M a + C v + K x = F(t) + F_c(x) with the free u (transverse displacement, m) and theta (rotation, rad)
-of all nodes. theta = du/dx: with x along the beam and y along u it turns about z, right-handed (rz), so that it is
-positive if u grows along the beam; a positive moment on theta turns the same way. Every key is checked: each mistake gets
-one message with file, line, key, value and the allowed values; all mistakes of a file are reported at once.
-`butee init KIND` writes a scene to start from, `butee check` shows the contents of a scene.
+The equations are M a + C v + K x = F(t) + F_c(x) with the free u (transverse displacement, m) and theta (rotation,
+rad) of all nodes. theta = du/dx: with x along the beam and y along u it turns about z, right-handed (rz), so that it
+is positive if u grows along the beam; a positive moment on theta turns the same way. Every key is checked: each
+mistake gets one message with file, line, key, value and the allowed values; all mistakes of a file are reported at
+once. `butee init KIND` writes a scene to start from, `butee check` shows the contents of a scene.
 )";
 }
 
@@ -75,9 +75,9 @@ std::string elements_text(const plugin::Catalogue& catalogue) {
 }
 
 std::string space_text(const plugin::Catalogue&) {
-  return R"(A node has up to six degrees of freedom, right-handed: displacements ux, uy, uz (m) and rotations rx, ry, rz (rad). u is
-another name of uy, w of uz, theta of rz; on a beam along x, rz = duy/dx and ry = -duz/dx. A node has only those that an
-element uses. Supports, loads, springs, initial values and probes take any of them; stops act on u.
+  return R"(A node has up to six degrees of freedom, right-handed: displacements ux, uy, uz (m) and rotations rx, ry,
+rz (rad). u is another name of uy, w of uz, theta of rz; on a beam along x, rz = duy/dx and ry = -duz/dx. A node has
+only those that an element uses. Supports, loads, springs, initial values and probes take any of them; stops act on u.
 
   [[element]] type = "beam"
   motion     "planar" (uy, rz), "lateral" (both planes: uy, rz, uz, ry) or "spatial" (all six)
@@ -109,18 +109,18 @@ element uses. Supports, loads, springs, initial values and probes take any of th
   [[base]] nodes = [...]: supports that move independently; each entry defines one motion. u is then measured in space, and
              the ground of springs and stops stands still; [initial] is the start in space.
 
-Probes of forces, along and about the own axes of a beam: N (with the preload), Vy, Vz, T, My, Mz are the force and the
-moment that the side of larger x exerts on the side of smaller x; V = Vy and M = Mz. My = -E I d2w/dx2. reaction_ux ...
-reaction_rz of supports, spring_ux ... spring_rz of springs and bearings along the axes of space. von_mises is that of the
-outer fibre, with N and T: in space of round sections; bending_stress that of bending along u. All include the element's own
-inertia, gyroscopic moments, weight and base motion.
+Probes of forces, along and about the own axes of a beam: N (with the preload), Vy, Vz, T, My, Mz are the force and
+the moment that the side of larger x exerts on the side of smaller x; V = Vy and M = Mz. My = -E I d2w/dx2.
+reaction_ux ... reaction_rz of supports, spring_ux ... spring_rz of springs and bearings along the axes of space.
+von_mises is that of the outer fibre, with N and T: in space of round sections; bending_stress that of bending along
+u. All include the element's own inertia, gyroscopic moments, weight and base motion.
 
-`butee modes SCENE --speed OMEGA` prints damped, whirling modes at a speed (rad/s), `--campbell FROM TO N` the critical
-speeds, with -o and --plot the Campbell diagram. `butee plot` draws orbits (uz over uy, in the rings and between the stops
-of the node), run-up (the radius over the speed), full-spectrum (forward and backward whirl), frame (the deformed structure in
-space), contact-map (closed contacts over time and length) and wear (the powers of wear.csv over the length).
-If shafts turn or bearings have cross terms, the matrices are not symmetric. rodas4, dopri5, extrapolation8, exact and all
-methods with fixed steps take them, auto chooses among them, exponential refuses them.
+`butee modes SCENE --speed OMEGA` prints damped, whirling modes at a speed (rad/s), `--campbell FROM TO N` the
+critical speeds, with -o and --plot the Campbell diagram. `butee plot` draws orbits (uz over uy, in the rings and
+between the stops of the node), run-up (the radius over the speed), full-spectrum (forward and backward whirl), frame
+(the deformed structure in space), contact-map (closed contacts over time and length) and wear (the powers of wear.csv
+over the length). If shafts turn or bearings have cross terms, the matrices are not symmetric. rodas4, dopri5,
+extrapolation8, exact and all methods with fixed steps take them, auto chooses among them, exponential refuses them.
 )";
 }
 
@@ -158,12 +158,13 @@ twists a node that has rx by -radius mu F_n, with the tangent t = (-normal_z, no
   stick = "rigid"  no motion while it sticks (not in rings); static_coefficient
 and surface_speed (m/s) of the obstacle along the tangent, for example of a belt.
 
-rodas4, dopri5, extrapolation8 and exact end their steps where a contact closes, opens, sticks or slips, so that only the
-regularisation causes an error; rk4 and related methods evaluate rings, planes, dissipation and regularised friction at
-their stages, without locating contact changes. exponential takes them with law = "linear" and a constant speed of rotation,
-but no stick springs. exact takes law = "linear"; piecewise takes linear stops, elastic or with kelvin_voigt, of up to 24
-DOFs; rigid stick is for dopri5, extrapolation8 and exact; jankowski is not for rodas4. auto chooses among them; other
-methods refuse. Methods other than piecewise may miss a contact shorter than an eighth of a step.
+rodas4, dopri5, extrapolation8 and exact end their steps where a contact closes, opens, sticks or slips, so that only
+the regularisation causes an error; rk4 and related methods evaluate rings, planes, dissipation and regularised
+friction at their stages, without locating contact changes. exponential takes them with law = "linear" and a constant
+speed of rotation, but no stick springs. exact takes law = "linear"; piecewise takes linear stops, elastic or with
+kelvin_voigt, of up to 24 DOFs; rigid stick is for dopri5, extrapolation8 and exact; jankowski is not for rodas4. auto
+chooses among them; other methods refuse. Methods other than piecewise may miss a contact shorter than an eighth of a
+step.
 )" + listed(catalogue.types().laws) +
          "\nThe linear law is the exact unilateral spring; arctan is smooth, but has a small residual force at "
          "open\nstops (butee check prints it).\n";
@@ -174,9 +175,9 @@ std::string loads_text(const plugin::Catalogue& catalogue) {
 positive in the sense of theta = du/dx; or any of ux ... rz), and `type`, the time function.
 )" + listed(catalogue.types().loads) +
          R"(
-The file of a table holds columns of numbers, separated by commas, tabs or spaces, or by semicolons; lines that begin with # or
-% are skipped, and a first line without numbers may name the columns. A million rows are read in a fraction of a second, while
-long arrays in the scene are copied to model.toml.
+The file of a table holds columns of numbers, separated by commas, tabs or spaces, or by semicolons; lines that begin
+with # or % are skipped, and a first line without numbers may name the columns. A million rows are read in a fraction
+of a second, while long arrays in the scene are copied to model.toml.
 
 distributed: a line load on a whole beam, as consistent nodal loads
   beam      its name

@@ -6,9 +6,9 @@ namespace butee::app::help {
 
 std::string study_text(const plugin::Catalogue&) {
   std::string text =
-      R"(`butee study STUDY.toml` runs a scene at many points, on all processors, and writes a row of results for each run
-into STUDY-study/study.h5, or study.csv if HDF5 is not installed (--format csv). `butee check STUDY.toml` prints the number
-of runs, their duration and the size of the rows.
+      R"(`butee study STUDY.toml` runs a scene at many points, on all processors, and writes a row of results for
+each run into STUDY-study/study.h5, or study.csv if HDF5 is not installed (--format csv). `butee check STUDY.toml`
+prints the number of runs, their duration and the size of the rows.
 
   schema = 1
   scene  = "rattle.toml"           # beside the study
@@ -43,8 +43,8 @@ Results for `collect`, of a probe of the scene by its label, or of a node:
   text += R"(
 Rows have the values of the keys, status (completed, failed, refused) with its reason, the results, a checksum of the
 scene, and the cost of the run. They depend neither on the number of threads nor on the order; cost and times do.
-lyapunov needs two further runs over the periods that count, and ignores the memory of contact laws. trust needs several,
-from the scene's own start, and cannot be combined with follow.
+lyapunov needs two further runs over the periods that count, and ignores the memory of contact laws. trust needs
+several, from the scene's own start, and cannot be combined with follow.
 
 After an interruption the same command performs the remaining runs. If scene, study or butee have changed since, it
 refuses; --fresh starts again. While it runs, rows-*.h5 can be read (h5py.File(name, "r", swmr=True)["rows"]), and all
