@@ -26,7 +26,7 @@ constexpr int kFinished = 0, kFound = 3;
   } catch (const std::exception& error) {
     finding.details = std::string("threw: ") + error.what();
   } catch (...) {
-    finding.details = "threw something that is no std::exception";
+    finding.details = "threw an exception that is not a std::exception";
   }
   const char* rest = finding.details.data();
   for (std::size_t left = finding.details.size(); left > 0;) {

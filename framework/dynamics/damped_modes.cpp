@@ -98,7 +98,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
         std::string("integrator.type: the speed of rotation varies, so the structure has no constant modes") + others);
   if (n > kMost)
     throw InputError("integrator.type: " + std::to_string(n) +
-                     " DOFs whose damping, turning parts or contacts require " + "all modes are more than " +
+                     " DOFs whose damping, turning parts or contacts require all modes are more than " +
                      std::to_string(kMost) + others);
   SparseMatrix transposed = system.stiffness.transpose();
   SparseMatrix even = 0.5 * (system.stiffness + transposed);

@@ -72,7 +72,7 @@ BUTEE_C_EXPORT int butee_time(const butee_structure* structure, double* t);
 BUTEE_C_EXPORT int butee_advance_to(butee_structure* structure, double t);
 BUTEE_C_EXPORT int butee_advance_step(butee_structure* structure, double limit, double* t);
 
-/* Displacement, velocity and acceleration of one degree of freedom; null where one is not wanted. */
+/* Displacement, velocity and acceleration of one degree of freedom; null for those not needed. */
 BUTEE_C_EXPORT int butee_motion(const butee_structure* structure, int64_t dof, double* u, double* v, double* a);
 /* The same of all, `size` numbers each. */
 BUTEE_C_EXPORT int butee_all_motion(const butee_structure* structure, int64_t size, double* u, double* v, double* a);
@@ -90,7 +90,7 @@ BUTEE_C_EXPORT int butee_contact_force(const butee_structure* structure, int64_t
 
 /*
  * A quantity of [[output.probe]] ("M", "V", "von_mises", "spring_force", "reaction", "u", ...) of a node at the present
- * instant. `element` names the beam or spring meant where there are several; null or "" where there is one.
+ * instant. `element` names the beam or spring if the node has several; null or "" if it has one.
  */
 BUTEE_C_EXPORT int butee_quantity(const butee_structure* structure, const char* quantity, const char* node,
                                   const char* element, double* value);
@@ -102,7 +102,7 @@ BUTEE_C_EXPORT int butee_quantity(const butee_structure* structure, const char* 
 BUTEE_C_EXPORT int butee_follow_peak(butee_structure* structure, const char* node, const char* quantity);
 BUTEE_C_EXPORT int butee_peak(const butee_structure* structure, const char* node, const char* quantity, double* peak);
 
-/* Kinetic, strain and contact energy, J; null where one is not wanted. */
+/* Kinetic, strain and contact energy, J; null for those not needed. */
 BUTEE_C_EXPORT int butee_energy(const butee_structure* structure, double* kinetic, double* strain, double* contact);
 
 /*

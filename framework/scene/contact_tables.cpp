@@ -102,7 +102,7 @@ std::optional<ImpactDamping> ContactTables::damping(const model::LawType* law) {
       given, path_ + ".damping",
       {text("type", "the kind of dissipation").one_of({"kelvin_voigt", "hunt_crossley", "jankowski"}),
        number("coefficient", "N s/m", "c of kelvin_voigt").at_least(0).optional(),
-       config::boolean("pull", "kelvin_voigt: the contact ends at g = 0, with tension before; false: at F = 0")
+       config::boolean("pull", "of kelvin_voigt; true: the contact ends at g = 0, with tension before; false: at F = 0")
            .or_else(false),
        number("factor", "s/m", "a of hunt_crossley").at_least(0).optional(),
        number("restitution", "1", "speed after an impact over that before, instead of a coefficient")

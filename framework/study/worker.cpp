@@ -50,7 +50,7 @@ Counted counted_of(const Study& study, const scene::Scene& scene) {
                               : scene.integrator.options.end_time;
   if (!(counted.begin < counted.end))
     throw InputError("study.settle: " + std::to_string(study.settle) + " periods of " + to_short_text(counted.period) +
-                     " s exceed the end of the run, " + to_short_text(counted.end) +
+                     " s reach the end of the run, " + to_short_text(counted.end) +
                      " s; make end_time larger, or give `periods`, the number that counts after settling");
   if (const double step = scene.integrator.options.time_step; step > counted.end)
     throw InputError("integrator.time_step = " + to_text(step) + " s is longer than the run, which ends after " +

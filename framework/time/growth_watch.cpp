@@ -190,9 +190,10 @@ double GrowthWatch::explained(double energy, double since, double t) {
 std::string GrowthWatch::describe(const State& state, double h) const {
   return "the motion grows without a physical cause: from t = " + to_short_text(begin_time_) + " s to " +
          to_short_text(state.t) + " s its energy rose from " + to_short_text(begin_energy_) + " J to " +
-         (std::isfinite(last_energy_) ? to_short_text(last_energy_) + " J, at least " +
-                                            to_short_text(std::exp(excess_)) + " times the energy from loads"
-                                      : "a value beyond the range of numbers") +
+         (std::isfinite(last_energy_)
+              ? to_short_text(last_energy_) + " J, at least " + to_short_text(std::exp(excess_)) +
+                    " times the energy possible with these loads"
+              : "a value beyond the range of numbers") +
          ". It moves fastest in " + fastest_dof(dynamics_, state) + ". " + describe_remedy(dynamics_, limits_, h);
 }
 

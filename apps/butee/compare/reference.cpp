@@ -105,7 +105,7 @@ Reference find_reference(const Study& study, const config::Document& scene, plug
                          const Question& question) {
   Reference reference;
   if (!study.reference_file.empty()) {
-    reference.origin = study.reference_file + ", taken as it is";
+    reference.origin = study.reference_file + ", used as given";
     for (const std::string& column : question.columns)
       reference.values.push_back(read_column(study.reference_file, column, question));
     compare_both(Values(reference.values), question, reference);

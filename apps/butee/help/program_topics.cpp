@@ -152,7 +152,7 @@ std::string plugins_text(const plugin::Catalogue& catalogue) {
          "loads and elements. " +
          std::to_string(catalogue.integrators().size()) + " methods are installed here.\n" +
          R"(
-They are searched in butee/plugins beside the library, in the folders of BUTEE_PLUGIN_PATH (separated by ':'), and in
+They are searched for in butee/plugins beside the library, in the folders of BUTEE_PLUGIN_PATH (separated by ':'), and in
 FILE or DIR of --plugin FILE|DIR.
 
   butee plugins           all names that a scene may use

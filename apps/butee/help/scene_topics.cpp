@@ -166,8 +166,9 @@ kelvin_voigt, of up to 24 DOFs; rigid stick is for dopri5, extrapolation8 and ex
 chooses among them; other methods refuse. Methods other than piecewise may miss a contact shorter than an eighth of a
 step.
 )" + listed(catalogue.types().laws) +
-         "\nThe linear law is the exact unilateral spring; arctan is smooth, but has a small residual force at "
-         "open\nstops (butee check prints it).\n";
+         "\nThe linear law is the exact unilateral spring; arctan is smooth, but has a small residual force at open "
+         "stops\n"
+         "(butee check prints it).\n";
 }
 
 std::string loads_text(const plugin::Catalogue& catalogue) {

@@ -91,7 +91,7 @@ int run_suite(Options options) {
   const auto note = [&](const Scene& scene, const Method& method, const Outcome& outcome) {
     watchdog.note(scene.name + ", " + method.name);
     if (options.verbose || is_failure(outcome.verdict))
-      std::printf("%s, %s: %s, error %g, %g times what is allowed, %g of the run, %s\n", scene.name.c_str(),
+      std::printf("%s, %s: %s, error %g, %g times the allowed error, %g of the run, %s\n", scene.name.c_str(),
                   method.name.c_str(), name_of(outcome.verdict), outcome.error, outcome.excess, outcome.part,
                   outcome.message.c_str());
     std::fflush(stdout);
@@ -157,13 +157,13 @@ int main(int argc, char** argv) {
   program.add_flag("--full", options.full, "ten thousand random scenes instead of forty");
   program.add_flag("--no-long-runs", options.no_long_runs, "leave out the runs of very many steps");
   program.add_flag("-v,--verbose", options.verbose, "every run");
-  program.add_option("--scenes", options.scenes, "so many random scenes");
-  program.add_option("--slopes", options.slopes, "so many random scenes over all tolerances");
-  program.add_option("--points", options.points, "so many points of each sweep");
-  program.add_option("--seed", options.seed, "of the first random scene");
-  program.add_option("--work", options.work, "evaluations and solves of a run");
-  program.add_option("--method", options.methods, "these methods alone");
-  program.add_option("--only", options.only, "the scene of this name alone");
+  program.add_option("--scenes", options.scenes, "the number of random scenes");
+  program.add_option("--slopes", options.slopes, "the number of random scenes over all tolerances");
+  program.add_option("--points", options.points, "the number of points of each sweep");
+  program.add_option("--seed", options.seed, "the seed of the first random scene");
+  program.add_option("--work", options.work, "the largest number of evaluations and solves of a run");
+  program.add_option("--method", options.methods, "only these methods");
+  program.add_option("--only", options.only, "only the scene of this name");
   program.add_option("--report", options.report, "a file for the report");
   CLI11_PARSE(program, argc, argv);
   return run_suite(options);
