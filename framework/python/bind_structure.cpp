@@ -122,7 +122,7 @@ void bind_structure(py::module_& module) {
     return std::make_unique<Part>(session, std::move(forced));
   });
   module.def("snapshot", &snapshot_of);
-  py::class_<Snapshot> snapshot(module, "Snapshot", "A state of a Structure to go back to, from Structure.snapshot().");
+  py::class_<Snapshot> snapshot(module, "Snapshot", "A saved state of a Structure, from Structure.snapshot().");
   snapshot
       .def_property_readonly(
           "time", [](const Snapshot& s) { return s.run.state.t; }, "The instant, s.")

@@ -110,7 +110,7 @@ int run_suite(Options options) {
     run_one(std::move(*scene));
   std::string text = "# Stress suite\n\nMade by `butee_stress" + std::string(options.full ? " --full" : "") +
                      "`, seed " + std::to_string(options.seed) + ", at most " + std::to_string(options.work) +
-                     " evaluations and solves a run. What the columns mean: tests/stress/README.md.\n\n## Corners, " +
+                     " evaluations and solves a run. Meaning of the columns: tests/stress/README.md.\n\n## Corners, " +
                      std::to_string(corners.scenes) + " scenes\n\n" + corners.markdown() + "\n## Random scenes, " +
                      std::to_string(random.scenes) + "\n\n" + random.markdown();
   bool is_good = corners.failures().empty() && random.failures().empty();
@@ -135,7 +135,7 @@ int run_suite(Options options) {
             " below 0.8, or 0.5 with grazing\n\n| scene | method | slope | tolerance: error |\n|---|---|---|---|\n" +
             rows;
   if (!options.no_long_runs) {
-    text += "\n## Long runs\n\n| method | steps | sound | what came out | CPU s |\n|---|---|---|---|---|\n";
+    text += "\n## Long runs\n\n| method | steps | sound | result | CPU s |\n|---|---|---|---|---|\n";
     for (const Method& method : chosen) {
       const LongRun run = run_long(method, options.full ? 1000000 : 20000);
       watchdog.note("the long run of " + method.name);
@@ -152,10 +152,10 @@ int run_suite(Options options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program("butee_stress: every method on scenes that no one would build");
+  CLI::App program("butee_stress: runs every method on extreme scenes");
   Options options;
   program.add_flag("--full", options.full, "ten thousand random scenes instead of forty");
-  program.add_flag("--no-long-runs", options.no_long_runs, "leave out the runs of very many steps");
+  program.add_flag("--no-long-runs", options.no_long_runs, "omit the runs of very many steps");
   program.add_flag("-v,--verbose", options.verbose, "every run");
   program.add_option("--scenes", options.scenes, "the number of random scenes");
   program.add_option("--slopes", options.slopes, "the number of random scenes over all tolerances");
