@@ -62,8 +62,8 @@ class Reader {
     const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
     if (whole.empty()) refuse("lacks " + what);
     if (read.ec != std::errc() || read.ptr != text.data() + text.size())
-      refuse(what + ": \"" + printable(whole.substr(0, kLongestShown)) + "\" is no " +
-             (std::is_integral_v<Number> ? "integer" : "number"));
+      refuse(what + ": \"" + printable(whole.substr(0, kLongestShown)) + "\" is not " +
+             (std::is_integral_v<Number> ? "an integer" : "a number"));
     if constexpr (!std::is_integral_v<Number>)
       if (!std::isfinite(value)) refuse(what + " is not finite");
     return value;

@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"short_line", kCoordinate + "3 3 1\n1 1\n", ":3: lacks the value of entry (1, 1)"},
         Mistake{"long_line", kCoordinate + "3 3 1\n1 1 1.0 2.0\n", ":3: has more than it should: \"2.0\""},
         Mistake{"no_number", kCoordinate + "3 3 1\n1 1 1,5\n", ":3: the value of entry (1, 1): \"1,5\" is no"},
-        Mistake{"no_integer", kCoordinate + "3 3 1\n1.0 1 1.5\n", ":3: the row: \"1.0\" is no integer"},
+        Mistake{"no_integer", kCoordinate + "3 3 1\n1.0 1 1.5\n", ":3: the row: \"1.0\" is not an integer"},
         Mistake{"not_finite", kCoordinate + "3 3 1\n1 1 nan\n", ":3: the value of entry (1, 1) is not"},
         Mistake{"zero_based", kCoordinate + "3 3 1\n0 0 1.0\n", ":3: entry (0, 0) lies outside"},
         Mistake{"outside", kCoordinate + "3 3 1\n4 1 1.0\n", ":3: entry (4, 1) lies outside"},
