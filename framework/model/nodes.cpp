@@ -75,7 +75,7 @@ Selection select_by_index(const NodeGroup& group, std::string_view text) {
   const auto begin = parse<NodeId>(text.substr(0, dots));
   const auto end = dots == std::string_view::npos ? begin : parse<NodeId>(text.substr(dots + 2));
   if (!begin || !end)
-    return refuse('"' + std::string(text) + "\" is no part of a beam" +
+    return refuse('"' + std::string(text) + "\" is not a part of a beam" +
                   suggestion(text, {"all", "first", "last", "middle"}) + "; write " + forms(group));
   if (std::min(*begin, *end) < 0 || std::max(*begin, *end) >= size)
     return refuse(group.name + " has the nodes 0 ... " + std::to_string(size - 1));

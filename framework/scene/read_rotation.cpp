@@ -77,8 +77,8 @@ void SceneReader::choose_turning(const Parameters& p) {
     if (std::find(able.begin(), able.end(), part) == able.end() && !lacks_elements_)
       p.complain(diagnostics_, "parts",
                  "\"" + part +
-                     "\" is no beam along x with motion = \"lateral\" or \"spatial\", no disc, and no matrices with "
-                     "gyroscopic" +
+                     "\" is neither a beam along x with motion = \"lateral\" or \"spatial\", nor a disc, nor matrices "
+                     "with gyroscopic" +
                      suggestion(part, able) + (able.empty() ? "" : "; these can turn: " + join(able)));
   const auto has_entry = [this](const char* list, const auto& is_meant) {
     const Value* all = root_.table()->find(list);

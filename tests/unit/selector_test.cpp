@@ -55,7 +55,7 @@ TEST(Selector, SaysWhyItNamesNone) {
   expect("string:7", {"0 ... 6"});
   expect("string:-1", {"0 ... 6"});
   expect("string:4..2", {"0 ... 6"});
-  expect("string:4..", {"no part of a beam"});
+  expect("string:4..", {"not a part of a beam"});
   expect("string:midle", {"did you mean \"middle\"?", "string:0..6"});
   expect("string", {"a beam of 7 nodes", "string:first"});
   expect("rotor:first", {"single node"});

@@ -123,7 +123,7 @@ class Adviser {
                        " stops are closed at the start: the initial displacement is beyond their gap");
     if (mechanics.closed_by_constants > 0)
       add("gap", std::to_string(mechanics.closed_by_constants) +
-                     " stops have a gap below the static deflection under the lasting part of the loads: they are "
+                     " stops have a gap below the static deflection under the sustained part of the loads: they are "
                      "pressed closed, and stay closed unless the rest of the motion opens them");
   }
 
