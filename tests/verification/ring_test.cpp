@@ -95,7 +95,7 @@ TEST(SynchronousRub, LosesItsStabilityAtItsThreshold) {
     const double size = amplitude(w, mu);
     const Complex r = w * w / (Complex(b - w * w, 2.0 * zeta * w) + (1.0 - gap / size) * Complex(1.0, mu));
     constexpr double kOff = 1e-4, kTime = 1600.0;
-    // dopri5 at 1e-9 is damped by 1e-12 a radian: growth rates of 1e-5 at 1e-3 of mu are far above that.
+    // At 1e-9 the method's own damping is far below the growth rates of 1e-5 at 1e-3 of mu.
     SceneRun run(rotor(w, 20.0, "friction = { coefficient = " + text(mu) + ", slip_speed = 1e-5 }\n", 1.0,
                        (1.0 + kOff) * r, Complex(0, w) * r, kTime),
                  {"integrator.type=extrapolation8"});
