@@ -19,7 +19,7 @@ constexpr double kOutput = 0.1;
 constexpr double kMostTurn = 1.5;
 /// The largest distance of neighbouring nodes, as a fraction of the step.
 constexpr double kLongestPart = 0.24;
-constexpr double kMostKnots = 4096.0;
+constexpr double kMostBreakpoints = 4096.0;
 
 }  // namespace
 
@@ -177,25 +177,25 @@ double CollocationOutputs::find_fastest(const State& from, const State& to, doub
 }
 
 double CollocationOutputs::longest(const State& from, const State& to) const {
-  const double turns = kMostKnots * kMostTurn, slow = turns / (to.t - from.t);
+  const double turns = kMostBreakpoints * kMostTurn, slow = turns / (to.t - from.t);
   if (std::max(fast_.highest(), loads_.highest_frequency()) <= slow) return std::numeric_limits<double>::infinity();
   return turns / std::max(loads_.highest_frequency(), find_fastest(from, to, slow));
 }
 
 std::span<const double> CollocationOutputs::breakpoints(const State& from, const State& to) {
-  if (holds(from, to) && is_parted_) return knots_;
+  if (holds(from, to) && is_parted_) return breakpoints_;
   is_parted_ = holds(from, to);
   const double h = to.t - from.t, slow = kMostTurn / (kLongestPart * h);
   double fastest = std::max(slow, loads_.highest_frequency());
   if (fast_.highest() > fastest) fastest = find_fastest(from, to, fastest);
   const int parts = static_cast<int>(std::ceil(fastest / slow));
-  knots_.clear();
+  breakpoints_.clear();
   for (std::size_t j = 0; j + 1 < StepNodes::kPlaces.size(); ++j) {
     const double begin = from.t + StepNodes::kPlaces[j] * h, end = from.t + StepNodes::kPlaces[j + 1] * h;
-    if (j > 0) knots_.push_back(begin);
-    for (int i = 1; i < parts; ++i) knots_.push_back(begin + (end - begin) * i / parts);
+    if (j > 0) breakpoints_.push_back(begin);
+    for (int i = 1; i < parts; ++i) breakpoints_.push_back(begin + (end - begin) * i / parts);
   }
-  return knots_;
+  return breakpoints_;
 }
 
 }  // namespace butee::integrators

@@ -99,8 +99,8 @@ class CollocationOutputs {
   double instant_ = 0.0;  ///< s; NaN: none
   bool has_rate_ = false;
   Eigen::VectorXd z_, rate_;
-  bool is_parted_ = false;  ///< knots_ holds the breakpoints of the current step
-  std::vector<double> knots_;
+  bool is_parted_ = false;  ///< breakpoints_ holds the breakpoints of the current step
+  std::vector<double> breakpoints_;
 };
 
 }  // namespace butee::integrators
