@@ -15,7 +15,6 @@ constexpr int kBisections = 60;
 /// A force below this fraction of the peak is not adjacent to a larger maximum, with twelve
 /// instants in a step.
 constexpr double kNear = 0.9;
-constexpr std::size_t kLeastBytes = 77;
 
 /// The DOFs of these contacts.
 void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size_t>& contacts,
@@ -297,7 +296,7 @@ void ContactRecorder::restore(ByteReader& from) {
     for (double* number : {&wear.work, &wear.touching, &wear.slip, &wear.dissipated, &wear.peak_force, &wear.square})
       from.take(*number);
   }
-  done_.assign(from.count(kLeastBytes), {});
+  done_.assign(from.count(kImpactBytes), {});
   for (Impact& impact : done_) {
     from.take(impact.node);
     take_impact(impact, from);

@@ -11,8 +11,6 @@ namespace {
 
 /// Number of halvings after which an interval is below the spacing of doubles.
 constexpr int kBisections = 60;
-/// Size in bytes of an impact with an empty name.
-constexpr std::size_t kLeastBytes = 77;
 
 }  // namespace
 
@@ -155,7 +153,7 @@ void ImpactRecorder::restore(ByteReader& from) {
     from.take(watch.closed);
     take_impact(watch.current, from);
   }
-  done_.assign(from.count(kLeastBytes), {});
+  done_.assign(from.count(kImpactBytes), {});
   for (Impact& impact : done_) {
     from.take(impact.node);
     from.take(impact.side);
