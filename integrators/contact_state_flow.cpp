@@ -6,6 +6,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/linalg/dense_pairs.hpp"
+#include "butee/linalg/general_pairs.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -139,15 +140,13 @@ void ContactStateFlow::add_coupled(const LongMatrix& shapes, const LongVector& s
     for (Index j = 0; j < p; ++j)
       motion(p + i, p + j) = -damping(modes[static_cast<std::size_t>(i)], modes[static_cast<std::size_t>(j)]);
   }
-  const Eigen::EigenSolver<LongMatrix> solver(motion);
-  const LongComplexMatrix vectors = solver.eigenvectors();
-  const LongComplexMatrix inverse = vectors.partialPivLu().inverse();
-  const long double condition = vectors.norm() * inverse.norm();
-  if (solver.info() != Eigen::Success || !(condition < kParallel))
+  const auto pairs = linalg::general_pairs(motion);
+  if (!pairs || !(pairs->vectors.norm() * pairs->inverse.norm() < kParallel))
     throw RunError(
         "piecewise: dashpots make two motions of a contact state nearly the same (critical damping), so that they are "
         "no "
         "basis; take exact or rodas4");
+  const LongComplexMatrix &vectors = pairs->vectors, &inverse = pairs->inverse;
   const LongMatrix weighted = some.transpose() * system_.mass;
   const auto right_of = [&](Index m) -> Eigen::Matrix<LongComplex, Eigen::Dynamic, 1> {
     return some.cast<LongComplex>() * vectors.col(m).head(p) / LongComplex(scale);
@@ -161,7 +160,7 @@ void ContactStateFlow::add_coupled(const LongMatrix& shapes, const LongVector& s
   Block reals;
   int held = 0;
   for (Index m = 0; m < 2 * p; ++m) {
-    const LongComplex lambda = solver.eigenvalues()[m];
+    const LongComplex lambda = pairs->values[m];
     const LongMatrix of_q_re = inverse.row(m).head(p).real(), of_v_re = inverse.row(m).tail(p).real();
     if (lambda.imag() < 0.0L) continue;  // the conjugate eigenvalue of a pair
     if (lambda.imag() > 0.0L) {
@@ -182,7 +181,7 @@ void ContactStateFlow::add_coupled(const LongMatrix& shapes, const LongVector& s
     }
   }
   for (Index m = 0; m < 2 * p; ++m) {
-    const LongComplex lambda = solver.eigenvalues()[m];
+    const LongComplex lambda = pairs->values[m];
     if (lambda.imag() != 0.0L) continue;
     const LongMatrix of_q = inverse.row(m).head(p).real(), of_v = inverse.row(m).tail(p).real();
     reals.rates[static_cast<std::size_t>(held)] = std::min(0.0, static_cast<double>(lambda.real()));

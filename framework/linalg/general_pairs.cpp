@@ -1,6 +1,7 @@
 #include "butee/linalg/general_pairs.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace butee::linalg {
 
@@ -10,6 +11,14 @@ std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix) {
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> complex(matrix.cast<std::complex<double>>());
   if (complex.info() != Eigen::Success) return std::nullopt;
   return ComplexPairs{complex.eigenvalues(), complex.eigenvectors()};
+}
+
+std::optional<ExtendedComplexPairs> general_pairs(const ExtendedColumns& matrix) {
+  const Eigen::EigenSolver<ExtendedColumns> solver(matrix);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  ExtendedComplexPairs pairs{solver.eigenvalues(), solver.eigenvectors(), {}};
+  pairs.inverse = pairs.vectors.partialPivLu().inverse();
+  return pairs;
 }
 
 std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix) {

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <complex>
 #include <optional>
 
 #include <butee/export.hpp>
 
-#include "butee/core/types.hpp"
+#include "butee/linalg/extended.hpp"
 
 namespace butee::linalg {
 
@@ -17,6 +18,14 @@ struct ComplexPairs {
 /// All pairs of any square matrix; nothing if the iterations do not converge. The real QR iteration gives up now and
 /// then where pairs lie close together; the complex one then finds them. Not installed.
 BUTEE_EXPORT std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix);
+
+/// The same in extended precision, with the inverse of the vectors; nothing if the iteration does not
+/// converge.
+struct ExtendedComplexPairs {
+  Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, 1> values;
+  Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, Eigen::Dynamic> vectors, inverse;
+};
+BUTEE_EXPORT std::optional<ExtendedComplexPairs> general_pairs(const ExtendedColumns& matrix);
 
 /// The eigenvalues of any square matrix.
 BUTEE_EXPORT std::optional<Eigen::VectorXcd> eigenvalues(const Eigen::MatrixXd& matrix);
