@@ -66,7 +66,7 @@ TEST_F(MatricesFile, RowsThatDoNotFitAreSaid) {
   refused(files_ + "dofs = \"u\"\ncoordinates = [0.0, 1.0, 2.0]", "holds 3 numbers; the element has 2 nodes");
   refused(files_ + "dofs = \"rows.txt\"", "element[1].dofs = \"rows.txt\": does not exist");
   folder_.write("rows.txt", "# node dof\n0 u\n1 v\n");
-  refused(files_ + "dofs = \"rows.txt\"", "rows.txt:3: \"v\" is no degree of freedom");
+  refused(files_ + "dofs = \"rows.txt\"", "rows.txt:3: \"v\" is not a degree of freedom");
   folder_.write("rows.txt", "0 u\n1\n");
   refused(files_ + "dofs = \"rows.txt\"", "rows.txt:2: must hold a node and a degree of freedom");
   folder_.write("rows.txt", "0 u\n0 uy\n");

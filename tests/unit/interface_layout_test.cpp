@@ -24,6 +24,7 @@ const std::map<int, std::uint64_t> kDigests = {
     {10, 0xd8555c349d44de36},
     {11, 0x6e3a3920419a9a1e},
     {12, 0xd26b3f2cbf556dcd},
+    {13, 0x57900ce29727d513},
 };
 
 /// The folders whose types modules derive from, store or pass. Types of scenes, records and embedding do not
