@@ -109,7 +109,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     return {Method::dopri5, "contacts stick rigidly; it locates the changes, and implicit methods cannot treat them"};
   if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
     return {Method::dopri5, "the slope of a contact's dissipation is infinite where it closes"};
-  if (suits_collocation(dynamics))
+  const bool is_too_tight = dynamics.stop_count() > 0 && tolerance < kSmallestWithStops;
+  if (!is_too_tight && suits_collocation(dynamics))
     return {Method::exponential, "the linear part is exact in its damped modes, and only contacts are approximated"};
   if (dynamics.obstacles() != nullptr)
     return {Method::rodas4,
@@ -122,8 +123,7 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     if (!load.in_time->harmonic() && !load.in_time->is_piecewise_parabolic())
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
-  if (tolerance < kSmallestWithStops)
-    return {Method::rodas4, "the tolerance is below the smallest one of exponential with stops"};
+  if (is_too_tight) return {Method::rodas4, "the tolerance is below the smallest one of exponential with stops"};
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
     if (cost.rodas4 < cost.exponential)

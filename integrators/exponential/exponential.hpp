@@ -92,9 +92,9 @@ class Exponential final : public time::Integrator {
   mutable Vector begin_memory_;
 };
 
-/// The smallest tolerance for scenes with stops on uncoupled modes. Below it the errors of hundreds
-/// of impacts, each within its bound, add up to more than the guaranteed error of a run.
-/// Collocation uses an error account instead.
+/// The smallest tolerance for scenes with elastic stops. Below it the errors of hundreds of impacts
+/// on uncoupled modes, each within its bound, add up to more than the guaranteed error of a run; on
+/// coupled modes the rounding of many short steps does.
 inline constexpr double kSmallestWithStops = 1e-8;
 
 /// Throws InputError for tolerances below kSmallestWithStops and for scenes that ModalCollocation

@@ -34,12 +34,12 @@ bool is_coupled(const model::System& system) {
 }  // namespace
 
 std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options) {
-  if (is_coupled(dynamics.system()))
-    return std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
   if (dynamics.stop_count() > 0 && options.tolerance < kSmallestWithStops)
     throw InputError("integrator.tolerance: must be at least " + to_short_text(kSmallestWithStops) +
                      " for exponential with stops: below it the errors of many impacts exceed the error bound; take "
                      "rodas4, extrapolation8, exact or piecewise, or auto, which chooses among them");
+  if (is_coupled(dynamics.system()))
+    return std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
   auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
   const dynamics::ModalSystem& modal = dynamics.modal(options.modes);

@@ -40,7 +40,7 @@ every rotation and their velocities:
 Near a contact change the bound for velocities allows a time shift of 10 tolerance S/|w'|, w' being the speed of the
 stop. For a longer end_time steps are shorter, because period errors accumulate. After end_time, in a structure that
 another program advances, the error continues to grow at the same rate. The smallest tolerances are 1e-6 for methods
-of order 2, 1e-8 for exponential if stops act on modes that no damping couples, otherwise 1e-10 as for auto and
+of order 2, 1e-8 for exponential with elastic stops, otherwise 1e-10 as for auto and
 rodas4, 1e-11 for dopri5 and 1e-12 for extrapolation8. Smaller tolerances are refused because of rounding, the number
 of steps or the accumulated errors of many impacts.
 
