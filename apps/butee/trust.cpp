@@ -183,7 +183,7 @@ class Judgement {
     const double rounding = std::max(record::StepPath::kGood, 1e-14 * std::min(1e6, trust.amplification));
     for (std::size_t i = 0; i < values_.size(); ++i)
       trust.statistics.push_back(record::bracket(run_.numbers[i].name, values_[i], run_.numbers[i].is_count, factor,
-                                                 rounding * std::abs(values_[i].front())));
+                                                 rounding * std::abs(values_[i].front()) + run_.numbers[i].rounding));
   }
 
   scene::Scene& session_;

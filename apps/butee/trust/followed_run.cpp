@@ -24,6 +24,8 @@ constexpr double kSameInstant = 1e-9;
 constexpr double kWatching = 100.0;
 /// With fewer rows, events between rows would be missed.
 constexpr double kFewestRows = 1000.0;
+/// Rounding of displacements relative to themselves: near grazing, an error of the penetration.
+constexpr double kRoundingOfPaths = 1e-14;
 /// Most and fewest stored states, and most numbers in all of them.
 constexpr double kMostStates = 1000.0, kFewestStates = 100.0, kMostNumbers = 1e6;
 
@@ -122,13 +124,16 @@ void sum_up(const scene::Scene& session, dynamics::Dynamics& dynamics, const std
     run.numbers.push_back({"peak of " + name, std::max(paths[i].greatest, -paths[i].least), false});
   }
   if (dynamics.stop_count() == 0) return;
-  double largest = 0.0;
+  const Vector closed = dynamics.stops().closed_stiffness();
+  double largest = 0.0, rounding = 0.0;
   for (Index i = 0; i < dynamics.stop_count(); ++i) {
     const auto& path = paths[session.output.probes.size() + static_cast<std::size_t>(i)];
-    for (const double w : {path.least, path.greatest})
+    for (const double w : {path.least, path.greatest}) {
       largest = std::max(largest, std::abs(dynamics.stops().force_of(i, w)));
+      rounding = std::max(rounding, kRoundingOfPaths * closed[i] * std::abs(w));
+    }
   }
-  run.numbers.push_back({"largest contact force", largest, false});
+  run.numbers.push_back({"largest contact force", largest, false, rounding});
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct WholeNumber {
   std::string name;
   double value;
   bool is_count;
+  double rounding = 0.0;  ///< absolute, of a difference of nearly equal numbers
 };
 
 /// The results of a run, up to the instant that it reached.
