@@ -140,7 +140,6 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
       "wide 58727",   // only the forces of other stops drive this stop to its gap
       "wide 50152",   // a discontinuous residual force, negligible for fast modes
       "wide 5498",    // a residual force between a light body and one that moves far more
-      "wide 20320",   // coupled modes: a step that ends before a slope discontinuity
       "wide 51490"    // loads with higher frequencies than slow modes
   };
   std::vector<Method> chosen;
