@@ -25,6 +25,24 @@ std::string two_masses(const std::string& more) {
   return "schema = 1\n" + mass("a", "4.0") + mass("b", "1.0") + more + kIntegrator;
 }
 
+std::string masses_in_stops(const std::string& more) {
+  return two_masses(R"(
+[[element]]
+type = "spring"
+node = "a"
+stiffness = 8.0
+[[element]]
+type = "spring"
+nodes = ["a", "b"]
+stiffness = 3.0
+[[contact]]
+type = "stop"
+nodes = ["a", "b"]
+gap = 0.1
+stiffness = 400.0
+)" + more);
+}
+
 std::string TurningPipe::scene(const std::string& more) const {
   return R"(
 schema = 1

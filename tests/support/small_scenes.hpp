@@ -10,6 +10,10 @@ std::string mass_on_spring(const std::string& stiffness, const std::string& more
 /// Masses `a` of 4 kg and `b` of 1 kg, followed by the tables `more`; rk4 for 1 s.
 std::string two_masses(const std::string& more);
 
+/// two_masses() with springs of 8 N/m from `a` to ground and 3 N/m to `b`, and stops of 400 N/m with a
+/// gap of 0.1 m on both, followed by the tables `more`.
+std::string masses_in_stops(const std::string& more);
+
 /// A steel pipe of 120 x 80 mm that turns at 30 rad/s and rubs against a ring at every node; an unbalance
 /// drives its middle.
 struct TurningPipe {

@@ -13,20 +13,7 @@ namespace {
 using namespace integrators;
 
 /// Two masses with a spring between them, each with a stop to ground, and a stop between them.
-const std::string kScene = two_masses(R"(
-[[element]]
-type = "spring"
-node = "a"
-stiffness = 8.0
-[[element]]
-type = "spring"
-nodes = ["a", "b"]
-stiffness = 3.0
-[[contact]]
-type = "stop"
-nodes = ["a", "b"]
-gap = 0.1
-stiffness = 400.0
+const std::string kScene = masses_in_stops(R"(
 [[contact]]
 type = "stop"
 between = ["a", "b"]

@@ -14,20 +14,7 @@ namespace {
 using namespace integrators;
 
 /// Two masses that strike their stops; the stops open and close within steps.
-const std::string kScene = two_masses(R"(
-[[element]]
-type = "spring"
-node = "a"
-stiffness = 8.0
-[[element]]
-type = "spring"
-nodes = ["a", "b"]
-stiffness = 3.0
-[[contact]]
-type = "stop"
-nodes = ["a", "b"]
-gap = 0.1
-stiffness = 400.0
+const std::string kScene = masses_in_stops(R"(
 [[load]]
 type = "harmonic"
 node = "b"
