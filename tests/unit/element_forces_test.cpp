@@ -7,6 +7,8 @@
 #include <butee/record/probes.hpp>
 #include <gtest/gtest.h>
 
+#include "support/scene_run.hpp"
+#include "support/small_scenes.hpp"
 #include "unit/scenes.hpp"
 
 namespace butee::test::element_forces_test {
@@ -197,6 +199,31 @@ TEST(ElementForces, BeamsThatShareANode) {
           .at_static_rest(),
       {{"shaft.V", 100.0}, {"shaft.M", 20.0}, {"stub.V", 40.0}, {"stub.M", 20.0}, {"named.V", 40.0}, {"named.M", 20.0}},
       kStatic);
+}
+
+/// Forces of contacts read the motion of their own nodes alone, others that of all nodes; the value does not
+/// depend on which.
+TEST(ElementForces, OfContactsReadTheirOwnNodesAlone) {
+  SceneRun run(TurningPipe{"string", "lateral", "35.0", 10, "0.01", "0.01", "3.0"}.scene(
+      "[integrator]\ntype = \"rodas4\"\nend_time = 0.1\n"));
+  const model::NodeId node = run.model().nodes.select("string:4").nodes.front();
+  const Index y = run.dof("string:4", DofKind::uy), z = run.dof("string:4", DofKind::uz);
+  const Index n = run.dynamics().size();
+  record::ElementForces own(run.dynamics()), all(run.dynamics());
+  own.add(model::Quantity::contact_force, node, "");
+  EXPECT_EQ(own.dofs(), (std::vector<Index>{std::min(y, z), std::max(y, z)}));
+  all.add(model::Quantity::contact_force, node, "");
+  all.add(model::quantity_of("M"), node, "");
+  EXPECT_EQ(all.dofs().size(), static_cast<std::size_t>(n));
+
+  Vector x = Vector::Zero(n), v = Vector::Zero(n), both(2), single(1);
+  x[y] = 0.008, x[z] = -0.009, v[y] = 0.3, v[z] = 0.1;
+  own.evaluate(0.0, x, v, {single.data(), 1});
+  x.array() += 1e-3 * (Vector::LinSpaced(n, -1.0, 1.0).array());
+  x[y] = 0.008, x[z] = -0.009;
+  all.evaluate(0.0, x, v, {both.data(), 2});
+  EXPECT_LT(single[0], -1.0);
+  EXPECT_EQ(single[0], both[0]);
 }
 
 }  // namespace
