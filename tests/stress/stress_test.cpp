@@ -175,10 +175,12 @@ TEST(Stress, RubbingScenesThatWereWrongOnce) {
 }
 
 TEST(Stress, LongRunsStayWithinTheirMotion) {
+  // In a run of less than half this length the motion of the start has not decayed before the second tenth.
+  constexpr int kShorter = kEvery > 1 ? 2 : 1;
   for (const Method& method : methods()) {
-    const LongRun run = run_long(method, 12500 / static_cast<int>(kEvery));
+    const LongRun run = run_long(method, 12500 / kShorter);
     EXPECT_TRUE(run.is_sound) << method.name << ": " << run.message;
-    EXPECT_GT(run.steps, 1000 / static_cast<int>(kEvery)) << method.name;
+    EXPECT_GT(run.steps, 1000 / kShorter) << method.name;
   }
 }
 
