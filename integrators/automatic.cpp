@@ -110,8 +110,11 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
     return {Method::dopri5, "the slope of a contact's dissipation is infinite where it closes"};
   const bool is_too_tight = dynamics.stop_count() > 0 && tolerance < kSmallestWithStops;
-  if (!is_too_tight && suits_collocation(dynamics))
+  const char* const too_tight = "the tolerance is below the smallest one of exponential with stops";
+  if (suits_collocation(dynamics)) {
+    if (is_too_tight) return {Method::rodas4, too_tight};
     return {Method::exponential, "the linear part is exact in its damped modes, and only contacts are approximated"};
+  }
   if (dynamics.obstacles() != nullptr)
     return {Method::rodas4,
             "contacts act in the plane, with dissipation or friction, and it ends its steps at contact changes"};
@@ -123,7 +126,7 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     if (!load.in_time->harmonic() && !load.in_time->is_piecewise_parabolic())
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
-  if (is_too_tight) return {Method::rodas4, "the tolerance is below the smallest one of exponential with stops"};
+  if (is_too_tight) return {Method::rodas4, too_tight};
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
     if (cost.rodas4 < cost.exponential)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "butee/config/diagnostics.hpp"
 #include "integrators/methods.hpp"

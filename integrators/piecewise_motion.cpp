@@ -8,7 +8,6 @@ namespace butee::integrators {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 /// A step ends where it has so many pieces.
 constexpr std::size_t kMostPieces = 256;
 /// So many changes of each stop at one instant are chatter by rounding.

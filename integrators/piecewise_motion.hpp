@@ -23,7 +23,6 @@ class PiecewiseMotion {
   /// Follows the motion from a state to the end of the step, or until kMostPieces pieces are full.
   void follow(const time::State& from, const time::Step& step);
   /// The end of what follow() followed, s, its motion and status there.
-  double end() const { return end_t_; }
   void write_end(time::State& to) const;
   int piece_count() const { return static_cast<int>(begins_.size()); }
   /// Forgets the pieces.

@@ -121,7 +121,16 @@ class Comparison {
     double last_seconds = 0.0;
     for (const double value : sweep.values) {
       if (interrupted != 0 || last_seconds * kGrowth > study_.time_limit) return;
-      Row row = run(scene, sweep, value, result);
+      Row row;
+      try {
+        row = run(scene, sweep, value, result);
+      } catch (const InputError& error) {
+        if (value == sweep.values.front()) throw;
+        // The value is below the smallest one of the method for this scene.
+        log::info(result.scene + ": " + sweep.method + ", " + sweep.knob + " = " + to_short_text(value) + ": " +
+                  error.what());
+        return;
+      }
       if (row.outcome == "interrupted") return;
       log::info(describe(row));
       last_seconds = row.outcome == "too slow" ? study_.time_limit : row.seconds;

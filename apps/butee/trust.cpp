@@ -99,6 +99,15 @@ FollowedRun follow_or_throw(scene::Scene& session, double disturbance, Wanted wa
   return run;
 }
 
+/// Nothing if the method refuses the scene, for example a tolerance below its smallest one.
+std::optional<FollowedRun> follow_unless_refused(scene::Scene& session) {
+  try {
+    return follow_or_throw(session, 0.0, kNumbers);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 /// Performs the runs of a scene one after the other and evaluates them.
 class Judgement {
  public:
@@ -114,11 +123,13 @@ class Judgement {
     runs.run = run_.histories;
     std::string tightened;
     if (auto tight = tighten(session_, tightened)) {
-      const FollowedRun run = follow_or_throw(*tight, 0.0, kNumbers);
-      runs.tightened = run.histories;
-      add(run);
-    } else {
-      tightened.clear();
+      const std::optional<FollowedRun> run = follow_unless_refused(*tight);
+      if (run) {
+        runs.tightened = run->histories;
+        add(*run);
+      } else {
+        tightened.clear();
+      }
     }
     if (other_) {
       runs.other = other_->run.histories;

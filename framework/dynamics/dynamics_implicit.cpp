@@ -22,7 +22,7 @@ bool Dynamics::solve_secant_of_many(double t, double velocity_factor, double dis
   const double on_mass = system_.damping.mass_proportional, on_stiffness = system_.damping.stiffness_proportional;
   const double s = on_mass / (1.0 + velocity_factor * on_mass),
                shift = on_stiffness - s * (displacement_factor + velocity_factor * on_stiffness);
-  parts_->internal.subtract_shifted(x, shift, 1.0 - s * velocity_factor, v, a);
+  parts_->internal.set_shifted(x, shift, 1.0 - s * velocity_factor, v, a);
   parts_->loads.add(t, a);
   if (stop_count() > 0) {
     Vector& w = parts_->stop_displacement;

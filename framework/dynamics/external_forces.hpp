@@ -28,7 +28,7 @@ class ExternalForces {
     if (t != time_) evaluate(t);
     for (const Entry& entry : entries_) force[entry.dof] += entry.weight * values_[entry.load];
   }
-  /// F := dF/dt(t), from Taylor series or, for loads without one, a difference over `h` s
+  /// rate := dF/dt(t), from Taylor series or, for loads without one, a difference over `h` s
   void rate(double t, double h, VectorRef rate);
   /// Invalidates the load values, after time functions of loads have changed.
   void changed() { time_ = std::numeric_limits<double>::quiet_NaN(); }

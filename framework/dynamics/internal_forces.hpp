@@ -46,8 +46,8 @@ class InternalForces {
     else
       subtract_products(from, shifted(x, system_.damping.stiffness_proportional, v), 1.0, v, r);
   }
-  /// r -= K (x + shift v) + velocity_factor D v with the dashpots D
-  void subtract_shifted(ConstVectorRef x, double shift, double velocity_factor, ConstVectorRef v, VectorRef r) {
+  /// r := -(K (x + shift v) + velocity_factor D v) with the dashpots D
+  void set_shifted(ConstVectorRef x, double shift, double velocity_factor, ConstVectorRef v, VectorRef r) {
     subtract_products(From::nothing, shifted(x, shift, v), velocity_factor, v, r);
   }
 

@@ -5,9 +5,10 @@
 
 namespace butee::linalg {
 
-std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix) {
+std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix, Fallback fallback) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
   if (solver.info() == Eigen::Success) return ComplexPairs{solver.eigenvalues(), solver.eigenvectors()};
+  if (fallback == Fallback::none) return std::nullopt;
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> complex(matrix.cast<std::complex<double>>());
   if (complex.info() != Eigen::Success) return std::nullopt;
   return ComplexPairs{complex.eigenvalues(), complex.eigenvectors()};

@@ -15,12 +15,14 @@ struct ComplexPairs {
   Eigen::MatrixXcd vectors;
 };
 
-/// All pairs of any square matrix; nothing if the iterations do not converge. The real QR iteration gives up now and
-/// then where pairs lie close together; the complex one then finds them. Not installed.
-BUTEE_EXPORT std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix);
+/// The real QR iteration gives up now and then where pairs lie close together; the complex one then
+/// finds them, but its pairs are conjugate, or real, only to rounding.
+enum class Fallback { none, complex_iteration };
 
-/// The same in extended precision, with the inverse of the vectors; nothing if the iteration does not
-/// converge.
+/// All pairs of any square matrix; nothing if the iterations do not converge. Not installed.
+BUTEE_EXPORT std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix, Fallback fallback);
+
+/// All pairs in extended precision, by the real iteration, with the inverse of the vectors.
 struct ExtendedComplexPairs {
   Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, 1> values;
   Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, Eigen::Dynamic> vectors, inverse;

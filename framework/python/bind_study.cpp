@@ -24,14 +24,15 @@ class StudyWatch {
   explicit StudyWatch(py::object progress) : progress_(std::move(progress)) {}
 
   void report(const study::Progress& now) {
-    const WithInterpreter lock;
-    if (error_) return;
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!progress_.is_none()) progress_(now.done, now.total);
-    } catch (py::error_already_set& error) {
-      error_.emplace(error);
-    }
+    with_interpreter([&] {
+      if (error_) return;
+      try {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (!progress_.is_none()) progress_(now.done, now.total);
+      } catch (py::error_already_set& error) {
+        error_.emplace(error);
+      }
+    });
   }
   bool goes_on() const { return !error_; }
   void rethrow() {
@@ -102,12 +103,13 @@ py::tuple table_of(const study::Layout& layout, const Bytes& rows) {
 /// For the result "trust": calls a Python function with a scene, from any thread.
 std::optional<double> horizon_of(const scene::Scene& scene, const Session& session, const py::function& horizon) {
   const Session judged(scene.document, session.plugins(), scene.catalogue);
-  const WithInterpreter lock;
-  try {
-    return horizon(judged).cast<double>();
-  } catch (py::error_already_set& error) {
-    throw RunError(error.what());
-  }
+  return with_interpreter([&] {
+    try {
+      return horizon(judged).cast<double>();
+    } catch (py::error_already_set& error) {
+      throw RunError(error.what());
+    }
+  });
 }
 
 py::tuple run_study(const Session& session, py::handle tables, int threads, const Kept& kept,

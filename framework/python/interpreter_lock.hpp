@@ -1,25 +1,22 @@
 #pragma once
 
+#include <cxxabi.h>
 #include <pybind11/pybind11.h>
 
 namespace butee::python {
 
-/// Holds the interpreter's lock. Like pybind11::gil_scoped_acquire, except at the end of an
-/// interpreter: CPython before 3.14 then ends a thread that waits for its lock by unwinding, which
-/// aborts the program if a C++ frame catches everything or is noexcept. Here such a thread waits
-/// for the end of the process, as in CPython 3.14.
-class WithInterpreter {
- public:
-  WithInterpreter();
-  ~WithInterpreter() { PyGILState_Release(state_); }
-  WithInterpreter(const WithInterpreter&) = delete;
-  WithInterpreter& operator=(const WithInterpreter&) = delete;
+/// Waits for the end of the process.
+[[noreturn]] void wait_for_the_end();
 
- private:
-  PyGILState_STATE state_;
-};
+/// The result of `use`, called with the interpreter's lock. Like pybind11::gil_scoped_acquire,
+/// except at the end of an interpreter: CPython before 3.14 then ends a thread that waits for its
+/// lock, here or between two instructions of Python code, by unwinding, which aborts the program if
+/// a C++ frame catches everything or is noexcept. Here such a thread waits for the end of the
+/// process, as in CPython 3.14.
+template <class Use>
+auto with_interpreter(const Use& use);
 
-/// Releases the lock, and acquires it again as WithInterpreter does.
+/// Releases the lock, and acquires it again in the same way.
 class WithoutInterpreter {
  public:
   WithoutInterpreter() : thread_(PyEval_SaveThread()) {}
@@ -28,7 +25,30 @@ class WithoutInterpreter {
   WithoutInterpreter& operator=(const WithoutInterpreter&) = delete;
 
  private:
+  bool is_last_ = _Py_IsFinalizing() != 0;  ///< in the thread that ends the interpreter, which alone has the lock then
   PyThreadState* thread_;
 };
+
+/// Holds the lock; the part of with_interpreter that is not a template.
+class InterpreterLock {
+ public:
+  InterpreterLock();
+  ~InterpreterLock() { PyGILState_Release(state_); }
+  InterpreterLock(const InterpreterLock&) = delete;
+  InterpreterLock& operator=(const InterpreterLock&) = delete;
+
+ private:
+  PyGILState_STATE state_;
+};
+
+template <class Use>
+auto with_interpreter(const Use& use) {
+  const InterpreterLock lock;
+  try {
+    return use();
+  } catch (const abi::__forced_unwind&) {
+    wait_for_the_end();
+  }
+}
 
 }  // namespace butee::python

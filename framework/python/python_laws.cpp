@@ -64,13 +64,7 @@ class PythonLaw final : public model::BatchedLaw<PythonLaw> {
   double asymptotic_force() const override { return asymptotic_force_; }
 
  private:
-  double call(const Function& function, double g) const {
-    const WithInterpreter lock;
-    py::tuple arguments(parameters_.size() + 1);
-    arguments[0] = g;
-    for (std::size_t i = 0; i < parameters_.size(); ++i) arguments[i + 1] = parameters_[i];
-    return (*function)(*arguments).cast<double>();
-  }
+  double call(const Function& function, double g) const { return call_with(*function, g, parameters_); }
 
   Functions functions_;
   std::vector<double> parameters_;

@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include "butee/python/bindings.hpp"
-#include "butee/python/interpreter_lock.hpp"
 #include "butee/python/python_laws.hpp"
 #include "butee/python/shared_function.hpp"
 
@@ -18,13 +17,7 @@ class PythonLoad final : public model::TimeFunction {
   PythonLoad(std::shared_ptr<py::function> function, std::vector<double> parameters)
       : function_(std::move(function)), parameters_(std::move(parameters)) {}
 
-  double value(double t) const override {
-    const WithInterpreter lock;
-    py::tuple arguments(parameters_.size() + 1);
-    arguments[0] = t;
-    for (std::size_t i = 0; i < parameters_.size(); ++i) arguments[i + 1] = parameters_[i];
-    return (*function_)(*arguments).cast<double>();
-  }
+  double value(double t) const override { return call_with(*function_, t, parameters_); }
 
  private:
   std::shared_ptr<py::function> function_;

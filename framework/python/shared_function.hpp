@@ -14,10 +14,18 @@ namespace butee::python {
 
 /// A Python function whose last reference may be released by any thread.
 inline std::shared_ptr<pybind11::function> shared_function(const pybind11::function& function) {
-  return {new pybind11::function(function), [](pybind11::function* held) {
-            const WithInterpreter lock;
-            delete held;
-          }};
+  return {new pybind11::function(function),
+          [](pybind11::function* held) { with_interpreter([held] { delete held; }); }};
+}
+
+/// function(first, parameters...), called from any thread.
+inline double call_with(const pybind11::function& function, double first, const std::vector<double>& parameters) {
+  return with_interpreter([&] {
+    pybind11::tuple arguments(parameters.size() + 1);
+    arguments[0] = first;
+    for (std::size_t i = 0; i < parameters.size(); ++i) arguments[i + 1] = parameters[i];
+    return function(*arguments).cast<double>();
+  });
 }
 
 /// Names of parameters with their defaults.

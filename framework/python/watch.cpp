@@ -33,14 +33,15 @@ const char* PythonWatch::look(double t) {
 }
 
 bool PythonWatch::has_raised(double t) {
-  const WithInterpreter lock;
-  try {
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!progress_.is_none()) progress_(t);
-  } catch (py::error_already_set& error) {
-    error_.emplace(error);
-  }
-  return error_.has_value();
+  return with_interpreter([&] {
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!progress_.is_none()) progress_(t);
+    } catch (py::error_already_set& error) {
+      error_.emplace(error);
+    }
+    return error_.has_value();
+  });
 }
 
 void PythonWatch::rethrow() {

@@ -317,5 +317,29 @@ TEST(SpacePicture, ShowsAFrameWhereItStands) {
   EXPECT_FALSE(holds(svg, "nan"));
 }
 
+/// The y coordinates, downwards, of the tip and the base of the triangle of a stop on one side.
+std::pair<double, double> drawn_stop(const std::string& side) {
+  const TemporaryFolder folder;
+  folder.write("frame.toml", std::string(kFrame) +
+                                 "[[stop]]\nnodes = \"arm:last\"\ndof = \"uy\"\ngap = 0.01\n"
+                                 "stiffness = 1e6\nsides = \"" +
+                                 side + "\"\n");
+  const Outcome check = run_program({"check", "frame.toml", "--picture", "frame.svg"}, folder.path());
+  EXPECT_EQ(check.status, 0) << check.errors;
+  const std::string svg = read_file(folder.file("frame.svg"));
+  const std::size_t end = svg.find("\" fill=\"#d17a00\""), begin = svg.rfind("points=\"", end);
+  double tip = 0.0, base = 0.0;
+  EXPECT_EQ(std::sscanf(svg.c_str() + begin, "points=\"%*lf,%lf %*lf,%lf", &tip, &base), 2) << svg.substr(begin, 80);
+  return {tip, base};
+}
+
+TEST(SpacePicture, DrawsStopsOnTheirSide) {
+  const auto [above_tip, above_base] = drawn_stop("positive");
+  EXPECT_LT(above_base, above_tip);
+  const auto [below_tip, below_base] = drawn_stop("negative");
+  EXPECT_GT(below_base, below_tip);
+  EXPECT_LT(above_tip, below_tip);
+}
+
 }  // namespace
 }  // namespace butee::test::space_plot_test

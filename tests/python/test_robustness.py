@@ -233,3 +233,15 @@ def test_an_interpreter_may_end_in_the_midst(tmp_path, setting):
         """)
     process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert (process.returncode, process.stdout, process.stderr) == (0, "bye\n", "")
+
+
+@pytest.mark.parametrize("setting", [
+    "runs = butee._butee.batch(scene._core, ['output.interval'], [(1.0,)] * 3, 2)",
+    PYTHON_LOAD], ids=["a_batch", "a_load_in_python"])
+def test_what_outlives_the_program_dies_with_the_interpreter(setting):
+    """The thread that ends the interpreter drops the last references then, and must not wait for itself."""
+    code = textwrap.dedent(LONG.format(path=[str(pathlib.Path(__file__).parent)], method="rk4",
+                                       options={"time_step": 1e-4, "tolerance": None, "end_time": 1.0e6}))
+    code += setting + "\nsys.kept = [scene, globals().get('runs')]\nprint('bye')\n"
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (process.returncode, process.stdout, process.stderr) == (0, "bye\n", "")

@@ -143,7 +143,7 @@ class Drawing {
           continue;
         }
         for (const double side : {-1.0, 1.0}) {
-          if (!group.play.has_side(side)) continue;
+          if (!group.play.has_side(-side)) continue;  // The picture's y axis points down.
           const double tip = y + side * 8.0;
           svg.polygon({{x, tip}, {x - 5.0, tip + side * 8.0}, {x + 5.0, tip + side * 8.0}}, kStop);
         }
