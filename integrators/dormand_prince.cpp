@@ -1,7 +1,6 @@
 #include "integrators/dormand_prince.hpp"
 
 #include "integrators/methods.hpp"
-#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -68,11 +67,6 @@ time::StepReport DormandPrince::do_step(const time::State& from, const time::Ste
   control_.judge(from, to, h, error_x_, error_v_, report);
   if (report.error <= 1.0) stiffness_.look(step.t_end, h, (a_[6] - a_[5]).norm(), (x_ - x_before_).norm());
   return report;
-}
-
-void DormandPrince::do_interpolate(const time::State& from, const time::State& to, double t,
-                                   std::span<const Index> dofs, time::Interpolated out) const {
-  interpolate_quintic(from, to, t, dofs, out);
 }
 
 time::IntegratorType dopri5_type() {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "integrators/local_error.hpp"
+#include "integrators/quintic.hpp"
 #include "integrators/stiffness_watch.hpp"
 
 namespace butee::integrators {
@@ -20,19 +21,18 @@ class DormandPrince final : public time::Integrator {
   DormandPrince(dynamics::Dynamics& dynamics, const Goal& goal);
 
   const time::StepController* controller() const override { return &control_.controller(); }
-  time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
   double first_step(const time::State&) const override { return control_.first_step(); }
-  bool follows_contact_phases() const override { return true; }
+  time::Traits traits() const override { return {.follows_contact_phases = true}; }
 
  private:
   static constexpr std::size_t kStages = 7;
 
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                      time::Interpolated out) const override;
+  time::Interpolant& interpolant() override { return quintic_; }
 
   LocalErrorControl control_;
+  QuinticInterpolant quintic_;
   StiffnessWatch stiffness_;
   std::array<Vector, kStages> v_, a_;  ///< one per stage
   Vector x_, x_before_, error_x_, error_v_;

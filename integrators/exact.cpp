@@ -5,7 +5,6 @@
 
 #include "butee/config/diagnostics.hpp"
 #include "integrators/methods.hpp"
-#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 
@@ -62,42 +61,6 @@ StepReport Exact::do_step(const State& from, const time::Step& step, State& to) 
   to.t = path_.end();
   report.error = last.reach * last.length;
   return report;
-}
-
-std::span<const double> Exact::breakpoints(const State& from, const State& to) const {
-  path_.recall(from, to);
-  return path_.breakpoints();
-}
-
-void Exact::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
-                           time::Interpolated out) const {
-  path_.recall(from, to);
-  const TaylorExpansion& piece = path_.piece_at(t);
-  const double s = std::min((t - piece.begin) / piece.length, piece.end);
-  for (std::size_t k = 0; k < dofs.size(); ++k) {
-    if (!out.x.empty()) out.x[k] = piece.value(dofs[k], s);
-    if (!out.v.empty()) out.v[k] = piece.velocity(dofs[k], s);
-    if (!out.a.empty()) out.a[k] = piece.acceleration(dofs[k], s);
-  }
-}
-
-void Exact::departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
-                      time::Interpolated out) const {
-  path_.recall(from, to);
-  const TaylorExpansion& piece = path_.piece_at(begin);
-  const double s = std::min((end - piece.begin) / piece.length, piece.end), h = (end - begin) / piece.length;
-  for (std::size_t k = 0; k < dofs.size(); ++k) {
-    // A bound of the sixth derivative with respect to s.
-    double sixth = 0.0, power = 1.0;
-    for (Index j = 6; j < piece.x.cols(); ++j, power *= s) {
-      const auto n = static_cast<double>(j);
-      sixth += n * (n - 1.0) * (n - 2.0) * (n - 3.0) * (n - 4.0) * (n - 5.0) * std::abs(piece.x(dofs[k], j)) * power;
-    }
-    const QuinticError error = quintic_error(h, sixth);
-    if (!out.x.empty()) out.x[k] = error.x;
-    if (!out.v.empty()) out.v[k] = error.v / piece.length;
-    if (!out.a.empty()) out.a[k] = error.a / (piece.length * piece.length);
-  }
 }
 
 time::IntegratorType exact_type() {

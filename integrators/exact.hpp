@@ -28,15 +28,10 @@ class Exact final : public time::Integrator {
   /// `series_tolerance` is the size of the last terms of a series relative to the largest.
   Exact(dynamics::Dynamics& dynamics, int order, double series_tolerance);
 
-  bool handles_load_discontinuities() const override { return true; }
-  bool follows_contact_phases() const override { return true; }
+  time::Traits traits() const override {
+    return {.handles_load_discontinuities = true, .follows_contact_phases = true};
+  }
   const time::StepController* controller() const override { return &controller_; }
-  /// The instants at which one series ends and the next begins, s.
-  std::span<const double> breakpoints(const time::State& from, const time::State& to) const override;
-  time::DenseOutput dense_output() const override { return time::DenseOutput::other; }
-  /// Bounds from the derivatives of the series, term by term.
-  void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
-                 time::Interpolated out) const override;
   /// The length over which the series at the start is accurate, s.
   double first_step(const time::State&) const override { return first_step_; }
 
@@ -49,11 +44,10 @@ class Exact final : public time::Integrator {
 
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                      time::Interpolated out) const override;
+  time::Interpolant& interpolant() override { return path_; }
 
   Controller controller_;
-  mutable TaylorPath path_;  ///< of the last step; outputs of an earlier one follow it again. Not thread-safe.
+  TaylorPath path_;                         ///< of the last step
   double first_length_, first_step_ = 0.0;  ///< s
 };
 

@@ -1,7 +1,6 @@
 #include "integrators/extrapolation.hpp"
 
 #include "integrators/methods.hpp"
-#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 namespace {
@@ -78,11 +77,6 @@ time::StepReport Extrapolation::do_step(const time::State& from, const time::Ste
   if (report.error <= 1.0 && report.status == time::StepStatus::ok)
     dynamics().acceleration(step.t_end, to.x, to.v, to.a);
   return report;
-}
-
-void Extrapolation::do_interpolate(const time::State& from, const time::State& to, double t,
-                                   std::span<const Index> dofs, time::Interpolated out) const {
-  interpolate_quintic(from, to, t, dofs, out);
 }
 
 time::IntegratorType extrapolation8_type() {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "integrators/local_error.hpp"
+#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 
@@ -21,23 +22,21 @@ class Extrapolation final : public time::Integrator {
   Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal);
 
   const time::StepController* controller() const override { return &control_.controller(); }
-  time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
   double first_step(const time::State&) const override { return control_.first_step(); }
-  bool follows_contact_phases() const override { return true; }
-  /// The steps are long and interpolation has a lower order than the steps.
-  bool lands_on_outputs() const override { return true; }
+  /// It lands on outputs since the steps are long and interpolation has a lower order than the steps.
+  time::Traits traits() const override { return {.follows_contact_phases = true, .lands_on_outputs = true}; }
 
  private:
   static constexpr std::size_t kColumns = 4;
 
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                      time::Interpolated out) const override;
+  time::Interpolant& interpolant() override { return quintic_; }
   /// The modified midpoint rule with `parts` parts of the step and Gragg's smoothing.
   void midpoint(const time::State& from, const time::Step& step, int parts, Vector& x, Vector& v);
 
   LocalErrorControl control_;
+  QuinticInterpolant quintic_;
   std::array<Vector, kColumns> x_, v_;  ///< a row of the extrapolation tableau
   Vector old_x_, old_v_, new_x_, new_v_, a_, next_x_, next_v_;
 };

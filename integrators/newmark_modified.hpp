@@ -21,7 +21,7 @@ class ModifiedNewmark final : public time::Integrator {
   ModifiedNewmark(dynamics::Dynamics& dynamics, NewmarkParameters parameters,
                   std::unique_ptr<ZienkiewiczXie> controller = nullptr);
 
-  double stability_limit() const override { return parameters_.stability_limit(); }
+  time::Traits traits() const override { return {.stability_limit = parameters_.stability_limit()}; }
   const time::StepController* controller() const override { return controller_.get(); }
 
  private:

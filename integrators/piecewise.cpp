@@ -1,7 +1,6 @@
 #include "integrators/piecewise.hpp"
 
 #include "integrators/methods.hpp"
-#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 
@@ -24,47 +23,6 @@ StepReport Piecewise::do_step(const time::State& from, const time::Step& step, t
   StepReport report;
   report.inner_steps = motion_.piece_count();
   return report;
-}
-
-std::span<const double> Piecewise::breakpoints(const time::State& from, const time::State& to) const {
-  motion_.recall(from, to);
-  return motion_.breakpoints();
-}
-
-void Piecewise::do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                               time::Interpolated out) const {
-  do_interpolate_all(from, to, {&t, 1}, dofs, out);
-}
-
-void Piecewise::do_interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
-                                   std::span<const Index> dofs, time::Interpolated out) const {
-  motion_.recall(from, to);
-  std::size_t place = 0;
-  for (const double t : times) {
-    const bool is_end = t == from.t || t == to.t;
-    const time::State& end = t == from.t ? from : to;
-    if (!is_end) motion_.go_to(t);
-    for (const Index dof : dofs) {
-      const Jet jet = is_end ? Jet{end.x[dof], end.v[dof], end.a[dof], 0.0} : motion_.dof(dof);
-      if (!out.x.empty()) out.x[place] = jet[0];
-      if (!out.v.empty()) out.v[place] = jet[1];
-      if (!out.a.empty()) out.a[place] = jet[2];
-      ++place;
-    }
-  }
-}
-
-void Piecewise::departure(const time::State& from, const time::State& to, double begin, double end,
-                          std::span<const Index> dofs, time::Interpolated out) const {
-  motion_.recall(from, to);
-  motion_.go_to(begin);
-  const double h = end - begin;
-  for (std::size_t k = 0; k < dofs.size(); ++k) {
-    const QuinticError error = quintic_error(h, motion_.sixth_derivative(dofs[k], h));
-    if (!out.x.empty()) out.x[k] = error.x;
-    if (!out.v.empty()) out.v[k] = error.v;
-    if (!out.a.empty()) out.a[k] = error.a;
-  }
 }
 
 time::IntegratorType piecewise_type() {

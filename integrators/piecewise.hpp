@@ -19,25 +19,16 @@ class Piecewise final : public time::Integrator {
   /// `end_time` in s. Throws InputError for any other scene; the message names suitable methods.
   Piecewise(dynamics::Dynamics& dynamics, double end_time);
 
-  bool handles_load_discontinuities() const override { return true; }
+  time::Traits traits() const override { return {.handles_load_discontinuities = true}; }
   const time::StepController* controller() const override { return &controller_; }
   double first_step(const time::State&) const override { return std::numeric_limits<double>::infinity(); }
-  /// Changes of contact, discontinuities of loads, and instants in between that limit the phase
-  /// angle of the motion from one to the next.
-  std::span<const double> breakpoints(const time::State& from, const time::State& to) const override;
-  time::DenseOutput dense_output() const override { return time::DenseOutput::other; }
-  void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
-                 time::Interpolated out) const override;
-
   /// The derivative of (x, v) at the end of an accepted step with respect to (x, v) at its start, 2n x 2n: the product
   /// of those of its pieces, and of what a stop with dissipation adds where its force jumps. At grazing contact, where
   /// it does not exist, that of the pieces taken. Over several steps: the product.
-  Eigen::MatrixXd derivative(const time::State& from, const time::State& to) const {
-    return motion_.derivative(from, to);
-  }
+  Eigen::MatrixXd derivative(const time::State& from, const time::State& to) { return motion_.derivative(from, to); }
   /// The derivative of (x, v) at the end with respect to a factor on all loads, at 1, in this step alone, 2n. Over
   /// several steps: s := derivative() s + this.
-  Vector derivative_by_loads(const time::State& from, const time::State& to) const {
+  Vector derivative_by_loads(const time::State& from, const time::State& to) {
     return motion_.derivative_by_loads(from, to);
   }
 
@@ -54,13 +45,10 @@ class Piecewise final : public time::Integrator {
   };
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                      time::Interpolated out) const override;
-  void do_interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
-                          std::span<const Index> dofs, time::Interpolated out) const override;
+  time::Interpolant& interpolant() override { return motion_; }
 
   Controller controller_;
-  mutable PiecewiseMotion motion_;  ///< of the last step; outputs of an earlier one follow it again. Not thread-safe.
+  PiecewiseMotion motion_;  ///< of the last step
 };
 
 }  // namespace butee::integrators

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/quintic.hpp"
+
 namespace butee::integrators {
 
 namespace {
@@ -51,7 +53,7 @@ void PiecewiseMotion::write_status(const time::State& at, VectorRef memory) cons
 
 void PiecewiseMotion::write_end(time::State& to) const {
   for (Index i = 0; i < to.x.size(); ++i) {
-    const Jet jet = dof(i);
+    const Jet jet = motion_of(i);
     to.x[i] = jet[0];
     to.v[i] = jet[1];
     to.a[i] = jet[2];
@@ -198,9 +200,46 @@ void PiecewiseMotion::find_breakpoints() {
   }
 }
 
-const std::vector<double>& PiecewiseMotion::breakpoints() {
+std::span<const double> PiecewiseMotion::breakpoints(const time::State& from, const time::State& to) {
+  recall(from, to);
   if (!has_breakpoints_) find_breakpoints();
   return breakpoints_;
+}
+
+void PiecewiseMotion::interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                                  time::Interpolated out) {
+  interpolate_all(from, to, {&t, 1}, dofs, out);
+}
+
+void PiecewiseMotion::interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
+                                      std::span<const Index> dofs, time::Interpolated out) {
+  recall(from, to);
+  std::size_t place = 0;
+  for (const double t : times) {
+    const bool is_end = t == from.t || t == to.t;
+    const time::State& end = t == from.t ? from : to;
+    if (!is_end) go_to(t);
+    for (const Index dof : dofs) {
+      const Jet jet = is_end ? Jet{end.x[dof], end.v[dof], end.a[dof], 0.0} : motion_of(dof);
+      if (!out.x.empty()) out.x[place] = jet[0];
+      if (!out.v.empty()) out.v[place] = jet[1];
+      if (!out.a.empty()) out.a[place] = jet[2];
+      ++place;
+    }
+  }
+}
+
+void PiecewiseMotion::departure(const time::State& from, const time::State& to, double begin, double end,
+                                std::span<const Index> dofs, time::Interpolated out) {
+  recall(from, to);
+  go_to(begin);
+  const double h = end - begin;
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const QuinticError error = quintic_error(h, flow_->sixth_derivative(piece_, dofs[k], h));
+    if (!out.x.empty()) out.x[k] = error.x;
+    if (!out.v.empty()) out.v[k] = error.v;
+    if (!out.a.empty()) out.a[k] = error.a;
+  }
 }
 
 }  // namespace butee::integrators

@@ -4,14 +4,15 @@
 #include <memory>
 #include <vector>
 
-#include "butee/time/state.hpp"
+#include "butee/time/dense_output.hpp"
 #include "integrators/first_change.hpp"
 
 namespace butee::integrators {
 
 /// The motion over one step in closed form, one piece from each change of contact or discontinuity of a load to the
-/// next. Keeps the modes of the contact states that occurred, and the pieces of the step that was followed last.
-class PiecewiseMotion {
+/// next. Keeps the modes of the contact states that occurred, and the pieces of the step that was followed last;
+/// outputs of an earlier one follow it again.
+class PiecewiseMotion final : public time::Interpolant {
  public:
   /// `end_time`, s. Throws InputError where the scene is of another kind or a contact state has no modes.
   PiecewiseMotion(dynamics::Dynamics& dynamics, double end_time);
@@ -28,15 +29,16 @@ class PiecewiseMotion {
   /// Forgets the pieces.
   void clear() { end_t_ = std::numeric_limits<double>::quiet_NaN(); }
 
-  /// Follows a step again unless it is the last one that was followed.
-  void recall(const time::State& from, const time::State& to);
-  /// Goes to t, within the step that is recalled.
-  void go_to(double t);
-  /// The motion of a DOF there, and a bound of its sixth derivative over the next h seconds.
-  Jet dof(Index i) const { return flow_->dof(piece_, i); }
-  double sixth_derivative(Index i, double h) const { return flow_->sixth_derivative(piece_, i, h); }
-  /// The instants between pieces, and others between which the motion turns little, of the step that is recalled.
-  const std::vector<double>& breakpoints();
+  time::Interpolation interpolation() const override { return time::Interpolation::other; }
+  /// Changes of contact, discontinuities of loads, and instants in between that limit the phase
+  /// angle of the motion from one to the next.
+  std::span<const double> breakpoints(const time::State& from, const time::State& to) override;
+  void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                   time::Interpolated out) override;
+  void interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
+                       std::span<const Index> dofs, time::Interpolated out) override;
+  void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
+                 time::Interpolated out) override;
 
   /// Piecewise::derivative() and derivative_by_loads()
   Eigen::MatrixXd derivative(const time::State& from, const time::State& to);
@@ -60,6 +62,12 @@ class PiecewiseMotion {
   /// Begins a piece at (t, x_, v_).
   const ContactStateFlow& begin_piece(double t);
   void load_piece(std::size_t piece);
+  /// Follows a step again unless it is the last one that was followed.
+  void recall(const time::State& from, const time::State& to);
+  /// Goes to t, within the step that is recalled.
+  void go_to(double t);
+  /// The motion of a DOF there.
+  Jet motion_of(Index dof) const { return flow_->dof(piece_, dof); }
   void find_breakpoints();
   /// Calls jump(stop, sign) for every stop whose dissipation sets in (+1) or ends (-1) with a jump of its force at the
   /// start of a piece of the step that is recalled, and propagate() after the piece was loaded.

@@ -70,8 +70,15 @@ inline void leave_out_kinks(double h, Motion& from, Motion& to) {
 
 /// Interpolates with the quintic through x, v and a at both ends of a step, for methods of order 5
 /// or more.
-inline void interpolate_quintic(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                                time::Interpolated out) {
+class QuinticInterpolant final : public time::Interpolant {
+ public:
+  time::Interpolation interpolation() const override { return time::Interpolation::quintic; }
+  void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                   time::Interpolated out) override;
+};
+
+inline void QuinticInterpolant::interpolate(const time::State& from, const time::State& to, double t,
+                                            std::span<const Index> dofs, time::Interpolated out) {
   const double h = to.t - from.t, s = (t - from.t) / h;
   for (std::size_t i = 0; i < dofs.size(); ++i) {
     const Index d = dofs[i];

@@ -4,7 +4,6 @@
 
 #include "butee/core/error.hpp"
 #include "integrators/methods.hpp"
-#include "integrators/quintic.hpp"
 #include "integrators/rodas4_coefficients.hpp"
 
 namespace butee::integrators {
@@ -114,11 +113,6 @@ time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step
   if (report.error <= 1.0 && report.status == time::StepStatus::ok)
     dynamics().acceleration(step.t_end, to.x, to.v, to.a);
   return report;
-}
-
-void Rodas4::do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                            time::Interpolated out) const {
-  interpolate_quintic(from, to, t, dofs, out);
 }
 
 time::IntegratorType rodas4_type() {

@@ -4,6 +4,7 @@
 
 #include "butee/dynamics/tangent_solver.hpp"
 #include "integrators/local_error.hpp"
+#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 
@@ -30,20 +31,19 @@ class Rodas4 final : public time::Integrator {
 
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State&) const override { return control_.first_step(); }
-  bool follows_contact_phases() const override { return true; }
-  time::DenseOutput dense_output() const override { return time::DenseOutput::quintic; }
+  time::Traits traits() const override { return {.follows_contact_phases = true}; }
 
  private:
   static constexpr std::size_t kStages = 6;
 
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                      time::Interpolated out) const override;
+  time::Interpolant& interpolant() override { return quintic_; }
   /// (K + K_t) y into work_
   void tangent_force(ConstVectorRef y);
 
   LocalErrorControl control_;
+  QuinticInterpolant quintic_;
   std::array<Vector, kStages> p_, q_;
   Vector x_, v_, rate_, residual_x_, residual_v_, work_, other_;
   Vector stop_displacement_, stop_force_, tangent_, stop_work_;

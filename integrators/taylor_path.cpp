@@ -1,6 +1,9 @@
 #include "integrators/taylor_path.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "integrators/quintic.hpp"
 
 namespace butee::integrators {
 
@@ -100,6 +103,42 @@ const TaylorExpansion& TaylorPath::piece_at(double t) const {
   std::size_t i = 0;
   while (i + 1 < used_ && pieces_[i + 1].begin <= t) ++i;
   return pieces_[i];
+}
+
+std::span<const double> TaylorPath::breakpoints(const State& from, const State& to) {
+  recall(from, to);
+  return breakpoints_;
+}
+
+void TaylorPath::interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
+                             time::Interpolated out) {
+  recall(from, to);
+  const TaylorExpansion& piece = piece_at(t);
+  const double s = std::min((t - piece.begin) / piece.length, piece.end);
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    if (!out.x.empty()) out.x[k] = piece.value(dofs[k], s);
+    if (!out.v.empty()) out.v[k] = piece.velocity(dofs[k], s);
+    if (!out.a.empty()) out.a[k] = piece.acceleration(dofs[k], s);
+  }
+}
+
+void TaylorPath::departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
+                           time::Interpolated out) {
+  recall(from, to);
+  const TaylorExpansion& piece = piece_at(begin);
+  const double s = std::min((end - piece.begin) / piece.length, piece.end), h = (end - begin) / piece.length;
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    // A bound of the sixth derivative with respect to s.
+    double sixth = 0.0, power = 1.0;
+    for (Index j = 6; j < piece.x.cols(); ++j, power *= s) {
+      const auto n = static_cast<double>(j);
+      sixth += n * (n - 1.0) * (n - 2.0) * (n - 3.0) * (n - 4.0) * (n - 5.0) * std::abs(piece.x(dofs[k], j)) * power;
+    }
+    const QuinticError error = quintic_error(h, sixth);
+    if (!out.x.empty()) out.x[k] = error.x;
+    if (!out.v.empty()) out.v[k] = error.v / piece.length;
+    if (!out.a.empty()) out.a[k] = error.a / (piece.length * piece.length);
+  }
 }
 
 }  // namespace butee::integrators

@@ -9,8 +9,8 @@
 namespace butee::integrators {
 
 /// The motion over one step as Taylor series, one piece from each change of contact or discontinuity of a load to the
-/// next. Keeps the pieces of the step that was followed last.
-class TaylorPath {
+/// next. Keeps the pieces of the step that was followed last; outputs of an earlier one follow it again.
+class TaylorPath final : public time::Interpolant {
  public:
   /// `series_tolerance` is the size of the last terms of a series relative to the largest.
   TaylorPath(dynamics::Dynamics& dynamics, int order, double series_tolerance);
@@ -19,14 +19,17 @@ class TaylorPath {
   double first_length(const time::State& state, double length);
   /// Follows the motion from a state to the end of the step, or over one piece if the step is to be a single one.
   time::StepStatus follow(const time::State& from, const time::Step& step);
-  /// Follows a step again unless it is the last one that was followed.
-  void recall(const time::State& from, const time::State& to);
-
   double end() const { return end_t_; }  ///< s
   const TaylorExpansion& last() const { return pieces_[used_ - 1]; }
-  const TaylorExpansion& piece_at(double t) const;
-  /// The instants between pieces.
-  const std::vector<double>& breakpoints() const { return breakpoints_; }
+
+  time::Interpolation interpolation() const override { return time::Interpolation::other; }
+  /// The instants at which one series ends and the next begins, s.
+  std::span<const double> breakpoints(const time::State& from, const time::State& to) override;
+  void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                   time::Interpolated out) override;
+  /// Bounds from the derivatives of the series, term by term.
+  void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
+                 time::Interpolated out) override;
 
  private:
   /// More changes of contact within one step are no motion of a structure.
@@ -39,6 +42,9 @@ class TaylorPath {
   void place_branches();
   double next_discontinuity(double t) const;
   bool holds(const time::State& from, double t_end) const;
+  /// Follows a step again unless it is the last one that was followed.
+  void recall(const time::State& from, const time::State& to);
+  const TaylorExpansion& piece_at(double t) const;
 
   dynamics::Dynamics& dynamics_;
   TaylorExpander expander_;

@@ -78,7 +78,7 @@ Finding check_interpolation(const Subject& subject) {
   constexpr double kRounding = 1e-13;
   for (const State* end : {&from, static_cast<const State*>(&to)}) {
     double x = 0.0, v = 0.0, a = 0.0;
-    bench.integrator().interpolate(from, to, end->t, {&dof, 1}, {{&x, 1}, {&v, 1}, {&a, 1}});
+    bench.integrator().dense_output(from, to).interpolate(end->t, {&dof, 1}, {{&x, 1}, {&v, 1}, {&a, 1}});
     for (const auto& [name, got, expected] :
          {std::tuple("x", x, end->x[dof]), std::tuple("v", v, end->v[dof]), std::tuple("a", a, end->a[dof])})
       if (!(std::abs(got - expected) <= kRounding * std::abs(expected)))

@@ -58,7 +58,7 @@ bool ContactPeaks::is_active() const {
 void ContactPeaks::step(const time::AcceptedStep& step) {
   if (!probes_ || !is_active()) return;
   double begin = step.from.t;
-  for (const double breakpoint : step.integrator.breakpoints(step.from, step.to)) {
+  for (const double breakpoint : step.motion.breakpoints()) {
     follow_piece(step, begin, breakpoint);
     begin = breakpoint;
   }

@@ -85,7 +85,7 @@ const ContactRecorder::Forces& ContactRecorder::at(const time::AcceptedStep& ste
     evaluate(step.to.x, step.to.v);
     return forces_;
   }
-  step.integrator.trace(step.from, step.to, t, dofs_, {x_values_, v_values_, {}});
+  step.motion.trace(t, dofs_, {x_values_, v_values_, {}});
   for (std::size_t k = 0; k < dofs_.size(); ++k) {
     x_[dofs_[k]] = x_values_[k];
     v_[dofs_[k]] = v_values_[k];
@@ -122,7 +122,7 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
   // touch and separate between breakpoints.
   double begin = step.from.t;
   if (dynamics_.obstacles()->is_live()) {
-    const auto breakpoints = step.integrator.breakpoints(step.from, step.to);
+    const auto breakpoints = step.motion.breakpoints();
     for (const double breakpoint : std::vector<double>(breakpoints.begin(), breakpoints.end())) {
       in_parts(step, begin, breakpoint);
       begin = breakpoint;
@@ -211,7 +211,7 @@ void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
   if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);
   // Steps of methods that follow phases end at changes of phase.
-  const double shortly_before = end - step.integrator.event_precision() * (step.to.t - step.from.t);
+  const double shortly_before = end - step.event_error;
   if (!obstacles.is_live() && end == step.to.t && shortly_before > begin &&
       (at(step, shortly_before)[contact].penetration > 0.0) == watch.touches)
     begin = end;

@@ -10,7 +10,7 @@
 namespace butee::record {
 namespace {
 
-/// The error bound of the work in a long piece (DenseOutput::other), relative to the largest
+/// The error bound of the work in a long piece (Interpolation::other), relative to the largest
 /// energy.
 constexpr double kGoodWork = 1e-12;
 constexpr int kMostHalvingsOfWork = 12;
@@ -101,7 +101,7 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
     while (!due.empty() && due.front() <= t) due = due.subspan(1);
     return due.size() < before;
   };
-  const std::span<const time::EnergyAt> told = step.integrator.energies(step.from, step.to, due_);
+  const std::span<const time::EnergyAt> told = step.motion.energies(due_);
   const double work = work_, dissipated = dissipated_;
   for (const time::EnergyAt& at : told) {
     now_ = {at.kinetic, at.strain, at.contact};
@@ -112,7 +112,7 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
   }
   if (!told.empty()) return;
   double begin = step.from.t;
-  for (const double breakpoint : step.integrator.breakpoints(step.from, step.to)) {
+  for (const double breakpoint : step.motion.breakpoints()) {
     add_piece(step, begin, breakpoint);
     begin = breakpoint;
     if (!is_due(breakpoint)) continue;
@@ -128,7 +128,7 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
 void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
   Vector x(dynamics_.size()), v(dynamics_.size());
   const auto span = [](Vector& vector) { return std::span(vector.data(), static_cast<std::size_t>(vector.size())); };
-  step.integrator.interpolate(step.from, step.to, t, all_, {span(x), span(v), {}});
+  step.motion.interpolate(t, all_, {span(x), span(v), {}});
   time::State state;
   state.t = t;
   state.x = std::move(x);
@@ -139,8 +139,7 @@ void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
 EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& step, double t) {
   if (t == step.to.t) return power(t, step.to.x, step.to.v);
   const auto span = [](Vector& vector) { return std::span(vector.data(), static_cast<std::size_t>(vector.size())); };
-  step.integrator.interpolate(step.from, step.to, t, all_,
-                              {needs_x_ ? span(middle_x_) : std::span<double>{}, span(middle_), {}});
+  step.motion.interpolate(t, all_, {needs_x_ ? span(middle_x_) : std::span<double>{}, span(middle_), {}});
   return power(t, middle_x_, middle_);
 }
 
@@ -172,7 +171,7 @@ void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, do
 }
 
 void EnergyRecorder::add_piece(const time::AcceptedStep& step, double begin, double end) {
-  if (step.integrator.dense_output() == time::DenseOutput::other)
+  if (step.motion.interpolation() == time::Interpolation::other)
     return add_halved(step, begin, end, gauss(step, begin, end), 0);
   if (dynamics_.obstacles() != nullptr) return add(gauss(step, begin, end));  // forces may jump at its ends
   const double h = end - begin;

@@ -26,7 +26,7 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 /// Unless the method provides them (Integrator::energies), they are integrated by Simpson's rule
 /// from breakpoint to breakpoint of every accepted step, with the midpoint from the method's own
 /// interpolant: fourth order, so that the balance shows the method's error and not the quadrature
-/// error. With DenseOutput::other pieces may be long; they are halved until Gauss' rule with five
+/// error. With Interpolation::other pieces may be long; they are halved until Gauss' rule with five
 /// points gives the same work and dissipation over the whole and over both halves. The balance
 /// error is (change + dissipated - work) / largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {

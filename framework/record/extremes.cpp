@@ -112,8 +112,7 @@ Point StepPath::at(double t) const {
   double sign = 1.0;
   for (const Index& dof : dofs_) {
     std::array<double, 3> of{};
-    if (dof >= 0)
-      step_.integrator.interpolate(step_.from, step_.to, t, {&dof, 1}, {{&of[0], 1}, {&of[1], 1}, {&of[2], 1}});
+    if (dof >= 0) step_.motion.interpolate(t, {&dof, 1}, {{&of[0], 1}, {&of[1], 1}, {&of[2], 1}});
     for (std::size_t k = 0; k < of.size(); ++k) point.of[k] += sign * of[k];
     sign = -1.0;
   }
@@ -132,13 +131,13 @@ std::pair<double, double> StepPath::enclose(std::size_t order, const Point& from
 }
 
 double StepPath::departure(std::size_t order, const Point& from, const Point& to) const {
-  if (kind_ != time::DenseOutput::other) return 0.0;
+  if (kind_ != time::Interpolation::other) return 0.0;
   double sum = 0.0;
   for (const Index dof : dofs_) {
     if (dof < 0) continue;
     std::array<double, 3> bound{};
     const auto wanted = [&](std::size_t k) { return std::span(&bound[k], k == order ? 1 : 0); };
-    step_.integrator.departure(step_.from, step_.to, from.t, to.t, {&dof, 1}, {wanted(0), wanted(1), wanted(2)});
+    step_.motion.departure(from.t, to.t, {&dof, 1}, {wanted(0), wanted(1), wanted(2)});
     sum += bound[order];
   }
   return sum;
@@ -160,12 +159,13 @@ void StepPath::halve(std::size_t order, const Point& from, const Point& to, int&
   if (!(greatest > target.greatest + good) && !(least < target.least - good)) return;
   if (!(departs > good)) {
     Range beyond = target;
-    if (kind_ == time::DenseOutput::cubic) {
+    if (kind_ == time::Interpolation::cubic) {
       if (order < 2) seek<3>(cubic(order, from, to), 0.0, 1.0, good, 0, beyond);
     } else {
       const Bernstein<5> bent = quintic(from, to);
       const Bernstein<3> straight = cubic(0, from, to);
-      const double x = kind_ != time::DenseOutput::other && may_bend(from, to) ? at(middle).of[0] : middle_of<5>(bent);
+      const double x =
+          kind_ != time::Interpolation::other && may_bend(from, to) ? at(middle).of[0] : middle_of<5>(bent);
       if (std::abs(x - middle_of<3>(straight)) < std::abs(x - middle_of<5>(bent)))
         seek_in<3>(order, straight, h, good, beyond);
       else

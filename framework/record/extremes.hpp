@@ -37,8 +37,8 @@ struct Range {
 /// extremes on the method's dense output.
 ///
 /// Between two points with no breakpoint between them the dense output is a polynomial through
-/// both. For DenseOutput::other it is near to the quintic, within Integrator::departure(). For
-/// DenseOutput::near_quintic extremes of v are searched wherever the quintic comes within kMargin
+/// both. For Interpolation::other it is near to the quintic, within DenseOutput::departure(). For
+/// Interpolation::near_quintic extremes of v are searched wherever the quintic comes within kMargin
 /// of the largest so far. All values are those of the dense output itself. The hull of the
 /// Bernstein coefficients shows whether any value in between exceeds a range by more than kGood of
 /// it. If so, halves are examined: halves of the polynomial, or of the interval while the dense
@@ -51,12 +51,12 @@ class BUTEE_EXPORT StepPath {
   static constexpr double kGood = 1e-10;
   static constexpr int kMostSamples = 4000;
   /// The largest difference between the derivative of the quintic and that of
-  /// DenseOutput::near_quintic, relative to the largest |value|.
+  /// Interpolation::near_quintic, relative to the largest |value|.
   static constexpr double kMargin = 0.005;
 
   /// Index b < 0: DOF a alone, and 0 if a is negative too. `kind`: of the step's integrator. `step`
   /// must outlive this object.
-  StepPath(const time::AcceptedStep& step, time::DenseOutput kind, Index a, Index b)
+  StepPath(const time::AcceptedStep& step, time::Interpolation kind, Index a, Index b)
       : step_(step), kind_(kind), dofs_{a, b} {}
 
   static Point point(const time::State& state, Index a, Index b) {
@@ -76,13 +76,13 @@ class BUTEE_EXPORT StepPath {
     range.take(to.t, to.of[order]);
     const auto [least, greatest] = bounds_within(order, from, to);
     const double margin = margin_of(order, range);
-    if (kind_ == time::DenseOutput::other || least < range.least + margin || greatest > range.greatest - margin)
+    if (kind_ == time::Interpolation::other || least < range.least + margin || greatest > range.greatest - margin)
       search(order, from, to, range);
   }
 
  private:
   double margin_of(std::size_t order, const Range& range) const {
-    return kind_ == time::DenseOutput::near_quintic && order == 1 ? kMargin * range.size() : 0.0;
+    return kind_ == time::Interpolation::near_quintic && order == 1 ? kMargin * range.size() : 0.0;
   }
   /// Bounds of the polynomials between their ends, by the inner Bernstein coefficients: those of
   /// the quintic, and of the cubic that is used instead if accelerations bend at an end.
@@ -90,7 +90,7 @@ class BUTEE_EXPORT StepPath {
     const double h = to.t - from.t;
     const auto [x0, v0, a0] = from.of;
     const auto [x1, v1, a1] = to.of;
-    if (kind_ == time::DenseOutput::cubic) {
+    if (kind_ == time::Interpolation::cubic) {
       if (order == 0) return std::minmax({x0 + h / 3.0 * v0, x1 - h / 3.0 * v1});
       if (order == 1) return std::minmax({v0 + h / 3.0 * a0, v1 - h / 3.0 * a1});
       return {std::min(a0, a1), std::max(a0, a1)};
@@ -111,7 +111,7 @@ class BUTEE_EXPORT StepPath {
   double departure(std::size_t order, const Point& from, const Point& to) const;
 
   const time::AcceptedStep& step_;
-  time::DenseOutput kind_;
+  time::Interpolation kind_;
   std::array<Index, 2> dofs_;
 };
 

@@ -150,7 +150,7 @@ void FieldRecorder::step(const time::AcceptedStep& step) {
     if (t == step.to.t)
       fill(step.to);
     else if (t != step.from.t) {
-      step.integrator.interpolate(step.from, step.to, t, dofs_, {x_, v_, a_});
+      step.motion.interpolate(t, dofs_, {x_, v_, a_});
       fill(t, time::Interpolated{x_, v_, a_});
     }  // else the first instant, filled by start()
     write(t);

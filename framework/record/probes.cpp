@@ -12,12 +12,12 @@ constexpr std::size_t kLargestSample = 1U << 14U;
 
 void interpolate(const time::AcceptedStep& step, std::span<const double> times, std::span<const Index> dofs,
                  time::Interpolated out, Probes::View view) {
-  if (view == Probes::View::output) return step.integrator.interpolate(step.from, step.to, times, dofs, out);
+  if (view == Probes::View::output) return step.motion.interpolate(times, dofs, out);
   const auto part = [&](std::span<double> values, std::size_t i) {
     return values.empty() ? values : values.subspan(i * dofs.size(), dofs.size());
   };
   for (std::size_t i = 0; i < times.size(); ++i)
-    step.integrator.trace(step.from, step.to, times[i], dofs, {part(out.x, i), part(out.v, i), part(out.a, i)});
+    step.motion.trace(times[i], dofs, {part(out.x, i), part(out.v, i), part(out.a, i)});
 }
 
 }  // namespace

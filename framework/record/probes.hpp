@@ -23,7 +23,7 @@ class BUTEE_EXPORT Probes {
   /// One name for each column: "mid.u".
   const std::vector<std::string>& columns() const { return columns_; }
 
-  /// The dense output that is read: Integrator::interpolate(), or trace(), which is cheaper and as
+  /// The dense output that is read: DenseOutput::interpolate(), or trace(), which is cheaper and as
   /// good as the method's own view of its contacts.
   enum class View { output, contacts };
 

@@ -26,8 +26,7 @@ void StateKeeper::step(const time::AcceptedStep& step) {
   for (; kept_.size() < times_.size() && times_[kept_.size()] <= step.to.t;) {
     model::SavedMotion motion{times_[kept_.size()], step.to.x, step.to.v};
     if (motion.t < step.to.t)
-      step.integrator.interpolate(step.from, step.to, motion.t, all_,
-                                  {{motion.x.data(), all_.size()}, {motion.v.data(), all_.size()}, {}});
+      step.motion.interpolate(motion.t, all_, {{motion.x.data(), all_.size()}, {motion.v.data(), all_.size()}, {}});
     kept_.push_back(std::move(motion));
   }
 }

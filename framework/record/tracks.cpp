@@ -29,7 +29,7 @@ void Tracks::sample(const time::AcceptedStep& step, std::span<const double> brea
   const std::size_t room = breakpoints.size() * dofs_.size();
   for (std::vector<double>* values : {&x_, &v_, &a_})
     if (values->size() < room) values->resize(room);
-  step.integrator.interpolate(step.from, step.to, breakpoints, dofs_, {x_, v_, a_});
+  step.motion.interpolate(breakpoints, dofs_, {x_, v_, a_});
 }
 
 void Tracks::load(std::size_t breakpoint, double t) {

@@ -27,9 +27,9 @@ class BUTEE_EXPORT Tracks {
   /// to() are its ends.
   template <class Look>
   void visit(const time::AcceptedStep& step, Look look) {
-    kind_ = step.integrator.dense_output();
+    kind_ = step.motion.interpolation();
     for (std::size_t i = 0; i < size(); ++i) from_[i] = at(step.from, i);
-    const std::span<const double> breakpoints = step.integrator.breakpoints(step.from, step.to);
+    const std::span<const double> breakpoints = step.motion.breakpoints();
     if (!breakpoints.empty()) sample(step, breakpoints);
     for (std::size_t k = 0; k < breakpoints.size(); ++k) {
       load(k, breakpoints[k]);
@@ -49,7 +49,7 @@ class BUTEE_EXPORT Tracks {
   std::vector<std::pair<Index, Index>> pairs_;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< their indices in dofs_
   std::vector<Point> from_, to_;
-  time::DenseOutput kind_ = time::DenseOutput::cubic;  ///< of the last visited step
+  time::Interpolation kind_ = time::Interpolation::cubic;  ///< of the last visited step
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;  ///< of dofs_ at the breakpoints
 };

@@ -88,7 +88,7 @@ void MeanPart::add(const time::AcceptedStep& step, double begin, double end, con
       total_.squares[i] += integral.squares[i];
     }
   };
-  if (step.integrator.dense_output() != time::DenseOutput::other || halvings == kMostHalvings) return take(whole);
+  if (step.motion.interpolation() != time::Interpolation::other || halvings == kMostHalvings) return take(whole);
   const double middle = 0.5 * (begin + end);
   const Integral first = integrate(step, begin, middle), second = integrate(step, middle, end);
   Integral both = first;
@@ -110,7 +110,7 @@ void MeanPart::step(const time::AcceptedStep& step) {
           integrate(step, begin + k * length, begin + (k + 1.0) * length), 0);
     begin = end;
   };
-  for (const double breakpoint : step.integrator.breakpoints(step.from, step.to)) piece(breakpoint);
+  for (const double breakpoint : step.motion.breakpoints()) piece(breakpoint);
   piece(step.to.t);
   probes_.evaluate(step, step.to.t, last_);
 }

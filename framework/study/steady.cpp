@@ -34,8 +34,7 @@ void SteadyWatch::step(const time::AcceptedStep& step) {
     Section& section = sections_[static_cast<std::size_t>(++taken_ % kKept)];
     section.x.resize(dynamics_.size());
     section.v.resize(dynamics_.size());
-    step.integrator.interpolate(step.from, step.to, t, dofs_,
-                                {{section.x.data(), dofs_.size()}, {section.v.data(), dofs_.size()}, {}});
+    step.motion.interpolate(t, dofs_, {{section.x.data(), dofs_.size()}, {section.v.data(), dofs_.size()}, {}});
     if (taken_ >= kKept && taken_ % kBetweenLooks == 0) look();
   }
 }

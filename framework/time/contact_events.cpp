@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "butee/core/error.hpp"
-#include "butee/time/integrator.hpp"
 
 namespace butee::time {
 namespace {
@@ -151,16 +150,16 @@ void ContactEvents::add_dofs(Index contact, std::vector<Index>& dofs) const {
       if (dof >= 0) dofs.push_back(dof);
 }
 
-void ContactEvents::sample(const Integrator& integrator, const State& from, const State& to, double t,
-                           const std::vector<Index>& dofs, Sample& at) {
+void ContactEvents::sample(const DenseOutput& motion, double t, const std::vector<Index>& dofs, Sample& at) {
   at.t = t;
+  const State& to = motion.to();
   if (t >= to.t) {
     at.x = to.x;
     at.v = to.v;
   } else {
     const std::vector<Index>& used = sticks_.empty() ? dofs : all_;
     const std::span<double> x(values_x_.data(), used.size()), v(values_v_.data(), used.size());
-    integrator.trace(from, to, t, used, {x, v, {}});
+    motion.trace(t, used, {x, v, {}});
     for (std::size_t k = 0; k < used.size(); ++k) {
       at.x[used[k]] = x[k];
       at.v[used[k]] = v[k];
@@ -169,20 +168,20 @@ void ContactEvents::sample(const Integrator& integrator, const State& from, cons
   if (!sticks_.empty()) hold(at);
 }
 
-bool ContactEvents::is_near(Index contact, const State& from, const State& to) const {
+bool ContactEvents::is_near(Index contact, const DenseOutput& motion) const {
+  const State &from = motion.from(), &to = motion.to();
   const ContactPhase phase = obstacles_.phase(contact);
   if (phase.normal != ContactPhase::Normal::apart || obstacles_.group_of(contact).shape == nullptr) return true;
   return obstacles_.may_touch(contact, obstacles_.motion(contact, from.x, from.v),
                               obstacles_.motion(contact, to.x, to.v), to.t - from.t);
 }
 
-std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integrator, const State& from,
-                                                         const State& to) {
+std::optional<ContactEvents::Event> ContactEvents::first(const DenseOutput& motion) {
   sticks_ = obstacles_.rigid_sticks();
   watched_.clear();
   watched_dofs_.clear();
   for (Index i = 0; i < obstacles_.size(); ++i)
-    if (is_near(i, from, to)) {
+    if (is_near(i, motion)) {
       watched_.push_back(i);
       add_dofs(i, watched_dofs_);
     }
@@ -190,9 +189,10 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
   // One DOF may belong to several contacts.
   std::sort(watched_dofs_.begin(), watched_dofs_.end());
   watched_dofs_.erase(std::unique(watched_dofs_.begin(), watched_dofs_.end()), watched_dofs_.end());
+  const State &from = motion.from(), &to = motion.to();
   const double h = to.t - from.t;
   // Methods with breakpoints within a step take longer steps.
-  const int looks = kSamples * integrator.trace_parts(from, to);
+  const int looks = kSamples * motion.trace_parts();
   const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
   // A dip between samples is detected by a lowest value.
@@ -208,7 +208,7 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
       place(now_, from.t, from.x, from.v);
       hold(now_);
     } else {
-      sample(integrator, from, to, t, watched_dofs_, now_);
+      sample(motion, t, watched_dofs_, now_);
     }
     std::optional<Event> earliest;
     const auto take = [&earliest](const Event& event) {
@@ -223,17 +223,17 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
         const Look now{t, present[which].value};
         // At its start a step may be leaving the event at which the last one ended.
         if (now.value < 0.0 && k >= 0) {
-          take(refine(integrator, from, to, {t, i, which}, last, now.value));
+          take(refine(motion, {t, i, which}, last, now.value));
         } else if (k >= 1 && second.value >= 0.0 && second.value <= now.value &&
                    first.value - second.value > kRounding * second.value) {
           const auto at = [&](double instant) {
             own_dofs_.clear();
             add_dofs(i, own_dofs_);
-            sample(integrator, from, to, instant, own_dofs_, work_);
+            sample(motion, instant, own_dofs_, work_);
             return value(i, which, work_);
           };
           if (const auto dip = below_zero({first, second, now}, at))
-            take(refine(integrator, from, to, {dip->first.t, i, which}, dip->second.t, dip->first.value));
+            take(refine(motion, {dip->first.t, i, which}, dip->second.t, dip->first.value));
         }
         first = second;
         second = now;
@@ -245,17 +245,16 @@ std::optional<ContactEvents::Event> ContactEvents::first(const Integrator& integ
   return std::nullopt;
 }
 
-ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const State& from, const State& to,
-                                           Event event, double begin, double value) {
+ContactEvents::Event ContactEvents::refine(const DenseOutput& motion, Event event, double begin, double value) {
   own_dofs_.clear();
   add_dofs(event.contact, own_dofs_);
   const auto at = [&](double t) {
-    sample(integrator, from, to, t, own_dofs_, work_);
+    sample(motion, t, own_dofs_, work_);
     return this->value(event.contact, event.which, work_);
   };
   // The Illinois variant of the false position method, which keeps a bracket; bisection if it
   // converges too slowly.
-  const double precision = 1e-15 * std::abs(to.t);
+  const double precision = 1e-15 * std::abs(motion.to().t);
   double end = event.t, at_end = value, at_begin = at(begin);
   if (at_begin < 0.0) at_begin = 0.0;
   double width = end - begin;
@@ -287,12 +286,13 @@ ContactEvents::Event ContactEvents::refine(const Integrator& integrator, const S
   return event;
 }
 
-double ContactEvents::miss(const Integrator& integrator, const Event& event, const State& from, const State& to) {
-  const double ahead = 1e-3 * (to.t - from.t);
+double ContactEvents::miss(const Event& event, const DenseOutput& motion) {
+  const State& to = motion.to();
+  const double ahead = 1e-3 * (to.t - motion.from().t);
   own_dofs_.clear();
   add_dofs(event.contact, own_dofs_);
-  sample(integrator, from, to, to.t, own_dofs_, now_);
-  sample(integrator, from, to, to.t - ahead, own_dofs_, work_);
+  sample(motion, to.t, own_dofs_, now_);
+  sample(motion, to.t - ahead, own_dofs_, work_);
   const double at_end = value(event.contact, event.which, now_), before = value(event.contact, event.which, work_);
   const double slope = (before - at_end) / ahead;
   return slope != 0.0 ? -at_end / slope : 0.0;

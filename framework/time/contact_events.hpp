@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "butee/dynamics/dynamics.hpp"
+#include "butee/time/dense_output.hpp"
 #include "butee/time/dip.hpp"
-#include "butee/time/state.hpp"
 
 namespace butee::time {
-
-class Integrator;
 
 /// Locates the changes of phase of contacts on a method's dense output.
 ///
@@ -44,10 +42,10 @@ class BUTEE_EXPORT ContactEvents {
     std::size_t which;  ///< index of the switching function of the contact
   };
   /// The first change within a step, on the dense output of a method.
-  std::optional<Event> first(const Integrator& integrator, const State& from, const State& to);
+  std::optional<Event> first(const DenseOutput& motion);
   /// How far the end of a step lies beyond the event, s, estimated with the slope of the switching
   /// function there.
-  double miss(const Integrator& integrator, const Event& event, const State& from, const State& to);
+  double miss(const Event& event, const DenseOutput& motion);
   /// Marks in `to` the contact whose phase ends with the step.
   void mark(const Event& event, State& to);
 
@@ -60,8 +58,7 @@ class BUTEE_EXPORT ContactEvents {
     Vector held;  ///< forces that hold the rigid sticks, N
   };
   /// Evaluates the motion of `dofs` at `t`, or of all DOFs if contacts stick rigidly.
-  void sample(const Integrator& integrator, const State& from, const State& to, double t,
-              const std::vector<Index>& dofs, Sample& at);
+  void sample(const DenseOutput& motion, double t, const std::vector<Index>& dofs, Sample& at);
   /// Appends the DOFs of a contact.
   void add_dofs(Index contact, std::vector<Index>& dofs) const;
   static void place(Sample& at, double t, const Vector& x, const Vector& v);
@@ -69,12 +66,11 @@ class BUTEE_EXPORT ContactEvents {
   std::size_t switches(Index contact, const Sample& at);
   double value(Index contact, std::size_t which, const Sample& at);
   /// False if the motion over the step cannot bring the contact to a change of phase.
-  bool is_near(Index contact, const State& from, const State& to) const;
+  bool is_near(Index contact, const DenseOutput& motion) const;
   void enter(Index contact, const dynamics::ContactPhase& next, State& state);
   /// Narrows [begin, event.t] to the root of the event's switching function; `value` is its value
   /// at event.t.
-  Event refine(const Integrator& integrator, const State& from, const State& to, Event event, double begin,
-               double value);
+  Event refine(const DenseOutput& motion, Event event, double begin, double value);
 
   dynamics::Dynamics& dynamics_;
   dynamics::Obstacles& obstacles_;

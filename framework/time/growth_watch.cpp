@@ -54,7 +54,8 @@ GrowthWatch::GrowthWatch(dynamics::Dynamics& dynamics, const MethodLimits& limit
     : dynamics_(dynamics),
       limits_(limits),
       has_fixed_steps_(integrator.controller() == nullptr),
-      may_be_coarse_(has_fixed_steps_ || (!limits.keeps_tolerance && !integrator.handles_load_discontinuities())),
+      may_be_coarse_(has_fixed_steps_ ||
+                     (!limits.keeps_tolerance && !integrator.traits().handles_load_discontinuities)),
       is_watching_((limits.is_bounded() || dynamics.stop_count() > 0) && !is_driven(dynamics)),
       too_much_(!has_fixed_steps_ && !limits.keeps_tolerance && limits.is_bounded() ? kTooMuchUnseen : kTooMuch) {}
 

@@ -7,12 +7,6 @@
 namespace butee::time {
 namespace {
 
-/// The cubic through (y0, d0) at s = 0 and (y1, d1) at s = 1, slopes with respect to t.
-double hermite(double s, double h, double y0, double d0, double y1, double d1) {
-  const double r = 1.0 - s;
-  return r * r * ((1.0 + 2.0 * s) * y0 + s * h * d0) + s * s * ((3.0 - 2.0 * s) * y1 - r * h * d1);
-}
-
 /// A finite sum has finite terms; the terms are checked one by one only if it is not finite.
 bool is_finite(const State& state) {
   if (state.x.size() == 1) return std::isfinite(state.x[0]) && std::isfinite(state.v[0]) && std::isfinite(state.a[0]);
@@ -29,7 +23,7 @@ void Integrator::start(State& state) {
 void Integrator::start(State& state, ConstVectorRef contact_memory) {
   require(state.x.size() == dynamics_.size() && state.v.size() == dynamics_.size(), "a state of another size");
   state.a.resize(state.x.size());
-  if (dynamics_.obstacles() != nullptr && follows_contact_phases()) {
+  if (dynamics_.obstacles() != nullptr && traits().follows_contact_phases) {
     if (!events_) events_ = std::make_unique<ContactEvents>(dynamics_);
     events_->start(state, contact_memory);
   } else {
@@ -65,7 +59,7 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
 void Integrator::end_at_event(const State& from, const Step& step, State& to, StepReport& report) {
   constexpr int kMostTrials = 6;
   constexpr double kLeast = 1e-10;
-  const double good = event_precision();
+  const double good = traits().event_precision;
   const auto is_accepted = [&] { return controller() == nullptr || controller()->decide(step.h, report).accept; };
   const double wanted = report.proposal;
   const auto redo = [&](double t_end) {
@@ -80,12 +74,12 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     return report.status == StepStatus::ok && is_finite(to);
   };
   for (int trial = 0; trial < kMostTrials && is_accepted(); ++trial) {
-    auto event = events_->first(*this, from, to);
+    auto event = events_->first(dense_output(from, to));
     if (!event) return;
     const double h = to.t - from.t;
     if (!redo(std::min(std::max(event->t, from.t + kLeast * step.h), to.t))) return;
     for (int k = 0; k < 3 && is_accepted(); ++k) {
-      const double miss = events_->miss(*this, *event, from, to);
+      const double miss = events_->miss(*event, dense_output(from, to));
       if (std::abs(miss) <= good * h || std::abs(miss) > 0.1 * (to.t - from.t)) break;
       const double t_end = to.t - miss;
       if (t_end < from.t + kLeast * step.h || t_end > step.t_end || t_end == to.t) break;
@@ -93,7 +87,7 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     }
     events_->mark(*event, to);
     // Another contact may change earlier; the end of the step is then not an event of this contact.
-    const auto before = events_->first(*this, from, to);
+    const auto before = events_->first(dense_output(from, to));
     if (!before || to.t - before->t <= std::max(1e-6, good) * h) return;
     to.contact = from.contact;
   }
@@ -101,34 +95,6 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
 
 Integrator::~Integrator() = default;
 
-void Integrator::interpolate(const State& from, const State& to, std::span<const double> times,
-                             std::span<const Index> dofs, Interpolated out) const {
-  if (times.empty()) return;
-  require(to.t > from.t && times.front() >= from.t && times.back() <= to.t, "interpolation within a step");
-  do_interpolate_all(from, to, times, dofs, out);
-}
-
 void Integrator::do_start(State&) {}
-
-void Integrator::do_interpolate_all(const State& from, const State& to, std::span<const double> times,
-                                    std::span<const Index> dofs, Interpolated out) const {
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto row = [&](std::span<double> all) {
-      return all.empty() ? all : all.subspan(i * dofs.size(), dofs.size());
-    };
-    do_interpolate(from, to, times[i], dofs, {row(out.x), row(out.v), row(out.a)});
-  }
-}
-
-void Integrator::do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
-                                Interpolated out) const {
-  const double h = to.t - from.t, s = (t - from.t) / h;
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const Index d = dofs[i];
-    if (!out.x.empty()) out.x[i] = hermite(s, h, from.x[d], from.v[d], to.x[d], to.v[d]);
-    if (!out.v.empty()) out.v[i] = hermite(s, h, from.v[d], from.a[d], to.v[d], to.a[d]);
-    if (!out.a.empty()) out.a[i] = (1.0 - s) * from.a[d] + s * to.a[d];
-  }
-}
 
 }  // namespace butee::time

@@ -3,37 +3,36 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "butee/config/parameters.hpp"
 #include "butee/dynamics/dynamics.hpp"
 #include "butee/time/contact_events.hpp"
+#include "butee/time/dense_output.hpp"
 #include "butee/time/state.hpp"
 #include "butee/time/step_controller.hpp"
 
 namespace butee::time {
 
-/// Output arrays of interpolate(): one entry for each DOF asked for, instant by instant. An empty
-/// span is not computed.
-struct Interpolated {
-  std::span<double> x, v, a;
-};
-
-/// Energies at an instant, J; work and dissipation are counted from the beginning of the step.
-struct EnergyAt {
-  double t = 0.0;  ///< s
-  double kinetic = 0.0, strain = 0.0, contact = 0.0;
-  double work = 0.0, dissipated = 0.0;
-};
-
-/// The dense output of a method between two neighbouring breakpoints of a step.
-enum class DenseOutput {
-  cubic,         ///< x: cubic through x and v at both ends; v: cubic through v and a; a: linear
-  quintic,       ///< x: quintic through x, v and a at both ends, or the cubic through x and v; v and a its derivatives
-  near_quintic,  ///< close to that quintic: v differs by at most 1/200 of its largest value
-  other          ///< any smooth motion; departure() bounds it
+/// Properties of a method for a system, constant from its construction on.
+struct Traits {
+  /// The method handles the instants itself at which a load or its derivative jumps. Steps of all
+  /// other adaptive methods end there, since a load shorter than a step could be missed.
+  bool handles_load_discontinuities = false;
+  /// Steps of the method may end at changes of phase of contacts (ContactEvents), between which it
+  /// integrates. Otherwise the contact forces depend on the motion at each instant alone, and laws
+  /// with memory are refused.
+  bool follows_contact_phases = false;
+  /// Steps should end at the output instants that observers ask for, since the method can take any
+  /// step length.
+  bool lands_on_outputs = false;
+  /// The largest error of a located change of phase, as a fraction of the step, for methods that
+  /// follow phases.
+  double event_precision = 1e-12;
+  /// The largest stable h omega, if the parameters make it smaller than the limit that the
+  /// IntegratorType declares.
+  double stability_limit = std::numeric_limits<double>::infinity();
 };
 
 /// A time integration method: advances a State over a Step.
@@ -65,13 +64,8 @@ class BUTEE_EXPORT Integrator {
   /// ok.
   StepReport step(const State& from, const Step& step, State& to);
 
-  /// The motion of `dofs` at `t` in [from.t, to.t] of an accepted step.
-  void interpolate(const State& from, const State& to, double t, std::span<const Index> dofs, Interpolated out) const {
-    interpolate(from, to, {&t, 1}, dofs, out);
-  }
-  /// The same at several instants, ascending.
-  void interpolate(const State& from, const State& to, std::span<const double> times, std::span<const Index> dofs,
-                   Interpolated out) const;
+  /// The motion within an accepted step; valid as long as both states and this object.
+  DenseOutput dense_output(const State& from, const State& to) { return {interpolant(), from, to}; }
 
   /// Why `auto` chose this method: "exponential, tolerance 1e-4: ..."; empty if the scene names the
   /// method.
@@ -88,66 +82,7 @@ class BUTEE_EXPORT Integrator {
     return 0.0;
   }
 
-  /// The largest stable h omega, if the parameters make it smaller than the limit that the
-  /// IntegratorType declares.
-  virtual double stability_limit() const { return std::numeric_limits<double>::infinity(); }
-
-  /// The energies at the first breakpoints of an accepted step at or after each of `instants`
-  /// (ascending), and at its end, if the method can compute them for less than the motion of all
-  /// DOFs would cost; else empty. Valid until the next call.
-  virtual std::span<const EnergyAt> energies(const State& from, const State& to,
-                                             std::span<const double> instants) const {
-    (void)from, (void)to, (void)instants;
-    return {};
-  }
-
-  /// True if the method handles the instants itself at which a load or its derivative jumps. Steps
-  /// of all other adaptive methods end there, since a load shorter than a step could be missed.
-  virtual bool handles_load_discontinuities() const { return false; }
-
-  /// True if steps of the method may end at changes of phase of contacts (ContactEvents), between
-  /// which it integrates. Otherwise the contact forces depend on the motion at each instant alone,
-  /// and laws with memory are refused.
-  virtual bool follows_contact_phases() const { return false; }
-
-  /// The largest error of a located change of phase, as a fraction of the step, for methods that
-  /// follow phases.
-  virtual double event_precision() const { return 1e-12; }
-
-  /// The motion of `dofs` within the last computed step, for the detection of changes of contact:
-  /// the result of interpolate() or, if much cheaper, a polynomial as accurate as the method's own
-  /// representation of its contacts.
-  void trace(const State& from, const State& to, double t, std::span<const Index> dofs, Interpolated out) const {
-    do_trace(from, to, t, dofs, out);
-  }
-
-  /// The number of parts of a step that the detection of contact changes examines one by one: the
-  /// parts between breakpoints, unless trace() is smoother.
-  virtual int trace_parts(const State& from, const State& to) const {
-    return static_cast<int>(1 + breakpoints(from, to).size());
-  }
-
-  /// True if steps should end at the output instants that observers ask for, since the method can
-  /// take any step length.
-  virtual bool lands_on_outputs() const { return false; }
-
-  /// The instants, ascending and strictly within an accepted step, between which the method took
-  /// internal steps. The dense output is smooth between them.
-  virtual std::span<const double> breakpoints(const State& from, const State& to) const {
-    (void)from, (void)to;
-    return {};
-  }
-
-  /// The kind of motion that interpolate() gives, for the search for extremes.
-  virtual DenseOutput dense_output() const { return DenseOutput::cubic; }
-
-  /// For DenseOutput::other only: for each DOF, bounds on how far x, v and a depart from the
-  /// quintic through x, v and a at both instants, and its derivatives, between two instants of an
-  /// accepted step with no breakpoint between them.
-  virtual void departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
-                         Interpolated out) const {
-    (void)from, (void)to, (void)begin, (void)end, (void)dofs, (void)out;
-  }
+  virtual Traits traits() const { return {}; }
 
  protected:
   dynamics::Dynamics& dynamics() const { return dynamics_; }
@@ -155,22 +90,14 @@ class BUTEE_EXPORT Integrator {
  private:
   virtual void do_start(State& state);
   virtual StepReport do_step(const State& from, const Step& step, State& to) = 0;
-  /// Default: cubic Hermite for x from (x, v) and for v from (v, a), linear for a.
-  virtual void do_interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
-                              Interpolated out) const;
-  /// Default: one instant after the other. Override if several instants share work.
-  virtual void do_interpolate_all(const State& from, const State& to, std::span<const double> times,
-                                  std::span<const Index> dofs, Interpolated out) const;
-
-  virtual void do_trace(const State& from, const State& to, double t, std::span<const Index> dofs,
-                        Interpolated out) const {
-    interpolate(from, to, t, dofs, out);
-  }
+  /// The method's dense output; default: cubic interpolation.
+  virtual Interpolant& interpolant() { return cubic_; }
 
   /// Cuts an accepted step at the first change of phase within it.
   void end_at_event(const State& from, const Step& step, State& to, StepReport& report);
 
   dynamics::Dynamics& dynamics_;
+  Interpolant cubic_;
   std::unique_ptr<ContactEvents> events_;  ///< null unless the method follows phases of contacts
   std::string choice_;
 };

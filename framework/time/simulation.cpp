@@ -33,7 +33,7 @@ constexpr Index kLarge = 64;
 using Clock = std::chrono::steady_clock;
 
 MethodLimits narrowed(MethodLimits limits, const Integrator& integrator) {
-  limits.stability = std::min(limits.stability, integrator.stability_limit());
+  limits.stability = std::min(limits.stability, integrator.traits().stability_limit);
   return limits;
 }
 
@@ -42,6 +42,7 @@ MethodLimits narrowed(MethodLimits limits, const Integrator& integrator) {
 Simulation::Simulation(dynamics::Dynamics& dynamics, Integrator& integrator, SimulationOptions options)
     : dynamics_(dynamics),
       integrator_(integrator),
+      traits_(integrator.traits()),
       controller_(integrator.controller()),
       options_{options.time_step, options.end_time, narrowed(options.limits, integrator)},
       growth_(dynamics, options_.limits, integrator),
@@ -53,7 +54,7 @@ Simulation::Simulation(dynamics::Dynamics& dynamics, Integrator& integrator, Sim
   state_.t = report_.t_end = origin_ = stall_t_ = dynamics.system().initial_time;
   state_.x = dynamics.system().initial_displacement;
   state_.v = dynamics.system().initial_velocity;
-  if (controller_ != nullptr && !integrator.handles_load_discontinuities())
+  if (controller_ != nullptr && !traits_.handles_load_discontinuities)
     discontinuities_ = dynamics.load_discontinuities();
 }
 
@@ -61,7 +62,7 @@ Step Simulation::propose() const {
   const double end = options_.end_time;
   if (controller_ != nullptr) {
     double landing = std::min(next_discontinuity(), end);
-    if (integrator_.lands_on_outputs()) landing = std::min(landing, next_landing());
+    if (traits_.lands_on_outputs) landing = std::min(landing, next_landing());
     if (state_.t + next_h_ >= landing) return {landing - state_.t, landing, watched_};
     return {next_h_, state_.t + next_h_, watched_};
   }
@@ -102,7 +103,7 @@ void Simulation::start() {
   if (started_) return;
   started_ = true;
   integrator_.start(state_, contact_memory_);
-  const double own = next_h_ == 0.0 || integrator_.lands_on_outputs() ? integrator_.first_step(state_) : 0.0;
+  const double own = next_h_ == 0.0 || traits_.lands_on_outputs ? integrator_.first_step(state_) : 0.0;
   if (next_h_ == 0.0 || std::isinf(own)) next_h_ = own;
   require(next_h_ > 0.0, "a method without a first step of its own has a time_step");
   for (Observer* observer : observers_) observer->start(state_);
@@ -206,7 +207,9 @@ void Simulation::accept(const Step& step, const StepReport& result) {
   report_.steps += result.inner_steps;
   report_.t_end = next_.t;
   const double h = (next_.t < step.t_end ? next_.t - state_.t : step.h) / result.inner_steps;
-  for (Observer* observer : observers_) observer->step({state_, next_, h, integrator_});
+  const AcceptedStep accepted{state_, next_, h, integrator_.dense_output(state_, next_),
+                              traits_.event_precision * (next_.t - state_.t)};
+  for (Observer* observer : observers_) observer->step(accepted);
   std::swap(state_, next_);
   const bool is_last = !(state_.t < options_.end_time);
   if (growth_.step(next_, state_, h, is_last)) {

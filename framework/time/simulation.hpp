@@ -19,7 +19,8 @@ struct AcceptedStep {
   const State& from;
   const State& to;
   double h;  ///< s
-  const Integrator& integrator;
+  DenseOutput motion;
+  double event_error;  ///< s, largest error of a change of contact located at the end
 };
 
 /// Watches a run.
@@ -149,6 +150,7 @@ class BUTEE_EXPORT Simulation {
 
   dynamics::Dynamics& dynamics_;
   Integrator& integrator_;
+  const Traits traits_;               ///< of the integrator
   const StepController* controller_;  ///< of the integrator; null for fixed steps
   SimulationOptions options_;
   std::vector<Observer*> observers_;

@@ -48,7 +48,7 @@ class NodeTraces {
 
 /// The motion within the steps of ModalCollocation: outputs, traces of contacts, and breakpoints
 /// between which a quintic approximates it.
-class CollocationOutputs {
+class CollocationOutputs final : public time::Interpolant {
  public:
   /// `memory_begin` is the offset of z and the force polynomials in State::memory. All must outlive
   /// it.
@@ -60,15 +60,16 @@ class CollocationOutputs {
   /// Discards the current step.
   void reset();
 
-  /// The motion at an instant of any accepted step.
+  time::Interpolation interpolation() const override { return time::Interpolation::near_quintic; }
   void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                   time::Interpolated out);
+                   time::Interpolated out) override;
   /// x and v at an instant, by the polynomial through the nodes of the step that was accepted last.
   void trace(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-             time::Interpolated out);
+             time::Interpolated out) override;
+  int trace_parts(const time::State&, const time::State&) override { return StepNodes::kCount - 1; }
   /// The nodes of the step and, if modes or loads rotate fast between them, instants that limit the
   /// angle from one breakpoint to the next.
-  std::span<const double> breakpoints(const time::State& from, const time::State& to);
+  std::span<const double> breakpoints(const time::State& from, const time::State& to) override;
   /// The longest step, s, whose number of breakpoints stays within its limit, if the fastest motion
   /// is as fast as in this step.
   double longest(const time::State& from, const time::State& to) const;

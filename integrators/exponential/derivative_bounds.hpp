@@ -19,7 +19,7 @@ class DerivativeBounds {
 
   /// Starts a new macro step.
   void begin() { known_ = kNone; }
-  /// time::Integrator::departure()
+  /// time::Interpolant::departure()
   void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out);
 
  private:

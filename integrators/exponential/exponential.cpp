@@ -127,7 +127,7 @@ StepReport Exponential<Step>::do_step(const State& from, const time::Step& step,
 }
 
 template <class Step>
-StepReport Exponential<Step>::follow(const State& from, double end, int most, double until) const {
+StepReport Exponential<Step>::follow(const State& from, double end, int most, double until) {
   const auto extras = from.memory.tail(kExtras);
   begin_t_ = from.t;
   end_t_ = std::numeric_limits<double>::quiet_NaN();
@@ -144,7 +144,7 @@ StepReport Exponential<Step>::follow(const State& from, double end, int most, do
 }
 
 template <class Step>
-bool Exponential<Step>::advance(double end, StepReport& report) const {
+bool Exponential<Step>::advance(double end, StepReport& report) {
   const double t = step_.t(), jump = next_load_discontinuity(t), last = std::min(end, jump);
   int index = sizes_.next_index();
   // A step without contact ends before the next contact, since a longer attempt would be rejected.
@@ -194,33 +194,33 @@ bool Exponential<Step>::holds(const State& from, double t_end) const {
 }
 
 template <class Step>
-std::span<const double> Exponential<Step>::breakpoints(const State& from, const State& to) const {
+std::span<const double> Exponential<Step>::breakpoints(const State& from, const State& to) {
   return recall(from, to).breakpoints();
 }
 
 template <class Step>
-Step& Exponential<Step>::recall(const State& from, const State& to) const {
+Step& Exponential<Step>::recall(const State& from, const State& to) {
   if (!holds(from, to.t)) follow(from, to.memory.tail(1)[0], kMacroStep, to.t);
   return step_;
 }
 
 template <class Step>
 std::span<const time::EnergyAt> Exponential<Step>::energies(const State& from, const State& to,
-                                                            std::span<const double> instants) const {
+                                                            std::span<const double> instants) {
   return recall(from, to).energies(instants);
 }
 
 template <class Step>
 void Exponential<Step>::departure(const State& from, const State& to, double begin, double end,
-                                  std::span<const Index> dofs, time::Interpolated out) const {
+                                  std::span<const Index> dofs, time::Interpolated out) {
   if constexpr (std::is_same_v<Step, ExponentialStep>) {
     if (!step_.has_stops()) recall(from, to).departure(begin, end, dofs, out);
   }
 }
 
 template <class Step>
-void Exponential<Step>::do_interpolate_all(const State& from, const State& to, std::span<const double> times,
-                                           std::span<const Index> dofs, time::Interpolated out) const {
+void Exponential<Step>::interpolate_all(const State& from, const State& to, std::span<const double> times,
+                                        std::span<const Index> dofs, time::Interpolated out) {
   std::size_t first = 0, last = times.size();
   const auto copy = [&](const State& end, std::size_t instant) {
     for (std::size_t i = 0, place = instant * dofs.size(); i < dofs.size(); ++i, ++place) {

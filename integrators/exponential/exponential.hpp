@@ -40,22 +40,15 @@ struct ExponentialOptions {
 /// `Step` performs the steps: ExponentialStep for any system, SingleStep for one DOF with one stop,
 /// with the same arithmetic in scalars. make_exponential() selects it.
 template <class Step>
-class Exponential final : public time::Integrator {
+class Exponential final : public time::Integrator, private time::Interpolant {
  public:
   Exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options);
 
-  bool handles_load_discontinuities() const override { return true; }
+  time::Traits traits() const override {
+    return {.handles_load_discontinuities = true, .lands_on_outputs = !step_.has_stops()};
+  }
   const time::StepController* controller() const override { return &controller_; }
   double first_step(const time::State& state) const override;
-  bool lands_on_outputs() const override { return !step_.has_stops(); }
-  std::span<const double> breakpoints(const time::State& from, const time::State& to) const override;
-  std::span<const time::EnergyAt> energies(const time::State& from, const time::State& to,
-                                           std::span<const double> instants) const override;
-  time::DenseOutput dense_output() const override {
-    return step_.has_stops() ? time::DenseOutput::near_quintic : time::DenseOutput::other;
-  }
-  void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
-                 time::Interpolated out) const override;
 
  private:
   class Controller final : public time::StepController {
@@ -65,31 +58,45 @@ class Exponential final : public time::Integrator {
 
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  void do_interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
-                          std::span<const Index> dofs, time::Interpolated out) const override;
+  time::Interpolant& interpolant() override { return *this; }
+
+  time::Interpolation interpolation() const override {
+    return step_.has_stops() ? time::Interpolation::near_quintic : time::Interpolation::other;
+  }
+  std::span<const double> breakpoints(const time::State& from, const time::State& to) override;
+  void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                   time::Interpolated out) override {
+    interpolate_all(from, to, {&t, 1}, dofs, out);
+  }
+  void interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
+                       std::span<const Index> dofs, time::Interpolated out) override;
+  std::span<const time::EnergyAt> energies(const time::State& from, const time::State& to,
+                                           std::span<const double> instants) override;
+  void departure(const time::State& from, const time::State& to, double begin, double end, std::span<const Index> dofs,
+                 time::Interpolated out) override;
 
   /// Takes up to `most` steps from `from` towards `end` and records their breakpoints; no step
   /// begins at or after `until`.
-  time::StepReport follow(const time::State& from, double end, int most, double until) const;
+  time::StepReport follow(const time::State& from, double end, int most, double until);
   /// Takes one step that ends at `end` at the latest; false if none fits or none succeeds.
-  bool advance(double end, time::StepReport& report) const;
+  bool advance(double end, time::StepReport& report);
   double next_load_discontinuity(double t) const;
   int first_index() const;
   /// True if the cache holds this macro step.
   bool holds(const time::State& from, double t_end) const;
   /// The steps of a macro step; they are repeated if the cache holds another one.
-  Step& recall(const time::State& from, const time::State& to) const;
+  Step& recall(const time::State& from, const time::State& to);
 
   ExponentialOptions options_;
   Controller controller_;
   dynamics::ModalSystem& modal_;
   std::vector<double> load_kinks_;
 
-  // Cache of the last macro step; dense output refills it for another one. Not thread-safe.
-  mutable Step step_;
-  mutable StepSizeControl sizes_;
-  mutable double begin_t_ = 0.0, end_t_ = -1.0;
-  mutable Vector begin_memory_;
+  // Cache of the last macro step; dense output refills it for another one.
+  Step step_;
+  StepSizeControl sizes_;
+  double begin_t_ = 0.0, end_t_ = -1.0;
+  Vector begin_memory_;
 };
 
 /// The smallest tolerance for scenes with elastic stops. Below it the errors of hundreds of impacts

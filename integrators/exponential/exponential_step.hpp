@@ -53,12 +53,12 @@ class ExponentialStep {
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
     record_.interpolate(times, dofs, out);
   }
-  /// time::Integrator::energies() of the macro step; empty without stops, since steps then have any
+  /// time::Interpolant::energies() of the macro step; empty without stops, since steps then have any
   /// length.
   std::span<const time::EnergyAt> energies(std::span<const double> instants) {
     return has_stops() ? record_.energies(instants) : std::span<const time::EnergyAt>();
   }
-  /// Without stops: time::Integrator::departure()
+  /// Without stops: time::Interpolant::departure()
   void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
     record_.departure(begin, end, dofs, out);
   }

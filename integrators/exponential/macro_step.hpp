@@ -25,9 +25,9 @@ class MacroStep {
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
     output_.interpolate(times, dofs, out);
   }
-  /// time::Integrator::energies()
+  /// time::Interpolant::energies()
   std::span<const time::EnergyAt> energies(std::span<const double> instants);
-  /// Without stops: time::Integrator::departure()
+  /// Without stops: time::Interpolant::departure()
   void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
     bounds_.departure(begin, end, dofs, out);
   }

@@ -27,25 +27,14 @@ class ModalCollocation final : public time::Integrator {
 
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State& state) const override;
-  bool follows_contact_phases() const override { return true; }
-  double event_precision() const override { return std::min(1e-7, 1e-4 * tolerance_); }
-  time::DenseOutput dense_output() const override { return time::DenseOutput::near_quintic; }
-  std::span<const double> breakpoints(const time::State& from, const time::State& to) const override {
-    return outputs_.breakpoints(from, to);
+  time::Traits traits() const override {
+    return {.follows_contact_phases = true, .event_precision = std::min(1e-7, 1e-4 * tolerance_)};
   }
-  int trace_parts(const time::State&, const time::State&) const override { return StepNodes::kCount - 1; }
 
  private:
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  void do_interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                      time::Interpolated out) const override {
-    outputs_.interpolate(from, to, t, dofs, out);
-  }
-  void do_trace(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
-                time::Interpolated out) const override {
-    outputs_.trace(from, to, t, dofs, out);
-  }
+  time::Interpolant& interpolant() override { return outputs_; }
 
   /// The response over a step of length h, computed at its first use.
   const StepResponse& response(double h);
@@ -67,7 +56,7 @@ class ModalCollocation final : public time::Integrator {
   std::list<StepResponse> responses_;
   double step_begin_ = 0.0, step_end_ = -1.0;  ///< the step that forces_ holds, s
   double solved_end_ = -1.0;                   ///< end of the step for which its forces were computed, s
-  mutable CollocationOutputs outputs_;
+  CollocationOutputs outputs_;
 };
 
 }  // namespace butee::integrators

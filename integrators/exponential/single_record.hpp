@@ -31,7 +31,7 @@ class SingleRecord {
 
   /// `scale`: the largest displacement and speed so far.
   void interpolate(std::span<const double> times, ContactScale scale, time::Interpolated out);
-  /// time::Integrator::energies()
+  /// time::Interpolant::energies()
   std::span<const time::EnergyAt> energies(std::span<const double> instants);
 
  private:

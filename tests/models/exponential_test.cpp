@@ -118,13 +118,13 @@ TEST(Exponential, InterpolatesAnEarlierBlockAsItDidThen) {
   class Keeper final : public time::Observer {
    public:
     void start(const time::State&) override {}
-    void step(const time::AcceptedStep& step) override { blocks.push_back({step.from, step.to, inside(step)}); }
-    static double inside(const time::AcceptedStep& step) { return course(step.integrator, step.from, step.to); }
-    static double course(const time::Integrator& integrator, const time::State& from, const time::State& to) {
-      const std::vector<double> times = {from.t + 0.37 * (to.t - from.t), from.t + 0.99 * (to.t - from.t)};
+    void step(const time::AcceptedStep& step) override { blocks.push_back({step.from, step.to, inside(step.motion)}); }
+    static double inside(const time::DenseOutput& motion) {
+      const double begin = motion.from().t, h = motion.to().t - begin;
+      const std::vector<double> times = {begin + 0.37 * h, begin + 0.99 * h};
       const std::vector<Index> dofs = {0};
       std::vector<double> x(2);
-      integrator.interpolate(from, to, times, dofs, {x, {}, {}});
+      motion.interpolate(times, dofs, {x, {}, {}});
       return x[0] + 3.0 * x[1];
     }
     struct Block {
@@ -142,7 +142,8 @@ TEST(Exponential, InterpolatesAnEarlierBlockAsItDidThen) {
       ASSERT_TRUE(scene.run().completed);
       EXPECT_GE(keeper.blocks.size(), 2U);
       for (const Keeper::Block& block : keeper.blocks)
-        EXPECT_EQ(Keeper::course(scene.integrator(), block.from, block.to), block.inside) << model << block.from.t;
+        EXPECT_EQ(Keeper::inside(scene.integrator().dense_output(block.from, block.to)), block.inside)
+            << model << block.from.t;
     }
 }
 

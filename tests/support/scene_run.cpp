@@ -93,7 +93,7 @@ void Sampler::step(const time::AcceptedStep& step) {
   while (x.size() < times_.size() && times_[x.size()] <= step.to.t + slack) {
     const double t = std::min(times_[x.size()], step.to.t);
     double xi = 0.0, vi = 0.0;
-    step.integrator.interpolate(step.from, step.to, t, {&dof_, 1}, {{&xi, 1}, {&vi, 1}, {}});
+    step.motion.interpolate(t, {&dof_, 1}, {{&xi, 1}, {&vi, 1}, {}});
     x.push_back(xi);
     v.push_back(vi);
   }

@@ -34,7 +34,7 @@ class Recorder final : public time::Observer {
   void step(const time::AcceptedStep& step) override {
     for (; row_ < kRows && instant() <= step.to.t; ++row_) {
       std::vector<double> x(dofs_.size()), v(dofs_.size());
-      step.integrator.interpolate(step.from, step.to, instant(), dofs_, {x, v, {}});
+      step.motion.interpolate(instant(), dofs_, {x, v, {}});
       motion.x.col(row_) = Eigen::Map<const Vector>(x.data(), motion.x.rows());
       motion.v.col(row_) = Eigen::Map<const Vector>(v.data(), motion.v.rows());
     }

@@ -17,7 +17,7 @@ class TurningPoints final : public time::Observer {
     double low = step.from.t, high = step.to.t, xi = 0.0, vi = 0.0;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
-      step.integrator.interpolate(step.from, step.to, middle, {&dof_, 1}, {{&xi, 1}, {&vi, 1}, {}});
+      step.motion.interpolate(middle, {&dof_, 1}, {{&xi, 1}, {&vi, 1}, {}});
       (vi > 0.0 ? low : high) = middle;
     }
     t.push_back(high);

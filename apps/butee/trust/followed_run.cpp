@@ -71,8 +71,7 @@ class Follower final : public time::Observer {
       const auto span = [&](Eigen::MatrixXd& matrix) {
         return std::span<double>(matrix.col(column).data(), dofs_.size());
       };
-      step.integrator.interpolate(step.from, step.to, to_.state_times[next_state_], dofs_,
-                                  {span(to_.x), span(to_.v), {}});
+      step.motion.interpolate(to_.state_times[next_state_], dofs_, {span(to_.x), span(to_.v), {}});
       ++next_state_;
     }
   }

@@ -35,7 +35,7 @@ void TurningPoints::start(const time::State& state) {
 void TurningPoints::step(const time::AcceptedStep& step) {
   if (dofs_.empty()) return;
   double begin = step.from.t;
-  for (const double breakpoint : step.integrator.breakpoints(step.from, step.to)) {
+  for (const double breakpoint : step.motion.breakpoints()) {
     sample(step, begin, breakpoint);
     begin = breakpoint;
   }
@@ -51,7 +51,7 @@ void TurningPoints::sample(const time::AcceptedStep& step, double begin, double 
   times_.push_back(end);
   x_.resize(times_.size() * dofs_.size());
   v_.resize(times_.size() * dofs_.size());
-  step.integrator.interpolate(step.from, step.to, times_, dofs_, {x_, v_, {}});
+  step.motion.interpolate(times_, dofs_, {x_, v_, {}});
   for (Path& path : paths_) {
     Motion before = at(path, 0);
     for (std::size_t i = 1; i < times_.size(); ++i) {
@@ -110,7 +110,7 @@ TurningPoints::Motion TurningPoints::motion(const Path& path, const time::Accept
   for (const auto& [dof, sign] : {std::pair(path.a, 1.0), std::pair(path.b, -1.0)}) {
     if (dof < 0) continue;
     std::array<double, 1> x{}, v{};
-    step.integrator.interpolate(step.from, step.to, t, std::array{dof}, {x, v, {}});
+    step.motion.interpolate(t, std::array{dof}, {x, v, {}});
     motion.x += sign * x[0];
     motion.v += sign * v[0];
   }

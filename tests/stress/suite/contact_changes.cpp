@@ -13,7 +13,7 @@ constexpr int kPoints = 6;
 /// The start and the ends of the pieces of a step.
 std::vector<double> ends_of(const time::AcceptedStep& step) {
   std::vector<double> ends = {step.from.t};
-  const auto breakpoints = step.integrator.breakpoints(step.from, step.to);
+  const auto breakpoints = step.motion.breakpoints();
   ends.insert(ends.end(), breakpoints.begin(), breakpoints.end());
   ends.push_back(step.to.t);
   return ends;
@@ -76,7 +76,7 @@ void CourseWatch::step(const time::AcceptedStep& step) {
       times_.push_back(std::lerp(ends[piece], ends[piece + 1], static_cast<double>(k) / kPoints));
     x_.resize(all_.size() * times_.size());
     v_.resize(x_.size());
-    step.integrator.interpolate(step.from, step.to, times_, all_, {x_, v_, {}});
+    step.motion.interpolate(times_, all_, {x_, v_, {}});
     const Eigen::Map<const Eigen::MatrixXd> x(x_.data(), size, kPoints), v(v_.data(), size, kPoints);
     largest_x = largest_x.cwiseMax(x.cwiseAbs().rowwise().maxCoeff());
     largest_v = largest_v.cwiseMax(v.cwiseAbs().rowwise().maxCoeff());
@@ -91,8 +91,7 @@ std::pair<double, double> CourseWatch::motion_of(const time::AcceptedStep& step,
   if (contact >= w_.size()) {
     const Index obstacle = contact - w_.size();
     Vector x = Vector::Zero(static_cast<Index>(all_.size())), v = x, a = x;
-    step.integrator.interpolate(step.from, step.to, t, all_,
-                                {{x.data(), all_.size()}, {v.data(), all_.size()}, {a.data(), all_.size()}});
+    step.motion.interpolate(t, all_, {{x.data(), all_.size()}, {v.data(), all_.size()}, {a.data(), all_.size()}});
     const Eigen::Vector2d place = obstacles_->gather(obstacle, x).head<2>();
     const auto& shape = obstacles_->group_of(obstacle).shape;
     if (shape == nullptr) return {0.0, 0.0};
@@ -106,7 +105,7 @@ std::pair<double, double> CourseWatch::motion_of(const time::AcceptedStep& step,
   for (int end = 0; end < 2; ++end) {
     if (dofs[end] < 0) continue;
     double v = 0.0, a = 0.0;
-    step.integrator.interpolate(step.from, step.to, t, {&dofs[end], 1}, {{}, {&v, 1}, {&a, 1}});
+    step.motion.interpolate(t, {&dofs[end], 1}, {{}, {&v, 1}, {&a, 1}});
     speed += signs[end] * v;
     acceleration += signs[end] * a;
   }
@@ -143,8 +142,7 @@ void VelocityBand::step(const time::AcceptedStep& step) {
     const double from = std::max(begin_, ends[piece]), to = std::min(end_, ends[piece + 1]);
     if (to < from) continue;
     for (int k = 0; k <= kPoints; ++k) {
-      step.integrator.interpolate(step.from, step.to, std::lerp(from, to, static_cast<double>(k) / kPoints), all_,
-                                  {{}, v_, {}});
+      step.motion.interpolate(std::lerp(from, to, static_cast<double>(k) / kPoints), all_, {{}, v_, {}});
       const Eigen::Map<const Vector> v(v_.data(), static_cast<Index>(v_.size()));
       low = low.cwiseMin(v);
       high = high.cwiseMax(v);

@@ -39,9 +39,9 @@ class Tenths final : public time::Observer {
     take(step.to.t, step.to.x[0]);
     // In some methods a step covers much of the run.
     const Index dof = 0;
-    for (const double t : step.integrator.breakpoints(step.from, step.to)) {
+    for (const double t : step.motion.breakpoints()) {
       double x = 0.0;
-      step.integrator.interpolate(step.from, step.to, t, {&dof, 1}, {{&x, 1}, {}, {}});
+      step.motion.interpolate(t, {&dof, 1}, {{&x, 1}, {}, {}});
       take(t, x);
     }
   }

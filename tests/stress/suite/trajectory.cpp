@@ -25,8 +25,7 @@ void Follower::step(const time::AcceptedStep& step) {
     const double t = instants_[static_cast<std::size_t>(to.rows)];
     if (t > step.to.t) break;
     const auto size = static_cast<std::size_t>(to.x.rows());
-    step.integrator.interpolate(step.from, step.to, t, all_,
-                                {{to.x.col(to.rows).data(), size}, {to.v.col(to.rows).data(), size}, {}});
+    step.motion.interpolate(t, all_, {{to.x.col(to.rows).data(), size}, {to.v.col(to.rows).data(), size}, {}});
     to.is_finite = to.is_finite && to.x.col(to.rows).allFinite() && to.v.col(to.rows).allFinite();
   }
 }
