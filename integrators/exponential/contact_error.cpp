@@ -22,7 +22,6 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
     if (residual_.any() && step.from.w[i] * paths.motion().end[i] < 0.0)
       error = std::max(
           error, of_jump(flow, i, scales_.of(i, paths.reached(i), displacement).speed) * goal_.middle * displacement);
-    if (goal_.orders == 1) error += std::abs(flow.own_coupling(i)[0][1] * iteration_.moments(1)[i]);
     largest = std::max(largest, error);
   }
   return largest;

@@ -26,12 +26,11 @@ inline double unresolved_jump(double x) {
 /// projection. Cached with the step size (ContactPropagator).
 class ContactInfluence {
  public:
-  /// Both must outlive it; `orders` is the number of force moments.
-  ContactInfluence(const dynamics::ModalSystem& modal, const std::vector<ContactForce>& contacts, std::size_t orders)
-      : modal_(modal) {
+  /// Both must outlive it.
+  ContactInfluence(const dynamics::ModalSystem& modal, const std::vector<ContactForce>& contacts) : modal_(modal) {
     for (const ContactForce& contact : contacts) {
       stiffness_.push_back(contact.stiffness());
-      newton_.emplace_back(contact.stiffness(), orders);
+      newton_.emplace_back(contact.stiffness());
     }
   }
 

@@ -17,8 +17,8 @@ ContactIteration::ContactIteration(const dynamics::ModalSystem& modal, const Ste
       gaps_(gaps),
       scales_(scales),
       step_(step),
-      influence_(modal, contacts, goal.orders),
-      paths_(step, gaps, goal.orders) {
+      influence_(modal, contacts),
+      paths_(step, gaps) {
   for (ArrayXd* array : {&noted_.end, &noted_.speed, &noted_.middle, &moments_[0], &moments_[1], &moments_[2]})
     array->setZero(gaps.gaps().size());
   for (ArrayXd& sum : sums_) sum.setZero(modal.size());
@@ -72,7 +72,7 @@ void ContactIteration::guess(ContactPropagator& flow) {
     const double at_start = stiffness * (side * gaps_.gaps()[i] - w),
                  half_rise = -0.5 * stiffness * paths_.start_speed()[i];
     moments_[0][i] = at_start + half_rise;
-    if (goal_.orders > 1) moments_[1][i] = half_rise;
+    moments_[1][i] = half_rise;
     touch(i);
   }
   flow.add_forces(touched_, moments_, near_registers_, paths_.motion());
@@ -103,7 +103,6 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
           status == ContactStatus::closed ? known.inverse : newton.inverse(projection.closed, known.coupling),
           projected, old);
     }
-    if (goal_.orders == 1) moments_[1][i] = projected[1];  // for the error indicator only
     const bool stays = more[0] == 0.0 && more[1] == 0.0 && more[2] == 0.0;
     const double moved = stays ? 0.0 : add_force(flow, i, more);
     if (!std::isfinite(moved)) return moved;
@@ -156,24 +155,20 @@ double ContactIteration::add_force(ContactPropagator& flow, Index stop, const Fo
 }
 
 void ContactIteration::complete_paths(ContactPropagator& flow) {
-  for (std::size_t k = goal_.orders; k < moments_.size(); ++k) moments_[k].setZero();  // for the error indicator only
   flow.add_forces(touched_, moments_, far_registers_, paths_.motion());
 }
 
 void ContactIteration::apply(ContactPropagator& flow, TriedStep& step) {
-  const std::size_t orders = goal_.orders;
   step.to.w = paths_.motion().end;
   step.to.wv = paths_.motion().speed * (1.0 / flow.h());
   if (touched_.empty()) return;
-  for (std::size_t k = 0; k < orders; ++k) modal_.stop_shapes().force(touched_, moments_[k].data(), sums_[k].data());
-  if (orders == 3) {
-    const dynamics::ModalPropagator& whole = flow.whole;
-    step.to.q += sums_[0] * whole.force_q(0) + sums_[1] * whole.force_q(1) + sums_[2] * whole.force_q(2);
-    step.to.v += sums_[0] * whole.force_v(0) + sums_[1] * whole.force_v(1) + sums_[2] * whole.force_v(2);
-  } else {
-    for (std::size_t k = 0; k < orders; ++k) step.add_to_end(flow.whole, static_cast<int>(k), sums_[k]);
-  }
-  for (std::size_t k = 0; k < (step.breakpoint > 0.0 ? orders : 0); ++k) step.add_to_middle(flow.half, k, sums_[k]);
+  for (std::size_t k = 0; k < kForceMoments; ++k)
+    modal_.stop_shapes().force(touched_, moments_[k].data(), sums_[k].data());
+  const dynamics::ModalPropagator& whole = flow.whole;
+  step.to.q += sums_[0] * whole.force_q(0) + sums_[1] * whole.force_q(1) + sums_[2] * whole.force_q(2);
+  step.to.v += sums_[0] * whole.force_v(0) + sums_[1] * whole.force_v(1) + sums_[2] * whole.force_v(2);
+  if (step.breakpoint == 0.0) return;
+  for (std::size_t k = 0; k < kForceMoments; ++k) step.add_to_middle(flow.half, k, sums_[k]);
 }
 
 }  // namespace butee::integrators

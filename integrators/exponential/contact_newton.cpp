@@ -4,18 +4,16 @@ namespace butee::integrators {
 
 ContactNewton::Matrix ContactNewton::inverse(const std::array<double, 7>& closed, const PathCoupling& coupling) const {
   // d(c_2, c_3, c_4) / d(end, speed, middle) of the path
-  static constexpr double kQuartic[3][3] = {{-5.0, 1.0, 16.0}, {14.0, -3.0, -32.0}, {-8.0, 2.0, 16.0}};
-  static constexpr double kCubic[3][3] = {{3.0, -1.0, 0.0}, {-2.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
-  const auto& shape = orders_ == 3 ? kQuartic : kCubic;
+  static constexpr double kShape[3][3] = {{-5.0, 1.0, 16.0}, {14.0, -3.0, -32.0}, {-8.0, 2.0, 16.0}};
   double a[3][3];
   for (std::size_t k = 0; k < 3; ++k) {
     double moved[3], power[3];  // changes of c_2, c_3, c_4 and of the force integrals due to f_k
     for (std::size_t m = 0; m < 3; ++m)
-      moved[m] = shape[m][0] * coupling[0][k] + shape[m][1] * coupling[1][k] + shape[m][2] * coupling[2][k];
+      moved[m] = kShape[m][0] * coupling[0][k] + kShape[m][1] * coupling[1][k] + kShape[m][2] * coupling[2][k];
     for (std::size_t j = 0; j < 3; ++j)
       power[j] = stiffness_ * (closed[j + 2] * moved[0] + closed[j + 3] * moved[1] + closed[j + 4] * moved[2]);
     const ForceMoments moments = moments_from_powers(power[0], power[1], power[2]);
-    for (std::size_t j = 0; j < 3; ++j) a[j][k] = j < orders_ && k < orders_ ? moments[j] : 0.0;
+    for (std::size_t j = 0; j < 3; ++j) a[j][k] = moments[j];
     a[k][k] += 1.0;
   }
   // Inverse by the adjugate.

@@ -13,8 +13,7 @@ class ContactNewton {
  public:
   using Matrix = std::array<double, 9>;  ///< 3 x 3, row by row
 
-  /// The force has `orders` moments, 1 to 3; with 3 the path has a quartic term.
-  ContactNewton(double stiffness, std::size_t orders) : stiffness_(stiffness), orders_(orders) {}
+  explicit ContactNewton(double stiffness) : stiffness_(stiffness) {}
 
   /// (1 - d projection / d f)^-1
   Matrix inverse(const std::array<double, 7>& closed, const PathCoupling& coupling) const;
@@ -23,7 +22,7 @@ class ContactNewton {
   /// The correction of f from `old`.
   ForceMoments correction(const Matrix& inverse, const ForceMoments& projected, const ForceMoments& old) const {
     ForceMoments r{};
-    for (std::size_t k = 0; k < orders_; ++k) r[k] = projected[k] - old[k];
+    for (std::size_t k = 0; k < 3; ++k) r[k] = projected[k] - old[k];
     return {inverse[0] * r[0] + inverse[1] * r[1] + inverse[2] * r[2],
             inverse[3] * r[0] + inverse[4] * r[1] + inverse[5] * r[2],
             inverse[6] * r[0] + inverse[7] * r[1] + inverse[8] * r[2]};
@@ -31,7 +30,6 @@ class ContactNewton {
 
  private:
   double stiffness_;
-  std::size_t orders_;
 };
 
 }  // namespace butee::integrators

@@ -9,10 +9,8 @@ namespace butee::integrators {
 /// one entry per stop.
 class ContactPaths {
  public:
-  /// `step` and `gaps` must outlive it. With three `orders` (force moments) paths have a quartic
-  /// term.
-  ContactPaths(const TriedStep& step, const ContactGaps& gaps, std::size_t orders)
-      : step_(step), gaps_(gaps), orders_(orders) {
+  /// `step` and `gaps` must outlive it.
+  ContactPaths(const TriedStep& step, const ContactGaps& gaps) : step_(step), gaps_(gaps) {
     for (Eigen::ArrayXd* array : {&hv_, &motion_.end, &motion_.speed, &motion_.middle, &quartic_, &excess_})
       array->setZero(gaps.gaps().size());
   }
@@ -29,9 +27,9 @@ class ContactPaths {
     const Eigen::ArrayXd& w = step_.from.w;
     quartic_ = motion_.middle - (0.5 * (w + motion_.end) + 0.125 * (hv_ - motion_.speed));
     // The Bernstein coefficients of ContactPath
-    const double part = orders_ == 3 ? 16.0 / 6.0 : 0.0;
+    constexpr double kPart = 16.0 / 6.0;
     const auto b1 = w + 0.25 * hv_;
-    const auto b2 = 0.5 * (w + motion_.end) + (hv_ - motion_.speed) * (1.0 / 6.0) + part * quartic_;
+    const auto b2 = 0.5 * (w + motion_.end) + (hv_ - motion_.speed) * (1.0 / 6.0) + kPart * quartic_;
     const auto b3 = motion_.end - 0.25 * motion_.speed;
     excess_ = (w.max(motion_.end).max(b1).max(b2).max(b3) - gaps_.upper())
                   .max(gaps_.lower() - w.min(motion_.end).min(b1).min(b2).min(b3));
@@ -50,7 +48,7 @@ class ContactPaths {
   ContactPath of(Index stop) const {
     const double w = step_.from.w[stop], end = motion_.end[stop], speed = motion_.speed[stop];
     const double quartic = motion_.middle[stop] - (0.5 * (w + end) + 0.125 * (hv_[stop] - speed));
-    return {w, hv_[stop], end, speed, orders_ == 3 ? quartic : 0.0};
+    return {w, hv_[stop], end, speed, quartic};
   }
   double largest_speed(Index stop) const { return std::max(std::abs(hv_[stop]), std::abs(motion_.speed[stop])); }
   /// Displacement at the end and largest speed at the ends.
@@ -60,7 +58,6 @@ class ContactPaths {
  private:
   const TriedStep& step_;
   const ContactGaps& gaps_;
-  std::size_t orders_;
   Eigen::ArrayXd hv_;
   dynamics::StopMotion motion_;
   Eigen::ArrayXd quartic_, excess_;

@@ -15,14 +15,13 @@ namespace butee::integrators {
 /// The result of an attempt at a step.
 enum class Trial { accepted, too_long, not_finite };
 
-/// Order and error bounds of a step.
+/// Error bounds of a step.
 struct StepGoal {
-  std::size_t orders;  ///< number of Legendre polynomials onto which the force is projected: 1, 2 or 3
-  double middle;       ///< bound of a path's departure in the middle from the cubic through its ends, relative to the
-                       ///< displacement scale
-  double outputs;      ///< error bound of outputs within a step, relative to the displacement scale
-  double tolerance;    ///< tolerance of the run
-  double run_time;     ///< s
+  double middle;     ///< bound of a path's departure in the middle from the cubic through its ends, relative to the
+                     ///< displacement scale
+  double outputs;    ///< error bound of outputs within a step, relative to the displacement scale
+  double tolerance;  ///< tolerance of the run
+  double run_time;   ///< s
 };
 
 /// The displacement (m) and the speed (m/s) to which errors of a stop are relative.

@@ -28,26 +28,17 @@ constexpr Index kExtras = 6;
 constexpr double kOutputs = 2.0;
 
 /// The bound of a path's departure from the cubic in the middle of a step, relative to the
-/// displacement scale. At order 4 the error is proportional to the departure; at order 2 the error
-/// is of a lower power of h. At order 6 the path contains the departure, and the error falls with
-/// its power 3/2 in smooth motion and with its power 1 where stops open and close. Below
+/// displacement scale. The path contains the departure, and the error falls with its power 3/2 in
+/// smooth motion and with its power 1 where stops open and close. Below
 /// kProportional only impacts contribute to the error, and the bound is proportional to the
 /// tolerance. Calibrated on beams and oscillators: tests/models/exponential_test.cpp.
-double middle_tolerance(const ExponentialOptions& options) {
+double middle_tolerance(double tolerance) {
   constexpr double kProportional = 1e-4;
-  switch (options.order) {
-    case 2:
-      return 0.1 * std::pow(options.tolerance, 1.5);
-    case 4:
-      return 0.03 * options.tolerance;
-    default:
-      return 0.12 * std::min(std::pow(options.tolerance, 0.8), std::pow(kProportional, -0.2) * options.tolerance);
-  }
+  return 0.12 * std::min(std::pow(tolerance, 0.8), std::pow(kProportional, -0.2) * tolerance);
 }
 
 StepGoal step_goal(const ExponentialOptions& options) {
-  return {static_cast<std::size_t>(options.order / 2), middle_tolerance(options), kOutputs * options.tolerance,
-          options.tolerance, options.run_time};
+  return {middle_tolerance(options.tolerance), kOutputs * options.tolerance, options.tolerance, options.run_time};
 }
 
 void put_extras(State& state, const StepSizeControl::Memory& sizes, ContactScale scale, double end) {
@@ -72,7 +63,7 @@ int Exponential<Step>::first_index() const {
   double square = 0.0;
   for (Index i = 0; i < modal_.stop_count(); ++i)
     square = std::max(square, stiffness[i] * modal_.stop_shapes().of(i).squaredNorm());
-  const double h = std::pow(options_.tolerance, options_.order == 2 ? 0.5 : 0.25) * 4.0 / std::sqrt(square);
+  const double h = std::pow(options_.tolerance, 0.25) * 4.0 / std::sqrt(square);
   // At most the time scale of the slowest motion.
   const double lowest = modal_.frequencies().minCoeff();
   const double most = std::min(1.0 / std::sqrt(square), lowest > 0.0 ? 1.0 / lowest : h);

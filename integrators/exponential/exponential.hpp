@@ -12,7 +12,6 @@ namespace butee::integrators {
 struct ExponentialOptions {
   double tolerance = 1e-4;  ///< relative to the scale of each component (integrators/error-control.md)
   double run_time = 1.0;    ///< s
-  int order = 6;            ///< 2, 4 or 6
   Index modes = 0;          ///< number of lowest modes; 0: all, for large systems 300
 };
 
@@ -29,13 +28,12 @@ struct ExponentialOptions {
 /// omega_c)^2/26 or faster, omega_c^2 = k_c S M^-1 S^T. Changes of contact within a step are
 /// integrated piece by piece; they need no event location.
 ///
-/// Order 2 (f_0), 4 (f_0, f_1, a cubic path) or 6; order 6 holds away from changes of contact,
-/// across them the order is 4 with small constants. Step sizes lie on a geometric grid of ratio
-/// sqrt(2). They are controlled by the displacement in the middle, which the propagator of half a
-/// step gives independently of the path. Checked in tests/models/exponential_test.cpp against
-/// 80-bit references. Theory: plugins/exponential/THEORY.md. Sources: energy-preserving collocation
-/// by projection, E. Hairer, JNAIAM 5 (2010) 73-84; exponential integrators, M. Hochbruck and A.
-/// Ostermann, Acta Numerica 19 (2010) 209-286, doi 10.1017/S0962492910000048.
+/// The order is 6 away from changes of contact; across them it is 4 with small constants. Step sizes lie on a geometric
+/// grid of ratio sqrt(2). They are controlled by the displacement in the middle, which the propagator of half a step
+/// gives independently of the path. Checked in tests/models/exponential_test.cpp against 80-bit references. Theory:
+/// plugins/exponential/THEORY.md. Sources: energy-preserving collocation by projection, E. Hairer, JNAIAM 5 (2010)
+/// 73-84; exponential integrators, M. Hochbruck and A. Ostermann, Acta Numerica 19 (2010) 209-286,
+/// doi 10.1017/S0962492910000048.
 ///
 /// `Step` performs the steps: ExponentialStep for any system, SingleStep for one DOF with one stop,
 /// with the same arithmetic in scalars. make_exponential() selects it.

@@ -223,7 +223,7 @@ void ExponentialStep::record_forces() {
   if (has_residual) forces.constant = residual_.forces();
   for (std::size_t k = 0; k < (forces.is_free ? 0 : forces.moments.size()); ++k) {
     auto to = forces.moments[k].head(modal_.size()).array();
-    if (has_contact && k < goal_.orders)
+    if (has_contact)
       to = iteration_.modal_moments(k);
     else
       to.setZero();
@@ -246,7 +246,7 @@ void ExponentialStep::record_contacts(StepForces& forces, bool has_contact) cons
     forces.touched = iteration_.touched();
     paths.col(StepForces::kStartSpeed) = iteration_.paths().start_speed();
     paths.col(StepForces::kEndSpeed) = iteration_.paths().motion().speed;
-    if (goal_.orders == 3) paths.col(StepForces::kQuartic) = iteration_.paths().quartic();
+    paths.col(StepForces::kQuartic) = iteration_.paths().quartic();
     for (std::size_t k = 0; k < 3; ++k) paths.col(StepForces::kMoments + static_cast<Index>(k)) = iteration_.moments(k);
   }
   for (const Index i : forces.touched) paths(i, StepForces::kAllowedSpeed) = allowed_speed(i);

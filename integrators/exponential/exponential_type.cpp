@@ -53,7 +53,6 @@ time::IntegratorType exponential_type() {
       .aliases = {"EXP"},
       .summary = "exact linear part, mode by mode; stops by projection of their force; adaptive",
       .parameters = {LocalErrorControl::parameter(1e-4, 1e-10),
-                     config::integer("order", "2, 4 or 6").at_least(2).at_most(6).or_else(std::int64_t{6}),
                      config::integer("modes",
                                      "the number of lowest modes; 0: all up to 600 DOFs, 300 above, with static shapes")
                          .at_least(0)
@@ -62,13 +61,8 @@ time::IntegratorType exponential_type() {
       .contacts = time::ContactSupport::without_memory,
       .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         return make_exponential(dynamics,
-                                {p.number("tolerance"), p.number("end_time"), static_cast<int>(p.integer("order")),
-                                 static_cast<Index>(p.integer("modes"))});
-      },
-      .check =
-          [](const config::Parameters& p, config::Diagnostics& diagnostics) {
-            if (p.integer("order") % 2 != 0) p.complain(diagnostics, "order", "must be 2, 4 or 6");
-          }};
+                                {p.number("tolerance"), p.number("end_time"), static_cast<Index>(p.integer("modes"))});
+      }};
 }
 
 }  // namespace butee::integrators

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace butee::integrators {
 
 /// The coefficients of a stop's force over a step in the Legendre polynomials P_0, P_1, P_2 of [0, 1], N.
-using ForceMoments = std::array<double, 3>;
+inline constexpr std::size_t kForceMoments = 3;
+using ForceMoments = std::array<double, kForceMoments>;
 
 /// The moments of a force over a step from its integrals against 1, s and s^2.
 inline ForceMoments moments_from_powers(double m0, double m1, double m2) {

@@ -38,7 +38,7 @@ SingleStep::SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& moda
     : goal_(goal),
       mode_(modal),
       contact_(dynamics.stops(), 0),
-      newton_(contact_.stiffness(), goal.orders),
+      newton_(contact_.stiffness()),
       residual_(dynamics.stops(), 0),
       gap_(dynamics.stops()),
       longest_near_(longest_near_stops(modal)),
@@ -68,10 +68,8 @@ void SingleStep::accept(double t) {
   step.hv0 = h * shape * now_.v;
   now_ = tried_.to;
   step.hv1 = h * shape * now_.v;
-  step.quartic =
-      goal_.orders == 3 ? tried_.path[2] - (0.5 * (w + shape * now_.q) + 0.125 * (step.hv0 - step.hv1)) : 0.0;
+  step.quartic = tried_.path[2] - (0.5 * (w + shape * now_.q) + 0.125 * (step.hv0 - step.hv1));
   step.force = tried_.force;
-  if (goal_.orders == 1) step.force[1] = 0.0;  // for the error indicator only
   record_.add(flow, step, t, now_);
 }
 
@@ -101,7 +99,7 @@ Trial SingleStep::attempt(const SingleFlow& flow) {
     const Trial trial = iterate(flow, w, hv);
     if (trial != Trial::accepted) return trial;
   }
-  for (std::size_t k = 0; k < goal_.orders; ++k) {
+  for (std::size_t k = 0; k < kForceMoments; ++k) {
     q1 += tried_.force[k] * flow.force_q[k];
     v1 += tried_.force[k] * flow.force_v[k];
   }
@@ -158,7 +156,7 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
   ForceMoments& force = tried_.force;
   for (int i = 0; i < kMostSweeps; ++i) {
     const double quartic = end[2] - (0.5 * (w + end[0]) + 0.125 * (hv - end[1]));
-    const ContactPath path(w, hv, end[0], end[1], goal_.orders == 3 ? quartic : 0.0);
+    const ContactPath path(w, hv, end[0], end[1], quartic);
     const ContactStatus status = contact_.status(path);
     const double scale = std::max(scale_.displacement, std::abs(end[0]));
     double change = 0.0;
@@ -171,7 +169,6 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
           projection.force, force);
       const std::array<double, 3> moved = move(end, coupling, more);
       for (std::size_t k = 0; k < 3; ++k) force[k] += more[k];
-      if (goal_.orders == 1) force[1] = projection.force[1];  // for the error indicator only
       change = std::abs(moved[0]) + kBump * std::abs(moved[1]) + std::abs(moved[2]);
       if (!std::isfinite(change)) return Trial::too_long;
     }
@@ -190,7 +187,6 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
     } else if (const double depth = beyond(path) + kPathError * std::abs(quartic); depth > 0.0) {
       error = std::max(error, missed_contact_error(goal_, stiff * depth, flow.h, scale_.speed) * scale);
     }
-    if (goal_.orders == 1) error += std::abs(coupling[0][1] * force[1]);
     tried_.error = error;
     return error <= goal_.middle * scale ? Trial::accepted : Trial::too_long;
   }

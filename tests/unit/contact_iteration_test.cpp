@@ -28,7 +28,7 @@ TEST(ContactIteration, FindsForcesAndPathsThatBelongTogether) {
   SceneRun run(kScene);
   dynamics::ModalSystem& modal = run.dynamics().modal(0);
   dynamics::ElasticStops& contact = run.dynamics().stops();
-  const StepGoal goal = {3, 1e-9, 1e-9, 1e-9, 1.0};
+  const StepGoal goal = {1e-9, 1e-9, 1e-9, 1.0};
   std::vector<ContactForce> contacts;
   for (Index i = 0; i < contact.size(); ++i) contacts.emplace_back(contact, i);
   const ContactGaps gaps(contact);

@@ -18,7 +18,7 @@ State at(double t, double x, double v, double a) {
 double middle(const State& from, const State& to) {
   double x = 0.0;
   const std::array<Index, 1> dofs = {0};
-  integrators::interpolate_quintic(from, to, 0.5 * (from.t + to.t), dofs, {{&x, 1}, {}, {}});
+  integrators::QuinticInterpolant().interpolate(from, to, 0.5 * (from.t + to.t), dofs, {{&x, 1}, {}, {}});
   return x;
 }
 
@@ -40,7 +40,7 @@ TEST(Quintic, IsOfItsOrderWhereTheFourthDerivativeVanishes) {
     const double t = 1e-4 * i;
     for (const double part : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       double v = 0.0;
-      integrators::interpolate_quintic(state(t), state(t + kStep), t + part * kStep, dofs, {{}, {&v, 1}, {}});
+      integrators::QuinticInterpolant().interpolate(state(t), state(t + kStep), t + part * kStep, dofs, {{}, {&v, 1}, {}});
       worst = std::max(worst, std::abs(v - std::cos(t + part * kStep)));
     }
   }
