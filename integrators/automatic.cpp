@@ -142,7 +142,7 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
   std::string what;
   if (choice.method == Choice::Method::exponential) {
     what = "exponential" + with;
-    integrator = make_exponential(dynamics, {tolerance, end_time, 6, 0});
+    integrator = make_exponential(dynamics, {tolerance, end_time, 0});
   } else if (choice.method == Choice::Method::piecewise) {
     what = "piecewise";
     integrator = std::make_unique<Piecewise>(dynamics, end_time);
