@@ -25,7 +25,7 @@ angular_frequency = 5.0
 struct Steps {
   SceneRun run{kScene};
   dynamics::ModalSystem& modal = run.dynamics().modal(0);
-  ExponentialStep step{run.dynamics(), modal, {3, 1e-4, 1e-4, 1e-4, 1.0}, 32};
+  ExponentialStep step{run.dynamics(), modal, {1e-4, 1e-4, 1e-4, 1.0}, 32};
   int contacts = 0, flights = 0;
 
   Steps() {
