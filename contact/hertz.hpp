@@ -7,7 +7,7 @@
 namespace butee::contact {
 
 /// Hertz's law, F = k max(g, 0)^n with n >= 1: n = 3/2 for bodies that touch at a point. Checked
-/// against the closed form of an impact in tests/models/obstacle_test.cpp.
+/// against the closed form of an impact in tests/verification/impact_damping_test.cpp.
 class Hertz final : public model::BatchedLaw<Hertz> {
  public:
   /// `stiffness` in N/m^n.

@@ -31,7 +31,7 @@ struct BendingProperties {
 ///     M_r = rho I f^2 / (30 l) [36, (3 - 15 Phi) l, ...]
 ///
 /// Source: M. I. Friswell, J. E. T. Penny, S. D. Garvey, A. W. Lees, Dynamics of Rotating Machines, 2010, section 5.4;
-/// J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968. Checked in tests/unit/beam_matrices_test.cpp.
+/// J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968. Checked in tests/unit/beam_test.cpp.
 struct BendingMatrices {
   explicit BendingMatrices(const BendingProperties& of);
 

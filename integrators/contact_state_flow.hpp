@@ -22,7 +22,7 @@ using Jet = std::array<double, 4>;
 ///
 /// For very slow blocks the particular parabola would be divided by a small number; for these, and
 /// for loads in resonance with a block, the response from rest is added to y instead. Theory:
-/// piecewise.md. Checked in tests/unit/contact_state_flow_test.cpp.
+/// piecewise.md. Checked in tests/models/piecewise_test.cpp.
 class ContactStateFlow {
  public:
   /// `system` must outlive it. `closed`: for each stop. `end_time` of the run, s, determines which

@@ -24,7 +24,7 @@ class Dynamics;
 /// blocks, each with its own eigenvalue problem. Rigid motion and critical damping have no basis of
 /// eigenvectors; their stiffness is changed by kNudge times the larger of omega^2 and
 /// 1/T^2, which changes the motion over the run time T by less than 1e-9 of itself. Checked against
-/// the matrix exponential in tests/unit/damped_modes_test.cpp.
+/// the matrix exponential in tests/verification/damped_modes_test.cpp.
 class BUTEE_EXPORT DampedModes {
  public:
   /// The largest number of DOFs; the matrices are full.

@@ -58,8 +58,9 @@ struct ContactForces {
 ///
 /// Each is evaluated in its phase: either in the phase given to follow(), whose force is continued
 /// beyond the end of the phase, or "live", in the phase that follows from the present motion. Laws
-/// with memory need given phases. Checked against closed forms in tests/models/obstacle_test.cpp
-/// and by differences in tests/unit/obstacles_test.cpp.
+/// with memory need given phases. Checked against closed forms in tests/verification/ring_test.cpp,
+/// friction_test.cpp and impact_damping_test.cpp, and by differences in
+/// tests/unit/obstacles_test.cpp.
 class BUTEE_EXPORT Obstacles {
  public:
   /// The coordinates of a contact: its two directions and the rotation of node a on which friction

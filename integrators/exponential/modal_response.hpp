@@ -22,7 +22,7 @@ struct TurningLoad {
 ///
 /// For small |lambda c h| the moments follow from a series and a downward recurrence, for large
 /// ones from the upward recurrence; each recurrence is stable in its range. Checked in
-/// tests/unit/modal_response_test.cpp against quadrature.
+/// tests/verification/damped_modes_test.cpp.
 class PlaceResponse {
  public:
   /// Handles the modes from `first` on; the member functions leave the others unchanged.

@@ -40,7 +40,7 @@ std::vector<std::string> commands() {
   for (std::string line; std::getline(lines, line);) {
     if (line.empty()) listed = false;
     std::smatch match;
-    if (listed && std::regex_search(line, match, std::regex("^  ([a-z]+) "))) names.push_back(match[1]);
+    if (listed && std::regex_search(line, match, std::regex("^  ([a-z-]+) "))) names.push_back(match[1]);
     listed = listed || line.rfind("Subcommands", 0) == 0;
   }
   EXPECT_GE(names.size(), 7U);
