@@ -321,7 +321,7 @@ TEST(SpacePicture, ShowsAFrameWhereItStands) {
 std::pair<double, double> drawn_stop(const std::string& side) {
   const TemporaryFolder folder;
   folder.write("frame.toml", std::string(kFrame) +
-                                 "[[stop]]\nnodes = \"arm:last\"\ndof = \"uy\"\ngap = 0.01\n"
+                                 "[[contact]]\ntype = \"stop\"\nnodes = \"arm:last\"\ndof = \"uy\"\ngap = 0.01\n"
                                  "stiffness = 1e6\nsides = \"" +
                                  side + "\"\n");
   const Outcome check = run_program({"check", "frame.toml", "--picture", "frame.svg"}, folder.path());
