@@ -40,7 +40,8 @@ TEST(Quintic, IsOfItsOrderWhereTheFourthDerivativeVanishes) {
     const double t = 1e-4 * i;
     for (const double part : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       double v = 0.0;
-      integrators::QuinticInterpolant().interpolate(state(t), state(t + kStep), t + part * kStep, dofs, {{}, {&v, 1}, {}});
+      integrators::QuinticInterpolant().interpolate(state(t), state(t + kStep), t + part * kStep, dofs,
+                                                    {{}, {&v, 1}, {}});
       worst = std::max(worst, std::abs(v - std::cos(t + part * kStep)));
     }
   }
@@ -53,6 +54,15 @@ TEST(Quintic, IsNotBentByAnEndWithinAStiffStop) {
   // s.
   const double x = middle(at(0.0, 0.0, 1.0, 0.0), at(1e-3, 1e-3, 1.0, -1e7));
   EXPECT_NEAR(x, 5e-4, 1e-12);
+}
+
+TEST(Quintic, IsNotBentByAccelerationsOfAStiffPart) {
+  // A light part follows a slow motion at 1 m/s. An error of 1e-9 m with omega = 1e8 rad/s is 1e7 m/s^2.
+  const double x = middle(at(0.0, 0.0, 1.0, 1e7), at(1e-3, 1e-3, 1.0, -0.4e7));
+  EXPECT_NEAR(x, 5e-4, 1e-12);
+  // About an extremum of t^4 or t^6 the accelerations are those of the motion: the quintic, not the cubic (-1, -2).
+  EXPECT_NEAR(middle(at(-1.0, 1.0, -4.0, 12.0), at(1.0, 1.0, 4.0, 12.0)), 0.0, 1e-12);
+  EXPECT_NEAR(middle(at(-1.0, 1.0, -6.0, 30.0), at(1.0, 1.0, 6.0, 30.0)), 1.0, 1e-12);
 }
 
 }  // namespace
