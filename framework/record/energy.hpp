@@ -23,7 +23,7 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 ///
 ///     work = int v.F dt,   dissipated = int v.C v dt
 ///
-/// Unless the method provides them (Integrator::energies), they are integrated by Simpson's rule
+/// Unless the method provides them (DenseOutput::energies), they are integrated by Simpson's rule
 /// from breakpoint to breakpoint of every accepted step, with the midpoint from the method's own
 /// interpolant: fourth order, so that the balance shows the method's error and not the quadrature
 /// error. With Interpolation::other pieces may be long; they are halved until Gauss' rule with five

@@ -81,14 +81,14 @@ void seek_in(std::size_t order, const Bernstein<Degree>& x, double h, double goo
 }
 
 /// Whether accelerations depart from those of the cubic through x and v far more at one end than at
-/// the other, for example if a stop changes the acceleration abruptly at the end of a step: the
-/// dense output may then be that cubic.
+/// the other, for example if a stop changes the acceleration abruptly at the end of a step, or by
+/// far more than those are: the dense output may then be that cubic.
 bool may_bend(const Point& from, const Point& to) {
   constexpr double kMore = 5.0;
   const double h = to.t - from.t, rise = 6.0 * (to.of[0] - from.of[0]) / h;
-  const double off0 = std::abs(from.of[2] - (rise - 4.0 * from.of[1] - 2.0 * to.of[1]) / h),
-               off1 = std::abs(to.of[2] - (2.0 * from.of[1] + 4.0 * to.of[1] - rise) / h);
-  return std::max(off0, off1) > kMore * std::min(off0, off1);
+  const double a0 = (rise - 4.0 * from.of[1] - 2.0 * to.of[1]) / h, a1 = (2.0 * from.of[1] + 4.0 * to.of[1] - rise) / h;
+  const double off0 = std::abs(from.of[2] - a0), off1 = std::abs(to.of[2] - a1);
+  return std::max(off0, off1) > kMore * std::min({off0, off1, std::max(std::abs(a0), std::abs(a1))});
 }
 
 /// The value of a polynomial at the midpoint.
