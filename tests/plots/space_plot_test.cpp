@@ -329,7 +329,7 @@ std::pair<double, double> drawn_stop(const std::string& side) {
   const std::string svg = read_file(folder.file("frame.svg"));
   const std::size_t end = svg.find("\" fill=\"#d17a00\""), begin = svg.rfind("points=\"", end);
   double tip = 0.0, base = 0.0;
-  EXPECT_EQ(std::sscanf(svg.c_str() + begin, "points=\"%*lf,%lf %*lf,%lf", &tip, &base), 2) << svg.substr(begin, 80);
+  EXPECT_EQ(std::sscanf(svg.c_str() + begin, "points=\"%*f,%lf %*f,%lf", &tip, &base), 2) << svg.substr(begin, 80);
   return {tip, base};
 }
 
