@@ -71,8 +71,9 @@ CollocationOutputs::CollocationOutputs(const dynamics::DampedModes& modes, const
       tolerance_(tolerance),
       memory_begin_(memory_begin),
       fast_(modes, tolerance),
-      traces_(modes) {
-  z_.setZero(2 * modes.count());
+      traces_(modes),
+      fast_motion_(modes, loads.turning()) {
+  last_.z.setZero(2 * modes.count());
 }
 
 void CollocationOutputs::accept(double begin, double end, const Eigen::MatrixXd& nodes) {
@@ -80,8 +81,9 @@ void CollocationOutputs::accept(double begin, double end, const Eigen::MatrixXd&
   end_ = end;
   nodes_ = &nodes;
   traces_.reset();
-  instant_ = std::numeric_limits<double>::quiet_NaN();
+  last_.instant = std::numeric_limits<double>::quiet_NaN();
   is_parted_ = false;
+  has_fast_motion_.reset();
 }
 
 void CollocationOutputs::reset() {
@@ -95,7 +97,7 @@ std::optional<Index> CollocationOutputs::node_at(const State& from, const State&
   return std::nullopt;
 }
 
-void CollocationOutputs::move_to(const State& from, const State& to, double place, Eigen::VectorXd& z) const {
+void CollocationOutputs::move_to(const State& from, const State& to, double place, Eigen::VectorXd& z) {
   const Index p = modes_.count();
   const double h = to.t - from.t;
   Index slow = 0;
@@ -109,7 +111,18 @@ void CollocationOutputs::move_to(const State& from, const State& to, double plac
     z.head(slow).noalias() = nodes_->topRows(slow) * weights;
     z.segment(p, slow).noalias() = nodes_->middleRows(p, slow) * weights;
   }
-  if (slow < p) PlaceResponse(modes_, loads_.turning(), place, h, slow).move(from.t, modal(from), modal(to) + 2 * p, z);
+  if (slow == p) return;
+  const double *const begin = modal(from), *const forces = modal(to) + 2 * p;
+  Index fast = slow;
+  if (holds(from, to)) {
+    while (fast < p && modes_.speed()[fast] * h < FastMotion::kLeast) ++fast;
+    if (!has_fast_motion_) has_fast_motion_ = fast_motion_.begin(from.t, h, begin, forces, fast);
+    if (!*has_fast_motion_) fast = p;
+    if (fast < p) fast_motion_.move(place, z);
+  } else {
+    fast = p;
+  }
+  if (slow < fast) PlaceResponse(modes_, loads_.turning(), place, h, slow, fast).move(from.t, begin, forces, z);
 }
 
 void CollocationOutputs::find_rate(double t, double place, const double* forces, const Eigen::VectorXd& z,
@@ -127,28 +140,28 @@ void CollocationOutputs::find_rate(double t, double place, const double* forces,
 void CollocationOutputs::find(const State& from, const State& to, double t, bool wants_rate) {
   const double place = (t - from.t) / (to.t - from.t);
   const bool is_held = holds(from, to);
-  if (!is_held || instant_ != t) {
-    instant_ = is_held ? t : std::numeric_limits<double>::quiet_NaN();
-    has_rate_ = false;
+  if (!is_held || last_.instant != t) {
+    last_.instant = is_held ? t : std::numeric_limits<double>::quiet_NaN();
+    last_.has_rate = false;
     if (const auto node = node_at(from, to, t))
-      z_ = nodes_->col(*node);
+      last_.z = nodes_->col(*node);
     else if (place <= 0.0)
-      z_ = Eigen::Map<const Eigen::VectorXd>(modal(from), z_.size());
+      last_.z = Eigen::Map<const Eigen::VectorXd>(modal(from), last_.z.size());
     else
-      move_to(from, to, place, z_);
+      move_to(from, to, place, last_.z);
   }
-  if (!wants_rate || has_rate_) return;
-  has_rate_ = true;
-  find_rate(t, place, modal(to) + z_.size(), z_, rate_);
+  if (!wants_rate || last_.has_rate) return;
+  last_.has_rate = true;
+  find_rate(t, place, modal(to) + last_.z.size(), last_.z, last_.rate);
 }
 
 void CollocationOutputs::interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
                                      time::Interpolated out) {
   find(from, to, t, !out.a.empty());
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (!out.x.empty()) out.x[i] = modes_.displacement().col(dofs[i]).dot(z_);
-    if (!out.v.empty()) out.v[i] = modes_.velocity().col(dofs[i]).dot(z_);
-    if (!out.a.empty()) out.a[i] = modes_.velocity().col(dofs[i]).dot(rate_);
+    if (!out.x.empty()) out.x[i] = modes_.displacement().col(dofs[i]).dot(last_.z);
+    if (!out.v.empty()) out.v[i] = modes_.velocity().col(dofs[i]).dot(last_.z);
+    if (!out.a.empty()) out.a[i] = modes_.velocity().col(dofs[i]).dot(last_.rate);
   }
 }
 

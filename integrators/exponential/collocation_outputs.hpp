@@ -81,7 +81,7 @@ class CollocationOutputs final : public time::Interpolant {
   /// Fills z_ with the modal coordinates at an instant, and rate_ with dz/dt if `wants_rate`.
   void find(const time::State& from, const time::State& to, double t, bool wants_rate);
   /// z at a position within a step.
-  void move_to(const time::State& from, const time::State& to, double place, Eigen::VectorXd& z) const;
+  void move_to(const time::State& from, const time::State& to, double place, Eigen::VectorXd& z);
   /// dz/dt for given z and force polynomials.
   void find_rate(double t, double place, const double* forces, const Eigen::VectorXd& z, Eigen::VectorXd& rate) const;
   /// FastModes::find() for the step.
@@ -95,11 +95,16 @@ class CollocationOutputs final : public time::Interpolant {
   NodeTraces traces_;
   double begin_ = 0.0, end_ = -1.0;  ///< the current step, s
   const Eigen::MatrixXd* nodes_ = nullptr;
+  FastMotion fast_motion_;               ///< of the current step
+  std::optional<bool> has_fast_motion_;  ///< whether it could be found; empty before the first request
   // The motion of the last request. Callers often request the same instant for one DOF after
   // another.
-  double instant_ = 0.0;  ///< s; NaN: none
-  bool has_rate_ = false;
-  Eigen::VectorXd z_, rate_;
+  struct Request {
+    double instant = 0.0;  ///< s; NaN: none
+    bool has_rate = false;
+    Eigen::VectorXd z, rate;
+  };
+  Request last_;
   bool is_parted_ = false;  ///< breakpoints_ holds the breakpoints of the current step
   std::vector<double> breakpoints_;
 };

@@ -25,18 +25,18 @@ Complex phi(Complex w) {
 }  // namespace
 
 PlaceResponse::PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place,
-                             double h, Index first)
+                             double h, Index first, Index last)
     : first_(first), count_(modes.count()) {
-  const Index rest = count_ - first;
+  const Index rest = last - first;
   const double length = place * h;
   propagator_.resize(rest, 2);
-  const auto decay = modes.decay().tail(rest), turn = modes.turn().tail(rest);
+  const auto decay = modes.decay().segment(first, rest), turn = modes.turn().segment(first, rest);
   for (Index k = 0; k < rest; ++k) {
     const double size = std::exp(decay[k] * length), angle = turn[k] * length;
     propagator_(k, 0) = size * std::cos(angle);
     propagator_(k, 1) = size * std::sin(angle);
   }
-  find_moments(decay, turn, modes.speed().tail(rest), place, h);
+  find_moments(decay, turn, modes.speed().segment(first, rest), place, h);
   for (const TurningLoad& load : loads) add_harmonics(decay, turn, load, length);
 }
 
@@ -149,6 +149,57 @@ void PlaceResponse::add_force(const double* g, Eigen::Ref<Eigen::VectorXd> out) 
       re[k] += mr[k] * gr[k] - mi[k] * gi[k];
       im[k] += mr[k] * gi[k] + mi[k] * gr[k];
     }
+  }
+}
+
+bool FastMotion::begin(double t, double h, const double* z, const double* g, Index first) {
+  const Index p = modes_.count(), rest = p - first, loads = static_cast<Index>(loads_.size());
+  const auto complex = [&](const double* numbers) {
+    const Eigen::Map<const Eigen::ArrayXd> re(numbers + first, rest), im(numbers + p + first, rest);
+    Eigen::ArrayXcd all(rest);
+    all.real() = re;
+    all.imag() = im;
+    return all;
+  };
+  Eigen::ArrayXcd lambda(rest);
+  lambda.real() = modes_.decay().tail(rest);
+  lambda.imag() = modes_.turn().tail(rest);
+  t_ = t;
+  h_ = h;
+  first_ = first;
+  polynomial_.resize(rest, kPowers);
+  for (Index r = kPowers - 1; r >= 0; --r) {
+    polynomial_.col(r) = -complex(g + 2 * p * r) / lambda;
+    if (r < kPowers - 1) polynomial_.col(r) += (static_cast<double>(r + 1) / h) * polynomial_.col(r + 1) / lambda;
+  }
+  free_ = complex(z) - polynomial_.col(0);
+  forth_.resize(rest, loads);
+  back_.resize(rest, loads);
+  for (Index j = 0; j < loads; ++j) {
+    const TurningLoad& load = loads_[static_cast<std::size_t>(j)];
+    const Complex turn(0.0, load.angular_frequency), phase = std::exp(turn * t);
+    if (((turn - lambda).abs() * h < kResonant).any() || ((turn + lambda).abs() * h < kResonant).any()) return false;
+    forth_.col(j) = complex(load.forth.data()) / (turn - lambda);
+    back_.col(j) = -complex(load.back.data()) / (turn + lambda);
+    free_ -= forth_.col(j) * phase + back_.col(j) * std::conj(phase);
+  }
+  return true;
+}
+
+void FastMotion::move(double place, Eigen::VectorXd& z) const {
+  const Index p = modes_.count(), rest = p - first_;
+  const double length = place * h_;
+  Eigen::ArrayXcd sum = polynomial_.col(kPowers - 1);
+  for (Index r = kPowers - 2; r >= 0; --r) sum = sum * place + polynomial_.col(r);
+  for (Index j = 0; j < forth_.cols(); ++j) {
+    const Complex phase = std::polar(1.0, loads_[static_cast<std::size_t>(j)].angular_frequency * (t_ + length));
+    sum += forth_.col(j) * phase + back_.col(j) * std::conj(phase);
+  }
+  const auto decay = modes_.decay().tail(rest), turn = modes_.turn().tail(rest);
+  for (Index k = 0; k < rest; ++k) {
+    const Complex now = sum[k] + free_[k] * std::polar(std::exp(decay[k] * length), turn[k] * length);
+    z[first_ + k] = now.real();
+    z[p + first_ + k] = now.imag();
   }
 }
 

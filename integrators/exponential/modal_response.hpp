@@ -25,9 +25,12 @@ struct TurningLoad {
 /// tests/verification/damped_modes_test.cpp.
 class PlaceResponse {
  public:
-  /// Handles the modes from `first` on; the member functions leave the others unchanged.
+  /// Of all modes.
+  PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place, double h)
+      : PlaceResponse(modes, loads, place, h, 0, modes.count()) {}
+  /// Of the modes from `first` to before `last`; the member functions leave the others unchanged.
   PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place, double h,
-                Index first = 0);
+                Index first, Index last);
 
   /// out := z at the position. `z` holds 2p numbers; `g` holds the coefficients of 1, s, ..., s^6
   /// one after the other, 2p numbers each, or is null if only harmonic loads act.
@@ -48,6 +51,41 @@ class PlaceResponse {
     Eigen::VectorXd forth, back;
   };
   std::vector<Harmonic> harmonics_;
+};
+
+/// The motion of fast damped modes within one step, without truncation error:
+///
+///     z(t + s h) = e^(lambda s h) c + sum_r p_r s^r + harmonics,   p_r = ((r + 1) p_(r+1)/h - g_r)/lambda
+///
+/// The constants are found once for a step, so that an instant costs an exponential function and a
+/// polynomial for each mode. Checked in tests/verification/damped_modes_test.cpp.
+class FastMotion {
+ public:
+  /// The smallest |lambda| h: the terms of p_0 are up to 6!/kLeast^6 times g/lambda, so that at
+  /// most three digits cancel.
+  static constexpr double kLeast = 1.0;
+
+  /// Both must outlive it.
+  FastMotion(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads)
+      : modes_(modes), loads_(loads) {}
+
+  /// Sets the step of length h from t, for the modes from `first` on; arguments as for
+  /// PlaceResponse::move(). False if a load nearly resonates with one of them, where digits would
+  /// cancel.
+  bool begin(double t, double h, const double* z, const double* g, Index first);
+  /// Fills the entries of these modes in `z` (2p) with the motion at a position of the step.
+  void move(double place, Eigen::VectorXd& z) const;
+
+ private:
+  /// The smallest |i Omega - lambda| h.
+  static constexpr double kResonant = 0.1;
+
+  const dynamics::DampedModes& modes_;
+  const std::vector<TurningLoad>& loads_;
+  double t_ = 0.0, h_ = 0.0;  ///< s
+  Index first_ = 0;
+  Eigen::ArrayXcd free_;                        ///< c
+  Eigen::ArrayXXcd polynomial_, forth_, back_;  ///< p_r; responses to e^(i Omega t), e^(-i Omega t), one column each
 };
 
 /// The responses at all nodes of a step except its start.

@@ -183,7 +183,17 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
   for (const double h : {1e-5, 1e-3, 0.02, 0.4})
     for (const double place : {0.3, 1.0}) {
       VectorXd out(2 * p);
-      integrators::PlaceResponse(modes, {load}, place, h).move(begin, z.data(), g.data(), out);
+      const std::vector<integrators::TurningLoad> loads = {load};
+      integrators::PlaceResponse(modes, loads, place, h).move(begin, z.data(), g.data(), out);
+      Index fast = 0;
+      while (fast < p && modes.speed()[fast] * h < integrators::FastMotion::kLeast) ++fast;
+      integrators::FastMotion motion(modes, loads);
+      ASSERT_TRUE(motion.begin(begin, h, z.data(), g.data(), fast));
+      VectorXd same = out;
+      same.segment(fast, p - fast).setZero();
+      same.tail(p - fast).setZero();
+      motion.move(place, same);
+      EXPECT_LT((same - out).norm(), 1e-11 * out.norm()) << h << " " << place << " " << p - fast;
       // The powers of s, and cosine and sine, as additional unknowns of one linear system.
       MatrixXd all = MatrixXd::Zero(2 * n + 9, 2 * n + 9);
       all.topLeftCorner(2 * n, 2 * n) = matrix;
