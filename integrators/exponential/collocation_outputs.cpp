@@ -33,19 +33,37 @@ FastModes::FastModes(const dynamics::DampedModes& modes, double tolerance)
   speed_shape_ = magnitude(modes.velocity());
 }
 
+FastModes::Scales FastModes::scales(const State& from, const State& to) const {
+  return {tolerance_ * LocalErrorControl::scales_x(to), tolerance_ * LocalErrorControl::scales_v(to),
+          tolerance_ * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs())};
+}
+
 double FastModes::find(const State& from, const State& to, double slow, const Eigen::ArrayXd& turning) const {
-  const Eigen::ArrayXd scale_x = tolerance_ * LocalErrorControl::scales_x(to),
-                       scale_v = tolerance_ * LocalErrorControl::scales_v(to),
-                       scale_a = tolerance_ * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs());
-  Eigen::ArrayXd x = Eigen::ArrayXd::Zero(scale_x.size()), v = x, a = x;
+  const Scales scale = scales(from, to);
+  Eigen::ArrayXd x = Eigen::ArrayXd::Zero(scale.x.size()), v = x, a = x;
   for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k) {
     const double speed = modes_.speed()[k];
     x += turning[k] * shape_.col(k).array();
     v += turning[k] * speed_shape_.col(k).array();
     a += turning[k] * speed * speed_shape_.col(k).array();
-    if ((x > scale_x).any() || (v > scale_v).any() || (a > scale_a).any()) return speed;
+    if ((x > scale.x).any() || (v > scale.v).any() || (a > scale.a).any()) return speed;
   }
   return slow;
+}
+
+Eigen::ArrayXd FastModes::silent(const State& from, const State& to, Index first) const {
+  const Scales scale = scales(from, to);
+  const Index p = modes_.count();
+  const double part = kSilent / static_cast<double>(p);
+  Eigen::ArrayXd all = Eigen::ArrayXd::Zero(p);
+  for (Index k = first; k < p; ++k) {
+    const auto x = shape_.col(k).array(), v = speed_shape_.col(k).array();
+    const auto least = [part](const auto& scales, const auto& moved) {
+      return (moved > 0.0).select(part * scales / moved, std::numeric_limits<double>::infinity()).minCoeff();
+    };
+    all[k] = std::min({least(scale.x, x), least(scale.v, v), least(scale.a, modes_.speed()[k] * v)});
+  }
+  return all;
 }
 
 NodeTraces::NodeTraces(const dynamics::DampedModes& modes) : modes_(modes) {
@@ -116,7 +134,8 @@ void CollocationOutputs::move_to(const State& from, const State& to, double plac
   Index fast = slow;
   if (holds(from, to)) {
     while (fast < p && modes_.speed()[fast] * h < FastMotion::kLeast) ++fast;
-    if (!has_fast_motion_) has_fast_motion_ = fast_motion_.begin(from.t, h, begin, forces, fast);
+    if (!has_fast_motion_)
+      has_fast_motion_ = fast_motion_.begin(from.t, h, begin, forces, fast, fast_.silent(from, to, fast));
     if (!*has_fast_motion_) fast = p;
     if (fast < p) fast_motion_.move(place, z);
   } else {

@@ -22,8 +22,19 @@ class FastModes {
   /// tolerance; `slow` if there is none, 1/s. `turning` holds the largest |dz/dt|/|lambda| of each
   /// mode in the step.
   double find(const time::State& from, const time::State& to, double slow, const Eigen::ArrayXd& turning) const;
+  /// The |z| of each mode below which all modes together move no output of the step, from the mode
+  /// `first` on, by more than kSilent times the tolerance.
+  Eigen::ArrayXd silent(const time::State& from, const time::State& to, Index first) const;
 
  private:
+  static constexpr double kSilent = 0.01;
+
+  /// The scales of x, v and a of all DOFs in a step, times the tolerance.
+  struct Scales {
+    Eigen::ArrayXd x, v, a;
+  };
+  Scales scales(const time::State& from, const time::State& to) const;
+
   const dynamics::DampedModes& modes_;
   double tolerance_, highest_;
   Eigen::MatrixXd shape_, speed_shape_;  ///< |r_k| and |lambda_k r_k| for each DOF and mode, n x p

@@ -152,7 +152,8 @@ void PlaceResponse::add_force(const double* g, Eigen::Ref<Eigen::VectorXd> out) 
   }
 }
 
-bool FastMotion::begin(double t, double h, const double* z, const double* g, Index first) {
+bool FastMotion::begin(double t, double h, const double* z, const double* g, Index first,
+                       const Eigen::ArrayXd& silent) {
   const Index p = modes_.count(), rest = p - first, loads = static_cast<Index>(loads_.size());
   const auto complex = [&](const double* numbers) {
     const Eigen::Map<const Eigen::ArrayXd> re(numbers + first, rest), im(numbers + p + first, rest);
@@ -172,6 +173,7 @@ bool FastMotion::begin(double t, double h, const double* z, const double* g, Ind
     polynomial_.col(r) = -complex(g + 2 * p * r) / lambda;
     if (r < kPowers - 1) polynomial_.col(r) += (static_cast<double>(r + 1) / h) * polynomial_.col(r + 1) / lambda;
   }
+  silent_ = silent.tail(rest);
   free_ = complex(z) - polynomial_.col(0);
   forth_.resize(rest, loads);
   back_.resize(rest, loads);
@@ -197,10 +199,13 @@ void FastMotion::move(double place, Eigen::VectorXd& z) const {
   }
   const auto decay = modes_.decay().tail(rest), turn = modes_.turn().tail(rest);
   for (Index k = 0; k < rest; ++k) {
-    const Complex now = sum[k] + free_[k] * std::polar(std::exp(decay[k] * length), turn[k] * length);
-    z[first_ + k] = now.real();
-    z[p + first_ + k] = now.imag();
+    const double largest = std::abs(free_[k].real()) + std::abs(free_[k].imag());
+    if (largest < silent_[k]) continue;
+    const double size = std::exp(decay[k] * length);
+    if (largest * size >= silent_[k]) sum[k] += free_[k] * std::polar(size, turn[k] * length);
   }
+  z.segment(first_, rest) = sum.real();
+  z.tail(rest) = sum.imag();
 }
 
 StepResponse::StepResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double h)

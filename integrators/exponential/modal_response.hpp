@@ -70,9 +70,9 @@ class FastMotion {
       : modes_(modes), loads_(loads) {}
 
   /// Sets the step of length h from t, for the modes from `first` on; arguments as for
-  /// PlaceResponse::move(). False if a load nearly resonates with one of them, where digits would
-  /// cancel.
-  bool begin(double t, double h, const double* z, const double* g, Index first);
+  /// PlaceResponse::move(). Free motion of mode k with |c| below silent[k] is left out. False if a
+  /// load nearly resonates with one of the modes, where digits would cancel.
+  bool begin(double t, double h, const double* z, const double* g, Index first, const Eigen::ArrayXd& silent);
   /// Fills the entries of these modes in `z` (2p) with the motion at a position of the step.
   void move(double place, Eigen::VectorXd& z) const;
 
@@ -84,6 +84,7 @@ class FastMotion {
   const std::vector<TurningLoad>& loads_;
   double t_ = 0.0, h_ = 0.0;  ///< s
   Index first_ = 0;
+  Eigen::ArrayXd silent_;
   Eigen::ArrayXcd free_;                        ///< c
   Eigen::ArrayXXcd polynomial_, forth_, back_;  ///< p_r; responses to e^(i Omega t), e^(-i Omega t), one column each
 };

@@ -188,7 +188,7 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
       Index fast = 0;
       while (fast < p && modes.speed()[fast] * h < integrators::FastMotion::kLeast) ++fast;
       integrators::FastMotion motion(modes, loads);
-      ASSERT_TRUE(motion.begin(begin, h, z.data(), g.data(), fast));
+      ASSERT_TRUE(motion.begin(begin, h, z.data(), g.data(), fast, Eigen::ArrayXd::Zero(p)));
       VectorXd same = out;
       same.segment(fast, p - fast).setZero();
       same.tail(p - fast).setZero();
