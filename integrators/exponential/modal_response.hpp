@@ -25,10 +25,10 @@ struct TurningLoad {
 /// tests/verification/damped_modes_test.cpp.
 class PlaceResponse {
  public:
-  /// Of all modes.
+  /// Handles all modes.
   PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place, double h)
       : PlaceResponse(modes, loads, place, h, 0, modes.count()) {}
-  /// Of the modes from `first` to before `last`; the member functions leave the others unchanged.
+  /// Handles the modes from `first` to `last` - 1; the member functions leave the others unchanged.
   PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place, double h,
                 Index first, Index last);
 
@@ -71,7 +71,7 @@ class FastMotion {
 
   /// Sets the step of length h from t, for the modes from `first` on; arguments as for
   /// PlaceResponse::move(). Free motion of mode k with |c| below silent[k] is left out. False if a
-  /// load nearly resonates with one of the modes, where digits would cancel.
+  /// load nearly resonates with one of the modes: digits would then cancel.
   bool begin(double t, double h, const double* z, const double* g, Index first, const Eigen::ArrayXd& silent);
   /// Fills the entries of these modes in `z` (2p) with the motion at a position of the step.
   void move(double place, Eigen::VectorXd& z) const;
@@ -84,7 +84,7 @@ class FastMotion {
   const std::vector<TurningLoad>& loads_;
   double t_ = 0.0, h_ = 0.0;  ///< s
   Index first_ = 0;
-  Eigen::ArrayXd silent_;
+  Eigen::ArrayXd silent_;                       ///< bounds of |c|
   Eigen::ArrayXcd free_;                        ///< c
   Eigen::ArrayXXcd polynomial_, forth_, back_;  ///< p_r; responses to e^(i Omega t), e^(-i Omega t), one column each
 };

@@ -181,6 +181,37 @@ TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
   EXPECT_LT(number("horizon"), 0.5);
 }
 
+/// The method refuses tolerances below 1e-8 in a scene with stops.
+TEST(Compare, EndsASweepWhereTheMethodRefusesTheTolerance) {
+  const TemporaryFolder folder;
+  std::string scene = kSwing;
+  scene.insert(scene.find("[initial]"), "[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 0.5\nstiffness = 2e3\n");
+  folder.write("swing.toml", scene);
+  const auto study = [](const std::string& values) {
+    return "schema = 1\n[study]\ntitle = \"limits\"\nscenes = [\"swing.toml\"]\ntargets = [1e-12]\n"
+           "[[study.method]]\ntype = \"exponential\"\nsweep = \"tolerance\"\nvalues = " +
+           values + "\n";
+  };
+  folder.write("study.toml", study("[1e-6, 1e-9]"));
+  const auto outcome = run_program({"compare", "study.toml"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_EQ(rows_of(read_file(folder.file("study-compare/runs.csv"))).size(), 1U);
+  // No run at all is an error.
+  folder.write("study.toml", study("[1e-9]"));
+  EXPECT_EQ(run_program({"compare", "study.toml", "--fresh"}, folder.path()).status, 2);
+}
+
+TEST(Trust, GoesOnWithoutATightenedRunThatTheMethodRefuses) {
+  const TemporaryFolder folder;
+  std::string scene = kSwing;
+  const std::string method = "type = \"rk4\"\ntime_step = 1e-3\n";
+  scene.replace(scene.find(method), method.size(), "type = \"exponential\"\ntolerance = 5e-8\n");
+  scene.insert(scene.find("[initial]"), "[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 0.5\nstiffness = 2e3\n");
+  folder.write("swing.toml", scene);
+  const auto outcome = run_program({"run", "swing.toml", "--trust"}, folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+}
+
 TEST(Compare, TakesExponentialWhereExactRefusesTheLaw) {
   const TemporaryFolder folder;
   std::string scene = kSwing;

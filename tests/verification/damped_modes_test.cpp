@@ -194,6 +194,13 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
       same.tail(p - fast).setZero();
       motion.move(place, same);
       EXPECT_LT((same - out).norm(), 1e-11 * out.norm()) << h << " " << place << " " << p - fast;
+      // Modes with less free motion than the bound lose it, and no more.
+      const Eigen::ArrayXd bound = Eigen::ArrayXd::Constant(p, 1e-3 * out.norm());
+      ASSERT_TRUE(motion.begin(begin, h, z.data(), g.data(), fast, bound));
+      motion.move(place, same);
+      for (Index k = 0; k < p; ++k)
+        EXPECT_LE(std::hypot(same[k] - out[k], same[p + k] - out[p + k]), bound[k] + 1e-11 * out.norm())
+            << h << " " << k;
       // The powers of s, and cosine and sine, as additional unknowns of one linear system.
       MatrixXd all = MatrixXd::Zero(2 * n + 9, 2 * n + 9);
       all.topLeftCorner(2 * n, 2 * n) = matrix;
