@@ -200,7 +200,7 @@ void PiecewiseMotion::find_breakpoints() {
   }
 }
 
-std::span<const double> PiecewiseMotion::breakpoints(const time::State& from, const time::State& to) {
+std::span<const double> PiecewiseMotion::breakpoints(const time::State& from, const time::State& to, time::Detail) {
   recall(from, to);
   if (!has_breakpoints_) find_breakpoints();
   return breakpoints_;

@@ -32,7 +32,7 @@ class PiecewiseMotion final : public time::Interpolant {
   time::Interpolation interpolation() const override { return time::Interpolation::other; }
   /// Changes of contact, discontinuities of loads, and instants in between that limit the phase
   /// angle of the motion from one to the next.
-  std::span<const double> breakpoints(const time::State& from, const time::State& to) override;
+  std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail) override;
   void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                    time::Interpolated out) override;
   void interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,

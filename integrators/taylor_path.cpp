@@ -105,7 +105,7 @@ const TaylorExpansion& TaylorPath::piece_at(double t) const {
   return pieces_[i];
 }
 
-std::span<const double> TaylorPath::breakpoints(const State& from, const State& to) {
+std::span<const double> TaylorPath::breakpoints(const State& from, const State& to, time::Detail) {
   recall(from, to);
   return breakpoints_;
 }

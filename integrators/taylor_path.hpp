@@ -24,7 +24,7 @@ class TaylorPath final : public time::Interpolant {
 
   time::Interpolation interpolation() const override { return time::Interpolation::other; }
   /// The instants at which one series ends and the next begins, s.
-  std::span<const double> breakpoints(const time::State& from, const time::State& to) override;
+  std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail) override;
   void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                    time::Interpolated out) override;
   /// Bounds from the derivatives of the series, term by term.

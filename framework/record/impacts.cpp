@@ -42,7 +42,7 @@ ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamic
   for (Index i = 0; i < contact.size(); ++i)
     for (const double side : {1.0, -1.0}) {
       if (!contact.play_of(i).has_side(side)) continue;
-      Watch watch{i, side, contact.play_of(i).gap, tracks_.add(contact.dof_a(i), contact.dof_b(i))};
+      Watch watch{i, side, contact.play_of(i).gap, tracks_.add(contact.dof_a(i), contact.dof_b(i), 1)};
       std::string name;
       for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) {
         if (dof < 0) continue;

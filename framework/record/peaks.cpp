@@ -35,7 +35,7 @@ Peaks::Peaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamic
 }
 
 std::size_t Peaks::follow(Index a, Index b, std::size_t order) {
-  const std::size_t track = tracks_.add(a, b);
+  const std::size_t track = tracks_.add(a, b, order);
   followed_.resize(tracks_.size());
   followed_[track].is_followed[order] = true;
   return track;

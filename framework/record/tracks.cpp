@@ -7,7 +7,8 @@ constexpr std::size_t kFixed = static_cast<std::size_t>(-1);
 
 }  // namespace
 
-std::size_t Tracks::add(Index a, Index b) {
+std::size_t Tracks::add(Index a, Index b, std::size_t order) {
+  if (order > 1) detail_ = time::Detail::accelerations;
   const auto found = std::find(pairs_.begin(), pairs_.end(), std::pair{a, b});
   if (found != pairs_.end()) return static_cast<std::size_t>(found - pairs_.begin());
   const auto place = [&](Index dof) {

@@ -11,9 +11,9 @@ namespace butee::record {
 /// relative to another.
 class BUTEE_EXPORT Tracks {
  public:
-  /// Returns the index of the displacement u_a - u_b; a negative DOF is fixed. To be called before
-  /// the first step.
-  std::size_t add(Index a, Index b);
+  /// Returns the index of the displacement u_a - u_b; a negative DOF is fixed. `order`: the highest
+  /// derivative whose extremes are wanted. To be called before the first step.
+  std::size_t add(Index a, Index b, std::size_t order);
   std::size_t size() const { return pairs_.size(); }
 
   Point at(const time::State& state, std::size_t track) const {
@@ -29,7 +29,7 @@ class BUTEE_EXPORT Tracks {
   void visit(const time::AcceptedStep& step, Look look) {
     kind_ = step.motion.interpolation();
     for (std::size_t i = 0; i < size(); ++i) from_[i] = at(step.from, i);
-    const std::span<const double> breakpoints = step.motion.breakpoints();
+    const std::span<const double> breakpoints = step.motion.breakpoints(detail_);
     if (!breakpoints.empty()) sample(step, breakpoints);
     for (std::size_t k = 0; k < breakpoints.size(); ++k) {
       load(k, breakpoints[k]);
@@ -49,6 +49,7 @@ class BUTEE_EXPORT Tracks {
   std::vector<std::pair<Index, Index>> pairs_;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< their indices in dofs_
   std::vector<Point> from_, to_;
+  time::Detail detail_ = time::Detail::velocities;
   time::Interpolation kind_ = time::Interpolation::cubic;  ///< of the last visited step
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;  ///< of dofs_ at the breakpoints

@@ -110,7 +110,7 @@ void MeanPart::step(const time::AcceptedStep& step) {
           integrate(step, begin + k * length, begin + (k + 1.0) * length), 0);
     begin = end;
   };
-  for (const double breakpoint : step.motion.breakpoints()) piece(breakpoint);
+  for (const double breakpoint : step.motion.breakpoints(time::Detail::accelerations)) piece(breakpoint);
   piece(step.to.t);
   probes_.evaluate(step, step.to.t, last_);
 }

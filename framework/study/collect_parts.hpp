@@ -57,8 +57,8 @@ class RangePart final : public CollectorPart {
       : is_max_(is_max), ranges_(probes.size()) {
     for (const model::ProbeRequest& probe : probes) {
       const Index dof = dynamics.system().dofs.index({probe.node, kind_of(probe.quantities[0])});
-      tracks_.push_back(all_.add(dof >= 0 ? dof : -1, -1));
       orders_.push_back(static_cast<std::size_t>(order_of(probe.quantities[0])));
+      tracks_.push_back(all_.add(dof >= 0 ? dof : -1, -1, orders_.back()));
     }
   }
   void start(const time::State& state) override {

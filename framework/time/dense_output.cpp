@@ -15,7 +15,7 @@ double hermite(double s, double h, double y0, double d0, double y1, double d1) {
 
 Interpolant::~Interpolant() = default;
 
-std::span<const double> Interpolant::breakpoints(const State&, const State&) {
+std::span<const double> Interpolant::breakpoints(const State&, const State&, Detail) {
   return {};
 }
 
@@ -45,7 +45,7 @@ void Interpolant::trace(const State& from, const State& to, double t, std::span<
 }
 
 int Interpolant::trace_parts(const State& from, const State& to) {
-  return static_cast<int>(1 + breakpoints(from, to).size());
+  return static_cast<int>(1 + breakpoints(from, to, Detail::velocities).size());
 }
 
 std::span<const EnergyAt> Interpolant::energies(const State&, const State&, std::span<const double>) {

@@ -29,6 +29,11 @@ enum class Interpolation {
   other          ///< any smooth motion; departure() bounds it
 };
 
+/// What the motion between two neighbouring breakpoints has to resolve within the tolerance:
+/// displacements and velocities, or accelerations as well, which fast modes of small amplitude may
+/// dominate.
+enum class Detail { velocities, accelerations };
+
 /// The motion of a method within its accepted steps. The default is the cubic interpolation; a
 /// method with a better one derives from this class. `from` and `to` are the ends of any accepted
 /// step, not only of the last one. Not thread-safe: an interpolant may keep the last step.
@@ -41,8 +46,9 @@ class BUTEE_EXPORT Interpolant {
   virtual Interpolation interpolation() const { return Interpolation::cubic; }
 
   /// The instants, ascending and strictly within the step, between which the method took internal
-  /// steps. The motion is smooth between them.
-  virtual std::span<const double> breakpoints(const State& from, const State& to);
+  /// steps. The motion is smooth between them, as far as `detail` requires. Valid until the next
+  /// call.
+  virtual std::span<const double> breakpoints(const State& from, const State& to, Detail detail);
 
   /// The motion of `dofs` at `t`.
   virtual void interpolate(const State& from, const State& to, double t, std::span<const Index> dofs, Interpolated out);
@@ -84,7 +90,9 @@ class BUTEE_EXPORT DenseOutput {
   const State& from() const { return *from_; }
   const State& to() const { return *to_; }
   Interpolation interpolation() const { return interpolant_->interpolation(); }
-  std::span<const double> breakpoints() const { return interpolant_->breakpoints(*from_, *to_); }
+  std::span<const double> breakpoints(Detail detail = Detail::velocities) const {
+    return interpolant_->breakpoints(*from_, *to_, detail);
+  }
   /// The motion of `dofs` at an instant of the step.
   void interpolate(double t, std::span<const Index> dofs, Interpolated out) const { interpolate({&t, 1}, dofs, out); }
   /// The same at several instants, ascending.

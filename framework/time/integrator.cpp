@@ -77,18 +77,24 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     auto event = events_->first(dense_output(from, to));
     if (!event) return;
     const double h = to.t - from.t;
-    if (!redo(std::min(std::max(event->t, from.t + kLeast * step.h), to.t))) return;
-    for (int k = 0; k < 3 && is_accepted(); ++k) {
+    double end = std::min(std::max(event->t, from.t + kLeast * step.h), to.t);
+    if (!redo(end)) return;
+    for (int k = 0; k < 3 && to.t == end && is_accepted(); ++k) {
       const double miss = events_->miss(*event, dense_output(from, to));
       if (std::abs(miss) <= good * h || std::abs(miss) > 0.1 * (to.t - from.t)) break;
       const double t_end = to.t - miss;
       if (t_end < from.t + kLeast * step.h || t_end > step.t_end || t_end == to.t) break;
-      if (!redo(t_end)) return;
+      end = t_end;
+      if (!redo(end)) return;
     }
+    // A method may end a step even earlier, for reasons of its own; the change is then sought anew.
+    if (to.t != end) continue;
     events_->mark(*event, to);
-    // Another contact may change earlier; the end of the step is then not an event of this contact.
+    // Another change may come earlier; the end of the step is then not this event. This one itself
+    // may lie before the end by its error.
     const auto before = events_->first(dense_output(from, to));
-    if (!before || to.t - before->t <= std::max(1e-6, good) * h) return;
+    const bool is_same = before && before->contact == event->contact && before->which == event->which;
+    if (!before || to.t - before->t <= (is_same ? std::max(1e-6, good) : good) * h) return;
     to.contact = from.contact;
   }
 }

@@ -14,9 +14,12 @@ using time::State;
 constexpr Index kCount = StepNodes::kCount;
 /// Allowed interpolation error of modes in outputs between nodes, as a fraction of the tolerance.
 constexpr double kOutput = 0.1;
-/// Largest phase angle of the fastest motion between breakpoints, rad: the error of a quintic is
-/// then 4e-4 of the motion and 6e-4 of its speed.
-constexpr double kMostTurn = 1.5;
+constexpr double kMostTurn = FastModes::kMostTurn;
+/// A sine of amplitude 1 and frequency omega differs from the quintic through its x, v and a at two
+/// instants dt apart by at most kOfX + kOfV (omega dt) + kOfA (omega dt)^2, and its velocity by
+/// omega (kSpeedOfV + kSpeedOfA (omega dt)): norms of Hermite's functions with a reserve, from
+/// plugins/exponential/THEORY.md, section 10.
+constexpr double kOfX = 2.0, kOfV = 0.4, kOfA = 0.035, kSpeedOfV = 5.0, kSpeedOfA = 0.3;
 /// The largest distance of neighbouring nodes, as a fraction of the step.
 constexpr double kLongestPart = 0.24;
 constexpr double kMostBreakpoints = 4096.0;
@@ -38,30 +41,41 @@ FastModes::Scales FastModes::scales(const State& from, const State& to) const {
           tolerance_ * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs())};
 }
 
-double FastModes::find(const State& from, const State& to, double slow, const Eigen::ArrayXd& turning) const {
+double FastModes::find(const State& from, const State& to, double slow, const Eigen::ArrayXd& turning,
+                       time::Detail detail) const {
   const Scales scale = scales(from, to);
+  // Sums over the modes that are left out, for each DOF.
   Eigen::ArrayXd x = Eigen::ArrayXd::Zero(scale.x.size()), v = x, a = x;
   for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k) {
     const double speed = modes_.speed()[k];
     x += turning[k] * shape_.col(k).array();
     v += turning[k] * speed_shape_.col(k).array();
     a += turning[k] * speed * speed_shape_.col(k).array();
-    if ((x > scale.x).any() || (v > scale.v).any() || (a > scale.a).any()) return speed;
+    if (detail == time::Detail::accelerations) {
+      if ((x > scale.x).any() || (v > scale.v).any() || (a > scale.a).any()) return speed;
+      continue;
+    }
+    const double dt = kMostTurn / std::max(slow, k > 0 ? modes_.speed()[k - 1] : 0.0);
+    if ((kOfX * x + kOfV * dt * v + kOfA * dt * dt * a > scale.x).any() ||
+        (kSpeedOfV * v + kSpeedOfA * dt * a > scale.v).any())
+      return speed;
   }
   return slow;
 }
 
 Eigen::ArrayXd FastModes::silent(const State& from, const State& to, Index first) const {
+  constexpr double kTiny = std::numeric_limits<double>::min();
   const Scales scale = scales(from, to);
+  const Eigen::ArrayXd by_x = 1.0 / scale.x.max(kTiny), by_v = 1.0 / scale.v.max(kTiny),
+                       by_a = 1.0 / scale.a.max(kTiny);
   const Index p = modes_.count();
   const double part = kSilent / static_cast<double>(p);
   Eigen::ArrayXd all = Eigen::ArrayXd::Zero(p);
   for (Index k = first; k < p; ++k) {
-    const auto x = shape_.col(k).array(), v = speed_shape_.col(k).array();
-    const auto least = [part](const auto& scales, const auto& moved) {
-      return (moved > 0.0).select(part * scales / moved, std::numeric_limits<double>::infinity()).minCoeff();
-    };
-    all[k] = std::min({least(scale.x, x), least(scale.v, v), least(scale.a, modes_.speed()[k] * v)});
+    // The largest motion, relative to its scale, for |z| = 1.
+    const double most = std::max((shape_.col(k).array() * by_x).maxCoeff(),
+                                 (speed_shape_.col(k).array() * by_v.max(modes_.speed()[k] * by_a)).maxCoeff());
+    all[k] = part / most;
   }
   return all;
 }
@@ -100,7 +114,7 @@ void CollocationOutputs::accept(double begin, double end, const Eigen::MatrixXd&
   nodes_ = &nodes;
   traces_.reset();
   last_.instant = std::numeric_limits<double>::quiet_NaN();
-  is_parted_ = false;
+  for (Breakpoints& breakpoints : breakpoints_) breakpoints.is_known = false;
   has_fast_motion_.reset();
 }
 
@@ -195,7 +209,7 @@ void CollocationOutputs::trace(const State& from, const State& to, double t, std
   }
 }
 
-double CollocationOutputs::find_fastest(const State& from, const State& to, double slow) const {
+double CollocationOutputs::find_fastest(const State& from, const State& to, double slow, time::Detail detail) const {
   const Index p = modes_.count();
   // |dz/dt|/|lambda| is the amplitude of a mode's rotation about its quasi-static response.
   Eigen::VectorXd rate;
@@ -205,29 +219,30 @@ double CollocationOutputs::find_fastest(const State& from, const State& to, doub
     find_rate(at.t, place, modal(to) + 2 * p, Eigen::Map<const Eigen::VectorXd>(modal(at), 2 * p), rate);
     turning = turning.max((rate.head(p).array().square() + rate.tail(p).array().square()).sqrt());
   }
-  return fast_.find(from, to, slow, turning / modes_.speed());
+  return fast_.find(from, to, slow, turning / modes_.speed(), detail);
 }
 
 double CollocationOutputs::longest(const State& from, const State& to) const {
   const double turns = kMostBreakpoints * kMostTurn, slow = turns / (to.t - from.t);
   if (std::max(fast_.highest(), loads_.highest_frequency()) <= slow) return std::numeric_limits<double>::infinity();
-  return turns / std::max(loads_.highest_frequency(), find_fastest(from, to, slow));
+  return turns / std::max(loads_.highest_frequency(), find_fastest(from, to, slow, time::Detail::accelerations));
 }
 
-std::span<const double> CollocationOutputs::breakpoints(const State& from, const State& to) {
-  if (holds(from, to) && is_parted_) return breakpoints_;
-  is_parted_ = holds(from, to);
+std::span<const double> CollocationOutputs::breakpoints(const State& from, const State& to, time::Detail detail) {
+  auto& [is_known, all] = breakpoints_[detail == time::Detail::accelerations ? 1 : 0];
+  if (holds(from, to) && is_known) return all;
+  is_known = holds(from, to);
   const double h = to.t - from.t, slow = kMostTurn / (kLongestPart * h);
   double fastest = std::max(slow, loads_.highest_frequency());
-  if (fast_.highest() > fastest) fastest = find_fastest(from, to, fastest);
+  if (fast_.highest() > fastest) fastest = find_fastest(from, to, fastest, detail);
   const int parts = static_cast<int>(std::ceil(fastest / slow));
-  breakpoints_.clear();
+  all.clear();
   for (std::size_t j = 0; j + 1 < StepNodes::kPlaces.size(); ++j) {
     const double begin = from.t + StepNodes::kPlaces[j] * h, end = from.t + StepNodes::kPlaces[j + 1] * h;
-    if (j > 0) breakpoints_.push_back(begin);
-    for (int i = 1; i < parts; ++i) breakpoints_.push_back(begin + (end - begin) * i / parts);
+    if (j > 0) all.push_back(begin);
+    for (int i = 1; i < parts; ++i) all.push_back(begin + (end - begin) * i / parts);
   }
-  return breakpoints_;
+  return all;
 }
 
 }  // namespace butee::integrators

@@ -18,10 +18,16 @@ class FastModes {
   FastModes(const dynamics::DampedModes& modes, double tolerance);
 
   double highest() const { return highest_; }  ///< |lambda|, 1/s
-  /// The highest |lambda| above `slow` of a mode that moves an output of the step by more than the
-  /// tolerance; `slow` if there is none, 1/s. `turning` holds the largest |dz/dt|/|lambda| of each
-  /// mode in the step.
-  double find(const time::State& from, const time::State& to, double slow, const Eigen::ArrayXd& turning) const;
+  /// The highest |lambda| above `slow` of a mode that has to be resolved between breakpoints;
+  /// `slow` if there is none, 1/s. Breakpoints that are kMostTurn/|lambda| apart leave out faster
+  /// modes, which move outputs of the step, and the quintic between breakpoints, by less than the
+  /// tolerance; with time::Detail::velocities this does not count for accelerations. `turning`
+  /// holds the largest |dz/dt|/|lambda| of each mode in the step.
+  double find(const time::State& from, const time::State& to, double slow, const Eigen::ArrayXd& turning,
+              time::Detail detail) const;
+  /// Largest phase angle of the fastest motion between breakpoints, rad: the error of a quintic is
+  /// then 4e-4 of the motion and 6e-4 of its speed.
+  static constexpr double kMostTurn = 1.5;
   /// The |z| of each mode below which all modes together move no output of the step, from the mode
   /// `first` on, by more than kSilent times the tolerance.
   Eigen::ArrayXd silent(const time::State& from, const time::State& to, Index first) const;
@@ -80,9 +86,9 @@ class CollocationOutputs final : public time::Interpolant {
   int trace_parts(const time::State&, const time::State&) override { return StepNodes::kCount - 1; }
   /// The nodes of the step and, if modes or loads rotate fast between them, instants that limit the
   /// angle from one breakpoint to the next.
-  std::span<const double> breakpoints(const time::State& from, const time::State& to) override;
-  /// The longest step, s, whose number of breakpoints stays within its limit, if the fastest motion
-  /// is as fast as in this step.
+  std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail detail) override;
+  /// The longest step, s, whose number of breakpoints, with accelerations, stays within its limit,
+  /// if the fastest motion is as fast as in this step.
   double longest(const time::State& from, const time::State& to) const;
 
  private:
@@ -96,7 +102,7 @@ class CollocationOutputs final : public time::Interpolant {
   /// dz/dt for given z and force polynomials.
   void find_rate(double t, double place, const double* forces, const Eigen::VectorXd& z, Eigen::VectorXd& rate) const;
   /// FastModes::find() for the step.
-  double find_fastest(const time::State& from, const time::State& to, double slow) const;
+  double find_fastest(const time::State& from, const time::State& to, double slow, time::Detail detail) const;
 
   const dynamics::DampedModes& modes_;
   const ModalLoads& loads_;
@@ -116,8 +122,11 @@ class CollocationOutputs final : public time::Interpolant {
     Eigen::VectorXd z, rate;
   };
   Request last_;
-  bool is_parted_ = false;  ///< breakpoints_ holds the breakpoints of the current step
-  std::vector<double> breakpoints_;
+  struct Breakpoints {
+    bool is_known = false;  ///< they are those of the current step
+    std::vector<double> all;
+  };
+  std::array<Breakpoints, 2> breakpoints_;  ///< by time::Detail
 };
 
 }  // namespace butee::integrators

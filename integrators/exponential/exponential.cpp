@@ -185,7 +185,7 @@ bool Exponential<Step>::holds(const State& from, double t_end) const {
 }
 
 template <class Step>
-std::span<const double> Exponential<Step>::breakpoints(const State& from, const State& to) {
+std::span<const double> Exponential<Step>::breakpoints(const State& from, const State& to, time::Detail) {
   return recall(from, to).breakpoints();
 }
 

@@ -61,7 +61,7 @@ class Exponential final : public time::Integrator, private time::Interpolant {
   time::Interpolation interpolation() const override {
     return step_.has_stops() ? time::Interpolation::near_quintic : time::Interpolation::other;
   }
-  std::span<const double> breakpoints(const time::State& from, const time::State& to) override;
+  std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail) override;
   void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                    time::Interpolated out) override {
     interpolate_all(from, to, {&t, 1}, dofs, out);
