@@ -130,30 +130,31 @@ void ContactStateFlow::add_alone(const LongMatrix& shapes, const LongVector& squ
 void ContactStateFlow::add_coupled(const LongMatrix& shapes, const LongVector& squares, const LongMatrix& damping,
                                    const std::vector<Index>& modes) {
   const auto p = static_cast<Index>(modes.size());
-  long double scale = 0.0L;
-  for (const Index i : modes) scale = std::max({scale, std::sqrt(squares[i]), damping(i, i)});
   LongMatrix motion = LongMatrix::Zero(2 * p, 2 * p), some(n_, p);  // of (scale q, q')
-  motion.topRightCorner(p, p).diagonal().setConstant(scale);
+  // Scaled by the frequency of their mode, the two vectors of a conjugate pair are as far from parallel in slow modes
+  // as in fast ones. A coupled mode without stiffness is damped.
+  LongVector scale(p);
   for (Index i = 0; i < p; ++i) {
-    some.col(i) = shapes.col(modes[static_cast<std::size_t>(i)]);
-    motion(p + i, i) = -squares[modes[static_cast<std::size_t>(i)]] / scale;
-    for (Index j = 0; j < p; ++j)
-      motion(p + i, p + j) = -damping(modes[static_cast<std::size_t>(i)], modes[static_cast<std::size_t>(j)]);
+    const Index mode = modes[static_cast<std::size_t>(i)];
+    scale[i] = squares[mode] > 0.0L ? std::sqrt(squares[mode]) : damping(mode, mode);
+    some.col(i) = shapes.col(mode);
+    motion(i, p + i) = scale[i];
+    motion(p + i, i) = -squares[mode] / scale[i];
+    for (Index j = 0; j < p; ++j) motion(p + i, p + j) = -damping(mode, modes[static_cast<std::size_t>(j)]);
   }
   const auto pairs = linalg::general_pairs(motion);
   if (!pairs || !(pairs->vectors.norm() * pairs->inverse.norm() < kParallel))
     throw RunError(
         "piecewise: dashpots make two motions of a contact state nearly the same (critical damping), so that they are "
-        "no "
-        "basis; take exact or rodas4");
+        "no basis; take exact or rodas4");
   const LongComplexMatrix &vectors = pairs->vectors, &inverse = pairs->inverse;
   const LongMatrix weighted = some.transpose() * system_.mass;
   const auto right_of = [&](Index m) -> Eigen::Matrix<LongComplex, Eigen::Dynamic, 1> {
-    return some.cast<LongComplex>() * vectors.col(m).head(p) / LongComplex(scale);
+    return some.cast<LongComplex>() * scale.cwiseInverse().cast<LongComplex>().cwiseProduct(vectors.col(m).head(p));
   };
   LongMatrix right(n_, 2), left(2, 2 * n_), forcing(2, n_);
   const auto fill_left = [&](Index row, const auto& of_q, const auto& of_v) {
-    left.block(row, 0, 1, n_) = scale * of_q * weighted;
+    left.block(row, 0, 1, n_) = of_q.cwiseProduct(scale.transpose()) * weighted;
     left.block(row, n_, 1, n_) = of_v * weighted;
     forcing.row(row) = of_v * some.transpose();
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "butee/core/error.hpp"
 #include "integrators/quintic.hpp"
 
 namespace butee::integrators {
@@ -81,7 +82,14 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
   std::size_t at_once = 0;
   changed_ = static_cast<Index>(from.memory[system_.stop_count()]);
   while (true) {
-    const ContactStateFlow& flow = begin_piece(t);
+    try {
+      begin_piece(t);
+    } catch (const RunError&) {
+      // The step ends before a contact state that has no modes; the next one fails.
+      if (begins_.empty()) throw;
+      break;
+    }
+    const ContactStateFlow& flow = *flow_;
     const double landing = std::min(step.t_end, next_discontinuity(t)), rest = landing - t,
                  until = std::min(rest, flow.longest());
     const auto found =
@@ -135,7 +143,7 @@ const ContactStateFlow& PiecewiseMotion::flow() {
   return *found->flow;
 }
 
-const ContactStateFlow& PiecewiseMotion::begin_piece(double t) {
+void PiecewiseMotion::begin_piece(double t) {
   const ContactStateFlow& now = flow();
   force_.setZero();
   bool has_force = system_.add_polynomials(t, force_);
@@ -149,7 +157,6 @@ const ContactStateFlow& PiecewiseMotion::begin_piece(double t) {
   }
   now.begin(t, x_.data(), v_.data(), force_, has_force, next_discontinuity(t) - t, piece_);
   flow_ = &now;
-  return now;
 }
 
 double PiecewiseMotion::next_discontinuity(double t) const {

@@ -60,7 +60,7 @@ class PiecewiseMotion final : public time::Interpolant {
   /// The flow of status_.
   const ContactStateFlow& flow();
   /// Begins a piece at (t, x_, v_).
-  const ContactStateFlow& begin_piece(double t);
+  void begin_piece(double t);
   void load_piece(std::size_t piece);
   /// Follows a step again unless it is the last one that was followed.
   void recall(const time::State& from, const time::State& to);

@@ -167,7 +167,13 @@ bool Simulation::advance() {
                      ", where the scene is too stiff or a contact law too steep for this method");
       return false;
     }
-    const StepReport result = integrator_.step(state_, step, next_);
+    StepReport result;
+    try {
+      result = integrator_.step(state_, step, next_);
+    } catch (const RunError& error) {
+      fail(step, error.what());
+      return false;
+    }
     report_.newton_iterations += result.newton_iterations;
     report_.rejected += result.inner_rejected;
     if (result.kept_failure || result.status == StepStatus::newton_failed) ++report_.newton_failures;
