@@ -155,6 +155,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   const auto p = static_cast<Index>(kept.size());
   decay_.resize(p);
   turn_.resize(p);
+  kinetic_.resize(p);
   Eigen::MatrixXd of_x = Eigen::MatrixXd::Zero(n, 2 * p), of_v = of_x, from_q = of_x, from_v = of_x;
   for (Index m = 0; m < p; ++m) {
     const Block& block = blocks[kept[static_cast<std::size_t>(m)].first];
@@ -163,6 +164,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
     decay_[m] = lambda.real();
     turn_[m] = lambda.imag();
     const double weight = lambda.imag() > 0.0 ? 2.0 : 1.0;
+    kinetic_[m] = 0.5 * weight * weight * block.vectors.col(k).tail(b).squaredNorm();
     for (Index i = 0; i < b; ++i) {
       const auto shape = shapes.col(block.modes[static_cast<std::size_t>(i)]);
       const Complex x = weight / block.scale[i] * block.vectors(i, k), v = weight * block.vectors(b + i, k),

@@ -40,6 +40,9 @@ class BUTEE_EXPORT DampedModes {
   const Eigen::ArrayXd& turn() const { return turn_; }    ///< Im lambda >= 0, rad/s
   const Eigen::ArrayXd& speed() const { return speed_; }  ///< |lambda|, 1/s, ascending
 
+  /// The largest kinetic energy of each mode alone for |z| = 1, J
+  const Eigen::ArrayXd& kinetic() const { return kinetic_; }
+
   const Eigen::MatrixXd& displacement() const { return displacement_; }  ///< 2p x n: x_d = column d . z
   const Eigen::MatrixXd& velocity() const { return velocity_; }          ///< 2p x n
   const Eigen::MatrixXd& input() const { return input_; }                ///< 2p x n: z' gets column d times f_d
@@ -58,7 +61,7 @@ class BUTEE_EXPORT DampedModes {
   };
   static bool solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping, Block& block);
 
-  Eigen::ArrayXd decay_, turn_, speed_;
+  Eigen::ArrayXd decay_, turn_, speed_, kinetic_;
   Eigen::MatrixXd displacement_, velocity_, input_, from_x_, from_v_;
 };
 

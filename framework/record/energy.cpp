@@ -112,17 +112,34 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
   }
   if (!told.empty()) return;
   double begin = step.from.t;
-  for (const double breakpoint : step.motion.breakpoints()) {
-    add_piece(step, begin, breakpoint);
-    begin = breakpoint;
-    if (!is_due(breakpoint)) continue;
-    look_within(step, breakpoint);
-    write_row(breakpoint);
+  for (const double instant : ends_of_pieces(step)) {
+    add_piece(step, begin, instant);
+    begin = instant;
+    if (!is_due(instant)) continue;
+    look_within(step, instant);
+    write_row(instant);
   }
   add_piece(step, begin, step.to.t);
   now_ = energy_of(step.to, dynamics_);
   largest_ = std::max(largest_, std::abs(now_.total()));
   if (is_due(step.to.t)) write_row(step.to.t);
+}
+
+bool EnergyRecorder::uses_gauss(const time::AcceptedStep& step) const {
+  // Contact forces may jump at the ends of pieces; steps of near_quintic motion span many pieces.
+  return dynamics_.obstacles() != nullptr || step.motion.interpolation() == time::Interpolation::near_quintic;
+}
+
+const std::vector<double>& EnergyRecorder::ends_of_pieces(const time::AcceptedStep& step) {
+  const bool at_any_instant = uses_gauss(step);
+  const auto found = step.motion.breakpoints(at_any_instant ? time::Detail::power : time::Detail::velocities);
+  ends_.assign(found.begin(), found.end());
+  if (!at_any_instant) return ends_;
+  const auto middle = static_cast<std::ptrdiff_t>(ends_.size());
+  for (const double t : due_)
+    if (t > step.from.t && t < step.to.t && !std::binary_search(found.begin(), found.end(), t)) ends_.push_back(t);
+  std::inplace_merge(ends_.begin(), ends_.begin() + middle, ends_.end());
+  return ends_;
 }
 
 void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
@@ -144,8 +161,21 @@ EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& ste
 }
 
 EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, double begin, double end) {
+  const auto points = gauss_points(begin, end);
+  constexpr auto kPoints = static_cast<Index>(std::tuple_size_v<decltype(gauss_points(0.0, 0.0))>);
+  std::array<double, kPoints> instants{};
+  std::transform(points.begin(), points.end(), instants.begin(), [](const QuadraturePoint& point) { return point.t; });
+  const auto span = [](auto& matrix) { return std::span(matrix.data(), static_cast<std::size_t>(matrix.size())); };
+  v_at_.resize(dynamics_.size(), kPoints);
+  if (needs_x_) x_at_.resize(dynamics_.size(), kPoints);
+  step.motion.interpolate(instants, all_, {needs_x_ ? span(x_at_) : std::span<double>{}, span(v_at_), {}});
   Power sum{};
-  for (const auto& [t, weight] : gauss_points(begin, end)) sum += weight * power_within(step, t);
+  for (Index k = 0; k < kPoints; ++k) {
+    const QuadraturePoint& point = points[static_cast<std::size_t>(k)];
+    middle_ = v_at_.col(k);
+    if (needs_x_) middle_x_ = x_at_.col(k);
+    sum += point.weight * power(point.t, middle_x_, middle_);
+  }
   return sum;
 }
 
@@ -173,7 +203,7 @@ void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, do
 void EnergyRecorder::add_piece(const time::AcceptedStep& step, double begin, double end) {
   if (step.motion.interpolation() == time::Interpolation::other)
     return add_halved(step, begin, end, gauss(step, begin, end), 0);
-  if (dynamics_.obstacles() != nullptr) return add(gauss(step, begin, end));  // forces may jump at its ends
+  if (uses_gauss(step)) return add(gauss(step, begin, end));
   const double h = end - begin;
   const Power middle = power_within(step, 0.5 * (begin + end)), last = power_within(step, end);
   const Power done = (h / 6.0) * last_ + (4.0 / 6.0 * h) * middle + (h / 6.0) * last;

@@ -26,13 +26,14 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 /// Unless the method provides them (DenseOutput::energies), they are integrated by Simpson's rule
 /// from breakpoint to breakpoint of every accepted step, with the midpoint from the method's own
 /// interpolant: fourth order, so that the balance shows the method's error and not the quadrature
-/// error. With Interpolation::other pieces may be long; they are halved until Gauss' rule with five
-/// points gives the same work and dissipation over the whole and over both halves. The balance
-/// error is (change + dissipated - work) / largest energy.
+/// error. With obstacles, whose forces may jump, and with Interpolation::near_quintic, by Gauss'
+/// rule with five points, also between the instants of rows. With Interpolation::other pieces may be long; they are
+/// halved until Gauss' rule with five points gives the same work and dissipation over the whole and over both halves.
+/// The balance error is (change + dissipated - work) / largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
-  /// `dynamics` must outlive this object. A `writer` gets a row at the start, at the first end or
-  /// breakpoint of a step at or after each of `times`, and at the last step.
+  /// `dynamics` must outlive this object. A `writer` gets a row at the start, at each of `times` or
+  /// the first end or breakpoint of a step after it, and at the last step.
   explicit EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer = nullptr,
                           std::optional<OutputTimes> times = std::nullopt);
 
@@ -79,6 +80,9 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   void add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings);
   /// Adds the work between two instants with no breakpoint between them.
   void add_piece(const time::AcceptedStep& step, double begin, double end);
+  bool uses_gauss(const time::AcceptedStep& step) const;
+  /// The ends of the pieces within a step, its own end excepted. Valid until the next call.
+  const std::vector<double>& ends_of_pieces(const time::AcceptedStep& step);
   void find_due(const time::AcceptedStep& step);
   void look_within(const time::AcceptedStep& step, double t);
   void write_row(double t);
@@ -88,7 +92,9 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   bool has_drive_;  ///< K is not symmetric
   bool needs_x_;
   Vector middle_, middle_x_, force_;
-  std::vector<double> due_;  ///< instants for which a row is not yet written
+  Eigen::MatrixXd x_at_, v_at_;  ///< at the points of a quadrature rule, one column each
+  std::vector<double> due_;      ///< instants for which a row is not yet written
+  std::vector<double> ends_;     ///< of the pieces of a step
   Power last_{};
   std::vector<dynamics::ContactForces> contacts_;
   CsvWriter* writer_;

@@ -91,6 +91,14 @@ bool may_bend(const Point& from, const Point& to) {
   return std::max(off0, off1) > kMore * std::min({off0, off1, std::max(std::abs(a0), std::abs(a1))});
 }
 
+/// The value of a polynomial at a position, by de Casteljau's rule.
+template <std::size_t Degree>
+double value_at(Bernstein<Degree> c, double place) {
+  for (std::size_t rest = Degree; rest > 0; --rest)
+    for (std::size_t i = 0; i < rest; ++i) c[i] += place * (c[i + 1] - c[i]);
+  return c[0];
+}
+
 /// The value of a polynomial at the midpoint.
 template <std::size_t Degree>
 double middle_of(Bernstein<Degree> c) {
@@ -117,6 +125,12 @@ Point StepPath::at(double t) const {
     sign = -1.0;
   }
   return point;
+}
+
+double StepPath::displacement(const Point& from, const Point& to, double t) const {
+  if (kind_ == time::Interpolation::cubic || kind_ == time::Interpolation::other || may_bend(from, to))
+    return at(t).of[0];
+  return value_at<5>(quintic(from, to), (t - from.t) / (to.t - from.t));
 }
 
 std::pair<double, double> StepPath::enclose(std::size_t order, const Point& from, const Point& to) const {

@@ -66,6 +66,9 @@ class BUTEE_EXPORT StepPath {
     return point;
   }
   Point at(double t) const;
+  /// The displacement at an instant between two with no breakpoint between them, by the quintic through both where the
+  /// dense output is one; for Interpolation::near_quintic both agree within the tolerance.
+  double displacement(const Point& from, const Point& to, double t) const;
   /// Bounds of derivative `order` between two instants with no breakpoint between them.
   std::pair<double, double> enclose(std::size_t order, const Point& from, const Point& to) const;
 

@@ -55,8 +55,8 @@ ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamic
     }
 }
 
-double ImpactRecorder::force(const Watch& watch, const Point& point) {
-  return std::abs(dynamics_.stops().force_of(watch.stop, point.of[0]));
+double ImpactRecorder::force(const Watch& watch, double displacement) {
+  return std::abs(dynamics_.stops().force_of(watch.stop, displacement));
 }
 
 void ImpactRecorder::start(const time::State& state) {
@@ -66,7 +66,7 @@ void ImpactRecorder::start(const time::State& state) {
     watch.closed = watch.penetration(at) > 0.0;
     watch.current.t_in = state.t;
     watch.current.impact_speed = watch.speed(at);
-    watch.current.peak_force = watch.closed ? force(watch, at) : 0.0;
+    watch.current.peak_force = watch.closed ? force(watch, at.of[0]) : 0.0;
     watch.current.impulse = 0.0;
   }
 }
@@ -131,8 +131,9 @@ void ImpactRecorder::accumulate(Watch& watch, const StepPath& path, const Point&
   if (!(to.t > from.t)) return;
   for (const Point* end : {&from, &to})
     if (watch.penetration(*end) > 0.0)
-      watch.current.peak_force = std::max(watch.current.peak_force, force(watch, *end));
-  for (const auto& [t, weight] : gauss_points(from.t, to.t)) watch.current.impulse += weight * force(watch, path.at(t));
+      watch.current.peak_force = std::max(watch.current.peak_force, force(watch, end->of[0]));
+  for (const auto& [t, weight] : gauss_points(from.t, to.t))
+    watch.current.impulse += weight * force(watch, path.displacement(from, to, t));
 }
 
 void ImpactRecorder::save(ByteWriter& to) const {

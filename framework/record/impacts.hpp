@@ -69,7 +69,8 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
   void follow_part(Watch& watch, const StepPath& path, const Point& from, const Point& to);
   void accumulate(Watch& watch, const StepPath& path, const Point& from, const Point& to);
   Point crossing(const Watch& watch, const StepPath& path, double begin, double end) const;
-  double force(const Watch& watch, const Point& point);
+  /// The absolute force of the stop, N.
+  double force(const Watch& watch, double displacement);
 
   dynamics::Dynamics& dynamics_;
   Tracks tracks_;

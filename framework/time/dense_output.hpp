@@ -29,10 +29,12 @@ enum class Interpolation {
   other          ///< any smooth motion; departure() bounds it
 };
 
-/// What the motion between two neighbouring breakpoints has to resolve within the tolerance:
-/// displacements and velocities, or accelerations as well, which fast modes of small amplitude may
-/// dominate.
-enum class Detail { velocities, accelerations };
+/// What the motion between two neighbouring breakpoints has to resolve within the tolerance.
+enum class Detail {
+  velocities,     ///< displacements and velocities, by the polynomial of Interpolation
+  accelerations,  ///< accelerations as well, which fast modes of small amplitude may dominate
+  power           ///< the work of forces, by Gauss' rule with five points
+};
 
 /// The motion of a method within its accepted steps. The default is the cubic interpolation; a
 /// method with a better one derives from this class. `from` and `to` are the ends of any accepted
@@ -46,8 +48,8 @@ class BUTEE_EXPORT Interpolant {
   virtual Interpolation interpolation() const { return Interpolation::cubic; }
 
   /// The instants, ascending and strictly within the step, between which the method took internal
-  /// steps. The motion is smooth between them, as far as `detail` requires. Valid until the next
-  /// call.
+  /// steps. The motion is smooth between them, as far as `detail` requires; there may be fewer for
+  /// Detail::power. Valid until the next call.
   virtual std::span<const double> breakpoints(const State& from, const State& to, Detail detail);
 
   /// The motion of `dofs` at `t`.

@@ -58,8 +58,10 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
 
 void Integrator::end_at_event(const State& from, const Step& step, State& to, StepReport& report) {
   constexpr int kMostTrials = 6;
-  constexpr double kLeast = 1e-10;
-  const double good = traits().event_precision;
+  constexpr double kLeast = 1e-10, kSame = 1e-6;
+  // Tolerances refer to the length that was asked for: changes of two contacts almost at the same instant leave a step
+  // too short to be a measure.
+  const double good = traits().event_precision * step.h;
   const auto is_accepted = [&] { return controller() == nullptr || controller()->decide(step.h, report).accept; };
   const double wanted = report.proposal;
   const auto redo = [&](double t_end) {
@@ -76,12 +78,11 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
   for (int trial = 0; trial < kMostTrials && is_accepted(); ++trial) {
     auto event = events_->first(dense_output(from, to));
     if (!event) return;
-    const double h = to.t - from.t;
     double end = std::min(std::max(event->t, from.t + kLeast * step.h), to.t);
     if (!redo(end)) return;
     for (int k = 0; k < 3 && to.t == end && is_accepted(); ++k) {
       const double miss = events_->miss(*event, dense_output(from, to));
-      if (std::abs(miss) <= good * h || std::abs(miss) > 0.1 * (to.t - from.t)) break;
+      if (std::abs(miss) <= good || std::abs(miss) > 0.1 * (to.t - from.t)) break;
       const double t_end = to.t - miss;
       if (t_end < from.t + kLeast * step.h || t_end > step.t_end || t_end == to.t) break;
       end = t_end;
@@ -94,7 +95,7 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     // may lie before the end by its error.
     const auto before = events_->first(dense_output(from, to));
     const bool is_same = before && before->contact == event->contact && before->which == event->which;
-    if (!before || to.t - before->t <= (is_same ? std::max(1e-6, good) : good) * h) return;
+    if (!before || to.t - before->t <= (is_same ? std::max(kSame * step.h, good) : good)) return;
     to.contact = from.contact;
   }
 }

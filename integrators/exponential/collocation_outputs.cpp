@@ -20,9 +20,38 @@ constexpr double kMostTurn = FastModes::kMostTurn;
 /// omega (kSpeedOfV + kSpeedOfA (omega dt)): norms of Hermite's functions with a reserve, from
 /// plugins/exponential/THEORY.md, section 10.
 constexpr double kOfX = 2.0, kOfV = 0.4, kOfA = 0.035, kSpeedOfV = 5.0, kSpeedOfA = 0.3;
+/// For the work of forces a step is divided into at least kPartsOfPower parts, in which modes turn by at most
+/// kTurnOfPower rad. Gauss' rule with five points then integrates power, which turns twice as fast, with an error of
+/// at most (5!)^4/(11 (10!)^3) (2 kTurnOfPower)^10 = 2.4e-5 of it.
+constexpr double kTurnOfPower = 3.0, kPartsOfPower = 2.0;
 /// The largest distance of neighbouring nodes, as a fraction of the step.
 constexpr double kLongestPart = 0.24;
 constexpr double kMostBreakpoints = 4096.0;
+
+/// Lower bounds of the scales at all instants of a step: those at its start, but at least a thousandth of those at its
+/// end. In the first steps scales grow by orders of magnitude.
+template <class Scales>
+Eigen::ArrayXd within_step(const Scales& at_start, const Scales& at_end) {
+  constexpr double kFloor = 1e-3;
+  return at_start.array().max(kFloor * at_end.array());
+}
+
+Eigen::ArrayXd scales_x(const State& from, const State& to) {
+  return within_step(LocalErrorControl::scales_x(from), LocalErrorControl::scales_x(to));
+}
+
+Eigen::ArrayXd scales_v(const State& from, const State& to) {
+  return within_step(LocalErrorControl::scales_v(from), LocalErrorControl::scales_v(to));
+}
+
+/// The smallest ratio of a scale at the start to that at the end.
+double least_growth(const State& from, const State& to) {
+  const auto least = [](const Eigen::ArrayXd& within, const auto& at_end) {
+    return (at_end.array() > 0.0).select(within / at_end.array(), 1.0).minCoeff();
+  };
+  return std::min(least(scales_x(from, to), LocalErrorControl::scales_x(to)),
+                  least(scales_v(from, to), LocalErrorControl::scales_v(to)));
+}
 
 }  // namespace
 
@@ -37,12 +66,19 @@ FastModes::FastModes(const dynamics::DampedModes& modes, double tolerance)
 }
 
 FastModes::Scales FastModes::scales(const State& from, const State& to) const {
-  return {tolerance_ * LocalErrorControl::scales_x(to), tolerance_ * LocalErrorControl::scales_v(to),
+  return {tolerance_ * scales_x(from, to), tolerance_ * scales_v(from, to),
           tolerance_ * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs())};
 }
 
 double FastModes::find(const State& from, const State& to, double slow, const Eigen::ArrayXd& turning,
                        time::Detail detail) const {
+  if (detail == time::Detail::power) {
+    const Eigen::ArrayXd energy = modes_.kinetic() * turning.square();
+    double bound = tolerance_ * tolerance_ * energy.sum();
+    for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k)
+      if ((bound -= energy[k]) < 0.0) return modes_.speed()[k];
+    return slow;
+  }
   const Scales scale = scales(from, to);
   // Sums over the modes that are left out, for each DOF.
   Eigen::ArrayXd x = Eigen::ArrayXd::Zero(scale.x.size()), v = x, a = x;
@@ -114,8 +150,10 @@ void CollocationOutputs::accept(double begin, double end, const Eigen::MatrixXd&
   nodes_ = &nodes;
   traces_.reset();
   last_.instant = std::numeric_limits<double>::quiet_NaN();
+  batch_.times.clear();
   for (Breakpoints& breakpoints : breakpoints_) breakpoints.is_known = false;
   has_fast_motion_.reset();
+  least_growth_.reset();
 }
 
 void CollocationOutputs::reset() {
@@ -136,7 +174,8 @@ void CollocationOutputs::move_to(const State& from, const State& to, double plac
   if (holds(from, to)) {
     // Slow modes are interpolated by the polynomial through the nodes, with an error of
     // StepNodes::kMiss (|lambda| h)^7 of their amplitude, unless harmonic loads are faster.
-    const double most = std::pow(kOutput * tolerance_ / StepNodes::kMiss, 1.0 / 7.0) / h;
+    if (!least_growth_) least_growth_ = least_growth(from, to);
+    const double most = std::pow(kOutput * tolerance_ * *least_growth_ / StepNodes::kMiss, 1.0 / 7.0) / h;
     if (loads_.highest_frequency() <= most)
       while (slow < p && modes_.speed()[slow] <= most) ++slow;
     const auto weights = StepNodes::lagrange(place);
@@ -198,6 +237,49 @@ void CollocationOutputs::interpolate(const State& from, const State& to, double 
   }
 }
 
+void CollocationOutputs::interpolate_all(const State& from, const State& to, std::span<const double> times,
+                                         std::span<const Index> dofs, time::Interpolated out) {
+  const Index p = modes_.count(), count = static_cast<Index>(times.size());
+  const bool wants_rate = !out.a.empty();
+  // Several observers ask for the motion at the breakpoints, one after the other.
+  if (!holds(from, to) || !std::ranges::equal(batch_.times, times)) {
+    batch_.times.assign(times.begin(), times.end());
+    batch_.has_rates = false;
+    batch_.z.resize(2 * p, count);
+    for (Index j = 0; j < count; ++j) {
+      find(from, to, times[static_cast<std::size_t>(j)], false);
+      batch_.z.col(j) = last_.z;
+    }
+  }
+  if (wants_rate && !batch_.has_rates) {
+    batch_.rates.resize(2 * p, count);
+    for (Index j = 0; j < count; ++j) {
+      const double t = times[static_cast<std::size_t>(j)];
+      find_rate(t, (t - from.t) / (to.t - from.t), modal(to) + 2 * p, batch_.z.col(j), last_.rate);
+      batch_.rates.col(j) = last_.rate;
+    }
+    last_.instant = std::numeric_limits<double>::quiet_NaN();
+  }
+  batch_.has_rates = batch_.has_rates || wants_rate;
+  if (!holds(from, to)) batch_.times.clear();
+  const auto rows = static_cast<Index>(dofs.size());
+  bool are_all = rows == modes_.displacement().cols();
+  for (Index i = 0; i < rows && are_all; ++i) are_all = dofs[static_cast<std::size_t>(i)] == i;
+  const auto fill = [&](std::span<double> values, const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& motion) {
+    if (values.empty()) return;
+    Eigen::Map<Eigen::MatrixXd> all(values.data(), rows, count);
+    if (are_all) {
+      all.noalias() = shapes.transpose() * motion;
+      return;
+    }
+    for (Index i = 0; i < rows; ++i)
+      all.row(i).noalias() = shapes.col(dofs[static_cast<std::size_t>(i)]).transpose() * motion;
+  };
+  fill(out.x, modes_.displacement(), batch_.z);
+  fill(out.v, modes_.velocity(), batch_.z);
+  fill(out.a, modes_.velocity(), batch_.rates);
+}
+
 void CollocationOutputs::trace(const State& from, const State& to, double t, std::span<const Index> dofs,
                                time::Interpolated out) {
   if (!holds(from, to) || !out.a.empty()) return interpolate(from, to, t, dofs, out);
@@ -229,12 +311,19 @@ double CollocationOutputs::longest(const State& from, const State& to) const {
 }
 
 std::span<const double> CollocationOutputs::breakpoints(const State& from, const State& to, time::Detail detail) {
-  auto& [is_known, all] = breakpoints_[detail == time::Detail::accelerations ? 1 : 0];
+  auto& [is_known, all] = breakpoints_[static_cast<std::size_t>(detail)];
   if (holds(from, to) && is_known) return all;
   is_known = holds(from, to);
-  const double h = to.t - from.t, slow = kMostTurn / (kLongestPart * h);
+  const bool for_power = detail == time::Detail::power;
+  const double h = to.t - from.t, slow = for_power ? kTurnOfPower * kPartsOfPower / h : kMostTurn / (kLongestPart * h);
   double fastest = std::max(slow, loads_.highest_frequency());
   if (fast_.highest() > fastest) fastest = find_fastest(from, to, fastest, detail);
+  if (for_power) {
+    const int parts = static_cast<int>(std::ceil(fastest * h / kTurnOfPower));
+    all.clear();
+    for (int i = 1; i < parts; ++i) all.push_back(from.t + h * i / parts);
+    return all;
+  }
   const int parts = static_cast<int>(std::ceil(fastest / slow));
   all.clear();
   for (std::size_t j = 0; j + 1 < StepNodes::kPlaces.size(); ++j) {

@@ -21,8 +21,9 @@ class FastModes {
   /// The highest |lambda| above `slow` of a mode that has to be resolved between breakpoints;
   /// `slow` if there is none, 1/s. Breakpoints that are kMostTurn/|lambda| apart leave out faster
   /// modes, which move outputs of the step, and the quintic between breakpoints, by less than the
-  /// tolerance; with time::Detail::velocities this does not count for accelerations. `turning`
-  /// holds the largest |dz/dt|/|lambda| of each mode in the step.
+  /// tolerance; with time::Detail::velocities this does not count for accelerations. With
+  /// time::Detail::power faster modes have less than tolerance^2 of the energy. `turning` holds the
+  /// largest |dz/dt|/|lambda| of each mode in the step.
   double find(const time::State& from, const time::State& to, double slow, const Eigen::ArrayXd& turning,
               time::Detail detail) const;
   /// Largest phase angle of the fastest motion between breakpoints, rad: the error of a quintic is
@@ -80,12 +81,14 @@ class CollocationOutputs final : public time::Interpolant {
   time::Interpolation interpolation() const override { return time::Interpolation::near_quintic; }
   void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
                    time::Interpolated out) override;
+  void interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
+                       std::span<const Index> dofs, time::Interpolated out) override;
   /// x and v at an instant, by the polynomial through the nodes of the step that was accepted last.
   void trace(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
              time::Interpolated out) override;
   int trace_parts(const time::State&, const time::State&) override { return StepNodes::kCount - 1; }
   /// The nodes of the step and, if modes or loads rotate fast between them, instants that limit the
-  /// angle from one breakpoint to the next.
+  /// angle from one breakpoint to the next; for time::Detail::power equal parts.
   std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail detail) override;
   /// The longest step, s, whose number of breakpoints, with accelerations, stays within its limit,
   /// if the fastest motion is as fast as in this step.
@@ -114,6 +117,7 @@ class CollocationOutputs final : public time::Interpolant {
   const Eigen::MatrixXd* nodes_ = nullptr;
   FastMotion fast_motion_;               ///< of the current step
   std::optional<bool> has_fast_motion_;  ///< whether it could be found; empty before the first request
+  std::optional<double> least_growth_;   ///< the smallest ratio of a scale at the start of the step to that at its end
   // The motion of the last request. Callers often request the same instant for one DOF after
   // another.
   struct Request {
@@ -122,11 +126,18 @@ class CollocationOutputs final : public time::Interpolant {
     Eigen::VectorXd z, rate;
   };
   Request last_;
+  /// The modal coordinates, and dz/dt where requested, at the instants of the last request for several, 2p x count.
+  struct Batch {
+    std::vector<double> times;  ///< empty: none
+    bool has_rates = false;
+    Eigen::MatrixXd z, rates;
+  };
+  Batch batch_;
   struct Breakpoints {
     bool is_known = false;  ///< they are those of the current step
     std::vector<double> all;
   };
-  std::array<Breakpoints, 2> breakpoints_;  ///< by time::Detail
+  std::array<Breakpoints, 3> breakpoints_;  ///< by time::Detail
 };
 
 }  // namespace butee::integrators

@@ -92,5 +92,32 @@ TEST(CollocationOutputs, GiveValuesAndPeaksOfFastMotion) {
     EXPECT_NEAR(got_peaks->peaks().at(column), peak, 1e-7 * peak) << column;
 }
 
+/// Impulses are integrated between the instants of opening and closing, on the polynomials between breakpoints.
+TEST(CollocationOutputs, GiveImpactsOfFastMotion) {
+  const std::string scene = kLight + R"(
+[[contact]]
+type = "stop"
+nodes = "b"
+gap = 0.01
+law = "linear"
+stiffness = 2e5
+)";
+  SceneRun closed(scene, {"integrator.type=piecewise"}),
+      run(scene, {"integrator.type=exponential", "integrator.tolerance=1e-6"});
+  record::ImpactRecorder wanted(closed.dynamics()), got(run.dynamics());
+  closed.simulation().add(wanted);
+  run.simulation().add(got);
+  ASSERT_TRUE(closed.run().completed);
+  ASSERT_TRUE(run.run().completed);
+  ASSERT_GT(wanted.impacts().size(), 2u);
+  ASSERT_EQ(got.impacts().size(), wanted.impacts().size());
+  for (std::size_t i = 0; i < wanted.impacts().size(); ++i) {
+    const record::Impact expected = wanted.impacts()[i], found = got.impacts()[i];
+    EXPECT_NEAR(found.t_in, expected.t_in, 1e-8) << i;
+    EXPECT_NEAR(found.impulse, expected.impulse, 1e-5 * expected.impulse) << i;
+    EXPECT_NEAR(found.peak_force, expected.peak_force, 1e-5 * expected.peak_force) << i;
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::collocation_outputs_test

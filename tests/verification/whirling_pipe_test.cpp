@@ -37,6 +37,81 @@ end_time = 0.3
   EXPECT_LT((fixed.simulation().state().x - wanted).norm(), 1e-3 * wanted.norm());
 }
 
+/// A pipe that is symmetric about its middle, without friction: pairs of rings close and open within 1e-9 s of each
+/// other.
+const std::string kSymmetricPipe = R"(
+schema = 1
+[material.steel]
+young_modulus = 2.03e11
+density = 7900.0
+[section.pipe]
+shape = "tube"
+outer_radius = 0.06
+inner_radius = 0.04
+[[element]]
+type = "beam"
+name = "string"
+motion = "lateral"
+theory = "rayleigh"
+material = "steel"
+section = "pipe"
+length = 35.0
+elements = 34
+[[support]]
+nodes = ["string:first", "string:last"]
+fix = ["uy", "uz"]
+[rotation]
+speed = 10.0
+[[contact]]
+type = "ring"
+nodes = "string:all"
+gap = 0.01
+law = "linear"
+stiffness = 1.0e6
+[[load]]
+type = "unbalance"
+node = "string:middle"
+moment = 3.0
+[damping]
+mass_proportional = 0.03
+[integrator]
+type = "exponential"
+end_time = 0.5
+)";
+
+/// Changes of two contacts almost at the same instant are located once each, whatever the tolerance.
+TEST(WhirlingPipe, TakesNotMoreStepsAtALooserTolerance) {
+  // Steps and their repetitions; the change of a contact costs about two.
+  const auto tried_steps = [](const char* tolerance) {
+    SceneRun run(kSymmetricPipe, {std::string("integrator.tolerance=") + tolerance});
+    const time::RunReport& report = run.run();
+    EXPECT_TRUE(report.completed) << report.message;
+    return report.steps + report.rejected;
+  };
+  const auto loose = tried_steps("1e-2"), middle = tried_steps("1e-3"), tight = tried_steps("1e-4");
+  EXPECT_LT(loose, middle);
+  EXPECT_LT(middle, tight);
+  EXPECT_LT(tight, 1000);
+}
+
+/// The power of all forces is evaluated at ten instants of a step, unless faster modes have much energy.
+TEST(WhirlingPipe, HasAnEnergyBalanceAtLittleCost) {
+  SceneRun plain(kSymmetricPipe, {"integrator.tolerance=1e-3"}), run(kSymmetricPipe, {"integrator.tolerance=1e-3"}),
+      other(kSymmetricPipe, {"integrator.type=dopri5", "integrator.tolerance=1e-5"});
+  record::EnergyRecorder energy(run.dynamics()), reference(other.dynamics());
+  run.simulation().add(energy);
+  other.simulation().add(reference);
+  ASSERT_TRUE(plain.run().completed);
+  ASSERT_TRUE(run.run().completed);
+  ASSERT_TRUE(other.run().completed);
+  EXPECT_NEAR(energy.work(), reference.work(), 1e-5 * reference.work());
+  EXPECT_NEAR(energy.dissipated(), reference.dissipated(), 1e-5 * reference.work());
+  EXPECT_NEAR(energy.balance_error(), 0.0, 1e-6);
+  const auto evaluations = run.dynamics().counters().contact_evaluations,
+             without = plain.dynamics().counters().contact_evaluations;
+  EXPECT_LT(evaluations - without, 40 * run.simulation().report().steps);
+}
+
 /// A string in space driven at its upper end: friction on its rings causes torsion. Series, Rosenbrock's
 /// method, an explicit method and collocation of damped modes agree in the torsion.
 TEST(WhirlingPipe, IsTwistedByFriction) {
