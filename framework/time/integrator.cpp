@@ -58,10 +58,12 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
 
 void Integrator::end_at_event(const State& from, const Step& step, State& to, StepReport& report) {
   constexpr int kMostTrials = 6;
-  constexpr double kLeast = 1e-10, kSame = 1e-6;
+  constexpr double kLeast = 1e-10, kSame = 1e-6, kSpacings = 4.0;
   // Tolerances refer to the length that was asked for: changes of two contacts almost at the same instant leave a step
   // too short to be a measure.
   const double good = traits().event_precision * step.h;
+  const double spacing = std::nextafter(from.t, std::numeric_limits<double>::infinity()) - from.t,
+               earliest = from.t + std::max(kLeast * step.h, kSpacings * spacing);
   const auto is_accepted = [&] { return controller() == nullptr || controller()->decide(step.h, report).accept; };
   const double wanted = report.proposal;
   const auto redo = [&](double t_end) {
@@ -78,13 +80,13 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
   for (int trial = 0; trial < kMostTrials && is_accepted(); ++trial) {
     auto event = events_->first(dense_output(from, to));
     if (!event) return;
-    double end = std::min(std::max(event->t, from.t + kLeast * step.h), to.t);
+    double end = std::min(std::max(event->t, earliest), to.t);
     if (!redo(end)) return;
     for (int k = 0; k < 3 && to.t == end && is_accepted(); ++k) {
       const double miss = events_->miss(*event, dense_output(from, to));
       if (std::abs(miss) <= good || std::abs(miss) > 0.1 * (to.t - from.t)) break;
       const double t_end = to.t - miss;
-      if (t_end < from.t + kLeast * step.h || t_end > step.t_end || t_end == to.t) break;
+      if (!(t_end >= earliest && t_end <= step.t_end) || t_end == to.t) break;
       end = t_end;
       if (!redo(end)) return;
     }

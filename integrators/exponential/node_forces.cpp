@@ -11,9 +11,10 @@ using time::State;
 
 constexpr Index kCount = StepNodes::kCount, kEnd = StepNodes::kEnd;
 constexpr int kMostSweeps = 25;
-/// If a sweep changes the forces by more than this fraction of the change by the sweep before,
-/// convergence is too slow.
+/// Convergence is too slow if more than kPatience sweeps together do not reduce the change by a sweep to this fraction
+/// of the smallest one before.
 constexpr double kContraction = 0.6;
+constexpr int kPatience = 4;
 /// Changes of a force below this fraction of it are rounding errors.
 constexpr double kRounding = 1e-13;
 /// The same for the effect of contacts on the end of a step; the polynomials' coefficients lose
@@ -89,7 +90,7 @@ double NodeForces::change(const State& from, double h) const {
 
 NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& response, double settled) {
   if (active_.find(dynamics_, modes_))
-    for (AtNodes* rows : {&forces_, &moved_, &moved_velocity_}) rows->resize(active_.count(), kCount);
+    for (AtNodes* rows : {&forces_, &moved_, &moved_velocity_, &weights_}) rows->resize(active_.count(), kCount);
   error_.setZero();
   if (active_.count() == 0) {
     polynomial_.setZero();
@@ -99,7 +100,10 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
   }
   start(from);
   const double t = from.t, h = response.h();
-  double before = std::numeric_limits<double>::infinity();
+  acceleration_.begin(forces_.size());
+  find_weights(from);
+  double least = std::numeric_limits<double>::infinity();
+  int best = 0;
   for (int round = 0; round < kMostSweeps; ++round) {
     move(response, StepNodes::with_middle());
     forces_before_ = forces_;
@@ -110,10 +114,25 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
       estimate(t, response);
       return nodes_.allFinite() ? Outcome::converged : Outcome::not_finite;
     }
-    if (round > 2 && now > kContraction * before) return Outcome::diverged;
-    before = now;
+    if (now < kContraction * least) {
+      least = now;
+      best = round;
+    }
+    if (round - best > kPatience) return Outcome::diverged;
+    acceleration_.accelerate(forces_before_, forces_, weights_);
   }
   return Outcome::diverged;
+}
+
+void NodeForces::find_weights(const State& from) {
+  const auto scale = LocalErrorControl::scales_v(from);
+  double largest = 0.0;
+  for (const Index dof : active_.dofs) largest = std::max(largest, scale[dof]);
+  for (Index k = 0; k < active_.count(); ++k) {
+    const Index dof = active_.dofs[static_cast<std::size_t>(k)];
+    const double speed = std::max(scale[dof], 1e-3 * largest);
+    weights_.row(k).setConstant(speed > 0.0 ? dofs_.inverse_mass(dof) / speed : 1.0);
+  }
 }
 
 void NodeForces::start(const State& from) {

@@ -2,6 +2,7 @@
 
 #include "integrators/exponential/contact_dofs.hpp"
 #include "integrators/exponential/modal_loads.hpp"
+#include "integrators/exponential/sweep_acceleration.hpp"
 #include "integrators/local_error.hpp"
 
 namespace butee::integrators {
@@ -47,6 +48,8 @@ class NodeForces {
   using AtNodes = Eigen::Matrix<double, Eigen::Dynamic, StepNodes::kCount>;
 
   void start(const time::State& from);
+  /// The weights of forces in the norm of the acceleration: their effects on the relative speeds.
+  void find_weights(const time::State& from);
   /// Computes the forces at one node, and at all nodes except the start.
   void find_forces(double t, double h, Index node);
   void find_forces(double t, double h);
@@ -67,7 +70,8 @@ class NodeForces {
   Instant instant_;
   Eigen::MatrixXd free_, nodes_, polynomial_, coefficients_;
   Eigen::MatrixXd missed_;  ///< polynomial_ computed without the values in the middle, minus polynomial_
-  AtNodes forces_, forces_before_, moved_, moved_velocity_;  ///< for the active DOFs
+  AtNodes forces_, forces_before_, moved_, moved_velocity_, weights_;  ///< for the active DOFs
+  SweepAcceleration acceleration_;
   Eigen::VectorXd error_;
 };
 

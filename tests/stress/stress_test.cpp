@@ -174,6 +174,14 @@ TEST(Stress, RubbingScenesThatWereWrongOnce) {
   EXPECT_EQ(tally.count(Verdict::correct), static_cast<std::int64_t>(scenes.size() * chosen.size()));
 }
 
+/// A change of contact within the rounding of t after another one once ended the program.
+TEST(Stress, ChangesWithinTheRoundingOfTimeAreFollowed) {
+  Tally tally;
+  run_all({*random_scene_of("rubbing 60804")}, methods(), kWork, tally);
+  EXPECT_TRUE(tally.failures().empty()) << tally.failures().front().method;
+  EXPECT_GT(tally.count(Verdict::correct), 2);
+}
+
 TEST(Stress, LongRunsStayWithinTheirMotion) {
   // In a run of less than half this length the motion of the start has not decayed before the second tenth.
   constexpr int kShorter = kEvery > 1 ? 2 : 1;
