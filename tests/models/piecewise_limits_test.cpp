@@ -125,8 +125,10 @@ TEST(Piecewise, TakesSlowMotionsBesideStiffStops) {
   SceneRun ours(scene, {"integrator.type=piecewise"}), reference(scene, {"integrator.type=exact"});
   ASSERT_TRUE(ours.run().completed) << ours.simulation().report().message;
   ASSERT_TRUE(reference.run().completed);
-  // Rounding of a thousand impacts at most: 1e-12 of the gap was observed.
-  EXPECT_NEAR(ours.simulation().state().x[1], reference.simulation().state().x[1], 1e-12);
+  // omega^2 of the slow motions is known to 1e-18 of the largest, 2.5e14 (piecewise.md), thus to 3e-4. During 199
+  // impacts, 4e-5 s in all, this changes the speed by 6e-11 m/s at 5 mm, and the displacement at the end by 2e-12 m.
+  constexpr double kOfFrequencies = 1e-11;
+  EXPECT_NEAR(ours.simulation().state().x[1], reference.simulation().state().x[1], kOfFrequencies);
 }
 
 /// A run with other step ends (other outputs), and one that resumes in the middle.
