@@ -141,6 +141,7 @@ void VelocityBand::step(const time::AcceptedStep& step) {
   for (std::size_t piece = 0; piece + 1 < ends.size(); ++piece) {
     const double from = std::max(begin_, ends[piece]), to = std::min(end_, ends[piece + 1]);
     if (to < from) continue;
+    looks += kPoints + 1;
     for (int k = 0; k <= kPoints; ++k) {
       step.motion.interpolate(std::lerp(from, to, static_cast<double>(k) / kPoints), all_, {{}, v_, {}});
       const Eigen::Map<const Vector> v(v_.data(), static_cast<Index>(v_.size()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <butee/dynamics/dynamics.hpp>
@@ -64,6 +65,7 @@ class VelocityBand final : public time::Observer {
 
   bool is_active = false;
   Vector low, high;
+  std::int64_t looks = 0;  ///< instants at which the motion was evaluated
 
  private:
   double begin_ = 0.0, end_ = 0.0;

@@ -284,7 +284,7 @@ void Reference::measure() {
   promise_->clear_growth();
   promise_->clear_bands();
   for (const Disturbed& one : disturbed_) promise_->raise_growth(one.trajectory, one.row, one.size, one.is_over, false);
-  place_bands();
+  const Index banded = place_bands();
   for (const Disturbed& one : disturbed_) promise_->raise_growth(one.trajectory, one.row, one.size, one.is_over, true);
   Index certain = 0;
   while (certain < other_.rows && promise_->error(other_, certain) <=
@@ -292,10 +292,12 @@ void Reference::measure() {
     ++certain;
   promise_->limit_rows(kRows);
   is_uncertain_ = certain < promise_->rows();
-  promise_->limit_rows(certain);
+  promise_->limit_rows(std::min(certain, banded));
 }
 
-void Reference::place_bands() {
+Index Reference::place_bands() {
+  constexpr std::int64_t kMostLooks = 1000000;
+  band_->looks = 0;
   time::Simulation& simulation = run_->simulation();
   for (Index row = 0; row < promise_->rows(); ++row) {
     const double t = instants_[static_cast<std::size_t>(row)];
@@ -309,7 +311,9 @@ void Reference::place_bands() {
     advance_to(t + margin);
     band_->is_active = false;
     promise_->set_band(row, band_->low, band_->high);
+    if (band_->looks > kMostLooks) return row + 1;
   }
+  return promise_->rows();
 }
 
 std::string Reference::place(const Judgement& found) const {

@@ -80,7 +80,9 @@ class Reference {
   Index row_at(double t) const;
   /// Computes growth, velocity bands and the horizon from all disturbed runs.
   void measure();
-  void place_bands();
+  /// Returns the number of rows that are judged: long bands repeat much of the run, so that they end after a number of
+  /// evaluations.
+  Index place_bands();
   bool advance_to(double t);
 
   Scene scene_;
