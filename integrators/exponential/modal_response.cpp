@@ -102,21 +102,19 @@ void PlaceResponse::add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const
     const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
     Eigen::VectorXd& out = sense > 0.0 ? harmonic.forth : harmonic.back;
     out.resize(2 * p);
-    const double* const of_re = force.data() + first_;
-    const double* const of_im = of_re + count_;
-    const double *const pr = propagator_.col(0).data(), *const pi = propagator_.col(1).data();
+    const auto of_re = force.segment(first_, p).array(), of_im = force.segment(count_ + first_, p).array();
+    const auto pr = propagator_.col(0), pi = propagator_.col(1);
     // w = (i Omega - lambda) length: (e^(i Omega length) - e^(lambda length)) length/w
-    for (Index k = 0; k < p; ++k) {
-      const double wr = -decay[k] * length, wi = (sense * load.angular_frequency - turn[k]) * length,
-                   factor = length / (wr * wr + wi * wi), ar = c - pr[k], ai = sense * s - pi[k],
-                   re = factor * (ar * wr + ai * wi), im = factor * (ai * wr - ar * wi);
-      out[k] = re * of_re[k] - im * of_im[k];
-      out[p + k] = re * of_im[k] + im * of_re[k];
-    }
+    const Eigen::ArrayXd wr = -decay * length, wi = (sense * load.angular_frequency - turn) * length,
+                         square = wr.square() + wi.square(), factor = length / square;
+    const Eigen::ArrayXd re = factor * ((c - pr) * wr + (sense * s - pi) * wi),
+                         im = factor * ((sense * s - pi) * wr - (c - pr) * wi);
+    out.head(p).array() = re * of_re - im * of_im;
+    out.tail(p).array() = re * of_im + im * of_re;
     // For small w this cancels; then e^(lambda length) length phi(w).
     for (Index k = 0; k < p; ++k) {
-      const Complex w(-decay[k] * length, (sense * load.angular_frequency - turn[k]) * length);
-      if (std::norm(w) > 0.25) continue;
+      if (square[k] > 0.25) continue;
+      const Complex w(wr[k], wi[k]);
       const Complex part = Complex(pr[k], pi[k]) * length * phi(w) * Complex(of_re[k], of_im[k]);
       out[k] = part.real();
       out[p + k] = part.imag();
@@ -142,14 +140,25 @@ void PlaceResponse::add_force(const double* g, Eigen::Ref<Eigen::VectorXd> out) 
   const Index rest = propagator_.rows();
   double* const re = out.data() + first_;
   double* const im = re + count_;
-  for (Index r = 0; r < kPowers; ++r) {
-    const double *gr = g + 2 * count_ * r + first_, *gi = gr + count_, *mr = moments_.col(2 * r).data(),
-                 *mi = moments_.col(2 * r + 1).data();
-    for (Index k = 0; k < rest; ++k) {
-      re[k] += mr[k] * gr[k] - mi[k] * gi[k];
-      im[k] += mr[k] * gi[k] + mi[k] * gr[k];
+  // Sums of a few modes at a time stay in registers.
+  const auto add = [&](Index k, auto size) {
+    using Part = Eigen::Array<double, decltype(size)::value, 1>;
+    Eigen::Map<Part> to_re(re + k), to_im(im + k);
+    Part sum_re = to_re, sum_im = to_im;
+    for (Index r = 0; r < kPowers; ++r) {
+      const double* const gr = g + 2 * count_ * r + first_ + k;
+      const Eigen::Map<const Part> of_re(gr), of_im(gr + count_), mr(moments_.col(2 * r).data() + k),
+          mi(moments_.col(2 * r + 1).data() + k);
+      sum_re += mr * of_re - mi * of_im;
+      sum_im += mr * of_im + mi * of_re;
     }
-  }
+    to_re = sum_re;
+    to_im = sum_im;
+  };
+  constexpr Index kTogether = 16;
+  Index k = 0;
+  for (; k + kTogether <= rest; k += kTogether) add(k, std::integral_constant<int, kTogether>());
+  for (; k < rest; ++k) add(k, std::integral_constant<int, 1>());
 }
 
 bool FastMotion::begin(double t, double h, const double* z, const double* g, Index first,

@@ -56,9 +56,12 @@ void NodeForces::find_forces(double t, double h, Index node) {
 }
 
 void NodeForces::find_forces(double t, double h) {
-  moved_.rightCols(kCount - 1).noalias() = active_.displacement.transpose() * nodes_.rightCols(kCount - 1);
-  if (dofs_.need_velocity())
-    moved_velocity_.rightCols(kCount - 1).noalias() = active_.velocity.transpose() * nodes_.rightCols(kCount - 1);
+  const auto nodes = nodes_.rightCols(kCount - 1);
+  for (Index k = 0; k < active_.count(); ++k) {
+    moved_.row(k).tail(kCount - 1).noalias() = active_.displacement.col(k).transpose() * nodes;
+    if (dofs_.need_velocity())
+      moved_velocity_.row(k).tail(kCount - 1).noalias() = active_.velocity.col(k).transpose() * nodes;
+  }
   for (Index j = 1; j < kCount; ++j) find_forces(t, h, j);
 }
 
