@@ -11,8 +11,9 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
 /// Rounding error of a jet relative to the bounds of its terms.
 constexpr double kNoise = 8.0 * kRounding;
-/// A stop that has just changed is on its border within this multiple of the rounding error.
-constexpr double kNearBorder = 1e3;
+/// A stop that has just changed is on its border within kNearBorder times the rounding error of this contact state, or
+/// kNearChange times that of the previous one.
+constexpr double kNearBorder = 1e3, kNearChange = 8.0;
 /// Bounds are recomputed after the motion has decayed by e to this power.
 constexpr double kDecayed = 0.2;
 /// The iteration for the root of the bounding cubic ends if its lower bound reaches this fraction
@@ -57,7 +58,7 @@ FirstChange::FirstChange(const SmallSystem& system)
     : system_(system), watches_(static_cast<std::size_t>(system.stop_count())) {}
 
 FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactStateFlow::Piece& piece,
-                                      std::span<const StopStatus> status, double until, Index changed, bool wait) {
+                                      std::span<const StopStatus> status, double until, Changed changed, bool wait) {
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     Watch& watch = watches_[i];
     const LinearStop& stop = system_.stops[i];
@@ -71,7 +72,8 @@ FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactState
       watch.next = kNever;
     else {
       watch.sizes = flow.bounds_grow(piece) ? flow.stop_bounds(piece, static_cast<Index>(i), 0.0) : watch.bounds;
-      watch.has_changed = static_cast<Index>(i) == changed;
+      watch.has_changed = static_cast<Index>(i) == changed.stop;
+      watch.border = kNearChange * changed.uncertainty;
       look(flow, piece, static_cast<Index>(i), status[i], until, wait);
       watch.has_changed = false;
     }
@@ -86,7 +88,7 @@ FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactState
       }
     if (first == watches_.size()) return {until, std::nullopt};
     Watch& watch = watches_[first];
-    if (watch.is_change) return {s, Change{static_cast<Index>(first), watch.to}};
+    if (watch.is_change) return {s, Change{static_cast<Index>(first), watch.to, watch.uncertainty}};
     if (s != piece.s) flow.go(piece, s);
     if (flow.largest_decay() * (s - watch.bounded_at) > kDecayed) {
       watch.bounded_at = s;
@@ -119,12 +121,8 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
   noise[1] += kNoise * piece.speed;
   for (std::size_t k = 1; k < 4; ++k) noise[k] += flow.fastest() * noise[k - 1];
   const auto displacement = [&](double sign, double offset, StopStatus to) {
-    return Function{{offset + sign * w[0], sign * w[1], sign * w[2], sign * w[3]},
-                    noise,
-                    bounds[3],
-                    bounds[4],
-                    to,
-                    watch.has_changed};
+    return Function{
+        {offset + sign * w[0], sign * w[1], sign * w[2], sign * w[3]}, noise, bounds[3], bounds[4], to, 1.0};
   };
   if (status == kOpen) {
     // The nearer side first; its safe step mostly shows that nothing happens at the other side.
@@ -146,20 +144,23 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
   for (std::size_t order = 0; order < 3; ++order) force.noise[order] = k * noise[order] + c * noise[order + 1];
   force.noise[3] = kNever;
   force.third = force.fourth = k * bounds[3] + c * bounds[4];
-  force.has_changed = watch.has_changed;
+  force.per_displacement = k;
   force.to = on_side(is_closed(status) ? kReleased : kClosed, side);
   consider(force, s, until, piece.t, wait, watch);
 }
 
 void FirstChange::consider(const Function& function, double s, double until, double t, bool wait, Watch& watch) const {
-  const auto& [g, noise, third, fourth, to, has_changed] = function;
-  // A change was located to the rounding error of the previous contact state, which may be larger.
-  const bool is_on_border = has_changed && std::abs(g[0]) <= kNearBorder * noise[0];
+  const auto& [g, noise, third, fourth, to, per_displacement] = function;
+  // A change was located to the rounding error of the previous contact state, which may be far larger: a light body on
+  // a soft spring under a load has a static displacement of many gaps where it is free.
+  const bool is_on_border =
+      watch.has_changed && std::abs(g[0]) <= std::max(kNearBorder * noise[0], watch.border * per_displacement);
   const auto suggest = [&](double next, bool is_change) {
     if (next < watch.next) {
       watch.next = next;
       watch.is_change = is_change;
       watch.to = to;
+      watch.uncertainty = noise[0] / per_displacement;
     }
   };
   double step = 0.0;

@@ -40,16 +40,22 @@ class FirstChange {
   struct Change {
     Index stop;
     StopStatus to;
+    double uncertainty;  ///< rounding error of the displacement at which it was located, m
+  };
+  /// The stop that has changed at the start of a piece, which is therefore on its border within `uncertainty`; -1:
+  /// none.
+  struct Changed {
+    Index stop = -1;
+    double uncertainty = 0.0;  ///< m
   };
   struct Result {
     double s;                      ///< time of the change, s; without a change, the time up to which none occurs
     std::optional<Change> change;  ///< empty: the search may continue from s
   };
-  /// Searches 0 <= s <= `until`. `changed`: the stop that has just changed and is therefore on its
-  /// border, if any. `wait`: stops that are on a border to rounding keep their status until they
+  /// Searches 0 <= s <= `until`. `wait`: stops that are on a border to rounding keep their status until they
   /// have left it, which ends chatter by rounding.
   Result find(const ContactStateFlow& flow, ContactStateFlow::Piece& piece, std::span<const StopStatus> status,
-              double until, Index changed, bool wait);
+              double until, Changed changed, bool wait);
 
   /// Number of evaluations of single stops since construction.
   std::int64_t looks() const { return looks_; }
@@ -59,9 +65,11 @@ class FirstChange {
     double next = 0.0;  ///< no change occurs before this time, s
     bool is_change = false;
     StopStatus to = kOpen;
+    double uncertainty = 0.0;  ///< of the change, m
     std::array<double, 5> bounds{},
         sizes{};  ///< bounds of |w| and derivatives over the rest of the piece, and of the terms summed at its start
     double bounded_at = 0.0;  ///< time at which the bounds were computed, s
+    double border = 0.0;      ///< distance within which the stop is on its border, if it has just changed, m
     bool has_changed = false;
   };
   /// One switching function and its bounds.
@@ -70,7 +78,7 @@ class FirstChange {
     std::array<double, 4> noise;
     double third, fourth;
     StopStatus to;
-    bool has_changed;
+    double per_displacement;  ///< unit of g for a displacement of 1 m
   };
   void look(const ContactStateFlow& flow, const ContactStateFlow::Piece& piece, Index stop, StopStatus status,
             double until, bool wait);

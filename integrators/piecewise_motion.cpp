@@ -36,7 +36,7 @@ PiecewiseMotion::PiecewiseMotion(dynamics::Dynamics& dynamics, double end_time)
 }
 
 void PiecewiseMotion::write_status(const time::State& at, VectorRef memory) const {
-  memory[system_.stop_count()] = -1.0;
+  memory.tail(2) << -1.0, 0.0;
   for (Index i = 0; i < system_.stop_count(); ++i) {
     const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
     const double w = stop.displacement(at.x.data()), v = stop.displacement(at.v.data());
@@ -60,7 +60,7 @@ void PiecewiseMotion::write_end(time::State& to) const {
     to.a[i] = jet[2];
   }
   for (std::size_t i = 0; i < status_.size(); ++i) to.memory[static_cast<Index>(i)] = status_[i];
-  to.memory[system_.stop_count()] = static_cast<double>(changed_);
+  to.memory.tail(2) << static_cast<double>(changed_.stop), changed_.uncertainty;
   to.t = end_t_;
 }
 
@@ -80,7 +80,7 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
     status_[i] = static_cast<StopStatus>(from.memory[static_cast<Index>(i)]);
   double t = from.t;
   std::size_t at_once = 0;
-  changed_ = static_cast<Index>(from.memory[system_.stop_count()]);
+  changed_ = {static_cast<Index>(from.memory[system_.stop_count()]), from.memory[system_.stop_count() + 1]};
   while (true) {
     try {
       begin_piece(t);
@@ -104,7 +104,8 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
     }
     at_once = has_passed ? 0 : at_once + 1;
     flow.go(piece_, std::min(found.s, rest));
-    changed_ = found.change ? found.change->stop : -1;
+    changed_ = {};
+    if (found.change) changed_ = {found.change->stop, found.change->uncertainty};
     if (found.change) status_[static_cast<std::size_t>(found.change->stop)] = found.change->to;
     t = t_next;
     if (has_passed && (t >= step.t_end || begins_.size() == kMostPieces || step.single)) break;

@@ -19,7 +19,7 @@ class PiecewiseMotion final : public time::Interpolant {
 
   /// The statuses of the stops, and the stop that changed last (-1: none), at a state.
   void write_status(const time::State& at, VectorRef memory) const;
-  Index memory_size() const { return system_.stop_count() + 1; }
+  Index memory_size() const { return system_.stop_count() + 2; }
 
   /// Follows the motion from a state to the end of the step, or until kMostPieces pieces are full.
   void follow(const time::State& from, const time::Step& step);
@@ -88,7 +88,7 @@ class PiecewiseMotion final : public time::Interpolant {
   const ContactStateFlow* flow_ = nullptr;  ///< of piece_
   std::size_t loaded_ = static_cast<std::size_t>(-1);
   std::vector<StopStatus> status_;
-  Index changed_ = -1;  ///< the stop that changed at the end of the last piece
+  FirstChange::Changed changed_;  ///< the stop that changed at the end of the last piece
   std::vector<bool> closed_;
   std::vector<double> x_, v_;
   Eigen::MatrixXd force_;

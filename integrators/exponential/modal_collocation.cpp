@@ -21,6 +21,8 @@ constexpr double kSettled = 0.05;
 /// Allowed interpolation error of the contacts' motion between nodes, as a fraction of the
 /// tolerance.
 constexpr double kResolved = 0.1;
+/// Allowed error of the contacts' velocities within a step, as a fraction of the tolerance.
+constexpr double kInner = 1.0;
 /// Number of step responses kept; those of shortened steps are used once or twice.
 constexpr std::size_t kKept = 12;
 /// A step is shortened at most kMostCuts times because a stop opens or closes within it. It must
@@ -39,6 +41,11 @@ double on_grid(double h) {
 /// The step size factor if the interpolation error between nodes is `coarse` times its bound.
 double by_resolution(double coarse) {
   return 0.9 * std::pow(coarse, -1.0 / 7.0);
+}
+
+/// The step size factor if the error of velocities within the step is `inner` times its bound.
+double by_inner(double inner) {
+  return 0.9 * std::pow(inner, -1.0 / 8.0);
 }
 
 }  // namespace
@@ -122,6 +129,9 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   solved_end_ = to.t;
   judge(from, to, h, report);
   if (report.error > 1.0) return report;
+  const double inner = forces_.inner_error(LocalErrorControl::scales_v(to)) / (kInner * tolerance_);
+  if (inner > 1.0) return redo_with(h * std::max(0.1, by_inner(inner)));
+  if (inner > 0.0) report.proposal = std::min(report.proposal, on_grid(h * by_inner(inner)));
   if (coarse > 0.0) report.proposal = std::min(report.proposal, on_grid(h * by_resolution(coarse)));
   // A step shortened by a change of contact does not limit the next step.
   if (h < wanted) report.proposal = std::max(report.proposal, wanted);

@@ -161,14 +161,26 @@ void NodeForces::estimate(double t, const StepResponse& response) {
   error_ = nodes_.col(kEnd) - nodes.col(kEnd);
   // The polynomials with and without the value in the middle have the same integral; the error of
   // this integral is added separately.
-  for (Index k = 0; k < legendre.rows(); ++k)
+  inner_errors_.resize(active_.count());
+  for (Index k = 0; k < legendre.rows(); ++k) {
     error_ += response.h() * StepNodes::quadrature_error(legendre.row(k)) * active_.input.col(k);
+    inner_errors_[k] = response.h() * dofs_.inverse_mass(active_.dofs[static_cast<std::size_t>(k)]) *
+                       StepNodes::inner_error(legendre.row(k));
+  }
   // In equilibrium only rounding errors remain.
   if (error_.norm() <= kRoundingOfEnd * (nodes.col(kEnd) - free_.col(kEnd)).norm()) error_.setZero();
   missed_ = polynomial_ - polynomial;
   nodes_ = nodes;
   polynomial_ = polynomial;
   moved_ = moved;
+}
+
+double NodeForces::inner_error(const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const {
+  double largest = 0.0;
+  for (Index k = 0; k < active_.count(); ++k)
+    if (const double scale = scale_v[active_.dofs[static_cast<std::size_t>(k)]]; scale > 0.0)
+      largest = std::max(largest, inner_errors_[k] / scale);
+  return largest;
 }
 
 void NodeForces::end_at(double part, const StepResponse& response) {

@@ -40,6 +40,9 @@ class NodeForces {
   /// Error estimate of z at the end: z computed without the values in the middle of the step, minus
   /// z, plus the error of Lobatto's rule for the impulse of the forces.
   const Eigen::VectorXd& error() const { return error_; }
+  /// The largest error of a contact's velocity within the step, relative to the scales of velocities
+  /// `scale_v` of all DOFs. At the end of the step the error is far smaller.
+  double inner_error(const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const;
   /// The fraction of the step after which a stop opens or closes; `last`, which may slightly exceed
   /// 1, if none does.
   double first_contact_change(double last) const;
@@ -73,6 +76,7 @@ class NodeForces {
   AtNodes forces_, forces_before_, moved_, moved_velocity_, weights_;  ///< for the active DOFs
   SweepAcceleration acceleration_;
   Eigen::VectorXd error_;
+  Vector inner_errors_;  ///< of the velocities of the active DOFs, m/s
 };
 
 }  // namespace butee::integrators

@@ -68,11 +68,29 @@ const Square& StepNodes::legendre() {
   return matrix;
 }
 
-double StepNodes::quadrature_error(const Row& coefficients) {
+namespace {
+
+/// The size of the two highest coefficients, and its ratio to that of the two before.
+struct Tail {
+  double size, decay;
+};
+
+Tail tail_of(const StepNodes::Row& coefficients) {
   const double low = std::abs(coefficients[3]) + std::abs(coefficients[4]),
-               high = std::abs(coefficients[5]) + std::abs(coefficients[6]),
-               decay = high < low ? high / low : 1.0;  // ratio over two degrees
-  return kRule * high * decay * decay;
+               high = std::abs(coefficients[5]) + std::abs(coefficients[6]);
+  return {high, high < low ? high / low : 1.0};
+}
+
+}  // namespace
+
+double StepNodes::quadrature_error(const Row& coefficients) {
+  const Tail tail = tail_of(coefficients);
+  return kRule * tail.size * tail.decay * tail.decay;
+}
+
+double StepNodes::inner_error(const Row& coefficients) {
+  const Tail tail = tail_of(coefficients);
+  return kInner * tail.size * tail.decay;
 }
 
 Eigen::Matrix<double, StepNodes::kCount, 1> StepNodes::lagrange(double place) {

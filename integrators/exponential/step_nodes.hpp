@@ -28,6 +28,13 @@ struct StepNodes {
   /// The error of Lobatto's rule for the integral of a function with these Legendre coefficients:
   /// kRule |a_10|, with a_10 extrapolated from a_3 to a_6 under the assumption of geometric decay.
   static double quadrature_error(const Row& coefficients);
+  /// The largest error within the step of the integral of a function with these Legendre coefficients,
+  /// if the polynomial through its values at the nodes is integrated: kInner (|a_7| + |a_8|),
+  /// extrapolated in the same way.
+  static double inner_error(const Row& coefficients);
+  /// The integrals of P_7 and P_8 less the polynomials through their values at the nodes reach 0.057
+  /// and 0.095.
+  static constexpr double kInner = 0.1;
   /// Lobatto's rule with six points gives 0.3174 for the integral of P_10 over [0, 1]; the exact
   /// value is 0.
   static constexpr double kRule = 0.3174;
