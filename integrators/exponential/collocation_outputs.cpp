@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/local_error.hpp"
-
 namespace butee::integrators {
 namespace {
 
@@ -15,11 +13,6 @@ constexpr Index kCount = StepNodes::kCount;
 /// Allowed interpolation error of modes in outputs between nodes, as a fraction of the tolerance.
 constexpr double kOutput = 0.1;
 constexpr double kMostTurn = FastModes::kMostTurn;
-/// A sine of amplitude 1 and frequency omega differs from the quintic through its x, v and a at two
-/// instants dt apart by at most kOfX + kOfV (omega dt) + kOfA (omega dt)^2, and its velocity by
-/// omega (kSpeedOfV + kSpeedOfA (omega dt)): norms of Hermite's functions with a reserve, from
-/// plugins/exponential/THEORY.md, section 10.
-constexpr double kOfX = 2.0, kOfV = 0.4, kOfA = 0.035, kSpeedOfV = 5.0, kSpeedOfA = 0.3;
 /// For the work of forces a step is divided into at least kPartsOfPower parts, in which modes turn by at most
 /// kTurnOfPower rad. Gauss' rule with five points then integrates power, which turns twice as fast, with an error of
 /// at most (5!)^4/(11 (10!)^3) (2 kTurnOfPower)^10 = 2.4e-5 of it.
@@ -28,93 +21,7 @@ constexpr double kTurnOfPower = 3.0, kPartsOfPower = 2.0;
 constexpr double kLongestPart = 0.24;
 constexpr double kMostBreakpoints = 4096.0;
 
-/// Lower bounds of the scales at all instants of a step: those at its start, but at least a thousandth of those at its
-/// end. In the first steps scales grow by orders of magnitude.
-template <class Scales>
-Eigen::ArrayXd within_step(const Scales& at_start, const Scales& at_end) {
-  constexpr double kFloor = 1e-3;
-  return at_start.array().max(kFloor * at_end.array());
-}
-
-Eigen::ArrayXd scales_x(const State& from, const State& to) {
-  return within_step(LocalErrorControl::scales_x(from), LocalErrorControl::scales_x(to));
-}
-
-Eigen::ArrayXd scales_v(const State& from, const State& to) {
-  return within_step(LocalErrorControl::scales_v(from), LocalErrorControl::scales_v(to));
-}
-
-/// The smallest ratio of a scale at the start to that at the end.
-double least_growth(const State& from, const State& to) {
-  const auto least = [](const Eigen::ArrayXd& within, const auto& at_end) {
-    return (at_end.array() > 0.0).select(within / at_end.array(), 1.0).minCoeff();
-  };
-  return std::min(least(scales_x(from, to), LocalErrorControl::scales_x(to)),
-                  least(scales_v(from, to), LocalErrorControl::scales_v(to)));
-}
-
 }  // namespace
-
-FastModes::FastModes(const dynamics::DampedModes& modes, double tolerance)
-    : modes_(modes), tolerance_(tolerance), highest_(modes.count() > 0 ? modes.speed()[modes.count() - 1] : 0.0) {
-  const Index p = modes.count();
-  const auto magnitude = [p](const Eigen::MatrixXd& shapes) -> Eigen::MatrixXd {
-    return (shapes.topRows(p).array().square() + shapes.bottomRows(p).array().square()).sqrt().matrix().transpose();
-  };
-  shape_ = magnitude(modes.displacement());
-  speed_shape_ = magnitude(modes.velocity());
-}
-
-FastModes::Scales FastModes::scales(const State& from, const State& to) const {
-  return {tolerance_ * scales_x(from, to), tolerance_ * scales_v(from, to),
-          tolerance_ * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs())};
-}
-
-double FastModes::find(const State& from, const State& to, double slow, const Eigen::ArrayXd& turning,
-                       time::Detail detail) const {
-  if (detail == time::Detail::power) {
-    const Eigen::ArrayXd energy = modes_.kinetic() * turning.square();
-    double bound = tolerance_ * tolerance_ * energy.sum();
-    for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k)
-      if ((bound -= energy[k]) < 0.0) return modes_.speed()[k];
-    return slow;
-  }
-  const Scales scale = scales(from, to);
-  // Sums over the modes that are left out, for each DOF.
-  Eigen::ArrayXd x = Eigen::ArrayXd::Zero(scale.x.size()), v = x, a = x;
-  for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k) {
-    const double speed = modes_.speed()[k];
-    x += turning[k] * shape_.col(k).array();
-    v += turning[k] * speed_shape_.col(k).array();
-    a += turning[k] * speed * speed_shape_.col(k).array();
-    if (detail == time::Detail::accelerations) {
-      if ((x > scale.x).any() || (v > scale.v).any() || (a > scale.a).any()) return speed;
-      continue;
-    }
-    const double dt = kMostTurn / std::max(slow, k > 0 ? modes_.speed()[k - 1] : 0.0);
-    if ((kOfX * x + kOfV * dt * v + kOfA * dt * dt * a > scale.x).any() ||
-        (kSpeedOfV * v + kSpeedOfA * dt * a > scale.v).any())
-      return speed;
-  }
-  return slow;
-}
-
-Eigen::ArrayXd FastModes::silent(const State& from, const State& to, Index first) const {
-  constexpr double kTiny = std::numeric_limits<double>::min();
-  const Scales scale = scales(from, to);
-  const Eigen::ArrayXd by_x = 1.0 / scale.x.max(kTiny), by_v = 1.0 / scale.v.max(kTiny),
-                       by_a = 1.0 / scale.a.max(kTiny);
-  const Index p = modes_.count();
-  const double part = kSilent / static_cast<double>(p);
-  Eigen::ArrayXd all = Eigen::ArrayXd::Zero(p);
-  for (Index k = first; k < p; ++k) {
-    // The largest motion, relative to its scale, for |z| = 1.
-    const double most = std::max((shape_.col(k).array() * by_x).maxCoeff(),
-                                 (speed_shape_.col(k).array() * by_v.max(modes_.speed()[k] * by_a)).maxCoeff());
-    all[k] = part / most;
-  }
-  return all;
-}
 
 NodeTraces::NodeTraces(const dynamics::DampedModes& modes) : modes_(modes) {
   const Index n = modes.displacement().cols();
