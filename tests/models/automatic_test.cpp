@@ -26,19 +26,26 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
   EXPECT_EQ(choice(beam(6, "")).rfind("exponential with tolerance 0.0001: there are no stops", 0), 0U);
   EXPECT_EQ(choice(beam(6, kStops)).rfind("exponential with tolerance 0.0001: all modes of 12 DOFs", 0), 0U);
   EXPECT_EQ(choice(beam(6, kStops + kDashpot)).rfind("exponential with tolerance 0.0001: the linear part", 0), 0U);
-  const auto pulling = [&](const std::string& sides, const std::string& tolerance) {
-    return choice(beam(6, kStops + "law = \"arctan\"\nregularization = 1e5\nsides = \"" + sides + "\"\n",
-                       "end_time = 0.05\ntolerance = " + tolerance + "\n"));
+  // Far from its gap a stop pulls with k/(pi^2 lambda), 1e-6 or 1e-3 of the force that closes the gap.
+  const auto pulling = [&](const std::string& sides, const std::string& regularization, const std::string& tolerance) {
+    return choice(
+        beam(6, kStops + "law = \"arctan\"\nregularization = " + regularization + "\nsides = \"" + sides + "\"\n",
+             "end_time = 0.05\ntolerance = " + tolerance + "\n"));
   };
-  EXPECT_EQ(pulling("positive", "1e-6").rfind("exponential", 0), 0U);
-  EXPECT_EQ(pulling("positive", "1e-4").rfind("exponential", 0), 0U);
-  EXPECT_EQ(pulling("both", "1e-6").rfind("exponential", 0), 0U);
+  EXPECT_EQ(pulling("positive", "1e8", "1e-5").rfind("exponential", 0), 0U);
+  EXPECT_EQ(pulling("both", "1e8", "1e-4").rfind("exponential", 0), 0U);
+  EXPECT_EQ(pulling("positive", "1e5", "1e-6").rfind("rodas4", 0), 0U);
+  EXPECT_EQ(pulling("positive", "1e5", "1e-4").rfind("rodas4", 0), 0U);
+  EXPECT_EQ(pulling("both", "1e5", "1e-6").rfind("rodas4", 0), 0U);
+  EXPECT_EQ(pulling("both", "1e5", "1e-2").rfind("exponential", 0), 0U);
   // Computing the modes of 400 DOFs takes longer than integrating a few waves, but less than half a second of
   // impacts.
   EXPECT_EQ(choice(beam(200, kStops, "end_time = 1e-4\ntolerance = 1e-3\n"))
                 .rfind("rodas4 with tolerance 0.001 on the moving part: the modes of 400", 0),
             0U);
-  EXPECT_EQ(choice(beam(200, kStops, "end_time = 0.5\n")).rfind("exponential with tolerance 0.0001: all modes of 400 DOFs", 0), 0U);
+  EXPECT_EQ(choice(beam(200, kStops, "end_time = 0.5\n"))
+                .rfind("exponential with tolerance 0.0001: all modes of 400 DOFs", 0),
+            0U);
   EXPECT_EQ(choice(beam(400, kStops)).rfind("rodas4 with tolerance 0.0001 on the moving part: 800 DOFs", 0), 0U);
   const std::string weight =
       "[[load]]\ntype = \"distributed\"\nbeam = \"b\"\nvalue = 10.0\nin_time = {type = \"constant\", value = 1.0}\n";
