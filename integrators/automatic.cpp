@@ -76,8 +76,8 @@ bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_
   return true;
 }
 
-/// True if a stop's force far from its gap exceeds what the tolerance allows for. Of 18 000 random scenes exponential
-/// had four wrong for this reason (tests/stress/results.md).
+/// True if a stop's force far from its gap exceeds what the tolerance allows for. Of 10 000 random scenes exponential
+/// had three wrong for this reason (tests/stress/results.md).
 bool has_strong_residual_force(dynamics::Dynamics& dynamics, double tolerance) {
   const dynamics::ElasticStops& contact = dynamics.stops();
   for (Index i = 0; i < contact.size(); ++i) {

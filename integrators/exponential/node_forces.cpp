@@ -15,6 +15,8 @@ constexpr int kMostSweeps = 25;
 /// of the smallest one before.
 constexpr double kContraction = 0.6;
 constexpr int kPatience = 4;
+/// The smallest scale of a velocity in the weights of the sweeps, as a fraction of the largest.
+constexpr double kLeastScale = 1e-3;
 /// Changes of a force below this fraction of it are rounding errors.
 constexpr double kRounding = 1e-13;
 /// The same for the effect of contacts on the end of a step; the polynomials' coefficients lose
@@ -133,8 +135,8 @@ void NodeForces::find_weights(const State& from) {
   for (const Index dof : active_.dofs) largest = std::max(largest, scale[dof]);
   for (Index k = 0; k < active_.count(); ++k) {
     const Index dof = active_.dofs[static_cast<std::size_t>(k)];
-    const double speed = std::max(scale[dof], 1e-3 * largest);
-    weights_.row(k).setConstant(speed > 0.0 ? dofs_.inverse_mass(dof) / speed : 1.0);
+    const double speed = std::max(scale[dof], kLeastScale * largest), inverse_mass = dofs_.inverse_mass(dof);
+    weights_.row(k).setConstant(speed > 0.0 && inverse_mass > 0.0 ? inverse_mass / speed : 1.0);
   }
 }
 
