@@ -29,7 +29,7 @@ enum class Interpolation {
   other          ///< any smooth motion; departure() bounds it
 };
 
-/// What the motion between two neighbouring breakpoints has to resolve within the tolerance.
+/// The quantities that the motion between two neighbouring breakpoints resolves within the tolerance.
 enum class Detail {
   velocities,     ///< displacements and velocities, by the polynomial of Interpolation
   accelerations,  ///< accelerations as well, which fast modes of small amplitude may dominate
