@@ -118,7 +118,7 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     return {Method::piecewise, size + " with linear stops, so that the motion between impacts is known in closed form"};
   if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
     return {Method::dopri5, "contacts stick rigidly; it locates the changes, and implicit methods cannot treat them"};
-  if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
+  if (dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles()))
     return {Method::dopri5, "the slope of a contact's dissipation is infinite where it closes"};
   const bool is_too_tight = dynamics.stop_count() > 0 && tolerance < kSmallestWithStops;
   const char* const too_tight = "the tolerance is below the smallest one of exponential with stops";

@@ -17,24 +17,11 @@ constexpr double kConstant = 0.57, kContactChange = 10.0;
 
 }  // namespace
 
-bool has_infinite_slope(const dynamics::Obstacles& obstacles) {
-  for (Index i = 0; i < obstacles.size(); ++i) {
-    const model::ObstacleGroup& group = obstacles.group_of(i);
-    if (group.damping.kind == model::ImpactDamping::Kind::jankowski) return true;
-    if (group.damping.kind != model::ImpactDamping::Kind::law) continue;
-    // A slope proportional to g^-p grows by 10^(8 p) between these two penetrations.
-    constexpr double kLittle = 1e-8, kLess = 1e-16, kGrows = 10.0;
-    const auto slope = [&](double g) { return std::abs(group.law->rated_force(g, 1.0, false).by_penetration); };
-    if (!(slope(kLess) <= kGrows * slope(kLittle))) return true;
-  }
-  return false;
-}
-
 Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
       control_(dynamics, goal, {4.0, 4.0, kConstant, kContactChange}, LocalErrorControl::Steps::geometric),
       solver_(dynamics.effective(), dynamics.obstacles()) {
-  if (dynamics.obstacles() != nullptr && has_infinite_slope(*dynamics.obstacles()))
+  if (dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles()))
     throw InputError(
         "integrator.type: rodas4 takes derivatives of forces, and that of the contact's dissipation is infinite where "
         "the contact closes; take dopri5 or extrapolation8, or auto, which chooses among them");

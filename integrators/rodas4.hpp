@@ -8,10 +8,6 @@
 
 namespace butee::integrators {
 
-/// True if the damping force of a contact has an infinite derivative at g = 0, as for the dashpot
-/// `jankowski` and some laws from modules.
-bool has_infinite_slope(const dynamics::Obstacles& obstacles);
-
 /// rodas4: the Rosenbrock method RODAS4(3) of six stages, in n x n form.
 ///
 ///     (1/(gamma h) - J) U_i = f(y + sum_j a_ij U_j) + sum_j c_ij U_j/h + gamma_i h f_t,    y = (x, v), U = (P, Q)

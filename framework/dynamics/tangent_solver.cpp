@@ -4,6 +4,19 @@
 
 namespace butee::dynamics {
 
+bool has_infinite_slope(const Obstacles& obstacles) {
+  for (Index i = 0; i < obstacles.size(); ++i) {
+    const model::ObstacleGroup& group = obstacles.group_of(i);
+    if (group.damping.kind == model::ImpactDamping::Kind::jankowski) return true;
+    if (group.damping.kind != model::ImpactDamping::Kind::law) continue;
+    // A slope proportional to g^-p grows by 10^(8 p) between these two penetrations.
+    constexpr double kLittle = 1e-8, kLess = 1e-16, kGrows = 10.0;
+    const auto slope = [&](double g) { return std::abs(group.law->rated_force(g, 1.0, false).by_penetration); };
+    if (!(slope(kLess) <= kGrows * slope(kLittle))) return true;
+  }
+  return false;
+}
+
 bool TangentSolver::set(double velocity_factor, double displacement_factor, ConstVectorRef kappa,
                         std::span<const Obstacles::Tangent> tangents) {
   effective_.set_factors(velocity_factor, displacement_factor);

@@ -7,6 +7,10 @@
 
 namespace butee::dynamics {
 
+/// True if the damping force of a contact has an infinite derivative at g = 0, as for the dashpot
+/// `jankowski` and some laws from modules: methods that take tangents cannot treat it.
+BUTEE_EXPORT bool has_infinite_slope(const Obstacles& obstacles);
+
 /// Solves effective equations with the tangents of obstacles in addition to the stops:
 ///
 ///     (A + sum_i S_i^T B_i S_i) x = b,    B_i = velocity_factor C_i + displacement_factor K_i,    x = y - Z (1 + B

@@ -1,9 +1,25 @@
+#include <algorithm>
+
+#include <butee/core/error.hpp>
+
 #include "solver.hpp"
 
 namespace {
 
 using namespace butee;
 using config::number;
+
+/// The length that absolute tolerances refer to: the largest gap of a stop, or distance of an obstacle at rest, or 1
+/// mm.
+double length_of(dynamics::Dynamics& dynamics) {
+  double length = 0.0;
+  for (Index i = 0; i < dynamics.stop_count(); ++i) length = std::max(length, dynamics.stops().play_of(i).gap);
+  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
+    for (Index i = 0; i < obstacles->size(); ++i)
+      if (const auto& shape = obstacles->group_of(i).shape)
+        length = std::max(length, -shape->at({0.0, 0.0}).penetration);
+  return length > 0.0 ? length : 1e-3;
+}
 
 time::IntegratorType type_of(std::string name, std::string summary, plugins::Family family) {
   return {
@@ -15,7 +31,7 @@ time::IntegratorType type_of(std::string name, std::string summary, plugins::Fam
                          .or_else(1e-4)
                          .sweep(1e-1, 1e-9),
                      number("absolute_tolerance", "m, rad, m/s, rad/s",
-                            "of each component; 0: tolerance times the largest gap, or times 1 mm")
+                            "of each component; 0: tolerance times the largest gap of a contact, or times 1 mm")
                          .at_least(0)
                          .or_else(0.0),
                      config::integer("order", "the order, the highest of cvode; 0: the solver's choice")
@@ -24,14 +40,17 @@ time::IntegratorType type_of(std::string name, std::string summary, plugins::Fam
                          .or_else(std::int64_t{0})},
       .finds_first_step = true,
       .restarts_exactly = false,
+      .contacts = time::ContactSupport::without_memory,
       .make = [family](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-        double length = 0.0;
-        for (Index i = 0; i < dynamics.stop_count(); ++i) length = std::max(length, dynamics.stops().play_of(i).gap);
-        if (length == 0.0) length = 1e-3;
+        const bool is_implicit = family != plugins::Family::arkode_erk;
+        if (is_implicit && dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles()))
+          throw InputError(
+              "integrator.type: the implicit methods of SUNDIALS take derivatives of forces, and that of the contact's "
+              "dissipation is infinite where the contact closes; take arkode_erk, dopri5 or extrapolation8, or auto");
         const double given = p.number("absolute_tolerance");
-        return std::make_unique<plugins::SundialsIntegrator>(dynamics, family, p.number("tolerance"),
-                                                             given > 0.0 ? given : p.number("tolerance") * length,
-                                                             static_cast<int>(p.integer("order")));
+        return std::make_unique<plugins::SundialsIntegrator>(
+            dynamics, family, p.number("tolerance"), given > 0.0 ? given : p.number("tolerance") * length_of(dynamics),
+            static_cast<int>(p.integer("order")));
       }};
 }
 

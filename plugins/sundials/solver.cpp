@@ -8,6 +8,8 @@
 namespace butee::plugins {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 void check(int flag, const char* what) {
   if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + what + " failed with " + std::to_string(flag));
 }
@@ -26,7 +28,10 @@ SundialsIntegrator::SundialsIntegrator(dynamics::Dynamics& dynamics, Family fami
       family_(family),
       tolerance_(tolerance),
       absolute_tolerance_(absolute_tolerance),
-      order_(order) {
+      order_(order),
+      solver_(dynamics.effective(), dynamics.obstacles()),
+      matrix_t_(kNone),
+      matrix_gamma_(kNone) {
   if (SUNContext_Create(nullptr, &context_) != 0) throw std::runtime_error("SUNDIALS: no context");
   y_ = N_VNew_Serial(2 * dynamics.size(), context_);
   derivative_ = N_VNew_Serial(2 * dynamics.size(), context_);
@@ -93,7 +98,10 @@ void SundialsIntegrator::begin(const time::State& from) {
 time::StepReport SundialsIntegrator::do_step(const time::State& from, const time::Step& step, time::State& to) {
   time::StepReport report;
   const bool continues = memory_ != nullptr && last_.t == from.t && last_.x == from.x && last_.v == from.v;
-  if (!continues) begin(from);
+  if (!continues) {
+    begin(from);
+    matrix_t_ = kNone;
+  }
   double t = from.t;
   int flag = 0;
   if (is_cvode()) {
@@ -107,7 +115,7 @@ time::StepReport SundialsIntegrator::do_step(const time::State& from, const time
   }
   if (flag < 0 || !(t > from.t)) {
     report.status = time::StepStatus::not_finite;
-    last_.t = std::numeric_limits<double>::quiet_NaN();  // No valid state.
+    last_.t = kNone;  // No valid state.
     return report;
   }
   const Index n = from.x.size();
@@ -148,26 +156,45 @@ int SundialsIntegrator::solve(double* z, const double* r) {
   else
     ARKStepGetNonlinearSystemData(memory_, &t, &predicted, &now, &rate, &gamma, &history, &self);
   const Index n = dynamics().size();
-  const Eigen::Map<const Vector> x(N_VGetArrayPointer(now), n), r_x(r, n), r_v(r + n, n);
+  const double* y = N_VGetArrayPointer(now);
+  const Eigen::Map<const Vector> x(y, n), v(y + n, n), r_x(r, n), r_v(r + n, n);
   Eigen::Map<Vector> z_x(z, n), z_v(z + n, n);
-  // (M + gamma C + gamma^2 (K + K_t)) z_v = M r_v - gamma (K + K_t) r_x,   z_x = r_x + gamma z_v
-  dynamics().elastic_force(r_x, work_);
-  if (dynamics().stop_count() > 0) {
-    dynamics::ElasticStops& contact = dynamics().stops();
-    contact.displacement(x, stop_displacement_);
-    contact.tangent(stop_displacement_, stop_force_, tangent_);
-    contact.displacement(r_x, stop_work_);
-    stop_work_.array() *= tangent_.array();
-    contact.scatter(stop_work_, work_);
-  }
+  if (!set_matrix(t, gamma, x, v)) return 1;
+  // (M + gamma C + gamma^2 K) z_v = M r_v - gamma K r_x,   z_x = r_x + gamma z_v;   C and K with the contacts' tangents
+  tangent_force(r_x);
   dynamics().inertia_force(r_v, other_);
   other_ -= gamma * work_;
-  dynamics::EffectiveSolver& effective = dynamics().effective();
-  effective.set_factors(gamma, gamma * gamma);
-  if (!effective.solve(tangent_, other_)) return 1;
+  if (!solver_.solve(other_)) return 1;
   z_x = r_x + gamma * other_;
   z_v = other_;
   return 0;
+}
+
+bool SundialsIntegrator::set_matrix(double t, double gamma, ConstVectorRef x, ConstVectorRef v) {
+  if (t == matrix_t_ && gamma == matrix_gamma_) return true;
+  matrix_t_ = kNone;
+  dynamics().set_time(t);
+  if (dynamics().stop_count() > 0) {
+    dynamics().stops().displacement(x, stop_displacement_);
+    dynamics().stops().tangent(stop_displacement_, stop_force_, tangent_);
+  }
+  if (dynamics().obstacles() != nullptr) obstacles_ = dynamics().obstacles()->tangents(t, x, v);
+  if (!solver_.set(gamma, gamma * gamma, tangent_, obstacles_)) return false;
+  matrix_t_ = t;
+  matrix_gamma_ = gamma;
+  return true;
+}
+
+void SundialsIntegrator::tangent_force(ConstVectorRef y) {
+  dynamics().elastic_force(y, work_);
+  for (const dynamics::Obstacles::Tangent& tangent : obstacles_) {
+    const dynamics::Obstacles& all = *dynamics().obstacles();
+    all.scatter(tangent.contact, tangent.stiffness * all.gather(tangent.contact, y), work_);
+  }
+  if (dynamics().stop_count() == 0) return;
+  dynamics().stops().displacement(y, stop_work_);
+  stop_work_.array() *= tangent_.array();
+  dynamics().stops().scatter(stop_work_, work_);
 }
 
 }  // namespace butee::plugins

@@ -6,6 +6,7 @@
 #include <nvector/nvector_serial.h>
 #include <string>
 
+#include <butee/dynamics/tangent_solver.hpp>
 #include <butee/plugin/entry.hpp>
 
 namespace butee::plugins {
@@ -16,7 +17,7 @@ enum class Family { cvode_bdf, cvode_adams, arkode_erk, arkode_dirk };
 /// integrator is one internal step of SUNDIALS.
 ///
 /// The implicit methods solve (1 - gamma J) z = r in block form, with the effective matrix of this
-/// framework and its treatment of the stops, which is better suited than any matrix that SUNDIALS
+/// framework and its treatment of the contacts, which is better suited than any matrix that SUNDIALS
 /// could use. Errors are relative to each component, plus an absolute tolerance. CVODE keeps its
 /// own history: a step that does not continue the last one reinitialises CVODE. A step is therefore
 /// not a pure function of the state, and a restart reproduces a run only to the tolerance. Source:
@@ -45,6 +46,11 @@ class SundialsIntegrator final : public time::Integrator {
   void attach_linear_solver();
   int evaluate(double t, const double* y, double* rate);
   int solve(double* z, const double* r);
+  /// Sets the matrix of solve() with the tangents of the contacts at this motion; the iterations of
+  /// one stage share it.
+  [[nodiscard]] bool set_matrix(double t, double gamma, ConstVectorRef x, ConstVectorRef v);
+  /// work_ := (K + K_t) y
+  void tangent_force(ConstVectorRef y);
 
   static int right_side(realtype t, N_Vector y, N_Vector rate, void* self);
   static int solve_linear(SUNLinearSolver solver, SUNMatrix, N_Vector z, N_Vector r, realtype);
@@ -58,6 +64,9 @@ class SundialsIntegrator final : public time::Integrator {
   N_Vector y_ = nullptr, derivative_ = nullptr;
   SUNLinearSolver linear_ = nullptr;
   time::State last_;  ///< the state that the solver has reached
+  dynamics::TangentSolver solver_;
+  std::vector<dynamics::Obstacles::Tangent> obstacles_;
+  double matrix_t_, matrix_gamma_;  ///< of the matrix that solver_ holds, s; NaN: none
   Vector stop_displacement_, stop_force_, tangent_, work_, stop_work_, other_;
 };
 

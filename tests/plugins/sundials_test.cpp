@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
+#include "support/small_scenes.hpp"
 
 namespace butee::test::sundials_test {
 namespace {
@@ -27,6 +28,42 @@ TEST_P(Sundials, AgreesWithAnotherMethodAcrossContact) {
   const Vector x = end(GetParam()), reference = end("exponential");
   // Its tolerance applies to each component; the run has some thousand steps.
   EXPECT_LT((x - reference).norm(), 1e-3 * reference.norm());
+}
+
+/// A pipe that turns in rings and rubs, beside a stop in one plane.
+TEST_P(Sundials, AgreesWithAnotherMethodInRingsWithFriction) {
+  const std::string toml = TurningPipe{"string", "lateral", "35.0", 10, "0.01", "0.01", "3.0"}.scene(
+      "[[contact]]\ntype = \"stop\"\nlaw = \"linear\"\nnodes = \"string:middle\"\ndof = \"uy\"\ngap = 0.005\nstiffness "
+      "= 1e5\n"
+      "[integrator]\ntype = \"exponential\"\nend_time = 0.3\n");
+  const auto end = [&toml](const std::string& method, const std::string& tolerance) {
+    SceneRun run(toml, {"integrator.type=" + method, "integrator.tolerance=" + tolerance});
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_GT(run.dynamics().counters().law_evaluations, 1000) << method;
+    return run.simulation().state().x;
+  };
+  const Vector x = end(GetParam(), "1e-6"), reference = end("rodas4", "1e-7");
+  // Its tolerance applies to each component and step; the run has some thousand steps.
+  EXPECT_LT((x - reference).norm(), 1e-3 * reference.norm());
+}
+
+/// Implicit methods need the slopes of forces.
+TEST_P(Sundials, RefusesInfiniteSlopesWhereItTakesSlopes) {
+  const std::string toml = mass_on_spring("40.0",
+                                          "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.1\nlaw = "
+                                          "\"hertz\"\nstiffness = 1e4\ndamping = { type = \"jankowski\", mass = 1.0, "
+                                          "restitution = 0.7 }\n");
+  const std::vector<std::string> method = {"integrator.type=" + GetParam()};
+  if (GetParam() == "arkode_erk") {
+    EXPECT_NO_THROW(SceneRun(toml, method));
+    return;
+  }
+  try {
+    SceneRun run(toml, method);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("is infinite where the contact closes"), std::string::npos);
+  }
 }
 
 /// The overflow occurs in the middle of the run, and in the first step.
