@@ -5,7 +5,7 @@
 
 namespace butee::integrators {
 
-double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement) const {
+double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement) {
   const ContactPaths& paths = iteration_.paths();
   double largest = 0.0;
   for (const Index i : step.iterated) {
@@ -13,7 +13,7 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
     const bool is_near = bounds_.is_near(i);
     double error = is_near ? std::abs(quartic) : residual_.jump_error(flow, i, quartic, paths.motion().end[i]);
     if (is_near && iteration_.is_touched(i)) {
-      error = of_touched(flow, i, error, displacement);
+      error = of_touched(flow, i, step.t_end, error, displacement);
     } else if (const double depth = paths.excess()[i] + kPathError * std::abs(quartic); is_near && depth > 0.0) {
       const double impulse = iteration_.influence().stiff(flow, i) * depth;
       const ContactScale scale = scales_.of(i, paths.reached(i), displacement);
@@ -27,8 +27,8 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
   return largest;
 }
 
-double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, double quartic,
-                                double displacement) const {
+double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic,
+                                double displacement) {
   const ContactPaths& paths = iteration_.paths();
   const double h = flow.h(), stiffness = contacts_[static_cast<std::size_t>(stop)].stiffness();
   const ContactInfluence::Known& known = iteration_.influence().of(flow, stop);
@@ -38,6 +38,11 @@ double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, d
   if (!stays_closed) {
     const double by_slope = h * h * stiffness * known.unresolved * paths.largest_speed(stop) / (h * scale.speed);
     error = std::max(error, by_slope * goal_.middle * scale.displacement / (kUnresolved * goal_.outputs));
+    if (paths.changes(stop)) {
+      const double change = change_error(stiffness * known.coupling[1][0], paths.largest_speed(stop), h, scale);
+      changes_.emplace_back(stop, change);
+      error = std::max(error, change / accounts_.allowed(stop, t_end) * goal_.middle * scale.displacement);
+    }
   }
   return error * (displacement / scale.displacement);
 }

@@ -92,6 +92,15 @@ inline double path_error(double quartic, double stiff, double h, ContactScale sc
   return quartic * (of_speed * scale.displacement > speed ? of_speed * scale.displacement / speed : 1.0);
 }
 
+/// The speed error of a free mass, divided by its speed and sigma^2, if its stop closes or opens in a step: at most
+/// 1.45e-4 up to sigma = 3 at any place of the step (plugins/exponential/constants.py).
+inline constexpr double kOfChange = 1.5e-4;
+/// Indicator 7: the speed error, relative to the speed scale, of a step in which a stop closes or opens with the speed
+/// `speed`, h w' in m.
+inline double change_error(double stiff, double speed, double h, ContactScale scale) {
+  return speed > 0.0 ? kOfChange * stiff * stiff * speed / (h * scale.speed) : 0.0;
+}
+
 /// Uncertainty of a path as a fraction of its quartic coefficient.
 inline constexpr double kPathError = 0.1;
 

@@ -82,7 +82,7 @@ void Exponential<Step>::do_start(State& state) {
   state.memory.resize(step_.memory_size() + kExtras);
   modal_.to_modal(state.x, state.memory.head(n));
   modal_.to_modal(state.v, state.memory.segment(n, n));
-  step_.complete(state.memory.data());
+  step_.complete(state.t, state.memory.data());
   ContactScale scale;
   if (step_.has_stops()) {
     Vector w(modal_.stop_count()), speed(modal_.stop_count());

@@ -97,9 +97,8 @@ class Exponential final : public time::Integrator, private time::Interpolant {
   Vector begin_memory_;
 };
 
-/// The smallest tolerance for scenes with elastic stops. Below it the errors of hundreds of impacts
-/// on uncoupled modes, each within its bound, add up to more than the guaranteed error of a run; on
-/// coupled modes the rounding of many short steps does.
+/// The smallest tolerance for scenes with elastic stops. Below it the rounding of many short steps on
+/// coupled modes adds up to more than the guaranteed error of a run.
 inline constexpr double kSmallestWithStops = 1e-8;
 
 /// Throws InputError for tolerances below kSmallestWithStops and for scenes that ModalCollocation

@@ -42,23 +42,26 @@ SingleStep::SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& moda
       residual_(dynamics.stops(), 0),
       gap_(dynamics.stops()),
       longest_near_(longest_near_stops(modal)),
+      accounts_(goal, modal.frequencies().minCoeff(), 1),
       flows_(modal, mode_, newton_),
       record_(dynamics, modal, mode_, contact_, goal.outputs, most) {}
 
 void SingleStep::save(double* memory) const {
   memory[0] = now_.q;
   memory[1] = now_.v;
-  record_.save_phases(memory + 2);
+  accounts_.save(memory + 2);
+  record_.save_phases(memory + 2 + accounts_.memory_size());
 }
 
 void SingleStep::begin(double t, const double* memory, ContactScale scale) {
   now_ = {memory[0], memory[1]};
   scale_ = scale;
+  accounts_.load(memory + 2);
   if (!contact_.is_linear())
     contact_.allow(
         kLasting * goal_.tolerance / goal_.run_time * scale.speed / (mode_.stop_shape * mode_.stop_shape),
         kLasting * goal_.tolerance / scale.characteristic_time() * scale.speed / (mode_.stop_shape * mode_.stop_shape));
-  record_.begin(t, now_, memory + 2);
+  record_.begin(t, now_, memory + 2 + accounts_.memory_size());
 }
 
 void SingleStep::accept(double t) {
@@ -71,10 +74,13 @@ void SingleStep::accept(double t) {
   step.quartic = tried_.path[2] - (0.5 * (w + shape * now_.q) + 0.125 * (step.hv0 - step.hv1));
   step.force = tried_.force;
   record_.add(flow, step, t, now_);
+  accounts_.charge(0, tried_.change);
 }
 
-Trial SingleStep::attempt(const SingleFlow& flow) {
+Trial SingleStep::attempt(const SingleFlow& flow, double t_end) {
   tried_.flow = &flow;
+  tried_.t_end = t_end;
+  tried_.change = 0.0;
   const std::span<const Phase> phase = record_.last_phases();
   const auto [q, v] = now_;
   double q1 = flow.qq * q + flow.qv * v, v1 = flow.vq * q + flow.vv * v, middle = flow.half_qq * q + flow.half_qv * v;
@@ -184,6 +190,10 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
     double error = std::abs(quartic);
     if (force[0] != 0.0) {
       error = path_error(error, stiff, flow.h, reached, status == ContactStatus::closed);
+      if (changes(path, w, end[0])) {
+        tried_.change = change_error(stiff, std::max(std::abs(hv), std::abs(end[1])), flow.h, reached);
+        error = std::max(error, tried_.change / accounts_.allowed(0, tried_.t_end) * goal_.middle * scale);
+      }
     } else if (const double depth = beyond(path) + kPathError * std::abs(quartic); depth > 0.0) {
       error = std::max(error, missed_contact_error(goal_, stiff * depth, flow.h, scale_.speed) * scale);
     }

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "integrators/exponential/change_accounts.hpp"
 #include "integrators/exponential/residual_force.hpp"
 #include "integrators/exponential/single_record.hpp"
 #include "integrators/exponential/step_size.hpp"
@@ -17,14 +18,20 @@ class SingleStep {
 
   SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, const StepGoal& goal, std::size_t most);
 
-  /// Entries of a state: q, v and LoadPhases.
-  Index memory_size() const { return 2 + record_.phases().memory_size(); }
-  void complete(double* memory) const { record_.phases().start(memory + 2); }
+  /// Entries of a state: q, v, ChangeAccounts and LoadPhases.
+  Index memory_size() const { return 2 + accounts_.memory_size() + record_.phases().memory_size(); }
+  void complete(double t, double* memory) const {
+    accounts_.start(t, memory + 2);
+    record_.phases().start(memory + 2 + accounts_.memory_size());
+  }
   void begin(double t, const double* memory, ContactScale scale);
   void save(double* memory) const;
 
-  Trial attempt_index(int index) { return attempt(flows_.on_grid(index)); }
-  Trial attempt_until(double t) { return attempt(flows_.odd(t - record_.last())); }
+  Trial attempt_index(int index) {
+    const SingleFlow& flow = flows_.on_grid(index);
+    return attempt(flow, t() + flow.h);
+  }
+  Trial attempt_until(double t) { return attempt(flows_.odd(t - record_.last()), t); }
   StepSizeControl::Outcome outcome() const {
     return {tried_.is_contact_free, {tried_.error, goal_.middle * scale_.displacement}, tried_.interpolation_error};
   }
@@ -56,12 +63,13 @@ class SingleStep {
     const SingleFlow* flow = nullptr;
     Oscillator::Point to{};
     bool is_contact_free = false;
-    double error = 0.0, interpolation_error = 0.0;
+    double t_end = 0.0, error = 0.0, interpolation_error = 0.0;
+    double change = 0.0;           ///< change_error() of the step, 0 if the stop neither closes nor opens
     std::array<double, 3> path{};  ///< end, h times the end speed, middle, with the force found so far, m
     ForceMoments force{};
   };
 
-  Trial attempt(const SingleFlow& flow);
+  Trial attempt(const SingleFlow& flow, double t_end);
   /// Iterates for the force along the path that begins with displacement w and h times speed hv;
   /// tried_.path holds the path without the force.
   Trial iterate(const SingleFlow& flow, double w, double hv);
@@ -72,6 +80,11 @@ class SingleStep {
   bool is_smooth(const SingleFlow& flow, double w);
   /// True if the residual force is constant within its error bound.
   bool is_constant(const SingleFlow& flow, double w, double bound) const;
+  /// The stop closes or opens on the path, or both.
+  bool changes(const ContactPath& path, double w, double end) const {
+    const auto side_at = [this](double at) { return at > gap_.upper ? 1 : at < gap_.lower ? -1 : 0; };
+    return side_at(w) != side_at(end) || (side_at(w) == 0 && beyond(path) > 0.0);
+  }
   /// The bound of a path minus the gap, m; negative if the path stays within the gap.
   double beyond(const ContactPath& path) const {
     return std::max(path.highest() - gap_.upper, gap_.lower - path.lowest());
@@ -84,6 +97,7 @@ class SingleStep {
   ResidualForce residual_;
   Gap gap_;
   double longest_near_;  ///< longest_near_stops(), s
+  ChangeAccounts accounts_;
   SingleFlows flows_;
   SingleRecord record_;
   Oscillator::Point now_{};

@@ -315,6 +315,7 @@ def changes_of_contact():
     print("\nA free mass that closes a stop at any place of a step, sigma = (h omega_c)^2, h = v = 1: largest errors")
     print("   sigma, |b|/sigma, speed/sigma^2, displacement/sigma^2, largest speed error over largest |b|, "
           "kOfSpeed sigma^2")
+    of_change = 0.0
     for sigma in (0.01, 0.1, 0.3, 1.0, 3.0, 10.0):
         fast, worst = np.sqrt(sigma), np.zeros(3)
         for a in np.linspace(0.02, 0.98, 49):
@@ -324,6 +325,9 @@ def changes_of_contact():
             worst = np.maximum(worst, (bulge, abs(speed - exact[1]), abs(end - exact[0])))
         note("  ", sigma, worst[0] / sigma, *worst[1:] / sigma ** 2, worst[1] / worst[0],
              constant("kOfSpeed") * sigma ** 2)
+        if sigma <= 3.0:
+            of_change = max(of_change, worst[1] / sigma ** 2)
+    compare("kOfChange: largest speed error/sigma^2, sigma <= 3", constant("kOfChange"), of_change, ">=", 1.1)
     print("The same closed throughout, any phase: sigma, largest speed error/(sigma^2 largest |b|), "
           "kOfSpeedClosed over it")
     for sigma in (0.1, 0.3, 1.0, 3.0, 10.0):

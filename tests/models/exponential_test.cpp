@@ -241,6 +241,29 @@ TEST(Exponential, GetsTheSpeedRightAfterShortImpacts) {
     EXPECT_LT(error_of_driven_mass(stiffness, 1e-3, 0.7, 0.02, "1e-4"), bound) << stiffness;
 }
 
+/// A mass on a spring that flies to and fro between hard stops, beside another one or alone. Each impact takes or
+/// gives a little energy; after all of them it is that of the start.
+TEST(Exponential, KeepsTheEnergyThroughHundredsOfImpacts) {
+  constexpr double kSpeed = 1.9, kStiffness = 420.0, kGap = 0.02;
+  const std::string mass = "[[element]]\ntype = \"mass\"\nmass = 1.0\nname = ";
+  const std::string flight =
+      "schema = 1\n" + mass +
+      "\"m\"\n[[element]]\ntype = \"spring\"\nnode = \"m\"\nstiffness = 420.0\n[[contact]]\ntype = "
+      "\"stop\"\nnodes = \"m\"\ngap = 0.02\nlaw = \"linear\"\nstiffness = 1.6e9\n[initial]\nvelocity "
+      "= [{ nodes = \"m\", value = 1.9 }]\n[integrator]\ntype = \"exponential\"\nend_time = 3.0\n";
+  for (const std::string& other : {std::string(), mass + "\"other\"\n"})
+    for (const char* tolerance : {"1e-3", "1e-4", "1e-5", "1e-6", "1e-7"}) {
+      SceneRun run(flight + other, {std::string("integrator.tolerance=") + tolerance});
+      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+      const Index m = run.dof("m");
+      const double x = run.simulation().state().x[m], v = run.simulation().state().v[m];
+      ASSERT_LT(std::abs(x), kGap);
+      // The account of the stop allows 4.4 tolerances of the speed.
+      EXPECT_NEAR((v * v + kStiffness * x * x) / (kSpeed * kSpeed), 1.0, 2.0 * 4.4 * std::stod(tolerance))
+          << tolerance << other;
+    }
+}
+
 /// With a soft stop that is never reached, steps may be arbitrarily long; outputs within them must still be
 /// accurate.
 TEST(Exponential, KeepsItsToleranceBetweenStepsWithoutContact) {

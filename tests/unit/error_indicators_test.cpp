@@ -1,6 +1,11 @@
 #include "integrators/exponential/error_indicators.hpp"
 
+#include <numbers>
+#include <vector>
+
 #include <gtest/gtest.h>
+
+#include "integrators/exponential/change_accounts.hpp"
 
 namespace butee::test::error_indicators_test {
 namespace {
@@ -38,6 +43,39 @@ TEST(ErrorIndicators, WeighTheQuarticTermByTheSpeedThatAStiffStopMakesOfIt) {
   EXPECT_EQ(path_error(1e-3, 0.1, 0.1, scale, false), 1e-3);                       // a soft stop
   EXPECT_DOUBLE_EQ(path_error(1e-3, 100.0, 0.1, scale, false), 1e-3 * 0.1 * 1e4);  // 0.1 sigma^2
   EXPECT_DOUBLE_EQ(path_error(1e-3, 100.0, 0.1, scale, true), 1e-3 * 0.5 * 1e4);
+}
+
+/// The errors of a stop's changes add up to 4.4 tolerances at most, however many there are and whenever they come.
+TEST(ErrorIndicators, ShareTheToleranceAmongTheChangesOfContactOfAStop) {
+  constexpr double kTolerance = 1e-4, kRunTime = 2.0;
+  for (const int changes : {1, 10, 1000}) {
+    ChangeAccounts accounts({kTolerance, kTolerance, kTolerance, kRunTime}, 0.0, 2);
+    std::vector<double> memory(static_cast<std::size_t>(accounts.memory_size()));
+    accounts.start(5.0, memory.data());
+    accounts.load(memory.data());
+    double sum = 0.0;
+    for (int k = 1; k <= changes; ++k) {
+      const double error = accounts.allowed(1, 5.0 + kRunTime * k / changes);
+      EXPECT_GT(error, 0.0);
+      accounts.charge(1, error);
+      sum += error;
+    }
+    EXPECT_LE(sum, 4.4 * kTolerance);
+    EXPECT_GE(sum, 2.0 * kTolerance);
+    EXPECT_DOUBLE_EQ(accounts.allowed(0, 5.0 + kRunTime), 2.2 * kTolerance);  // another stop
+    accounts.save(memory.data());
+    EXPECT_NEAR(memory[1] - memory[0], sum, 1e-15);
+  }
+  // A run beyond a thousand periods may err as much in each thousand.
+  const ChangeAccounts longer({kTolerance, kTolerance, kTolerance, 100.0 * kRunTime},
+                              1e3 * 2.0 * std::numbers::pi / kRunTime, 1);
+  EXPECT_DOUBLE_EQ(longer.allowed(0, kRunTime), 0.5 * 4.0 * kTolerance);
+}
+
+TEST(ErrorIndicators, ChargeAChangeOfContactByItsSpeedAndStiffness) {
+  const ContactScale scale = {1.0, 10.0};
+  EXPECT_DOUBLE_EQ(change_error(0.1, 0.5, 0.1, scale), 1.5e-4 * 0.01 * 0.5);
+  EXPECT_EQ(change_error(0.1, 0.0, 0.1, {}), 0.0);  // at rest
 }
 
 TEST(ErrorIndicators, AskForALongerStepFarBelowTheirBoundAlone) {

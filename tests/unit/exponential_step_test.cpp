@@ -36,7 +36,7 @@ struct Steps {
     const Index n = modal.size();
     modal.to_modal(x, Eigen::Map<Vector>(memory.data(), n));
     modal.to_modal(v, Eigen::Map<Vector>(memory.data() + n, n));
-    step.complete(memory.data());
+    step.complete(0.0, memory.data());
     step.begin(0.0, memory.data(), {0.1, 1.0});
     for (int k = 0; k < 31; ++k) {
       int index = -11;
