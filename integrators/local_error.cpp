@@ -19,6 +19,10 @@ constexpr double kMostDown = 9.0, kMostUp = 9.0;
 /// The error assigned to a step that missed a contact: the step is repeated, on the grid with about
 /// half its length.
 constexpr double kMissed = 8.0;
+/// The part of the displacement reached within 1/omega to which errors are relative at a start from rest: velocities
+/// grow as t, displacements as t^2. The guaranteed error is relative to at least a thousandth of the largest of the
+/// run.
+constexpr double kFromRest = 0.02;
 /// The fraction of the account's balance that a step without a change of contact may use in
 /// addition to its own share. This is needed at starts from rest, where scales are still small.
 constexpr double kSpendOnSmooth = 0.01;
@@ -160,14 +164,13 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
                earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
   double epsilon = as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(error_x, error_v);
   if (!as_a_whole_ && epsilon > smooth && omega_ > 0.0) {
-    // At a start from rest errors are relative to the velocities that the accelerations cause
-    // within 1/omega, or until a load's slope jumps, and to the displacements that these velocities
-    // cause within 1/omega.
+    // At a start from rest errors are relative to the velocities that the accelerations cause within 1/omega, or until
+    // a load's slope jumps, and to a part of the displacements that these velocities cause within 1/omega.
     const auto jump = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), from.t);
     const double time = jump == discontinuities_.end() ? 1.0 / omega_ : std::min(1.0 / omega_, *jump - from.t);
     work_ = time * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs()).cwiseMax((to.v - from.v).cwiseAbs() / h);
     scales_.raise(work_, scale_v_);
-    work_ = (1.0 / omega_) * scale_v_;
+    work_ = (kFromRest / omega_) * scale_v_;
     scales_.raise(work_, scale_x_);
     epsilon = relative_error(error_x, error_v);
   }

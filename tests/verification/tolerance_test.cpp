@@ -61,6 +61,42 @@ TEST_P(Tolerance, IsWhatComesOut) {
   EXPECT_LE(slope, 1.2) << errors;
 }
 
+/// From rest displacements grow as t^2. The error is relative to the largest so far, at least a thousandth of the
+/// largest of the run, also within the first steps. With x'' + omega^2 x = A cos(Omega t + phi) and P = A/(omega^2 -
+/// Omega^2) x = P (cos(Omega t + phi) - cos(phi) cos(omega t) + sin(phi) sin(omega t) Omega/omega).
+TEST_P(Tolerance, HoldsInTheFirstStepsFromRest) {
+  constexpr double kLoad = 3.0, kOmega = 50.0, kTurns = 55.0, kPhase = 0.4, kEnd = 0.02;
+  const double size = kLoad / (kOmega * kOmega - kTurns * kTurns), c = std::cos(kPhase), s = std::sin(kPhase);
+  std::vector<double> times;
+  for (int i = 1; i <= 400; ++i) times.push_back(kEnd / 400.0 * i);
+  for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+    if (tolerance < 1e-6 && GetParam().ends_with("_adaptive")) continue;
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+        "\"m\"\nstiffness = 2500.0\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 3.0\nangular_frequency = "
+        "55.0\nphase = 0.4\n[integrator]\ntype = \"" +
+        GetParam() + "\"\nend_time = 0.02\ntolerance = " + to_text(tolerance) + "\n");
+    Sampler sampler(run.dof("m"), times);
+    run.simulation().add(sampler);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    const auto x = [&](double t) {
+      return size *
+             (std::cos(kTurns * t + kPhase) - c * std::cos(kOmega * t) + s * kTurns / kOmega * std::sin(kOmega * t));
+    };
+    const auto v = [&](double t) {
+      return size * (-kTurns * std::sin(kTurns * t + kPhase) + c * kOmega * std::sin(kOmega * t) +
+                     s * kTurns * std::cos(kOmega * t));
+    };
+    double scale = 1e-3 * std::abs(x(kEnd)), scale_v = 1e-3 * std::abs(v(kEnd));
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      scale = std::max(scale, std::abs(x(times[i])));
+      scale_v = std::max(scale_v, std::abs(v(times[i])));
+      ASSERT_NEAR(sampler.x[i], x(times[i]), 10.0 * tolerance * scale) << tolerance << " at " << times[i];
+      ASSERT_NEAR(sampler.v[i], v(times[i]), 10.0 * tolerance * scale_v) << tolerance << " at " << times[i];
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, Tolerance,
                          testing::Values("exponential", "rodas4", "dopri5", "extrapolation8", "bathe_adaptive",
                                          "generalized_alpha_adaptive", "hht_alpha_adaptive",
