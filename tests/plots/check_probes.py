@@ -9,7 +9,7 @@ import numpy as np
 
 UNITS = {"t": "s", "h": "s", "u": "m", "v": "m/s", "a": "m/s2", "theta": "rad", "contact_force": "N", "V": "N", "M": "N m"}
 
-for tries_left in range(20 if sys.argv[3] == "growing" else 1)[::-1]:
+for tries_left in range(200 if sys.argv[3] == "growing" else 1)[::-1]:
     try:
         with h5py.File(sys.argv[1], "r") as h5:
             columns = {name: dataset[:] for name, dataset in h5["probes"].items()}
