@@ -44,7 +44,7 @@ Names allowed_rooms(const std::string& folder) {
       {"elements", to_model},
       {"contact", to_model},
       {"integrators", to_time},
-      {"plugins", {"core", "model", "plugin", "study"}},
+      {"plugins", {"core", "model", "dynamics", "plugin", "study"}},
       {"apps", kAllRooms}};
   return rules.at(folder);
 }
