@@ -6,7 +6,7 @@ namespace butee::record {
 namespace {
 
 /// A sample below this fraction of the peak is not adjacent to a larger maximum, with eight samples
-/// in a step.
+/// in a piece of a step, or three where it is near a quintic.
 constexpr double kNearPeak = 0.9;
 
 std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node) {
@@ -57,38 +57,39 @@ bool ContactPeaks::is_active() const {
 
 void ContactPeaks::step(const time::AcceptedStep& step) {
   if (!probes_ || !is_active()) return;
+  const std::span<const double> breakpoints = step.motion.breakpoints();
+  const int samples = step.motion.interpolation() == time::Interpolation::near_quintic ? kSamplesOfQuintic : kSamples;
+  samples_ = 0;
+  look(step, step.from.t);
   double begin = step.from.t;
-  for (const double breakpoint : step.motion.breakpoints()) {
-    follow_piece(step, begin, breakpoint);
-    begin = breakpoint;
+  for (std::size_t piece = 0; piece <= breakpoints.size(); ++piece) {
+    const double end = piece < breakpoints.size() ? breakpoints[piece] : step.to.t;
+    for (int k = 1; k <= samples; ++k) look(step, k == samples ? end : begin + (end - begin) * k / samples);
+    begin = end;
   }
-  follow_piece(step, begin, step.to.t);
 }
 
-void ContactPeaks::follow_piece(const time::AcceptedStep& step, double begin, double end) {
-  const std::size_t count = values_.size();
-  for (int k = 0; k <= kSamples; ++k) {
-    const double t = k == kSamples ? end : begin + (end - begin) * k / kSamples;
-    if (t <= step.from.t)
-      probes_->evaluate(step.from, values_);
-    else
-      probes_->evaluate(step, t, values_, Probes::View::contacts);
-    now_ = values_;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Sampled sample{t, std::abs(now_[i])};
-      auto& [before, last] = last_[i];
-      largest_[i] = std::max(largest_[i], sample.value);
-      const bool is_top = k >= 2 && last.value >= before.value && last.value >= sample.value && last.value > 0.0;
-      if (is_top && last.value > kNearPeak * largest_[i]) {
-        const Sampled top = local_maximum(before, last, sample, [&](double instant) {
-          probes_->evaluate(step, instant, values_);
-          return std::abs(values_[i]);
-        });
-        largest_[i] = std::max(largest_[i], top.value);
-      }
-      before = last;
-      last = sample;
+void ContactPeaks::look(const time::AcceptedStep& step, double t) {
+  if (t <= step.from.t)
+    probes_->evaluate(step.from, values_);
+  else
+    probes_->evaluate(step, t, values_, Probes::View::contacts);
+  now_ = values_;
+  const bool has_two_before = samples_++ >= 2;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const Sampled sample{t, std::abs(now_[i])};
+    auto& [before, last] = last_[i];
+    largest_[i] = std::max(largest_[i], sample.value);
+    const bool is_top = has_two_before && last.value >= before.value && last.value >= sample.value && last.value > 0.0;
+    if (is_top && last.value > kNearPeak * largest_[i]) {
+      const Sampled top = local_maximum(before, last, sample, [&](double instant) {
+        probes_->evaluate(step, instant, values_);
+        return std::abs(values_[i]);
+      });
+      largest_[i] = std::max(largest_[i], top.value);
     }
+    before = last;
+    last = sample;
   }
 }
 

@@ -7,12 +7,13 @@
 
 namespace butee::record {
 
-/// Records the largest |value| of probes of contacts in the plane, with dissipation or friction,
-/// over the whole motion: at kSamples instants of each piece of a step, as the method sees its
-/// contacts, from which local maxima are refined on its dense output.
+/// Records the largest |value| of probes of contacts in the plane, with dissipation or friction, over
+/// the whole motion: at kSamples instants of each piece of a step between breakpoints, or
+/// kSamplesOfQuintic of pieces that are near a quintic, as the method sees its contacts, from which
+/// local maxima are refined on its dense output.
 class BUTEE_EXPORT ContactPeaks {
  public:
-  static constexpr int kSamples = 8;
+  static constexpr int kSamples = 8, kSamplesOfQuintic = 3;
 
   /// Uses the quantities of `requests` that such contacts provide. `dynamics` must outlive this
   /// object.
@@ -29,12 +30,14 @@ class BUTEE_EXPORT ContactPeaks {
  private:
   /// False if no contact of the probes can exert a force within the step.
   bool is_active() const;
-  void follow_piece(const time::AcceptedStep& step, double begin, double end);
+  /// Takes the values at an instant of the step; they follow one another.
+  void look(const time::AcceptedStep& step, double t);
 
   dynamics::Dynamics& dynamics_;
   std::unique_ptr<Probes> probes_;  ///< null if there are none
   std::vector<Index> contacts_;     ///< of the probes
   std::vector<double> largest_, values_, now_;
+  int samples_ = 0;                           ///< in the present step so far
   std::vector<std::array<Sampled, 2>> last_;  ///< for each column, the two previous samples
 };
 
