@@ -20,6 +20,13 @@ class ContactGaps {
 
   /// The side (+1, -1) on which a stop is closed at w; 0 if it is open.
   double closed_side(Index stop, double w) const { return w > upper_[stop] ? 1.0 : w < lower_[stop] ? -1.0 : 0.0; }
+  /// The stop closes or opens, or both, on a path between two displacements that exceeds the gap by `excess` (negative
+  /// if it does not). A stop without a gap that acts on both sides is a spring and never does.
+  bool changes(Index stop, double from, double to, double excess) const {
+    if (!(upper_[stop] > lower_[stop])) return false;
+    const double before = closed_side(stop, from);
+    return before != closed_side(stop, to) || (before == 0.0 && excess > 0.0);
+  }
   /// The stop is closed on the same side at both displacements.
   bool stays_closed(Index stop, double from, double to) const {
     return (from > upper_[stop] && to > upper_[stop]) || (from < lower_[stop] && to < lower_[stop]);

@@ -54,11 +54,7 @@ class ContactPaths {
   /// Displacement at the end and largest speed at the ends.
   ContactScale reached(Index stop) const { return {std::abs(motion_.end[stop]), largest_speed(stop) / step_.h}; }
   /// The stop closes or opens in the step, or both.
-  bool changes(Index stop) const {
-    const double before = gaps_.closed_side(stop, step_.from.w[stop]),
-                 after = gaps_.closed_side(stop, motion_.end[stop]);
-    return before != after || (before == 0.0 && excess_[stop] > 0.0);
-  }
+  bool changes(Index stop) const { return gaps_.changes(stop, step_.from.w[stop], motion_.end[stop], excess_[stop]); }
   bool stays_closed(Index stop) const { return gaps_.stays_closed(stop, step_.from.w[stop], motion_.end[stop]); }
 
  private:

@@ -80,8 +80,9 @@ class SingleStep {
   bool is_smooth(const SingleFlow& flow, double w);
   /// True if the residual force is constant within its error bound.
   bool is_constant(const SingleFlow& flow, double w, double bound) const;
-  /// The stop closes or opens on the path, or both.
+  /// The stop closes or opens on the path, or both; as ContactGaps::changes().
   bool changes(const ContactPath& path, double w, double end) const {
+    if (!(gap_.upper > gap_.lower)) return false;
     const auto side_at = [this](double at) { return at > gap_.upper ? 1 : at < gap_.lower ? -1 : 0; };
     return side_at(w) != side_at(end) || (side_at(w) == 0 && beyond(path) > 0.0);
   }

@@ -48,6 +48,20 @@ struct Stops {
   }
 };
 
+TEST(ContactGaps, KnowWhenStopsCloseOrOpen) {
+  const Stops stops;
+  EXPECT_TRUE(stops.gaps.changes(0, 0.4, 0.6, 0.1));
+  EXPECT_TRUE(stops.gaps.changes(0, 0.6, -0.6, 0.2));
+  EXPECT_FALSE(stops.gaps.changes(0, 0.6, 0.7, 0.2));
+  EXPECT_TRUE(stops.gaps.changes(0, 0.4, 0.4, 0.01));  // closes and opens
+  EXPECT_FALSE(stops.gaps.changes(0, 0.4, 0.4, -0.01));
+  EXPECT_FALSE(stops.gaps.changes(1, -0.6, -0.7, -0.8));
+  SceneRun spring(mass_on_spring("1.0", "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.0\nstiffness = 3.0\n"));
+  const ContactGaps none(spring.dynamics().stops());
+  EXPECT_FALSE(none.changes(0, 0.4, -0.4, 0.4));
+  EXPECT_FALSE(none.changes(0, 0.0, 0.4, 0.4));
+}
+
 TEST(ContactGaps, KnowTheSidesOnWhichStopsAct) {
   const Stops stops;
   EXPECT_EQ(stops.gaps.closed_side(0, 0.6), 1.0);
