@@ -37,14 +37,7 @@ void Rodas4::do_start(time::State& state) {
 
 void Rodas4::tangent_force(ConstVectorRef y) {
   dynamics().elastic_force(y, work_);
-  for (const dynamics::Obstacles::Tangent& tangent : obstacles_) {
-    const dynamics::Obstacles& all = *dynamics().obstacles();
-    all.scatter(tangent.contact, tangent.stiffness * all.gather(tangent.contact, y), work_);
-  }
-  if (dynamics().stop_count() == 0) return;
-  dynamics().stops().displacement(y, stop_work_);
-  stop_work_.array() *= tangent_.array();
-  dynamics().stops().scatter(stop_work_, work_);
+  solver_.add_stiffness(dynamics().stops(), y, stop_work_, work_);
 }
 
 time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step, time::State& to) {

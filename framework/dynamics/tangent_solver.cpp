@@ -23,8 +23,10 @@ bool TangentSolver::set(double velocity_factor, double displacement_factor, Cons
   kappa_ = kappa;
   contacts_.clear();
   blocks_.clear();
+  stiffness_.clear();
   for (const Obstacles::Tangent& tangent : tangents) {
     contacts_.push_back(tangent.contact);
+    stiffness_.push_back(tangent.stiffness);
     blocks_.push_back(velocity_factor * tangent.damping + displacement_factor * tangent.stiffness);
   }
   if (contacts_.empty()) return true;
@@ -64,6 +66,15 @@ bool TangentSolver::solve(VectorRef b) {
 
 Obstacles::Coordinates TangentSolver::along(Index i, ConstVectorRef y) const {
   return blocks_[static_cast<std::size_t>(i)] * obstacles_->gather(contacts_[static_cast<std::size_t>(i)], y);
+}
+
+void TangentSolver::add_stiffness(const ElasticStops& stops, ConstVectorRef y, VectorRef work, VectorRef force) const {
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    obstacles_->scatter(contacts_[i], stiffness_[i] * obstacles_->gather(contacts_[i], y), force);
+  if (stops.size() == 0) return;
+  stops.displacement(y, work);
+  work.array() *= kappa_.array();
+  stops.scatter(work, force);
 }
 
 }  // namespace butee::dynamics

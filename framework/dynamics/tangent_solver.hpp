@@ -31,6 +31,8 @@ class BUTEE_EXPORT TangentSolver {
                          std::span<const Obstacles::Tangent> tangents);
   /// b := x
   [[nodiscard]] bool solve(VectorRef b);
+  /// force += K_t y with the stiffnesses of set(), those of `stops` included; `work` has one entry for each stop.
+  void add_stiffness(const ElasticStops& stops, ConstVectorRef y, VectorRef work, VectorRef force) const;
 
  private:
   /// B_i S_i y
@@ -40,9 +42,9 @@ class BUTEE_EXPORT TangentSolver {
   const Obstacles* obstacles_;
   Vector kappa_;
   std::vector<Index> contacts_;
-  std::vector<Obstacles::Block> blocks_;
-  Index width_ = 2;         ///< number of coordinates of a contact that are in use
-  Eigen::MatrixXd motion_;  ///< Z
+  std::vector<Obstacles::Block> blocks_, stiffness_;  ///< B_i and K_i
+  Index width_ = 2;                                   ///< number of coordinates of a contact that are in use
+  Eigen::MatrixXd motion_;                            ///< Z
   Eigen::PartialPivLU<Eigen::MatrixXd> small_;
   Vector right_;
 };

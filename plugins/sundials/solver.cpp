@@ -178,8 +178,9 @@ bool SundialsIntegrator::set_matrix(double t, double gamma, ConstVectorRef x, Co
     dynamics().stops().displacement(x, stop_displacement_);
     dynamics().stops().tangent(stop_displacement_, stop_force_, tangent_);
   }
-  if (dynamics().obstacles() != nullptr) obstacles_ = dynamics().obstacles()->tangents(t, x, v);
-  if (!solver_.set(gamma, gamma * gamma, tangent_, obstacles_)) return false;
+  std::span<const dynamics::Obstacles::Tangent> obstacles;
+  if (dynamics().obstacles() != nullptr) obstacles = dynamics().obstacles()->tangents(t, x, v);
+  if (!solver_.set(gamma, gamma * gamma, tangent_, obstacles)) return false;
   matrix_t_ = t;
   matrix_gamma_ = gamma;
   return true;
@@ -187,14 +188,7 @@ bool SundialsIntegrator::set_matrix(double t, double gamma, ConstVectorRef x, Co
 
 void SundialsIntegrator::tangent_force(ConstVectorRef y) {
   dynamics().elastic_force(y, work_);
-  for (const dynamics::Obstacles::Tangent& tangent : obstacles_) {
-    const dynamics::Obstacles& all = *dynamics().obstacles();
-    all.scatter(tangent.contact, tangent.stiffness * all.gather(tangent.contact, y), work_);
-  }
-  if (dynamics().stop_count() == 0) return;
-  dynamics().stops().displacement(y, stop_work_);
-  stop_work_.array() *= tangent_.array();
-  dynamics().stops().scatter(stop_work_, work_);
+  solver_.add_stiffness(dynamics().stops(), y, stop_work_, work_);
 }
 
 }  // namespace butee::plugins

@@ -65,7 +65,6 @@ class SundialsIntegrator final : public time::Integrator {
   SUNLinearSolver linear_ = nullptr;
   time::State last_;  ///< the state that the solver has reached
   dynamics::TangentSolver solver_;
-  std::vector<dynamics::Obstacles::Tangent> obstacles_;
   double matrix_t_, matrix_gamma_;  ///< of the matrix that solver_ holds, s; NaN: none
   Vector stop_displacement_, stop_force_, tangent_, work_, stop_work_, other_;
 };
