@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
+#include "support/small_scenes.hpp"
 
 namespace butee::test::obstacles_test {
 namespace {
@@ -175,7 +176,26 @@ TEST(TangentSolver, SolvesAsAFullFactorizationDoes) {
     const Vector wanted = full.partialPivLu().solve(b);
     ASSERT_TRUE(solver.solve(b));
     EXPECT_LT((b - wanted).norm(), 1e-13 * wanted.norm()) << contacts;
+    Vector force = Vector::Ones(4), none;
+    solver.add_stiffness(dynamics.stops(), wanted, none, force);
+    EXPECT_LT((force - Vector::Ones(4) - sum.by_x * wanted).norm(), 1e-12 * force.norm()) << contacts;
   }
+}
+
+/// Two masses with stops to ground, of 100, 200 and 300 N/m.
+TEST(TangentSolver, MultipliesByTheStiffnessOfStops) {
+  SceneRun run(masses_in_stops("[[contact]]\ntype = \"stop\"\nnodes = \"a\"\ngap = 0.1\nstiffness = 5.0\n"));
+  dynamics::Dynamics& dynamics = run.dynamics();
+  ASSERT_EQ(dynamics.stop_count(), 3);
+  dynamics::TangentSolver solver(dynamics.effective(), nullptr);
+  ASSERT_TRUE(solver.set(0.1, 0.02, Vector::LinSpaced(3, 100.0, 300.0), {}));
+  Vector y(2), work(3), force = Vector::Zero(2);
+  y << 0.5, -2.0;
+  solver.add_stiffness(dynamics.stops(), y, work, force);
+  Vector wanted = Vector::Zero(2);
+  for (Index i = 0; i < 3; ++i)
+    wanted[dynamics.stops().dof_a(i)] += 100.0 * static_cast<double>(i + 1) * y[dynamics.stops().dof_a(i)];
+  EXPECT_LT((force - wanted).norm(), 1e-12 * wanted.norm());
 }
 
 /// The closed forms C1, C2 and C4, which impact_damping_test checks by integration.
