@@ -11,18 +11,22 @@
 
 namespace butee::integrators {
 
+/// The goal of the accounts of a run. The run counts as no longer than kMostPeriods of the slowest mode, since the
+/// guaranteed error grows with the run beyond. `lowest_frequency`: of the slowest mode, rad/s; 0 for rigid motion.
+inline Goal account_goal(const StepGoal& goal, double lowest_frequency) {
+  constexpr double kMostPeriods = 1000.0;
+  const double most = lowest_frequency > 0.0 ? kMostPeriods * 2.0 * std::numbers::pi / lowest_frequency : goal.run_time;
+  return {goal.tolerance, std::min(goal.run_time, most)};
+}
+
 /// One ErrorAccount per stop, for the speed errors of steps in which the stop closes or opens.
 ///
 /// The errors of the changes of one stop may add up in the same sense: each impact at a given step
 /// size takes a little energy. Those of different stops act on different parts of the structure.
-/// A run counts as no longer than kMostPeriods of the slowest mode, since the guaranteed error
-/// grows with the run beyond. The accounts are a part of the state. Checked in
-/// tests/models/exponential_test.cpp.
+/// The accounts are a part of the state. Checked in tests/models/exponential_test.cpp.
 class ChangeAccounts {
  public:
-  /// `lowest_frequency`: of the slowest mode, rad/s; 0 for rigid motion.
-  ChangeAccounts(const StepGoal& goal, double lowest_frequency, Index stops)
-      : account_({goal.tolerance, length(goal.run_time, lowest_frequency)}), spent_(Eigen::ArrayXd::Zero(stops)) {}
+  ChangeAccounts(const Goal& goal, Index stops) : account_(goal), spent_(Eigen::ArrayXd::Zero(stops)) {}
 
   Index memory_size() const { return spent_.size(); }
   /// Fills the entries of a state at the start of a run.
@@ -37,13 +41,6 @@ class ChangeAccounts {
   void charge(Index stop, double error) { spent_[stop] += error; }
 
  private:
-  static constexpr double kMostPeriods = 1000.0;
-
-  static double length(double run_time, double lowest_frequency) {
-    return lowest_frequency > 0.0 ? std::min(run_time, kMostPeriods * 2.0 * std::numbers::pi / lowest_frequency)
-                                  : run_time;
-  }
-
   ErrorAccount account_;
   Eigen::ArrayXd spent_;  ///< minus the balance at t = 0, for each stop
 };

@@ -4,6 +4,46 @@
 #include <cmath>
 
 namespace butee::integrators {
+namespace {
+
+double lowest_frequency(const dynamics::ModalSystem& modal) {
+  return modal.size() > 0 ? modal.frequencies().minCoeff() : 0.0;
+}
+
+}  // namespace
+
+ContactError::ContactError(const model::System& system, const dynamics::ModalSystem& modal, const StepGoal& goal,
+                           const std::vector<ContactForce>& contacts, const DisplacementBounds& bounds,
+                           const ContactScales& scales, const ContactIteration& iteration,
+                           const ResidualErrors& residual)
+    : goal_(goal),
+      contacts_(contacts),
+      bounds_(bounds),
+      scales_(scales),
+      iteration_(iteration),
+      residual_(residual),
+      accounts_(account_goal(goal, lowest_frequency(modal)), static_cast<Index>(contacts.size())),
+      modes_(system, modal, contacts, bounds.gaps(), account_goal(goal, lowest_frequency(modal))) {}
+
+void ContactError::start(double t, double* memory) const {
+  accounts_.start(t, memory);
+  modes_.start(t, memory + accounts_.memory_size());
+}
+
+void ContactError::load(double t, const double* memory, const ModalState& state) {
+  accounts_.load(memory);
+  modes_.begin(t, memory + accounts_.memory_size(), state);
+}
+
+void ContactError::save(double* memory) const {
+  accounts_.save(memory);
+  modes_.save(memory + accounts_.memory_size());
+}
+
+void ContactError::charge(const TriedStep& step) {
+  for (const auto& [stop, error] : changes_) accounts_.charge(stop, error);
+  if (step.is_near) modes_.charge(step.h);
+}
 
 double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement) {
   const ContactPaths& paths = iteration_.paths();
@@ -24,6 +64,8 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
           error, of_jump(flow, i, scales_.of(i, paths.reached(i), displacement).speed) * goal_.middle * displacement);
     largest = std::max(largest, error);
   }
+  if (modes_.any() && step.is_near)
+    largest = std::max(largest, modes_.error(step.h) / modes_.allowed(step.t_end) * goal_.middle * displacement);
   return largest;
 }
 

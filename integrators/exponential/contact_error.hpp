@@ -6,34 +6,31 @@
 #include "integrators/exponential/change_accounts.hpp"
 #include "integrators/exponential/contact_iteration.hpp"
 #include "integrators/exponential/residual_forces.hpp"
+#include "integrators/exponential/unresolved_modes.hpp"
 
 namespace butee::integrators {
 
-/// The error of a step with contact: the largest of the indicators 1 to 7 of
+/// The error of a step with contact: the largest of the indicators 1 to 8 of
 /// plugins/exponential/THEORY.md, section 8.1, over all stops. Errors of changes of contact are
-/// charged to the accounts of their stops.
+/// charged to the accounts of their stops, those of modes that do not feel closed stops to another one.
 class ContactError {
  public:
   /// All must outlive it.
-  ContactError(const StepGoal& goal, const std::vector<ContactForce>& contacts, const DisplacementBounds& bounds,
-               const ContactScales& scales, const ContactIteration& iteration, const ResidualErrors& residual,
-               double lowest_frequency)
-      : goal_(goal),
-        contacts_(contacts),
-        bounds_(bounds),
-        scales_(scales),
-        iteration_(iteration),
-        residual_(residual),
-        accounts_(goal, lowest_frequency, static_cast<Index>(contacts.size())) {}
+  ContactError(const model::System& system, const dynamics::ModalSystem& modal, const StepGoal& goal,
+               const std::vector<ContactForce>& contacts, const DisplacementBounds& bounds, const ContactScales& scales,
+               const ContactIteration& iteration, const ResidualErrors& residual);
 
-  ChangeAccounts& accounts() { return accounts_; }
-  const ChangeAccounts& accounts() const { return accounts_; }
+  Index memory_size() const { return accounts_.memory_size() + modes_.memory_size(); }
+  /// Fills the entries of a state at the start of a run.
+  void start(double t, double* memory) const;
+  /// Begins a macro step with the state at t.
+  void load(double t, const double* memory, const ModalState& state);
+  void save(double* memory) const;
+
   /// Begins an attempt at a step.
   void begin() { changes_.clear(); }
-  /// Charges the changes of contact of the step that of_step() judged last.
-  void charge() {
-    for (const auto& [stop, error] : changes_) accounts_.charge(stop, error);
-  }
+  /// Charges the errors of an accepted step to the accounts.
+  void charge(const TriedStep& step);
 
   /// The error of the step with its forces, m; `displacement` is the largest displacement of all
   /// stops, m.
@@ -59,6 +56,7 @@ class ContactError {
   const ContactIteration& iteration_;
   const ResidualErrors& residual_;
   ChangeAccounts accounts_;
+  UnresolvedModes modes_;
   std::vector<std::pair<Index, double>> changes_;  ///< stops that close or open in the step, and their speed errors
 };
 

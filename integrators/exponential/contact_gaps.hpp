@@ -20,10 +20,12 @@ class ContactGaps {
 
   /// The side (+1, -1) on which a stop is closed at w; 0 if it is open.
   double closed_side(Index stop, double w) const { return w > upper_[stop] ? 1.0 : w < lower_[stop] ? -1.0 : 0.0; }
+  /// A stop without a gap that acts on both sides is always closed.
+  bool is_spring(Index stop) const { return !(upper_[stop] > lower_[stop]); }
   /// The stop closes or opens, or both, on a path between two displacements that exceeds the gap by `excess` (negative
-  /// if it does not). A stop without a gap that acts on both sides is a spring and never does.
+  /// if it does not).
   bool changes(Index stop, double from, double to, double excess) const {
-    if (!(upper_[stop] > lower_[stop])) return false;
+    if (is_spring(stop)) return false;
     const double before = closed_side(stop, from);
     return before != closed_side(stop, to) || (before == 0.0 && excess > 0.0);
   }

@@ -12,6 +12,9 @@
 /// tests: tests/unit/error_indicators_test.cpp.
 namespace butee::integrators {
 
+/// Number of steps in a macro step.
+inline constexpr int kMacroStep = 32;
+
 /// The result of an attempt at a step.
 enum class Trial { accepted, too_long, not_finite };
 

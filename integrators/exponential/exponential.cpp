@@ -16,8 +16,6 @@ using time::State;
 using time::StepReport;
 using time::StepStatus;
 
-/// Number of steps in a macro step.
-constexpr int kMacroStep = 32;
 /// Number of entries at the end of the state: the index of the step size; the largest displacement
 /// and speed of a stop; 1 if the last step had no contact; the number of indices by which steps
 /// without contact are longer; and the end time that the last macro step was given, which is needed

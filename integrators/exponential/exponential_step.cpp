@@ -41,8 +41,7 @@ ExponentialStep::ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSy
       residual_(modal, dynamics.stops()),
       jumps_(modal, contacts_),
       iteration_(modal, goal_, contacts_, bounds_.gaps(), scales_, step_),
-      contact_error_(goal_, contacts_, bounds_, scales_, iteration_, errors_,
-                     modal.size() > 0 ? modal.frequencies().minCoeff() : 0.0),
+      contact_error_(dynamics.system(), modal, goal_, contacts_, bounds_, scales_, iteration_, errors_),
       interpolation_(modal, goal_.outputs) {
   for (ModalState* state : {&step_.from, &step_.to, &step_.middle}) state->resize(modal);
   for (std::vector<Index>* list : {&step_.iterated, &step_.constant}) list->reserve(contacts_.size());
@@ -54,7 +53,7 @@ void ExponentialStep::complete(double t, double* memory) const {
   double* stops = memory + 2 * n;
   modal_.stop_shapes().displacement(memory, memory + n, stops, stops + m);
   scales_.start(memory, memory + n, stops, stops + 2 * m);
-  contact_error_.accounts().start(t, stops + 2 * m + scales_.memory_size());
+  contact_error_.start(t, stops + 2 * m + scales_.memory_size());
 }
 
 void ExponentialStep::begin(double t, const double* memory, ContactScale scale) {
@@ -64,7 +63,7 @@ void ExponentialStep::begin(double t, const double* memory, ContactScale scale) 
   step_.from.w.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n, m);
   step_.from.wv.head(m) = Eigen::Map<const ArrayXd>(memory + 2 * n + m, m);
   scales_.load(memory + 2 * n + 2 * m, scale);
-  contact_error_.accounts().load(memory + 2 * n + 2 * m + scales_.memory_size());
+  contact_error_.load(t, memory + 2 * n + 2 * m + scales_.memory_size(), step_.from);
   if (errors_.any())
     for (Index i = 0; i < m; ++i) {
       const double impulse = kLasting * goal_.tolerance / modal_.stop_shapes().of(i).squaredNorm();
@@ -82,7 +81,7 @@ void ExponentialStep::save(double* memory) const {
   Eigen::Map<ArrayXd>(memory + 2 * n, m) = step_.from.w.head(m);
   Eigen::Map<ArrayXd>(memory + 2 * n + m, m) = step_.from.wv.head(m);
   scales_.save(memory + 2 * n + 2 * m);
-  contact_error_.accounts().save(memory + 2 * n + 2 * m + scales_.memory_size());
+  contact_error_.save(memory + 2 * n + 2 * m + scales_.memory_size());
 }
 
 Trial ExponentialStep::attempt_until(double t) {
@@ -212,7 +211,7 @@ void ExponentialStep::expect_motion(int index) {
 
 void ExponentialStep::accept(double t) {
   record_forces();
-  contact_error_.charge();
+  contact_error_.charge(step_);
   if (step_.breakpoint > 0.0) record_.add(step_.breakpoint, step_.middle);
   std::swap(step_.from, step_.to);
   scales_.raise(step_.from);

@@ -20,10 +20,9 @@ class ExponentialStep {
   ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& modal, const StepGoal& goal, std::size_t most);
 
   /// A state holds q, v, displacements and speeds of the stops, ContactScales and
-  /// ChangeAccounts. complete() fills the entries behind q and v at the start of a run.
+  /// ContactError. complete() fills the entries behind q and v at the start of a run.
   Index memory_size() const {
-    return 2 * modal_.size() + 2 * modal_.stop_count() + scales_.memory_size() +
-           contact_error_.accounts().memory_size();
+    return 2 * modal_.size() + 2 * modal_.stop_count() + scales_.memory_size() + contact_error_.memory_size();
   }
   void complete(double t, double* memory) const;
   /// Begins a macro step from the state at t.

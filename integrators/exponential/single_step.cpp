@@ -42,7 +42,7 @@ SingleStep::SingleStep(dynamics::Dynamics& dynamics, dynamics::ModalSystem& moda
       residual_(dynamics.stops(), 0),
       gap_(dynamics.stops()),
       longest_near_(longest_near_stops(modal)),
-      accounts_(goal, modal.frequencies().minCoeff(), 1),
+      accounts_(account_goal(goal, modal.frequencies().minCoeff()), 1),
       flows_(modal, mode_, newton_),
       record_(dynamics, modal, mode_, contact_, goal.outputs, most) {}
 

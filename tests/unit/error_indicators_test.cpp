@@ -49,7 +49,7 @@ TEST(ErrorIndicators, WeighTheQuarticTermByTheSpeedThatAStiffStopMakesOfIt) {
 TEST(ErrorIndicators, ShareTheToleranceAmongTheChangesOfContactOfAStop) {
   constexpr double kTolerance = 1e-4, kRunTime = 2.0;
   for (const int changes : {1, 10, 1000}) {
-    ChangeAccounts accounts({kTolerance, kTolerance, kTolerance, kRunTime}, 0.0, 2);
+    ChangeAccounts accounts(account_goal({kTolerance, kTolerance, kTolerance, kRunTime}, 0.0), 2);
     std::vector<double> memory(static_cast<std::size_t>(accounts.memory_size()));
     accounts.start(5.0, memory.data());
     accounts.load(memory.data());
@@ -67,8 +67,8 @@ TEST(ErrorIndicators, ShareTheToleranceAmongTheChangesOfContactOfAStop) {
     EXPECT_NEAR(memory[1] - memory[0], sum, 1e-15);
   }
   // A run beyond a thousand periods may err as much in each thousand.
-  const ChangeAccounts longer({kTolerance, kTolerance, kTolerance, 100.0 * kRunTime},
-                              1e3 * 2.0 * std::numbers::pi / kRunTime, 1);
+  const ChangeAccounts longer(
+      account_goal({kTolerance, kTolerance, kTolerance, 100.0 * kRunTime}, 1e3 * 2.0 * std::numbers::pi / kRunTime), 1);
   EXPECT_DOUBLE_EQ(longer.allowed(0, kRunTime), 0.5 * 4.0 * kTolerance);
 }
 

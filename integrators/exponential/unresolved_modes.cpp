@@ -1,0 +1,71 @@
+#include "integrators/exponential/unresolved_modes.hpp"
+
+#include <algorithm>
+
+namespace butee::integrators {
+
+using Eigen::ArrayXd;
+
+UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal,
+                                 const std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal)
+    : modal_(modal),
+      contacts_(contacts),
+      gaps_(gaps),
+      scales_(system),
+      account_(goal),
+      is_possible_(modal.size() > 1 && !contacts.empty()),
+      squares_(modal.frequencies().square()),
+      closed_(ArrayXd::Zero(modal.stop_count())) {
+  if (is_possible_) speeds_ = now_ = Vector::Zero(modal.shapes().rows());
+}
+
+void UnresolvedModes::start(double t, double* memory) const {
+  if (!is_possible_) return;
+  memory[0] = account_.rate() * t - account_.advance();
+  std::fill_n(memory + 1, speeds_.size(), 0.0);
+  for (Index j = 0; j < closed_.size(); ++j) memory[1 + speeds_.size() + j] = gaps_.is_spring(j) ? 1.0 : 0.0;
+}
+
+void UnresolvedModes::begin(double t, const double* memory, const ModalState& state) {
+  if (!is_possible_) return;
+  spent_ = memory[0];
+  speeds_ = Eigen::Map<const Vector>(memory + 1, speeds_.size());
+  any_ = false;
+  for (Index j = 0; j < closed_.size(); ++j) {
+    const bool was_closed = memory[1 + speeds_.size() + j] != 0.0;
+    closed_[j] = gaps_.is_spring(j) ? 1.0 : gaps_.closed_side(j, state.w[j]);
+    any_ = any_ || (was_closed && closed_[j] != 0.0);
+  }
+  if (any_) find_rates(t, state, memory + 1 + speeds_.size());
+}
+
+void UnresolvedModes::save(double* memory) const {
+  if (!is_possible_) return;
+  memory[0] = spent_;
+  Eigen::Map<Vector>(memory + 1, speeds_.size()) = speeds_;
+  Eigen::Map<ArrayXd>(memory + 1 + speeds_.size(), closed_.size()) = closed_;
+}
+
+void UnresolvedModes::find_rates(double t, const ModalState& state, const double* was_closed) {
+  modal_.to_physical(state.v.data(), now_);
+  scales_.raise(now_, speeds_);
+  acceleration_ = -squares_ * state.q - 2.0 * modal_.decay() * state.v;
+  modal_.add_load(t, acceleration_);
+  rise_.setZero(modal_.size());
+  for (Index j = 0; j < modal_.stop_count(); ++j) {
+    if (closed_[j] == 0.0) continue;
+    const double stiffness = contacts_[static_cast<std::size_t>(j)].stiffness();
+    const auto shape = modal_.stop_shapes().of(j).array();
+    acceleration_ -= shape * (stiffness * (state.w[j] - closed_[j] * gaps_.gaps()[j]));
+    if (was_closed[j] != 0.0) rise_ += stiffness * shape.square();
+  }
+  // The largest velocity of a component per unit of modal speed, relative to its scale.
+  rates_.setZero(modal_.size());
+  for (Index d = 0; d < speeds_.size(); ++d)
+    if (speeds_[d] > 0.0) rates_ = rates_.max(modal_.shape_rows().col(d).array().abs() / speeds_[d]);
+  const ArrayXd& frequencies = modal_.frequencies();
+  rates_ *= (squares_ + rise_).sqrt() - frequencies;
+  rates_ = (frequencies > 0.0).select(rates_ * (state.v.square() + (acceleration_ / frequencies).square()).sqrt(), 0.0);
+}
+
+}  // namespace butee::integrators

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include "integrators/error_account.hpp"
+#include "integrators/exponential/contact_force.hpp"
+#include "integrators/exponential/contact_gaps.hpp"
+
+namespace butee::integrators {
+
+/// The part of the frequency rise by a closed stop that the projection leaves out if the mode turns by theta (rad) in
+/// the step, `square` = theta^2: approximated to within 10 % up to theta = 10 (plugins/exponential/constants.py).
+template <class Square>
+auto unreceived_part(const Square& square) {
+  constexpr double kSlow = 1.8e-5, kFast = 0.027;
+  const auto slow = kSlow * square.cube();
+  return slow / (1.0 + kFast * square + slow);
+}
+
+/// The velocity error of modes that turn too far in a step to feel a closed stop (indicator 8 of
+/// plugins/exponential/THEORY.md, section 8.1).
+///
+/// A closed stop raises the frequency of mode i to (omega_i^2 + k_j phi_ij^2)^(1/2). The projection of the stop's force
+/// leaves out a part of this rise, and the phase that is missed grows as long as the stop stays closed. The error of
+/// the velocity of a component is the missing phase times the amplitude of the mode there. The sum of these errors is
+/// limited by an ErrorAccount. Only stops count that were closed at the start of this macro step and of the last one:
+/// impacts are shorter. The account, the largest velocities so far and the stops that were closed are a part of the
+/// state. Checked in tests/models/exponential_test.cpp.
+class UnresolvedModes {
+ public:
+  /// All must outlive it.
+  UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal,
+                  const std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal);
+
+  Index memory_size() const { return is_possible_ ? 1 + speeds_.size() + closed_.size() : 0; }
+  /// Fills the entries of a state at the start of a run.
+  void start(double t, double* memory) const;
+  /// Begins a macro step with the state at t.
+  void begin(double t, const double* memory, const ModalState& state);
+  void save(double* memory) const;
+
+  /// A stop stays closed.
+  bool any() const { return any_; }
+  /// The error of a step of length h, relative to the largest velocity so far of the component that it affects most.
+  double error(double h) const {
+    return h * (rates_ * unreceived_part(Eigen::ArrayXd(squares_ * (h * h)))).matrix().norm();
+  }
+  /// The largest error() of a step to t.
+  double allowed(double t) const { return ErrorAccount::kSpend / kMacroStep * (account_.rate() * t - spent_); }
+  void charge(double h) {
+    if (any_) spent_ += error(h);
+  }
+
+ private:
+  void find_rates(double t, const ModalState& state, const double* was_closed);
+
+  const dynamics::ModalSystem& modal_;
+  const std::vector<ContactForce>& contacts_;
+  const ContactGaps& gaps_;
+  ComponentScales scales_;
+  ErrorAccount account_;
+  bool is_possible_;        ///< the modes turn at different rates
+  Eigen::ArrayXd squares_;  ///< omega^2
+  bool any_ = false;
+  double spent_ = 0.0;
+  Vector speeds_, now_;    ///< largest velocity of each DOF so far, the present one
+  Eigen::ArrayXd closed_;  ///< the side on which each stop was closed at the start of the macro step; 0: open
+  Eigen::ArrayXd rates_;   ///< error of each mode per second if it does not feel the stops at all, 1/s
+  Eigen::ArrayXd acceleration_, rise_;
+};
+
+}  // namespace butee::integrators
