@@ -44,7 +44,13 @@ ContactStateFlow::ContactStateFlow(const SmallSystem& system, const std::vector<
   const LongMatrix stiffness = closed_stiffness(system, closed, false),
                    damping = closed_stiffness(system, closed, true);
   const LongMatrix inverse = system.mass.ldlt().solve(LongMatrix::Identity(n_, n_));
-  by_force_ = inverse.cast<double>();
+  forms_ = LongMatrix::Zero(system.stop_count(), n_);
+  for (Index i = 0; i < forms_.rows(); ++i) {
+    const LinearStop& stop = system.stops[static_cast<std::size_t>(i)];
+    if (stop.a >= 0) forms_(i, stop.a) += 1.0L;
+    if (stop.b >= 0) forms_(i, stop.b) -= 1.0L;
+  }
+  by_force_ = with_stops(inverse).cast<double>();
   by_x_ = (inverse * stiffness).cast<double>();
   by_v_ = (inverse * damping).cast<double>();
   LongMatrix shapes(n_, n_);
@@ -78,20 +84,21 @@ ContactStateFlow::ContactStateFlow(const SmallSystem& system, const std::vector<
       coupled.push_back(i);
   }
   if (!coupled.empty()) add_coupled(shapes, squares, modal, coupled);
+  forcing_ = with_stops(forcing_);
   find_extras(end_time);
   find_response();
   dofs_ = rows_of(LongMatrix::Identity(n_, n_));
-  LongMatrix forms = LongMatrix::Zero(system.stop_count(), n_);
-  for (Index i = 0; i < forms.rows(); ++i) {
-    const LinearStop& stop = system.stops[static_cast<std::size_t>(i)];
-    if (stop.a >= 0) forms(i, stop.a) += 1.0L;
-    if (stop.b >= 0) forms(i, stop.b) -= 1.0L;
-  }
-  stops_ = rows_of(forms);
+  stops_ = rows_of(forms_);
   project_ = left_.cast<double>();
   force_of_ = forcing_.cast<double>();
   x_.resize(static_cast<std::size_t>(n_));
   v_ = x_;
+}
+
+LongMatrix ContactStateFlow::with_stops(const LongMatrix& by_force) const {
+  LongMatrix both(by_force.rows(), n_ + forms_.rows());
+  both << by_force, by_force * forms_.transpose();
+  return both;
 }
 
 void ContactStateFlow::append(Block block, const LongMatrix& right, const LongMatrix& left, const LongMatrix& forcing) {

@@ -58,8 +58,11 @@ class ContactStateFlow {
   /// True if bounds over a longer time may be larger.
   bool bounds_grow(const Piece& piece) const { return piece.has_parabola || piece.is_short || grows_; }
 
-  /// Starts a piece from (x, v) at t under the polynomial loads `force`, n x 3, which include the
-  /// forces of the gaps (ignored unless `has_force`). `length`: upper bound of the duration, s.
+  /// Starts a piece from (x, v) at t under the polynomial loads `force` (ignored unless `has_force`):
+  /// a row for each DOF, then one for each stop, whose force r_i^T f acts on both its bodies. The
+  /// forces of the gaps are of the stops: a stop of 1e11 N/m pushes the two bodies apart with 1e9 N,
+  /// and the difference of their effects is all that matters. `length`: upper bound of the duration,
+  /// s.
   void begin(double t, const double* x, const double* v, const Eigen::MatrixXd& force, bool has_force, double length,
              Piece& piece) const;
   /// Moves the piece to t + s.
@@ -104,6 +107,8 @@ class ContactStateFlow {
   void add_alone(const LongMatrix& shapes, const LongVector& squares, const LongMatrix& damping, Index mode);
   void add_coupled(const LongMatrix& shapes, const LongVector& squares, const LongMatrix& damping,
                    const std::vector<Index>& modes);
+  /// The effect of forces on DOFs, and behind it that of forces of the stops.
+  LongMatrix with_stops(const LongMatrix& by_force) const;
   void append(Block block, const LongMatrix& right, const LongMatrix& left, const LongMatrix& forcing);
   void find_extras(double end_time);
   void find_response();
@@ -122,13 +127,14 @@ class ContactStateFlow {
   Index n_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> with_extras_;
-  LongMatrix right_, left_, forcing_;  ///< x = R y (n x 2B); y from (x, v) (2B x 2n); y' by a force (2B x n)
+  LongMatrix forms_;                   ///< w of the stops, m x n
+  LongMatrix right_, left_, forcing_;  ///< x = R y (n x 2B); y from (x, v) (2B x 2n); y' by a force (2B x (n + m))
   Table project_, force_of_;
-  Eigen::MatrixXd by_force_, by_x_, by_v_;  ///< M^-1, M^-1 K and M^-1 C with the closed stops
+  Eigen::MatrixXd by_force_, by_x_, by_v_;  ///< M^-1 (n + m columns), M^-1 K and M^-1 C with the closed stops
   Rows dofs_, stops_;
   LongMatrix cosine_, sine_;  ///< x_harmonic, n x harmonics
   std::array<Eigen::MatrixXd, 3>
-      parabola_;                   ///< n x n: x_parabola from F_0, and the parts of F_1 and F_2 in lower powers
+      parabola_;                   ///< n x (n + m): x_parabola from F_0, and the parts of F_1 and F_2 in lower powers
   Table harmonic_c_, harmonic_s_;  ///< harmonic forcing of the blocks, 2B x harmonics
   double longest_, fastest_ = 0.0;
   double largest_decay_ = 0.0;

@@ -41,12 +41,13 @@ void ContactStateFlow::find_extras(double end_time) {
 
 void ContactStateFlow::find_response() {
   const Index harmonics = system_.harmonic_count();
-  const LongMatrix by_cosine = forcing_ * system_.cosine, by_sine = forcing_ * system_.sine;
+  const LongMatrix of_dofs = forcing_.leftCols(n_), by_cosine = of_dofs * system_.cosine,
+                   by_sine = of_dofs * system_.sine;
   harmonic_c_ = by_cosine.cast<double>();
   harmonic_s_ = by_sine.cast<double>();
   cosine_ = sine_ = LongMatrix::Zero(n_, harmonics);
   std::array<LongMatrix, 3> response;
-  response.fill(LongMatrix::Zero(n_, n_));
+  response.fill(LongMatrix::Zero(n_, forcing_.cols()));
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];
     const auto k = static_cast<Index>(2 * b);

@@ -30,7 +30,7 @@ PiecewiseMotion::PiecewiseMotion(dynamics::Dynamics& dynamics, double end_time)
       closed_(status_.size()),
       x_(static_cast<std::size_t>(system_.size())),
       v_(x_.size()),
-      force_(Eigen::MatrixXd::Zero(system_.size(), 3)) {
+      force_(Eigen::MatrixXd::Zero(system_.size() + system_.stop_count(), 3)) {
   states_.reserve(kMostStates);
   flow();  // Refuses what has no modes before the first step.
 }
@@ -151,9 +151,7 @@ void PiecewiseMotion::begin_piece(double t) {
   for (std::size_t i = 0; i < status_.size(); ++i) {
     const LinearStop& stop = system_.stops[i];
     if (!is_closed(status_[i]) || stop.gap == 0.0) continue;
-    const double push = status_[i] * stop.stiffness * stop.gap;
-    if (stop.a >= 0) force_(stop.a, 0) += push;
-    if (stop.b >= 0) force_(stop.b, 0) -= push;
+    force_(system_.size() + static_cast<Index>(i), 0) = status_[i] * stop.stiffness * stop.gap;
     has_force = true;
   }
   now.begin(t, x_.data(), v_.data(), force_, has_force, next_discontinuity(t) - t, piece_);

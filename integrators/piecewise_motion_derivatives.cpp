@@ -55,7 +55,7 @@ Vector PiecewiseMotion::derivative_by_loads(const time::State& from, const time:
   const Index n = system_.size();
   Vector by_loads = Vector::Zero(2 * n);
   ContactStateFlow::Piece response;
-  Eigen::MatrixXd force(n, 3);
+  Eigen::MatrixXd force(n + system_.stop_count(), 3);
   follow_pieces(
       from, to,
       [&](Index i, double sign) {

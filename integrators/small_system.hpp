@@ -38,8 +38,8 @@ class SmallSystem {
   Index size() const { return mass.rows(); }
   Index stop_count() const { return static_cast<Index>(stops.size()); }
   Index harmonic_count() const { return static_cast<Index>(frequencies.size()); }
-  /// The polynomial part of the loads just after `t`: column k of `force` (n x 3) := the
-  /// coefficient of (t' - t)^k, N/s^k. False if it is zero.
+  /// The polynomial part of the loads just after `t`: to column k of `force` (3 columns, a row for
+  /// each DOF, and more) adds the coefficient of (t' - t)^k, N/s^k. False if it is zero.
   bool add_polynomials(double t, Eigen::MatrixXd& force) const;
 
   LongMatrix mass, damping, stiffness;  ///< n x n, with all stops open

@@ -102,5 +102,57 @@ TEST(Piecewise, FindsTheInstantsOfContact) {
   }
 }
 
+/// A stop of 1.3e11 N/m between two bodies of a chain that rests on a soft stop while they meet: the two are pushed
+/// apart by 2e9 N, and the slow motions of the chain feel the difference only.
+TEST(Piecewise, MeetsExactWhereAHardStopActsWhileASoftOneIsClosed) {
+  const std::string scene = R"(schema = 1
+[[element]]
+type = "mass"
+name = "m0"
+mass = 1.8
+[[element]]
+type = "mass"
+name = "m1"
+mass = 0.67
+[[element]]
+type = "spring"
+nodes = ["m0", "m1"]
+stiffness = 24600.0
+[[element]]
+type = "mass"
+name = "m2"
+mass = 1.73
+[[element]]
+type = "spring"
+nodes = ["m1", "m2"]
+stiffness = 4957.0
+[[contact]]
+type = "stop"
+between = ["m0", "m2"]
+gap = 0.0172
+stiffness = 1.27e11
+law = "linear"
+[[contact]]
+type = "stop"
+nodes = "m1"
+gap = 0.0188
+stiffness = 2285.0
+sides = "negative"
+law = "linear"
+[initial]
+velocity = [{ nodes = "m2", value = -1.637 }]
+[integrator]
+end_time = 0.14
+)";
+  const auto end_of = [&](const char* method) {
+    SceneRun run(scene, {std::string("integrator.type=") + method});
+    EXPECT_TRUE(run.run().completed);
+    return run.simulation().state();
+  };
+  const time::State ours = end_of("piecewise"), reference = end_of("exact");
+  for (const auto& [y, other] : {std::pair{ours.x, reference.x}, std::pair{ours.v, reference.v}})
+    EXPECT_LT((y - other).lpNorm<Eigen::Infinity>() / other.lpNorm<Eigen::Infinity>(), kRounding);
+}
+
 }  // namespace
 }  // namespace butee::test::piecewise_test
