@@ -52,7 +52,10 @@ time::StepReport DormandPrince::do_step(const time::State& from, const time::Ste
       x_ += (h * kA[i][j]) * v_[j];
       v_[i] += (h * kA[i][j]) * a_[j];
     }
-    dynamics().acceleration(i + 2 < kStages ? from.t + kTimes[i] * h : step.t_end, x_, v_[i], a_[i]);
+    if (i + 2 < kStages)
+      dynamics().acceleration(from.t, kTimes[i] * h, x_, v_[i], a_[i]);
+    else
+      dynamics().acceleration(step.t_end, x_, v_[i], a_[i]);
   }
   to.x = x_;
   to.v = v_.back();

@@ -39,8 +39,11 @@ void Extrapolation::midpoint(const time::State& from, const time::Step& step, in
   new_x_ = from.x + d * from.v;
   new_v_ = from.v + d * from.a;
   for (int m = 1; m <= parts; ++m) {
-    dynamics().acceleration(m == parts ? step.t_end : from.t + m * d, new_x_, new_v_, a_);
-    if (m == parts) break;
+    if (m == parts) {
+      dynamics().acceleration(step.t_end, new_x_, new_v_, a_);
+      break;
+    }
+    dynamics().acceleration(from.t, m * d, new_x_, new_v_, a_);
     next_x_ = old_x_ + 2.0 * d * new_v_;
     next_v_ = old_v_ + 2.0 * d * a_;
     old_x_.swap(new_x_);

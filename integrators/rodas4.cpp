@@ -71,7 +71,7 @@ time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step
       residual_x_ += (kC[i][j] / h) * p_[j];
       other_ += (kC[i][j] / h) * q_[j];
     }
-    dynamics().total_force(from.t + kTimes[i] * h, x_, v_, residual_v_);
+    dynamics().total_force(from.t, kTimes[i] * h, x_, v_, residual_v_);
     dynamics().set_time(from.t);
     if (i > 0) {
       dynamics().inertia_force(other_, work_);

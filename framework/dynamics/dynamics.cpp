@@ -72,7 +72,7 @@ void Dynamics::loads_replaced() {
 void Dynamics::external_force(double t, VectorRef force) {
   set_time(t);
   clear(force);
-  parts_->loads.add(t, force);
+  parts_->loads.add(t, 0.0, force);
 }
 
 void Dynamics::external_force_rate(double t, double h, VectorRef rate) {
@@ -103,22 +103,32 @@ void Dynamics::damping_force(ConstVectorRef v, VectorRef y) {
 }
 
 void Dynamics::total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef r) {
+  total_force(t, 0.0, x, v, r);
+}
+
+void Dynamics::total_force(double t, double after, ConstVectorRef x, ConstVectorRef v, VectorRef r) {
+  set_time(t + after);
   ++counters_->force_evaluations;
-  external_force(t, r);
+  clear(r);
+  parts_->loads.add(t, after, r);
   add_contact_force(x, r);
-  add_obstacle_force(t, x, v, r);
+  add_obstacle_force(t + after, x, v, r);
   parts_->internal.subtract(x, v, r);
 }
 
 void Dynamics::acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
-  set_time(t);
+  acceleration(t, 0.0, x, v, a);
+}
+
+void Dynamics::acceleration(double t, double after, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
+  set_time(t + after);
   ++counters_->force_evaluations;
   parts_->internal.subtract_from(From::nothing, x, v, a);
-  parts_->loads.add(t, a);
+  parts_->loads.add(t, after, a);
   add_contact_force(x, a);
-  add_obstacle_force(t, x, v, a);
+  add_obstacle_force(t + after, x, v, a);
   solve_mass(v, a);
-  hold_sticks(t, a);
+  hold_sticks(t + after, a);
 }
 
 void Dynamics::solve_acceleration(ConstVectorRef x, ConstVectorRef v, VectorRef a) {

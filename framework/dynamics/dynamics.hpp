@@ -80,6 +80,9 @@ class BUTEE_EXPORT Dynamics {
 
   /// r := F(t) + F_c(x) - C v - K x
   void total_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef r);
+  /// The same at t + after. Where a load varies within a few spacings of the doubles its value does
+  /// not depend on the rounding of t + after. No load discontinuity may lie between t and t + after.
+  void total_force(double t, double after, ConstVectorRef x, ConstVectorRef v, VectorRef r);
 
   /// kappa and c, in stop space, of the secant law F_c = S^T (c - kappa S x) that equals F_c at x
   void secant_contact(ConstVectorRef x, VectorRef kappa, VectorRef c);
@@ -98,6 +101,8 @@ class BUTEE_EXPORT Dynamics {
 
   /// a := M^-1 (F(t) + F_c(x) - C v - K x)
   void acceleration(double t, ConstVectorRef x, ConstVectorRef v, VectorRef a);
+  /// The same at t + after, as total_force().
+  void acceleration(double t, double after, ConstVectorRef x, ConstVectorRef v, VectorRef a);
   /// a := M^-1 (a - C v - K x), with the forces given in a
   void solve_acceleration(ConstVectorRef x, ConstVectorRef v, VectorRef a);
 

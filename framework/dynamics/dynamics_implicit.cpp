@@ -23,7 +23,7 @@ bool Dynamics::solve_secant_of_many(double t, double velocity_factor, double dis
   const double s = on_mass / (1.0 + velocity_factor * on_mass),
                shift = on_stiffness - s * (displacement_factor + velocity_factor * on_stiffness);
   parts_->internal.set_shifted(x, shift, 1.0 - s * velocity_factor, v, a);
-  parts_->loads.add(t, a);
+  parts_->loads.add(t, 0.0, a);
   if (stop_count() > 0) {
     Vector& w = parts_->stop_displacement;
     stops_->displacement(x, w);
@@ -45,7 +45,7 @@ bool Dynamics::solve_single_secant(double t, double velocity_factor, double disp
                                    ConstVectorRef c, ConstVectorRef x, ConstVectorRef v, VectorRef a) {
   set_time(t);
   a[0] = 0.0;
-  parts_->loads.add(t, a);
+  parts_->loads.add(t, 0.0, a);
   const InternalForces& internal = parts_->internal;
   double stiffness = internal.single_stiffness(), force = a[0];
   for (Index i = 0; i < stop_count(); ++i) {

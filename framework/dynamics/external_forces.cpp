@@ -3,16 +3,44 @@
 #include <algorithm>
 
 namespace butee::dynamics {
+namespace {
 
-ExternalForces::ExternalForces(const model::System& system) : system_(system), values_(system.loads.size()) {
+/// True if a load is a parabola over less than kFew spacings of the doubles at t: rounding of t changes it by more than
+/// 1/kFew.
+bool is_steep(const model::TimeFunction& load) {
+  constexpr double kFew = 1e8;
+  if (!load.is_piecewise_parabolic()) return false;
+  const std::vector<double> instants = load.discontinuities();
+  for (std::size_t i = 1; i < instants.size(); ++i)
+    if (instants[i] - instants[i - 1] < kFew * std::numeric_limits<double>::epsilon() * instants[i]) return true;
+  return false;
+}
+
+}  // namespace
+
+ExternalForces::ExternalForces(const model::System& system)
+    : system_(system), values_(system.loads.size()), is_steep_(system.loads.size()) {
   for (std::size_t j = 0; j < system.loads.size(); ++j)
     for (std::size_t i = 0; i < system.loads[j].dofs.size(); ++i)
       entries_.push_back({system.loads[j].dofs[i], system.loads[j].weights[i], j});
+  changed();
 }
 
-void ExternalForces::evaluate(double t) {
-  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = system_.loads[i].in_time->value(t);
+void ExternalForces::changed() {
+  time_ = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < is_steep_.size(); ++i) is_steep_[i] = is_steep(*system_.loads[i].in_time) ? 1 : 0;
+}
+
+void ExternalForces::evaluate(double t, double after) {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const model::TimeFunction& load = *system_.loads[i].in_time;
+    if (after != 0.0 && is_steep_[i] != 0 && load.taylor(t, 1.0, series_))
+      values_[i] = series_[0] + after * (series_[1] + after * series_[2]);
+    else
+      values_[i] = load.value(t + after);
+  }
   time_ = t;
+  after_ = after;
 }
 
 void ExternalForces::rate(double t, double h, VectorRef rate) {

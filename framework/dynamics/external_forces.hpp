@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -23,26 +24,28 @@ class ExternalForces {
   };
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// F += F(t)
-  void add(double t, VectorRef force) {
-    if (t != time_) evaluate(t);
+  /// F += F(t + after). A load with pieces so short that the rounding of t + after changes it is
+  /// expanded about t instead; t + after must then lie in the piece of t.
+  void add(double t, double after, VectorRef force) {
+    if (t != time_ || after != after_) evaluate(t, after);
     for (const Entry& entry : entries_) force[entry.dof] += entry.weight * values_[entry.load];
   }
   /// rate := dF/dt(t), from Taylor series or, for loads without one, a difference over `h` s
   void rate(double t, double h, VectorRef rate);
   /// Invalidates the load values, after time functions of loads have changed.
-  void changed() { time_ = std::numeric_limits<double>::quiet_NaN(); }
+  void changed();
   /// The instants at which a load, the speed of rotation or a derivative jumps, ascending.
   std::vector<double> discontinuities() const;
 
  private:
-  void evaluate(double t);
+  void evaluate(double t, double after);
 
   const model::System& system_;
   std::vector<Entry> entries_;
-  double time_ = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> values_;  ///< of the loads at time_
-  std::array<double, 2> series_{};
+  double time_ = std::numeric_limits<double>::quiet_NaN(), after_ = 0.0;
+  std::vector<double> values_;          ///< of the loads at time_ + after_
+  std::vector<std::uint8_t> is_steep_;  ///< loads with short pieces
+  std::array<double, 3> series_{};
 };
 
 }  // namespace butee::dynamics

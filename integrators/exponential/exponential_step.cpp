@@ -20,11 +20,13 @@ std::vector<ContactForce> contact_forces(dynamics::ElasticStops& contact) {
 }
 
 /// Rounds the length of a step between outputs to kSameBits bits of the time, so that equal output
-/// intervals give equal step lengths.
+/// intervals give equal step lengths; steps so short that this changes them by more than 1/(2 kMany)
+/// are left alone, as those of pulses.
 double rounded(double h, double t_end) {
   constexpr int kSameBits = 50;
+  constexpr double kMany = 1e8;
   const double unit = std::ldexp(1.0, std::ilogb(t_end) - kSameBits);
-  return h > unit ? std::round(h / unit) * unit : h;
+  return h > kMany * unit ? std::round(h / unit) * unit : h;
 }
 
 }  // namespace
