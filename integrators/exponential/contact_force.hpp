@@ -67,6 +67,8 @@ class ContactForce {
   double jump(const ContactPath& path) const {
     return on_upper_ && on_lower_ && path.lowest() < 0.0 && path.highest() > 0.0 ? 2.0 * residual_ : 0.0;
   }
+  /// A bound of the change of the residual force beside its bends, N.
+  double bend(const ContactPath& path) const { return is_linear_ || is_off_bends(path) ? 0.0 : residual_; }
   double stiffness() const { return stiffness_; }
   /// The law is a spring while closed, without residual force.
   bool is_linear() const { return is_linear_; }

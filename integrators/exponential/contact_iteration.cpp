@@ -29,6 +29,7 @@ ContactIteration::ContactIteration(const dynamics::ModalSystem& modal, const Ste
 std::optional<double> ContactIteration::solve(ContactPropagator& flow) {
   begin();
   guess(flow);
+  unfinished_ = unfinished_change(goal_, flow.h());
   double last = 0.0;
   const auto displacement = [&] {
     return std::max(scales_.largest().displacement, paths_.motion().end.abs().maxCoeff());
@@ -36,10 +37,9 @@ std::optional<double> ContactIteration::solve(ContactPropagator& flow) {
   for (int i = 0; i < kMostSweeps; ++i) {
     const double change = sweep(flow, displacement(), i > 0);
     if (!std::isfinite(change)) return std::nullopt;
-    const double next = change * (change / last);
-    const bool is_expected = i > 0 && change < last && next <= kExpected * kConverged;
+    const double next = i > 0 ? change * std::min(1.0, change / last) : change;
     last = change;
-    if (change <= kConverged || is_expected) return displacement();
+    if (next <= unfinished_) return displacement();
   }
   return std::nullopt;
 }
@@ -84,7 +84,9 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
   for (const Index i : step_.iterated) {
     ContactForce& contact = contacts_[static_cast<std::size_t>(i)];
     if (contact.is_linear() && !is_touched(i) && paths_.excess()[i] <= 0.0) continue;
-    if (may_skip && is_touched(i) && moved_since(flow, i) <= kSettled * allowed_change(flow, i, displacement)) continue;
+    if (may_skip && is_touched(i) &&
+        moved_since(flow, i) <= kContraction * unfinished_ * allowed_change(flow, i, displacement))
+      continue;
     const ContactPath path = paths_.of(i);
     const ContactStatus status = contact.status(path);
     const ForceMoments old = {moments_[0][i], moments_[1][i], moments_[2][i]};
@@ -119,7 +121,7 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
 double ContactIteration::allowed_change(ContactPropagator& flow, Index stop, double displacement) const {
   const ContactScale scale = scales_.of(stop, paths_.reached(stop), displacement);
   return std::max(integrators::allowed_change(goal_.middle, influence_.stiff(flow, stop), flow.h(), scale),
-                  kRoundingChange / kConverged * displacement);
+                  kRoundingChange / unfinished_ * displacement);
 }
 
 bool ContactIteration::is_spring(Index stop) const {

@@ -38,17 +38,13 @@ class ContactIteration {
   const Eigen::ArrayXd& modal_moments(std::size_t k) const { return sums_[k]; }
 
  private:
-  /// After the first sweep the force of a stop is kept if other stops moved its path by less than
-  /// this fraction of allowed_change().
-  static constexpr double kSettled = 0.2;
-
   void begin();
   /// Fills near_registers_ and far_registers_.
   void choose_registers();
   /// Initial guess: the forces of the stops that are closed at the start, for constant speed.
   void guess(dynamics::ContactPropagator& flow);
-  /// One sweep; returns the largest change of a path over allowed_change(). `may_skip`: stops are
-  /// skipped by kSettled.
+  /// One sweep; returns the largest change of a path over allowed_change(). `may_skip`: the force of a stop is kept if
+  /// other stops moved its path so little that the force would not move it by unfinished_.
   double sweep(dynamics::ContactPropagator& flow, double displacement, bool may_skip);
   double allowed_change(dynamics::ContactPropagator& flow, Index stop, double displacement) const;
   bool is_spring(Index stop) const;
@@ -74,6 +70,7 @@ class ContactIteration {
   std::array<Eigen::ArrayXd, 3> moments_, sums_;
   std::vector<Index> touched_;
   std::vector<bool> is_touched_;
+  double unfinished_ = 1.0;  ///< unfinished_change()
 };
 
 }  // namespace butee::integrators

@@ -57,13 +57,17 @@ struct StepError {
 
 // Convergence of the iteration for the contact forces.
 
-/// The iteration ends if the paths change by less than this fraction of allowed_change(), or by
-/// rounding only.
-inline constexpr double kConverged = 0.02;
+/// Changes of the paths by rounding only, relative to the displacement scale.
 inline constexpr double kRoundingChange = 1e-15;
-/// It also ends if the next sweep, at the contraction rate of the last one, would change the paths
-/// by less than this fraction of kConverged.
-inline constexpr double kExpected = 0.1;
+/// Without Newton's method a sweep changes the path of a stop by sigma/kContraction of the last change: for a free
+/// mass (plugins/exponential/constants.py).
+inline constexpr double kContraction = 25.9;
+/// The iteration ends if the next sweep is expected to change the paths by less than this, as a fraction of
+/// allowed_change(): what is left has the same sign in all steps of a long contact, and adds up.
+inline double unfinished_change(const StepGoal& goal, double h) {
+  constexpr double kOfStep = 0.002, kOfRun = 0.1;
+  return std::min(kOfStep, kOfRun * h / goal.run_time);
+}
 /// More sweeps reject the step.
 inline constexpr int kMostSweeps = 25;
 /// h times the speed scale is taken as at least this fraction of sigma times the displacement

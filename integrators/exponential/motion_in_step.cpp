@@ -31,7 +31,7 @@ void MotionInStep::find_contacts(std::size_t from) {
     const double by_slope = kSlopeImpulse * stop.stiffness() * h * std::max(std::abs(hv0), std::abs(hv1));
     const bool is_seen =
         (compliances_[i] * by_slope > allowed && stop.status(contact.path) == ContactStatus::changing) ||
-        (compliances_[i] * kJumpImpulse * h * stop.jump(contact.path) > allowed);
+        (compliances_[i] * kJumpImpulse * h * std::max(stop.jump(contact.path), stop.bend(contact.path)) > allowed);
     (is_seen ? changing_ : closed_).push_back(contact);
   }
 }

@@ -43,7 +43,8 @@ Motion SingleMotion::within(const SingleBreakpoint& from, const SingleBreakpoint
                             double t) {
   const double h = to.t - from.t, tau = t - from.t, part = tau / h;
   const ContactPath path = path_between(mode_, from, to);
-  const bool is_changing = contact_.status(path) == ContactStatus::changing || contact_.jump(path) > 0.0;
+  const bool is_changing =
+      contact_.status(path) == ContactStatus::changing || contact_.jump(path) > 0.0 || contact_.bend(path) > 0.0;
   ForceMoments force = moments_within(from.step.force, 0.0, part);
   if (is_changing) {
     const ContactPath so_far = path.until(part);

@@ -1,5 +1,6 @@
 #include "integrators/exponential/single_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace butee::integrators {
@@ -45,7 +46,7 @@ const Motion& SingleRecord::motion_at(std::size_t k) {
 
 bool SingleRecord::is_quintic(std::size_t k, double speed) const {
   // Relative error of a quintic's slope: (omega h)^5 sqrt(5)/30000 in smooth motion, kKinkedSlope
-  // (omega h)^2 if a stop opens or closes, and kJumpedSlope times the speed that a jump of the
+  // (omega h)^2 if a stop opens or closes, and kJumpedSlope times the speed that a jump or a bend of the
   // force causes in the step.
   constexpr double kGoodPart = 0.5, kKinkedSlope = 5e-3, kJumpedSlope = 0.07;
   const SingleBreakpoint& from = breakpoints_[k];
@@ -56,7 +57,8 @@ bool SingleRecord::is_quintic(std::size_t k, double speed) const {
   const double good = kGoodPart * tolerance_;
   if (quintic_error(1.0, angle * angle * std::sqrt(angle)).v > good) return false;
   const ContactPath path = path_between(mode_, from, breakpoints_[k + 1]);
-  if (kJumpedSlope * h * shape * shape * contact_.jump(path) > good * speed) return false;
+  const double change = std::max(contact_.jump(path), contact_.bend(path));
+  if (kJumpedSlope * h * shape * shape * change > good * speed) return false;
   return kKinkedSlope * stiff <= good || contact_.status(path) != ContactStatus::changing;
 }
 

@@ -181,12 +181,10 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
     before = status;
     const double stiff = contact_.stiffness() * coupling[1][0];
     const ContactScale reached = {scale, std::max(scale_.speed, std::max(std::abs(hv), std::abs(end[1])) / flow.h)};
-    const double next = change * (change / last);
-    const double enough =
-        std::max(kConverged * allowed_change(goal_.middle, stiff, flow.h, reached), kRoundingChange * scale);
-    const bool is_expected = i > 0 && change < last && next <= kExpected * enough;
+    const double next = i > 0 ? change * std::min(1.0, change / last) : change,
+                 enough = unfinished_change(goal_, flow.h) * allowed_change(goal_.middle, stiff, flow.h, reached);
     last = change;
-    if (change > enough && !is_expected) continue;
+    if (change > kRoundingChange * scale && next > enough) continue;
     double error = std::abs(quartic);
     if (force[0] != 0.0) {
       error = path_error(error, stiff, flow.h, reached, status == ContactStatus::closed);
