@@ -72,6 +72,20 @@ double ContactOnTheWay::jump(const time::State& from, const time::State& to, Con
   return largest;
 }
 
+double ContactOnTheWay::kink(const time::State& from, const time::State& to, ConstVectorRef scale_v) {
+  double largest = 0.0;
+  contact_->displacement(from.x, w0_);
+  contact_->displacement(to.x, w1_);
+  contact_->displacement(from.v, v0_);
+  contact_->displacement(to.v, v1_);
+  for (Index i = 0; i < w0_.size(); ++i) {
+    const model::FreePlay& play = contact_->play_of(i);
+    if (play.closed_side(w0_[i]) == play.closed_side(w1_[i])) continue;
+    largest = std::max(largest, closed_[i] * std::max(std::abs(v0_[i]), std::abs(v1_[i])) * impulse_rate(i, scale_v));
+  }
+  return largest;
+}
+
 bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
   if (contact_->size() == 0) return false;
   contact_->displacement(from.v, v0_);

@@ -24,6 +24,9 @@ class ContactOnTheWay {
   /// scale, 1/s; 0 if there is none. An error estimate misses a jump in the middle of a step, since
   /// the errors of the stages cancel.
   double jump(const time::State& from, const time::State& to, ConstVectorRef scale_v);
+  /// The largest rate of change of the force of a stop that closed or opened in the step, N/s, as jump(), 1/s^2. The
+  /// estimate vanishes at some places of the change in the step where the error does not.
+  double kink(const time::State& from, const time::State& to, ConstVectorRef scale_v);
   /// True if a stop is open at both ends of the step and was closed in between, or passed such a
   /// jump and returned, according to the cubic through displacements and speeds at both ends.
   /// Penetrations below the tolerance times displacement or gap are ignored if their impulse, at

@@ -16,7 +16,7 @@ constexpr double kA[7][6] = {{},
 constexpr std::array<double, 7> kError = {71.0 / 57600,      0.0,        -71.0 / 16695, 71.0 / 1920,
                                           -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 /// Measured in tests/conformance/error_constant_test.cpp.
-constexpr double kConstant = 1.5, kContactChange = 40.0;
+constexpr double kConstant = 1.5, kContactChange = 40.0, kKink = 0.0225;
 /// Limit of h omega on the imaginary axis beyond which undamped motion grows rapidly.
 constexpr double kLimit = 1.0;
 /// h omega and h c/m (negative real axis) at which |R| = 1 for R(z) = 1 + z + ... + z^5/120 +
@@ -28,7 +28,12 @@ constexpr double kStabilityLimit = 0.99718900, kDampingLimit = 3.30656789;
 DormandPrince::DormandPrince(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
       control_(dynamics, goal,
-               {.estimate = 5.0, .method = 5.0, .constant = kConstant, .contact_change = kContactChange, .share = 0.05},
+               {.estimate = 5.0,
+                .method = 5.0,
+                .constant = kConstant,
+                .contact_change = kContactChange,
+                .kink = kKink,
+                .share = 0.05},
                LocalErrorControl::Steps::any),
       stiffness_("dopri5", kLimit) {
   for (std::size_t i = 0; i < kStages; ++i) v_[i] = a_[i] = Vector::Zero(dynamics.size());

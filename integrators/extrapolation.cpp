@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::array<int, 4> kParts = {2, 4, 6, 8};
 /// Measured in tests/conformance/error_constant_test.cpp.
-constexpr double kConstant = 7.6, kContactChange = 40.0;
+constexpr double kConstant = 7.6, kContactChange = 40.0, kKink = 9.2e-3;
 /// h omega and h c/m of the whole step at which the modulus of the stability polynomial exceeds 1.
 constexpr double kLimit = 3.85286858, kDampingLimit = 5.54957408;
 
@@ -20,6 +20,7 @@ Extrapolation::Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal)
                 .method = 8.0,
                 .constant = kConstant,
                 .contact_change = kContactChange,
+                .kink = kKink,
                 .stability = kLimit,
                 .share = 0.002},
                LocalErrorControl::Steps::any) {

@@ -28,6 +28,9 @@ constexpr double kFromRest = 0.02;
 constexpr double kSpendOnSmooth = 0.01;
 /// The error of the velocity as a fraction of the impulse of a force that jumps within the step.
 constexpr double kOfJump = 0.1;
+/// The departure of a motion in the middle of a step from the cubic through its ends, as a part of that of h^2 times
+/// the acceleration at the start: 12/384, as for contacts on the way.
+constexpr double kOfAcceleration = 1.0 / 32.0;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -130,6 +133,14 @@ double LocalErrorControl::relative_error(ConstVectorRef error_x, ConstVectorRef 
   return largest;
 }
 
+double LocalErrorControl::unseen_start(const time::State& from, const time::State& to, double h) {
+  work_ = (h * h) * from.a - 6.0 * (to.x - from.x) + h * (4.0 * from.v + 2.0 * to.v);
+  double largest = 0.0;
+  for (Index i = 0; i < work_.size(); ++i)
+    if (work_[i] != 0.0) largest = std::max(largest, kOfAcceleration * std::abs(work_[i]) / scale_x_[i]);
+  return largest;
+}
+
 double LocalErrorControl::norm(ConstVectorRef y) {
   dynamics_.inertia_force(y, work_);
   return std::sqrt(std::max(0.0, y.dot(work_)));
@@ -180,10 +191,16 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     if (has_changed) r *= orders_.contact_change;
   } else if (has_changed) {
     charge = std::max(orders_.contact_change * epsilon, kOfJump * h * contact_.jump(from, to, scale_v_));
+    if (orders_.kink > 0.0) charge = std::max(charge, orders_.kink * h * h * contact_.kink(from, to, scale_v_));
     r = charge / (ErrorAccount::kSpend * balance);
   } else if (r > 1.0) {
     charge = orders_.constant * std::pow(epsilon, 1.0 / power_);
     r = std::min(r, charge / (kSpendOnSmooth * balance));
+  }
+  if (!as_a_whole_ && std::binary_search(discontinuities_.begin(), discontinuities_.end(), from.t)) {
+    // The departure grows with h^2.
+    const double unseen = unseen_start(from, to, h);
+    if (unseen > 1.0) r = std::max(r, std::pow(unseen, 0.5 * power_ * orders_.method));
   }
   to.memory[kOld] = std::max(epsilon / smooth, kSmallest);
   to.memory[kAccount] = balance - charge;

@@ -42,6 +42,9 @@ class LocalErrorControl {
     double method;          ///< p
     double constant;        ///< kappa, of undamped oscillation
     double contact_change;  ///< k: ratio of local error to estimate across a change of contact
+    /// The largest velocity error of a step h = 1 under a force (s - a)_+ per unit of mass, for any a: that of a stop
+    /// which closes or opens. 0: not known.
+    double kink = 0.0;
     /// For an explicit method, the stability limit of h omega with closed stops: a longer step in
     /// which a stop closes or opens is repeated even if its estimate is small enough.
     double stability = std::numeric_limits<double>::infinity();
@@ -99,6 +102,10 @@ class LocalErrorControl {
   /// varies with a fractional power of time, but the estimate assumes a smooth function.
   bool touches_anew(const time::State& from, const time::State& to) const;
   double relative_error(ConstVectorRef error_x, ConstVectorRef error_v) const;
+  /// The departure in the middle from the cubic through the ends that the acceleration at the start indicates, relative
+  /// to the displacement scales. Far above 1 the step is longer than a motion that begins with it, of which the
+  /// estimates of L-stable methods show nothing.
+  double unseen_start(const time::State& from, const time::State& to, double h);
   double norm(ConstVectorRef y);
   /// The relative error of the whole structure; updates the norms in the memory of `to`.
   double whole_error(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,

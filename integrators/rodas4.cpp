@@ -12,14 +12,14 @@ using namespace rodas4_coefficients;
 
 namespace {
 
-/// Measured in tests/conformance/error_constant_test.cpp.
-constexpr double kConstant = 0.57, kContactChange = 10.0;
+/// kConstant and kKink are measured in tests/conformance/error_constant_test.cpp.
+constexpr double kConstant = 0.57, kContactChange = 10.0, kKink = 0.032;
 
 }  // namespace
 
 Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
-      control_(dynamics, goal, {4.0, 4.0, kConstant, kContactChange}, LocalErrorControl::Steps::geometric),
+      control_(dynamics, goal, {4.0, 4.0, kConstant, kContactChange, kKink}, LocalErrorControl::Steps::geometric),
       solver_(dynamics.effective(), dynamics.obstacles()) {
   if (dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles()))
     throw InputError(

@@ -1,6 +1,7 @@
 #include "integrators/exponential/unresolved_modes.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace butee::integrators {
 
@@ -44,6 +45,15 @@ void UnresolvedModes::save(double* memory) const {
   memory[0] = spent_;
   Eigen::Map<Vector>(memory + 1, speeds_.size()) = speeds_;
   Eigen::Map<ArrayXd>(memory + 1 + speeds_.size(), closed_.size()) = closed_;
+}
+
+double UnresolvedModes::error(double h) const {
+  double sum = 0.0;
+  for (Index i = 0; i < rates_.size(); ++i) {
+    const double part = rates_[i] * unreceived_part(squares_[i] * h * h);
+    sum += part * part;
+  }
+  return h * std::sqrt(sum);
 }
 
 void UnresolvedModes::find_rates(double t, const ModalState& state, const double* was_closed) {

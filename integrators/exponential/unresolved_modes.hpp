@@ -10,10 +10,9 @@ namespace butee::integrators {
 
 /// The part of the frequency rise by a closed stop that the projection leaves out if the mode turns by theta (rad) in
 /// the step, `square` = theta^2: approximated to within 10 % up to theta = 10 (plugins/exponential/constants.py).
-template <class Square>
-auto unreceived_part(const Square& square) {
+inline double unreceived_part(double square) {
   constexpr double kSlow = 1.8e-5, kFast = 0.027;
-  const auto slow = kSlow * square.cube();
+  const double slow = kSlow * square * square * square;
   return slow / (1.0 + kFast * square + slow);
 }
 
@@ -42,9 +41,7 @@ class UnresolvedModes {
   /// A stop stays closed.
   bool any() const { return any_; }
   /// The error of a step of length h, relative to the largest velocity so far of the component that it affects most.
-  double error(double h) const {
-    return h * (rates_ * unreceived_part(Eigen::ArrayXd(squares_ * (h * h)))).matrix().norm();
-  }
+  double error(double h) const;
   /// The largest error() of a step to t.
   double allowed(double t) const { return ErrorAccount::kSpend / kMacroStep * (account_.rate() * t - spent_); }
   void charge(double h) {

@@ -50,6 +50,42 @@ TEST_P(ErrorConstant, TurnsTheEstimateIntoTheLocalError) {
   EXPECT_LT(error, expected * kPhases);
 }
 
+struct Kink {
+  const char* method;
+  double bound;  ///< LocalErrorControl::Orders::kink
+};
+
+class KinkBound : public testing::TestWithParam<Kink> {};
+
+/// A free mass of 1 kg at 1 m/s closes a stop at some place of a step of h = 1 s. The stop is so soft that the path is
+/// straight: the speed lost is k (1 - a)^2/2.
+TEST_P(KinkBound, IsTheLargestErrorOfAStepInWhichAStopCloses) {
+  constexpr double kStiffness = 1e-6;
+  constexpr int kPlaces = 200;
+  double largest = 0.0;
+  for (int place = 1; place < kPlaces; ++place) {
+    const double a = static_cast<double>(place) / kPlaces;
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = "
+        "\"m\"\nsides = \"positive\"\nlaw = \"linear\"\nstiffness = " +
+        to_text(kStiffness) + "\ngap = " + to_text(a) + "\n[integrator]\ntype = \"" + GetParam().method +
+        "\"\ntolerance = 1e-3\nend_time = 1.0\n");
+    time::State from;
+    from.x = Vector::Zero(1);
+    from.v = Vector::Ones(1);
+    run.integrator().start(from);
+    time::State to = from;
+    ASSERT_EQ(run.integrator().step(from, {1.0, 1.0, false}, to).status, time::StepStatus::ok);
+    largest = std::max(largest, std::abs(1.0 - 0.5 * kStiffness * (1.0 - a) * (1.0 - a) - to.v[0]) / kStiffness);
+  }
+  EXPECT_LT(largest, GetParam().bound);
+  EXPECT_GT(largest, 0.9 * GetParam().bound);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, KinkBound,
+                         testing::Values(Kink{"rodas4", 0.032}, Kink{"dopri5", 0.0225}, Kink{"extrapolation8", 9.2e-3}),
+                         [](const auto& one) { return std::string(one.param.method); });
+
 INSTANTIATE_TEST_SUITE_P(Methods, ErrorConstant,
                          testing::Values(Case{"rodas4", 4.0, 4.0, 0.3}, Case{"dopri5", 5.0, 5.0, 0.2},
                                          Case{"extrapolation8", 7.0, 8.0, 0.8}, Case{"bathe_adaptive", 3.0, 2.0, 0.1}),

@@ -123,6 +123,31 @@ TEST_P(Tolerance, DoesNotFeelTheRoundingOfInstantsInAPulse) {
   }
 }
 
+/// A load that sets a stiff mass in motion after a long rest, in which steps have become a thousand periods long. An
+/// L-stable method that kept them would go to the static displacement, and its estimate would agree. With a ramp from T
+/// to T + r of a force F: x = F/k (1 - (sin(omega (t - T)) - sin(omega (t - T - r)))/(omega r)).
+TEST_P(Tolerance, SeesAVibrationThatALoadStarts) {
+  constexpr double kStiffness = 1e8, kForce = 10.0, kStart = 1.0, kRamp = 1e-6, kTolerance = 1e-3;
+  const double omega = std::sqrt(kStiffness);
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 1e8\n[[load]]\ntype = \"ramp\"\nnode = \"m\"\nto = 10.0\nstart = 1.0\nend = "
+      "1.000001\n[integrator]\ntype = \"" +
+      GetParam() + "\"\nend_time = 1.01\ntolerance = 1e-3\n");
+  std::vector<double> times;
+  for (int i = 1; i <= 1000; ++i) times.push_back(kStart + 1e-5 * i);
+  Sampler sampler(run.dof("m"), times);
+  run.simulation().add(sampler);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double t = omega * (times[i] - kStart), since = t - omega * kRamp, turn = omega * kRamp;
+    const double x = kForce / kStiffness * (1.0 - (std::sin(t) - std::sin(since)) / turn),
+                 v = -kForce / kStiffness * omega * (std::cos(t) - std::cos(since)) / turn;
+    ASSERT_NEAR(sampler.x[i], x, 10.0 * kTolerance * 2.0 * kForce / kStiffness) << times[i];
+    ASSERT_NEAR(sampler.v[i], v, 10.0 * kTolerance * kForce / kStiffness * omega) << times[i];
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, Tolerance,
                          testing::Values("exponential", "rodas4", "dopri5", "extrapolation8", "bathe_adaptive",
                                          "generalized_alpha_adaptive", "hht_alpha_adaptive",
