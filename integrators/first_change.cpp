@@ -178,21 +178,26 @@ void FirstChange::consider(const Function& function, double s, double until, dou
     step = third > 0.0 ? std::cbrt(6.0 * noise[0] / third) : until;
     return suggest(s + std::max(step, 4.0 * kRounding * (std::abs(t) + s)), false);
   }
-  // On the border the first derivative that exceeds rounding decides.
-  const double here = std::max(g[0], 0.0);
+  // On the border the first derivative that exceeds rounding decides. If it is the second or third and positive, the
+  // function falls by its rounding error at most within `hidden`: a derivative that barely exceeds its own rounding
+  // error would give far shorter steps.
+  const double here = std::max(g[0], 0.0), cubic = third > 0.0 ? std::cbrt(6.0 * noise[0] / third) : kNever;
+  double hidden = cubic;
+  if (noise[1] > 0.0) hidden = std::min(hidden, noise[0] / noise[1]);
+  if (noise[2] > 0.0) hidden = std::min(hidden, std::sqrt(2.0 * noise[0] / noise[2]));
   if ((g[0] < -4.0 * noise[0] && !is_on_border) || g[1] < -noise[1]) return suggest(s, true);
   if (g[1] > noise[1]) {
     step = safe_step(here, g[1], g[2], third);
   } else if (g[2] < -noise[2]) {
     return suggest(s, true);
   } else if (g[2] > noise[2]) {
-    step = third > 0.0 ? 3.0 * g[2] / third : kNever;
+    step = std::max(third > 0.0 ? 3.0 * g[2] / third : kNever, hidden);
   } else if (g[3] < -noise[3]) {
     return suggest(s, true);
   } else if (g[3] > noise[3]) {
-    step = fourth > 0.0 ? 4.0 * g[3] / fourth : kNever;
+    step = std::max(fourth > 0.0 ? 4.0 * g[3] / fourth : kNever, hidden);
   } else {
-    step = third > 0.0 ? std::cbrt(6.0 * noise[0] / third) : kNever;
+    step = cubic;
   }
   suggest(s + std::max(step, 4.0 * kRounding * (std::abs(t) + s)), false);
 }

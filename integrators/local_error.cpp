@@ -30,7 +30,7 @@ constexpr double kSpendOnSmooth = 0.01;
 constexpr double kOfJump = 0.1;
 /// The departure of a motion in the middle of a step from the cubic through its ends, as a part of that of h^2 times
 /// the acceleration at the start: 12/384, as for contacts on the way.
-constexpr double kOfAcceleration = 1.0 / 32.0;
+constexpr double kOfAcceleration = 1.0 / 32.0, kMostUnseen = 0.05;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -43,6 +43,17 @@ double highest(const Vector& stiffness, const Vector& mass) {
   for (Index i = 0; i < mass.size(); ++i)
     if (stiffness[i] > 0.0) square = std::max(square, stiffness[i] / mass[i]);
   return square;
+}
+
+/// The highest rate at which damping decelerates a single DOF, 1/s.
+double damping_rate(const model::System& system, const Vector& stiffness, const Vector& mass) {
+  double rate = 0.0;
+  for (Index i = 0; i < mass.size(); ++i) {
+    const double dashpot = system.dashpots.size() > 0 ? system.dashpots.coeff(i, i) : 0.0;
+    rate = std::max(rate, system.damping.mass_proportional +
+                              (system.damping.stiffness_proportional * stiffness[i] + dashpot) / mass[i]);
+  }
+  return rate;
 }
 
 /// The highest rate at which friction supports decelerate a single DOF in the steep part of their
@@ -82,6 +93,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   const Vector mass = system.mass.diagonal();
   const double square = highest(stiffness, mass);
   first_step_ = square > 0.0 ? 0.1 / std::sqrt(square) : 1e-6;
+  const double damping = damping_rate(system, stiffness, mass);
   const dynamics::ElasticStops& contact = dynamics.stops();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i)
@@ -93,6 +105,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
         for (const Index dof : {ends[0], ends[1]})
           if (dof >= 0) stiffness[dof] += obstacles_->closed_stiffness(i);
   omega_ = std::max(std::sqrt(highest(stiffness, mass)), friction_rate(obstacles_, mass));
+  rate_ = omega_ > 0.0 ? std::max(omega_, damping) : 0.0;
 }
 
 bool LocalErrorControl::touches_anew(const time::State& from, const time::State& to) const {
@@ -137,7 +150,7 @@ double LocalErrorControl::unseen_start(const time::State& from, const time::Stat
   work_ = (h * h) * from.a - 6.0 * (to.x - from.x) + h * (4.0 * from.v + 2.0 * to.v);
   double largest = 0.0;
   for (Index i = 0; i < work_.size(); ++i)
-    if (work_[i] != 0.0) largest = std::max(largest, kOfAcceleration * std::abs(work_[i]) / scale_x_[i]);
+    if (scale_x_[i] > 0.0) largest = std::max(largest, kOfAcceleration * std::abs(work_[i]) / scale_x_[i]);
   return largest;
 }
 
@@ -154,11 +167,11 @@ double LocalErrorControl::whole_error(const time::State& from, time::State& to, 
   const double of_x = norm(error_x), of_v = norm(error_v);
   const auto part = [](double error, double scale) { return error > 0.0 ? error / scale : 0.0; };
   const double epsilon = std::max(part(of_x, x), part(of_v, v));
-  if (!(epsilon > smooth) || omega_ == 0.0) return epsilon;
+  if (!(epsilon > smooth) || rate_ == 0.0) return epsilon;
   // At a start from rest, as for components in judge().
   scale_x_ = (to.v - from.v) / h;
-  const double speed = std::max({v, norm(from.a) / omega_, norm(scale_x_) / omega_});
-  return std::max(part(of_x, std::max(x, speed / omega_)), part(of_v, speed));
+  const double speed = std::max({v, norm(from.a) / rate_, norm(scale_x_) / rate_});
+  return std::max(part(of_x, std::max(x, speed / rate_)), part(of_v, speed));
 }
 
 void LocalErrorControl::judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
@@ -174,14 +187,14 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const double smooth = as_a_whole_ ? whole_ : std::pow(account_.rate() * h / orders_.constant, power_),
                earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
   double epsilon = as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(error_x, error_v);
-  if (!as_a_whole_ && epsilon > smooth && omega_ > 0.0) {
-    // At a start from rest errors are relative to the velocities that the accelerations cause within 1/omega, or until
-    // a load's slope jumps, and to a part of the displacements that these velocities cause within 1/omega.
+  if (!as_a_whole_ && epsilon > smooth && rate_ > 0.0) {
+    // At a start from rest errors are relative to the velocities that the accelerations cause within 1/rate_, or until
+    // a load's slope jumps, and to a part of the displacements that these velocities cause within 1/rate_.
     const auto jump = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), from.t);
-    const double time = jump == discontinuities_.end() ? 1.0 / omega_ : std::min(1.0 / omega_, *jump - from.t);
+    const double time = jump == discontinuities_.end() ? 1.0 / rate_ : std::min(1.0 / rate_, *jump - from.t);
     work_ = time * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs()).cwiseMax((to.v - from.v).cwiseAbs() / h);
     scales_.raise(work_, scale_v_);
-    work_ = (kFromRest / omega_) * scale_v_;
+    work_ = (kFromRest / rate_) * scale_v_;
     scales_.raise(work_, scale_x_);
     epsilon = relative_error(error_x, error_v);
   }
@@ -197,10 +210,10 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     charge = orders_.constant * std::pow(epsilon, 1.0 / power_);
     r = std::min(r, charge / (kSpendOnSmooth * balance));
   }
-  if (!as_a_whole_ && std::binary_search(discontinuities_.begin(), discontinuities_.end(), from.t)) {
+  if (!as_a_whole_) {
     // The departure grows with h^2.
     const double unseen = unseen_start(from, to, h);
-    if (unseen > 1.0) r = std::max(r, std::pow(unseen, 0.5 * power_ * orders_.method));
+    if (unseen > kMostUnseen) r = std::max(r, std::pow(unseen / kMostUnseen, 0.5 * power_ * orders_.method));
   }
   to.memory[kOld] = std::max(epsilon / smooth, kSmallest);
   to.memory[kAccount] = balance - charge;

@@ -103,7 +103,7 @@ class LocalErrorControl {
   bool touches_anew(const time::State& from, const time::State& to) const;
   double relative_error(ConstVectorRef error_x, ConstVectorRef error_v) const;
   /// The departure in the middle from the cubic through the ends that the acceleration at the start indicates, relative
-  /// to the displacement scales. Far above 1 the step is longer than a motion that begins with it, of which the
+  /// to the displacement scales. If it is not small, the step is longer than a motion that begins with it, of which the
   /// estimates of L-stable methods show nothing.
   double unseen_start(const time::State& from, const time::State& to, double h);
   double norm(ConstVectorRef y);
@@ -121,8 +121,10 @@ class LocalErrorControl {
   Orders orders_;
   double power_;       ///< q/(p + 1)
   double first_step_;  ///< s
-  double omega_ =
-      0.0;  ///< highest rate of a single DOF with all stops closed and supports slipping, 1/s; 0 without any stiffness
+  /// The highest frequency of a single DOF with all stops closed, or rate with supports slipping, 1/s; 0 without any
+  /// stiffness.
+  double omega_ = 0.0;
+  double rate_ = 0.0;  ///< that, or the highest rate at which damping decelerates a DOF, 1/s
   Steps steps_;
   ComponentScales scales_;
   std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s

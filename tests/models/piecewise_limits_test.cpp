@@ -89,6 +89,31 @@ TEST(Piecewise, DecidesStartsOnTheBorder) {
   }
 }
 
+/// The end of a chain at rest touches a stop; a load at its other end sets it in motion as t^9, away from the stop.
+/// Every derivative rises out of its rounding error in turn.
+TEST(Piecewise, LeavesAStopAsSlowlyAsAChainBegins) {
+  std::string scene = "schema = 1\n";
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = "m" + std::to_string(i);
+    scene += "[[element]]\ntype = \"mass\"\nname = \"" + name + "\"\nmass = " + (i < 3 ? "1.5" : "0.015") + "\n";
+    scene +=
+        "[[element]]\ntype = \"spring\"\n" +
+        (i == 0 ? std::string("node = \"m0\"\n") : "nodes = [\"m" + std::to_string(i - 1) + "\", \"" + name + "\"]\n") +
+        "stiffness = 1.2e4\n";
+  }
+  scene +=
+      "[[contact]]\ntype = \"stop\"\nnodes = \"m0\"\ngap = 0.0\nsides = \"negative\"\nlaw = \"linear\"\nstiffness = "
+      "1e9\n[[load]]\nnode = \"m3\"\ntype = \"ramp\"\nto = 62.0\nstart = 0.0085\nend = 0.0095\n[integrator]\nend_time "
+      "= "
+      "0.2\n";
+  SceneRun ours(scene, {"integrator.type=piecewise"}), reference(scene, {"integrator.type=exact"});
+  ASSERT_TRUE(ours.run().completed);
+  ASSERT_TRUE(reference.run().completed);
+  EXPECT_LT(ours.simulation().report().steps, 200);
+  EXPECT_LT((ours.simulation().state().x - reference.simulation().state().x).norm(),
+            1e-10 * reference.simulation().state().x.norm());
+}
+
 /// A dashpot of the closed stop makes two motions of two masses coincide: a double root of
 /// (s^2 + c s + 12000)(s^2 + 2000) - 1e6, found with 50 digits.
 TEST(Piecewise, EndsWhereAContactStateHasNoModes) {
