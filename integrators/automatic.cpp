@@ -76,12 +76,13 @@ bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_
   return true;
 }
 
-/// True if a stop's force far from its gap exceeds what the tolerance allows for. Of 10 000 random scenes exponential
-/// had three wrong for this reason (tests/stress/results.md).
-bool has_strong_residual_force(dynamics::Dynamics& dynamics, double tolerance) {
+/// True if a force that jumps in the middle of a gap exceeds what the tolerance allows for. Bodies that pass the middle
+/// hundreds of times, now and then just so, add up its errors (wide 75383, tests/stress/results.md).
+bool has_strong_jump(dynamics::Dynamics& dynamics, double tolerance) {
   const dynamics::ElasticStops& contact = dynamics.stops();
   for (Index i = 0; i < contact.size(); ++i) {
     const model::ContactLaw& law = contact.law_of(i);
+    if (!contact.play_of(i).has_both()) continue;
     if (law.asymptotic_force() > tolerance * law.closed_stiffness() * std::abs(contact.play_of(i).gap)) return true;
   }
   return false;
@@ -138,9 +139,9 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
   if (is_too_tight) return {Method::rodas4, too_tight};
-  if (has_strong_residual_force(dynamics, tolerance))
+  if (has_strong_jump(dynamics, tolerance))
     return {Method::rodas4,
-            "the force of a stop far from its gap is not small against tolerance times stiffness times gap"};
+            "the force of a stop in the middle of its gap is not small against tolerance times stiffness times gap"};
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
     if (cost.rodas4 < cost.exponential)

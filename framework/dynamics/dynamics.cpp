@@ -65,7 +65,7 @@ void Dynamics::loads_changed() {
 
 void Dynamics::loads_replaced() {
   parts_->stops = ElasticStops(system_, *counters_);
-  loads_changed();
+  parts_->loads.replaced();
   if (parts_->modal) parts_->modal->replace_loads(*this);
 }
 

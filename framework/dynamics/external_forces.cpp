@@ -23,11 +23,11 @@ ExternalForces::ExternalForces(const model::System& system)
   for (std::size_t j = 0; j < system.loads.size(); ++j)
     for (std::size_t i = 0; i < system.loads[j].dofs.size(); ++i)
       entries_.push_back({system.loads[j].dofs[i], system.loads[j].weights[i], j});
-  changed();
+  replaced();
 }
 
-void ExternalForces::changed() {
-  time_ = std::numeric_limits<double>::quiet_NaN();
+void ExternalForces::replaced() {
+  changed();
   for (std::size_t i = 0; i < is_steep_.size(); ++i) is_steep_[i] = is_steep(*system_.loads[i].in_time) ? 1 : 0;
 }
 

@@ -33,7 +33,9 @@ class ExternalForces {
   /// rate := dF/dt(t), from Taylor series or, for loads without one, a difference over `h` s
   void rate(double t, double h, VectorRef rate);
   /// Invalidates the load values, after time functions of loads have changed.
-  void changed();
+  void changed() { time_ = std::numeric_limits<double>::quiet_NaN(); }
+  /// The same after time functions have been replaced by others.
+  void replaced();
   /// The instants at which a load, the speed of rotation or a derivative jumps, ascending.
   std::vector<double> discontinuities() const;
 

@@ -26,7 +26,8 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
   EXPECT_EQ(choice(beam(6, "")).rfind("exponential with tolerance 0.0001: there are no stops", 0), 0U);
   EXPECT_EQ(choice(beam(6, kStops)).rfind("exponential with tolerance 0.0001: all modes of 12 DOFs", 0), 0U);
   EXPECT_EQ(choice(beam(6, kStops + kDashpot)).rfind("exponential with tolerance 0.0001: the linear part", 0), 0U);
-  // Far from its gap a stop pulls with k/(pi^2 lambda), 1e-6 or 1e-3 of the force that closes the gap.
+  // Far from its gap a stop pulls with k/(pi^2 lambda), 1e-6 or 1e-3 of the force that closes the gap. With two sides
+  // this jumps in the middle.
   const auto pulling = [&](const std::string& sides, const std::string& regularization, const std::string& tolerance) {
     return choice(
         beam(6, kStops + "law = \"arctan\"\nregularization = " + regularization + "\nsides = \"" + sides + "\"\n",
@@ -34,8 +35,7 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
   };
   EXPECT_EQ(pulling("positive", "1e8", "1e-5").rfind("exponential", 0), 0U);
   EXPECT_EQ(pulling("both", "1e8", "1e-4").rfind("exponential", 0), 0U);
-  EXPECT_EQ(pulling("positive", "1e5", "1e-6").rfind("rodas4", 0), 0U);
-  EXPECT_EQ(pulling("positive", "1e5", "1e-4").rfind("rodas4", 0), 0U);
+  EXPECT_EQ(pulling("positive", "1e5", "1e-6").rfind("exponential", 0), 0U);
   EXPECT_EQ(pulling("both", "1e5", "1e-6").rfind("rodas4", 0), 0U);
   EXPECT_EQ(pulling("both", "1e5", "1e-2").rfind("exponential", 0), 0U);
   // Computing the modes of 400 DOFs takes longer than integrating a few waves, but less than half a second of
