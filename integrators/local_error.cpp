@@ -210,7 +210,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     charge = orders_.constant * std::pow(epsilon, 1.0 / power_);
     r = std::min(r, charge / (kSpendOnSmooth * balance));
   }
-  if (!as_a_whole_) {
+  if (!as_a_whole_ && !orders_.is_linear_part_exact) {
     // The departure grows with h^2.
     const double unseen = unseen_start(from, to, h);
     if (unseen > kMostUnseen) r = std::max(r, std::pow(unseen / kMostUnseen, 0.5 * power_ * orders_.method));

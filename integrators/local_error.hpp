@@ -45,6 +45,8 @@ class LocalErrorControl {
     /// The largest velocity error of a step h = 1 under a force (s - a)_+ per unit of mass, for any a: that of a stop
     /// which closes or opens. 0: not known.
     double kink = 0.0;
+    /// The linear part is exact: steps may be longer than the periods of the motion.
+    bool is_linear_part_exact = false;
     /// For an explicit method, the stability limit of h omega with closed stops: a longer step in
     /// which a stop closes or opens is repeated even if its estimate is small enough.
     double stability = std::numeric_limits<double>::infinity();

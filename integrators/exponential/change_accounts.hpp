@@ -19,7 +19,7 @@ inline Goal account_goal(const StepGoal& goal, double lowest_frequency) {
   return {goal.tolerance, std::min(goal.run_time, most)};
 }
 
-/// One ErrorAccount per stop, for the speed errors of steps in which the stop closes or opens.
+/// One ErrorAccount per stop, for the speed errors of steps in which the stop closes, opens or stays closed.
 ///
 /// The errors of the changes of one stop may add up in the same sense: each impact at a given step
 /// size takes a little energy. Those of different stops act on different parts of the structure.
@@ -38,6 +38,8 @@ class ChangeAccounts {
 
   /// The speed error, relative to the speed scale of the stop, that a step to t may have.
   double allowed(Index stop, double t) const { return ErrorAccount::kSpend * (account_.rate() * t - spent_[stop]); }
+  /// The same for a step in which the stop stays closed. There are many of these: a macro step may spend as much.
+  double allowed_closed(Index stop, double t) const { return allowed(stop, t) / kMacroStep; }
   void charge(Index stop, double error) { spent_[stop] += error; }
 
  private:

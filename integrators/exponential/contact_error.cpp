@@ -77,7 +77,11 @@ double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, d
   const ContactScale scale = scales_.of(stop, paths.reached(stop), displacement);
   const bool stays_closed = paths.stays_closed(stop);
   double error = path_error(quartic, stiffness * known.coupling[1][0], h, scale, stays_closed);
-  if (!stays_closed) {
+  if (stays_closed) {
+    const double closed = closed_error(quartic, stiffness * known.coupling[1][0], h, scale);
+    changes_.emplace_back(stop, closed);
+    error = std::max(error, closed / accounts_.allowed_closed(stop, t_end) * goal_.middle * scale.displacement);
+  } else {
     const double by_slope = h * h * stiffness * known.unresolved * paths.largest_speed(stop) / (h * scale.speed);
     error = std::max(error, by_slope * goal_.middle * scale.displacement / (kUnresolved * goal_.outputs));
     if (paths.changes(stop)) {

@@ -10,7 +10,7 @@
 
 namespace butee::integrators {
 
-/// The error of a step with contact: the largest of the indicators 1 to 8 of
+/// The error of a step with contact: the largest of the indicators 1 to 9 of
 /// plugins/exponential/THEORY.md, section 8.1, over all stops. Errors of changes of contact are
 /// charged to the accounts of their stops, those of modes that do not feel closed stops to another one.
 class ContactError {
@@ -57,7 +57,8 @@ class ContactError {
   const ResidualErrors& residual_;
   ChangeAccounts accounts_;
   UnresolvedModes modes_;
-  std::vector<std::pair<Index, double>> changes_;  ///< stops that close or open in the step, and their speed errors
+  std::vector<std::pair<Index, double>>
+      changes_;  ///< stops that change or stay closed in the step, and their speed errors
 };
 
 }  // namespace butee::integrators

@@ -29,9 +29,9 @@ class ContactGaps {
     const double before = closed_side(stop, from);
     return before != closed_side(stop, to) || (before == 0.0 && excess > 0.0);
   }
-  /// The stop is closed on the same side at both displacements.
+  /// The stop is closed on the same side at both displacements, or always.
   bool stays_closed(Index stop, double from, double to) const {
-    return (from > upper_[stop] && to > upper_[stop]) || (from < lower_[stop] && to < lower_[stop]);
+    return is_spring(stop) || (from > upper_[stop] && to > upper_[stop]) || (from < lower_[stop] && to < lower_[stop]);
   }
   /// Bounds of |w| over a step from w to w_end, only on the sides on which a stop acts. `bump`
   /// bounds the departure from the straight line between the ends, m.

@@ -108,6 +108,14 @@ inline double change_error(double stiff, double speed, double h, ContactScale sc
   return speed > 0.0 ? kOfChange * stiff * stiff * speed / (h * scale.speed) : 0.0;
 }
 
+/// The error of h times the speed, divided by sigma^2 and the quartic coefficient, if the stop stays closed: at most
+/// 3.03e-3 up to sigma = 10 at any phase of the motion (plugins/exponential/constants.py).
+inline constexpr double kOfClosed = 3.1e-3;
+/// Indicator 9: the speed error, relative to the speed scale, of a step in which a stop stays closed.
+inline double closed_error(double quartic, double stiff, double h, ContactScale scale) {
+  return quartic != 0.0 ? kOfClosed * stiff * stiff * std::abs(quartic) / (h * scale.speed) : 0.0;
+}
+
 /// Uncertainty of a path as a fraction of its quartic coefficient.
 inline constexpr double kPathError = 0.1;
 

@@ -14,7 +14,7 @@ using time::StepStatus;
 constexpr Index kCount = StepNodes::kCount;
 /// The estimate falls with h^11, as the local error of a method of order 10.
 constexpr LocalErrorControl::Orders kOrders = {
-    .estimate = 11.0, .method = 10.0, .constant = 1.0, .contact_change = 1.0};
+    .estimate = 11.0, .method = 10.0, .constant = 1.0, .contact_change = 1.0, .is_linear_part_exact = true};
 /// Sweeps end if they change velocities by less than this fraction of the allowed error of the
 /// step.
 constexpr double kSettled = 0.05;

@@ -191,6 +191,9 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
       if (changes(path, w, end[0])) {
         tried_.change = change_error(stiff, std::max(std::abs(hv), std::abs(end[1])), flow.h, reached);
         error = std::max(error, tried_.change / accounts_.allowed(0, tried_.t_end) * goal_.middle * scale);
+      } else if (status == ContactStatus::closed) {
+        tried_.change = closed_error(quartic, stiff, flow.h, reached);
+        error = std::max(error, tried_.change / accounts_.allowed_closed(0, tried_.t_end) * goal_.middle * scale);
       }
     } else if (const double depth = beyond(path) + kPathError * std::abs(quartic); depth > 0.0) {
       error = std::max(error, missed_contact_error(goal_, stiff * depth, flow.h, scale_.speed) * scale);

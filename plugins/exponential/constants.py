@@ -330,6 +330,7 @@ def changes_of_contact():
     compare("kOfChange: largest speed error/sigma^2, sigma <= 3", constant("kOfChange"), of_change, ">=", 1.1)
     print("The same closed throughout, any phase: sigma, largest speed error/(sigma^2 largest |b|), "
           "kOfSpeedClosed over it")
+    of_closed = 0.0
     for sigma in (0.1, 0.3, 1.0, 3.0, 10.0):
         fast, worst = np.sqrt(sigma), np.zeros(2)
         for phase in np.linspace(0.0, np.pi, 61):
@@ -337,6 +338,8 @@ def changes_of_contact():
             worst = np.maximum(worst, (abs(speed + fast * np.sin(phase + fast)), bulge))
         ratio = worst[0] / (sigma ** 2 * worst[1])
         note("  ", sigma, ratio, constant("kOfSpeedClosed") / ratio)
+        of_closed = max(of_closed, ratio)
+    compare("kOfClosed: largest of these", constant("kOfClosed"), of_closed, ">=", 1.1)
 
 
 def quartic_path(w0, d0, w1, d1, wm, s):
