@@ -150,7 +150,10 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
 }
 
 void FirstChange::consider(const Function& function, double s, double until, double t, bool wait, Watch& watch) const {
-  const auto& [g, noise, third, fourth, to, per_displacement] = function;
+  const Jet& g = function.g;
+  const std::array<double, 4>& noise = function.noise;
+  const double third = function.third, fourth = function.fourth, per_displacement = function.per_displacement;
+  const StopStatus to = function.to;
   // A change was located to the rounding error of the previous contact state, which may be far larger: a light body on
   // a soft spring under a load has a static displacement of many gaps where it is free.
   const bool is_on_border =
