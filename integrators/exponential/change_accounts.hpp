@@ -23,7 +23,7 @@ inline Goal account_goal(const StepGoal& goal, double lowest_frequency) {
 ///
 /// The errors of the changes of one stop may add up in the same sense: each impact at a given step
 /// size takes a little energy. Those of different stops act on different parts of the structure.
-/// The accounts are a part of the state. Checked in tests/models/exponential_test.cpp.
+/// The accounts are a part of the state. Checked in tests/models/exponential_long_runs_test.cpp.
 class ChangeAccounts {
  public:
   ChangeAccounts(const Goal& goal, Index stops) : account_(goal), spent_(Eigen::ArrayXd::Zero(stops)) {}

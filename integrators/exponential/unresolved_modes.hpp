@@ -24,7 +24,7 @@ inline double unreceived_part(double square) {
 /// the velocity of a component is the missing phase times the amplitude of the mode there. The sum of these errors is
 /// limited by an ErrorAccount. Only stops count that were closed at the start of this macro step and of the last one:
 /// impacts are shorter. The account, the largest velocities so far and the stops that were closed are a part of the
-/// state. Checked in tests/models/exponential_test.cpp.
+/// state. Checked in tests/models/exponential_long_runs_test.cpp.
 class UnresolvedModes {
  public:
   /// All must outlive it.
