@@ -127,13 +127,13 @@ TEST_P(Tolerance, DoesNotFeelTheRoundingOfInstantsInAPulse) {
 /// L-stable method that kept them would go to the static displacement, and its estimate would agree. With a ramp from T
 /// to T + r of a force F: x = F/k (1 - (sin(omega (t - T)) - sin(omega (t - T - r)))/(omega r)).
 TEST_P(Tolerance, SeesAVibrationThatALoadStarts) {
-  constexpr double kStiffness = 1e8, kForce = 10.0, kStart = 1.0, kRamp = 1e-6, kTolerance = 1e-3;
+  constexpr double kStiffness = 1e8, kForce = 10.0, kStart = 1.0, kRamp = 1e-6, kTolerance = 4e-3;
   const double omega = std::sqrt(kStiffness);
   SceneRun run(
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
       "\"m\"\nstiffness = 1e8\n[[load]]\ntype = \"ramp\"\nnode = \"m\"\nto = 10.0\nstart = 1.0\nend = "
       "1.000001\n[integrator]\ntype = \"" +
-      GetParam() + "\"\nend_time = 1.01\ntolerance = 1e-3\n");
+      GetParam() + "\"\nend_time = 1.2\ntolerance = 4e-3\n");
   std::vector<double> times;
   for (int i = 1; i <= 1000; ++i) times.push_back(kStart + 1e-5 * i);
   Sampler sampler(run.dof("m"), times);
