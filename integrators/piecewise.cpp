@@ -1,5 +1,9 @@
 #include "integrators/piecewise.hpp"
 
+#include <string>
+
+#include <butee/core/error.hpp>
+
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -34,7 +38,11 @@ time::IntegratorType piecewise_type() {
       .finds_first_step = true,
       .contacts = time::ContactSupport::without_memory,
       .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-        return std::make_unique<Piecewise>(dynamics, p.number("end_time"));
+        try {
+          return std::make_unique<Piecewise>(dynamics, p.number("end_time"));
+        } catch (const RunError& error) {  // the state with all stops open has no modes
+          throw InputError("integrator.type: " + std::string(error.what()));
+        }
       },
       .check =
           [](const config::Parameters& p, config::Diagnostics& diagnostics) {

@@ -30,6 +30,15 @@ TEST(Piecewise, RefusesOtherScenesBeforeTheFirstStep) {
             std::string::npos);
   EXPECT_NE(message_of(scene, {"contact[0].damping={type=\"hunt_crossley\",factor=0.1}"}).find("Kelvin-Voigt"),
             std::string::npos);
+  // (s^2 + s + 1.25)(s^2 + 1) - 0.25 = (s^2 + s/2 + 1)^2: two masses whose motions coincide.
+  EXPECT_NE(message_of("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = "
+                       "\"mass\"\nname = \"b\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", "
+                       "\"b\"]\nstiffness = 0.5\n[[element]]\ntype = \"spring\"\nnode = \"a\"\nstiffness = "
+                       "0.75\ndamping = 1.0\n[[element]]\ntype = \"spring\"\nnode = \"b\"\nstiffness = 0.5\n"
+                       "[integrator]\ntype = \"piecewise\"\nend_time = 1.0\n",
+                       {})
+                .find("critical damping"),
+            std::string::npos);
 }
 
 /// x'' + omega^2 x = f cos(omega t) from rest is f t sin(omega t)/(2 omega). So close to resonance, the usual
