@@ -111,6 +111,7 @@ Trial ExponentialStep::attempt(ContactPropagator& flow, double t_end) {
   step_.t_end = t_end;
   step_.h = flow.h();
   step_.carried.clear();
+  step_.crossing.clear();
   while (true)
     if (const std::optional<Trial> trial = attempt(flow)) return *trial;
 }
@@ -135,6 +136,8 @@ std::optional<Trial> ExponentialStep::attempt(ContactPropagator& flow) {
     if (!(error_ <= goal_.middle * *displacement)) return Trial::too_long;
     iteration_.complete_paths(flow);
     if (bounds_.find_carried(iteration_.paths().start_speed(), iteration_.paths().motion(), step_)) return std::nullopt;
+    if (errors_.any() && jumps_.find_moved(flow, errors_, residual_.forces(), iteration_.paths(), step_))
+      return std::nullopt;
     iteration_.apply(flow, step_);
   }
   if (errors_.any() && step_.breakpoint > 0.0)
@@ -154,7 +157,7 @@ void ExponentialStep::choose_stops(ContactPropagator& flow) {
   for (Index i = 0; i < modal_.stop_count(); ++i) {
     const bool is_near = bounds_.is_near(i);
     step_.is_near = step_.is_near || is_near;
-    if (is_near || (has_residual && !errors_.is_constant(flow, i)))
+    if (is_near || (has_residual && (step_.is_crossing(i) || !errors_.is_constant(flow, i))))
       step_.iterated.push_back(i);
     else if (has_residual)
       step_.constant.push_back(i);

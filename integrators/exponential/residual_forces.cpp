@@ -118,6 +118,27 @@ bool ResidualJumps::find(ContactPropagator& flow, const ResidualErrors& errors, 
   return !stops_.empty();
 }
 
+bool ResidualJumps::find_moved(ContactPropagator& flow, const ResidualErrors& errors, const Vector& constants,
+                               const ContactPaths& paths, TriedStep& step) const {
+  const double steps = errors.steps(), most = errors.allowed();
+  const std::size_t before = step.crossing.size();
+  for (const Index i : step.constant) {
+    const double allowed = most * errors.shares()[i], compliance = std::abs(flow.mobilities()[i]) * steps;
+    if (errors.force(i).largest() * compliance <= allowed) continue;
+    const auto place = std::find(stops_.begin(), stops_.end(), i);
+    const ContactPath path = paths.of(i);
+    const bool is_jump = place != stops_.end();
+    if (!is_jump && (path.lowest() > 0.0 || path.highest() < 0.0)) continue;
+    const ForceMoments now = contacts_[static_cast<std::size_t>(i)].residual_moments(path);
+    const ForceMoments taken =
+        is_jump ? moments_[static_cast<std::size_t>(place - stops_.begin())] : ForceMoments{constants[i], 0.0, 0.0};
+    double off = 0.0;
+    for (std::size_t k = 0; k < kForceMoments; ++k) off += std::abs(now[k] - taken[k]);
+    if (off * compliance > allowed) step.crossing.push_back(i);
+  }
+  return step.crossing.size() > before;
+}
+
 void ResidualJumps::add(ContactPropagator& flow, const Vector& constants, TriedStep& step) {
   moments_.clear();
   quartics_.clear();

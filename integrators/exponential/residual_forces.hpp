@@ -5,6 +5,7 @@
 
 #include "integrators/exponential/contact_force.hpp"
 #include "integrators/exponential/contact_gaps.hpp"
+#include "integrators/exponential/contact_paths.hpp"
 #include "integrators/exponential/contact_scales.hpp"
 #include "integrators/exponential/residual_force.hpp"
 
@@ -96,6 +97,12 @@ class ResidualJumps {
   /// Adds the moments of their forces minus the `constants`, which the step already contains; the
   /// middle of the step must be known.
   void add(dynamics::ContactPropagator& flow, const Vector& constants, TriedStep& step);
+
+  /// Finds the stops among step.constant whose moments differ by more than the bound on `paths`,
+  /// which include the forces of the iterated stops, and adds them to step.crossing. True if there
+  /// are any.
+  bool find_moved(dynamics::ContactPropagator& flow, const ResidualErrors& errors, const Vector& constants,
+                  const ContactPaths& paths, TriedStep& step) const;
 
   const std::vector<Index>& stops() const { return stops_; }
   const ForceMoments& moments(std::size_t place) const { return moments_[place]; }

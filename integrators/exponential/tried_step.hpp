@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "butee/dynamics/modal_system.hpp"
@@ -36,8 +37,13 @@ struct TriedStep {
   std::vector<Index> iterated;
   /// The stops among `iterated` that reach their gaps only by the forces of other stops.
   std::vector<Index> carried;
+  /// The stops among `iterated` whose residual force jumps at another time, or only, because of the
+  /// forces of other stops.
+  std::vector<Index> crossing;
   /// If there are residual forces: all other stops, whose residual forces are constant.
   std::vector<Index> constant;
+
+  bool is_crossing(Index stop) const { return std::find(crossing.begin(), crossing.end(), stop) != crossing.end(); }
 
   /// Adds the response to a modal force with time function P_k to the end of the step.
   void add_to_end(const dynamics::ModalPropagator& whole, int k, const Eigen::ArrayXd& force) {

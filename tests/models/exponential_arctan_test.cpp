@@ -234,5 +234,32 @@ TEST(Exponential, ShowsTheBendOfTheLawInOutputs) {
   }
 }
 
+/// A stop with a nearly constant force carries a mass to and fro across the middle of another stop's gap, where the
+/// force of that one jumps. Without the first force the mass would pass the middle elsewhere or not at all, and an
+/// earlier version let the jump happen there (700 tolerances).
+TEST(Exponential, LetsAForceJumpWhereOtherStopsLeadTheMotion) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = "
+      "\"m\"\nsides = \"negative\"\ngap = 3e-3\nstiffness = 5e6\nlaw = \"arctan\"\nregularization = 600.0\n"
+      "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.02\nstiffness = 8e6\nlaw = \"arctan\"\n"
+      "regularization = 2.5e5\n[[load]]\nnode = \"m\"\ntype = \"constant\"\nvalue = 300.0\n[initial]\n"
+      "velocity = [{ nodes = \"m\", value = 0.5 }]\n[integrator]\nend_time = 0.1\n";
+  std::vector<double> times;
+  for (int i = 1; i <= 200; ++i) times.push_back(0.1 * i / 200.0);
+  const auto course = [&](const std::vector<std::string>& settings) {
+    SceneRun run(scene, settings);
+    Sampler sampler(run.dof("m"), times);
+    run.simulation().add(sampler);
+    EXPECT_TRUE(run.run().completed);
+    return sampler.x;
+  };
+  const std::vector<double> exact = course({"integrator.type=exact"});
+  for (const double tolerance : {1e-4, 1e-6, 1e-7})
+    EXPECT_LE(
+        relative_rms(course({"integrator.type=exponential", "integrator.tolerance=" + to_text(tolerance)}), exact),
+        10.0 * tolerance)
+        << tolerance;
+}
+
 }  // namespace
 }  // namespace butee::test::exponential_arctan_test
