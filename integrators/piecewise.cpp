@@ -20,9 +20,7 @@ void Piecewise::do_start(time::State& state) {
 }
 
 StepReport Piecewise::do_step(const time::State& from, const time::Step& step, time::State& to) {
-  const std::int64_t looks = motion_.looks();
   motion_.follow(from, step);
-  dynamics().counters().law_evaluations += motion_.looks() - looks;
   motion_.write_end(to);
   StepReport report;
   report.inner_steps = motion_.piece_count();

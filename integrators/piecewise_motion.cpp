@@ -22,7 +22,8 @@ constexpr std::size_t kMostBreakpoints = 100000;
 }  // namespace
 
 PiecewiseMotion::PiecewiseMotion(dynamics::Dynamics& dynamics, double end_time)
-    : system_(dynamics),
+    : counters_(dynamics.counters()),
+      system_(dynamics),
       first_change_(system_),
       end_time_(end_time),
       discontinuities_(dynamics.load_discontinuities()),
@@ -67,6 +68,8 @@ void PiecewiseMotion::write_end(time::State& to) const {
 void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
   end_t_ = kNever;
   has_breakpoints_ = false;
+  from_x_ = from.x;
+  from_v_ = from.v;
   from_memory_ = from.memory;
   begins_.clear();
   begin_x_.clear();
@@ -92,8 +95,10 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
     const ContactStateFlow& flow = *flow_;
     const double landing = std::min(step.t_end, next_discontinuity(t)), rest = landing - t,
                  until = std::min(rest, flow.longest());
+    const std::int64_t looks = first_change_.looks();
     const auto found =
         first_change_.find(flow, piece_, status_, until, changed_, at_once > kMostAtOnce * (status_.size() + 1));
+    counters_.law_evaluations += first_change_.looks() - looks;
     const double t_next = found.s < rest ? std::min(t + found.s, landing) : landing;
     const bool has_passed = t_next > t;
     if (has_passed) {
@@ -109,6 +114,7 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
     if (found.change) status_[static_cast<std::size_t>(found.change->stop)] = found.change->to;
     t = t_next;
     if (has_passed && (t >= step.t_end || begins_.size() == kMostPieces || step.single)) break;
+    if (found.s == 0.0) continue;  // x_ and v_ are exact
     for (std::size_t i = 0; i < x_.size(); ++i) {
       const Jet jet = flow.dof(piece_, static_cast<Index>(i));
       x_[i] = jet[0];
@@ -164,9 +170,9 @@ double PiecewiseMotion::next_discontinuity(double t) const {
 }
 
 void PiecewiseMotion::recall(const time::State& from, const time::State& to) {
-  const bool holds = to.t == end_t_ && !begins_.empty() && begins_.front() == from.t &&
-                     std::equal(from.x.begin(), from.x.end(), begin_x_.begin()) &&
-                     std::equal(from.v.begin(), from.v.end(), begin_v_.begin()) && from.memory == from_memory_;
+  // The first piece may begin within rounding of `from`: stops may have changed at its instant.
+  const bool holds = to.t == end_t_ && !begins_.empty() && begins_.front() == from.t && from.x == from_x_ &&
+                     from.v == from_v_ && from.memory == from_memory_;
   if (!holds) follow(from, {to.t - from.t, to.t});
 }
 

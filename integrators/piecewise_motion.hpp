@@ -45,8 +45,6 @@ class PiecewiseMotion final : public time::Interpolant {
   Vector derivative_by_loads(const time::State& from, const time::State& to);
 
   std::int64_t states_made() const { return states_made_; }
-  /// Evaluations of gaps in the search for changes so far.
-  std::int64_t looks() const { return first_change_.looks(); }
 
  private:
   /// So many states are kept; the one not used for the longest time goes.
@@ -77,6 +75,7 @@ class PiecewiseMotion final : public time::Interpolant {
   Vector jump_of(Index stop) const;
   double next_discontinuity(double t) const;
 
+  linalg::Counters& counters_;
   SmallSystem system_;
   FirstChange first_change_;
   double end_time_;
@@ -97,7 +96,7 @@ class PiecewiseMotion final : public time::Interpolant {
   std::vector<double> begins_, begin_x_, begin_v_;
   std::vector<StopStatus> begin_status_;
   double end_t_ = std::numeric_limits<double>::quiet_NaN();
-  Vector from_memory_;
+  Vector from_x_, from_v_, from_memory_;
   std::vector<double> breakpoints_;
   bool has_breakpoints_ = false;
 };

@@ -192,6 +192,33 @@ TEST(Piecewise, KeepsTheSpeedOfLightBodiesUnderALoad) {
     EXPECT_NEAR(impacts[i].impact_speed, wanted[i].impact_speed, 1e-9 * wanted[i].impact_speed) << i;
 }
 
+/// A body of 13 mg between two stops of unlike stiffness that both touch it, at rest under a load: it changes from one
+/// stop to the other at one place, also at the first instant. Outputs follow no step a second time.
+TEST(Piecewise, ChangesFromOneStopToAnotherAtOnePlace) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m0\"\nmass = 0.6209571352177292\n[[element]]\ntype = "
+      "\"spring\"\nnode = \"m0\"\nstiffness = 3891.3402048809926\n[[element]]\ntype = \"mass\"\nname = \"m1\"\nmass = "
+      "1.2870843983115148e-05\n[[element]]\ntype = \"spring\"\nnodes = [\"m0\", \"m1\"]\nstiffness = "
+      "46.93078642218467\n[[contact]]\ntype = \"stop\"\nnodes = \"m1\"\ngap = 0.0\nstiffness = "
+      "1968967.0651463151\nsides = \"negative\"\nlaw = \"linear\"\n[[contact]]\ntype = \"stop\"\nnodes = \"m1\"\ngap = "
+      "0.0\nstiffness = 59877.421419501545\nsides = \"positive\"\nlaw = \"linear\"\n[[load]]\nnode = \"m1\"\ntype = "
+      "\"unbalance\"\nmoment = 0.0034773535837518145\nspeed = 74.60147925767838\nphase = "
+      "4.088946566772782\n[damping]\nstiffness_proportional = 1.6651104583916507e-06\n[integrator]\nend_time = 2e-2\n";
+  SceneRun ours(scene, {"integrator.type=piecewise"}), reference(scene, {"integrator.type=exact"});
+  record::ImpactRecorder found(ours.dynamics()), expected(reference.dynamics());
+  ours.simulation().add(found);
+  reference.simulation().add(expected);
+  ASSERT_TRUE(ours.run().completed) << ours.simulation().report().message;
+  ASSERT_TRUE(reference.run().completed);
+  const auto impacts = found.impacts(), wanted = expected.impacts();
+  ASSERT_EQ(impacts.size(), wanted.size());
+  ASSERT_GT(wanted.size(), 400U);
+  // Rounding of 0.3 m, where the body would rest without stops, in the instants of the changes.
+  for (std::size_t i = 1; i < wanted.size(); ++i)
+    EXPECT_NEAR(impacts[i].impact_speed, wanted[i].impact_speed, 1e-8 * wanted[i].impact_speed) << i;
+  EXPECT_LT(ours.dynamics().counters().law_evaluations, 100000);
+}
+
 /// A run with other step ends (other outputs), and one that resumes in the middle.
 TEST(Piecewise, GoesOnFromASnapshotToTheSameBits) {
   const std::string scene = one_mass(50.0);
