@@ -82,8 +82,8 @@ double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, d
     changes_.emplace_back(stop, closed);
     error = std::max(error, closed / accounts_.allowed_closed(stop, t_end) * goal_.middle * scale.displacement);
   } else {
-    const double by_slope = h * h * stiffness * known.unresolved * paths.largest_speed(stop) / (h * scale.speed);
-    error = std::max(error, by_slope * goal_.middle * scale.displacement / (kUnresolved * goal_.outputs));
+    error =
+        std::max(error, slope_error(goal_, h * h * stiffness * known.unresolved, paths.largest_speed(stop), h, scale));
     if (paths.changes(stop)) {
       const double change = change_error(stiffness * known.coupling[1][0], paths.largest_speed(stop), h, scale);
       changes_.emplace_back(stop, change);

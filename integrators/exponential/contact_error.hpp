@@ -43,10 +43,6 @@ class ContactError {
   }
 
  private:
-  /// Bound of the speed error due to the projection of the force, as a multiple of the error bound
-  /// of outputs.
-  static constexpr double kUnresolved = 1.0;
-
   double of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic, double displacement);
 
   const StepGoal& goal_;

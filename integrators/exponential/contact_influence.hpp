@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "integrators/exponential/contact_force.hpp"
@@ -8,18 +7,6 @@
 #include "integrators/exponential/error_indicators.hpp"
 
 namespace butee::integrators {
-
-/// Bound of |int_0^1 (F - P F) e^(i x s) ds| for a force F that is zero up to some position in the
-/// step and has slope 1 behind it, with its projection P F: the error of the impulse of a closing
-/// stop on a mode whose phase advances by x (rad) per step.
-inline double unresolved_part(double x) {
-  return std::min({7.5e-5 * x * x * x, 0.0172, 0.174 / x});
-}
-
-/// The same for a force that jumps by 1 at some position in the step.
-inline double unresolved_jump(double x) {
-  return std::min({5.21e-4 * x * x * x, 0.1433, 2.0 / x});
-}
 
 /// The influence of a stop's force on its own path, which depends on the step size only: the
 /// coupling matrix, the inverse of Newton's matrix for a closed stop, and the impulse error of the
@@ -47,21 +34,22 @@ class ContactInfluence {
   /// the phases of the modes are assumed independent.
   double hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop) const {
     const auto shape = modal_.stop_shapes().of(stop).array();
-    const auto angles = flow.h() * (modal_.frequencies().square() + 4.0 * modal_.decay().square()).sqrt();
-    const auto parts = shape.square() * angles.unaryExpr([](double x) { return unresolved_jump(x); });
+    const auto parts = shape.square() * angles(flow).unaryExpr([](double x) { return unresolved_jump(x); });
     return flow.h() * flow.h() * parts.matrix().norm();
   }
   const ContactNewton& newton(Index stop) const { return newton_[static_cast<std::size_t>(stop)]; }
 
  private:
+  /// The phase angles of the modes in a step, rad; damped modes count as if they turned as fast as they decay, n.
+  Eigen::ArrayXd angles(const dynamics::ContactPropagator& flow) const {
+    return flow.h() * (modal_.frequencies().square() + 4.0 * modal_.decay().square()).sqrt();
+  }
   const Known& find(dynamics::ContactPropagator& flow, Index stop) const {
     Known& known = flow.derived(stop);
     known.coupling = flow.own_coupling(stop);
     known.inverse = newton(stop).closed_inverse(known.coupling);
     const auto shape = modal_.stop_shapes().of(stop).array();
-    known.unresolved = (shape.square() * (flow.h() * modal_.frequencies()).unaryExpr([](double x) {
-                         return unresolved_part(x);
-                       })).sum();
+    known.unresolved = (shape.square() * angles(flow).unaryExpr([](double x) { return unresolved_part(x); })).sum();
     known.is_known = true;
     return known;
   }

@@ -108,6 +108,25 @@ inline double change_error(double stiff, double speed, double h, ContactScale sc
   return speed > 0.0 ? kOfChange * stiff * stiff * speed / (h * scale.speed) : 0.0;
 }
 
+/// Bound of |int_0^1 (F - P F) e^(i x s) ds| for a force F that is zero up to some position in the
+/// step and has slope 1 behind it, with its projection P F: the error of the impulse of a closing
+/// stop on a mode whose phase advances by x (rad) per step.
+inline double unresolved_part(double x) {
+  return std::min({7.5e-5 * x * x * x, 0.0172, 0.174 / x});
+}
+/// The same for a force that jumps by 1 at some position in the step.
+inline double unresolved_jump(double x) {
+  return std::min({5.21e-4 * x * x * x, 0.1433, 2.0 / x});
+}
+/// Bound of the speed error due to the projection of the force, as a multiple of the error bound of outputs.
+inline constexpr double kUnresolved = 1.0;
+/// Indicator 4: the error of a stop that is not closed throughout the step, as a displacement, m. `unresolved` is h^2 k
+/// times the sum of phi^2 unresolved_part(), and `speed` the largest h w' in the step, m.
+inline double slope_error(const StepGoal& goal, double unresolved, double speed, double h, ContactScale scale) {
+  const double of_speed = unresolved * speed / (h * scale.speed);
+  return of_speed * goal.middle * scale.displacement / (kUnresolved * goal.outputs);
+}
+
 /// The error of h times the speed, divided by sigma^2 and the quartic coefficient, if the stop stays closed: at most
 /// 3.03e-3 up to sigma = 10 at any phase of the motion (plugins/exponential/constants.py).
 inline constexpr double kOfClosed = 3.1e-3;

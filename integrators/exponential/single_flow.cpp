@@ -1,5 +1,7 @@
 #include "integrators/exponential/single_flow.hpp"
 
+#include "integrators/exponential/error_indicators.hpp"
+
 namespace butee::integrators {
 
 void SingleFlows::fill(dynamics::ContactPropagator& from, SingleFlow& flow) const {
@@ -20,6 +22,8 @@ void SingleFlows::fill(dynamics::ContactPropagator& from, SingleFlow& flow) cons
   }
   flow.coupling = from.own_coupling(0);
   flow.closed_inverse = newton_.closed_inverse(flow.coupling);
+  const double rate = std::sqrt(mode_.square + 4.0 * mode_.decay * mode_.decay);
+  flow.unresolved = flow.h * flow.h * mode_.stop_shape * mode_.stop_shape * unresolved_part(flow.h * rate);
   flow.harmonics.clear();
   for (std::size_t j = 0; j < mode_.harmonics.size(); ++j) {
     const double angle = mode_.harmonics[j].angular_frequency * flow.h;

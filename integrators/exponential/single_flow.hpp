@@ -17,6 +17,7 @@ struct SingleFlow {
   std::array<double, 3> force_q, force_v;
   PathCoupling coupling;
   ContactNewton::Matrix closed_inverse;
+  double unresolved;  ///< h^2 times the stop's shape squared times unresolved_part()
   struct Harmonic {
     std::array<double, 6> load;  ///< response of q, v and half_q to its cosine and its sine
     Phase turn;                  ///< phase angle of the load over the step

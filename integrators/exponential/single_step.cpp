@@ -187,9 +187,12 @@ Trial SingleStep::iterate(const SingleFlow& flow, double w, double hv) {
     if (change > kRoundingChange * scale && next > enough) continue;
     double error = std::abs(quartic);
     if (force[0] != 0.0) {
+      const double speed = std::max(std::abs(hv), std::abs(end[1]));
       error = path_error(error, stiff, flow.h, reached, status == ContactStatus::closed);
+      if (status != ContactStatus::closed)
+        error = std::max(error, slope_error(goal_, contact_.stiffness() * flow.unresolved, speed, flow.h, reached));
       if (changes(path, w, end[0])) {
-        tried_.change = change_error(stiff, std::max(std::abs(hv), std::abs(end[1])), flow.h, reached);
+        tried_.change = change_error(stiff, speed, flow.h, reached);
         error = std::max(error, tried_.change / accounts_.allowed(0, tried_.t_end) * goal_.middle * scale);
       } else if (status == ContactStatus::closed) {
         tried_.change = closed_error(quartic, stiff, flow.h, reached);
