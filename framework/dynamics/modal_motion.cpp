@@ -14,6 +14,10 @@ using Eigen::ArrayXd;
 /// A mode is in resonance if |omega^2 - Omega^2 + 2 i delta Omega| over omega^2 + Omega^2 is below
 /// this.
 constexpr double kResonance = 1e-7;
+/// A harmonic load that turns by less than this in a step, in rad, is a parabola to rounding: its third derivative
+/// changes it by 1e-15. The steady-state response, of which the motion within a short step is a small difference, would
+/// lose digits by 1/angle^2.
+constexpr double kParabola = 2e-5;
 /// An oscillation is too near to critical damping for its closed form if (omega_d/omega)^2 is below
 /// this.
 constexpr double kCritical = 1e-2;
@@ -43,8 +47,11 @@ struct ModalMotion::Parts {
   Parts(const ArrayXd& omega, const ArrayXd& delta, const std::vector<ModalHarmonic>& harmonics,
         const std::vector<ModalSystem::OtherLoad>& other_loads);
   kernel::ModesInMotion modes();
+  /// The load is taken as a parabola in this step.
+  bool is_parabola(const ModalHarmonic& load) const { return load.angular_frequency * h_ < kParabola; }
   std::span<const kernel::KeptUp> kept_at(double t);
   void begin(double t, double h, const double* q, const double* v, const double* const* moments);
+  void add_parabolas();
   void add_other_loads();
   void add_force(Eigen::Ref<const Eigen::VectorXd> shape, const std::array<double, 3>& f, double part);
   void find(double part);
@@ -172,8 +179,9 @@ kernel::ModesInMotion ModalMotion::Parts::modes() {
 
 std::span<const kernel::KeptUp> ModalMotion::Parts::kept_at(double t) {
   kept_up_.clear();
-  for (const Kept& kept : kept_) {
-    if (kept.angular_frequency == 0.0) continue;
+  for (std::size_t j = 0; j < kept_.size(); ++j) {
+    if (is_parabola(harmonics_[j])) continue;
+    const Kept& kept = kept_[j];
     const double angle = kept.angular_frequency * t;
     kept_up_.push_back(
         {kept.angular_frequency, kept.cosine.data(), kept.sine.data(), std::cos(angle), std::sin(angle)});
@@ -189,14 +197,27 @@ void ModalMotion::Parts::begin(double t, double h, const double* q, const double
   if (has_force_)
     for (ArrayXd& power : force_) power.setZero();
   has_force_ = moments != nullptr || !other_loads_.empty();
-  for (const ModalHarmonic& load : harmonics_) {
-    if (load.angular_frequency != 0.0) continue;
-    has_force_ = true;
-    force_[0].head(omega_.size()) += load.cosine;
-  }
+  add_parabolas();
   add_other_loads();
   kernel::modal_motion().lead(modes(), moments, 1.0 / h);
   is_led_ = true;
+}
+
+void ModalMotion::Parts::add_parabolas() {
+  const Index n = omega_.size();
+  for (const ModalHarmonic& load : harmonics_) {
+    if (!is_parabola(load)) continue;
+    has_force_ = true;
+    const double turn = load.angular_frequency;
+    if (turn == 0.0) {
+      force_[0].head(n) += load.cosine;
+      continue;
+    }
+    const double c = std::cos(turn * t_), s = std::sin(turn * t_);
+    force_[0].head(n) += c * load.cosine + s * load.sine;
+    force_[1].head(n) += turn * (c * load.sine - s * load.cosine);
+    force_[2].head(n) -= 0.5 * turn * turn * (c * load.cosine + s * load.sine);
+  }
 }
 
 void ModalMotion::Parts::add_other_loads() {
@@ -251,7 +272,7 @@ void ModalMotion::Parts::find_other(Index i, double tau) {
   for (std::size_t j = 0; j < kept_.size(); ++j) {
     const ModalHarmonic& load = harmonics_[j];
     const bool is_kept = kept_[j].cosine[i] != 0.0 || kept_[j].sine[i] != 0.0;
-    if (load.angular_frequency != 0.0 && !is_kept)
+    if (!is_parabola(load) && !is_kept)
       loads.push_back({load.angular_frequency, load.cosine.segment(i, 1), load.sine.segment(i, 1)});
   }
   ModalPropagator flow(of_omega, of_delta, loads, tau);
@@ -268,7 +289,9 @@ void ModalMotion::Parts::find_other(Index i, double tau) {
     q += c * flow.harmonic_q(j, 0)[0] - s * flow.harmonic_q(j, 1)[0];
     v += c * flow.harmonic_v(j, 0)[0] - s * flow.harmonic_v(j, 1)[0];
   }
-  for (const Kept& kept : kept_) {
+  for (std::size_t j = 0; j < kept_.size(); ++j) {
+    if (is_parabola(harmonics_[j])) continue;
+    const Kept& kept = kept_[j];
     const double angle = kept.angular_frequency * (t_ + tau), c = std::cos(angle), s = std::sin(angle);
     q += c * kept.cosine[i] + s * kept.sine[i];
     v += kept.angular_frequency * (c * kept.sine[i] - s * kept.cosine[i]);

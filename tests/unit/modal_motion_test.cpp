@@ -88,6 +88,29 @@ TEST(ModalMotion, AgreesWithTheFlowOverTheSameTimeForEveryInstructionSet) {
   choose_target(chosen);
 }
 
+/// From rest, in a step that is far shorter than the periods of modes and loads: x = f t^2/2 and v = f t, where the
+/// steady-state response to the loads is 1e16 times larger.
+TEST(ModalMotion, KeepsDigitsInShortSteps) {
+  const Modes modes;
+  ModalMotion motion(modes.omega, modes.delta, modes.loads, modes.others);
+  const Vector rest = Vector::Zero(ModalMotion::padded(modes.omega.size()));
+  const double t = 0.31, h = 1e-9;
+  motion.begin(t, h, rest.data(), rest.data(), nullptr);
+  for (const double part : {0.3, 1.0}) {
+    motion.find(part);
+    for (Index i = 0; i < modes.omega.size(); ++i) {
+      double force = 0.0;
+      for (const ModalHarmonic& load : modes.loads)
+        force +=
+            load.cosine[i] * std::cos(load.angular_frequency * t) + load.sine[i] * std::sin(load.angular_frequency * t);
+      const double tau = part * h;
+      // The first terms left out are (omega t)^2/12 <= 8e-9, delta t <= 4e-7 and Omega t <= 5e-8.
+      EXPECT_NEAR(motion.q()[i], 0.5 * tau * tau * force, 1e-6 * tau * tau * std::abs(force)) << i << ", " << part;
+      EXPECT_NEAR(motion.v()[i], tau * force, 1e-6 * tau * std::abs(force)) << i << ", " << part;
+    }
+  }
+}
+
 TEST(ModalMotion, ForcesOfTheWholeStepHoldWithinIt) {
   // f = 2 s - 1 and 6 s^2 - 6 s + 1 on a rigid mass from rest, in closed form.
   const ArrayXd zero = ArrayXd::Zero(1);
