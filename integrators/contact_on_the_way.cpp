@@ -11,6 +11,10 @@ constexpr double kNegligibleImpulse = 0.1;
 /// Penetrations below this fraction of the displacement are rounding errors.
 constexpr double kRounding = 1e-13;
 
+/// The force of a regularised law bends up to this multiple of its transition width: the arctan law is 2 % of its
+/// asymptotic force away from it there.
+constexpr double kBend = 4.0;
+
 /// Upper bound of a motion through (w0, v0) and (w1, v1), a step of h apart, that rises at the
 /// start and falls at the end: the peak of the cubic plus its error. The error is estimated from
 /// the difference between the cubic's acceleration at the start and the true one, a0.
@@ -30,11 +34,12 @@ double peak(double h, double w0, double v0, double a0, double w1, double v1) {
 ContactOnTheWay::ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance)
     : contact_(&dynamics.stops()), tolerance_(tolerance) {
   w0_ = w1_ = v0_ = v1_ = a0_ = Vector::Zero(contact_->size());
-  jumps_ = w0_;
+  jumps_ = bends_ = w0_;
   closed_ = contact_->closed_stiffness();
   mass_ = dynamics.system().mass.diagonal();
   for (Index i = 0; i < contact_->size(); ++i) {
-    const double gap = contact_->play_of(i).gap;
+    const double gap = contact_->play_of(i).gap, width = contact_->law_of(i).transition_width();
+    if (std::isfinite(width)) bends_[i] = kBend * width;
     if (contact_->play_of(i).has_both()) jumps_[i] = 2.0 * std::abs(contact_->law_of(i).secant(-gap)) * gap;
   }
 }
@@ -46,8 +51,15 @@ double ContactOnTheWay::impulse_rate(Index stop, ConstVectorRef scale_v) const {
   return rate;
 }
 
-bool ContactOnTheWay::is_noticeable(Index stop, double h, ConstVectorRef scale_v) const {
-  return jumps_[stop] > 0.0 && jumps_[stop] * h * impulse_rate(stop, scale_v) > kNegligibleImpulse * tolerance_;
+bool ContactOnTheWay::is_noticeable(Index stop, double jump, double h, ConstVectorRef scale_v) const {
+  return jump > 0.0 && jump * h * impulse_rate(stop, scale_v) > kNegligibleImpulse * tolerance_;
+}
+
+bool ContactOnTheWay::has_left_bend(Index stop) const {
+  if (bends_[stop] == 0.0) return false;
+  const double g0 = std::abs(contact_->play_of(stop).penetration(w0_[stop])),
+               g1 = std::abs(contact_->play_of(stop).penetration(w1_[stop]));
+  return std::min(g0, g1) < bends_[stop] && std::max(g0, g1) > 2.0 * bends_[stop];
 }
 
 bool ContactOnTheWay::changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
@@ -57,7 +69,8 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to, do
   for (Index i = 0; i < w0_.size(); ++i) {
     const model::FreePlay& play = contact_->play_of(i);
     if (play.closed_side(w0_[i]) != play.closed_side(w1_[i])) return true;
-    if (has_passed_middle(i) && is_noticeable(i, h, scale_v)) return true;
+    if (has_passed_middle(i) && is_noticeable(i, jumps_[i], h, scale_v)) return true;
+    if (has_left_bend(i) && is_noticeable(i, contact_->law_of(i).asymptotic_force(), h, scale_v)) return true;
   }
   return false;
 }
@@ -109,7 +122,7 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
     if (depth > tolerance_ * size) return true;
     if (depth > kRounding * size && closed_[i] * depth * h * impulse_rate(i, scale_v) > kNegligibleImpulse * tolerance_)
       return true;
-    if (is_noticeable(i, h, scale_v) && depth_beyond(0.0) > tolerance_ * size) return true;
+    if (is_noticeable(i, jumps_[i], h, scale_v) && depth_beyond(0.0) > tolerance_ * size) return true;
   }
   return false;
 }

@@ -14,11 +14,13 @@ class ContactOnTheWay {
   /// `dynamics` must outlive it.
   ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance);
 
-  /// True if a stop is open at one end of the step and closed at the other, or if the force of a
-  /// stop with two sides jumped from one side to the other. Such a jump occurs at the middle of the
-  /// gap for laws that exert a force there, such as arctan with a lambda of a few gaps. Jumps J
-  /// whose impulse within the step, J h, is less than kNegligibleImpulse times tolerance times m
-  /// S_v (mass and velocity scale of the DOF) are ignored.
+  /// True if a stop is open at one end of the step and closed at the other, if the step begins or
+  /// ends in the bend of a regularised law and leads far beyond it, or if the force of a stop with
+  /// two sides jumped from one side to the other. Such a jump occurs at the middle of the gap for
+  /// laws that exert a force there, such as arctan with a lambda of a few gaps. Jumps J and bends
+  /// with an asymptotic force J whose impulse within the step, J h, is less than
+  /// kNegligibleImpulse times tolerance times m S_v (mass and velocity scale of the DOF) are
+  /// ignored.
   bool changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
   /// The largest such jump in the step, as the acceleration of its DOF over that DOF's velocity
   /// scale, 1/s; 0 if there is none. An error estimate misses a jump in the middle of a step, since
@@ -39,8 +41,11 @@ class ContactOnTheWay {
     return jumps_[stop] > 0.0 && w0_[stop] * w1_[stop] <= 0.0 && w0_[stop] != w1_[stop];
   }
 
-  /// True if the impulse of the jump of a stop within a step of h exceeds its bound.
-  bool is_noticeable(Index stop, double h, ConstVectorRef scale_v) const;
+  /// True if one end of the step is in the bend of a regularised law, and the other beyond it by more than its width.
+  bool has_left_bend(Index stop) const;
+
+  /// True if the impulse of a jump (N) of the force of a stop within a step of h exceeds its bound.
+  bool is_noticeable(Index stop, double jump, double h, ConstVectorRef scale_v) const;
 
   dynamics::ElasticStops* contact_;
   double tolerance_;
@@ -51,6 +56,7 @@ class ContactOnTheWay {
   Vector mass_;    ///< diagonal of the mass matrix
   Vector closed_;  ///< stiffness of closed stops, N/m
   Vector jumps_;   ///< jump of the force of each stop at the middle of its gap, N
+  Vector bends_;   ///< the penetrations up to which the force of a regularised law bends, m; 0: not at all
   Vector w0_, w1_, v0_, v1_, a0_;
 };
 

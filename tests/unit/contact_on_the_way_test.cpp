@@ -89,6 +89,18 @@ TEST(ContactOnTheWay, HasChangedWhereABluntLawJumpsAtTheMiddle) {
   }
 }
 
+/// The gap is the displacement at t = 1; a force of 0.1 N is reached 3e-7 m away from there.
+TEST(ContactOnTheWay, HasChangedWhereOneEndIsInTheBendOfALaw) {
+  SceneRun run(
+      mass_at_a_stop("positive", "type = \"rk4\"\ntime_step = 1e-3\n"),
+      {"contact[0].law=\"arctan\"", "contact[0].regularization=1e6", "contact[0].gap=" + to_text(std::sin(1.0))});
+  integrators::ContactOnTheWay contact(run.dynamics(), 1e-3), careless(run.dynamics(), 10.0);
+  EXPECT_TRUE(changed(contact, 0.5, 1.0));
+  EXPECT_FALSE(changed(careless, 0.5, 1.0));
+  EXPECT_FALSE(changed(contact, 0.5, 0.9));
+  EXPECT_FALSE(changed(contact, 1.0 - 1e-6, 1.0));  // a step that resolves the bend
+}
+
 TEST(ContactOnTheWay, KnowsOneSidedStops) {
   for (const auto& [sides, above, below] : {std::tuple{"positive", true, false}, std::tuple{"negative", false, true}}) {
     SceneRun run(mass_at_a_stop(sides, "type = \"exact\"\ntime_step = 1.0\n"));
