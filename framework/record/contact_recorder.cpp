@@ -5,13 +5,13 @@
 #include <numeric>
 #include <utility>
 
+#include "butee/record/bisection.hpp"
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/quadrature.hpp"
 
 namespace butee::record {
 namespace {
 
-constexpr int kBisections = 60;
 /// A force below this fraction of the peak is not adjacent to a larger maximum, with twelve
 /// instants in a step.
 constexpr double kNear = 0.9;
@@ -215,11 +215,7 @@ void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact
   if (!obstacles.is_live() && end == step.to.t && shortly_before > begin &&
       (at(step, shortly_before)[contact].penetration > 0.0) == watch.touches)
     begin = end;
-  for (int k = 0; k < kBisections; ++k) {
-    const double middle = 0.5 * (begin + end);
-    if (middle <= begin || middle >= end) break;
-    ((at(step, middle)[contact].penetration > 0.0) == watch.touches ? begin : end) = middle;
-  }
+  end = bisect(begin, end, [&](double t) { return (at(step, t)[contact].penetration > 0.0) == watch.touches; });
   watch.touches = !watch.touches;
   Impact& impact = watch.current;
   if (watch.touches) {

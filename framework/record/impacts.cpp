@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "butee/record/bisection.hpp"
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/quadrature.hpp"
 
 namespace butee::record {
-namespace {
-
-/// Number of halvings after which an interval is below the spacing of doubles.
-constexpr int kBisections = 60;
-
-}  // namespace
 
 void put_impact(const Impact& impact, ByteWriter& to) {
   to.put(impact.t_in);
@@ -119,12 +114,7 @@ void ImpactRecorder::follow_part(Watch& watch, const StepPath& path, const Point
 }
 
 Point ImpactRecorder::crossing(const Watch& watch, const StepPath& path, double begin, double end) const {
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = 0.5 * (begin + end);
-    if (middle <= begin || middle >= end) break;
-    ((watch.penetration(path.at(middle)) > 0.0) == watch.closed ? begin : end) = middle;
-  }
-  return path.at(end);
+  return path.at(bisect(begin, end, [&](double t) { return (watch.penetration(path.at(t)) > 0.0) == watch.closed; }));
 }
 
 void ImpactRecorder::accumulate(Watch& watch, const StepPath& path, const Point& from, const Point& to) {
