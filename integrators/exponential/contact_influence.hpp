@@ -14,7 +14,8 @@ namespace butee::integrators {
 class ContactInfluence {
  public:
   /// Both must outlive it.
-  ContactInfluence(const dynamics::ModalSystem& modal, const std::vector<ContactForce>& contacts) : modal_(modal) {
+  ContactInfluence(const dynamics::ModalSystem& modal, const std::vector<ContactForce>& contacts)
+      : modal_(modal), rates_((modal.frequencies().square() + 4.0 * modal.decay().square()).sqrt()) {
     for (const ContactForce& contact : contacts) {
       stiffness_.push_back(contact.stiffness());
       newton_.emplace_back(contact.stiffness());
@@ -34,27 +35,26 @@ class ContactInfluence {
   /// the phases of the modes are assumed independent.
   double hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop) const {
     const auto shape = modal_.stop_shapes().of(stop).array();
-    const auto parts = shape.square() * angles(flow).unaryExpr([](double x) { return unresolved_jump(x); });
+    const auto parts = shape.square() * (flow.h() * rates_).unaryExpr([](double x) { return unresolved_jump(x); });
     return flow.h() * flow.h() * parts.matrix().norm();
   }
   const ContactNewton& newton(Index stop) const { return newton_[static_cast<std::size_t>(stop)]; }
 
  private:
-  /// The phase angles of the modes in a step, rad; damped modes count as if they turned as fast as they decay, n.
-  Eigen::ArrayXd angles(const dynamics::ContactPropagator& flow) const {
-    return flow.h() * (modal_.frequencies().square() + 4.0 * modal_.decay().square()).sqrt();
-  }
   const Known& find(dynamics::ContactPropagator& flow, Index stop) const {
     Known& known = flow.derived(stop);
     known.coupling = flow.own_coupling(stop);
     known.inverse = newton(stop).closed_inverse(known.coupling);
     const auto shape = modal_.stop_shapes().of(stop).array();
-    known.unresolved = (shape.square() * angles(flow).unaryExpr([](double x) { return unresolved_part(x); })).sum();
+    known.unresolved =
+        (shape.square() * (flow.h() * rates_).unaryExpr([](double x) { return unresolved_part(x); })).sum();
     known.is_known = true;
     return known;
   }
 
   const dynamics::ModalSystem& modal_;
+  /// (omega^2 + 4 delta^2)^(1/2) of the modes, rad/s: damped modes count as if they turned as fast as they decay, n.
+  Eigen::ArrayXd rates_;
   std::vector<double> stiffness_;
   std::vector<ContactNewton> newton_;
 };
