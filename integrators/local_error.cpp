@@ -31,6 +31,11 @@ constexpr double kOfJump = 0.1;
 /// The departure of a motion in the middle of a step from the cubic through its ends, as a part of that of h^2 times
 /// the acceleration at the start: 12/384, as for contacts on the way.
 constexpr double kOfAcceleration = 1.0 / 32.0, kMostUnseen = 0.05;
+/// The displacement within a step, interpolated with a velocity of 1/h at one end: the maximum of s^2 (1 - s).
+constexpr double kOfSpeed = 4.0 / 27.0;
+/// A step in which the fastest motion passes more than this phase angle, rad, is stiff: the error of the solution falls
+/// no faster than the estimate there (order reduction), which may reach kMostStiff tolerances.
+constexpr double kStiff = 6.0, kMostStiff = 0.5;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -84,6 +89,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       scales_(dynamics.system()),
       discontinuities_(dynamics.load_discontinuities()),
       whole_(orders.share * std::pow(goal.tolerance, orders.estimate / orders.method)),
+      most_stiff_(kMostStiff * goal.tolerance),
       as_a_whole_(goal.as_a_whole || dynamics.size() > kLargest),
       scale_x_(dynamics.size()),
       scale_v_(dynamics.size()),
@@ -131,18 +137,19 @@ void LocalErrorControl::start(time::State& state) {
   scales_.raise(state.v, state.memory.segment(kScales + n, n));
 }
 
-double LocalErrorControl::relative_error(ConstVectorRef error_x, ConstVectorRef error_v) const {
+double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const {
   double largest = 0.0;
-  const auto look = [&largest](ConstVectorRef error, const Vector& scale) {
+  const auto look = [&largest](ConstVectorRef error, const Vector& scale, double factor) {
     for (Index i = 0; i < error.size(); ++i)
       if (error[i] != 0.0) {
-        const double part = std::abs(error[i]) / scale[i];
+        const double part = factor * std::abs(error[i]) / scale[i];
         if (!(part <= largest)) largest = part;
         if (std::isnan(largest)) return;
       }
   };
-  look(error_x, scale_x_);
-  if (!std::isnan(largest)) look(error_v, scale_v_);
+  look(error_x, scale_x_, 1.0);
+  if (!std::isnan(largest)) look(error_v, scale_v_, 1.0);
+  if (!std::isnan(largest)) look(error_v, scale_x_, kOfSpeed * h);
   return largest;
 }
 
@@ -184,9 +191,11 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   to.memory.segment(kNormX, 2) = from.memory.segment(kNormX, 2);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
-  const double smooth = as_a_whole_ ? whole_ : std::pow(account_.rate() * h / orders_.constant, power_),
-               earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
-  double epsilon = as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(error_x, error_v);
+  double smooth = as_a_whole_ ? whole_ : std::pow(account_.rate() * h / orders_.constant, power_);
+  if (!as_a_whole_ && h * rate_ > kStiff) smooth = std::min(smooth, most_stiff_);
+  const double earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
+  double epsilon =
+      as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(h, error_x, error_v);
   if (!as_a_whole_ && epsilon > smooth && rate_ > 0.0) {
     // At a start from rest errors are relative to the velocities that the accelerations cause within 1/rate_, or until
     // a load's slope jumps, and to a part of the displacements that these velocities cause within 1/rate_.
@@ -196,7 +205,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     scales_.raise(work_, scale_v_);
     work_ = (kFromRest / rate_) * scale_v_;
     scales_.raise(work_, scale_x_);
-    epsilon = relative_error(error_x, error_v);
+    epsilon = relative_error(h, error_x, error_v);
   }
   const bool has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to);
   double r = epsilon / smooth, charge = 0.0;

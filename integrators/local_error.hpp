@@ -103,7 +103,8 @@ class LocalErrorControl {
   /// True if a contact with a nonlinear law begins or ends at an end of the step. There its force
   /// varies with a fractional power of time, but the estimate assumes a smooth function.
   bool touches_anew(const time::State& from, const time::State& to) const;
-  double relative_error(ConstVectorRef error_x, ConstVectorRef error_v) const;
+  /// The errors of velocities count also as errors of displacements in outputs within the step.
+  double relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const;
   /// The departure in the middle from the cubic through the ends that the acceleration at the start indicates, relative
   /// to the displacement scales. If it is not small, the step is longer than a motion that begins with it, of which the
   /// estimates of L-stable methods show nothing.
@@ -131,6 +132,7 @@ class LocalErrorControl {
   ComponentScales scales_;
   std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s
   double whole_;                         ///< bound of epsilon for structures measured as a whole
+  double most_stiff_;                    ///< bound of epsilon for steps far longer than the fastest motion
   bool as_a_whole_;
   Vector scale_x_, scale_v_, work_;
 };

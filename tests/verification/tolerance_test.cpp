@@ -1,6 +1,11 @@
 // End error of methods with error control as a function of the tolerance, from 1e-2 to 1e-7 (order 2: 1e-6),
 // on a forced oscillator that strikes a stop repeatedly, compared with the method `exact`.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
+#include <functional>
+#include <utility>
 
 #include <butee/core/text.hpp>
 #include <gtest/gtest.h>
@@ -153,6 +158,61 @@ INSTANTIATE_TEST_SUITE_P(Methods, Tolerance,
                                          "generalized_alpha_adaptive", "hht_alpha_adaptive",
                                          "discrete_gradient_adaptive", "central_differences_adaptive"),
                          [](const auto& one) { return one.param; });
+
+/// The largest errors within steps of x and v of one DOF, relative to given scales.
+class WithinSteps final : public time::Observer {
+ public:
+  using Motion = std::function<std::array<double, 2>(double)>;
+  WithinSteps(Motion motion, std::array<double, 2> scales) : motion_(std::move(motion)), scales_(scales) {}
+  void step(const time::AcceptedStep& step) override {
+    constexpr Index kDof = 0;
+    for (int k = 1; k <= 8; ++k) {
+      const double t = step.from.t + k / 8.0 * (step.to.t - step.from.t);
+      double x = 0.0, v = 0.0;
+      step.motion.interpolate(t, {&kDof, 1}, {{&x, 1}, {&v, 1}, {}});
+      const auto [wanted_x, wanted_v] = motion_(t);
+      error = std::max({error, std::abs(x - wanted_x) / scales_[0], std::abs(v - wanted_v) / scales_[1]});
+    }
+  }
+
+  double error = 0.0;
+
+ private:
+  Motion motion_;
+  std::array<double, 2> scales_;
+};
+
+/// A stiff mass whose vibration decays, so that a load moves it quasi-statically in steps of many periods. There the
+/// error of a solution does not fall with a higher power of the step than the estimate (order reduction), and the error
+/// of a velocity, times the long step, is one of displacements in outputs.
+TEST(ToleranceOfStiffMotion, HoldsInLongSteps) {
+  constexpr double kMass = 0.111, kStiffness = 4.0e6, kDashpot = 54.4, kForce = 3000.0, kTurn = 26.7, kStart = 2.8e-3;
+  const double delta = 0.5 * kDashpot / kMass, fast = std::sqrt(kStiffness / kMass - delta * delta);
+  const std::complex<double> steady =
+      kForce / std::complex<double>(kStiffness - kMass * kTurn * kTurn, kDashpot * kTurn);
+  // x = Re(P e^(i Omega t)) + e^(-delta t) (a cos + b sin)
+  const double a = kStart - steady.real(), b = (delta * a + kTurn * steady.imag()) / fast;
+  const auto motion = [&](double t) {
+    const std::complex<double> forced = steady * std::polar(1.0, kTurn * t);
+    const double c = std::cos(fast * t), s = std::sin(fast * t), decay = std::exp(-delta * t);
+    return std::array<double, 2>{
+        forced.real() + decay * (a * c + b * s),
+        -kTurn * forced.imag() + decay * ((b * fast - delta * a) * c - (a * fast + delta * b) * s)};
+  };
+  for (const char* method : {"rodas4", "dopri5", "extrapolation8", "exponential"})
+    for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+      SceneRun run(
+          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 0.111\n[[element]]\ntype = "
+          "\"spring\"\nnode = \"m\"\nstiffness = 4e6\ndamping = 54.4\n[[load]]\ntype = \"harmonic\"\nnode = "
+          "\"m\"\namplitude = 3000.0\nangular_frequency = 26.7\n[initial]\ndisplacement = [{ nodes = \"m\", "
+          "value = 2.8e-3 }]\n[integrator]\nend_time = 0.2\n",
+          {std::string("integrator.type=") + method, "integrator.tolerance=" + to_text(tolerance)});
+      WithinSteps errors(motion, {kStart, kStart * fast});
+      run.simulation().add(errors);
+      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+      EXPECT_LE(errors.error, 10.0 * tolerance) << method << " " << tolerance;
+    }
+}
 
 TEST(ToleranceScene, StrikesItsStopAndMagnifiesLittle) {
   Index impacts = 0;
