@@ -36,6 +36,8 @@ constexpr double kOfSpeed = 4.0 / 27.0;
 /// A step in which the fastest motion passes more than this phase angle, rad, is stiff: the error of the solution falls
 /// no faster than the estimate there (order reduction), which may reach kMostStiff tolerances.
 constexpr double kStiff = 6.0, kMostStiff = 0.5;
+/// Friction jumps in a step that changes the slip by more than this multiple of the slip speed of a smooth law.
+constexpr double kReversal = 2.0;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -126,6 +128,19 @@ bool LocalErrorControl::touches_anew(const time::State& from, const time::State&
   return false;
 }
 
+bool LocalErrorControl::slip_reverses(const time::State& from, const time::State& to) const {
+  if (obstacles_ == nullptr) return false;
+  for (Index i = 0; i < obstacles_->size(); ++i) {
+    const model::Friction& friction = obstacles_->group_of(i).friction;
+    const bool is_smooth = friction.rule == model::Friction::Rule::tanh || friction.rule == model::Friction::Rule::sqrt;
+    if (!is_smooth || !obstacles_->phase(i).touches()) continue;
+    const double begin = obstacles_->forces(i, from.t, from.x, from.v).slip_speed,
+                 end = obstacles_->forces(i, to.t, to.x, to.v).slip_speed;
+    if (begin * end < 0.0 && std::abs(end - begin) > kReversal * friction.slip_speed) return true;
+  }
+  return false;
+}
+
 void LocalErrorControl::start(time::State& state) {
   const Index n = state.x.size();
   state.memory.head(memory_size(n)).setZero();
@@ -207,7 +222,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     scales_.raise(work_, scale_x_);
     epsilon = relative_error(h, error_x, error_v);
   }
-  const bool has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to);
+  const bool has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) || slip_reverses(from, to);
   double r = epsilon / smooth, charge = 0.0;
   if (as_a_whole_) {
     if (has_changed) r *= orders_.contact_change;

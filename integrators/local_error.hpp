@@ -103,6 +103,9 @@ class LocalErrorControl {
   /// True if a contact with a nonlinear law begins or ends at an end of the step. There its force
   /// varies with a fractional power of time, but the estimate assumes a smooth function.
   bool touches_anew(const time::State& from, const time::State& to) const;
+  /// True if the slip of a contact with smooth friction reverses within a small part of the step, so that the friction
+  /// jumps in it.
+  bool slip_reverses(const time::State& from, const time::State& to) const;
   /// The errors of velocities count also as errors of displacements in outputs within the step.
   double relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const;
   /// The departure in the middle from the cubic through the ends that the acceleration at the start indicates, relative

@@ -1,0 +1,82 @@
+// The tolerance of explicit methods where regularised friction reverses within a step.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <butee/core/text.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::slip_reversal_test {
+namespace {
+
+/// A mass that a load presses on a plane, which rubs at it at 18 mm/s; its own motion of up to 25 mm/s reverses the
+/// slip within 0.2 ms, a tenth of a step.
+const char* const kScene = R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.2452254073740623
+[[element]]
+type = "spring"
+node = "m"
+dof = "uy"
+stiffness = 2875.4516786689283
+[[element]]
+type = "spring"
+node = "m"
+dof = "uz"
+stiffness = 28.754516786689283
+[[contact]]
+type = "plane"
+nodes = "m"
+normal = [0.0, 1.0]
+gap = 0.00011578878237511333
+stiffness = 228365.4459837277
+law = "hertz"
+damping = { type = "jankowski", restitution = 0.5573399979253923, mass = 1.2452254073740623 }
+friction = { coefficient = 0.08384, slip_speed = 0.000222951, smoothing = "tanh", surface_speed = 0.0181784 }
+[[load]]
+node = "m"
+dof = "uz"
+type = "constant"
+value = 0.7271211422006026
+[[load]]
+node = "m"
+dof = "uy"
+type = "harmonic"
+amplitude = 0.2391010488132058
+angular_frequency = 50.63684961144443
+phase = 0.4
+[integrator]
+end_time = 0.3
+)";
+
+std::vector<double> speeds(const std::string& method, double tolerance) {
+  std::vector<double> times;
+  for (int i = 1; i <= 60; ++i) times.push_back(5e-3 * i);
+  SceneRun run(kScene, {"integrator.type=" + method, "integrator.tolerance=" + to_text(tolerance)});
+  Sampler sampler(run.dof("m", DofKind::uy), times);
+  run.simulation().add(sampler);
+  EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+  return sampler.v;
+}
+
+TEST(SlipReversal, IsSeenByEmbeddedEstimates) {
+  const std::vector<double> wanted = speeds("extrapolation8", 1e-10);
+  double largest = 0.0;
+  for (const double v : wanted) largest = std::max(largest, std::abs(v));
+  for (const char* method : {"dopri5", "extrapolation8"})
+    for (const double tolerance : {1e-3, 3e-4, 1e-4, 6.6e-5, 3e-5, 1e-5, 1e-6}) {
+      const std::vector<double> found = speeds(method, tolerance);
+      ASSERT_EQ(found.size(), wanted.size());
+      double error = 0.0;
+      for (std::size_t i = 0; i < wanted.size(); ++i) error = std::max(error, std::abs(found[i] - wanted[i]));
+      EXPECT_LT(error, 10.0 * tolerance * largest) << method << " " << tolerance;
+    }
+}
+
+}  // namespace
+}  // namespace butee::test::slip_reversal_test
