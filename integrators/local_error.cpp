@@ -32,7 +32,7 @@ constexpr double kOfJump = 0.1;
 /// the acceleration at the start: 12/384, as for contacts on the way.
 constexpr double kOfAcceleration = 1.0 / 32.0, kMostUnseen = 0.05;
 /// The displacement within a step, interpolated with a velocity of 1/h at one end: the maximum of s^2 (1 - s).
-constexpr double kOfSpeed = 4.0 / 27.0;
+constexpr double kOfVelocity = 4.0 / 27.0;
 /// A step in which the fastest motion passes more than this phase angle, rad, is stiff: the error of the solution falls
 /// no faster than the estimate there (order reduction), which may reach kMostStiff tolerances.
 constexpr double kStiff = 6.0, kMostStiff = 0.5;
@@ -164,7 +164,7 @@ double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, Const
   };
   look(error_x, scale_x_, 1.0);
   if (!std::isnan(largest)) look(error_v, scale_v_, 1.0);
-  if (!std::isnan(largest)) look(error_v, scale_x_, kOfSpeed * h);
+  if (!std::isnan(largest)) look(error_v, scale_x_, kOfVelocity * h);
   return largest;
 }
 
