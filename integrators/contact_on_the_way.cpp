@@ -13,7 +13,7 @@ constexpr double kRounding = 1e-13;
 
 /// The force of a regularised law bends up to this multiple of its transition width: the arctan law is 2 % of its
 /// asymptotic force away from it there.
-constexpr double kBend = 4.0;
+constexpr double kBendWidths = 4.0;
 
 /// Upper bound of a motion through (w0, v0) and (w1, v1), a step of h apart, that rises at the
 /// start and falls at the end: the peak of the cubic plus its error. The error is estimated from
@@ -39,7 +39,7 @@ ContactOnTheWay::ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance)
   mass_ = dynamics.system().mass.diagonal();
   for (Index i = 0; i < contact_->size(); ++i) {
     const double gap = contact_->play_of(i).gap, width = contact_->law_of(i).transition_width();
-    if (std::isfinite(width)) bends_[i] = kBend * width;
+    if (std::isfinite(width)) bends_[i] = kBendWidths * width;
     if (contact_->play_of(i).has_both()) jumps_[i] = 2.0 * std::abs(contact_->law_of(i).secant(-gap)) * gap;
   }
 }
