@@ -11,8 +11,8 @@ constexpr double kNegligibleImpulse = 0.1;
 /// Penetrations below this fraction of the displacement are rounding errors.
 constexpr double kRounding = 1e-13;
 
-/// The force of a regularised law bends up to this multiple of its transition width: the arctan law is 2 % of its
-/// asymptotic force away from it there.
+/// The force of a regularised law bends up to this multiple of its transition width, where that of the arctan law is
+/// within 2 % of its asymptotic force.
 constexpr double kBendWidths = 4.0;
 
 /// Upper bound of a motion through (w0, v0) and (w1, v1), a step of h apart, that rises at the

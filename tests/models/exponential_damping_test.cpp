@@ -14,24 +14,44 @@ namespace {
 /// 10 t on a dashpot with a time constant of 0.23 ms, which a load of 113.8 rad/s moves against a stop and away from
 /// it; `more` adds elements. Steps with contact may be longer than the time constant.
 std::string overdamped(const std::string& amplitude, const std::string& more) {
-  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 10406.9\n[[element]]\ntype = \"spring\"\nnode "
-         "= "
-         "\"m\"\nstiffness = 2.63647e9\ndamping = 4.57016e7\n" +
-         more +
-         "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\nsides = \"both\"\ngap = 7.29554e-9\nstiffness = 8.73899e8\nlaw "
-         "= "
-         "\"linear\"\n[[load]]\nnode = \"m\"\ntype = \"harmonic\"\namplitude = " +
-         amplitude +
-         "\nangular_frequency = "
-         "113.765\n[integrator]\nend_time = 0.08\n";
+  return R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 10406.9
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 2.63647e9
+damping = 4.57016e7
+[[contact]]
+type = "stop"
+nodes = "m"
+sides = "both"
+gap = 7.29554e-9
+stiffness = 8.73899e8
+law = "linear"
+[integrator]
+end_time = 0.08
+[[load]]
+node = "m"
+type = "harmonic"
+angular_frequency = 113.765
+amplitude = )" +
+         amplitude + "\n" + more;
 }
 
-/// With one DOF, and with a second one that takes the class for many.
+/// With one DOF (SingleStep), and with a second one (ExponentialStep).
 TEST(Exponential, FollowsOverdampedMotionAwayFromAStop) {
-  const std::string second =
-      "[[element]]\ntype = \"mass\"\nname = \"n\"\nmass = 1e3\n[[element]]\ntype = \"spring\"\nnode = \"n\"\nstiffness "
-      "= "
-      "1e6\n";
+  const std::string second = R"([[element]]
+type = "mass"
+name = "n"
+mass = 1e3
+[[element]]
+type = "spring"
+node = "n"
+stiffness = 1e6
+)";
   std::vector<double> times;
   for (int i = 1; i < 40; ++i) times.push_back(2e-3 * i);
   for (const std::string& more : {std::string(), second})

@@ -111,6 +111,23 @@ TEST(ModalMotion, KeepsDigitsInShortSteps) {
   }
 }
 
+/// A rigid mode from rest under a load of 50 rad/s, in a step of 1e-5 rad of it: x = (f(0) - f(t) + f'(0) t)/Omega^2 in
+/// powers of t, of which the third and fourth are 3e-6 and 8e-12 of the second.
+TEST(ModalMotion, TakesLoadsAsParabolasInShortSteps) {
+  constexpr double kTurn = 50.0, kBegin = 0.31, kStep = 2e-7;
+  const ArrayXd zero = ArrayXd::Zero(1);
+  const std::vector<ModalHarmonic> loads = {{kTurn, ArrayXd::Constant(1, 1.5), ArrayXd::Constant(1, -0.7)}};
+  const std::vector<dynamics::ModalSystem::OtherLoad> none;
+  ModalMotion motion(zero, zero, loads, none);
+  const Vector rest = Vector::Zero(ModalMotion::padded(1));
+  motion.begin(kBegin, kStep, rest.data(), rest.data(), nullptr);
+  motion.find(1.0);
+  const double c = std::cos(kTurn * kBegin), s = std::sin(kTurn * kBegin), f = 1.5 * c - 0.7 * s,
+               slope = kTurn * (-0.7 * c - 1.5 * s), curvature = -kTurn * kTurn * f;
+  const double expected = kStep * kStep * (f / 2.0 + kStep * (slope / 6.0 + kStep * curvature / 24.0));
+  EXPECT_NEAR(motion.q()[0], expected, 1e-13 * std::abs(expected));
+}
+
 TEST(ModalMotion, ForcesOfTheWholeStepHoldWithinIt) {
   // f = 2 s - 1 and 6 s^2 - 6 s + 1 on a rigid mass from rest, in closed form.
   const ArrayXd zero = ArrayXd::Zero(1);
