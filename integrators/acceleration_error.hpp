@@ -14,9 +14,9 @@ namespace butee::integrators {
 /// d (0 if s is not known), s and a_n.
 class AccelerationError {
  public:
-  /// `contact_change`: LocalErrorControl::Orders::contact_change.
-  AccelerationError(dynamics::Dynamics& dynamics, const Goal& goal, double contact_change = 10.0)
-      : control_(dynamics, goal, {3.0, 2.0, kConstant, contact_change}, LocalErrorControl::Steps::geometric) {}
+  /// `kink`, `contact_change`: as in LocalErrorControl::Orders.
+  AccelerationError(dynamics::Dynamics& dynamics, const Goal& goal, double kink, double contact_change = 10.0)
+      : control_(dynamics, goal, {3.0, 2.0, kConstant, contact_change, kink}, LocalErrorControl::Steps::geometric) {}
 
   const time::StepController& controller() const { return control_.controller(); }
   double first_step() const { return control_.first_step(); }

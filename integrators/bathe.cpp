@@ -12,7 +12,7 @@ constexpr double kGamma = 2.0 - std::numbers::sqrt2;
 constexpr double kMiddle = 1.0 / (kGamma * (2.0 - kGamma));
 constexpr double kOld = 1.0 - kMiddle;
 constexpr double kStage = 0.5 * kGamma;
-constexpr double kConstant = 1.0, kContactChange = 25.0;
+constexpr double kConstant = 1.0, kContactChange = 25.0, kKink = 0.0625;
 /// Weights of h y' at the three points in the difference from the embedded formula of order 3.
 constexpr double kWeight = std::numbers::sqrt2 / 4.0;
 constexpr double kError0 = (4.0 * kWeight - 1.0) / 3.0, kError1 = -1.0 / 3.0, kError2 = 2.0 * kStage / 3.0;
@@ -22,7 +22,7 @@ constexpr double kError0 = (4.0 * kWeight - 1.0) / 3.0, kError1 = -1.0 / 3.0, kE
 Bathe::Bathe(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal)
     : Integrator(dynamics), stage_(dynamics, kNewton) {
   if (goal)
-    control_.emplace(dynamics, *goal, LocalErrorControl::Orders{3.0, 2.0, kConstant, kContactChange},
+    control_.emplace(dynamics, *goal, LocalErrorControl::Orders{3.0, 2.0, kConstant, kContactChange, kKink},
                      LocalErrorControl::Steps::geometric);
 }
 

@@ -4,9 +4,12 @@
 
 namespace butee::integrators {
 
+/// Measured in tests/conformance/error_constant_test.cpp.
+constexpr double kKink = 0.125;
+
 CentralDifferences::CentralDifferences(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal)
     : Integrator(dynamics) {
-  if (goal) control_.emplace(dynamics, *goal);
+  if (goal) control_.emplace(dynamics, *goal, kKink);
 }
 
 void CentralDifferences::do_start(time::State& state) {

@@ -12,6 +12,8 @@ namespace {
 /// energies loses too many digits. The mean of both forces replaces the quotient; its error is of
 /// second order in the distance.
 constexpr double kClose = 1e-6;
+/// The quotient of energies is the mean of the force along a straight path, also if a stop closes on it.
+constexpr double kKink = 0.0;
 /// Rounding of the energy differences limits the residual to this fraction of all forces.
 constexpr NewtonOptions kNewtonOfEnergies = {1e-9, 1e-7, 40, false, false};
 
@@ -46,7 +48,7 @@ void DiscreteGradientStage::contact(ConstVectorRef w, bool, VectorRef f, VectorR
 
 DiscreteGradient::DiscreteGradient(dynamics::Dynamics& dynamics, const std::optional<Goal>& goal)
     : Integrator(dynamics), stage_(dynamics, kNewtonOfEnergies) {
-  if (goal) control_.emplace(dynamics, *goal);
+  if (goal) control_.emplace(dynamics, *goal, kKink);
 }
 
 void DiscreteGradient::do_start(time::State& state) {

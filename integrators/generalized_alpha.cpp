@@ -27,11 +27,18 @@ AlphaParameters AlphaParameters::hht(double alpha) {
   return {0.0, alpha, 0.25 * (1.0 + alpha) * (1.0 + alpha), 0.5 + alpha};
 }
 
+double AlphaParameters::kink() const {
+  // If a force (s - a)_+ begins at a = 1 - u, the step gains the speed c (u - alpha_f)_+ instead of u^2/2. The
+  // difference is largest at u = alpha_f or at u = c <= 1.
+  const double c = gamma / (1.0 - alpha_m);
+  return std::max(c * (0.5 * c - alpha_f), 0.5 * alpha_f * alpha_f);
+}
+
 GeneralizedAlpha::GeneralizedAlpha(dynamics::Dynamics& dynamics, AlphaParameters parameters,
                                    const std::optional<Goal>& goal)
     : Integrator(dynamics), parameters_(parameters), stage_(dynamics, kNewton) {
   if (!goal) return;
-  control_.emplace(dynamics, *goal, kContactChange);
+  control_.emplace(dynamics, *goal, parameters.kink(), kContactChange);
   discontinuities_ = dynamics.load_discontinuities();
   contact_.emplace(dynamics, goal->tolerance);
 }

@@ -16,6 +16,8 @@ struct AlphaParameters {
   static AlphaParameters of_radius(double rho_inf);
   /// HHT-alpha with 0 <= alpha <= 1/3, the absolute value.
   static AlphaParameters hht(double alpha);
+  /// LocalErrorControl::Orders::kink.
+  double kink() const;
 };
 
 /// generalized_alpha and hht_alpha, with a fixed step size or one controlled by the local error.

@@ -78,12 +78,14 @@ TEST_P(KinkBound, IsTheLargestErrorOfAStepInWhichAStopCloses) {
     ASSERT_EQ(run.integrator().step(from, {1.0, 1.0, false}, to).status, time::StepStatus::ok);
     largest = std::max(largest, std::abs(1.0 - 0.5 * kStiffness * (1.0 - a) * (1.0 - a) - to.v[0]) / kStiffness);
   }
-  EXPECT_LT(largest, GetParam().bound);
+  EXPECT_LT(largest, 1.0001 * GetParam().bound);  // the path is not quite straight
   EXPECT_GT(largest, 0.9 * GetParam().bound);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, KinkBound,
-                         testing::Values(Kink{"rodas4", 0.032}, Kink{"dopri5", 0.0225}, Kink{"extrapolation8", 9.2e-3}),
+                         testing::Values(Kink{"rodas4", 0.032}, Kink{"dopri5", 0.0225}, Kink{"extrapolation8", 9.2e-3},
+                                         Kink{"bathe_adaptive", 0.0625}, Kink{"central_differences_adaptive", 0.125},
+                                         Kink{"hht_alpha_adaptive", 0.124}, Kink{"generalized_alpha_adaptive", 0.0988}),
                          [](const auto& one) { return std::string(one.param.method); });
 
 INSTANTIATE_TEST_SUITE_P(Methods, ErrorConstant,
