@@ -34,12 +34,15 @@ double peak(double h, double w0, double v0, double a0, double w1, double v1) {
 ContactOnTheWay::ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance)
     : contact_(&dynamics.stops()), tolerance_(tolerance) {
   w0_ = w1_ = v0_ = v1_ = a0_ = Vector::Zero(contact_->size());
-  jumps_ = bends_ = w0_;
+  jumps_ = bends_ = residual_ = w0_;
   closed_ = contact_->closed_stiffness();
   mass_ = dynamics.system().mass.diagonal();
   for (Index i = 0; i < contact_->size(); ++i) {
     const double gap = contact_->play_of(i).gap, width = contact_->law_of(i).transition_width();
-    if (std::isfinite(width)) bends_[i] = kBendWidths * width;
+    if (std::isfinite(width)) {
+      bends_[i] = kBendWidths * width;
+      residual_[i] = contact_->law_of(i).asymptotic_force();
+    }
     if (contact_->play_of(i).has_both()) jumps_[i] = 2.0 * std::abs(contact_->law_of(i).secant(-gap)) * gap;
   }
 }
@@ -55,33 +58,41 @@ bool ContactOnTheWay::is_noticeable(Index stop, double jump, double h, ConstVect
   return jump > 0.0 && jump * h * impulse_rate(stop, scale_v) > kNegligibleImpulse * tolerance_;
 }
 
-bool ContactOnTheWay::has_left_bend(Index stop) const {
+bool ContactOnTheWay::passes_bend(Index stop, double h) const {
   if (bends_[stop] == 0.0) return false;
-  const double g0 = std::abs(contact_->play_of(stop).penetration(w0_[stop])),
-               g1 = std::abs(contact_->play_of(stop).penetration(w1_[stop]));
-  return std::min(g0, g1) < bends_[stop] && std::max(g0, g1) > 2.0 * bends_[stop];
+  const double w0 = w0_[stop], w1 = w1_[stop], v0 = v0_[stop], v1 = v1_[stop];
+  const double turn = v0 * v1 < 0.0 ? w0 + 0.5 * h * v0 * v0 / (v0 - v1) : w0;
+  const model::FreePlay& play = contact_->play_of(stop);
+  const auto [low, high] = std::minmax({play.penetration(w0), play.penetration(w1), play.penetration(turn)});
+  return low < bends_[stop] && high > -bends_[stop] && high - low > bends_[stop];
 }
 
 bool ContactOnTheWay::changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
   if (contact_->size() == 0) return false;
   contact_->displacement(from.x, w0_);
   contact_->displacement(to.x, w1_);
+  contact_->displacement(from.v, v0_);
+  contact_->displacement(to.v, v1_);
   for (Index i = 0; i < w0_.size(); ++i) {
     const model::FreePlay& play = contact_->play_of(i);
     if (play.closed_side(w0_[i]) != play.closed_side(w1_[i])) return true;
     if (has_passed_middle(i) && is_noticeable(i, jumps_[i], h, scale_v)) return true;
-    if (has_left_bend(i) && is_noticeable(i, contact_->law_of(i).asymptotic_force(), h, scale_v)) return true;
+    if (passes_bend(i, h) && is_noticeable(i, residual_[i], h, scale_v)) return true;
   }
   return false;
 }
 
-double ContactOnTheWay::jump(const time::State& from, const time::State& to, ConstVectorRef scale_v) {
+double ContactOnTheWay::jump(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
   double largest = 0.0;
-  if (!(jumps_.array() > 0.0).any()) return largest;
+  if (!(residual_.array() > 0.0).any()) return largest;
   contact_->displacement(from.x, w0_);
   contact_->displacement(to.x, w1_);
-  for (Index i = 0; i < w0_.size(); ++i)
+  contact_->displacement(from.v, v0_);
+  contact_->displacement(to.v, v1_);
+  for (Index i = 0; i < w0_.size(); ++i) {
     if (has_passed_middle(i)) largest = std::max(largest, jumps_[i] * impulse_rate(i, scale_v));
+    if (passes_bend(i, h)) largest = std::max(largest, residual_[i] * impulse_rate(i, scale_v));
+  }
   return largest;
 }
 

@@ -14,18 +14,18 @@ class ContactOnTheWay {
   /// `dynamics` must outlive it.
   ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance);
 
-  /// True if a stop is open at one end of the step and closed at the other, if the step begins or
-  /// ends in the bend of a regularised law and leads far beyond it, or if the force of a stop with
-  /// two sides jumped from one side to the other. Such a jump occurs at the middle of the gap for
-  /// laws that exert a force there, such as arctan with a lambda of a few gaps. Jumps J and bends
-  /// with an asymptotic force J whose impulse within the step, J h, is less than
+  /// True if a stop is open at one end of the step and closed at the other, if the step leads
+  /// through the bend of a regularised law and further than its width, or if the force of a stop
+  /// with two sides jumped from one side to the other. Such a jump occurs at the middle of the gap
+  /// for laws that exert a force there, such as arctan with a lambda of a few gaps. Jumps J and
+  /// bends with an asymptotic force J whose impulse within the step, J h, is less than
   /// kNegligibleImpulse times tolerance times m S_v (mass and velocity scale of the DOF) are
   /// ignored.
   bool changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
-  /// The largest such jump in the step, as the acceleration of its DOF over that DOF's velocity
+  /// The largest such jump or asymptotic force in a step of h, as the acceleration of its DOF over that DOF's velocity
   /// scale, 1/s; 0 if there is none. An error estimate misses a jump in the middle of a step, since
   /// the errors of the stages cancel.
-  double jump(const time::State& from, const time::State& to, ConstVectorRef scale_v);
+  double jump(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
   /// The largest rate of change of the force of a stop that closed or opened in the step, N/s, as jump(), 1/s^2. The
   /// estimate vanishes at some places of the change in the step where the error does not.
   double kink(const time::State& from, const time::State& to, ConstVectorRef scale_v);
@@ -41,8 +41,9 @@ class ContactOnTheWay {
     return jumps_[stop] > 0.0 && w0_[stop] * w1_[stop] <= 0.0 && w0_[stop] != w1_[stop];
   }
 
-  /// True if one end of the step is in the bend of a regularised law, and the other beyond it by more than its width.
-  bool has_left_bend(Index stop) const;
+  /// True if the step of h leads through the bend of a regularised law and further than its width. A motion that turns
+  /// is taken as one of constant acceleration.
+  bool passes_bend(Index stop, double h) const;
 
   /// True if the impulse of a jump (N) of the force of a stop within a step of h exceeds its bound.
   bool is_noticeable(Index stop, double jump, double h, ConstVectorRef scale_v) const;
@@ -53,10 +54,11 @@ class ContactOnTheWay {
   /// velocity scale, 1/(N s).
   double impulse_rate(Index stop, ConstVectorRef scale_v) const;
 
-  Vector mass_;    ///< diagonal of the mass matrix
-  Vector closed_;  ///< stiffness of closed stops, N/m
-  Vector jumps_;   ///< jump of the force of each stop at the middle of its gap, N
-  Vector bends_;   ///< the penetrations up to which the force of a regularised law bends, m; 0: not at all
+  Vector mass_;      ///< diagonal of the mass matrix
+  Vector closed_;    ///< stiffness of closed stops, N/m
+  Vector jumps_;     ///< jump of the force of each stop at the middle of its gap, N
+  Vector residual_;  ///< residual force of regularised laws, N
+  Vector bends_;     ///< the penetrations up to which the force of a regularised law bends, m; 0: not at all
   Vector w0_, w1_, v0_, v1_, a0_;
 };
 

@@ -227,7 +227,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   if (as_a_whole_) {
     if (has_changed) r *= orders_.contact_change;
   } else if (has_changed) {
-    charge = std::max(orders_.contact_change * epsilon, kOfJump * h * contact_.jump(from, to, scale_v_));
+    charge = std::max(orders_.contact_change * epsilon, kOfJump * h * contact_.jump(from, to, h, scale_v_));
     if (orders_.kink > 0.0) charge = std::max(charge, orders_.kink * h * h * contact_.kink(from, to, scale_v_));
     r = charge / (ErrorAccount::kSpend * balance);
   } else if (r > 1.0) {

@@ -1,6 +1,7 @@
 #include "integrators/contact_on_the_way.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <butee/core/text.hpp>
 #include <gtest/gtest.h>
@@ -99,6 +100,22 @@ TEST(ContactOnTheWay, HasChangedWhereOneEndIsInTheBendOfALaw) {
   EXPECT_FALSE(changed(careless, 0.5, 1.0));
   EXPECT_FALSE(changed(contact, 0.5, 0.9));
   EXPECT_FALSE(changed(contact, 1.0 - 1e-6, 1.0));  // a step that resolves the bend
+}
+
+/// The motion turns at 1 m, and is 0.01 m before it at both ends of the step.
+TEST(ContactOnTheWay, HasChangedWhereAMotionTurnsInTheBendOfALaw) {
+  const auto run = [](double gap) {
+    return SceneRun(mass_at_a_stop("positive", "type = \"rk4\"\ntime_step = 1e-3\n"),
+                    {"contact[0].law=\"arctan\"", "contact[0].regularization=1e4", "contact[0].gap=" + to_text(gap)});
+  };
+  const double turn = 0.5 * std::numbers::pi, force = 1e6 / (std::numbers::pi * std::numbers::pi * 1e4);
+  for (const auto& [gap, expected] : {std::pair{1.00001, true}, std::pair{1.001, false}}) {
+    SceneRun scene = run(gap);
+    integrators::ContactOnTheWay contact(scene.dynamics(), 1e-3);
+    EXPECT_EQ(changed(contact, turn - 0.14, turn + 0.14), expected);
+    EXPECT_FALSE(changed(contact, turn - 0.005, turn + 0.005));
+    EXPECT_NEAR(contact.jump(at(turn - 0.14), at(turn + 0.14), 0.28, kSpeed), expected ? force : 0.0, 1e-9 * force);
+  }
 }
 
 TEST(ContactOnTheWay, KnowsOneSidedStops) {
