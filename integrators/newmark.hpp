@@ -34,7 +34,9 @@ class Newmark final : public time::Integrator {
   Newmark(dynamics::Dynamics& dynamics, NewmarkParameters parameters, NewtonOptions newton,
           std::unique_ptr<ZienkiewiczXie> controller = nullptr);
 
-  time::Traits traits() const override { return {.stability_limit = parameters_.stability_limit()}; }
+  time::Traits traits() const override {
+    return {.starts_as_published = true, .stability_limit = parameters_.stability_limit()};
+  }
   const time::StepController* controller() const override { return controller_.get(); }
 
  private:

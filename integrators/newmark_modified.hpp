@@ -21,7 +21,9 @@ class ModifiedNewmark final : public time::Integrator {
   ModifiedNewmark(dynamics::Dynamics& dynamics, NewmarkParameters parameters,
                   std::unique_ptr<ZienkiewiczXie> controller = nullptr);
 
-  time::Traits traits() const override { return {.stability_limit = parameters_.stability_limit()}; }
+  time::Traits traits() const override {
+    return {.starts_as_published = true, .stability_limit = parameters_.stability_limit()};
+  }
   const time::StepController* controller() const override { return controller_.get(); }
 
  private:

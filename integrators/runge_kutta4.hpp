@@ -30,6 +30,8 @@ class RungeKutta4 final : public time::Integrator {
  public:
   explicit RungeKutta4(dynamics::Dynamics& dynamics) : Integrator(dynamics), kernel_(dynamics) {}
 
+  time::Traits traits() const override { return {.starts_as_published = true}; }
+
  private:
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
 

@@ -41,6 +41,7 @@ class StepDoublingRungeKutta4 final : public time::Integrator {
   StepDoublingRungeKutta4(dynamics::Dynamics& dynamics, std::unique_ptr<time::StepController> controller)
       : Integrator(dynamics), kernel_(dynamics), controller_(std::move(controller)) {}
 
+  time::Traits traits() const override { return {.starts_as_published = true}; }
   const time::StepController* controller() const override { return controller_.get(); }
 
  private:

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "butee/core/error.hpp"
+#include "butee/time/departure.hpp"
 
 namespace butee::time {
 namespace {
@@ -23,6 +24,12 @@ void Integrator::start(State& state) {
 void Integrator::start(State& state, ConstVectorRef contact_memory) {
   require(state.x.size() == dynamics_.size() && state.v.size() == dynamics_.size(), "a state of another size");
   state.a.resize(state.x.size());
+  complete(state, contact_memory);
+  if (!traits().starts_as_published && leave_middle(dynamics_, state)) complete(state, contact_memory);
+  do_start(state);
+}
+
+void Integrator::complete(State& state, ConstVectorRef contact_memory) {
   if (dynamics_.obstacles() != nullptr && traits().follows_contact_phases) {
     if (!events_) events_ = std::make_unique<ContactEvents>(dynamics_);
     events_->start(state, contact_memory);
@@ -30,7 +37,6 @@ void Integrator::start(State& state, ConstVectorRef contact_memory) {
     if (dynamics_.obstacles() != nullptr) dynamics_.obstacles()->follow_live();
     dynamics_.acceleration(state.t, state.x, state.v, state.a);
   }
-  do_start(state);
 }
 
 void Integrator::settle(State& state, double h) {

@@ -27,6 +27,9 @@ struct Traits {
   /// Steps should end at the output instants that observers ask for, since the method can take any
   /// step length.
   bool lands_on_outputs = false;
+  /// A stop that starts in the middle of its gap has no force in the first stage, as in the published
+  /// method and programs that follow it. Otherwise it leaves the middle at once (leave_middle()).
+  bool starts_as_published = false;
   /// The largest error of a located change of phase, as a fraction of the step, for methods that
   /// follow phases.
   double event_precision = 1e-12;
@@ -50,7 +53,8 @@ class BUTEE_EXPORT Integrator {
   Integrator& operator=(const Integrator&) = delete;
 
   /// Completes a state with given t, x and v: a = M^-1 (F + F_c - C v - K x), and the method's
-  /// memory.
+  /// memory. Stops that start in the middle of their gap leave it (leave_middle()), unless
+  /// the method starts as published.
   void start(State& state);
   /// The same; the contacts continue from the result of contact_memory() of another run, which may
   /// be empty.
@@ -93,6 +97,8 @@ class BUTEE_EXPORT Integrator {
   /// The method's dense output; default: cubic interpolation.
   virtual Interpolant& interpolant() { return cubic_; }
 
+  /// Computes the acceleration and the phases of contacts at a state.
+  void complete(State& state, ConstVectorRef contact_memory);
   /// Cuts an accepted step at the first change of phase within it.
   void end_at_event(const State& from, const Step& step, State& to, StepReport& report);
 

@@ -59,7 +59,7 @@ double ContactError::of_step(dynamics::ContactPropagator& flow, const TriedStep&
       const ContactScale scale = scales_.of(i, paths.reached(i), displacement);
       error = std::max(error, missed_contact_error(goal_, impulse, step.h, scale.speed) * displacement);
     }
-    if (residual_.any() && step.from.w[i] * paths.motion().end[i] < 0.0)
+    if (residual_.any() && step.crosses_middle(i, paths.motion().end[i]))
       error = std::max(
           error, of_jump(flow, i, scales_.of(i, paths.reached(i), displacement).speed) * goal_.middle * displacement);
     largest = std::max(largest, error);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "butee/dynamics/modal_system.hpp"
@@ -44,6 +45,13 @@ struct TriedStep {
   std::vector<Index> constant;
 
   bool is_crossing(Index stop) const { return std::find(crossing.begin(), crossing.end(), stop) != crossing.end(); }
+
+  /// True if a stop is on one side of its gap at the start of the step and on the other at its end. One that starts in
+  /// the middle to rounding does not cross it.
+  bool crosses_middle(Index stop, double end) const {
+    constexpr double kRounding = 1e-13;
+    return from.w[stop] * end < 0.0 && std::abs(from.w[stop]) > kRounding * std::abs(end);
+  }
 
   /// Adds the response to a modal force with time function P_k to the end of the step.
   void add_to_end(const dynamics::ModalPropagator& whole, int k, const Eigen::ArrayXd& force) {
