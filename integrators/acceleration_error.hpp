@@ -27,6 +27,10 @@ class AccelerationError {
   }
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef a, double lag,
              time::StepReport& report);
+  /// Adds a jump of the acceleration at a state to a_n; the slope remains.
+  static void add_jump(time::State& state, ConstVectorRef jump) {
+    state.memory.segment(place(state) + kSlope + state.x.size(), state.x.size()) += jump;
+  }
   /// Discards the slope s at a state at which the motion is not smooth; the next step is judged as
   /// a first step.
   static void forget_slope(time::State& state) { state.memory[place(state) + kDistance] = 0.0; }

@@ -42,6 +42,9 @@ class DiscreteGradient final : public time::Integrator {
 
  private:
   void do_start(time::State& state) override;
+  void do_jump(time::State& state, ConstVectorRef jump) override {
+    if (control_) AccelerationError::add_jump(state, jump);
+  }
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
 
   DiscreteGradientStage stage_;

@@ -48,6 +48,9 @@ class GeneralizedAlpha final : public time::Integrator {
 
  private:
   void do_start(time::State& state) override;
+  void do_jump(time::State& state, ConstVectorRef jump) override {
+    if (control_) AccelerationError::add_jump(state, jump);
+  }
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   /// Fills old_a_ with a_n for a step of length h.
   void take_acceleration(const time::State& from, double h);

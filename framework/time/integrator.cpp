@@ -39,6 +39,16 @@ void Integrator::complete(State& state, ConstVectorRef contact_memory) {
   }
 }
 
+void Integrator::pass_discontinuity(State& state) {
+  if (traits().starts_as_published) return;
+  if (events_) events_->follow(state);
+  if (!leave_middle(dynamics_, state)) return;
+  Vector jump = -state.a;
+  dynamics_.acceleration(state.t, state.x, state.v, state.a);
+  jump += state.a;
+  do_jump(state, jump);
+}
+
 void Integrator::settle(State& state, double h) {
   if (events_) events_->settle(state, h);
 }
@@ -111,5 +121,7 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
 Integrator::~Integrator() = default;
 
 void Integrator::do_start(State&) {}
+
+void Integrator::do_jump(State&, ConstVectorRef) {}
 
 }  // namespace butee::time

@@ -60,6 +60,10 @@ class BUTEE_EXPORT Integrator {
   /// be empty.
   void start(State& state, ConstVectorRef contact_memory);
 
+  /// At a discontinuity of the loads: stops that nothing has moved so far leave the middle of their
+  /// gap.
+  void pass_discontinuity(State& state);
+
   /// Switches contacts whose phase is over at a state to the next phase; the acceleration follows.
   /// `h` is the length of the coming step. A state must be settled before a step from it.
   void settle(State& state, double h);
@@ -93,6 +97,8 @@ class BUTEE_EXPORT Integrator {
 
  private:
   virtual void do_start(State& state);
+  /// The acceleration of a state has increased by `jump`; the method's memory of it follows.
+  virtual void do_jump(State& state, ConstVectorRef jump);
   virtual StepReport do_step(const State& from, const Step& step, State& to) = 0;
   /// The method's dense output; default: cubic interpolation.
   virtual Interpolant& interpolant() { return cubic_; }

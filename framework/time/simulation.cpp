@@ -217,6 +217,8 @@ void Simulation::accept(const Step& step, const StepReport& result) {
                               traits_.event_precision * (next_.t - state_.t)};
   for (Observer* observer : observers_) observer->step(accepted);
   std::swap(state_, next_);
+  if (std::binary_search(discontinuities_.begin(), discontinuities_.end(), state_.t))
+    integrator_.pass_discontinuity(state_);
   const bool is_last = !(state_.t < options_.end_time);
   if (growth_.step(next_, state_, h, is_last)) {
     fail({h, state_.t}, growth_.describe(state_, h));
