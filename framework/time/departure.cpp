@@ -17,12 +17,14 @@ constexpr double kShortProbe = 1e-9;
 /// Each step reaches at least one more mass of a chain.
 constexpr int kMostProbes = 20;
 
-/// The stops that are in the middle of their gap and have a residual force there.
-std::vector<Index> stops_in_the_middle(const dynamics::ElasticStops& stops, const Vector& w) {
+/// The stops that are in the middle of their gap and have a residual force there. Allocates nothing if there are none.
+std::vector<Index> stops_in_the_middle(const dynamics::ElasticStops& stops, const Vector& x) {
   std::vector<Index> found;
-  for (Index i = 0; i < w.size(); ++i) {
+  const auto at = [&](Index dof) { return dof >= 0 ? x[dof] : 0.0; };
+  for (Index i = 0; i < stops.size(); ++i) {
     const model::FreePlay& play = stops.play_of(i);
-    if (w[i] == 0.0 && play.has_both() && play.gap > 0.0 && stops.law_of(i).secant(-play.gap) != 0.0)
+    if (at(stops.dof_a(i)) == at(stops.dof_b(i)) && play.has_both() && play.gap > 0.0 &&
+        stops.law_of(i).secant(-play.gap) != 0.0)
       found.push_back(i);
   }
   return found;
@@ -83,10 +85,7 @@ class Probe {
 
 bool leave_middle(dynamics::Dynamics& dynamics, State& state) {
   const dynamics::ElasticStops& stops = dynamics.stops();
-  if (stops.size() == 0) return false;
-  Vector w(stops.size());
-  stops.displacement(state.x, w);
-  std::vector<Index> waiting = stops_in_the_middle(stops, w);
+  std::vector<Index> waiting = stops_in_the_middle(stops, state.x);
   if (waiting.empty()) return false;
   const std::size_t before = waiting.size();
   const auto leave = [&](const Vector& direction) {

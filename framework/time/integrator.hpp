@@ -60,7 +60,7 @@ class BUTEE_EXPORT Integrator {
   /// be empty.
   void start(State& state, ConstVectorRef contact_memory);
 
-  /// At a discontinuity of the loads: stops that nothing has moved so far leave the middle of their
+  /// At a discontinuity of the loads or of their slopes: stops that nothing has moved so far leave the middle of their
   /// gap.
   void pass_discontinuity(State& state);
 

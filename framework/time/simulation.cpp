@@ -132,10 +132,12 @@ void Simulation::set_motion(ConstVectorRef x, ConstVectorRef v) {
 void Simulation::loads_changed(bool jump) {
   start();
   dynamics_.loads_changed();
-  if (jump || !report_.message.empty())
+  if (jump || !report_.message.empty()) {
     start_anew();
-  else
+  } else {
+    integrator_.pass_discontinuity(state_);
     growth_.start(state_);
+  }
 }
 
 void Simulation::start_anew() {

@@ -120,6 +120,31 @@ TEST(Structure, FollowsForcesInStraightLinesExactly) {
   EXPECT_NEAR(mass.displacement(dof), (t - std::sin(20.0 * t) / 20.0) * 50.0 / 800.0, 1e-13);
 }
 
+/// Two masses that a spring joins, the first at rest in the middle of a stop whose law pulls it to the nearer side with
+/// a residual force of 1 N. A force on the second one grows from zero, after a step without any.
+TEST(Structure, LeavesTheMiddleOfAStopWithAForceThatGrows) {
+  constexpr double kBegin = 0.1, kEnd = 0.5, kSlope = 4.0, kResidual = 1.0, kStiffness = 100.0, kTolerance = 1e-5;
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
+      "\"b\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 100.0\n[[contact]]\ntype "
+      "= "
+      "\"stop\"\nnodes = \"a\"\ngap = 1.0\nlaw = \"arctan\"\nregularization = 1e3\nstiffness = 9869.604401089358\n"
+      "[integrator]\nend_time = 0.5\ntolerance = 1e-5\ntype = \"";
+  const double omega = std::sqrt(2.0 * kStiffness), t = kEnd - kBegin;
+  const double apart =
+      (kSlope * t - kResidual * (1.0 - std::cos(omega * t)) - kSlope / omega * std::sin(omega * t)) / (omega * omega);
+  const double expected = kSlope * t * t * t / 12.0 + 0.25 * kResidual * t * t - 0.5 * apart;
+  for (const std::string method : {"exponential", "rodas4", "dopri5", "bathe_adaptive", "generalized_alpha_adaptive"})
+    for (const double side : {1.0, -1.0}) {
+      Structure masses = Structure::from_toml(scene + method + "\"\n", with_plugins({.forced = {"b"}}));
+      masses.advance_to(kBegin);
+      EXPECT_EQ(masses.state().x[masses.dof("a")], 0.0);
+      masses.set_force(masses.dof("b"), 0.0, side * kSlope * t, kEnd);
+      masses.advance_to(kEnd);
+      EXPECT_NEAR(masses.state().x[masses.dof("a")], side * expected, 10.0 * kTolerance * expected) << method;
+    }
+}
+
 TEST(Structure, GoesBackToASnapshotBitForBit) {
   for (const MethodCase& method : method_cases()) {
     const std::string text = with_linear_law("beam3");
