@@ -14,7 +14,7 @@ constexpr double kOffMiddle = 1e-100;
 constexpr double kProbePart = 1e-6;
 /// Length of a step without any stiffness, s.
 constexpr double kShortProbe = 1e-9;
-/// Each step reaches at least one more mass of a chain.
+/// The largest number of steps; displacements after more of them would be below 1e-200.
 constexpr int kMostProbes = 20;
 
 /// The stops that are in the middle of their gap and have a residual force there. Allocates nothing if there are none.
@@ -74,6 +74,8 @@ class Probe {
   }
 
   const Vector& x() const { return x_; }
+  /// The number of displacements and velocities that are not zero.
+  Index reached() const { return (x_.array() != 0.0).count() + (v_.array() != 0.0).count(); }
 
  private:
   dynamics::Dynamics& dynamics_;
@@ -99,10 +101,12 @@ bool leave_middle(dynamics::Dynamics& dynamics, State& state) {
   if (waiting.empty()) return true;
   Probe probe(dynamics, state);
   for (int step = 0; step < kMostProbes && !waiting.empty(); ++step) {
+    const Index reached = probe.reached();
     probe.advance();
     if (!probe.x().allFinite()) break;
     stops.displacement(probe.x(), direction);
     leave(direction);
+    if (probe.reached() <= reached) break;
   }
   return waiting.size() < before;
 }

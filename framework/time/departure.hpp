@@ -14,8 +14,8 @@ namespace butee::time {
 /// the other side. The direction is that of the speed of the stop or, if it is at rest, the one in
 /// which the other forces drive it. It is found by steps of the classical Runge-Kutta method of a
 /// millionth of 1/omega: their weights are all positive, so that a force which keeps its direction
-/// moves the stop in it. What nothing drives within kMostProbes of them stays where it is until a load
-/// begins (Integrator::pass_discontinuity()).
+/// moves the stop in it. Each step reaches the next mass of a chain; what no step reaches stays where
+/// it is until a load begins (Integrator::pass_discontinuity()).
 /// Checked in tests/verification/departure_test.cpp. Returns whether a stop has been moved.
 bool leave_middle(dynamics::Dynamics& dynamics, State& state);
 
