@@ -4,6 +4,9 @@
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <new>
 #include <unistd.h>
 
@@ -22,6 +25,16 @@ using namespace butee::app;
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) return;
+}
+
+/// Keeps freed memory for the next matrix or step. By default the C library returns large pieces to the system at once;
+/// mapping and clearing their pages anew takes up to a tenth of a short run.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kKept = 256 << 20;
+  mallopt(M_MMAP_THRESHOLD, kKept);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+#endif
 }
 
 /// errno of a failed write to standard output; 0 on success.
@@ -45,6 +58,7 @@ int flushed(int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   occupy_standard_streams();
   // A reader that closes the pipe early, such as head, does not stop the run.
   std::signal(SIGPIPE, SIG_IGN);

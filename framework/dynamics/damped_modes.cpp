@@ -9,6 +9,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/dynamics/dynamics.hpp"
+#include "butee/dynamics/kernel/modal_motion.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/general_pairs.hpp"
 
@@ -54,6 +55,26 @@ void join_entries(const Eigen::MatrixXd& matrix, Parts& parts) {
     for (Index i = 0; i < matrix.rows(); ++i)
       if (i != j && std::abs(matrix(i, j)) > kUncoupled * std::sqrt(rows[i] * columns[j])) parts.join(i, j);
 }
+
+/// A matrix whose rows combine the rows of another one. Blocks of few modes leave most of it empty.
+class Coefficients {
+ public:
+  /// Sets the entries of two rows to the real and the imaginary part.
+  void add(Index real_row, Index imaginary_row, Index column, Complex value) {
+    entries_.emplace_back(real_row, column, value.real());
+    entries_.emplace_back(imaginary_row, column, value.imag());
+  }
+  Eigen::MatrixXd times(const Eigen::MatrixXd& other, Index rows) const {
+    constexpr double kFull = 0.1;
+    SparseMatrix matrix(rows, other.rows());
+    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    if (static_cast<double>(matrix.nonZeros()) < kFull * static_cast<double>(matrix.size())) return matrix * other;
+    return Eigen::MatrixXd(matrix) * other;
+  }
+
+ private:
+  std::vector<Eigen::Triplet<double>> entries_;
+};
 
 }  // namespace
 
@@ -156,7 +177,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   decay_.resize(p);
   turn_.resize(p);
   kinetic_.resize(p);
-  Eigen::MatrixXd of_x = Eigen::MatrixXd::Zero(n, 2 * p), of_v = of_x, from_q = of_x, from_v = of_x;
+  Coefficients of_x, of_v, from_q, from_v;
   for (Index m = 0; m < p; ++m) {
     const Block& block = blocks[kept[static_cast<std::size_t>(m)].first];
     const Index k = kept[static_cast<std::size_t>(m)].second, b = block.scale.size();
@@ -166,25 +187,32 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
     const double weight = lambda.imag() > 0.0 ? 2.0 : 1.0;
     kinetic_[m] = 0.5 * weight * weight * block.vectors.col(k).tail(b).squaredNorm();
     for (Index i = 0; i < b; ++i) {
-      const auto shape = shapes.col(block.modes[static_cast<std::size_t>(i)]);
-      const Complex x = weight / block.scale[i] * block.vectors(i, k), v = weight * block.vectors(b + i, k),
-                    on_q = block.scale[i] * block.inverse(k, i), velocity_factor = block.inverse(k, b + i);
-      of_x.col(m) += x.real() * shape;
-      of_x.col(p + m) -= x.imag() * shape;
-      of_v.col(m) += v.real() * shape;
-      of_v.col(p + m) -= v.imag() * shape;
-      from_q.col(m) += on_q.real() * shape;
-      from_q.col(p + m) += on_q.imag() * shape;
-      from_v.col(m) += velocity_factor.real() * shape;
-      from_v.col(p + m) += velocity_factor.imag() * shape;
+      const Index mode = block.modes[static_cast<std::size_t>(i)];
+      of_x.add(m, p + m, mode, std::conj(weight / block.scale[i] * block.vectors(i, k)));
+      of_v.add(m, p + m, mode, std::conj(weight * block.vectors(b + i, k)));
+      from_q.add(m, p + m, mode, block.scale[i] * block.inverse(k, i));
+      from_v.add(m, p + m, mode, block.inverse(k, b + i));
     }
   }
   speed_ = (decay_.square() + turn_.square()).sqrt();
-  displacement_ = of_x.transpose();
-  velocity_ = of_v.transpose();
-  input_ = from_v.transpose();
-  from_v_ = (system.mass * from_v).transpose();
-  from_x_ = (system.mass * from_q).transpose();
+  const Eigen::MatrixXd by_dof = shapes.transpose(), by_force = (system.mass * shapes).transpose();
+  displacement_ = of_x.times(by_dof, 2 * p);
+  velocity_ = of_v.times(by_dof, 2 * p);
+  input_ = from_v.times(by_dof, 2 * p);
+  from_v_ = from_v.times(by_force, 2 * p);
+  from_x_ = from_q.times(by_force, 2 * p);
+}
+
+void DampedModes::turn_by(double t, Index first, Eigen::Ref<Eigen::ArrayXd> re, Eigen::Ref<Eigen::ArrayXd> im) const {
+  const Index count = re.size();
+  Index k = 0;
+  while (k < count && speed_[first + k] * std::abs(t) < kernel::kLargestAngle) ++k;
+  kernel::modal_motion().turn(k, decay_.data() + first, turn_.data() + first, t, re.data(), im.data());
+  for (; k < count; ++k) {
+    const double size = std::exp(decay_[first + k] * t), angle = turn_[first + k] * t;
+    re[k] = size * std::cos(angle);
+    im[k] = size * std::sin(angle);
+  }
 }
 
 void DampedModes::to_modal(ConstVectorRef x, ConstVectorRef v, Eigen::Ref<Eigen::VectorXd> z) const {

@@ -47,6 +47,8 @@ class BUTEE_EXPORT DampedModes {
   const Eigen::MatrixXd& velocity() const { return velocity_; }          ///< 2p x n
   const Eigen::MatrixXd& input() const { return input_; }                ///< 2p x n: z' gets column d times f_d
 
+  /// re + i im = e^(lambda t) of the modes from `first` on, as many as there is room for.
+  void turn_by(double t, Index first, Eigen::Ref<Eigen::ArrayXd> re, Eigen::Ref<Eigen::ArrayXd> im) const;
   /// z, 2p numbers, of the motion (x, v).
   void to_modal(ConstVectorRef x, ConstVectorRef v, Eigen::Ref<Eigen::VectorXd> z) const;
 

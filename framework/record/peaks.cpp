@@ -46,7 +46,10 @@ std::vector<Peaks::Stop> Peaks::stops_on(Index dof) {
   std::vector<Stop> stops;
   for (Index i = 0; i < contact.size(); ++i) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
-    if (a == dof || b == dof) stops.push_back({i, follow(a, b, 0), a == dof ? 1.0 : -1.0});
+    if (a != dof && b != dof) continue;
+    // The speed resolves penetrations that are small beside the displacement.
+    tracks_.add(a, b, 1);
+    stops.push_back({i, follow(a, b, 0), a == dof ? 1.0 : -1.0});
   }
   return stops;
 }

@@ -1,5 +1,8 @@
 #include "butee/record/tracks.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace butee::record {
 namespace {
 
@@ -8,7 +11,8 @@ constexpr std::size_t kFixed = static_cast<std::size_t>(-1);
 }  // namespace
 
 std::size_t Tracks::add(Index a, Index b, std::size_t order) {
-  if (order > 1) detail_ = time::Detail::accelerations;
+  constexpr std::array kDetails = {time::Detail::displacements, time::Detail::velocities, time::Detail::accelerations};
+  detail_ = std::max(detail_, kDetails[std::min(order, kDetails.size() - 1)]);
   const auto found = std::find(pairs_.begin(), pairs_.end(), std::pair{a, b});
   if (found != pairs_.end()) return static_cast<std::size_t>(found - pairs_.begin());
   const auto place = [&](Index dof) {

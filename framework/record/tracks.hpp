@@ -49,7 +49,7 @@ class BUTEE_EXPORT Tracks {
   std::vector<std::pair<Index, Index>> pairs_;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< their indices in dofs_
   std::vector<Point> from_, to_;
-  time::Detail detail_ = time::Detail::velocities;
+  time::Detail detail_ = time::Detail::displacements;
   time::Interpolation kind_ = time::Interpolation::cubic;  ///< of the last visited step
   std::vector<Index> dofs_;
   std::vector<double> x_, v_, a_;  ///< of dofs_ at the breakpoints

@@ -16,7 +16,7 @@ using dynamics::Obstacles;
 /// The first instant sampled in a step, as a fraction of it.
 constexpr double kAhead = 1e-4;
 /// A switching function is at its end if it is this small relative to its change until the first
-/// sample.
+/// sample, or if it ends within the precision of located changes.
 constexpr double kAtEnd = 1e-6;
 /// The largest number of changes of phase at one instant; more are not physical.
 constexpr int kMostAtOnce = 50;
@@ -95,7 +95,8 @@ double ContactEvents::value(Index contact, std::size_t which, const Sample& at) 
   return found_[which].value;
 }
 
-void ContactEvents::settle(State& state, double h) {
+void ContactEvents::settle(State& state, double h, double precision) {
+  const double at_end = std::max(kAtEnd, precision / kAhead);
   follow(state);
   bool changed = false;
   for (int round = 0; round < kMostAtOnce; ++round) {
@@ -120,7 +121,7 @@ void ContactEvents::settle(State& state, double h) {
       } else {
         switches(i, work_);
         for (std::size_t k = 0; k < count && !over; ++k)
-          if (found_[k].value < 0.0 && present[k].value <= kAtEnd * -found_[k].value) over = k;
+          if (found_[k].value < 0.0 && present[k].value <= at_end * -found_[k].value) over = k;
       }
       mark = 0.0;
       if (!over) continue;
@@ -286,13 +287,14 @@ ContactEvents::Event ContactEvents::refine(const DenseOutput& motion, Event even
   return event;
 }
 
-double ContactEvents::miss(const Event& event, const DenseOutput& motion) {
-  const State& to = motion.to();
-  const double ahead = 1e-3 * (to.t - motion.from().t);
-  own_dofs_.clear();
-  add_dofs(event.contact, own_dofs_);
-  sample(motion, to.t, own_dofs_, now_);
-  sample(motion, to.t - ahead, own_dofs_, work_);
+double ContactEvents::miss(const Event& event, double h, const State& to) {
+  const double ahead = 1e-3 * h;
+  place(now_, to.t, to.x, to.v);
+  work_.t = to.t - ahead;
+  work_.x.noalias() = to.x - ahead * (to.v - 0.5 * ahead * to.a);
+  work_.v.noalias() = to.v - ahead * to.a;
+  hold(now_);
+  hold(work_);
   const double at_end = value(event.contact, event.which, now_), before = value(event.contact, event.which, work_);
   const double slope = (before - at_end) / ahead;
   return slope != 0.0 ? -at_end / slope : 0.0;

@@ -30,8 +30,9 @@ class BUTEE_EXPORT ContactEvents {
   /// and slip continue from it.
   void start(State& state, ConstVectorRef memory);
   /// Switches contacts whose phase is over to the next phase, and all changes that follow at the
-  /// same instant; a follows. `h` is the length of the coming step, s.
-  void settle(State& state, double h);
+  /// same instant or within `precision` h after it; a follows. `h` is the length of the coming step,
+  /// s, and `precision` h the uncertainty of a located change.
+  void settle(State& state, double h, double precision);
   /// Sets the contacts to the phases of a state.
   void follow(const State& state);
 
@@ -43,9 +44,9 @@ class BUTEE_EXPORT ContactEvents {
   };
   /// The first change within a step, on the dense output of a method.
   std::optional<Event> first(const DenseOutput& motion);
-  /// How far the end of a step lies beyond the event, s, estimated with the slope of the switching
-  /// function there.
-  double miss(const Event& event, const DenseOutput& motion);
+  /// How far the end `to` of a step of length h lies beyond the event, s, estimated with the slope of
+  /// the switching function there.
+  double miss(const Event& event, double h, const State& to);
   /// Marks in `to` the contact whose phase ends with the step.
   void mark(const Event& event, State& to);
 

@@ -31,7 +31,8 @@ enum class Interpolation {
 
 /// The quantities that the motion between two neighbouring breakpoints resolves within the tolerance.
 enum class Detail {
-  velocities,     ///< displacements and velocities, by the polynomial of Interpolation
+  displacements,  ///< displacements, by the polynomial of Interpolation
+  velocities,     ///< velocities as well
   accelerations,  ///< accelerations as well, which fast modes of small amplitude may dominate
   power           ///< the work of forces, by Gauss' rule with five points
 };

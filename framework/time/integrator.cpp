@@ -50,7 +50,7 @@ void Integrator::pass_discontinuity(State& state) {
 }
 
 void Integrator::settle(State& state, double h) {
-  if (events_) events_->settle(state, h);
+  if (events_) events_->settle(state, h, traits().event_precision);
 }
 
 StepReport Integrator::step(const State& from, const Step& step, State& to) {
@@ -99,7 +99,7 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     double end = std::min(std::max(event->t, earliest), to.t);
     if (!redo(end)) return;
     for (int k = 0; k < 3 && to.t == end && is_accepted(); ++k) {
-      const double miss = events_->miss(*event, dense_output(from, to));
+      const double miss = events_->miss(*event, to.t - from.t, to);
       if (std::abs(miss) <= good || std::abs(miss) > 0.1 * (to.t - from.t)) break;
       const double t_end = to.t - miss;
       if (!(t_end >= earliest && t_end <= step.t_end) || t_end == to.t) break;

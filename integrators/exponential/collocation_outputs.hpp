@@ -103,7 +103,7 @@ class CollocationOutputs final : public time::Interpolant {
     bool is_known = false;  ///< they are those of the current step
     std::vector<double> all;
   };
-  std::array<Breakpoints, 3> breakpoints_;  ///< by time::Detail
+  std::array<Breakpoints, 4> breakpoints_;  ///< by time::Detail
 };
 
 }  // namespace butee::integrators

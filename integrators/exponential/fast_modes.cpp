@@ -79,9 +79,8 @@ double FastModes::find(const State& from, const State& to, double slow, const Ei
       continue;
     }
     const double dt = kMostTurn / std::max(slow, k > 0 ? modes_.speed()[k - 1] : 0.0);
-    if ((kOfX * x + kOfV * dt * v + kOfA * dt * dt * a > scale.x).any() ||
-        (kSpeedOfV * v + kSpeedOfA * dt * a > scale.v).any())
-      return speed;
+    if ((kOfX * x + kOfV * dt * v + kOfA * dt * dt * a > scale.x).any()) return speed;
+    if (detail == time::Detail::velocities && (kSpeedOfV * v + kSpeedOfA * dt * a > scale.v).any()) return speed;
   }
   return slow;
 }

@@ -92,6 +92,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   StepReport report;
   if (step.is_part && from.t == step_begin_ && to.t <= solved_end_ && end_at(from, to, report)) return report;
   step_end_ = std::numeric_limits<double>::quiet_NaN();
+  are_nodes_known_ = true;
   outputs_.reset();
   const auto redo_with = [&report](double h) {
     report.error = 2.0;
@@ -140,15 +141,25 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
 
 bool ModalCollocation::end_at(const State& from, State& to, StepReport& report) {
   const double h = to.t - from.t;
-  const StepResponse response(modes_, loads_.turning(), h);
-  response.move(from.t, modal(from), loads_.has_others() ? loads_.polynomial(from.t, h).data() : nullptr,
-                forces_.free_nodes());
-  forces_.end_at(h / (step_end_ - step_begin_), response);
+  forces_.end_at(h / (step_end_ - step_begin_), from.t, modal(from),
+                 loads_.has_others() ? loads_.polynomial(from.t, h).data() : nullptr,
+                 PlaceResponse(modes_, loads_.turning(), 1.0, h));
+  are_nodes_known_ = false;
   accept(from, h, to);
   judge(from, to, h, report);
   if (report.error <= 1.0) return true;
   report = {};
   return false;
+}
+
+time::Interpolant& ModalCollocation::interpolant() {
+  if (!are_nodes_known_) {
+    const double h = step_end_ - step_begin_;
+    forces_.find_nodes(step_begin_, loads_.has_others() ? loads_.polynomial(step_begin_, h).data() : nullptr,
+                       StepResponse(modes_, loads_.turning(), h));
+    are_nodes_known_ = true;
+  }
+  return outputs_;
 }
 
 void ModalCollocation::judge(const State& from, State& to, double h, StepReport& report) {
@@ -162,7 +173,7 @@ void ModalCollocation::accept(const State& from, double h, State& to) {
   step_begin_ = from.t;
   step_end_ = to.t;
   outputs_.accept(from.t, to.t, forces_.nodes());
-  const auto end = forces_.nodes().col(StepNodes::kEnd);
+  const Eigen::VectorXd& end = forces_.end();
   to.memory.segment(memory_begin_, 2 * p) = end;
   Eigen::Map<Eigen::MatrixXd> polynomial(to.memory.data() + memory_begin_ + 2 * p, 2 * p, kCount);
   polynomial = forces_.polynomial();

@@ -34,7 +34,7 @@ class ModalCollocation final : public time::Integrator {
  private:
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
-  time::Interpolant& interpolant() override { return outputs_; }
+  time::Interpolant& interpolant() override;
 
   /// The response over a step of length h, computed at its first use.
   const StepResponse& response(double h);
@@ -56,6 +56,7 @@ class ModalCollocation final : public time::Integrator {
   std::list<StepResponse> responses_;
   double step_begin_ = 0.0, step_end_ = -1.0;  ///< the step that forces_ holds, s
   double solved_end_ = -1.0;                   ///< end of the step for which its forces were computed, s
+  bool are_nodes_known_ = true;                ///< false: forces_ holds the end of a shortened step, not yet its nodes
   CollocationOutputs outputs_;
 };
 

@@ -31,11 +31,7 @@ PlaceResponse::PlaceResponse(const dynamics::DampedModes& modes, const std::vect
   const double length = place * h;
   propagator_.resize(rest, 2);
   const auto decay = modes.decay().segment(first, rest), turn = modes.turn().segment(first, rest);
-  for (Index k = 0; k < rest; ++k) {
-    const double size = std::exp(decay[k] * length), angle = turn[k] * length;
-    propagator_(k, 0) = size * std::cos(angle);
-    propagator_(k, 1) = size * std::sin(angle);
-  }
+  modes.turn_by(length, first, propagator_.col(0), propagator_.col(1));
   find_moments(decay, turn, modes.speed().segment(first, rest), place, h);
   for (const TurningLoad& load : loads) add_harmonics(decay, turn, load, length);
 }
@@ -50,33 +46,40 @@ void PlaceResponse::find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstA
   while (slow < p && speed[slow] * place * h <= kSmall) ++slow;
   // With w = lambda c h: moment_r = h c^(r+1) sum_k w^k r!/(r+k+1)!, here for the highest r.
   constexpr int top = kPowers - 1;
-  if (slow > 0) {
-    const Eigen::ArrayXd wr = decay.head(slow) * (place * h), wi = turn.head(slow) * (place * h);
-    Eigen::ArrayXd tr = Eigen::ArrayXd::Constant(slow, power[kPowers] / kPowers), ti = Eigen::ArrayXd::Zero(slow),
-                   sr = tr, si = ti;
-    const double largest = speed[slow - 1] * place * h;
+  // A few modes at a time stay in registers and take the terms that the fastest of them needs.
+  const auto sum_series = [&](Index k, auto size) {
+    constexpr int kSize = decltype(size)::value;
+    using Part = Eigen::Array<double, kSize, 1>;
+    const Part dr = h * decay.segment<kSize>(k), di = h * turn.segment<kSize>(k), wr = place * dr, wi = place * di;
+    Part tr = Part::Constant(power[kPowers] / kPowers), ti = Part::Zero(), sr = tr, si = ti;
+    const double largest = speed[k + kSize - 1] * place * h;
     double bound = 1.0;
-    for (int k = 1; k < kMostTerms && bound > kRounding; ++k) {
-      const double factor = 1.0 / (top + k + 1);
+    for (int n = 1; n < kMostTerms && bound > kRounding; ++n) {
+      const double factor = 1.0 / (top + n + 1);
       bound *= largest * factor;
-      for (Index i = 0; i < slow; ++i) {
-        const double re = factor * (tr[i] * wr[i] - ti[i] * wi[i]);
-        ti[i] = factor * (tr[i] * wi[i] + ti[i] * wr[i]);
-        tr[i] = re;
-        sr[i] += re;
-        si[i] += ti[i];
-      }
+      const Part re = factor * (tr * wr - ti * wi);
+      ti = factor * (tr * wi + ti * wr);
+      tr = re;
+      sr += tr;
+      si += ti;
     }
-    moments_.col(2 * top).head(slow) = sr;
-    moments_.col(2 * top + 1).head(slow) = si;
     // moment_(r-1) = (lambda h moment_r + h c^r)/r
-    const Eigen::ArrayXd dr = decay.head(slow) * h, di = turn.head(slow) * h;
-    for (int r = top; r > 0; --r) {
-      const auto re = moments_.col(2 * r).head(slow), im = moments_.col(2 * r + 1).head(slow);
-      moments_.col(2 * r - 2).head(slow) = (dr * re - di * im + power[static_cast<std::size_t>(r)]) / r;
-      moments_.col(2 * r - 1).head(slow) = (dr * im + di * re) / r;
+    for (int r = top; r >= 0; --r) {
+      moments_.col(2 * r).segment<kSize>(k) = sr;
+      moments_.col(2 * r + 1).segment<kSize>(k) = si;
+      if (r == 0) break;
+      const Part re = (dr * sr - di * si + power[static_cast<std::size_t>(r)]) / r;
+      si = (dr * si + di * sr) / r;
+      sr = re;
     }
-  }
+  };
+  constexpr Index kTogether = 8;
+  Index k = 0;
+  for (; k + kTogether <= slow; k += kTogether) sum_series(k, std::integral_constant<int, kTogether>());
+  if (slow >= kTogether && k < slow)
+    sum_series(slow - kTogether, std::integral_constant<int, kTogether>());
+  else
+    for (; k < slow; ++k) sum_series(k, std::integral_constant<int, 1>());
   if (slow == p) return;
   // moment_r = (r moment_(r-1) - h c^r)/(lambda h), from moment_0 = h (e^w - 1)/(lambda h)
   const Index fast = p - slow;
@@ -102,20 +105,23 @@ void PlaceResponse::add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const
     const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
     Eigen::VectorXd& out = sense > 0.0 ? harmonic.forth : harmonic.back;
     out.resize(2 * p);
-    const auto of_re = force.segment(first_, p).array(), of_im = force.segment(count_ + first_, p).array();
-    const auto pr = propagator_.col(0), pi = propagator_.col(1);
+    const double *const of_re = force.data() + first_, *const of_im = of_re + count_;
+    const double *const pr = propagator_.col(0).data(), *const pi = propagator_.col(1).data();
+    double *const out_re = out.data(), *const out_im = out_re + p;
     // w = (i Omega - lambda) length: (e^(i Omega length) - e^(lambda length)) length/w
-    const Eigen::ArrayXd wr = -decay * length, wi = (sense * load.angular_frequency - turn) * length,
-                         square = wr.square() + wi.square(), factor = length / square;
-    const Eigen::ArrayXd re = factor * ((c - pr) * wr + (sense * s - pi) * wi),
-                         im = factor * ((sense * s - pi) * wr - (c - pr) * wi);
-    out.head(p).array() = re * of_re - im * of_im;
-    out.tail(p).array() = re * of_im + im * of_re;
+    const auto w = [&](Index k) {
+      return Complex(-decay[k] * length, (sense * load.angular_frequency - turn[k]) * length);
+    };
+    for (Index k = 0; k < p; ++k) {
+      const double wr = w(k).real(), wi = w(k).imag(), factor = length / (wr * wr + wi * wi), dr = c - pr[k],
+                   di = sense * s - pi[k], re = factor * (dr * wr + di * wi), im = factor * (di * wr - dr * wi);
+      out_re[k] = re * of_re[k] - im * of_im[k];
+      out_im[k] = re * of_im[k] + im * of_re[k];
+    }
     // For small w this cancels; then e^(lambda length) length phi(w).
     for (Index k = 0; k < p; ++k) {
-      if (square[k] > 0.25) continue;
-      const Complex w(wr[k], wi[k]);
-      const Complex part = Complex(pr[k], pi[k]) * length * phi(w) * Complex(of_re[k], of_im[k]);
+      if (std::norm(w(k)) > 0.25) continue;
+      const Complex part = Complex(pr[k], pi[k]) * length * phi(w(k)) * Complex(of_re[k], of_im[k]);
       out[k] = part.real();
       out[p + k] = part.imag();
     }

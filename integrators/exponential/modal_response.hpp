@@ -100,8 +100,6 @@ class StepResponse {
   void move(double t, const double* z, const double* g, Eigen::MatrixXd& nodes) const;
   /// Adds the response to the force `g` to all columns of `nodes` except the start.
   void add_force(const double* g, Eigen::MatrixXd& nodes) const;
-  /// Adds the response to the force `g` at the end of the step to `out`.
-  void add_force_at_end(const double* g, Eigen::VectorXd& out) const { places_.back().add_force(g, out); }
 
  private:
   double h_;

@@ -30,7 +30,7 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
   const Index p = modes.count();
   free_ = nodes_ = polynomial_ = missed_ = Eigen::MatrixXd::Zero(2 * p, kCount);
-  error_ = Vector::Zero(2 * p);
+  end_ = error_ = Vector::Zero(2 * p);
 }
 
 double NodeForces::unresolved(const State& from, const double* z, const ModalLoads& loads, double h) const {
@@ -101,7 +101,7 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
     polynomial_.setZero();
     missed_.setZero();
     nodes_ = free_;
-    return nodes_.allFinite() ? Outcome::converged : Outcome::not_finite;
+    return finished();
   }
   start(from);
   const double t = from.t, h = response.h();
@@ -117,7 +117,7 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
     if (std::isnan(now)) return Outcome::not_finite;
     if (now <= settled) {
       estimate(t, response);
-      return nodes_.allFinite() ? Outcome::converged : Outcome::not_finite;
+      return finished();
     }
     if (now < kContraction * least) {
       least = now;
@@ -127,6 +127,11 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
     acceleration_.accelerate(forces_before_, forces_, weights_);
   }
   return Outcome::diverged;
+}
+
+NodeForces::Outcome NodeForces::finished() {
+  end_ = nodes_.col(kEnd);
+  return nodes_.allFinite() ? Outcome::converged : Outcome::not_finite;
 }
 
 void NodeForces::find_weights(const State& from) {
@@ -185,16 +190,23 @@ double NodeForces::inner_error(const Eigen::Ref<const Eigen::ArrayXd>& scale_v) 
   return largest;
 }
 
-void NodeForces::end_at(double part, const StepResponse& response) {
+void NodeForces::end_at(double part, double t, const double* z, const double* loads, const PlaceResponse& response) {
   double power = 1.0;
   for (Index r = 0; r < kCount; ++r, power *= part) {
     polynomial_.col(r) *= power;
     missed_.col(r) *= power;
   }
+  response.move(t, z, loads, end_);
+  response.add_force(polynomial_.data(), end_);
+  error_.setZero();
+  response.add_force(missed_.data(), error_);
+}
+
+void NodeForces::find_nodes(double t, const double* loads, const StepResponse& response) {
+  const Eigen::VectorXd begin = nodes_.col(0);
+  response.move(t, begin.data(), loads, free_);
   nodes_ = free_;
   response.add_force(polynomial_.data(), nodes_);
-  error_.setZero();
-  response.add_force_at_end(missed_.data(), error_);
 }
 
 double NodeForces::first_contact_change(double last) const {

@@ -29,13 +29,17 @@ class NodeForces {
   /// Sweeps end if they change velocities by less than `settled`, relative to their scales.
   Outcome find(const time::State& from, const StepResponse& response, double settled);
 
-  /// Ends the computed step after the fraction `part` of its length, with the same forces;
-  /// free_nodes() must hold the motion of the shorter step without contacts. Within the step the
-  /// polynomials are not superconvergent; the error is the interpolation error.
-  void end_at(double part, const StepResponse& response);
+  /// Ends the computed step, which begins at t with z, after the fraction `part` of its length, with
+  /// the same forces. `loads` are the polynomials of other loads over the shorter step or null, and
+  /// `response` is that to the end of the shorter step; nodes() remain unknown until find_nodes().
+  /// Within the step the polynomials are not superconvergent; the error is the interpolation error.
+  void end_at(double part, double t, const double* z, const double* loads, const PlaceResponse& response);
+  /// Finds the motion at the nodes of the shortened step.
+  void find_nodes(double t, const double* loads, const StepResponse& response);
 
   Eigen::MatrixXd& free_nodes() { return free_; }
   const Eigen::MatrixXd& nodes() const { return nodes_; }            ///< z at the nodes, 2p x 7
+  const Eigen::VectorXd& end() const { return end_; }                ///< z at the end
   const Eigen::MatrixXd& polynomial() const { return polynomial_; }  ///< coefficients of 1, s, ..., s^6, 2p x 7
   /// Error estimate of z at the end: z computed without the values in the middle of the step, minus
   /// z, plus the error of Lobatto's rule for the impulse of the forces.
@@ -50,6 +54,8 @@ class NodeForces {
  private:
   using AtNodes = Eigen::Matrix<double, Eigen::Dynamic, StepNodes::kCount>;
 
+  /// Takes the end from the nodes.
+  Outcome finished();
   void start(const time::State& from);
   /// The weights of forces in the norm of the acceleration: their effects on the relative speeds.
   void find_weights(const time::State& from);
@@ -75,7 +81,7 @@ class NodeForces {
   Eigen::MatrixXd missed_;  ///< polynomial_ computed without the values in the middle, minus polynomial_
   AtNodes forces_, forces_before_, moved_, moved_velocity_, weights_;  ///< for the active DOFs
   SweepAcceleration acceleration_;
-  Eigen::VectorXd error_;
+  Eigen::VectorXd end_, error_;
   Vector inner_errors_;  ///< of the velocities of the active DOFs, m/s
 };
 

@@ -174,7 +174,29 @@ Products multiply_all(Index count, const double* shape, const double* weight, co
   return {sum(of_q), sum(of_v), sum(weighted)};
 }
 
-const ModalMotionKernels kAll = {&start_all, &lead_all, &move_all, &multiply_all};
+HWY_INLINE void turn_register(const double* decay, const double* turn, double t, double* re, double* im) {
+  const Register size = hn::Exp(Tag(), hn::Mul(load(decay, 0), all(t))), angle = hn::Mul(load(turn, 0), all(t));
+  store(hn::Mul(size, hn::Cos(Tag(), angle)), re, 0);
+  store(hn::Mul(size, hn::Sin(Tag(), angle)), im, 0);
+}
+
+void turn_all(Index count, const double* decay, const double* turn, double t, double* re, double* im) {
+  Index i = 0;
+  for (; i + kWidth <= count; i += kWidth) turn_register(decay + i, turn + i, t, re + i, im + i);
+  if (i == count) return;
+  double rest[4][kWidth] = {};
+  for (Index k = i; k < count; ++k) {
+    rest[0][k - i] = decay[k];
+    rest[1][k - i] = turn[k];
+  }
+  turn_register(rest[0], rest[1], t, rest[2], rest[3]);
+  for (Index k = i; k < count; ++k) {
+    re[k] = rest[2][k - i];
+    im[k] = rest[3][k - i];
+  }
+}
+
+const ModalMotionKernels kAll = {&start_all, &lead_all, &move_all, &multiply_all, &turn_all};
 
 }  // namespace
 

@@ -54,12 +54,16 @@ struct Products {
 using MultiplyModes = Products (*)(Index count, const double* shape, const double* weight, const double* q,
                                    const double* v);
 
+/// re + i im = e^((decay + i turn) t), for any number of modes with |turn t| below kLargestAngle.
+using TurnModes = void (*)(Index count, const double* decay, const double* turn, double t, double* re, double* im);
+
 /// For the chosen instruction set.
 struct ModalMotionKernels {
   StartModes start;
   LeadModes lead;
   MoveModes move;
   MultiplyModes multiply;
+  TurnModes turn;
 };
 const ModalMotionKernels& modal_motion();
 
