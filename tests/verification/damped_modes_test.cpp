@@ -222,6 +222,24 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
 
 INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight));
 
+/// Angles below and above the limit of the vectorised functions.
+TEST(DampedModes, TurnByComplexExponentials) {
+  SceneRun run(kShaft);
+  const DampedModes modes(run.dynamics(), 1.0);
+  const Index p = modes.count();
+  for (const Index first : {Index{0}, Index{3}})
+    for (const double t : {1e-5, 1e-2, 1.0}) {
+      Eigen::ArrayXd re(p - first), im(p - first);
+      modes.turn_by(t, first, re, im);
+      for (Index k = first; k < p; ++k) {
+        const double size = std::exp(modes.decay()[k] * t), angle = modes.turn()[k] * t;
+        EXPECT_NEAR(re[k - first], size * std::cos(angle), 1e-15) << k << " " << t;
+        EXPECT_NEAR(im[k - first], size * std::sin(angle), 1e-15) << k << " " << t;
+      }
+    }
+  EXPECT_GT(modes.turn()[p - 1], 39000.0);
+}
+
 TEST(StepNodes, InterpolatePolynomialsOfDegreeSix) {
   using integrators::StepNodes;
   Eigen::Matrix<double, 1, 7> values, fifth;

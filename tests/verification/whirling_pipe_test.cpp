@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <butee/record/energy.hpp>
+#include <butee/time/contact_events.hpp>
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
@@ -59,6 +60,36 @@ TEST(WhirlingPipe, TakesNotMoreStepsAtALooserTolerance) {
   EXPECT_LT(loose, middle);
   EXPECT_LT(middle, tight);
   EXPECT_LT(tight, 1000);
+}
+
+/// The phases of the contacts with which steps begin.
+class Phases final : public time::Observer {
+ public:
+  Index differences = 0, changes = 0;
+
+  void step(const time::AcceptedStep& step) override {
+    constexpr Index kEntries = time::ContactEvents::kEntries;
+    const Vector& contact = step.from.contact;
+    const Index count = contact.size() / kEntries;
+    Vector now(count);
+    for (Index i = 0; i < count; ++i) now[i] = contact[kEntries * i];
+    if (last_.size() == count && now != last_) ++changes;
+    if (now != now.reverse()) ++differences;
+    last_ = now;
+  }
+
+ private:
+  Vector last_;
+};
+
+/// Contacts whose changes follow within the precision of their location change together.
+TEST(WhirlingPipe, ChangesSymmetricContactsTogether) {
+  SceneRun run(kSymmetricPipe, {"integrator.tolerance=1e-3"});
+  Phases phases;
+  run.simulation().add(phases);
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_GT(phases.changes, 20);
+  EXPECT_EQ(phases.differences, 0);
 }
 
 /// The power of all forces is evaluated at ten instants of a step, unless faster modes have much energy.
