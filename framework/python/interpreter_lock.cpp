@@ -19,13 +19,43 @@ auto taken(const Take& take) {
   }
 }
 
+/// Python makes a thread state for a thread that it did not start and deletes it when the thread releases the lock;
+/// both cost more than most calls. Here the state is kept until the thread ends.
+class KeptThreadState {
+ public:
+  KeptThreadState() = default;
+  KeptThreadState(const KeptThreadState&) = delete;
+  KeptThreadState& operator=(const KeptThreadState&) = delete;
+  ~KeptThreadState() {
+    if (!is_kept_ || Py_IsInitialized() == 0 || _Py_IsFinalizing() != 0) return;
+    const PyGILState_STATE state = taken(&PyGILState_Ensure);
+    PyGILState_Release(PyGILState_LOCKED);
+    PyGILState_Release(state);
+  }
+
+  /// The calling thread holds the lock and will release it as often as it acquired it.
+  void keep() {
+    if (!is_kept_) (void)PyGILState_Ensure();
+    is_kept_ = true;
+  }
+
+ private:
+  bool is_kept_ = false;
+};
+
+thread_local KeptThreadState kept;
+
 }  // namespace
 
 void wait_for_the_end() {
   while (true) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-InterpreterLock::InterpreterLock() : state_(taken(&PyGILState_Ensure)) {}
+InterpreterLock::InterpreterLock() {
+  const bool is_known = PyGILState_GetThisThreadState() != nullptr;
+  state_ = taken(&PyGILState_Ensure);
+  if (!is_known) kept.keep();
+}
 
 WithoutInterpreter::~WithoutInterpreter() {
   if (is_last_)

@@ -184,3 +184,17 @@ def test_laws_in_python_on_threads():
     assert np.allclose(rows["peak rotor.u"], peaks, rtol=1e-5)
     many = scene.batch({"load[0].amplitude": AMPLITUDES}, threads=2, end_time=0.005)
     assert np.array_equal(many[1]["rotor.u"], scene.run({"load[0].amplitude": AMPLITUDES[1]}, end_time=0.005)["rotor.u"])
+
+
+def test_threads_of_runs_keep_their_state_in_python():
+    local, calls = threading.local(), []
+
+    @butee.law("python_counting")
+    def counting(g, k):
+        local.calls = getattr(local, "calls", 0) + 1
+        calls.append(local.calls)
+        return k * g if g > 0.0 else 0.0
+
+    with_law(law="python_counting", k=1e10).batch({"load[0].amplitude": AMPLITUDES[:1]}, threads=1, end_time=0.005)
+    # The scene is read and checked on this thread.
+    assert max(calls) > 0.9 * len(calls) > 1000
