@@ -92,41 +92,6 @@ TEST(CollocationOutputs, GiveValuesAndPeaksOfFastMotion) {
     EXPECT_NEAR(got_peaks->peaks().at(column), peak, 1e-7 * peak) << column;
 }
 
-/// The number of breakpoints of all steps, by time::Detail.
-class BreakpointCounter final : public time::Observer {
- public:
-  std::size_t displacements = 0, velocities = 0, accelerations = 0;
-
-  void step(const time::AcceptedStep& step) override {
-    displacements += step.motion.breakpoints(time::Detail::displacements).size();
-    velocities += step.motion.breakpoints(time::Detail::velocities).size();
-    accelerations += step.motion.breakpoints(time::Detail::accelerations).size();
-  }
-};
-
-/// The light mass moves faster than the others, but not farther.
-TEST(CollocationOutputs, ResolveOnlyWhatIsWanted) {
-  SceneRun closed(kLight, {"integrator.type=piecewise"}),
-      run(kLight, {"integrator.type=exponential", "integrator.tolerance=1e-4"});
-  BreakpointCounter counter;
-  run.simulation().add(counter);
-  const auto peaks_of = [](SceneRun& scene) {
-    model::OutputRequest request;
-    request.interval = 0.1;
-    for (const char* name : {"a", "light", "b"})
-      request.probes.push_back({name, scene.model().nodes.select(name).nodes.front(), {model::Quantity::u}, ""});
-    return std::make_unique<record::HistoryRecorder>(request, 0.2, scene.dynamics(), nullptr);
-  };
-  const auto wanted = peaks_of(closed), got = peaks_of(run);
-  closed.simulation().add(*wanted);
-  run.simulation().add(*got);
-  ASSERT_TRUE(closed.run().completed);
-  ASSERT_TRUE(run.run().completed);
-  EXPECT_LT(counter.displacements, counter.velocities);
-  EXPECT_LE(counter.velocities, counter.accelerations);
-  for (const auto& [column, peak] : wanted->peaks()) EXPECT_NEAR(got->peaks().at(column), peak, 1e-3 * peak) << column;
-}
-
 /// Impulses are integrated between the instants of opening and closing, on the polynomials between breakpoints.
 TEST(CollocationOutputs, GiveImpactsOfFastMotion) {
   const std::string scene = kLight + R"(

@@ -1,7 +1,9 @@
 // A pipe that rotates in rings along its length: methods of different families agree in bending and torsion.
 #include <cmath>
+#include <memory>
 
 #include <butee/record/energy.hpp>
+#include <butee/record/history.hpp>
 #include <butee/time/contact_events.hpp>
 #include <gtest/gtest.h>
 
@@ -90,6 +92,41 @@ TEST(WhirlingPipe, ChangesSymmetricContactsTogether) {
   ASSERT_TRUE(run.run().completed);
   EXPECT_GT(phases.changes, 20);
   EXPECT_EQ(phases.differences, 0);
+}
+
+/// The number of breakpoints of all steps, by time::Detail.
+class BreakpointCounter final : public time::Observer {
+ public:
+  std::size_t displacements = 0, velocities = 0, accelerations = 0;
+
+  void step(const time::AcceptedStep& step) override {
+    displacements += step.motion.breakpoints(time::Detail::displacements).size();
+    velocities += step.motion.breakpoints(time::Detail::velocities).size();
+    accelerations += step.motion.breakpoints(time::Detail::accelerations).size();
+  }
+};
+
+/// Fast modes turn the nodes, but hardly move them.
+TEST(WhirlingPipe, HasPeaksOfDisplacementsAtLittleCost) {
+  SceneRun run(kSymmetricPipe, {"integrator.tolerance=1e-2"}),
+      other(kSymmetricPipe, {"integrator.type=dopri5", "integrator.tolerance=1e-5"});
+  BreakpointCounter counter;
+  run.simulation().add(counter);
+  const auto peaks_of = [](SceneRun& scene) {
+    model::OutputRequest request;
+    request.interval = 0.1;
+    for (const char* name : {"string:5", "string:middle"})
+      request.probes.push_back({name, scene.model().nodes.select(name).nodes.front(), {model::Quantity::u}, ""});
+    return std::make_unique<record::HistoryRecorder>(request, 0.3, scene.dynamics(), nullptr);
+  };
+  const auto got = peaks_of(run), wanted = peaks_of(other);
+  run.simulation().add(*got);
+  other.simulation().add(*wanted);
+  ASSERT_TRUE(run.run().completed);
+  ASSERT_TRUE(other.run().completed);
+  EXPECT_LT(counter.displacements, counter.velocities);
+  EXPECT_LE(counter.velocities, counter.accelerations);
+  for (const auto& [column, peak] : wanted->peaks()) EXPECT_NEAR(got->peaks().at(column), peak, 1e-2 * peak) << column;
 }
 
 /// The power of all forces is evaluated at ten instants of a step, unless faster modes have much energy.
