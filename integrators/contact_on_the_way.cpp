@@ -133,7 +133,8 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
     if (depth > tolerance_ * size) return true;
     if (depth > kRounding * size && closed_[i] * depth * h * impulse_rate(i, scale_v) > kNegligibleImpulse * tolerance_)
       return true;
-    if (is_noticeable(i, jumps_[i], h, scale_v) && depth_beyond(0.0) > tolerance_ * size) return true;
+    // Beyond the middle the force pulls away from it, however small the depth.
+    if (is_noticeable(i, jumps_[i], h, scale_v) && depth_beyond(0.0) > kRounding * size) return true;
   }
   return false;
 }

@@ -65,7 +65,7 @@ class Coefficients {
     entries_.emplace_back(imaginary_row, column, value.imag());
   }
   Eigen::MatrixXd times(const Eigen::MatrixXd& other, Index rows) const {
-    constexpr double kFull = 0.1;
+    constexpr double kFull = 0.1;  // chosen
     SparseMatrix matrix(rows, other.rows());
     matrix.setFromTriplets(entries_.begin(), entries_.end());
     if (static_cast<double>(matrix.nonZeros()) < kFull * static_cast<double>(matrix.size())) return matrix * other;

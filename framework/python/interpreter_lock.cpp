@@ -29,7 +29,7 @@ class KeptThreadState {
   ~KeptThreadState() {
     if (!is_kept_ || Py_IsInitialized() == 0 || _Py_IsFinalizing() != 0) return;
     const PyGILState_STATE state = taken(&PyGILState_Ensure);
-    PyGILState_Release(PyGILState_LOCKED);
+    PyGILState_Release(PyGILState_LOCKED);  // balances keep()
     PyGILState_Release(state);
   }
 

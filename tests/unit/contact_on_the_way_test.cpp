@@ -90,6 +90,22 @@ TEST(ContactOnTheWay, HasChangedWhereABluntLawJumpsAtTheMiddle) {
   }
 }
 
+/// A motion of constant acceleration turns 1e-7 m on either side of the middle of the gap, where a blunt law jumps.
+TEST(ContactOnTheWay, WasMissedWhereAMotionTurnsJustBeyondTheMiddle) {
+  SceneRun run(mass_at_a_stop("both", "type = \"rk4\"\ntime_step = 1e-3\n"),
+               {"contact[0].law=\"arctan\"", "contact[0].regularization=3.0"});
+  integrators::ContactOnTheWay contact(run.dynamics(), 1e-3);
+  constexpr double kStep = 0.1, kStart = 1.0;
+  for (const double sense : {1.0, -1.0})
+    for (const double beyond : {1e-7, -1e-7}) {
+      const double x = sense * (beyond - 0.25 * kStep * kStart), v = sense * kStart, a = -2.0 * v / kStep;
+      const auto state = [&](double t, double speed) {
+        return time::State{t, Vector::Constant(1, x), Vector::Constant(1, speed), Vector::Constant(1, a), {}, {}};
+      };
+      EXPECT_EQ(contact.was_missed(state(0.0, v), state(kStep, -v), kStep, kSpeed), beyond > 0.0) << sense;
+    }
+}
+
 /// The gap is the displacement at t = 1; a force of 0.1 N is reached 3e-7 m away from there.
 TEST(ContactOnTheWay, HasChangedWhereOneEndIsInTheBendOfALaw) {
   SceneRun run(
