@@ -23,4 +23,13 @@ void ComponentScales::raise(ConstVectorRef y, Eigen::Ref<Vector> scales) const {
     scales[i] = std::max(scales[i], kFloor * largest[kinds_[static_cast<std::size_t>(i)]]);
 }
 
+void ComponentScales::largest_of_kind(ConstVectorRef scales, Vector& all) const {
+  std::array<double, 2> largest{};
+  for (Index i = 0; i < scales.size(); ++i) {
+    double& top = largest[kinds_[static_cast<std::size_t>(i)]];
+    top = std::max(top, scales[i]);
+  }
+  for (Index i = 0; i < scales.size(); ++i) all[i] = largest[kinds_[static_cast<std::size_t>(i)]];
+}
+
 }  // namespace butee::integrators

@@ -33,6 +33,8 @@ class ComponentScales {
 
   /// S_i := max(S_i, |y_i|, largest of its kind/1000)
   void raise(ConstVectorRef y, Eigen::Ref<Vector> scales) const;
+  /// all_i := the largest scale of the kind of component i
+  void largest_of_kind(ConstVectorRef scales, Vector& all) const;
 
  private:
   std::vector<std::uint8_t> kinds_;  ///< kind of each DOF

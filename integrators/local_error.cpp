@@ -38,6 +38,10 @@ constexpr double kOfVelocity = 4.0 / 27.0;
 constexpr double kStiff = 6.0, kMostStiff = 0.5;
 /// Friction jumps in a step that changes the slip by more than this multiple of the slip speed of a smooth law.
 constexpr double kReversal = 2.0;
+/// A structure rests, for example in a static position, as long as its velocities are below kStill times rate_ and the
+/// displacements: they are rounding, and so are errors below kStillError times these. A control of them would follow
+/// vibrations of rounding at the highest frequency.
+constexpr double kStill = 1e-10, kStillError = 1e-12;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -149,6 +153,9 @@ void LocalErrorControl::start(time::State& state) {
   state.memory[kNormX] = norm(state.x);
   state.memory[kNormV] = norm(state.v);
   scales_.raise(state.x, state.memory.segment(kScales, n));
+  scales_.largest_of_kind(state.memory.segment(kScales, n), work_);
+  work_ *= kStill * rate_;
+  scales_.raise(work_, state.memory.segment(kScales + n, n));
   scales_.raise(state.v, state.memory.segment(kScales + n, n));
 }
 
@@ -174,6 +181,22 @@ double LocalErrorControl::unseen_start(const time::State& from, const time::Stat
   for (Index i = 0; i < work_.size(); ++i)
     if (scale_x_[i] > 0.0) largest = std::max(largest, kOfAcceleration * std::abs(work_[i]) / scale_x_[i]);
   return largest;
+}
+
+bool LocalErrorControl::is_still(const time::State& state) {
+  if (as_a_whole_) return state.memory[kNormV] <= kStill * rate_ * state.memory[kNormX];
+  const auto x = scales_x(state), v = scales_v(state);
+  if (v.maxCoeff() > kStill * rate_ * x.maxCoeff()) return false;
+  scales_.largest_of_kind(x, work_);
+  return (v.array() <= kStill * rate_ * work_.array()).all();
+}
+
+bool LocalErrorControl::rests(const time::State& to, ConstVectorRef error_x, ConstVectorRef error_v) {
+  if (rate_ == 0.0 || !is_still(to)) return false;
+  if (as_a_whole_)
+    return norm(error_x) <= kStillError * to.memory[kNormX] && norm(error_v) <= kStillError * rate_ * to.memory[kNormX];
+  return (error_x.array().abs() <= kStillError * work_.array()).all() &&
+         (error_v.array().abs() <= kStillError * rate_ * work_.array()).all();
 }
 
 double LocalErrorControl::norm(ConstVectorRef y) {
@@ -211,6 +234,14 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const double earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
   double epsilon =
       as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(h, error_x, error_v);
+  if (rests(to, error_x, error_v)) {
+    to.memory[kOld] = kSmallest;
+    to.memory[kAccount] = balance;
+    report.error = kSmallest;
+    report.proposal =
+        steps_ == Steps::any ? any_step(h, 0.0, 1.0, orders_.method) : grid_step(h, 0.0, orders_.estimate);
+    return;
+  }
   if (!as_a_whole_ && epsilon > smooth && rate_ > 0.0) {
     // At a start from rest errors are relative to the velocities that the accelerations cause within 1/rate_, or until
     // a load's slope jumps, and to a part of the displacements that these velocities cause within 1/rate_.

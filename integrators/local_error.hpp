@@ -75,6 +75,9 @@ class LocalErrorControl {
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
              time::StepReport& report);
 
+  /// True if nothing has moved up to this state but by rounding.
+  bool is_still(const time::State& state);
+
   /// The largest |x|_M and |v|_M so far.
   static double norm_x(const time::State& state) { return state.memory[kNormX]; }
   static double norm_v(const time::State& state) { return state.memory[kNormV]; }
@@ -112,6 +115,8 @@ class LocalErrorControl {
   /// to the displacement scales. If it is not small, the step is longer than a motion that begins with it, of which the
   /// estimates of L-stable methods show nothing.
   double unseen_start(const time::State& from, const time::State& to, double h);
+  /// True if is_still() and the errors of the step are rounding, too.
+  bool rests(const time::State& to, ConstVectorRef error_x, ConstVectorRef error_v);
   double norm(ConstVectorRef y);
   /// The relative error of the whole structure; updates the norms in the memory of `to`.
   double whole_error(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,

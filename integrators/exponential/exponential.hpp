@@ -79,6 +79,8 @@ class Exponential final : public time::Integrator, private time::Interpolant {
   /// Takes one step that ends at `end` at the latest; false if none fits or none succeeds.
   bool advance(double end, time::StepReport& report);
   double next_load_discontinuity(double t) const;
+  /// sqrt(k/m) of the stiffest closed stop, 1/s.
+  double contact_frequency() const;
   int first_index() const;
   /// True if the cache holds this macro step.
   bool holds(const time::State& from, double t_end) const;

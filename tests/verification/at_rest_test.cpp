@@ -1,0 +1,131 @@
+// Structures that rest in a static position on closed contacts: no method follows vibrations of rounding, and a load
+// that begins later is followed as from any other start.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::at_rest_test {
+namespace {
+
+/// Steps of a second in which nothing happens: L-stable methods take about 10, explicit ones hundreds, at their limit
+/// of stability. Vibrations of rounding would take thousands.
+constexpr std::int64_t kFew = 600;
+
+std::string pressed_mass(const std::string& contact, const std::string& more = "") {
+  return R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 1e4
+damping = 1.0
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+static = true
+[integrator]
+type = "rodas4"
+end_time = 1.0
+[[contact]]
+nodes = "m"
+gap = 1e-4
+)" + contact +
+         more;
+}
+
+const std::string kStop = "type = \"stop\"\nlaw = \"linear\"\nstiffness = 3e4\n";
+const std::string kRing = R"(type = "ring"
+law = "linear"
+stiffness = 3e4
+friction = { coefficient = 0.2, slip_speed = 1e-3 }
+[[element]]
+type = "spring"
+node = "m"
+dof = "uz"
+stiffness = 1e4
+)";
+const std::string kHertz =
+    "type = \"stop\"\nlaw = \"hertz\"\nstiffness = 1e7\ndamping = { type = \"hunt_crossley\", factor = 0.5 }\n";
+
+void expect_rest(const std::string& scene, const std::string& method) {
+  SceneRun run(scene, {"integrator.type=" + method});
+  const Vector start = run.system().initial_displacement;
+  const auto& report = run.run();
+  EXPECT_TRUE(report.completed) << method << report.message;
+  EXPECT_LT(report.steps + report.rejected, kFew) << method;
+  EXPECT_LT((run.simulation().state().x - start).norm(), 1e-9 * start.norm()) << method;
+}
+
+TEST(AtRest, EveryAdaptiveMethodTakesFewSteps) {
+  for (const char* method : {"auto", "rodas4", "dopri5", "extrapolation8", "exponential", "bathe_adaptive",
+                             "generalized_alpha_adaptive", "hht_alpha_adaptive"})
+    expect_rest(pressed_mass(kStop), method);
+  for (const char* method : {"auto", "rodas4", "dopri5", "extrapolation8", "exponential"})
+    expect_rest(pressed_mass(kRing), method);
+  for (const char* method : {"auto", "rodas4", "dopri5", "extrapolation8"}) expect_rest(pressed_mass(kHertz), method);
+}
+
+TEST(AtRest, ALoadThatBeginsLaterIsFollowed) {
+  const std::string load = R"([[load]]
+node = "m"
+type = "ramp"
+to = 4.0
+start = 0.5
+end = 0.52
+)";
+  const auto motion = [&](const std::string& method) {
+    SceneRun run(pressed_mass(kStop, load), {"integrator.type=" + method, "integrator.tolerance=1e-6"});
+    Sampler sampler(run.dof("m"), {0.4, 0.51, 0.55, 0.7, 0.9});
+    run.simulation().add(sampler);
+    EXPECT_TRUE(run.run().completed) << method;
+    return sampler.x;
+  };
+  const auto wanted = motion("exact");
+  EXPECT_GT(std::abs(wanted.back() - wanted.front()), 1e-5);
+  for (const char* method : {"rodas4", "dopri5", "extrapolation8", "exponential", "bathe_adaptive"})
+    EXPECT_LT(relative_rms(motion(method), wanted), 1e-5) << method;
+}
+
+/// A beam that lies on stops of gap 0 at all nodes, of which those near the supports may be open or closed to rounding.
+TEST(AtRest, ABeamOnItsBed) {
+  const std::string scene = R"(
+schema = 1
+[material.steel]
+young_modulus = 2.03e11
+density = 7900.0
+[section.pipe]
+shape = "circle"
+radius = 0.05
+[[element]]
+type = "beam"
+name = "b"
+material = "steel"
+section = "pipe"
+length = 10.0
+elements = 100
+[[support]]
+nodes = ["b:first", "b:last"]
+fix = ["u"]
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+static = true
+[[contact]]
+type = "stop"
+nodes = "b:all"
+gap = 0.0
+law = "linear"
+stiffness = 1e4
+[integrator]
+type = "auto"
+end_time = 0.01
+)";
+  for (const char* method : {"auto", "exponential", "rodas4"}) expect_rest(scene, method);
+}
+
+}  // namespace
+}  // namespace butee::test::at_rest_test
