@@ -243,7 +243,8 @@ std::optional<model::SectionCut> Beam::cut(Index part, bool at_end) const {
     cut.resultants.block<3, 1>(first, column) = sign * options_.axes.row(axis_of(kinds[k])).transpose();
   }
   cut.area = section_.area;
-  cut.preload = part_at(part).preload;
+  // Under gravity the displacements themselves stretch the beam to its weight.
+  if (!options_.preload_of_gravity) cut.preload = part_at(part).preload;
   if (section_.torsion_modulus > 0.0) cut.torsion_modulus = section_.torsion_modulus;
   if (section_.outer_fibre > 0.0) cut.modulus = section_.second_moment / section_.outer_fibre;
   if (section_.outer_fibre_z > 0.0) cut.modulus_y = section_.second_moment_y / section_.outer_fibre_z;

@@ -1,8 +1,10 @@
 #include "butee/dynamics/static_position.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "butee/dynamics/free_motion.hpp"
 #include "butee/linalg/linear_solver.hpp"
 
@@ -11,6 +13,10 @@ namespace {
 
 constexpr int kMostIterations = 200, kMostHalvings = 40;
 constexpr double kConverged = 1e-12;
+/// A point along a step is accepted if the forces do at most this part of their work at its start.
+constexpr double kSufficient = 0.5;
+/// Rounding of the residual, as a part of the sum of the sizes of its terms.
+constexpr double kRounding = 1e-14;
 
 /// K + S^T diag(k) S
 SparseMatrix with_stops(const Dynamics& dynamics, const ElasticStops& contact, const Vector& stiffness) {
@@ -78,12 +84,22 @@ class Equilibrium {
     return sum;
   }
 
+  /// The sums of the sizes of the terms of the residual.
+  Vector sizes(const SparseMatrix& tangent, const Vector& x) const {
+    return tangent.cwiseAbs() * x.cwiseAbs() + load_.cwiseAbs();
+  }
+
  private:
   Dynamics& dynamics_;
   Vector load_, elastic_, rest_;
   double t_;
   Vector w_;
 };
+
+InputError not_found(double residual) {
+  return InputError("gravity.static: the static position was not found: Newton's iteration stopped at a residual of " +
+                    to_short_text(residual) + " of the forces; give a start near it by [initial] displacement");
+}
 
 }  // namespace
 
@@ -103,23 +119,27 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
       throw InputError("gravity.static: the scene has no static position: nothing holds " +
                        describe_softest_motion(tangent, system.dofs) +
                        ", or a preload buckles it; add a support or a spring there, or start without static = true");
-    double part = 1.0, next = size;
+    // Along the step the forces do work r.step; where it vanishes, a convex energy is at its lowest.
+    const double work = r.dot(step);
+    double low = 0.0, high = 1.0, part = 1.0, next = size;
     Vector moved = x;
-    for (int k = 0; k < kMostHalvings; ++k, part *= 0.5) {
+    bool is_better = false;
+    for (int k = 0; k < kMostHalvings && !is_better; ++k, part = 0.5 * (low + high)) {
       moved = x + part * step;
       next = equilibrium.residual(moved, next_r);
-      if (next < size) break;
+      const double rest = next_r.dot(step);
+      is_better = next < size || std::abs(rest) <= kSufficient * std::abs(work);
+      (rest * work > 0.0 ? low : high) = part;
     }
-    if (!(next < size)) {
-      if (size < 1e3 * kConverged) break;
-      throw InputError(
-          "gravity.static: the static position was not found: Newton's iteration stopped at a residual of " +
-          std::to_string(size) + " of the forces; give a start near it by [initial] displacement");
-    }
+    const bool is_rounding = !(next < size) && r.norm() <= kRounding * equilibrium.sizes(tangent, x).norm();
+    if (is_rounding) break;
+    if (!is_better) throw not_found(size);
     x = moved;
-    r = next_r;
+    r.swap(next_r);
     size = next;
   }
+  if (size > kConverged && r.norm() > kRounding * equilibrium.sizes(equilibrium.tangent(x), x).norm())
+    throw not_found(size);
   return x;
 }
 

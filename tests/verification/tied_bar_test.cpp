@@ -1,8 +1,10 @@
 // Preload, gravity, static starts and accelerated bases, compared with closed forms.
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include <Eigen/SparseCholesky>
+#include <butee/record/probes.hpp>
 #include <gtest/gtest.h>
 
 #include "support/cantilever.hpp"
@@ -71,6 +73,79 @@ TEST(TiedBar, RestsWhereGravityAndAStopHoldIt) {
   EXPECT_NEAR(-start, wanted, 1e-9 * wanted);
   ASSERT_TRUE(run.run().completed);
   EXPECT_NEAR(run.simulation().state().x[middle], start, 1e-9 * wanted);
+}
+
+/// Fine meshes, whose residual never falls below rounding, and stiff stops, on which Newton's full steps
+/// only change which stops are closed.
+TEST(StaticPosition, IsFoundOnFineMeshesAndStiffStops) {
+  const std::string gravity = "[gravity]\nacceleration = [0.0, -9.81, 0.0]\nstatic = true\n";
+  for (const int elements : {120, 300, 1000}) {
+    SceneRun run(tied_bar(0.0, elements, gravity));
+    const double sag = run.system().initial_displacement[run.dof("bar:middle")];
+    EXPECT_NEAR(-sag, .0127530000, elements < 1000 ? 1e-8 : 1e-6) << elements;
+  }
+  for (const char* stiffness : {"1e6", "1e9"})
+    for (const char* gap : {"0.0", "1e-3", "0.01"}) {
+      SceneRun run(tied_bar(0.0, 34,
+                            gravity + "[[contact]]\ntype = \"stop\"\nnodes = \"bar:all\"\nlaw = \"linear\"\ngap = " +
+                                gap + "\nstiffness = " + stiffness + "\n"));
+      Vector residual(run.system().size());
+      const Vector& x = run.system().initial_displacement;
+      run.dynamics().external_force(0.0, residual);
+      const double size = residual.norm();
+      run.dynamics().add_contact_force(x, residual);
+      residual -= run.system().stiffness * x;
+      EXPECT_LT(residual.norm(), 1e-9 * size) << stiffness << " " << gap;
+    }
+}
+
+/// A hanging rod whose bending is stiffened by its own weight: N is the weight below, once.
+TEST(PreloadOfGravity, IsNotCountedTwiceInSectionForces) {
+  SceneRun run(R"(
+schema = 1
+[material.steel]
+young_modulus = 2e11
+density       = 7800.0
+poisson_ratio = 0.3
+[section.round]
+shape  = "circle"
+radius = 0.02
+[[element]]
+type = "beam"
+name = "rod"
+motion = "spatial"
+material = "steel"
+section = "round"
+points = [[0, 0, 0], [0, -10, 0]]
+up = [0, 0, 1]
+elements = 20
+preload = "gravity"
+[[element]]
+type = "mass"
+node = "rod:last"
+mass = 50.0
+[[support]]
+nodes = ["rod:first"]
+fix = ["ux", "uy", "uz", "rx", "ry", "rz"]
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+static = true
+[integrator]
+type = "newmark"
+time_step = 1e-4
+end_time = 1e-3
+)");
+  const double area = pi * 0.02 * 0.02, weight = 9.81 * (50.0 + 7800.0 * area * 10.0);
+  const model::NodeId top = run.model().nodes.select("rod:first").nodes.front();
+  record::Probes probes(
+      {{"top", top, {model::Quantity::normal_force, model::Quantity::von_mises, model::Quantity::reaction_uy}, ""}},
+      run.dynamics());
+  run.simulation().start();
+  std::array<double, 3> values{};
+  probes.evaluate(run.simulation().state(), values);
+  EXPECT_NEAR(values[0], weight, 1e-8 * weight);
+  EXPECT_NEAR(values[1], weight / area, 1e-8 * weight / area);
+  EXPECT_NEAR(values[2], weight, 1e-8 * weight);
 }
 
 /// An accelerating base is a force -M r a: closed form for one mass.
