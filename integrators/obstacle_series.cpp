@@ -115,8 +115,14 @@ void ObstacleSeries::place(Contact& contact, Index k) {
     n.z[at] = form.sense * product(arm.z, contact.inverse, k);
     contact.penetration[at] = form.sense * (contact.radius[at] - (k == 0 ? form.distance : 0.0));
   }
-  t.y[at] = -n.z[at];
-  t.z[at] = n.y[at];
+  if (group.friction.rule == Friction::Rule::spring && form.kind == ContactShape::Form::Kind::circle) {
+    // With the lever of a spring at the radius of the gap, see Obstacles.
+    t.y[at] = -form.distance * product(contact.inverse, n.z, k);
+    t.z[at] = form.distance * product(contact.inverse, n.y, k);
+  } else {
+    t.y[at] = -n.z[at];
+    t.z[at] = n.y[at];
+  }
   contact.rate[at] = product(n.y, contact.v.y, k) + product(n.z, contact.v.z, k);
 }
 
@@ -154,15 +160,11 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
     case Friction::Rule::rigid:
       return 0.0;
     case Friction::Rule::spring: {
-      // The rate of the path is the slip speed; in a ring it is the slip speed of the point at the
-      // gap.
+      // The rate of the path is the slip speed.
       if (k == 0) {
         contact.path[0] = contact.stretch;
       } else {
-        const bool round = group.shape != nullptr && group.shape->form().kind == ContactShape::Form::Kind::circle;
-        const ContactShape::Form form = group.shape != nullptr ? group.shape->form() : ContactShape::Form{};
-        double speed = round ? form.distance * product(contact.inverse, contact.along, k - 1) : contact.along[at - 1];
-        speed += contact.turning[at - 1];
+        double speed = contact.along[at - 1] + contact.turning[at - 1];
         if (k == 1) speed += contact.surface;
         contact.path[at] = length_ / static_cast<double>(k) * speed;
       }

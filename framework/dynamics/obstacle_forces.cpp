@@ -116,6 +116,8 @@ double Obstacles::friction_force(Index i, double t, const Kinematics& now, const
   const model::ObstacleGroup& group = *at(i).group;
   const Friction& friction = group.friction;
   if (friction.rule == Friction::Rule::none || (group.shape != nullptr && !phase.touches())) return 0.0;
+  // Without memory a stick spring is unstressed.
+  if (is_live_ && friction.rule == Friction::Rule::spring && phase.slip == SlipPhase::stick) return 0.0;
   const double limit = friction.coefficient * normal;
   if (friction.has_memory() && phase.slip == SlipPhase::stick) {
     if (friction.rule == Friction::Rule::rigid) return 0.0;
@@ -136,7 +138,7 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
     if (is_live_) phase = live_phase(contact, now);
     const Normal normal = this->normal(contact, phase.normal, now.approach.penetration, now.rate);
     const Eigen::Vector2d &n = now.approach.normal, &u = now.tangent;
-    const double bend = now.approach.curvature, along = u.dot(now.motion.v);
+    const double bend = now.approach.curvature, along = u.dot(now.motion.v), lever = now.lever;
     Eigen::RowVector2d normal_by_d =
         normal.by_penetration * n.transpose() + normal.by_rate * bend * along * u.transpose();
     Eigen::RowVector2d normal_by_v = normal.by_rate * n.transpose();
@@ -145,15 +147,14 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
     double friction_by_angle = 0.0, friction_by_turning = 0.0;
     double force = 0.0, friction_rate = 0.0;
     const double surface_acceleration = this->surface_acceleration(i, t);
-    if (friction.rule != Friction::Rule::none && (group.shape == nullptr || phase.touches())) {
+    const bool is_unstressed = is_live_ && friction.rule == Friction::Rule::spring && phase.slip == SlipPhase::stick;
+    if (friction.rule != Friction::Rule::none && (group.shape == nullptr || phase.touches()) && !is_unstressed) {
       force = friction_force(i, t, now, phase, normal.force);
-      const Eigen::RowVector2d slip_by_d = -bend * now.rate * u.transpose();
+      Eigen::RowVector2d slip_by_d = -lever * bend * now.rate * u.transpose();
+      if (contact.has_round_spring) slip_by_d -= lever * bend * along * n.transpose();
       if (friction.rule == Friction::Rule::spring && phase.slip == SlipPhase::stick) {
-        const bool round = contact.form.kind == ContactShape::Form::Kind::circle;
-        friction_by_d = friction.stick_stiffness * (round ? contact.form.sense * contact.form.distance * bend : 1.0) *
-                            u.transpose() +
-                        friction.stick_damping * slip_by_d;
-        friction_by_v = friction.stick_damping * u.transpose();
+        friction_by_d = friction.stick_stiffness * lever * u.transpose() + friction.stick_damping * slip_by_d;
+        friction_by_v = friction.stick_damping * lever * u.transpose();
         friction_by_angle = friction.stick_stiffness * contact.arm;
         friction_by_turning = friction.stick_damping * contact.arm;
         friction_rate = friction.stick_stiffness * now.surface + friction.stick_damping * surface_acceleration;
@@ -161,25 +162,28 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
         const Slide slide = this->slide(friction, phase.slip, now.slip);
         const double mu = friction.coefficient;
         friction_by_d = mu * slide.share * normal_by_d + mu * normal.force * slide.slope * slip_by_d;
-        friction_by_v = mu * slide.share * normal_by_v + mu * normal.force * slide.slope * u.transpose();
+        friction_by_v = mu * slide.share * normal_by_v + mu * normal.force * slide.slope * lever * u.transpose();
         friction_by_turning = mu * normal.force * slide.slope * contact.arm;
         friction_rate = mu * normal.force * slide.slope * surface_acceleration;
       }
     }
-    Eigen::Matrix2d stiffness = n * normal_by_d + u * friction_by_d;
-    if (group.shape != nullptr) stiffness += normal.force * bend * u * u.transpose() - force * bend * n * u.transpose();
+    Eigen::Matrix2d stiffness = n * normal_by_d + lever * u * friction_by_d;
+    if (group.shape != nullptr)
+      stiffness += normal.force * bend * u * u.transpose() - force * lever * bend * n * u.transpose();
+    if (contact.has_round_spring) stiffness -= force * lever * bend * u * n.transpose();
     const auto whole = [&](const Eigen::Matrix2d& plane, const Eigen::RowVector2d& friction_by, double by_rotation) {
       Block block;
-      block << plane, by_rotation * u, contact.arm * friction_by, contact.arm * by_rotation;
+      block << plane, by_rotation * lever * u, contact.arm * friction_by, contact.arm * by_rotation;
       if (group.directions.size() == 1) {
         block.row(1).setZero();
         block.col(1).setZero();
       }
       return block;
     };
-    Tangent tangent{i, whole(stiffness, friction_by_d, friction_by_angle),
-                    whole(n * normal_by_v + u * friction_by_v, friction_by_v, friction_by_turning),
-                    -friction_rate * Coordinates(u[0], group.directions.size() == 1 ? 0.0 : u[1], contact.arm)};
+    Tangent tangent{
+        i, whole(stiffness, friction_by_d, friction_by_angle),
+        whole(n * normal_by_v + lever * u * friction_by_v, friction_by_v, friction_by_turning),
+        -friction_rate * Coordinates(lever * u[0], group.directions.size() == 1 ? 0.0 : lever * u[1], contact.arm)};
     if (!tangent.stiffness.isZero(0.0) || !tangent.damping.isZero(0.0)) tangents_.push_back(tangent);
   }
   return tangents_;

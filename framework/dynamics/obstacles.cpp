@@ -46,6 +46,8 @@ Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
         contact.reach = reach_of(contact.form);
         contact.is_silent_apart = free.group->law->is_piecewise_linear() && free.group->law->secant(-1.0) == 0.0;
         contact.rest_energy = free.group->law->energy(free.group->shape->at({0.0, 0.0}).penetration);
+        contact.has_round_spring = free.group->friction.rule == Friction::Rule::spring &&
+                                   contact.form.kind == model::ContactShape::Form::Kind::circle;
       }
       contacts_.push_back(contact);
       has_rigid_friction_ = has_rigid_friction_ || free.group->friction.rule == Friction::Rule::rigid;
@@ -140,7 +142,7 @@ Obstacles::Motion Obstacles::motion(Index i, ConstVectorRef x, ConstVectorRef v)
 Obstacles::Kinematics Obstacles::kinematics(Index i, double t, ConstVectorRef x, ConstVectorRef v) const {
   const Contact& contact = at(i);
   const model::ObstacleGroup& group = *contact.group;
-  Kinematics now{motion(i, x, v), {0.0, {0.0, 1.0}, 0.0}, {1.0, 0.0}, 0.0, 0.0, 0.0};
+  Kinematics now{motion(i, x, v), {0.0, {0.0, 1.0}, 0.0}, {1.0, 0.0}, 0.0, 0.0, 0.0, 1.0};
   if (group.shape != nullptr) {
     now.approach = group.shape->at(now.motion.d);
     now.tangent = tangent_to(now.approach.normal);
@@ -149,7 +151,8 @@ Obstacles::Kinematics Obstacles::kinematics(Index i, double t, ConstVectorRef x,
   if (group.friction.rule == Friction::Rule::none) return now;
   now.surface = -group.friction.surface_speed;
   if (contact.radius != 0.0 && rotation_ != nullptr) now.surface += contact.radius * rotation_->speed(t);
-  now.slip = now.tangent.dot(now.motion.v) + contact.arm * now.motion.rotation_speed + now.surface;
+  now.lever = lever_of(contact, now.motion.d);
+  now.slip = now.lever * now.tangent.dot(now.motion.v) + contact.arm * now.motion.rotation_speed + now.surface;
   return now;
 }
 
@@ -167,7 +170,7 @@ ContactForces Obstacles::forces(Index i, double t, ConstVectorRef x, ConstVector
   const Normal normal = this->normal(contact, phase.normal, now.approach.penetration, now.rate);
   result.normal = normal.force;
   result.friction = friction_force(i, t, now, phase, normal.force);
-  result.force = -result.friction * now.tangent;
+  result.force = -result.friction * now.lever * now.tangent;
   result.torque = -result.friction * contact.arm;
   if (group.shape != nullptr) {
     result.force -= result.normal * now.approach.normal;

@@ -183,11 +183,12 @@ class BUTEE_EXPORT Obstacles {
     const model::FreeObstacles::Ends* ends;
     const std::string* name;
     model::ContactShape::Form form;
-    double rest_energy;            ///< of the law at d = 0, J
-    double radius;                 ///< m, negative if the order of the directions is opposite to rotation about x
-    double arm;                    ///< m, `radius` if friction acts on a free rotation, else 0
-    double reach = 0.0;            ///< m: Form::distance with a margin for rounding, for is_apart()
-    bool is_silent_apart = false;  ///< no force acts while apart
+    double rest_energy;             ///< of the law at d = 0, J
+    double radius;                  ///< m, negative if the order of the directions is opposite to rotation about x
+    double arm;                     ///< m, `radius` if friction acts on a free rotation, else 0
+    double reach = 0.0;             ///< m: Form::distance with a margin for rounding, for is_apart()
+    bool is_silent_apart = false;   ///< no force acts while apart
+    bool has_round_spring = false;  ///< a ring whose friction has a stick spring
   };
   /// Position of a contact and its slip.
   struct Kinematics {
@@ -195,6 +196,7 @@ class BUTEE_EXPORT Obstacles {
     model::Approach approach;
     Eigen::Vector2d tangent;
     double rate, slip, surface;
+    double lever;  ///< of the friction: slip speed over that of the body's point, see lever_of()
   };
   struct Normal {
     double force, elastic, by_penetration, by_rate;
@@ -212,8 +214,14 @@ class BUTEE_EXPORT Obstacles {
   /// its sign, and is regular at g = 0.
   double pressing_share(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;
   static Slide slide(const model::Friction& friction, ContactPhase::Slip phase, double w);
-  /// The path of the slip since some origin: a function of the motion whose rate is w (for a ring,
-  /// at its gap). For a ring it contains the arc from `angle`, the shorter way around.
+  /// A stick spring in a ring acts at the radius of the gap, so that its stretch is a function of the
+  /// position: slip speed and tangential force are those at the body's distance r times gap/r. 1 for
+  /// any other friction.
+  static double lever_of(const Contact& contact, const Eigen::Vector2d& d) {
+    return contact.has_round_spring ? contact.form.distance / (d - contact.form.place).norm() : 1.0;
+  }
+  /// The path of the slip since some origin: a function of the motion whose rate is the slip speed.
+  /// For a ring it contains the arc from `angle`, the shorter way around.
   double path(Index i, double t, const Kinematics& at, double angle) const;
   /// The angle of the arm in a ring, rad; 0 for other contacts.
   double angle_of(Index i, const Kinematics& at) const;

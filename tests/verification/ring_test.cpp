@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <butee/dynamics/frequencies.hpp>
+#include <butee/record/contact_recorder.hpp>
 #include <butee/record/energy.hpp>
 #include <gtest/gtest.h>
 
@@ -219,6 +220,62 @@ TEST_P(StickMethods, ATurningSurfaceWindsAStickSpring) {
   run.dynamics().contact_forces(state.t, state.x, state.v, forces);
   const double arc = 1e-3 * std::arg(position(run, "m"));
   EXPECT_NEAR(forces[0].friction, stick * (path + arc), 1e-9 * stick * path);
+}
+
+/// Deep in a soft ring the stick spring still acts at the radius of the gap: its force and its stretch are those of one
+/// energy, so that friction takes energy in every impact, and the spring relaxes where it begins to slip.
+TEST_P(StickMethods, ASoftRingTakesEnergyInEveryImpact) {
+  for (const char* stiffness : {"1e4", "1e5"}) {
+    const std::string toml = std::string(R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 1e3
+damping = 1.0
+[[element]]
+type = "spring"
+node = "m"
+dof = "uz"
+stiffness = 1.2e3
+damping = 1.0
+[[load]]
+type = "harmonic"
+node = "m"
+amplitude = 20.0
+angular_frequency = 30.0
+[[load]]
+type = "harmonic"
+node = "m"
+dof = "uz"
+amplitude = 15.0
+angular_frequency = 27.0
+[integrator]
+type = "dopri5"
+tolerance = 1e-6
+end_time = 1.0
+[[contact]]
+type = "ring"
+nodes = "m"
+gap = 0.01
+friction = { coefficient = 0.2, stick_stiffness = 1e5 }
+stiffness = )") + stiffness + "\n";
+    SceneRun run(toml, {GetParam()});
+    record::ContactRecorder impacts(run.dynamics());
+    run.simulation().add(impacts);
+    record::EnergyRecorder energy(run.dynamics());
+    run.simulation().add(energy);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_LT(run.simulation().report().steps, 20000);
+    EXPECT_LT(std::abs(energy.balance_error()), 1e-4);
+    const auto all = impacts.impacts();
+    ASSERT_GT(all.size(), 4U);
+    for (const auto& impact : all) EXPECT_GT(impact.dissipated, -1e-9) << stiffness << " " << impact.t_in;
+  }
 }
 
 /// S2: a rotor rubbing on an elastic stator, both free to move, at four speeds.
