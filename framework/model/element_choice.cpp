@@ -153,6 +153,26 @@ std::optional<Index> resultant_row(Quantity quantity) {
   }
 }
 
+DofKind contact_kind(const Model& model, NodeId node, Quantity quantity) {
+  if (quantity != Quantity::contact_force) return kind_of(quantity);
+  std::optional<DofKind> first;
+  bool is_on_u = false;
+  const auto note = [&](const std::vector<NodeId>& ends, DofKind kind) {
+    const bool is_here = std::any_of(ends.begin(), ends.end(), [&](NodeId end) {
+      return model.nodes.canonical(end) == model.nodes.canonical(node);
+    });
+    if (!is_here) return;
+    if (!first) first = kind;
+    is_on_u = is_on_u || kind == DofKind::uy;
+  };
+  for (const StopGroup& group : model.stops)
+    for (const auto& ends : {group.a, group.b}) note(ends, group.dof);
+  for (const ObstacleGroup& group : model.obstacles)
+    for (const DofKind kind : group.directions)
+      for (const auto& ends : {group.a, group.b}) note(ends, kind);
+  return is_on_u || !first ? DofKind::uy : *first;
+}
+
 std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,
                     const std::string& element) {
   const NodalDof dof{node, kind_of(quantity)};

@@ -30,6 +30,10 @@ BUTEE_EXPORT std::optional<Index> resultant_row(Quantity quantity);
 BUTEE_EXPORT std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,
                                  const std::string& element);
 
+/// The DOF along which contact_force of a node is recorded: uy if a contact of the node acts along it,
+/// else the first one along which its contacts act. kind_of() for all other quantities.
+BUTEE_EXPORT DofKind contact_kind(const Model& model, NodeId node, Quantity quantity);
+
 /// The name of an element; "" if it has none.
 BUTEE_EXPORT const std::string& element_name(const Model& model, std::size_t element);
 

@@ -16,14 +16,16 @@ struct Description {
 };
 
 /// In the order of Quantity.
-constexpr std::array<Description, 68> kAll = {{
+constexpr std::array<Description, 74> kAll = {{
     {"u", "m", "displacement", Source::motion, DofKind::uy, 0},
     {"v", "m/s", "velocity", Source::motion, DofKind::uy, 1},
     {"a", "m/s2", "acceleration", Source::motion, DofKind::uy, 2},
     {"theta", "rad", "rotation, du/dx on a beam", Source::motion, DofKind::rz, 0},
     {"theta_v", "rad/s", "its velocity", Source::motion, DofKind::rz, 1},
     {"theta_a", "rad/s2", "its acceleration", Source::motion, DofKind::rz, 2},
-    {"contact_force", "N", "the force of all stops on the node", Source::stops, DofKind::uy, 0},
+    {"contact_force", "N",
+     "the force of all contacts on the node along u, or along the DOF of its stops if none is on u", Source::stops,
+     DofKind::uy, 0},
     {"stop_state", "1", "the side on which a stop on the node is closed: +1, -1, or 0", Source::stops, DofKind::uy, 0},
     {"V", "N", "shear force of a beam, exerted by the larger-x side on the smaller-x side, along u", Source::section,
      DofKind::uy, 0},
@@ -97,6 +99,12 @@ constexpr std::array<Description, 68> kAll = {{
     {"slip", "m/s", "their slip speed", Source::contacts, DofKind::uy, 0},
     {"wear_power", "W", "normal force times slip speed (Archard), of the closed contacts", Source::contacts,
      DofKind::uy, 0},
+    {"contact_ux", "N", "force of all contacts on the node along ux", Source::stops, DofKind::ux, 0},
+    {"contact_uy", "N", "force of all contacts on the node along uy", Source::stops, DofKind::uy, 0},
+    {"contact_uz", "N", "force of all contacts on the node along uz", Source::stops, DofKind::uz, 0},
+    {"contact_rx", "N m", "moment of all contacts on the node about x", Source::stops, DofKind::rx, 0},
+    {"contact_ry", "N m", "moment of all contacts on the node about y", Source::stops, DofKind::ry, 0},
+    {"contact_rz", "N m", "moment of all contacts on the node about z", Source::stops, DofKind::rz, 0},
 }};
 
 const Description& description_of(Quantity quantity) {

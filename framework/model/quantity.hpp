@@ -85,7 +85,14 @@ enum class Quantity {
   contact_normal,
   contact_friction,
   contact_slip,
-  contact_wear
+  contact_wear,
+  // Forces of all contacts on one DOF of a node: for probes only.
+  contact_ux,
+  contact_uy,
+  contact_uz,
+  contact_rx,
+  contact_ry,
+  contact_rz
 };
 
 /// "u", "M" ...
@@ -112,10 +119,15 @@ inline bool is_element_force(Quantity quantity) {
   return source_of(quantity) != Source::motion && source_of(quantity) != Source::stops;
 }
 
+/// True for contact_force and contact_ux to contact_rz.
+inline bool is_contact_force(Quantity quantity) {
+  return source_of(quantity) == Source::stops && quantity != Quantity::stop_state;
+}
+
 /// True for displacements, velocities and accelerations in space.
 BUTEE_EXPORT bool is_absolute(Quantity quantity);
 
-/// The DOF of the node that a quantity belongs to.
+/// The DOF of the node that a quantity belongs to; for contact_force see contact_kind().
 BUTEE_EXPORT DofKind kind_of(Quantity quantity);
 /// For Source::motion 0, 1 or 2: displacement, velocity or acceleration; 0 for all others.
 BUTEE_EXPORT int order_of(Quantity quantity);

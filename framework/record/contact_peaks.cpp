@@ -27,8 +27,7 @@ ContactPeaks::ContactPeaks(const std::vector<model::ProbeRequest>& requests, dyn
   for (model::ProbeRequest request : requests) {
     const std::vector<Index> contacts = contacts_of(dynamics, request.node);
     std::erase_if(request.quantities, [&](model::Quantity quantity) {
-      return source_of(quantity) != model::Source::contacts &&
-             (quantity != model::Quantity::contact_force || contacts.empty());
+      return source_of(quantity) != model::Source::contacts && (!is_contact_force(quantity) || contacts.empty());
     });
     if (request.quantities.empty()) continue;
     contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());

@@ -113,8 +113,8 @@ void ElementForces::add_loads_of_part(const model::Element* beam, const model::S
 void ElementForces::add_obstacles(model::Quantity quantity, model::NodeId node, Sum& sum) {
   sum.quantity = quantity;
   const model::DofTable& dofs = dynamics_.system().dofs;
-  if (quantity == model::Quantity::contact_force) {
-    sum.dof = dofs.index({node, kind_of(quantity)});
+  if (is_contact_force(quantity)) {
+    sum.dof = dofs.index({node, contact_kind(model_, node, quantity)});
     const dynamics::ElasticStops& contact = dynamics_.stops();
     for (Index i = 0; i < contact.size(); ++i) {
       if (sum.dof >= 0 && contact.dof_a(i) == sum.dof) sum.stops.push_back({i, 1.0});
@@ -211,20 +211,21 @@ void ElementForces::add_reaction(NodalDof dof, Sum& sum) {
     for (const auto& element : model_.elements) element->assemble(parts);
     sum.loads.push_back({load.in_time.get(), weight});
   }
-  if (dof.kind == DofKind::u) add_stops(dof.node, sum);
+  add_stops(dof, sum);
 }
 
-void ElementForces::add_stops(model::NodeId node, Sum& sum) {
+void ElementForces::add_stops(NodalDof dof, Sum& sum) {
   const model::DofTable& table = dynamics_.system().dofs;
-  const model::NodeId wanted = model_.nodes.canonical(node);
+  const model::NodeId wanted = model_.nodes.canonical(dof.node);
   Index stop = 0;
   for (const model::StopGroup& group : model_.stops)
     for (std::size_t i = 0; i < group.a.size(); ++i) {
-      const bool is_free_a = table.index({group.a[i], DofKind::u}) >= 0;
-      const bool is_free_b = !group.b.empty() && table.index({group.b[i], DofKind::u}) >= 0;
+      const bool is_free_a = table.index({group.a[i], group.dof}) >= 0;
+      const bool is_free_b = !group.b.empty() && table.index({group.b[i], group.dof}) >= 0;
       if (!is_free_a && !is_free_b) continue;  // Such stops are not assembled.
-      if (model_.nodes.canonical(group.a[i]) == wanted) sum.stops.push_back({stop, -1.0});
-      if (!group.b.empty() && model_.nodes.canonical(group.b[i]) == wanted) sum.stops.push_back({stop, 1.0});
+      if (group.dof == dof.kind && model_.nodes.canonical(group.a[i]) == wanted) sum.stops.push_back({stop, -1.0});
+      if (group.dof == dof.kind && !group.b.empty() && model_.nodes.canonical(group.b[i]) == wanted)
+        sum.stops.push_back({stop, 1.0});
       ++stop;
     }
 }

@@ -94,7 +94,7 @@ class BUTEE_EXPORT ElementForces {
   double sum_of_obstacles(const Sum& of) const;
   void add_springs(model::NodalDof dof, const std::string& element, Sum& sum);
   void add_reaction(model::NodalDof dof, Sum& sum);
-  void add_stops(model::NodeId node, Sum& sum);
+  void add_stops(model::NodalDof dof, Sum& sum);
   /// Adds sign p of every part of an element at the DOF.
   void add_pieces_at(std::size_t element, model::NodalDof dof, double sign, Sum& sum);
   std::size_t add_piece(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices, bool turns);

@@ -1,5 +1,7 @@
 #include "butee/record/peaks.hpp"
 
+#include "butee/record/probes.hpp"
+
 namespace butee::record {
 namespace {
 
@@ -20,13 +22,12 @@ double largest_force(dynamics::ElasticStops& contact, Index stop, double least, 
 }  // namespace
 
 Peaks::Peaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
-  const model::DofTable& table = dynamics.system().dofs;
   for (const model::ProbeRequest& request : requests)
     for (const model::Quantity quantity : request.quantities) {
-      const Index dof = table.index({request.node, kind_of(quantity)});
+      const Index dof = Probes::dof_of(quantity, request.node, dynamics);
       Column column{
           request.label + "." + name_of(quantity), kNone, static_cast<std::size_t>(order_of(quantity)), {}, 0.0};
-      if (dof >= 0 && quantity == model::Quantity::contact_force)
+      if (dof >= 0 && is_contact_force(quantity))
         column.stops = stops_on(dof);
       else if (dof >= 0)
         column.track = follow(dof, model::DofTable::kFixed, column.order);

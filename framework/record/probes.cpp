@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "butee/core/error.hpp"
+#include "butee/model/element_choice.hpp"
 
 namespace butee::record {
 namespace {
@@ -27,14 +28,13 @@ Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynam
   for (const model::ProbeRequest& request : requests)
     for (const model::Quantity quantity : request.quantities) {
       columns_.push_back(request.label + "." + name_of(quantity));
-      if (is_element_force(quantity) ||
-          (quantity == model::Quantity::contact_force && dynamics.obstacles() != nullptr)) {
+      if (is_element_force(quantity) || (is_contact_force(quantity) && dynamics.obstacles() != nullptr)) {
         sources_.push_back(element_force(quantity, request));
         continue;
       }
-      const Index dof = table.index({request.node, kind_of(quantity)});
+      const Index dof = dof_of(quantity, request.node, dynamics);
       Column column{samples_of(quantity), slot(dof), stops_.size(), stops_.size()};
-      if (quantity == model::Quantity::contact_force && dof >= 0) add_stops(dof);
+      if (is_contact_force(quantity) && dof >= 0) add_stops(dof);
       column.last_stop = stops_.size();
       if (dynamics.system().model != nullptr && source_of(quantity) == model::Source::motion)
         column.base = base_shares(*dynamics.system().model, table, {request.node, kind_of(quantity)},
@@ -47,6 +47,12 @@ Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynam
   if (element_forces_ == nullptr) return;
   force_dofs_ = element_forces_->dofs();
   all_x_ = all_v_ = Vector::Zero(dynamics.size());
+}
+
+Index Probes::dof_of(model::Quantity quantity, model::NodeId node, const dynamics::Dynamics& dynamics) {
+  const model::Model* const owner = dynamics.system().model;
+  const DofKind kind = owner != nullptr ? contact_kind(*owner, node, quantity) : kind_of(quantity);
+  return dynamics.system().dofs.index({node, kind});
 }
 
 bool Probes::has_base_share(const model::Model* model, const model::DofTable& dofs, model::NodeId node,

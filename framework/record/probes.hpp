@@ -36,6 +36,8 @@ class BUTEE_EXPORT Probes {
     sample(step, {&t, 1}, view);
     take(0, values);
   }
+  /// The free DOF that a motion or contact force of a node belongs to; negative if it is held or absent.
+  static Index dof_of(model::Quantity quantity, model::NodeId node, const dynamics::Dynamics& dynamics);
   /// True if a column is measured in another frame than x: columns in space, or relative to a
   /// moving base.
   bool has_base_shares() const { return has_base_shares_; }

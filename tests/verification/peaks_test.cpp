@@ -216,5 +216,66 @@ stiffness = 80.0
   EXPECT_NEAR(summary["peak"]["ball.contact_force"].get<double>(), fine, 3e-6 * fine);
 }
 
+/// contact_force belongs to the DOF of the stops; contact_uy and contact_uz tell directions apart.
+TEST(PeaksOfContacts, AreThoseOfStopsAlongAnyDof) {
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 100.0
+[[element]]
+type = "spring"
+node = "m"
+dof = "uz"
+stiffness = 100.0
+damping = 8.0
+[[contact]]
+type = "stop"
+nodes = "m"
+dof = "uz"
+law = "linear"
+gap = 0.01
+stiffness = 1000.0
+[[load]]
+type = "constant"
+node = "m"
+dof = "uz"
+value = 10.0
+[integrator]
+type = "exact"
+end_time = 1.0
+[output]
+impacts = true
+[[output.probe]]
+label = "m"
+node = "m"
+quantities = ["contact_force", "contact_uy", "contact_uz"]
+)";
+  for (const std::string more : {"", "damping = { type = \"kelvin_voigt\", coefficient = 1e-9 }\n"}) {
+    std::string toml = scene;
+    toml.replace(toml.find("gap = 0.01\n"), 0, more);
+    TemporaryFolder folder;
+    folder.write("s.toml", toml);
+    ASSERT_EQ(run_program({"run", "s.toml", "-q"}, folder.path()).status, 0);
+    const auto peak = nlohmann::json::parse(read_file(folder.file("s-results/summary.json")))["peak"];
+    const CsvTable impacts(folder.file("s-results/impacts.csv"));
+    const auto forces = impacts.column("peak_force");
+    const double largest = *std::max_element(forces.begin(), forces.end());
+    EXPECT_GT(largest, 10.0);
+    EXPECT_NEAR(peak.at("m.contact_force").get<double>(), largest, 1e-6 * largest);
+    EXPECT_NEAR(peak.at("m.contact_uz").get<double>(), largest, 1e-6 * largest);
+    EXPECT_EQ(peak.at("m.contact_uy").get<double>(), 0.0);
+    const CsvTable history(folder.file("s-results/history.csv"));
+    // At rest the load is held by the spring and the stop: 100 u + 1000 (u - 0.01) = 10.
+    EXPECT_NEAR(history.column("m.contact_uz").back(), -1000.0 * (20.0 / 1100.0 - 0.01), 0.2);
+    EXPECT_EQ(history.column("m.contact_force").back(), history.column("m.contact_uz").back());
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::peaks_test
