@@ -29,8 +29,9 @@ void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
 }
 
-double closeness(const dynamics::ContactForces& forces) {
-  return forces.penetration;
+/// A contact with a dashpot that must not pull ends where its force vanishes, before the bodies separate.
+bool is_in_contact(const dynamics::ContactForces& forces) {
+  return forces.penetration > 0.0 && forces.normal != 0.0;
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ void ContactRecorder::start(const time::State& state) {
   dynamics_.contact_forces(state.t, state.x, state.v, forces_);
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     Watch& watch = watches_[i];
-    watch.touches = watch.is_support || closeness(forces_[i]) > 0.0;
+    watch.touches = watch.is_support || is_in_contact(forces_[i]);
     watch.stored = forces_[i].stored;
     watch.current.t_in = state.t;
     watch.current.impact_speed = forces_[i].rate;
@@ -148,11 +149,11 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
   for (const auto& [t, weight] : gauss_points(begin, end)) {
     take(at(step, t));
     for (const std::size_t i : active_)
-      if (watches_[i].is_support || now_[i].penetration > 0.0) take_force(step, i, t, now_[i].normal);
+      if (watches_[i].is_support || is_in_contact(now_[i])) take_force(step, i, t, now_[i].normal);
     for (const std::size_t i : active_) {
       const dynamics::ContactForces& now = now_[i];
       Watch& watch = watches_[i];
-      if (!watch.is_support && !(now.penetration > 0.0)) continue;
+      if (!watch.is_support && !is_in_contact(now)) continue;
       ContactWear& wear = wear_[i];
       const double slip = std::abs(now.slip_speed);
       wear.work += weight * std::abs(now.normal) * slip;
@@ -178,7 +179,7 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
       watch.stored = now.stored;
       continue;
     }
-    const bool touches = now.penetration > 0.0;
+    const bool touches = is_in_contact(now);
     if (touches || watch.touches) take_force(step, i, end, now.normal);
     const double gained = now.stored - watch.stored;
     wear_[i].dissipated -= gained;
@@ -213,9 +214,9 @@ void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact
   // Steps of methods that follow phases end at changes of phase.
   const double shortly_before = end - step.event_error;
   if (!obstacles.is_live() && end == step.to.t && shortly_before > begin &&
-      (at(step, shortly_before)[contact].penetration > 0.0) == watch.touches)
+      is_in_contact(at(step, shortly_before)[contact]) == watch.touches)
     begin = end;
-  end = bisect(begin, end, [&](double t) { return (at(step, t)[contact].penetration > 0.0) == watch.touches; });
+  end = bisect(begin, end, [&](double t) { return is_in_contact(at(step, t)[contact]) == watch.touches; });
   watch.touches = !watch.touches;
   Impact& impact = watch.current;
   if (watch.touches) {

@@ -1,5 +1,6 @@
 // Dissipative impacts compared with closed forms of the restitution and of the largest penetration.
 #include <cmath>
+#include <numbers>
 
 #include <butee/core/error.hpp>
 #include <butee/record/contact_recorder.hpp>
@@ -51,6 +52,10 @@ TEST_P(ImpactMethods, KelvinAndVoigtsDashpotGivesItsRestitution) {
     const Outcome released = bounce(1.0, 1.0, law + " }\n", 0.3, GetParam());
     EXPECT_NEAR(released.restitution, row.released, 1e-9);
     EXPECT_NEAR(released.dissipated, 0.5 * (1.0 - row.released * row.released), 1e-8);
+    // Contact ends where k g + c g' = 0, before g = 0.
+    const double root = std::sqrt(1.0 - row.zeta * row.zeta);
+    const double turn = std::numbers::pi - std::atan2(2.0 * row.zeta * root, 1.0 - 2.0 * row.zeta * row.zeta);
+    EXPECT_NEAR(released.impulse_time, turn / (100.0 * root), 1e-9);
   }
 }
 
