@@ -325,6 +325,29 @@ TEST_P(Trust, BoundsTheErrorHoldsThePeaksAndKnowsChaos) {
   }
 }
 
+/// A method that ends its steps at the rows of the results is judged in a run with these rows.
+TEST(TrustRuns, AreTheRunOfTheResults) {
+  const std::string toml = driven(40, 60, 2, Growth::none).toml();
+  for (const char* method : {"extrapolation8", "rodas4"})
+    for (const char* interval : {"0.01", "1e-3"}) {
+      const std::vector<std::string> changes = {std::string("integrator.type=") + method, "integrator.tolerance=1e-3",
+                                                std::string("output.interval=") + interval};
+      scene::Scene session = read_scene(toml, changes);
+      const auto run = app::trust::follow(session, 0.0, std::numeric_limits<double>::infinity(), {});
+      SceneRun results(toml, changes);
+      std::vector<double> rows;
+      for (int i = 0; i * std::stod(interval) < 2.0 - 1e-9; ++i) rows.push_back(i * std::stod(interval));
+      Sampler sampler(results.dof("m0"), rows);
+      results.simulation().add(sampler);
+      ASSERT_TRUE(results.run().completed);
+      const auto& times = run.histories.times;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto at = std::lower_bound(times.begin(), times.end(), rows[i] - 1e-9) - times.begin();
+        ASSERT_NEAR(run.histories.values[0][static_cast<std::size_t>(at)], sampler.x[i], 1e-12) << method << rows[i];
+      }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(KnownScenes, Trust, testing::ValuesIn(all_scenes()),
                          [](const auto& one) { return one.param.name; });
 

@@ -9,6 +9,7 @@
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
 #include <butee/record/impacts.hpp>
+#include <butee/record/output_times.hpp>
 #include <butee/record/probes.hpp>
 #include <butee/scene/assembly.hpp>
 
@@ -40,7 +41,10 @@ std::vector<model::ProbeRequest> displacement_probes(const scene::Scene& session
 class Follower final : public time::Observer {
  public:
   Follower(const scene::Scene& session, dynamics::Dynamics& dynamics, FollowedRun& to, bool with_states)
-      : probes_(displacement_probes(session), dynamics), to_(to), row_(probes_.columns().size()) {
+      : probes_(displacement_probes(session), dynamics),
+        to_(to),
+        row_(probes_.columns().size()),
+        rows_(session.output.interval, session.output.every, session.integrator.options.end_time) {
     to_.histories.values.resize(row_.size());
     to_.histories.times = compared_times(session);
     if (!with_states) return;
@@ -61,6 +65,7 @@ class Follower final : public time::Observer {
   }
 
   void step(const time::AcceptedStep& step) override {
+    rows_.visit(step, [](double) {});
     const std::vector<double>& times = to_.histories.times;
     while (next_row_ < times.size() && times[next_row_] <= step.to.t) {
       probes_.evaluate(step, times[next_row_], row_);
@@ -76,6 +81,9 @@ class Follower final : public time::Observer {
     }
   }
 
+  /// The rows of history.csv, at which some methods end their steps: the run is then the one of the results.
+  double next_instant(double t) const override { return rows_.next_instant(t); }
+
  private:
   void take_row() {
     for (std::size_t i = 0; i < row_.size(); ++i) to_.histories.values[i].push_back(row_[i]);
@@ -85,6 +93,7 @@ class Follower final : public time::Observer {
   record::Probes probes_;
   FollowedRun& to_;
   std::vector<double> row_;
+  record::OutputTimes rows_;
   std::vector<Index> dofs_;
   std::size_t next_row_ = 0, next_state_ = 0;
 };
