@@ -104,6 +104,25 @@ class Fields {
   bool done_ = false;
 };
 
+/// The column names of a line: between separators, where it has any, so that names may contain blanks
+/// ("Time (s),Force (N)"); otherwise between blanks. A separator within quotation marks is part of the name.
+std::vector<std::string> column_names(std::string_view line, char separator) {
+  const bool has_separator = line.find(separator) != std::string_view::npos;
+  std::vector<std::string> names(1);
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      is_quoted = !is_quoted;
+    } else if (is_quoted || (has_separator ? c != separator : !is_blank(c))) {
+      names.back() += c;
+    } else if (has_separator || !names.back().empty()) {
+      names.emplace_back();
+    }
+  }
+  for (std::string& name : names) name = std::string(trimmed(name));
+  return names;
+}
+
 class NumberFile {
  public:
   NumberFile(const Parameters& p, std::string_view text) : lines_(text, p.integer("skip")), scale_(p.number("scale")) {
@@ -138,12 +157,7 @@ class NumberFile {
   }
 
   void find_names() {
-    std::vector<std::string> known;
-    for (Fields fields(lines_.line, separator_); fields.next();) {
-      std::string_view name = fields.field;
-      if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-      known.emplace_back(name);
-    }
+    const std::vector<std::string> known = column_names(lines_.line, separator_);
     for (std::size_t i = 0; i < names_.size(); ++i) {
       if (names_[i].empty()) continue;
       const auto found = std::find(known.begin(), known.end(), names_[i]);

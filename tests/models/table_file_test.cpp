@@ -56,6 +56,8 @@ TEST_F(TableFile, GivesTheMotionOfTheSameTableInTheScene) {
   folder_.write("b.csv", "# an accelerogram\n\nt; x; \"force\"\r\n0.0;9;0.0\r\n5e-2; 9; +3.0\r\n .1;9;-1\r\n0.15;9;.5");
   EXPECT_EQ(history_of(scene("file = \"b.csv\"\ncolumns = [\"t\", \"force\"]\nscale = 10")), expected);
   EXPECT_EQ(history_of(scene("file = \"b.csv\"\ncolumns = [1, 3]\nscale = 10")), expected);
+  folder_.write("d.csv", "Time (s),no. 2,\"Force, total (N)\"\n0,9,0\n0.05,9,30\n0.1,9,-10\n0.15,9,5\n");
+  EXPECT_EQ(history_of(scene("file = \"d.csv\"\ncolumns = [\"Time (s)\", \"Force, total (N)\"]")), expected);
   folder_.write("c.txt", "station 12 15 99\n1 2 3\n  0   0  0.00\n 30\t1 0.05\n-10 1 0.10 extra\n5 1 0.15\n");
   EXPECT_EQ(history_of(scene("file = \"c.txt\"\ncolumns = [3, 1]\nskip = 2")), expected);
 }
@@ -89,6 +91,8 @@ TEST_F(TableFile, RefusesWhatIsNoTableWithItsLine) {
   refused("0,0\n1,1\n", "t.csv: holds no numbers", "skip = 9");
   refused("time,force\n0,0\n", "t.csv:1: names no column \"forc\" (did you mean \"force\"?); it names: time, force",
           "columns = [\"time\", \"forc\"]");
+  refused("Time (s),\"Force, N\"\n0,0\n", "t.csv:1: names no column \"Force\"; it names: Time (s), Force, N",
+          "columns = [\"Time (s)\", \"Force\"]");
   refused("0,0\n", "t.csv:1: has no column names, but columns requests \"t\"", "columns = [\"t\", \"f\"]");
   refused("0,0\n1,1\n", "t.csv:1: has 2 columns, but column 7 is requested", "columns = [1, 7]");
 }
