@@ -76,6 +76,8 @@ int whirl_command(const ModesArguments& arguments) {
   let_turn(session.model);
   const dynamics::Whirl whirl(session.model);
   const Index count = std::min(arguments.count > 0 ? arguments.count : kDefaultCount, 2 * whirl.size());
+  if (arguments.speed && !std::isfinite(*arguments.speed))
+    throw InputError("--speed: " + to_text(*arguments.speed) + " is no speed of rotation; give rad/s");
   if (arguments.campbell.empty()) {
     if (arguments.plot || !arguments.folder.empty())
       throw InputError("--speed writes no files; with -o and --plot use --campbell FROM TO N");
@@ -89,7 +91,8 @@ int whirl_command(const ModesArguments& arguments) {
   }
   const double from = arguments.campbell[0], to = arguments.campbell[1], steps = arguments.campbell[2];
   if (arguments.speed) throw InputError("--speed cannot be combined with --campbell, which has its own speeds");
-  if (!(from < to) || !(from >= 0.0)) throw InputError("--campbell: FROM and TO are speeds in rad/s, 0 <= FROM < TO");
+  if (!(from < to) || !(from >= 0.0) || !std::isfinite(to))
+    throw InputError("--campbell: FROM and TO are speeds in rad/s, 0 <= FROM < TO");
   if (steps != std::floor(steps) || steps < 1 || steps > static_cast<double>(kMostCampbellSteps))
     throw InputError("--campbell: N is the number of steps between FROM and TO, 1 to " +
                      std::to_string(kMostCampbellSteps));

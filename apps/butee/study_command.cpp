@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -71,7 +72,11 @@ class FolderStudy {
   }
 
   bool is_first() const { return team_ == nullptr || team_->rank() == 0; }
-  void open() { store_.open(arguments_.fresh); }
+  void open() {
+    if (arguments_.merge && !std::filesystem::exists(store_.folder()))
+      throw InputError("--merge: there is nothing to merge: " + store_.folder() + " does not exist");
+    store_.open(arguments_.fresh);
+  }
   void look() { store_.look(); }
 
   /// Performs the remaining runs.

@@ -124,7 +124,7 @@ void Store::open(bool fresh) {
   if (fs::exists(folder_)) record::FolderLock::check(folder_);
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) throw InputError(folder_ + ": cannot be created: " + error.message() + "; choose another folder with -o");
+  if (error) throw RunError(folder_ + ": cannot be created: " + error.message() + "; choose another folder with -o");
   try {
     lock_ = std::make_unique<record::FolderLock>(folder_);
   } catch (const RunError& cause) {

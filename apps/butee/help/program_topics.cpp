@@ -82,7 +82,8 @@ A peak is the largest |value| over the whole motion, including the time between 
 the method's own dense output, found to 1e-10 of it (the sum of several stops on a node to 1e-6), so its accuracy is
 that of the run. For normal_force, friction_force, slip and wear_power it is searched between eight instants of a
 step. For forces of elements (M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. If a
-node has one stop, the largest peak_force of impacts.csv is the peak of contact_force. Work and dissipation, with
+node has one stop, the largest peak_force of impacts.csv is the peak of contact_force, which is the force along u or, if
+no contact acts along u, along the DOF of the stops; contact_ux ... contact_rz are those along each DOF. Work and dissipation, with
 energy = true, are integrals over that output; each row of energy.csv is at the end of a step or, with contacts in
 the plane, at the instant of the output.
 

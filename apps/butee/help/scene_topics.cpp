@@ -77,7 +77,7 @@ std::string elements_text(const plugin::Catalogue& catalogue) {
 std::string space_text(const plugin::Catalogue&) {
   return R"(A node has up to six degrees of freedom, right-handed: displacements ux, uy, uz (m) and rotations rx, ry,
 rz (rad). u is another name of uy, w of uz, theta of rz; on a beam along x, rz = duy/dx and ry = -duz/dx. A node has
-only those that an element uses. Supports, loads, springs, initial values and probes take any of them; stops act on u.
+only those that an element uses. Supports, loads, springs, stops, initial values and probes take any of them.
 
   [[element]] type = "beam"
   motion     "planar" (uy, rz), "lateral" (both planes: uy, rz, uz, ry) or "spatial" (all six)
@@ -109,9 +109,10 @@ only those that an element uses. Supports, loads, springs, initial values and pr
   [[base]] nodes = [...]: supports that move independently; each entry defines one motion. u is then measured in space, and
              the ground of springs and stops stands still; [initial] is the start in space.
 
-Probes of forces, along and about the own axes of a beam: N (with the preload), Vy, Vz, T, My, Mz are the force and
+Probes of forces, along and about the own axes of a beam: N (with a preload in N), Vy, Vz, T, My, Mz are the force and
 the moment that the side of larger x exerts on the side of smaller x; V = Vy and M = Mz. My = -E I d2w/dx2.
-reaction_ux ... reaction_rz of supports, spring_ux ... spring_rz of springs and bearings along the axes of space.
+Along the axes of space: contact_ux ... contact_rz of contacts, reaction_ux ... reaction_rz of supports, spring_ux ...
+spring_rz of springs and bearings.
 von_mises is that of the outer fibre, with N and T: in space of round sections; bending_stress that of bending along
 u. All include the element's own inertia, gyroscopic moments, weight and base motion.
 
@@ -120,7 +121,8 @@ critical speeds, with -o and --plot the Campbell diagram. `butee plot` draws orb
 between the stops of the node), run-up (the radius over the speed), full-spectrum (forward and backward whirl), frame
 (the deformed structure in space), contact-map (closed contacts over time and length) and wear (the powers of wear.csv
 over the length). If shafts turn or bearings have cross terms, the matrices are not symmetric. rodas4, dopri5,
-extrapolation8, exact and all methods with fixed steps take them, auto chooses among them, exponential refuses them.
+extrapolation8, exact and all methods with fixed steps take them, exponential with a constant speed; auto chooses among
+them.
 )";
 }
 
@@ -152,9 +154,11 @@ damping = { type = ... }, with the rate of penetration g':
                  is reported
 A law from a module may have its own dissipation (butee plugins); damping is then refused.
 friction = { coefficient, ... }: the force is mu F_n against the slip speed w = t . v + radius (Omega + rx_v) - surface_speed, and
-twists a node that has rx by -radius mu F_n, with the tangent t = (-normal_z, normal_y), in a ring the sense of rotation from y to z; one of
+twists a node that has rx by -radius mu F_n, with the tangent t = (-normal_z, normal_y), in a ring the sense of
+rotation from y to z (outside a ring from z to y); one of
   slip_speed       m/s: regularised, smoothing = "sqrt" (default), "tanh" or "clip"; slides slowly instead of sticking
-  stick_stiffness  N/m: a stick spring with memory; also stick_damping (N s/m), static_coefficient
+  stick_stiffness  N/m: a stick spring with memory (in a ring at the radius of its gap); also stick_damping (N s/m),
+                   static_coefficient
   stick = "rigid"  no motion while it sticks (not in rings); static_coefficient
 and surface_speed (m/s) of the obstacle along the tangent, for example of a belt.
 

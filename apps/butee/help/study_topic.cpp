@@ -43,8 +43,9 @@ Results for `collect`, of a probe of the scene by its label, or of a node:
   text += R"(
 Rows have the values of the keys, status (completed, failed, refused) with its reason, the results, a checksum of the
 scene, and the cost of the run. They depend neither on the number of threads nor on the order; cost and times do.
-lyapunov needs two further runs over the periods that count, and ignores the memory of contact laws. trust needs
-several, from the scene's own start, and cannot be combined with follow.
+lyapunov needs two further runs over the periods that count, and ignores the memory of contact laws; it is an average
+over these periods, and its error falls with their number (a regular motion: about 1 / time). trust needs several,
+from the scene's own start, and cannot be combined with follow.
 
 After an interruption the same command performs the remaining runs. If scene, study or butee have changed since, it
 refuses; --fresh starts again. While it runs, rows-*.h5 can be read (h5py.File(name, "r", swmr=True)["rows"]), and all

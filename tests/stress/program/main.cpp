@@ -101,7 +101,9 @@ int run_suite(Options options) {
     if (options.only.empty() || scene.name == options.only) scenes.push_back(std::move(scene));
   run_all(scenes, chosen, options.work, corners, note);
   const auto run_one = [&](Scene scene) {
-    if (options.verbose) std::printf("%s, tolerance %g\n%s", scene.name.c_str(), scene.tolerance, scene.toml.c_str());
+    if (options.verbose)
+      std::printf("%s, tolerance %.17g, end time %.17g\n%s", scene.name.c_str(), scene.tolerance, scene.end_time,
+                  scene.toml.c_str());
     run_all({std::move(scene)}, chosen, options.work, random, note);
   };
   if (options.only.empty())
