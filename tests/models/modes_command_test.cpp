@@ -53,6 +53,55 @@ TEST_F(ModesCommand, PinnedBeamHasItsFrequenciesRatiosAndEffectiveMasses) {
   }
 }
 
+/// A disc on an isotropic bearing of stiffness k: its unbalance meets the translational modes at
+/// sqrt(k/m), whatever the speed.
+TEST_F(ModesCommand, TheCampbellDiagramHasTheCriticalSpeedOfADisc) {
+  folder_.write("disc.toml", R"(
+schema = 1
+[integrator]
+end_time = 1.0
+[[element]]
+type = "disc"
+name = "d"
+mass = 2.0
+diametral_inertia = 0.1
+polar_inertia = 0.15
+[[element]]
+type = "bearing"
+node = "d"
+stiffness = [[800.0, 0.0], [0.0, 800.0]]
+[[element]]
+type = "spring"
+node = "d"
+dof = "ry"
+stiffness = 1000.0
+[[element]]
+type = "spring"
+node = "d"
+dof = "rz"
+stiffness = 1000.0
+)");
+  const Json found = json({"disc.toml", "--campbell", "0", "60", "30"});
+  const auto& criticals = found["critical_speeds"];
+  ASSERT_FALSE(criticals.empty()) << found.dump();
+  bool has_disc = false;
+  for (const Json& critical : criticals)
+    has_disc = has_disc || std::abs(critical["speed"].get<double>() - 20.0) < 1e-6 * 20.0;
+  EXPECT_TRUE(has_disc) << criticals.dump();
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--speed", "nan"},
+                                                {"--speed", "inf"},
+                                                {"--campbell", "0", "inf", "4"},
+                                                {"--campbell", "0", "nan", "4"},
+                                                {"--campbell", "5", "2", "4"},
+                                                {"--campbell", "0", "2", "0"}}) {
+    std::vector<std::string> arguments = {"disc.toml"};
+    arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << wrong[1] << outcome.errors;
+    EXPECT_NE(outcome.errors.find(wrong[0]), std::string::npos) << outcome.errors;
+  }
+}
+
 TEST_F(ModesCommand, AllEffectiveMassesTogetherAreTheMassThatCanMove) {
   double sum = 0.0;
   const Json found = json({model_path("beam1"), "-n", "68"});

@@ -212,6 +212,17 @@ void expect_bad(const std::string& study, const std::string& part, const Names& 
 constexpr const char* kVary = "[[vary]]\nkey = \"contact[0].gap\"\nvalues = [1.0]\n";
 constexpr const char* kCollect = "collect = [\"peak m.u\"]\nperiods = 2\n";
 
+/// As for a run, exit status 1: the input is sound, the results cannot be written.
+TEST(BadStudies, AFolderThatCannotBeMadeIsAFailureToWrite) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", kScene);
+  folder.write("study.toml", study_of(kVary, kCollect));
+  const Outcome outcome = run_program({"study", "study.toml", "-o", "/proc/nowhere"}, folder.path());
+  EXPECT_EQ(outcome.status, 1) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("/proc/nowhere: cannot be created"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(folder.entries().size(), 2U);
+}
+
 TEST(BadStudies, AreRefusedWithKeyAndRemedy) {
   expect_bad(study_of("[[vary]]\nkey = \"contact[0].gab\"\nvalues = [1.0]\n", kCollect), "did you mean \"gap\"");
   expect_bad(study_of("[[vary]]\nkey = \"contact[1].gap\"\nvalues = [1.0]\n", kCollect), "there is no contact[1]");
@@ -245,7 +256,8 @@ TEST(BadStudies, AreRefusedWithKeyAndRemedy) {
   expect_bad(study_of(kVary, kCollect), "--shard 3/2", {"--shard", "3/2"});
   expect_bad(study_of(kVary, kCollect), "--points", {"--points", "-"});
   expect_bad(study_of(kVary, kCollect), "scene.toml: is a file, not a folder", {"-o", "scene.toml"});
-  expect_bad(study_of(kVary, kCollect), "/proc/nowhere", {"-o", "/proc/nowhere"});
+  expect_bad(study_of(kVary, kCollect), "there is nothing to merge: nowhere does not exist",
+             {"--merge", "-o", "nowhere"});
 }
 
 TEST(BadStudies, OfPeriodsThatDoNotFollowFromTheLoads) {
