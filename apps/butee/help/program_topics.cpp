@@ -83,9 +83,9 @@ the method's own dense output, found to 1e-10 of it (the sum of several stops on
 that of the run. For normal_force, friction_force, slip and wear_power it is searched between eight instants of a
 step. For forces of elements (M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. If a
 node has one stop, the largest peak_force of impacts.csv is the peak of contact_force, which is the force along u or, if
-no contact acts along u, along the DOF of the stops; contact_ux ... contact_rz are those along each DOF. Work and dissipation, with
-energy = true, are integrals over that output; each row of energy.csv is at the end of a step or, with contacts in
-the plane, at the instant of the output.
+no contact acts along u, along the DOF of the stops; contact_ux ... contact_rz are those along each DOF. Work and
+dissipation, with energy = true, are integrals over that output; each row of energy.csv is at the end of a step or, with
+contacts in the plane, at the instant of the output.
 
 Files of an earlier run in the folder are replaced, other files stay; a folder that is not empty and was not created by
 butee is refused. A run that fails keeps its partial results, in whole lines, and reports the failure in summary.json.
