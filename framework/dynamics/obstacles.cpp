@@ -13,6 +13,9 @@ using model::Friction;
 using NormalPhase = ContactPhase::Normal;
 using SlipPhase = ContactPhase::Slip;
 
+/// Far from a ring, at its centre, its slip does not matter, but stays finite.
+constexpr double kMostLever = 2.0;
+
 Eigen::Vector2d tangent_to(const Eigen::Vector2d& normal) {
   return {-normal[1], normal[0]};
 }
@@ -151,7 +154,7 @@ Obstacles::Kinematics Obstacles::kinematics(Index i, double t, ConstVectorRef x,
   if (group.friction.rule == Friction::Rule::none) return now;
   now.surface = -group.friction.surface_speed;
   if (contact.radius != 0.0 && rotation_ != nullptr) now.surface += contact.radius * rotation_->speed(t);
-  now.lever = lever_of(contact, now.motion.d);
+  now.lever = std::min(kMostLever, lever_of(contact, now.motion.d));
   now.slip = now.lever * now.tangent.dot(now.motion.v) + contact.arm * now.motion.rotation_speed + now.surface;
   return now;
 }

@@ -207,7 +207,7 @@ std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs,
       for (const ObstacleGroup& group : model.obstacles)
         if (has(group.a) || has(group.b)) return "";
       return none + "no contact in the plane, with dissipation or friction, is on " + model.nodes.name(node) +
-             "; contact_force is that of elastic stops";
+             "; contact_force, contact_ux ... contact_rz are those of elastic stops, too";
     }
     case Source::motion:
     case Source::stops:

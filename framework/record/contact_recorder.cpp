@@ -29,9 +29,10 @@ void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
 }
 
-/// A contact with a dashpot that must not pull ends where its force vanishes, before the bodies separate.
+/// A contact with a dashpot that must not pull ends where its force vanishes, before the bodies separate: in the phase
+/// that follows, force and stored energy are 0.
 bool is_in_contact(const dynamics::ContactForces& forces) {
-  return forces.penetration > 0.0 && forces.normal != 0.0;
+  return forces.penetration > 0.0 && (forces.normal != 0.0 || forces.stored != 0.0);
 }
 
 }  // namespace

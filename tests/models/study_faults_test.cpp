@@ -187,7 +187,8 @@ TEST(StudyStore, IsWrittenByOneProcessAlone) {
   folder.write("scene.toml", kScene);
   folder.write("study.toml", sweep_of(20000, 2000));
   Process process({"study", "study.toml", "-q", "--format", "csv", "-o", "shared"}, folder.path());
-  for (int i = 0; i < 200 && !fs::exists(folder.file("shared/study.toml")); ++i) std::this_thread::sleep_for(10ms);
+  for (int i = 0; i < 6000 && !fs::exists(folder.file("shared/study.toml")); ++i) std::this_thread::sleep_for(10ms);
+  ASSERT_TRUE(fs::exists(folder.file("shared/study.toml")));
   const Outcome outcome = run_program({"study", "study.toml", "-q", "--format", "csv", "-o", "shared"}, folder.path());
   EXPECT_EQ(outcome.status, 2) << outcome.errors;
   EXPECT_NE(outcome.errors.find("is writing its results there"), std::string::npos) << outcome.errors;
