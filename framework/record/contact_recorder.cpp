@@ -259,8 +259,10 @@ std::vector<std::string> ContactRecorder::wear_columns() {
 std::string ContactRecorder::wear_line(const ContactWear& wear) const {
   const double duration = duration_ > 0.0 ? duration_ : 1.0;
   std::string line = wear.node + "," + wear.kind;
-  for (const double value : {wear.work, wear.work / duration, wear.touching / duration, wear.slip, wear.dissipated,
-                             wear.peak_force, std::sqrt(wear.square / duration)}) {
+  // The sum of the parts of a run in contact throughout exceeds the run by rounding.
+  const double share = std::min(1.0, wear.touching / duration);
+  for (const double value : {wear.work, wear.work / duration, share, wear.slip, wear.dissipated, wear.peak_force,
+                             std::sqrt(wear.square / duration)}) {
     line += ',';
     append_number(line, value);
   }

@@ -196,6 +196,14 @@ void ElementForces::add_reaction(NodalDof dof, Sum& sum) {
   const auto same = [&](NodalDof other) {
     return other.kind == dof.kind && model_.nodes.canonical(other.node) == model_.nodes.canonical(dof.node);
   };
+  // A preload pulls at both ends of its part.
+  for (const auto& element : model_.elements)
+    for (Index part = 0; part < std::ssize(element->preload()); ++part)
+      for (const bool at_end : {false, true}) {
+        const std::optional<model::SectionCut> cut = element->cut(part, at_end);
+        for (std::size_t i = 0; cut && cut->preload != 0.0 && i < cut->dofs.size(); ++i)
+          if (same(cut->dofs[i])) sum.constant += cut->preload * cut->resultants(0, static_cast<Index>(i));
+      }
   for (const model::Load& load : model_.loads) {
     for (const model::NodalValue& entry : load.pattern)
       if (same(entry.dof)) sum.loads.push_back({load.in_time.get(), -entry.value});

@@ -148,6 +148,57 @@ end_time = 1e-3
   EXPECT_NEAR(values[2], weight, 1e-8 * weight);
 }
 
+/// A tie in space that is stretched before the start: its supports carry the preload.
+TEST(Preload, IsPartOfReactions) {
+  SceneRun run(R"(
+schema = 1
+[material.steel]
+young_modulus = 2e11
+density       = 7800.0
+poisson_ratio = 0.3
+[section.round]
+shape  = "circle"
+radius = 0.02
+[[element]]
+type = "beam"
+name = "tie"
+motion = "spatial"
+material = "steel"
+section = "round"
+points = [[0, 0, 0], [3, 4, 0]]
+elements = 4
+preload = 5000.0
+[[support]]
+nodes = ["tie:first", "tie:last"]
+fix = ["ux", "uy", "uz", "rx", "ry", "rz"]
+[[load]]
+type = "constant"
+node = "tie:middle"
+dof = "uz"
+value = 100.0
+[integrator]
+type = "newmark"
+time_step = 1e-4
+end_time = 1e-3
+)");
+  using model::Quantity;
+  const auto probe = [&](const std::string& node) {
+    return model::ProbeRequest{node.substr(4),
+                               run.model().nodes.select(node).nodes.front(),
+                               {Quantity::normal_force, Quantity::reaction_ux, Quantity::reaction_uy},
+                               ""};
+  };
+  record::Probes probes({probe("tie:first"), probe("tie:last")}, run.dynamics());
+  run.simulation().start();
+  std::array<double, 6> values{};
+  probes.evaluate(run.simulation().state(), values);
+  for (const double n : {values[0], values[3]}) EXPECT_NEAR(n, 5000.0, 1e-9);
+  EXPECT_NEAR(values[1], -3000.0, 1e-9);
+  EXPECT_NEAR(values[2], -4000.0, 1e-9);
+  EXPECT_NEAR(values[4], 3000.0, 1e-9);
+  EXPECT_NEAR(values[5], 4000.0, 1e-9);
+}
+
 /// An accelerating base is a force -M r a: closed form for one mass.
 TEST(Base, AcceleratesEveryMass) {
   SceneRun run(R"(
