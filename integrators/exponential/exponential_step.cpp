@@ -186,6 +186,7 @@ bool ExponentialStep::choose_more_stops(ContactPropagator& flow) {
 bool ExponentialStep::add_jumps(ContactPropagator& flow) {
   if (!jumps_.find(flow, errors_, step_)) return true;
   for (const Index i : jumps_.stops()) {
+    if (!errors_.force(i).jumps()) continue;
     const ContactScale at_end = {std::abs(step_.to.w[i]), std::abs(step_.to.wv[i])};
     if (contact_error_.of_jump(flow, i, scales_.of(i, at_end, step_.reached.displacement).speed) > 1.0) return false;
   }

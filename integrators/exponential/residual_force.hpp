@@ -12,6 +12,8 @@ class ResidualForce {
   ResidualForce(const dynamics::ElasticStops& contact, Index stop);
 
   double largest() const { return largest_; }  ///< N
+  /// True if the force jumps in the middle of the gap: for stops with two sides.
+  bool jumps() const { return jumps_; }
   /// Bound of the displacement error, m, over one characteristic time of the motion (`steps` steps)
   /// if the force is taken as constant on each side of w = 0 along a path from w0 to w1 with |w| <=
   /// bound. `compliance` is the displacement in the step by 1 N. The error of a varying force grows
@@ -20,7 +22,7 @@ class ResidualForce {
 
  private:
   double largest_, bend_, gap_;
-  bool jumps_;  ///< the force jumps in the middle of the gap
+  bool jumps_;
 };
 
 /// The bound of constant_error() as a fraction of the output tolerance.

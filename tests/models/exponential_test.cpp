@@ -295,5 +295,54 @@ TEST(Exponential, RefusesLoadsOfWhichItKnowsTooLittle) {
   }
 }
 
+/// A sharp one-sided stop between two masses that start at rest in the middle of its gap: its residual force does not
+/// jump there, unlike that of a stop with two sides. (Refused its first step before.)
+TEST(Exponential, StartsAtTheMiddleOfAOneSidedStop) {
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m0"
+mass = 1415.0
+[[element]]
+type = "mass"
+name = "m1"
+mass = 2936.0
+[[element]]
+type = "spring"
+node = "m0"
+stiffness = 4.657e6
+[[element]]
+type = "spring"
+nodes = ["m0", "m1"]
+stiffness = 2.463e6
+[[contact]]
+type = "stop"
+between = ["m0", "m1"]
+sides = "negative"
+gap = 0.0017
+stiffness = 4.1e9
+law = "arctan"
+regularization = 1.8e12
+[[load]]
+node = "m1"
+type = "harmonic"
+amplitude = 64200.0
+angular_frequency = 9.7
+[integrator]
+type = "exponential"
+tolerance = 1e-5
+end_time = 0.3
+)";
+  const auto motion = [&](const std::string& method) {
+    SceneRun run(scene, {"integrator.type=" + method});
+    Sampler sampler(run.dof("m1"), {0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3});
+    run.simulation().add(sampler);
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    return sampler.x;
+  };
+  EXPECT_LT(relative_rms(motion("exponential"), motion("exact")), 1e-4);
+}
+
 }  // namespace
 }  // namespace butee::test::exponential_test
