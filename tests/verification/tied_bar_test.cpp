@@ -1,7 +1,8 @@
 // Preload, gravity, static starts and accelerated bases, compared with closed forms.
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <Eigen/SparseCholesky>
 #include <butee/record/probes.hpp>
@@ -99,9 +100,9 @@ TEST(StaticPosition, IsFoundOnFineMeshesAndStiffStops) {
     }
 }
 
-/// A hanging rod whose bending is stiffened by its own weight: N is the weight below, once.
-TEST(PreloadOfGravity, IsNotCountedTwiceInSectionForces) {
-  SceneRun run(R"(
+/// A rod in space, held at its first node; `keys` continues its beam.
+std::string rod(const std::string& keys) {
+  return R"(
 schema = 1
 [material.steel]
 young_modulus = 2e11
@@ -110,93 +111,71 @@ poisson_ratio = 0.3
 [section.round]
 shape  = "circle"
 radius = 0.02
+[integrator]
+type = "newmark"
+time_step = 1e-4
+end_time = 1e-3
+[[support]]
+nodes = ["rod:first"]
+fix = ["ux", "uy", "uz", "rx", "ry", "rz"]
 [[element]]
 type = "beam"
 name = "rod"
 motion = "spatial"
 material = "steel"
 section = "round"
-points = [[0, 0, 0], [0, -10, 0]]
 up = [0, 0, 1]
+)" + keys;
+}
+
+/// The values of probes at the start.
+std::vector<double> at_start(const std::string& toml, const std::string& node,
+                             const std::vector<model::Quantity>& quantities) {
+  SceneRun run(toml);
+  record::Probes probes({{"p", run.model().nodes.select(node).nodes.front(), quantities, ""}}, run.dynamics());
+  run.simulation().start();
+  std::vector<double> values(quantities.size());
+  probes.evaluate(run.simulation().state(), values);
+  return values;
+}
+
+/// A hanging rod whose bending is stiffened by its own weight: N is the weight below, once.
+TEST(PreloadOfGravity, IsNotCountedTwiceInSectionForces) {
+  using model::Quantity;
+  const auto top = at_start(rod(R"(points = [[0, 0, 0], [0, -10, 0]]
 elements = 20
 preload = "gravity"
 [[element]]
 type = "mass"
 node = "rod:last"
 mass = 50.0
-[[support]]
-nodes = ["rod:first"]
-fix = ["ux", "uy", "uz", "rx", "ry", "rz"]
 [gravity]
 acceleration = [0.0, -9.81, 0.0]
 static = true
-[integrator]
-type = "newmark"
-time_step = 1e-4
-end_time = 1e-3
-)");
+)"),
+                            "rod:first", {Quantity::normal_force, Quantity::von_mises, Quantity::reaction_uy});
   const double area = pi * 0.02 * 0.02, weight = 9.81 * (50.0 + 7800.0 * area * 10.0);
-  const model::NodeId top = run.model().nodes.select("rod:first").nodes.front();
-  record::Probes probes(
-      {{"top", top, {model::Quantity::normal_force, model::Quantity::von_mises, model::Quantity::reaction_uy}, ""}},
-      run.dynamics());
-  run.simulation().start();
-  std::array<double, 3> values{};
-  probes.evaluate(run.simulation().state(), values);
-  EXPECT_NEAR(values[0], weight, 1e-8 * weight);
-  EXPECT_NEAR(values[1], weight / area, 1e-8 * weight / area);
-  EXPECT_NEAR(values[2], weight, 1e-8 * weight);
+  EXPECT_NEAR(top[0], weight, 1e-8 * weight);
+  EXPECT_NEAR(top[1], weight / area, 1e-8 * weight / area);
+  EXPECT_NEAR(top[2], weight, 1e-8 * weight);
 }
 
-/// A tie in space that is stretched before the start: its supports carry the preload.
+/// A tie that is stretched before the start: its supports carry the preload.
 TEST(Preload, IsPartOfReactions) {
-  SceneRun run(R"(
-schema = 1
-[material.steel]
-young_modulus = 2e11
-density       = 7800.0
-poisson_ratio = 0.3
-[section.round]
-shape  = "circle"
-radius = 0.02
-[[element]]
-type = "beam"
-name = "tie"
-motion = "spatial"
-material = "steel"
-section = "round"
-points = [[0, 0, 0], [3, 4, 0]]
+  using model::Quantity;
+  const std::string tie = rod(R"(points = [[0, 0, 0], [3, 4, 0]]
 elements = 4
 preload = 5000.0
 [[support]]
-nodes = ["tie:first", "tie:last"]
+nodes = ["rod:last"]
 fix = ["ux", "uy", "uz", "rx", "ry", "rz"]
-[[load]]
-type = "constant"
-node = "tie:middle"
-dof = "uz"
-value = 100.0
-[integrator]
-type = "newmark"
-time_step = 1e-4
-end_time = 1e-3
 )");
-  using model::Quantity;
-  const auto probe = [&](const std::string& node) {
-    return model::ProbeRequest{node.substr(4),
-                               run.model().nodes.select(node).nodes.front(),
-                               {Quantity::normal_force, Quantity::reaction_ux, Quantity::reaction_uy},
-                               ""};
-  };
-  record::Probes probes({probe("tie:first"), probe("tie:last")}, run.dynamics());
-  run.simulation().start();
-  std::array<double, 6> values{};
-  probes.evaluate(run.simulation().state(), values);
-  for (const double n : {values[0], values[3]}) EXPECT_NEAR(n, 5000.0, 1e-9);
-  EXPECT_NEAR(values[1], -3000.0, 1e-9);
-  EXPECT_NEAR(values[2], -4000.0, 1e-9);
-  EXPECT_NEAR(values[4], 3000.0, 1e-9);
-  EXPECT_NEAR(values[5], 4000.0, 1e-9);
+  for (const auto& [node, sign] : {std::pair("rod:first", -1.0), {"rod:last", 1.0}}) {
+    const auto end = at_start(tie, node, {Quantity::normal_force, Quantity::reaction_ux, Quantity::reaction_uy});
+    EXPECT_NEAR(end[0], 5000.0, 1e-9);
+    EXPECT_NEAR(end[1], sign * 3000.0, 1e-9);
+    EXPECT_NEAR(end[2], sign * 4000.0, 1e-9);
+  }
 }
 
 /// An accelerating base is a force -M r a: closed form for one mass.
