@@ -14,6 +14,9 @@ constexpr double kRounding = 1e-13;
 /// The force of a regularised law bends up to this multiple of its transition width, where that of the arctan law is
 /// within 2 % of its asymptotic force.
 constexpr double kBendWidths = 4.0;
+/// A step that stays beyond the bend resolves the force there if its distance to the border changes by less than this
+/// factor.
+constexpr double kTailRatio = 4.0;
 
 /// Upper bound of a motion through (w0, v0) and (w1, v1), a step of h apart, that rises at the
 /// start and falls at the end: the peak of the cubic plus its error. The error is estimated from
@@ -58,13 +61,17 @@ bool ContactOnTheWay::is_noticeable(Index stop, double jump, double h, ConstVect
   return jump > 0.0 && jump * h * impulse_rate(stop, scale_v) > kNegligibleImpulse * tolerance_;
 }
 
-bool ContactOnTheWay::passes_bend(Index stop, double h) const {
-  if (bends_[stop] == 0.0) return false;
+double ContactOnTheWay::bend_force(Index stop, double h) const {
+  const double bend = bends_[stop];
+  if (bend == 0.0) return 0.0;
   const double w0 = w0_[stop], w1 = w1_[stop], v0 = v0_[stop], v1 = v1_[stop];
   const double turn = v0 * v1 < 0.0 ? w0 + 0.5 * h * v0 * v0 / (v0 - v1) : w0;
   const model::FreePlay& play = contact_->play_of(stop);
   const auto [low, high] = std::minmax({play.penetration(w0), play.penetration(w1), play.penetration(turn)});
-  return low < bends_[stop] && high > -bends_[stop] && high - low > bends_[stop];
+  if (low < bend && high > -bend) return high - low > bend ? residual_[stop] : 0.0;
+  const auto [near, far] = std::minmax({std::abs(low), std::abs(high)});
+  if (far < kTailRatio * near) return 0.0;
+  return std::abs(std::abs(contact_->law_of(stop).secant(-near)) * near - residual_[stop]);
 }
 
 bool ContactOnTheWay::changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
@@ -77,7 +84,7 @@ bool ContactOnTheWay::changed(const time::State& from, const time::State& to, do
     const model::FreePlay& play = contact_->play_of(i);
     if (play.closed_side(w0_[i]) != play.closed_side(w1_[i])) return true;
     if (has_passed_middle(i) && is_noticeable(i, jumps_[i], h, scale_v)) return true;
-    if (passes_bend(i, h) && is_noticeable(i, residual_[i], h, scale_v)) return true;
+    if (is_noticeable(i, bend_force(i, h), h, scale_v)) return true;
   }
   return false;
 }
@@ -91,7 +98,7 @@ double ContactOnTheWay::jump(const time::State& from, const time::State& to, dou
   contact_->displacement(to.v, v1_);
   for (Index i = 0; i < w0_.size(); ++i) {
     if (has_passed_middle(i)) largest = std::max(largest, jumps_[i] * impulse_rate(i, scale_v));
-    if (passes_bend(i, h)) largest = std::max(largest, residual_[i] * impulse_rate(i, scale_v));
+    largest = std::max(largest, bend_force(i, h) * impulse_rate(i, scale_v));
   }
   return largest;
 }

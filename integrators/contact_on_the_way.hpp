@@ -15,7 +15,7 @@ class ContactOnTheWay {
   ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance);
 
   /// True if a stop is open at one end of the step and closed at the other, if the step leads
-  /// through the bend of a regularised law and further than its width, or if the force of a stop
+  /// through or towards the bend of a regularised law without resolving it, or if the force of a stop
   /// with two sides jumped from one side to the other. Such a jump occurs at the middle of the gap
   /// for laws that exert a force there, such as arctan with a lambda of a few gaps. Jumps J and
   /// bends with an asymptotic force J whose impulse within the step, J h, is less than
@@ -41,9 +41,10 @@ class ContactOnTheWay {
     return jumps_[stop] > 0.0 && w0_[stop] * w1_[stop] <= 0.0 && w0_[stop] != w1_[stop];
   }
 
-  /// True if the step of h leads through the bend of a regularised law and further than its width. A motion that turns
-  /// is taken as one of constant acceleration.
-  bool passes_bend(Index stop, double h) const;
+  /// The change of force, N, that a step of h does not resolve if it leads through the bend of a regularised law and
+  /// further than its width, or on the way from or to the bend; otherwise 0. A motion that turns is taken as one of
+  /// constant acceleration.
+  double bend_force(Index stop, double h) const;
 
   /// True if the impulse of a jump (N) of the force of a stop within a step of h exceeds its bound.
   bool is_noticeable(Index stop, double jump, double h, ConstVectorRef scale_v) const;

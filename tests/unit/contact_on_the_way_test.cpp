@@ -125,13 +125,30 @@ TEST(ContactOnTheWay, HasChangedWhereAMotionTurnsInTheBendOfALaw) {
                     {"contact[0].law=\"arctan\"", "contact[0].regularization=1e4", "contact[0].gap=" + to_text(gap)});
   };
   const double turn = 0.5 * std::numbers::pi, force = 1e6 / (std::numbers::pi * std::numbers::pi * 1e4);
-  for (const auto& [gap, expected] : {std::pair{1.00001, true}, std::pair{1.001, false}}) {
+  for (const auto& [gap, expected] : {std::pair{1.00001, true}, std::pair{1.1, false}}) {
     SceneRun scene = run(gap);
     integrators::ContactOnTheWay contact(scene.dynamics(), 1e-3);
     EXPECT_EQ(changed(contact, turn - 0.14, turn + 0.14), expected);
     EXPECT_FALSE(changed(contact, turn - 0.005, turn + 0.005));
     EXPECT_NEAR(contact.jump(at(turn - 0.14), at(turn + 0.14), 0.28, kSpeed), expected ? force : 0.0, 1e-9 * force);
   }
+}
+
+/// A step that ends 20 transition widths before the border: its force is 8e-4 below the residual force there.
+TEST(ContactOnTheWay, HasChangedOnTheWayToTheBendOfALaw) {
+  constexpr double kStiffness = 1e6, kLambda = 1e4, kWidths = 20.0, pi = std::numbers::pi;
+  const double distance = kWidths / (pi * kLambda), residual = kStiffness / (pi * pi * kLambda);
+  const double deviation = residual - kStiffness * distance * (0.5 - std::atan(kWidths) / pi);
+  SceneRun run(mass_at_a_stop("positive", "type = \"rk4\"\ntime_step = 1e-3\n"),
+               {"contact[0].law=\"arctan\"", "contact[0].regularization=" + to_text(kLambda),
+                "contact[0].gap=" + to_text(std::sin(1.0) + distance)});
+  integrators::ContactOnTheWay contact(run.dynamics(), 1e-3), careless(run.dynamics(), 1.0);
+  EXPECT_TRUE(changed(contact, 0.5, 1.0));
+  EXPECT_TRUE(changed(contact, pi - 1.0, pi - 0.5));
+  EXPECT_NEAR(contact.jump(at(0.5), at(1.0), 0.5, kSpeed), deviation, 1e-6 * deviation);
+  EXPECT_FALSE(changed(careless, 0.5, 1.0));
+  // From 3.9 times the distance on, the step resolves the force.
+  EXPECT_FALSE(changed(contact, std::asin(std::sin(1.0) - 2.9 * distance), 1.0));
 }
 
 TEST(ContactOnTheWay, KnowsOneSidedStops) {
