@@ -7,13 +7,27 @@
 
 namespace butee::integrators {
 
-void StepForces::divide(double place, StepForces& second) {
-  second.touched.clear();
+void StepForces::divide(double place, ConstVectorRef w0, ConstVectorRef w1, StepForces& second) {
   second.is_free = is_free;
+  second.touched = touched;
   if (is_free) return;
   second.constant = constant;
   second.moments = moments_within<Vector>(moments, place, 1.0);
   moments = moments_within<Vector>(moments, 0.0, place);
+  for (const Index i : touched) {
+    const ContactPath path(w0[i], paths(i, kStartSpeed), w1[i], paths(i, kEndSpeed), paths(i, kQuartic));
+    const ForceMoments force = {paths(i, kMoments), paths(i, kMoments + 1), paths(i, kMoments + 2)};
+    second.set(i, path.after(place), moments_within(force, place, 1.0), paths(i, kAllowedSpeed));
+    set(i, path.until(place), moments_within(force, 0.0, place), paths(i, kAllowedSpeed));
+  }
+}
+
+void StepForces::set(Index stop, const ContactPath& path, const ForceMoments& force, double allowed_speed) {
+  paths(stop, kStartSpeed) = path.slope(0.0);
+  paths(stop, kEndSpeed) = path.slope(1.0);
+  paths(stop, kQuartic) = path.quartic();
+  paths(stop, kAllowedSpeed) = allowed_speed;
+  for (std::size_t k = 0; k < kForceMoments; ++k) paths(stop, kMoments + static_cast<Index>(k)) = force[k];
 }
 
 Breakpoints::Breakpoints(const dynamics::ModalSystem& modal, std::size_t most) : modal_(modal) {
@@ -27,6 +41,7 @@ Breakpoints::Breakpoints(const dynamics::ModalSystem& modal, std::size_t most) :
   forces_.resize(most + 1);
   for (StepForces& forces : forces_) {
     forces.constant.setZero(modal.stop_count());
+    forces.touched.reserve(static_cast<std::size_t>(modal.stop_count()));
     forces.paths.setZero(dynamics::ContactPropagator::padded(modal.stop_count()), StepForces::kColumns);
     for (Vector& moment : forces.moments) moment.setZero(room);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "butee/dynamics/modal_system.hpp"
+#include "integrators/exponential/contact_path.hpp"
 #include "integrators/exponential/force_moments.hpp"
 
 namespace butee::integrators {
@@ -25,9 +26,11 @@ struct StepForces {
   Eigen::ArrayXXd paths;
   enum Column : Index { kStartSpeed, kEndSpeed, kQuartic, kAllowedSpeed, kMoments, kColumns = kMoments + 3 };
 
-  /// Divides the step at `place` (0 to 1); `second` receives the later part. Requires that
-  /// `touched` is empty.
-  void divide(double place, StepForces& second);
+  /// Divides the step at `place` (0 to 1); `second` receives the later part. w0 and w1: displacements of the stops at
+  /// its ends, m.
+  void divide(double place, ConstVectorRef w0, ConstVectorRef w1, StepForces& second);
+  /// Fills the row of a stop in `paths`.
+  void set(Index stop, const ContactPath& path, const ForceMoments& force, double allowed_speed);
 };
 
 /// The breakpoints of a macro step, which separate its steps: instants, modal states, and the

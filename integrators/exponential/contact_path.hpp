@@ -25,11 +25,18 @@ class ContactPath {
   /// Bounds of the path: the extreme Bernstein coefficients.
   double lowest() const { return lowest_; }
   double highest() const { return highest_; }
+  double slope(double s) const { return ((4.0 * c_[4] * s + 3.0 * c_[3]) * s + 2.0 * c_[2]) * s + c_[1]; }
+  /// The last argument of the constructor.
+  double quartic() const { return c_[4] / 16.0; }
   /// The path over [0, s].
   ContactPath until(double s) const {
-    const double speed = ((4.0 * c_[4] * s + 3.0 * c_[3]) * s + 2.0 * c_[2]) * s + c_[1];
-    const double hv0 = s * c_[1], w1 = value(s), hv1 = s * speed;
+    const double hv0 = s * c_[1], w1 = value(s), hv1 = s * slope(s);
     return {c_[0], hv0, w1, hv1, value(0.5 * s) - 0.5 * (c_[0] + w1) - 0.125 * (hv0 - hv1)};
+  }
+  /// The path over [s, 1].
+  ContactPath after(double s) const {
+    const double length = 1.0 - s, w0 = value(s), w1 = value(1.0), hv0 = length * slope(s), hv1 = length * slope(1.0);
+    return {w0, hv0, w1, hv1, value(s + 0.5 * length) - 0.5 * (w0 + w1) - 0.125 * (hv0 - hv1)};
   }
   /// True if the Bernstein coefficients of the slope have one sign, which is sufficient for a
   /// monotonic path.

@@ -242,7 +242,8 @@ void ExponentialStep::record_forces() {
     if (k == 0 && has_residual) to += residual_.modal();
   }
   // Only steps without contact have a breakpoint in the middle.
-  if (step_.breakpoint > 0.0) forces.divide(0.5, record_.breakpoints().forces(k_from + 1));
+  if (step_.breakpoint > 0.0)
+    forces.divide(0.5, step_.from.w.matrix(), step_.to.w.matrix(), record_.breakpoints().forces(k_from + 1));
 }
 
 void ExponentialStep::record_contacts(StepForces& forces, bool has_contact) const {
@@ -264,11 +265,9 @@ void ExponentialStep::record_contacts(StepForces& forces, bool has_contact) cons
   for (std::size_t j = 0; j < jumps_.stops().size(); ++j) {
     const Index i = jumps_.stops()[j];
     forces.touched.push_back(i);
-    paths(i, StepForces::kStartSpeed) = step_.h * step_.from.wv[i];
-    paths(i, StepForces::kEndSpeed) = step_.h * step_.to.wv[i];
-    paths(i, StepForces::kQuartic) = jumps_.quartic(j);
-    paths(i, StepForces::kAllowedSpeed) = allowed_speed(i);
-    for (std::size_t k = 0; k < 3; ++k) paths(i, StepForces::kMoments + static_cast<Index>(k)) = jumps_.moments(j)[k];
+    forces.set(
+        i, {step_.from.w[i], step_.h * step_.from.wv[i], step_.to.w[i], step_.h * step_.to.wv[i], jumps_.quartic(j)},
+        jumps_.moments(j), allowed_speed(i));
   }
 }
 

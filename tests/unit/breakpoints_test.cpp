@@ -59,11 +59,35 @@ TEST(StepForces, DividedAreTheSamePolynomials) {
   whole.is_free = false;
   whole.constant.setConstant(1, 0.5);
   for (std::size_t k = 0; k < 3; ++k) whole.moments[k].setConstant(1, 0.3 + 1.1 * static_cast<double>(k));
+  whole.touched = {0};
+  second.paths = whole.paths = Eigen::ArrayXXd::Zero(1, StepForces::kColumns);
+  const integrators::ContactPath path(0.2, 0.7, -0.4, 0.3, 0.05);
+  const integrators::ForceMoments force = {1.0, -0.5, 0.25};
+  whole.set(0, path, force, 1e-3);
+  const Vector w0 = Vector::Constant(1, path.value(0.0)), wm = Vector::Constant(1, path.value(0.25)),
+               w1 = Vector::Constant(1, path.value(1.0));
+  const auto path_of = [](const StepForces& forces, const Vector& from, const Vector& to) {
+    const auto row = forces.paths.row(0);
+    return integrators::ContactPath(from[0], row[StepForces::kStartSpeed], to[0], row[StepForces::kEndSpeed],
+                                    row[StepForces::kQuartic]);
+  };
+  const auto force_at = [](const StepForces& forces, double s) {
+    const auto row = forces.paths.row(0);
+    return row[StepForces::kMoments] + (2.0 * s - 1.0) * row[StepForces::kMoments + 1] +
+           (6.0 * s * s - 6.0 * s + 1.0) * row[StepForces::kMoments + 2];
+  };
   StepForces first = whole;
-  first.divide(0.25, second);
+  first.divide(0.25, w0, w1, second);
+  ASSERT_EQ(first.touched, whole.touched);
+  ASSERT_EQ(second.touched, whole.touched);
   for (const double s : {0.0, 0.3, 1.0}) {
     EXPECT_NEAR(value(first, s), value(whole, 0.25 * s), 1e-14);
     EXPECT_NEAR(value(second, s), value(whole, 0.25 + 0.75 * s), 1e-14);
+    EXPECT_NEAR(path_of(first, w0, wm).value(s), path.value(0.25 * s), 1e-14);
+    EXPECT_NEAR(path_of(second, wm, w1).value(s), path.value(0.25 + 0.75 * s), 1e-14);
+    EXPECT_NEAR(force_at(first, s), force_at(whole, 0.25 * s), 1e-14);
+    EXPECT_NEAR(force_at(second, s), force_at(whole, 0.25 + 0.75 * s), 1e-14);
+    EXPECT_EQ(second.paths(0, StepForces::kAllowedSpeed), 1e-3);
   }
   EXPECT_EQ(second.constant[0], 0.5);
 }
