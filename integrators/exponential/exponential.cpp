@@ -34,8 +34,8 @@ constexpr double kLeastSpeed = 1e-8;
 /// kProportional only impacts contribute to the error, and the bound is proportional to the
 /// tolerance. Calibrated on beams and oscillators: tests/models/exponential_test.cpp.
 double middle_tolerance(double tolerance) {
-  constexpr double kProportional = 1e-4;
-  return 0.12 * std::min(std::pow(tolerance, 0.8), std::pow(kProportional, -0.2) * tolerance);
+  constexpr double kMiddle = 0.12, kProportional = 1e-4;
+  return kMiddle * std::min(std::pow(tolerance, 0.8), std::pow(kProportional, -0.2) * tolerance);
 }
 
 StepGoal step_goal(const ExponentialOptions& options) {
