@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
+#include <typeinfo>
 
 #include "butee/config/override.hpp"
 #include "butee/config/toml.hpp"
@@ -60,6 +62,10 @@ struct Structure::Parts {
   std::vector<model::NodalDof> select(const std::string& selector, DofKind kind) const;
   void add_forces(const std::string& selector, std::vector<std::pair<model::NodalDof, NodalForce*>>& made);
   NodalForce& force_on(Index dof);
+  /// Throws InputError if record::Peaks cannot follow the quantity.
+  void check_peak(const std::string& node_name, model::NodeId node, model::Quantity quantity);
+  /// Changes `origin` by an observer or by what it follows, so that snapshots without it are refused.
+  void mark(const std::string& what) { origin = 31 * origin + std::hash<std::string>{}(what); }
 };
 
 std::vector<model::NodalDof> Structure::Parts::select(const std::string& selector, DofKind kind) const {
@@ -83,6 +89,17 @@ void Structure::Parts::add_forces(const std::string& selector,
   }
   if (made.size() == before)
     throw InputError(selector + ": names no free " + name_of(kind) + " on which a force could act");
+}
+
+void Structure::Parts::check_peak(const std::string& node_name, model::NodeId node, model::Quantity quantity) {
+  const bool is_of_obstacle = model::is_contact_force(quantity) && assembly->dynamics.obstacles() != nullptr;
+  const bool has_base = record::Probes::has_base_share(assembly->system.model, assembly->system.dofs, node, quantity);
+  if (!model::is_element_force(quantity) && !is_of_obstacle && !has_base) return;
+  throw InputError(node_name + ": peaks of " + model::name_of(quantity) + " are not followed" +
+                   (is_of_obstacle ? " beside contacts with dissipation, friction or motion in a plane"
+                    : has_base     ? ", since it contains the motion of the base"
+                                   : "") +
+                   "; quantity() gives it at an instant");
 }
 
 NodalForce& Structure::Parts::force_on(Index dof) {
@@ -287,20 +304,23 @@ void Structure::restore(const Snapshot& snapshot) {
 
 void Structure::observe(time::Observer& observer) {
   parts_->assembly->simulation.add(observer);
-  ++parts_->origin;
+  parts_->mark(typeid(observer).name());
 }
 
 void Structure::follow_peaks(const std::string& selector, const std::vector<model::Quantity>& quantities) {
-  for (const model::Quantity quantity : quantities)
-    if (model::is_element_force(quantity))
-      throw InputError(selector + ": peaks of " + model::name_of(quantity) +
-                       " are not followed; quantity() gives it at an instant");
   std::vector<model::ProbeRequest> requests;
-  for (const model::NodalDof dof : parts_->select(selector, DofKind::u))
+  std::string label;
+  for (const model::NodalDof dof : parts_->select(selector, DofKind::u)) {
     requests.push_back({parts_->scene.model.nodes.name(dof.node), dof.node, quantities});
-  parts_->peaks.push_back(std::make_unique<record::Peaks>(requests, parts_->assembly->dynamics));
-  parts_->assembly->simulation.add(*parts_->peaks.back());
-  ++parts_->origin;
+    for (const model::Quantity quantity : quantities) {
+      parts_->check_peak(requests.back().label, dof.node, quantity);
+      label += requests.back().label + "." + model::name_of(quantity) + "\n";
+    }
+  }
+  auto peaks = std::make_unique<record::Peaks>(requests, parts_->assembly->dynamics);
+  parts_->assembly->simulation.add(*peaks);
+  parts_->peaks.push_back(std::move(peaks));
+  parts_->mark(label);
 }
 
 std::map<std::string, double> Structure::peaks() const {

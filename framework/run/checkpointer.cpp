@@ -50,20 +50,22 @@ linalg::Counters Checkpointer::counters() const {
 
 void Checkpointer::write() {
   const auto begin = Clock::now();
-  const double history_seconds = history_.seconds();
+  const auto file_seconds = [this] { return history_.seconds() + (other_ != nullptr ? other_->seconds() : 0.0); };
+  const double file_seconds_before = file_seconds();
   since_ = 0;
   history_.sync();
   if (other_ != nullptr) other_->sync();
   next_.history = history_.position();
   next_.counters = counters();
   assembly_.simulation.take_snapshot(next_.snapshot);
-  next_.snapshot.report.wall_seconds += seconds_since(begin_) - seconds_ - history_.seconds();
+  next_.snapshot.report.wall_seconds += seconds_since(begin_) - seconds_ - file_seconds();
   try {
     folder_.write(next_);
   } catch (const RunError& error) {
     log::warning(std::string(error.what()) + "; the run goes on, and the checkpoint before this one is kept");
   }
-  seconds_ += seconds_since(begin) - (history_.seconds() - history_seconds);
+  // The time of the writers is counted by their own recorders.
+  seconds_ += seconds_since(begin) - (file_seconds() - file_seconds_before);
 }
 
 }  // namespace butee::run

@@ -162,9 +162,6 @@ bool SceneReader::can_be_still(const Value& given) {
   if (model_.damping.is_modal())
     return refuse("modal damping requires motion relative to one base and cannot be combined with " + where +
                   "; give mass_proportional and stiffness_proportional");
-  if (model_.initial_motion)
-    return refuse("[initial] from requires motion relative to one base, but this scene has " + where +
-                  "; give displacement and velocity");
   const auto moves = [&](NodeId node) {
     const NodalDof dof{node, DofKind::u};
     if (!dofs_->exists(dof) || !dofs_->is_fixed(dof)) return false;

@@ -10,6 +10,7 @@
 #include "butee/core/subnormals.hpp"
 #include "butee/core/text.hpp"
 #include "butee/core/zeros.hpp"
+#include "butee/time/contact_events.hpp"
 
 namespace butee::time {
 namespace {
@@ -141,7 +142,8 @@ void Simulation::loads_changed(bool jump) {
 }
 
 void Simulation::start_anew() {
-  integrator_.start(state_);
+  const Vector memory = contact_memory(dynamics_, state_);
+  integrator_.start(state_, memory);
   growth_.start(state_);
   const bool is_finite = state_.a.allFinite();
   if (!report_.message.empty()) {

@@ -121,10 +121,32 @@ TEST(Misuse, ASnapshotOfAnotherStructureIsRefused) {
   Peak peak(0);
   watched.observe(peak);
   EXPECT_THROW(watched.restore(snapshot), LogicError);
+  Structure of_u = structure(scene(kAuto)), of_v = structure(scene(kAuto));
+  of_u.follow_peaks("m", {model::Quantity::u});
+  of_v.follow_peaks("m", {model::Quantity::v});
+  of_u.advance_to(0.01);
+  EXPECT_THROW(of_v.restore(of_u.snapshot()), LogicError);
   Structure equal = structure(scene(kAuto));
   equal.advance_to(0.01);
   equal.restore(snapshot);
   EXPECT_EQ(equal.time(), 0.0);
+}
+
+/// Peaks that record::Peaks does not follow, and peaks that are asked for too late, are refused and not there
+/// afterwards.
+TEST(Misuse, PeaksThatAreNotFollowedAreRefused) {
+  const std::string damped =
+      "[[contact]]\ntype = \"stop\"\nnodes = \"n\"\ngap = 0.01\nlaw = \"linear\"\nstiffness = 1e6\n"
+      "damping = { type = \"kelvin_voigt\", coefficient = 10.0 }\n[integrator]\n";
+  std::string text = scene(kAuto);
+  text.replace(text.find("[integrator]\n"), std::string("[integrator]\n").size(), damped);
+  Structure body = structure(text);
+  EXPECT_THROW(body.follow_peaks("n", {model::Quantity::contact_force}), InputError);
+  EXPECT_NO_THROW(body.follow_peaks("n", {model::Quantity::u}));
+  body.advance_to(0.01);
+  EXPECT_ANY_THROW(body.follow_peaks("n", {model::Quantity::v}));
+  EXPECT_ANY_THROW(body.peak("n", model::Quantity::v));
+  EXPECT_NO_THROW(body.peak("n", model::Quantity::u));
 }
 
 /// h omega = 4 of rk4: any motion grows until the run is stopped.

@@ -122,6 +122,25 @@ TEST(Structure, FollowsForcesInStraightLinesExactly) {
 
 /// Two masses that a spring joins, the first at rest in the middle of a stop whose law pulls it to the nearer side with
 /// a residual force of 1 N. A force on the second one grows from zero, after a step without any.
+/// A body that sticks, k = 1 N/m and 1000 N/m of its stick spring; the limit of 10 N is never reached. Changes of the
+/// force and of the motion leave the spring as it is.
+TEST(Structure, KeepsTheFrictionForceWhenALoadIsSet) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 1.0\ndamping = 40.0\n[[contact]]\ntype = \"friction\"\nnodes = \"m\"\nnormal_force = 20.0\n"
+      "friction = { coefficient = 0.5, stick_stiffness = 1e3 }\n[integrator]\ntolerance = 1e-7\ntype = \"";
+  for (const std::string method : {"rodas4", "dopri5", "exact"}) {
+    Structure body = Structure::from_toml(scene + method + "\"\n", with_plugins({.forced = {"m"}}));
+    const Index dof = body.dof("m");
+    for (int i = 1; i <= 40; ++i) {
+      body.set_force(dof, 4.0 + (i % 2 == 0 ? 0.01 : -0.01));
+      body.advance_to(0.05 * i);
+      body.set_motion(Vector(body.state().x), Vector(body.state().v));
+    }
+    EXPECT_NEAR(body.displacement(dof), 4.0 / 1001.0, 2e-5) << method;
+  }
+}
+
 TEST(Structure, LeavesTheMiddleOfAStopWithAForceThatGrows) {
   constexpr double kBegin = 0.1, kEnd = 0.5, kSlope = 4.0, kResidual = 1.0, kStiffness = 100.0, kTolerance = 1e-5;
   const std::string scene =
