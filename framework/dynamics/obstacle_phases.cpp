@@ -22,6 +22,9 @@ double steep_border(const Friction& friction) {
   return (is_tanh ? ContactPhase::kSteepOfTanh : ContactPhase::kSteep) * friction.slip_speed;
 }
 
+/// Penetrations of a contact that has just closed are rounding up to this fraction of the displacements.
+constexpr double kAtClosing = 1e-12;
+
 /// True if approach and rebound are separate phases.
 bool tells_rebound(const model::ObstacleGroup& group) {
   return group.damping.kind == ImpactDamping::Kind::jankowski ||
@@ -75,13 +78,18 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
     phase.anchor = path(i, t, now, phase.angle);
     // If slip begins with contact the force is still 0: the phase depends on whether the spring
     // force or the limit grows faster.
-    const double limit =
-        at(i).group->shape == nullptr
-            ? friction.static_coefficient * at(i).group->normal_force
-            : friction.static_coefficient * normal(at(i), phase.normal, now.approach.penetration, now.rate).force;
+    // Rounding may leave a contact that has just closed at a penetration of 0 or below.
+    const ContactPhase& set = phases_[static_cast<std::size_t>(i)];
+    const bool has_closed = set.touches() && !phase.touches() && now.rate > 0.0 &&
+                            now.approach.penetration > -kAtClosing * x.lpNorm<Eigen::Infinity>();
+    const NormalPhase normal_phase = has_closed ? set.normal : phase.normal;
+    const double depth = has_closed ? 0.0 : now.approach.penetration;
+    const double limit = at(i).group->shape == nullptr
+                             ? friction.static_coefficient * at(i).group->normal_force
+                             : friction.static_coefficient * normal(at(i), normal_phase, depth, now.rate).force;
     if (limit > 0.0) {
       if (friction.stick_damping * std::abs(now.slip) <= limit) phase.slip = SlipPhase::stick;
-    } else if (phase.touches() && now.rate > 0.0) {
+    } else if ((has_closed || phase.touches()) && now.rate > 0.0) {
       const double growth = friction.static_coefficient * at(i).group->law->closed_stiffness() * now.rate;
       if (friction.stick_damping == 0.0 && friction.stick_stiffness * std::abs(now.slip) <= growth)
         phase.slip = SlipPhase::stick;
