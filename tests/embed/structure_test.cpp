@@ -120,8 +120,6 @@ TEST(Structure, FollowsForcesInStraightLinesExactly) {
   EXPECT_NEAR(mass.displacement(dof), (t - std::sin(20.0 * t) / 20.0) * 50.0 / 800.0, 1e-13);
 }
 
-/// Two masses that a spring joins, the first at rest in the middle of a stop whose law pulls it to the nearer side with
-/// a residual force of 1 N. A force on the second one grows from zero, after a step without any.
 /// A body that sticks, k = 1 N/m and 1000 N/m of its stick spring; the limit of 10 N is never reached. Changes of the
 /// force and of the motion leave the spring as it is.
 TEST(Structure, KeepsTheFrictionForceWhenALoadIsSet) {
@@ -141,6 +139,8 @@ TEST(Structure, KeepsTheFrictionForceWhenALoadIsSet) {
   }
 }
 
+/// Two masses that a spring joins, the first at rest in the middle of a stop whose law pulls it to the nearer side with
+/// a residual force of 1 N. A force on the second one grows from zero, after a step without any.
 TEST(Structure, LeavesTheMiddleOfAStopWithAForceThatGrows) {
   constexpr double kBegin = 0.1, kEnd = 0.5, kSlope = 4.0, kResidual = 1.0, kStiffness = 100.0, kTolerance = 1e-5;
   const std::string scene =
