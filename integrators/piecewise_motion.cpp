@@ -32,6 +32,8 @@ PiecewiseMotion::PiecewiseMotion(dynamics::Dynamics& dynamics, double end_time)
       x_(static_cast<std::size_t>(system_.size())),
       v_(x_.size()),
       force_(Eigen::MatrixXd::Zero(system_.size() + system_.stop_count(), 3)) {
+  has_dashpots_ = std::any_of(system_.stops.begin(), system_.stops.end(),
+                              [](const LinearStop& stop) { return stop.damping > 0.0; });
   states_.reserve(kMostStates);
   flow();  // Refuses what has no modes before the first step.
 }
@@ -198,7 +200,13 @@ void PiecewiseMotion::find_breakpoints() {
   has_breakpoints_ = true;
   for (std::size_t piece = 0; piece < begins_.size(); ++piece) {
     const double begin = begins_[piece], end = piece + 1 < begins_.size() ? begins_[piece + 1] : end_t_;
-    if (piece > 0) breakpoints_.push_back(begin);
+    if (piece > 0) {
+      // Accelerations may jump at the end of the piece before.
+      const bool jumps = has_dashpots_ || std::binary_search(discontinuities_.begin(), discontinuities_.end(), begin);
+      if (const double before = std::nextafter(begin, -kNever); jumps && before > begins_[piece - 1])
+        breakpoints_.push_back(before);
+      breakpoints_.push_back(begin);
+    }
     load_piece(piece);
     flow_->go(piece_, 0.0);
     double t = begin, step = kTurn / flow_->rate(piece_);

@@ -98,7 +98,7 @@ class PiecewiseMotion final : public time::Interpolant {
   double end_t_ = std::numeric_limits<double>::quiet_NaN();
   Vector from_x_, from_v_, from_memory_;
   std::vector<double> breakpoints_;
-  bool has_breakpoints_ = false;
+  bool has_breakpoints_ = false, has_dashpots_ = false;
 };
 
 }  // namespace butee::integrators

@@ -22,9 +22,6 @@ double steep_border(const Friction& friction) {
   return (is_tanh ? ContactPhase::kSteepOfTanh : ContactPhase::kSteep) * friction.slip_speed;
 }
 
-/// Penetrations of a contact that has just closed are rounding up to this fraction of the displacements.
-constexpr double kAtClosing = 1e-12;
-
 /// True if approach and rebound are separate phases.
 bool tells_rebound(const model::ObstacleGroup& group) {
   return group.damping.kind == ImpactDamping::Kind::jankowski ||
@@ -78,10 +75,10 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
     phase.anchor = path(i, t, now, phase.angle);
     // If slip begins with contact the force is still 0: the phase depends on whether the spring
     // force or the limit grows faster.
-    // Rounding may leave a contact that has just closed at a penetration of 0 or below.
+    // A contact that has just closed may be at a penetration of 0 or below, by rounding or by the
+    // uncertainty of the located instant.
     const ContactPhase& set = phases_[static_cast<std::size_t>(i)];
-    const bool has_closed = set.touches() && !phase.touches() && now.rate > 0.0 &&
-                            now.approach.penetration > -kAtClosing * x.lpNorm<Eigen::Infinity>();
+    const bool has_closed = set.touches() && !phase.touches() && now.rate > 0.0;
     const NormalPhase normal_phase = has_closed ? set.normal : phase.normal;
     const double depth = has_closed ? 0.0 : now.approach.penetration;
     const double limit = at(i).group->shape == nullptr
@@ -98,7 +95,29 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
   return phase;
 }
 
-std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, double held,
+bool Obstacles::switches_by_acceleration(Index i) const {
+  const model::ObstacleGroup& group = *at(i).group;
+  return group.friction.rule == Friction::Rule::spring &&
+         (group.friction.stick_damping > 0.0 || group.damping.kind != ImpactDamping::Kind::none);
+}
+
+double Obstacles::excess_of_slip(Index i, double t, const Kinematics& now, const Normal& pressing, double sense,
+                                 ConstVectorRef a) const {
+  const Friction& friction = at(i).group->friction;
+  double tension = friction.stick_stiffness * now.slip, normal = pressing.by_penetration * now.rate;
+  if (switches_by_acceleration(i)) {
+    const Coordinates acceleration = gather(i, a);
+    const double bend = now.approach.curvature, along = now.tangent.dot(now.motion.v);
+    normal += pressing.by_rate * (now.approach.normal.dot(acceleration.head<2>()) + bend * along * along);
+    double slip = now.lever * (now.tangent.dot(acceleration.head<2>()) - bend * now.rate * along);
+    if (at(i).has_round_spring) slip -= now.lever * bend * along * now.rate;
+    slip += at(i).arm * acceleration[2] + surface_acceleration(i, t);
+    tension += friction.stick_damping * slip;
+  }
+  return (sense * tension - friction.coefficient * normal) / friction.stick_stiffness;
+}
+
+std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double held,
                                 std::array<Switch, kMostSwitches>& out) const {
   const Contact& contact = at(i);
   const model::ObstacleGroup& group = *contact.group;
@@ -186,17 +205,14 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
     add(friction.static_coefficient * force + tension, phase.normal, SlipPhase::backward, 0.0);
   } else {
     const double sense = phase.slip == SlipPhase::forward ? 1.0 : -1.0;
-    double anchor = 0.0;
+    double anchor = 0.0, excess = sense * now.slip;
     if (friction.rule == Friction::Rule::spring) {
       const double tension = sense * friction.coefficient * force - friction.stick_damping * now.slip;
       anchor = path(i, t, now, phase.angle) - tension / friction.stick_stiffness;
+      // If the limit falls faster than the spring relaxes, slip goes on although the body moves back.
+      excess = excess_of_slip(i, t, now, pressing, sense, a);
     }
-    // The slider moves by the slip minus the change of the spring's stretch, mu F_n/k: if the limit
-    // falls faster than the spring relaxes, it continues to slip although the body moves back.
-    const double stretching = friction.rule == Friction::Rule::spring
-                                  ? friction.coefficient * pressing.by_penetration * now.rate / friction.stick_stiffness
-                                  : 0.0;
-    add(sense * now.slip - stretching, phase.normal, SlipPhase::stick, anchor);
+    add(excess, phase.normal, SlipPhase::stick, anchor);
   }
   return count;
 }

@@ -116,13 +116,17 @@ class BUTEE_EXPORT Obstacles {
   /// phase_at(), with slip and stretch from `memory` if the contact touched then and touches now.
   ContactPhase phase_after(Index i, const Eigen::Vector3d& memory, double t, ConstVectorRef x, ConstVectorRef v) const;
   /// The switching functions of the phase of contact i, positive within it, and the phases they
-  /// lead to. `held` is the tangential force that holds a rigid stick, N. Returns their number.
+  /// lead to. `held` is the tangential force that holds a rigid stick, N; `a` is read only if
+  /// switches_by_acceleration(i). Returns their number.
   struct Switch {
     double value;
     ContactPhase to;
   };
-  std::size_t switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, double held,
+  std::size_t switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double held,
                        std::array<Switch, kMostSwitches>& out) const;
+  /// True if the slip of contact i ends at a motion that depends on accelerations: a stick spring with
+  /// a dashpot beside it or beside the normal law.
+  bool switches_by_acceleration(Index i) const;
   /// The same phase with the arc of a stick spring measured from the present angle of the arm, so
   /// that the contact may go around the ring any number of times.
   ContactPhase rebased(Index i, const ContactPhase& phase, ConstVectorRef x) const;
@@ -226,6 +230,10 @@ class BUTEE_EXPORT Obstacles {
   /// The angle of the arm in a ring, rad; 0 for other contacts.
   double angle_of(Index i, const Kinematics& at) const;
   double friction_force(Index i, double t, const Kinematics& at, const ContactPhase& phase, double normal) const;
+  /// How fast the tension of a stick spring would leave the slip force if the contact stuck now, over
+  /// the spring's stiffness, m/s, positive in the sense of the slip: slip goes on while it is.
+  double excess_of_slip(Index i, double t, const Kinematics& at, const Normal& pressing, double sense,
+                        ConstVectorRef a) const;
   /// True if no force acts because the contact is apart.
   bool is_idle(Index i, ConstVectorRef x) const {
     const Contact& contact = at(i);

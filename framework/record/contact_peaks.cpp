@@ -8,6 +8,21 @@ namespace {
 /// A sample below this fraction of the peak is not adjacent to a larger maximum, with eight samples
 /// in a piece of a step, or three where it is near a quintic.
 constexpr double kNearPeak = 0.9;
+/// Distance of the samples beside the ends of a piece, in parts of it: they show whether forces rise
+/// from an end, so that a peak lies between it and the next sample.
+constexpr double kNearEnd = 1e-4;
+/// The same where no phases are followed and dashpots make forces jump at breakpoints.
+constexpr double kBeside = 1e-9;
+
+/// True if the tangent at a sample close to one of its neighbours exceeds `largest` at the other
+/// neighbour: a concave force remains below it.
+bool may_exceed(const Sampled& before, const Sampled& at, const Sampled& after, double largest) {
+  constexpr double kClose = 0.01;
+  const double left = at.t - before.t, right = after.t - at.t;
+  if (left < kClose * right) return at.value + (at.value - before.value) / left * right > largest;
+  if (right < kClose * left) return at.value + (at.value - after.value) / right * left > largest;
+  return false;
+}
 
 std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node) {
   const model::System& system = dynamics.system();
@@ -62,8 +77,18 @@ void ContactPeaks::step(const time::AcceptedStep& step) {
   look(step, step.from.t);
   double begin = step.from.t;
   for (std::size_t piece = 0; piece <= breakpoints.size(); ++piece) {
-    const double end = piece < breakpoints.size() ? breakpoints[piece] : step.to.t;
-    for (int k = 1; k <= samples; ++k) look(step, k == samples ? end : begin + (end - begin) * k / samples);
+    const double end = piece < breakpoints.size() ? breakpoints[piece] : step.to.t, length = end - begin;
+    const auto look_near_end = [&](double part) {
+      const double t = part > 0.0 ? begin + part * length : end + part * length;
+      if (t > begin && t < end) look(step, t);
+    };
+    const bool may_jump = dynamics_.obstacles()->is_live();
+    if (may_jump) look_near_end(kBeside);
+    look_near_end(kNearEnd);
+    for (int k = 1; k < samples; ++k) look(step, begin + length * k / samples);
+    look_near_end(-kNearEnd);
+    if (may_jump) look_near_end(-kBeside);
+    look(step, end);
     begin = end;
   }
 }
@@ -80,7 +105,7 @@ void ContactPeaks::look(const time::AcceptedStep& step, double t) {
     auto& [before, last] = last_[i];
     largest_[i] = std::max(largest_[i], sample.value);
     const bool is_top = has_two_before && last.value >= before.value && last.value >= sample.value && last.value > 0.0;
-    if (is_top && last.value > kNearPeak * largest_[i]) {
+    if (is_top && (last.value > kNearPeak * largest_[i] || may_exceed(before, last, sample, largest_[i]))) {
       const Sampled top = local_maximum(before, last, sample, [&](double instant) {
         probes_->evaluate(step, instant, values_);
         return std::abs(values_[i]);

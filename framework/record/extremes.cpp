@@ -157,6 +157,20 @@ double StepPath::departure(std::size_t order, const Point& from, const Point& to
   return sum;
 }
 
+double StepPath::rounding(std::size_t order, const Point& from, const Point& to) const {
+  // The largest coefficients of the derivatives of the quintic, and of sums of both ends.
+  constexpr std::array<double, 3> kFactor = {0.0, 8.0, 32.0};
+  if (order == 0) return 0.0;
+  double displacement = 0.0, speed = 0.0;
+  for (const Index dof : dofs_) {
+    if (dof < 0) continue;
+    displacement += std::max(std::abs(step_.from.x[dof]), std::abs(step_.to.x[dof]));
+    speed += std::max(std::abs(step_.from.v[dof]), std::abs(step_.to.v[dof]));
+  }
+  const double h = to.t - from.t, by_x = (displacement + speed * std::abs(to.t)) / h;
+  return std::numeric_limits<double>::epsilon() * kFactor[order] * (order == 1 ? by_x : (by_x + speed) / h);
+}
+
 void StepPath::search(std::size_t order, const Point& from, const Point& to, Range& range) const {
   int samples = 0;
   halve(order, from, to, samples, range);
@@ -165,7 +179,8 @@ void StepPath::search(std::size_t order, const Point& from, const Point& to, Ran
 void StepPath::halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const {
   const double h = to.t - from.t, middle = from.t + 0.5 * h;
   if (!(middle > from.t && middle < to.t)) return;
-  const double good = kGood * range.size(), departs = departure(order, from, to);
+  const double rounded = rounding(order, from, to), good = std::max(kGood * range.size(), rounded),
+               departs = departure(order, from, to);
   const auto [least, greatest] = enclose(order, from, to, departs);
   Range target = range;
   target.greatest -= margin_of(order, range);
@@ -188,7 +203,9 @@ void StepPath::halve(std::size_t order, const Point& from, const Point& to, int&
     for (const auto [value, before, place] : {std::array{beyond.greatest, target.greatest, beyond.t_greatest},
                                               std::array{beyond.least, target.least, beyond.t_least}}) {
       const double t = from.t + place * h;
-      if (value != before && t > from.t && t < to.t) range.take(t, at(t).of[order]);
+      if (value == before || !(t > from.t && t < to.t)) continue;
+      const double found = at(t).of[order];
+      if (rounded == 0.0 || found > range.greatest + rounded || found < range.least - rounded) range.take(t, found);
     }
     return;
   }

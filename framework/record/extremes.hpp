@@ -43,7 +43,9 @@ struct Range {
 /// Bernstein coefficients shows whether any value in between exceeds a range by more than kGood of
 /// it. If so, halves are examined: halves of the polynomial, or of the interval while the dense
 /// output departs from the polynomial by more than that. The search in an interval stops after
-/// kMostSamples, which is too few only if a step spans hundreds of periods. Checked in
+/// kMostSamples, which is too few only if a step spans hundreds of periods. In very short steps the
+/// polynomial's derivatives are differences of rounded displacements; values between the ends then
+/// count only if they exceed the range by more than rounding. Checked in
 /// tests/verification/peaks_test.cpp.
 class BUTEE_EXPORT StepPath {
  public:
@@ -110,6 +112,9 @@ class BUTEE_EXPORT StepPath {
   std::pair<double, double> enclose(std::size_t order, const Point& from, const Point& to, double departs) const;
   void search(std::size_t order, const Point& from, const Point& to, Range& range) const;
   void halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const;
+  /// Bound on the rounding of derivative `order` between two instants: that of displacements, and of
+  /// the times over the velocity, divided by the distance of the instants.
+  double rounding(std::size_t order, const Point& from, const Point& to) const;
   /// Bound on the difference of derivative `order` between the dense output and the polynomial.
   double departure(std::size_t order, const Point& from, const Point& to) const;
 

@@ -40,9 +40,12 @@ int samples_of_loads(const model::System& system, double h) {
 ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
     : dynamics_(dynamics), obstacles_(*dynamics.obstacles()), all_(static_cast<std::size_t>(dynamics.size())) {
   std::iota(all_.begin(), all_.end(), Index{0});
-  for (Sample* sample : {&now_, &work_}) sample->x = sample->v = Vector::Zero(dynamics.size());
+  for (Sample* sample : {&now_, &work_}) sample->x = sample->v = sample->a = Vector::Zero(dynamics.size());
   values_x_.resize(all_.size());
   values_v_ = values_x_;
+  for (Index i = 0; i < obstacles_.size(); ++i)
+    needs_accelerations_ = needs_accelerations_ || obstacles_.switches_by_acceleration(i);
+  if (needs_accelerations_) values_a_ = values_x_;
 }
 
 void ContactEvents::start(State& state, ConstVectorRef memory) {
@@ -72,10 +75,19 @@ void ContactEvents::enter(Index contact, const ContactPhase& next, State& state)
       static_cast<double>(next.slip), next.anchor, next.angle, 0.0;
 }
 
-void ContactEvents::place(Sample& at, double t, const Vector& x, const Vector& v) {
-  at.t = t;
-  at.x = x;
-  at.v = v;
+void ContactEvents::place(Sample& at, const State& state) {
+  at.t = state.t;
+  at.x = state.x;
+  at.v = state.v;
+  at.a = state.a;
+}
+
+void ContactEvents::look_ahead(const State& state, double ahead, Sample& at) {
+  at.t = state.t + ahead;
+  at.x.noalias() = state.x + ahead * (state.v + 0.5 * ahead * state.a);
+  at.v.noalias() = state.v + ahead * state.a;
+  if (needs_accelerations_) dynamics_.acceleration(at.t, at.x, at.v, at.a);
+  hold(at);
 }
 
 void ContactEvents::hold(Sample& at) {
@@ -87,7 +99,7 @@ std::size_t ContactEvents::switches(Index contact, const Sample& at) {
   double held = 0.0;
   if (const auto place = std::find(sticks_.begin(), sticks_.end(), contact); place != sticks_.end())
     held = -at.held[place - sticks_.begin()];
-  return obstacles_.switches(contact, at.t, at.x, at.v, held, found_);
+  return obstacles_.switches(contact, at.t, at.x, at.v, at.a, held, found_);
 }
 
 double ContactEvents::value(Index contact, std::size_t which, const Sample& at) {
@@ -102,13 +114,9 @@ void ContactEvents::settle(State& state, double h, double precision) {
   for (int round = 0; round < kMostAtOnce; ++round) {
     bool again = false;
     if (changed) dynamics_.acceleration(state.t, state.x, state.v, state.a);
-    const double ahead = kAhead * h;
-    place(now_, state.t, state.x, state.v);
-    work_.t = state.t + ahead;
-    work_.x.noalias() = state.x + ahead * (state.v + 0.5 * ahead * state.a);
-    work_.v.noalias() = state.v + ahead * state.a;
+    place(now_, state);
     hold(now_);
-    hold(work_);
+    look_ahead(state, kAhead * h, work_);
     for (Index i = 0; i < obstacles_.size(); ++i) {
       double& mark = state.contact[kEntries * i + kEntries - 1];
       if (mark == 0.0 && obstacles_.phase(i).normal == ContactPhase::Normal::apart && obstacles_.is_apart(i, work_.x))
@@ -157,6 +165,7 @@ void ContactEvents::sample(const DenseOutput& motion, double t, const std::vecto
   if (t >= to.t) {
     at.x = to.x;
     at.v = to.v;
+    at.a = to.a;
   } else {
     const std::vector<Index>& used = sticks_.empty() ? dofs : all_;
     const std::span<double> x(values_x_.data(), used.size()), v(values_v_.data(), used.size());
@@ -164,6 +173,10 @@ void ContactEvents::sample(const DenseOutput& motion, double t, const std::vecto
     for (std::size_t k = 0; k < used.size(); ++k) {
       at.x[used[k]] = x[k];
       at.v[used[k]] = v[k];
+    }
+    if (needs_accelerations_) {
+      motion.interpolate(t, used, {{}, {}, {values_a_.data(), used.size()}});
+      for (std::size_t k = 0; k < used.size(); ++k) at.a[used[k]] = values_a_[k];
     }
   }
   if (!sticks_.empty()) hold(at);
@@ -206,7 +219,7 @@ std::optional<ContactEvents::Event> ContactEvents::first(const DenseOutput& moti
                      : k == samples + 1 ? to.t
                                         : from.t + h * k / samples;
     if (k == -1) {
-      place(now_, from.t, from.x, from.v);
+      place(now_, from);
       hold(now_);
     } else {
       sample(motion, t, watched_dofs_, now_);
@@ -289,12 +302,9 @@ ContactEvents::Event ContactEvents::refine(const DenseOutput& motion, Event even
 
 double ContactEvents::miss(const Event& event, double h, const State& to) {
   const double ahead = 1e-3 * h;
-  place(now_, to.t, to.x, to.v);
-  work_.t = to.t - ahead;
-  work_.x.noalias() = to.x - ahead * (to.v - 0.5 * ahead * to.a);
-  work_.v.noalias() = to.v - ahead * to.a;
+  place(now_, to);
   hold(now_);
-  hold(work_);
+  look_ahead(to, -ahead, work_);
   const double at_end = value(event.contact, event.which, now_), before = value(event.contact, event.which, work_);
   const double slope = (before - at_end) / ahead;
   return slope != 0.0 ? -at_end / slope : 0.0;

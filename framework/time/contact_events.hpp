@@ -55,14 +55,16 @@ class BUTEE_EXPORT ContactEvents {
 
   struct Sample {
     double t = 0.0;
-    Vector x, v;
-    Vector held;  ///< forces that hold the rigid sticks, N
+    Vector x, v, a;  ///< a only if a contact switches by acceleration
+    Vector held;     ///< forces that hold the rigid sticks, N
   };
   /// Evaluates the motion of `dofs` at `t`, or of all DOFs if contacts stick rigidly.
   void sample(const DenseOutput& motion, double t, const std::vector<Index>& dofs, Sample& at);
   /// Appends the DOFs of a contact.
   void add_dofs(Index contact, std::vector<Index>& dofs) const;
-  static void place(Sample& at, double t, const Vector& x, const Vector& v);
+  static void place(Sample& at, const State& state);
+  /// The motion `ahead` of a state (behind it if negative) in the same phases, by its acceleration.
+  void look_ahead(const State& state, double ahead, Sample& at);
   void hold(Sample& at);
   std::size_t switches(Index contact, const Sample& at);
   double value(Index contact, std::size_t which, const Sample& at);
@@ -76,12 +78,13 @@ class BUTEE_EXPORT ContactEvents {
   dynamics::Dynamics& dynamics_;
   dynamics::Obstacles& obstacles_;
   std::vector<Index> all_;
-  std::vector<double> values_x_, values_v_;
+  std::vector<double> values_x_, values_v_, values_a_;
   std::array<dynamics::Obstacles::Switch, dynamics::Obstacles::kMostSwitches> found_{};
   Sample now_, work_;
   /// Values of every switching function of the watched contacts at the last two instants.
   std::vector<std::array<std::array<Look, 2>, dynamics::Obstacles::kMostSwitches>> looks_;
   std::vector<Index> sticks_, watched_, watched_dofs_, own_dofs_;
+  bool needs_accelerations_ = false;
 };
 
 /// The memory of the contacts of a state, Obstacles::kMemorySize numbers for each contact. A run

@@ -277,5 +277,33 @@ quantities = ["contact_force", "contact_uy", "contact_uz"]
   }
 }
 
+/// A ball with v = 1 m/s against a Kelvin-Voigt stop, x = v e^(-d t) sin(w t)/w with d = c/2m: its force
+/// begins with c v and is largest there for c^2 > k m, else where w t = atan2(w (w^2 - 3 d^2),
+/// d (3 w^2 - d^2)). Long steps and short ones beside changes of contact must find the same.
+TEST(PeaksOfDashpots, AreThoseOfTheClosedForm) {
+  for (const double c : {40.0, 90.0, 130.0}) {
+    const double k = 1e4, d = 0.5 * c, w = std::sqrt(k - d * d);
+    const double t = c * c > k ? 0.0 : std::atan2(w * (w * w - 3.0 * d * d), d * (3.0 * w * w - d * d)) / w;
+    const double decay = std::exp(-d * t), x = decay * std::sin(w * t) / w;
+    const double force = k * x + c * (decay * std::cos(w * t) - d * x);
+    for (const std::string method : {"piecewise", "exact", "rodas4", "dopri5", "extrapolation8"}) {
+      TemporaryFolder folder;
+      folder.write("scene.toml",
+                   "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 1.0\n[[contact]]\ntype = "
+                   "\"stop\"\nnodes = \"ball\"\ngap = 0.01\nsides = \"positive\"\nlaw = \"linear\"\nstiffness = 1e4\n"
+                   "damping = { type = \"kelvin_voigt\", coefficient = " +
+                       std::to_string(c) +
+                       " }\n[initial]\nvelocity = [{ nodes = \"ball\", value = 1.0 }]\n[integrator]\ntype = \"" +
+                       method + "\"\ntolerance = 1e-10\nend_time = 0.1\n[output]\ninterval = 0.01\n" + kProbe);
+      const Outcome outcome = run_program({"run", "scene.toml", "-o", "results"}, folder.path());
+      ASSERT_EQ(outcome.status, 0) << outcome.errors;
+      const Json peak = Json::parse(read_file(folder.file("results/summary.json")))["peak"];
+      EXPECT_NEAR(peak["ball.contact_force"].get<double>(), force, 1e-7 * force) << method << ", c = " << c;
+      EXPECT_NEAR(peak["ball.a"].get<double>(), force, 1e-6 * force) << method << ", c = " << c;
+      EXPECT_NEAR(peak["ball.v"].get<double>(), 1.0, 1e-9) << method << ", c = " << c;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::peaks_test

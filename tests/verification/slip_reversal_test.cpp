@@ -115,5 +115,49 @@ end_time = 0.006
   }
 }
 
+// Whether slip ends depends on accelerations here: of the slip by the dashpot beside the spring, of
+// the penetration by the one beside the normal law. Reference: a return mapping (trial force k d + c w,
+// cut to mu F_n with d = (mu F_n - c w)/k) in steps of 1e-7 and 2e-8 s, extrapolated to 0.
+TEST(StickSpring, SticksAgainWithDashpotsBesideBothSprings) {
+  const std::string scene = R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+dof = "uy"
+stiffness = 1e3
+[[element]]
+type = "spring"
+node = "m"
+dof = "uz"
+stiffness = 1e3
+[[contact]]
+type = "plane"
+nodes = "m"
+normal = [1.0, 0.0]
+gap = 0.001
+law = "linear"
+stiffness = 1e6
+damping = { type = "kelvin_voigt", coefficient = 200.0 }
+friction = { coefficient = 0.3, stick_stiffness = 5e5, stick_damping = 150.0 }
+[initial]
+velocity = [{ nodes = "m", dof = "uy", value = 1.0 }, { nodes = "m", dof = "uz", value = 0.4 }]
+[integrator]
+type = "exact"
+tolerance = 1e-7
+end_time = 0.5
+)";
+  for (const std::string method : {"rodas4", "dopri5", "extrapolation8", "exact"}) {
+    SceneRun run(scene, {"integrator.type=" + method});
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_NEAR(run.simulation().state().x[run.dof("m", DofKind::uz)], -3.9947e-4, 1e-8) << method;
+    EXPECT_NEAR(run.simulation().state().v[run.dof("m", DofKind::uz)], -0.0154354, 3e-7) << method;
+    EXPECT_NEAR(run.simulation().state().v[run.dof("m", DofKind::uy)], 0.100772, 1e-6) << method;
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::slip_reversal_test
