@@ -109,6 +109,16 @@ std::unique_ptr<time::Integrator> make_rodas4(dynamics::Dynamics& dynamics, cons
   return std::make_unique<Rodas4>(dynamics, goal);
 }
 
+/// Null if rounding in the modes does not allow the tolerance.
+std::unique_ptr<time::Integrator> exponential_unless_rounded(dynamics::Dynamics& dynamics,
+                                                             const ExponentialOptions& options) {
+  try {
+    return make_exponential(dynamics, options);
+  } catch (const ToleranceBelowRounding&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
@@ -151,13 +161,16 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
 }
 
 std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
-  const Choice choice = choose(dynamics, tolerance, end_time);
+  Choice choice = choose(dynamics, tolerance, end_time);
   const std::string with = " with tolerance " + to_short_text(tolerance);
   std::unique_ptr<time::Integrator> integrator;
+  if (choice.method == Choice::Method::exponential) {
+    integrator = exponential_unless_rounded(dynamics, {tolerance, end_time, 0});
+    if (integrator == nullptr) choice = {Choice::Method::rodas4, "rounding in the modes exceeds the tolerance"};
+  }
   std::string what;
   if (choice.method == Choice::Method::exponential) {
     what = "exponential" + with;
-    integrator = make_exponential(dynamics, {tolerance, end_time, 0});
   } else if (choice.method == Choice::Method::piecewise) {
     what = "piecewise";
     integrator = std::make_unique<Piecewise>(dynamics, end_time);

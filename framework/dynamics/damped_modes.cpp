@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/LU>
@@ -54,6 +55,15 @@ void join_entries(const Eigen::MatrixXd& matrix, Parts& parts) {
   for (Index j = 0; j < matrix.cols(); ++j)
     for (Index i = 0; i < matrix.rows(); ++i)
       if (i != j && std::abs(matrix(i, j)) > kUncoupled * std::sqrt(rows[i] * columns[j])) parts.join(i, j);
+}
+
+/// Sets the entries of S^T A S that are rounding of its products to 0, for example those of rigid
+/// motion, on which dashpots between parts do not act. `sizes` holds |A|.
+void clear_rounding(const SparseMatrix& sizes, const Eigen::MatrixXd& shapes, Eigen::MatrixXd& product) {
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const Eigen::MatrixXd shape_sizes = shapes.cwiseAbs(), forces = sizes * shape_sizes;
+  const Eigen::MatrixXd bound = kRounding * (shape_sizes.transpose() * forces);
+  product = (product.cwiseAbs().array() > bound.array()).select(product, 0.0);
 }
 
 /// A matrix whose rows combine the rows of another one. Blocks of few modes leave most of it empty.
@@ -132,12 +142,19 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
     Eigen::MatrixXd forces(n, n);
     for (Index j = 0; j < n; ++j) dynamics.damping_force(shapes.col(j), forces.col(j));
     damping.noalias() = shapes.transpose() * forces;
+    if (system.dashpots.size() > 0) {
+      SparseMatrix sizes = system.damping.mass_proportional * system.mass.cwiseAbs();
+      sizes += system.damping.stiffness_proportional * system.stiffness.cwiseAbs();
+      sizes += system.dashpots.cwiseAbs();
+      clear_rounding(sizes, shapes, damping);
+    }
   } else {
     damping.setZero();
   }
   if (!system.stiffness_is_symmetric) {
     SparseMatrix odd = 0.5 * (system.stiffness - transposed);
     stiffness.noalias() = shapes.transpose() * (odd * shapes);
+    clear_rounding(odd.cwiseAbs(), shapes, stiffness);
   }
   Parts parts(n);
   join_entries(damping, parts);
@@ -164,6 +181,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
       if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
         throw InputError(std::string("integrator.type: the modes of this structure do not form a basis") + others);
     }
+    condition_ = std::max(condition_, block.vectors.norm() * block.inverse.norm());
     for (Index i = 0; i < 2 * b; ++i)
       if (block.values[i].imag() >= 0.0) kept.emplace_back(blocks.size() - 1, i);
   }

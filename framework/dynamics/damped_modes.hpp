@@ -35,6 +35,9 @@ class BUTEE_EXPORT DampedModes {
   /// DOFs, or no basis of modes is found.
   DampedModes(Dynamics& dynamics, double run_time);
 
+  /// The largest |V| |V^-1| of the blocks, V the eigenvectors, in Frobenius norms: motion that is
+  /// transformed to the modes and back has relative rounding errors of this times epsilon.
+  double condition() const { return condition_; }
   Index count() const { return decay_.size(); }           ///< p
   const Eigen::ArrayXd& decay() const { return decay_; }  ///< Re lambda, 1/s
   const Eigen::ArrayXd& turn() const { return turn_; }    ///< Im lambda >= 0, rad/s
@@ -65,6 +68,7 @@ class BUTEE_EXPORT DampedModes {
 
   Eigen::ArrayXd decay_, turn_, speed_, kinetic_;
   Eigen::MatrixXd displacement_, velocity_, input_, from_x_, from_v_;
+  double condition_ = 1.0;
 };
 
 }  // namespace butee::dynamics

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "butee/core/error.hpp"
 #include "butee/time/integrator.hpp"
 #include "integrators/exponential/exponential_step.hpp"
 #include "integrators/exponential/single_step.hpp"
@@ -103,8 +104,13 @@ class Exponential final : public time::Integrator, private time::Interpolant {
 /// coupled modes adds up to more than the guaranteed error of a run.
 inline constexpr double kSmallestWithStops = 1e-8;
 
+/// The tolerance is below what rounding in the modes of this structure allows.
+struct ToleranceBelowRounding : InputError {
+  using InputError::InputError;
+};
+
 /// Throws InputError for tolerances below kSmallestWithStops and for scenes that ModalCollocation
-/// does not support.
+/// does not support, ToleranceBelowRounding for tolerances below its smallest_tolerance().
 std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options);
 
 }  // namespace butee::integrators

@@ -38,8 +38,16 @@ std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics,
     throw InputError("integrator.tolerance: must be at least " + to_short_text(kSmallestWithStops) +
                      " for exponential with stops: below it the errors of many impacts exceed the error bound; take "
                      "rodas4, extrapolation8, exact or piecewise, or auto, which chooses among them");
-  if (is_coupled(dynamics.system()))
-    return std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
+  if (is_coupled(dynamics.system())) {
+    auto integrator = std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
+    if (const double smallest = integrator->smallest_tolerance(); options.tolerance < smallest)
+      throw ToleranceBelowRounding(
+          "integrator.tolerance: must be at least " + to_short_text(smallest) +
+          " for exponential here: its modes are almost parallel, as for free or critically damped motion with "
+          "dashpots, and rounding exceeds the error bound below it; take rodas4, dopri5, extrapolation8 or exact, or "
+          "auto, which chooses among them");
+    return integrator;
+  }
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
   auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
   const dynamics::ModalSystem& modal = dynamics.modal(options.modes);

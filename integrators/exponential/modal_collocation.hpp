@@ -25,6 +25,10 @@ class ModalCollocation final : public time::Integrator {
  public:
   ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal);
 
+  /// The tolerance below which rounding in the basis of modes may exceed the guaranteed error
+  /// (COLLOCATION.md, Modes).
+  double smallest_tolerance() const { return kRoundings * modes_.condition(); }
+
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State& state) const override;
   time::Traits traits() const override {
@@ -32,6 +36,10 @@ class ModalCollocation final : public time::Integrator {
   }
 
  private:
+  /// 2.2e-16, over the 10 tolerances of the guarantee, over its smallest scale, a thousandth of the
+  /// largest displacement.
+  static constexpr double kRoundings = 2.2e-14;
+
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
   time::Interpolant& interpolant() override;

@@ -223,6 +223,34 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
 INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight));
 
 /// Angles below and above the limit of the vectorised functions.
+/// Dashpots between parts do not act on rigid motion: only its double eigenvalue, moved apart by kNudge,
+/// conditions the basis, not a block of all modes joined to it by rounding.
+TEST(DampedModes, KeepRigidMotionApartAndRefuseTolerancesBelowItsRounding) {
+  std::string chain = "schema = 1\n";
+  for (int i = 0; i < 4; ++i) {
+    chain += "[[element]]\ntype = \"mass\"\nname = \"m" + std::to_string(i) +
+             "\"\nmass = " + std::to_string(2.3 - 0.4 * i) + "\n";
+    if (i > 0)
+      chain += "[[element]]\ntype = \"spring\"\nnodes = [\"m" + std::to_string(i - 1) + "\", \"m" + std::to_string(i) +
+               "\"]\nstiffness = " + std::to_string(1100.0 * i * i) + "\ndamping = " + std::to_string(60.0 - 17.0 * i) +
+               "\n";
+  }
+  chain += "[initial]\nvelocity = [{ nodes = \"m0\", value = 1.0 }]\n[integrator]\nend_time = 1.0\n";
+  SceneRun run(chain);
+  const double condition = DampedModes(run.dynamics(), 1.0).condition();
+  EXPECT_GT(condition, 0.5 / std::sqrt(DampedModes::kNudge));
+  EXPECT_LT(condition, 4.0 / std::sqrt(DampedModes::kNudge));
+  EXPECT_NO_THROW(SceneRun(chain, {"integrator.type=exponential", "integrator.tolerance=2e-8"}));
+  try {
+    SceneRun(chain, {"integrator.type=exponential", "integrator.tolerance=1e-10"});
+    FAIL() << "was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("rounding exceeds the error bound"), std::string::npos) << error.what();
+  }
+  SceneRun chosen(chain, {"integrator.tolerance=1e-10"});
+  EXPECT_NE(chosen.integrator().choice().find("rodas4"), std::string::npos) << chosen.integrator().choice();
+}
+
 TEST(DampedModes, TurnByComplexExponentials) {
   SceneRun run(kShaft);
   const DampedModes modes(run.dynamics(), 1.0);
