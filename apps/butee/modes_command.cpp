@@ -37,8 +37,9 @@ std::string folder_of(const ModesArguments& arguments) {
                                    : std::filesystem::path(arguments.model.model).stem().string() + "-modes";
 }
 
-/// Lets every part that can turn do so, in a scene without [rotation]. Throws InputError if there is none.
-void let_turn(model::Model& model) {
+/// Lets every part that can turn do so, in a scene without [rotation]. Throws InputError if there is none and
+/// speeds other than 0 are asked for.
+void let_turn(model::Model& model, bool is_at_rest) {
   if (model.rotation == nullptr) {
     model.rotation = std::make_unique<model::Rotation>(std::vector{0.0}, std::vector{0.0});
     model.turns.assign(model.elements.size(), false);
@@ -46,7 +47,7 @@ void let_turn(model::Model& model) {
       model.turns[i] = model.elements[i]->turning() != model::Element::Turning::never &&
                        model.elements[i]->turning_problem().empty();
   }
-  if (std::find(model.turns.begin(), model.turns.end(), true) == model.turns.end())
+  if (!is_at_rest && std::find(model.turns.begin(), model.turns.end(), true) == model.turns.end())
     throw InputError(
         "--speed: nothing turns in this scene: it has no disc and no beam along x with motion = \"lateral\" or "
         "\"spatial\"");
@@ -73,7 +74,7 @@ void warn_of_rounding(const dynamics::Whirl& whirl, const std::vector<dynamics::
 int whirl_command(const ModesArguments& arguments) {
   scene::Scene session = open_session(arguments.model);
   if (!arguments.closed.empty()) throw InputError("--closed cannot be combined with --speed or --campbell");
-  let_turn(session.model);
+  let_turn(session.model, arguments.campbell.empty() && arguments.speed == 0.0);
   const dynamics::Whirl whirl(session.model);
   const Index count = std::min(arguments.count > 0 ? arguments.count : kDefaultCount, 2 * whirl.size());
   if (arguments.speed && !std::isfinite(*arguments.speed))
@@ -136,9 +137,13 @@ int modes_command(const ModesArguments& arguments) {
   if (!system.stiffness_is_symmetric)
     throw InputError(
         "the stiffness matrix is not symmetric, because of cross terms of bearings or damping that turns, so that the "
-        "scene has no undamped modes; take --speed, which gives damped modes");
+        "scene has no undamped modes; take --speed 0, which gives damped modes at rest");
   if (session.model.rotation != nullptr)
     log::info("modes at rest; --speed OMEGA and --campbell FROM TO N give those of turning shafts");
+  if (system.size() > 1 && system.dashpots.size() > 0)
+    log::info(
+        "the damping is that of each mode alone, phi^T C phi/(2 omega), but dashpots couple modes; --speed 0 gives "
+        "damped modes");
   const auto closed = dynamics::closed_stops(session.model, arguments.closed);
   const bool writes = arguments.plot || !arguments.folder.empty();
   const record::ResultFolder folder(folder_of(arguments));
@@ -172,7 +177,8 @@ Command add_modes_command(CLI::App& program) {
       ->type_name("DIR");
   app->add_flag("--json", arguments->json, "print JSON");
   app->add_flag("--plot", arguments->plot, "draw the shapes by gnuplot; into <model>-modes without -o");
-  app->add_option("--speed", arguments->speed, "damped, whirling modes at this speed of rotation, rad/s")
+  app->add_option("--speed", arguments->speed,
+                  "damped modes at this speed of rotation, rad/s; 0: at rest, in any scene")
       ->type_name("OMEGA");
   app->add_option("--campbell", arguments->campbell, "whirling modes at N + 1 speeds (rad/s), and critical speeds")
       ->expected(3)

@@ -1,8 +1,10 @@
 #include "butee/dynamics/modal_damping.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "butee/dynamics/frequencies.hpp"
 
 namespace butee::dynamics {
@@ -30,8 +32,25 @@ Modes modes_to_damp(const model::System& system, Index count) {
   return std::move(*modes);
 }
 
-/// Rejects a list that names a mode that would be omitted.
+/// Rejects a list that names a mode that would be omitted, or that gives different ratios to modes of one
+/// frequency: which of them is damped would be arbitrary.
 void check_listed(const model::Damping& damping, const Modes& modes) {
+  constexpr double kSame = 1e-8;
+  const auto ratio_of = [&](Index i) {
+    const auto place = static_cast<std::size_t>(i);
+    return place < damping.lowest_modes.size() ? damping.lowest_modes[place] : 0.0;
+  };
+  for (Index i = 0; i + 1 < modes.frequencies.size(); ++i) {
+    const double omega = modes.frequencies[i], next = modes.frequencies[i + 1];
+    if (ratio_of(i) != ratio_of(i + 1) && next > 0.0 && next - omega <= kSame * next)
+      throw InputError("[damping] modal gives the ratios " + to_short_text(ratio_of(i)) + " and " +
+                       to_short_text(ratio_of(i + 1)) + " to modes " + std::to_string(i + 1) + " and " +
+                       std::to_string(i + 2) + ", which have the same frequency, " + to_short_text(omega) +
+                       " rad/s, and are not distinct: give both the same ratio" +
+                       (static_cast<std::size_t>(i + 1) < damping.lowest_modes.size()
+                            ? ""
+                            : " (modes after the end of the list have none)"));
+  }
   for (std::size_t i = 0; i < damping.lowest_modes.size(); ++i)
     if (damping.lowest_modes[i] > 0.0 && modes.frequencies[static_cast<Index>(i)] == 0.0)
       throw InputError("[damping] modal gives a ratio to mode " + std::to_string(i + 1) +
@@ -44,11 +63,13 @@ void check_listed(const model::Damping& damping, const Modes& modes) {
 std::unique_ptr<const ModalDamping> ModalDamping::of(const model::System& system) {
   const model::Damping& damping = system.damping;
   if (!damping.is_modal()) return nullptr;
-  const Modes modes = modes_to_damp(system, count_modes(system));
-  check_listed(damping, modes);
-  Eigen::MatrixXd shapes(system.size(), modes.frequencies.size());
+  const Index count = count_modes(system);
+  // One mode more than a list has may share the frequency of its last one.
+  const Modes modes = modes_to_damp(system, damping.lowest_modes.empty() ? count : std::min(count + 1, system.size()));
+  if (!damping.lowest_modes.empty()) check_listed(damping, modes);
+  Eigen::MatrixXd shapes(system.size(), count);
   Index damped = 0;
-  for (Index i = 0; i < modes.frequencies.size(); ++i) {
+  for (Index i = 0; i < count; ++i) {
     const double zeta =
         damping.every_mode != 0.0 ? damping.every_mode : damping.lowest_modes[static_cast<std::size_t>(i)];
     const double rate = 2.0 * zeta * modes.frequencies[i];

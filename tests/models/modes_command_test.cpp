@@ -1,4 +1,5 @@
 #include <cmath>
+#include <complex>
 #include <filesystem>
 #include <numbers>
 
@@ -109,6 +110,27 @@ TEST_F(ModesCommand, AllEffectiveMassesTogetherAreTheMassThatCanMove) {
   // The masses at the held ends, less than half an element each, do not count.
   EXPECT_LT(sum, 1.0);
   EXPECT_GT(sum, 1.0 - 1.0 / 34.0);
+}
+
+/// m1 = m2 = 1 with springs of 1000, 1000 and 10 N/m and a strong dashpot to ground: the roots of
+/// (s^2 + 2 s + 2000)(s^2 + 72 s + 1010) = (2 s + 1000)^2, of which one pair oscillates.
+TEST_F(ModesCommand, DampedModesAtRestOfAnyScene) {
+  folder_.write("chain.toml",
+                "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\n"
+                "name = \"b\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = \"a\"\nstiffness = 1000.0\n"
+                "[[element]]\ntype = \"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 1000.0\ndamping = 2.0\n"
+                "[[element]]\ntype = \"spring\"\nnode = \"b\"\nstiffness = 10.0\ndamping = 70.0\n"
+                "[integrator]\nend_time = 1.0\n");
+  const Outcome undamped = run({"chain.toml"});
+  EXPECT_NE((undamped.output + undamped.errors).find("--speed 0 gives damped modes"), std::string::npos);
+  const Json found = json({"chain.toml", "--speed", "0"});
+  ASSERT_EQ(found["modes"].size(), 3U);  // two overdamped roots and a pair
+  for (const Json& mode : found["modes"]) {
+    const std::complex<double> s(mode["growth"].get<double>(), mode["angular_frequency"].get<double>());
+    const std::complex<double> left = (s * s + 2.0 * s + 2000.0) * (s * s + 72.0 * s + 1010.0);
+    EXPECT_LT(std::abs(left - (2.0 * s + 1000.0) * (2.0 * s + 1000.0)), 1e-9 * std::abs(left));
+  }
+  EXPECT_EQ(run({"chain.toml", "--speed", "10"}).status, 2);
 }
 
 TEST_F(ModesCommand, OscillatorWithOpenAndClosedStops) {

@@ -217,6 +217,19 @@ TEST(ModalDampingOfAFreeBeam, LeavesRigidMotionAlone) {
     }
 }
 
+/// Two equal masses on equal springs: which of the two modes is damped would be arbitrary.
+TEST(ModalDampingOfEqualFrequencies, IsRefusedUnlessTheRatiosAreEqual) {
+  const auto scene = [](const std::string& modal) {
+    std::string text = kHeader;
+    for (const std::string name : {"a", "b"})
+      text += mass(name, "2.0") + "\n[[element]]\ntype = \"spring\"\nnode = \"" + name + "\"\nstiffness = 50.0\n";
+    return text + "\n[damping]\nmodal = " + modal + "\n";
+  };
+  EXPECT_TRUE(holds(refusal(scene("[0.1]")), "modes 1 and 2, which have the same frequency, 5 rad/s"));
+  EXPECT_TRUE(holds(refusal(scene("[0.1, 0.2]")), "give both the same ratio"));
+  EXPECT_NO_THROW(SceneRun(scene("[0.1, 0.1]")));
+}
+
 TEST(ModalDampingOfAFreeBeam, RefusesARatioForRigidMotion) {
   const std::string text = refusal(kHeader + kSteelBar + beam("rod", "length = 2.0\nelements = 10") +
                                    "\n[damping]\nmodal = [0, 0.05, 0.05]\n");
