@@ -58,6 +58,10 @@ void SceneReader::read_initial() {
   if (table->table() == nullptr) return;
   for (const std::string key : {"displacement", "velocity"})
     if (const Value* given = table->table()->find(key)) read_initial_list(*given, key);
+  if (const Value* given = table->table()->find("displacement"); given != nullptr && model_.starts_static)
+    diagnostics_.warning("initial.displacement", given->at,
+                         "is only where the search for the static position begins, since [gravity] static starts the "
+                         "run there");
 }
 
 void SceneReader::read_initial_motion(const Parameters& p) {

@@ -127,5 +127,19 @@ end_time = 0.01
   for (const char* method : {"auto", "exponential", "rodas4"}) expect_rest(scene, method);
 }
 
+TEST(AtRest, ADisplacementBesideGravityStaticIsSaidToBeAStartOfTheSearch) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\n"
+      "stiffness = 100.0\n[gravity]\nacceleration = [0.0, -10.0, 0.0]\nstatic = true\n[initial]\n"
+      "displacement = [{ nodes = \"m\", value = 0.5 }]\n[integrator]\nend_time = 1.0\n";
+  const scene::Scene read = read_scene(scene);
+  ASSERT_EQ(read.warnings.size(), 1U);
+  EXPECT_NE(read.warnings.front().find("is only where the search for the static position begins"), std::string::npos)
+      << read.warnings.front();
+  SceneRun run(scene);
+  EXPECT_NEAR(run.system().initial_displacement[run.dof("m")], -0.1, 1e-12);
+}
+
 }  // namespace
 }  // namespace butee::test::at_rest_test
