@@ -104,7 +104,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   Vector stiffness = system.stiffness.diagonal();
   const Vector mass = system.mass.diagonal();
   const double square = highest(stiffness, mass);
-  first_step_ = square > 0.0 ? 0.1 / std::sqrt(square) : 1e-6;
+  first_step_ = square > 0.0 ? 0.1 / std::sqrt(square) : 1e-6 * std::min(1.0, goal.run_time);
   const double damping = damping_rate(system, stiffness, mass);
   const dynamics::ElasticStops& contact = dynamics.stops();
   const Vector closed = contact.closed_stiffness();

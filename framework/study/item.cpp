@@ -25,7 +25,9 @@ std::string known_kinds() {
 
 const std::vector<ItemKind>& item_kinds() {
   static const std::vector<ItemKind> all = {
-      {Kind::peak, "peak", "largest |value| over the periods that count, including between steps"},
+      {Kind::peak, "peak",
+       "largest |value| over the periods that count, including between steps (forces of elements: at 64 instants of "
+       "each period)"},
       {Kind::max, "max", "largest value, of displacements, velocities and accelerations"},
       {Kind::min, "min", "smallest value, of the same quantities"},
       {Kind::mean, "mean", "mean over time"},
