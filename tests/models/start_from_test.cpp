@@ -175,6 +175,18 @@ TEST_F(StartFrom, RefusesOtherStructuresAndFolders) {
   refused(scene(method("rk4", "0.4") + kGoOn), "is damaged: its checksum is wrong");
 }
 
+/// The saved motion would be overwritten by the static position, or contain the motion of the base twice.
+TEST_F(StartFrom, RefusesStartsThatWouldChangeTheMotion) {
+  completes("first", scene(method("rk4", "0.2")));
+  refused(scene(method("rk4", "0.4") + kGoOn + "[gravity]\nacceleration = [0.0, -9.81, 0.0]\nstatic = true\n"),
+          "conflicts with [gravity] static, which starts at rest in the static position");
+  std::string in_space = scene(method("rk4", "0.4") + kGoOn +
+                               "[base]\nacceleration = { direction = [0, 1, 0], type = \"harmonic\", amplitude = "
+                               "1.0, angular_frequency = 70.0 }\n");
+  in_space.replace(in_space.find("gap = 1.0e-3"), 12, "gap = 1.0e-3\nframe = \"space\"");
+  refused(in_space, "requires motion relative to the base");
+}
+
 TEST_F(StartFrom, ModelTomlFindsTheFolderAndNoticesAChange) {
   completes("first", scene(method("rk4", "0.2")));
   completes("second", scene(method("rk4", "0.4") + kGoOn));

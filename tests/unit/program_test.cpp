@@ -85,6 +85,8 @@ TEST_F(Program, RunWritesItsResults) {
   EXPECT_GT(json["peak"]["ball.u"], 0.0);
   EXPECT_TRUE(json["energy"]["balance_error"].is_null());
   EXPECT_GT(json["wall_seconds"], 0.0);
+  ASSERT_EQ(run({"swing.toml", "--set", "output.energy=true", "--set", "output.checkpoint=50"}).status, 0);
+  EXPECT_GT(summary()["wall_seconds"], 0.0);
 }
 
 /// On every available instruction set, with active stops.
