@@ -78,20 +78,10 @@ TEST(SlipReversal, IsSeenByEmbeddedEstimates) {
     }
 }
 
-/// An oblique impact on a plane with dashpot and stick spring. The dashpot presses at once, so that the body sticks
-/// from the first instant on. Reference: the equations integrated with steps of 2e-8 s, with a return mapping for the
-/// spring: uz_v = 0.029914 m/s; with full slip at first it would be -0.217.
-TEST(StickSpring, SticksWhereAContactWithADashpotCloses) {
-  const std::string scene = R"(schema = 1
-[[element]]
-type = "mass"
-name = "m"
-mass = 1.0
-[[element]]
-type = "spring"
-node = "m"
-dof = "uz"
-stiffness = 1e-3
+/// 1 kg that strikes a plane at a gap of 1 mm with a stick spring and a dashpot of 200 N s/m, at 1 m/s and `slip`
+/// m/s along it.
+std::string striking_body(const std::string& springs, const std::string& friction, double slip, double end_time) {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n" + springs + R"(
 [[contact]]
 type = "plane"
 nodes = "m"
@@ -100,14 +90,22 @@ gap = 0.001
 law = "linear"
 stiffness = 1e6
 damping = { type = "kelvin_voigt", coefficient = 200.0 }
-friction = { coefficient = 0.5, stick_stiffness = 1e5 }
-[initial]
-velocity = [{ nodes = "m", dof = "uy", value = 1.0 }, { nodes = "m", dof = "uz", value = 0.05 }]
-[integrator]
-type = "exact"
-tolerance = 1e-5
-end_time = 0.006
-)";
+friction = { )" +
+         friction + " }\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"uy\", value = 1.0 }, { nodes = \"m\", dof = " +
+         "\"uz\", value = " + std::to_string(slip) +
+         " }]\n[integrator]\ntype = \"exact\"\ntolerance = 1e-7\nend_time = " + std::to_string(end_time) + "\n";
+}
+
+std::string spring(const std::string& dof, const std::string& stiffness) {
+  return "[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = \"" + dof + "\"\nstiffness = " + stiffness + "\n";
+}
+
+/// An oblique impact on a plane with dashpot and stick spring. The dashpot presses at once, so that the body sticks
+/// from the first instant on. Reference: the equations integrated with steps of 2e-8 s, with a return mapping for the
+/// spring: uz_v = 0.029914 m/s; with full slip at first it would be -0.217.
+TEST(StickSpring, SticksWhereAContactWithADashpotCloses) {
+  const std::string scene =
+      striking_body(spring("uz", "1e-3"), "coefficient = 0.5, stick_stiffness = 1e5", 0.05, 0.006);
   for (const std::string method : {"rodas4", "dopri5", "extrapolation8", "exact"}) {
     SceneRun run(scene, {"integrator.type=" + method});
     ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
@@ -115,41 +113,12 @@ end_time = 0.006
   }
 }
 
-// Whether slip ends depends on accelerations here: of the slip by the dashpot beside the spring, of
-// the penetration by the one beside the normal law. Reference: a return mapping (trial force k d + c w,
-// cut to mu F_n with d = (mu F_n - c w)/k) in steps of 1e-7 and 2e-8 s, extrapolated to 0.
+/// Whether slip ends depends on accelerations here: of the slip by the dashpot beside the spring, of
+/// the penetration by the one beside the normal law. Reference: a return mapping (trial force k d + c w,
+/// cut to mu F_n with d = (mu F_n - c w)/k) in steps of 1e-7 and 2e-8 s, extrapolated to 0.
 TEST(StickSpring, SticksAgainWithDashpotsBesideBothSprings) {
-  const std::string scene = R"(schema = 1
-[[element]]
-type = "mass"
-name = "m"
-mass = 1.0
-[[element]]
-type = "spring"
-node = "m"
-dof = "uy"
-stiffness = 1e3
-[[element]]
-type = "spring"
-node = "m"
-dof = "uz"
-stiffness = 1e3
-[[contact]]
-type = "plane"
-nodes = "m"
-normal = [1.0, 0.0]
-gap = 0.001
-law = "linear"
-stiffness = 1e6
-damping = { type = "kelvin_voigt", coefficient = 200.0 }
-friction = { coefficient = 0.3, stick_stiffness = 5e5, stick_damping = 150.0 }
-[initial]
-velocity = [{ nodes = "m", dof = "uy", value = 1.0 }, { nodes = "m", dof = "uz", value = 0.4 }]
-[integrator]
-type = "exact"
-tolerance = 1e-7
-end_time = 0.5
-)";
+  const std::string scene = striking_body(spring("uy", "1e3") + spring("uz", "1e3"),
+                                          "coefficient = 0.3, stick_stiffness = 5e5, stick_damping = 150.0", 0.4, 0.5);
   for (const std::string method : {"rodas4", "dopri5", "extrapolation8", "exact"}) {
     SceneRun run(scene, {"integrator.type=" + method});
     ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
