@@ -8,21 +8,12 @@ namespace {
 /// A sample below this fraction of the peak is not adjacent to a larger maximum, with eight samples
 /// in a piece of a step, or three where it is near a quintic.
 constexpr double kNearPeak = 0.9;
-/// Distance of the samples beside the ends of a piece, in parts of it: they show whether forces rise
-/// from an end, so that a peak lies between it and the next sample.
-constexpr double kNearEnd = 1e-4;
-/// The same where no phases are followed and dashpots make forces jump at breakpoints.
+/// A force that is at least this fraction of the peak at an end of a piece, and larger than at the next
+/// sample, may have its maximum between both: the force kNearEnd of their distance away tells.
+constexpr double kHighEnd = 0.5, kNearEnd = 1e-4;
+/// Distance of samples beside breakpoints, in parts of the piece, where no phases are followed:
+/// dashpots make forces jump there.
 constexpr double kBeside = 1e-9;
-
-/// True if the tangent at a sample close to one of its neighbours exceeds `largest` at the other
-/// neighbour: a concave force remains below it.
-bool may_exceed(const Sampled& before, const Sampled& at, const Sampled& after, double largest) {
-  constexpr double kClose = 0.01;
-  const double left = at.t - before.t, right = after.t - at.t;
-  if (left < kClose * right) return at.value + (at.value - before.value) / left * right > largest;
-  if (right < kClose * left) return at.value + (at.value - after.value) / right * left > largest;
-  return false;
-}
 
 std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node) {
   const model::System& system = dynamics.system();
@@ -78,17 +69,16 @@ void ContactPeaks::step(const time::AcceptedStep& step) {
   double begin = step.from.t;
   for (std::size_t piece = 0; piece <= breakpoints.size(); ++piece) {
     const double end = piece < breakpoints.size() ? breakpoints[piece] : step.to.t, length = end - begin;
-    const auto look_near_end = [&](double part) {
-      const double t = part > 0.0 ? begin + part * length : end + part * length;
-      if (t > begin && t < end) look(step, t);
-    };
-    const bool may_jump = dynamics_.obstacles()->is_live();
-    if (may_jump) look_near_end(kBeside);
-    look_near_end(kNearEnd);
-    for (int k = 1; k < samples; ++k) look(step, begin + length * k / samples);
-    look_near_end(-kNearEnd);
-    if (may_jump) look_near_end(-kBeside);
-    look(step, end);
+    const bool may_jump =
+        dynamics_.obstacles()->is_live() && begin + kBeside * length > begin && end - kBeside * length < end;
+    if (may_jump) look(step, begin + kBeside * length);
+    for (int k = 1; k < samples; ++k) {
+      look(step, begin + length * k / samples);
+      if (k == 1) look_near(step, End::first);
+    }
+    look(step, may_jump ? end - kBeside * length : end);
+    look_near(step, End::last);
+    if (may_jump) look(step, end);
     begin = end;
   }
 }
@@ -105,7 +95,7 @@ void ContactPeaks::look(const time::AcceptedStep& step, double t) {
     auto& [before, last] = last_[i];
     largest_[i] = std::max(largest_[i], sample.value);
     const bool is_top = has_two_before && last.value >= before.value && last.value >= sample.value && last.value > 0.0;
-    if (is_top && (last.value > kNearPeak * largest_[i] || may_exceed(before, last, sample, largest_[i]))) {
+    if (is_top && last.value > kNearPeak * largest_[i]) {
       const Sampled top = local_maximum(before, last, sample, [&](double instant) {
         probes_->evaluate(step, instant, values_);
         return std::abs(values_[i]);
@@ -114,6 +104,22 @@ void ContactPeaks::look(const time::AcceptedStep& step, double t) {
     }
     before = last;
     last = sample;
+  }
+}
+
+void ContactPeaks::look_near(const time::AcceptedStep& step, End end) {
+  for (std::size_t i = 0; i < last_.size(); ++i) {
+    const auto [before, last] = last_[i];
+    const Sampled &at = end == End::first ? before : last, &other = end == End::first ? last : before;
+    if (!(at.value > other.value) || !(at.value >= kHighEnd * largest_[i])) continue;
+    const auto value_at = [&](double t) {
+      probes_->evaluate(step, t, values_, Probes::View::contacts);
+      return std::abs(values_[i]);
+    };
+    const double t = at.t + kNearEnd * (other.t - at.t);
+    if (!(t > before.t && t < last.t)) continue;
+    const Sampled near{t, value_at(t)};
+    if (near.value > at.value) largest_[i] = std::max(largest_[i], local_maximum(before, near, last, value_at).value);
   }
 }
 

@@ -32,6 +32,9 @@ class BUTEE_EXPORT ContactPeaks {
   bool is_active() const;
   /// Takes the values at an instant of the step; they follow one another.
   void look(const time::AcceptedStep& step, double t);
+  /// Looks for a maximum between the last two samples, one of which is an end of a piece.
+  enum class End { first, last };
+  void look_near(const time::AcceptedStep& step, End end);
 
   dynamics::Dynamics& dynamics_;
   std::unique_ptr<Probes> probes_;  ///< null if there are none
