@@ -105,6 +105,9 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   const Vector mass = system.mass.diagonal();
   const double square = highest(stiffness, mass);
   first_step_ = square > 0.0 ? 0.1 / std::sqrt(square) : 1e-6 * std::min(1.0, goal.run_time);
+  for (const model::FreeLoad& load : system.loads)
+    if (const auto harmonic = load.in_time->harmonic(); harmonic && harmonic->angular_frequency > 0.0)
+      first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
   const double damping = damping_rate(system, stiffness, mass);
   const dynamics::ElasticStops& contact = dynamics.stops();
   const Vector closed = contact.closed_stiffness();

@@ -61,7 +61,7 @@ class LocalErrorControl {
   LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps);
 
   const time::StepController& controller() const { return controller_; }
-  /// A first step that is short compared with 1/omega of the stiffest DOF, s.
+  /// A first step that is short compared with 1/omega of the stiffest DOF and of the fastest harmonic load, s.
   double first_step() const { return first_step_; }
 
   /// The largest number of DOFs for which every component has its own scale.
