@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "integrators/exponential/contact_dofs.hpp"
 #include "integrators/exponential/modal_loads.hpp"
 #include "integrators/exponential/sweep_acceleration.hpp"
@@ -63,6 +65,8 @@ class NodeForces {
   void find_forces(double t, double h, Index node);
   void find_forces(double t, double h);
   void move(const StepResponse& response, const StepNodes::Matrix& coefficients);
+  /// The friction of supports at the nodes, from the motion there.
+  void find_support_friction(double t, double h);
   void estimate(double t, const StepResponse& response);
   /// The largest relative change of a velocity or displacement by the last sweep.
   double change(const time::State& from, double h) const;
@@ -82,7 +86,10 @@ class NodeForces {
   AtNodes forces_, forces_before_, moved_, moved_velocity_, weights_;  ///< for the active DOFs
   SweepAcceleration acceleration_;
   Eigen::VectorXd end_, error_;
-  Vector inner_errors_;  ///< of the velocities of the active DOFs, m/s
+  std::vector<Index> supports_;  ///< friction supports with a smooth law
+  AtNodes support_friction_;     ///< for each of them, N
+  Vector impulse_errors_;        ///< of the active DOFs at the end of the step, N s
+  Vector inner_errors_;          ///< of the velocities of the active DOFs within it, m/s
 };
 
 }  // namespace butee::integrators

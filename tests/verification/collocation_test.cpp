@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "support/scene_run.hpp"
 #include "support/small_scenes.hpp"
 
@@ -262,6 +263,49 @@ TEST(Collocation, StaysInEquilibrium) {
   ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
   EXPECT_NEAR(run.simulation().state().x[0], begin, 1e-12);
   EXPECT_LT(run.simulation().report().steps, 1000);
+}
+
+/// A mass on a belt strikes a stop. Its velocity passes that of the belt while the stop is closed, so that a friction
+/// of 0.4 N reverses beside a stop force of 190 N.
+TEST(Collocation, SeesFrictionThatReversesBesideAStop) {
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 2.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 3340.0
+damping = 0.86
+[[load]]
+node = "m"
+type = "harmonic"
+amplitude = 14.3
+angular_frequency = 21.9
+phase = -0.095
+[[contact]]
+type = "friction"
+nodes = "m"
+normal_force = 5.2
+friction = { coefficient = 0.08, slip_speed = 0.014, smoothing = "tanh", surface_speed = 0.145 }
+[[contact]]
+type = "stop"
+nodes = "m"
+sides = "negative"
+gap = 0.00078
+stiffness = 176000.0
+[integrator]
+end_time = 0.125
+)";
+  SceneRun exact(scene, {"integrator.type=exact"});
+  ASSERT_TRUE(exact.run().completed) << exact.simulation().report().message;
+  for (double tolerance = 1e-4; tolerance > 1e-6; tolerance *= 0.8) {
+    SceneRun run(scene, {"integrator.type=exponential", "integrator.tolerance=" + to_text(tolerance)});
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_LT(distance(run.simulation().state(), exact.simulation().state()), 10.0 * tolerance) << tolerance;
+  }
 }
 
 std::string complaint(const std::string& toml) {
