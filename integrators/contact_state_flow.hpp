@@ -40,7 +40,8 @@ class ContactStateFlow {
   /// A piece of the motion between two changes, and the current position s in it.
   struct Piece {
     double t = 0.0;                          ///< start of the piece, s
-    double displacement = 0.0, speed = 0.0;  ///< largest |x_i|, m, and |v_i|, m/s, at the start
+    double displacement = 0.0, speed = 0.0;  ///< largest |x_i|, m, and |v_i|, m/s, at the start, with and without
+                                             ///< the particular responses to loads
     std::vector<double> start;               ///< y at the start, without the particular responses to loads
     std::vector<double> phases;              ///< cos and sin of W t for each harmonic
     bool has_parabola = false;

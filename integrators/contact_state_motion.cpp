@@ -57,6 +57,11 @@ void ContactStateFlow::begin(double t, const double* x, const double* v, const E
       v_[static_cast<std::size_t>(i)] -= piece.parabola(i, 1);
     }
   }
+  // Rounding of the parts into which the motion is divided is larger than that of their sum.
+  for (Index i = 0; i < n_; ++i) {
+    piece.displacement = std::max(piece.displacement, std::abs(x_[static_cast<std::size_t>(i)]));
+    piece.speed = std::max(piece.speed, std::abs(v_[static_cast<std::size_t>(i)]));
+  }
   for (std::size_t e = 0; e < with_extras_.size(); ++e) {
     const auto row = static_cast<Index>(2 * with_extras_[e]);
     for (Index i = 0; i < 2; ++i)

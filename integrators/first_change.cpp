@@ -58,7 +58,8 @@ FirstChange::FirstChange(const SmallSystem& system)
     : system_(system), watches_(static_cast<std::size_t>(system.stop_count())) {}
 
 FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactStateFlow::Piece& piece,
-                                      std::span<const StopStatus> status, double until, Changed changed, bool wait) {
+                                      std::span<const StopStatus> status, double until, Changed changed,
+                                      std::optional<double> chatter) {
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     Watch& watch = watches_[i];
     const LinearStop& stop = system_.stops[i];
@@ -74,7 +75,7 @@ FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactState
       watch.sizes = flow.bounds_grow(piece) ? flow.stop_bounds(piece, static_cast<Index>(i), 0.0) : watch.bounds;
       watch.has_changed = static_cast<Index>(i) == changed.stop;
       watch.border = kNearChange * changed.uncertainty;
-      look(flow, piece, static_cast<Index>(i), status[i], until, wait);
+      look(flow, piece, static_cast<Index>(i), status[i], until, chatter);
       watch.has_changed = false;
     }
   }
@@ -96,7 +97,7 @@ FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactState
       watch.bounds[3] = bounds[3];
       watch.bounds[4] = bounds[4];
     }
-    look(flow, piece, static_cast<Index>(first), status[first], until, wait);
+    look(flow, piece, static_cast<Index>(first), status[first], until, chatter);
   }
   double s = until;
   for (const Watch& watch : watches_) s = std::min(s, watch.next);
@@ -104,7 +105,7 @@ FirstChange::Result FirstChange::find(const ContactStateFlow& flow, ContactState
 }
 
 void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Piece& piece, Index i, StopStatus status,
-                       double until, bool wait) {
+                       double until, std::optional<double> chatter) {
   ++looks_;
   const LinearStop& stop = system_.stops[static_cast<std::size_t>(i)];
   Watch& watch = watches_[static_cast<std::size_t>(i)];
@@ -129,13 +130,13 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
     const double nearer = w[0] < 0.0 ? -1.0 : 1.0;
     for (const double side : {nearer, -nearer})
       if (side > 0.0 ? stop.positive : stop.negative)
-        consider(displacement(-side, stop.gap, on_side(kClosed, side)), s, until, piece.t, wait, watch);
+        consider(displacement(-side, stop.gap, on_side(kClosed, side)), s, until, piece.t, chatter, watch);
     return;
   }
   const double side = status > 0 ? 1.0 : -1.0;
   const bool pushes_only = stop.damping > 0.0 && !stop.pulls;
   if (!pushes_only || !is_closed(status))
-    consider(displacement(side, -stop.gap, kOpen), s, until, piece.t, wait, watch);
+    consider(displacement(side, -stop.gap, kOpen), s, until, piece.t, chatter, watch);
   if (!pushes_only) return;
   const double k = stop.stiffness, c = stop.damping, sign = is_closed(status) ? 1.0 : -1.0;
   Function force;
@@ -146,10 +147,11 @@ void FirstChange::look(const ContactStateFlow& flow, const ContactStateFlow::Pie
   force.third = force.fourth = k * bounds[3] + c * bounds[4];
   force.per_displacement = k;
   force.to = on_side(is_closed(status) ? kReleased : kClosed, side);
-  consider(force, s, until, piece.t, wait, watch);
+  consider(force, s, until, piece.t, chatter, watch);
 }
 
-void FirstChange::consider(const Function& function, double s, double until, double t, bool wait, Watch& watch) const {
+void FirstChange::consider(const Function& function, double s, double until, double t, std::optional<double> chatter,
+                           Watch& watch) const {
   const Jet& g = function.g;
   const std::array<double, 4>& noise = function.noise;
   const double third = function.third, fourth = function.fourth, per_displacement = function.per_displacement;
@@ -177,7 +179,7 @@ void FirstChange::consider(const Function& function, double s, double until, dou
         g[1] + g[2] * step < 0.0 && (third * step * step * step <= noise[0] || step <= kRounding * (std::abs(t) + s));
     return suggest(s + step, is_root && s + step <= until);
   }
-  if (wait && g[0] >= -noise[0]) {
+  if (chatter && g[0] >= -std::max(kNearBorder * noise[0], kNearChange * *chatter * per_displacement)) {
     step = third > 0.0 ? std::cbrt(6.0 * noise[0] / third) : until;
     return suggest(s + std::max(step, 4.0 * kRounding * (std::abs(t) + s)), false);
   }

@@ -52,10 +52,10 @@ class FirstChange {
     double s;                      ///< time of the change, s; without a change, the time up to which none occurs
     std::optional<Change> change;  ///< empty: the search may continue from s
   };
-  /// Searches 0 <= s <= `until`. `wait`: stops that are on a border to rounding keep their status until they
-  /// have left it, which ends chatter by rounding.
+  /// Searches 0 <= s <= `until`. `chatter`: the largest uncertainty of the changes at this instant, m, if stops
+  /// chatter by rounding; those within it of a border then keep their status until they have left it.
   Result find(const ContactStateFlow& flow, ContactStateFlow::Piece& piece, std::span<const StopStatus> status,
-              double until, Changed changed, bool wait);
+              double until, Changed changed, std::optional<double> chatter);
 
   /// Number of evaluations of single stops since construction.
   std::int64_t looks() const { return looks_; }
@@ -81,8 +81,9 @@ class FirstChange {
     double per_displacement;  ///< unit of g for a displacement of 1 m
   };
   void look(const ContactStateFlow& flow, const ContactStateFlow::Piece& piece, Index stop, StopStatus status,
-            double until, bool wait);
-  void consider(const Function& function, double s, double until, double t, bool wait, Watch& watch) const;
+            double until, std::optional<double> chatter);
+  void consider(const Function& function, double s, double until, double t, std::optional<double> chatter,
+                Watch& watch) const;
 
   const SmallSystem& system_;
   std::vector<Watch> watches_;

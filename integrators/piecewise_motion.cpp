@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "integrators/quintic.hpp"
 
 namespace butee::integrators {
@@ -15,6 +16,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostPieces = 256;
 /// So many changes of each stop at one instant are chatter by rounding.
 constexpr std::size_t kMostAtOnce = 6;
+/// So many end the run.
+constexpr std::size_t kHopeless = 1000;
 /// The turn between two breakpoints, rad.
 constexpr double kTurn = 1.5;
 constexpr std::size_t kMostBreakpoints = 100000;
@@ -84,7 +87,8 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
   for (std::size_t i = 0; i < status_.size(); ++i)
     status_[i] = static_cast<StopStatus>(from.memory[static_cast<Index>(i)]);
   double t = from.t;
-  std::size_t at_once = 0;
+  std::size_t at_once = 0;   // changes at the present instant
+  double uncertainty = 0.0;  // the largest of theirs, m
   changed_ = {static_cast<Index>(from.memory[system_.stop_count()]), from.memory[system_.stop_count() + 1]};
   while (true) {
     try {
@@ -98,8 +102,9 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
     const double landing = std::min(step.t_end, next_discontinuity(t)), rest = landing - t,
                  until = std::min(rest, flow.longest());
     const std::int64_t looks = first_change_.looks();
-    const auto found =
-        first_change_.find(flow, piece_, status_, until, changed_, at_once > kMostAtOnce * (status_.size() + 1));
+    const bool chatters = at_once > kMostAtOnce * (status_.size() + 1);
+    const auto found = first_change_.find(flow, piece_, status_, until, changed_,
+                                          chatters ? std::optional(uncertainty) : std::nullopt);
     counters_.law_evaluations += first_change_.looks() - looks;
     const double t_next = found.s < rest ? std::min(t + found.s, landing) : landing;
     const bool has_passed = t_next > t;
@@ -110,9 +115,15 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
       begin_status_.insert(begin_status_.end(), status_.begin(), status_.end());
     }
     at_once = has_passed ? 0 : at_once + 1;
+    if (has_passed) uncertainty = 0.0;
+    if (at_once > kHopeless * (status_.size() + 1))
+      throw RunError("stops open and close without end at t = " + to_text(t) + " s; take exact, rodas4 or dopri5");
     flow.go(piece_, std::min(found.s, rest));
     changed_ = {};
-    if (found.change) changed_ = {found.change->stop, found.change->uncertainty};
+    if (found.change) {
+      changed_ = {found.change->stop, found.change->uncertainty};
+      uncertainty = std::max(uncertainty, found.change->uncertainty);
+    }
     if (found.change) status_[static_cast<std::size_t>(found.change->stop)] = found.change->to;
     t = t_next;
     if (has_passed && (t >= step.t_end || begins_.size() == kMostPieces || step.single)) break;

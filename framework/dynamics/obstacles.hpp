@@ -230,8 +230,9 @@ class BUTEE_EXPORT Obstacles {
   /// The angle of the arm in a ring, rad; 0 for other contacts.
   double angle_of(Index i, const Kinematics& at) const;
   double friction_force(Index i, double t, const Kinematics& at, const ContactPhase& phase, double normal) const;
-  /// How fast the tension of a stick spring would leave the slip force if the contact stuck now, over
-  /// the spring's stiffness, m/s, positive in the sense of the slip: slip goes on while it is.
+  /// If a slipping contact stuck now, its tension T would start at the slip force mu F_n. The rate
+  /// d/dt (T - mu F_n) in the sense of the slip, divided by the stick stiffness, m/s: while it is
+  /// positive the tension would exceed mu F_n, so that slip goes on.
   double excess_of_slip(Index i, double t, const Kinematics& at, const Normal& pressing, double sense,
                         ConstVectorRef a) const;
   /// True if no force acts because the contact is apart.

@@ -154,5 +154,49 @@ end_time = 0.14
     EXPECT_LT((y - other).lpNorm<Eigen::Infinity>() / other.lpNorm<Eigen::Infinity>(), kRounding);
 }
 
+/// A moment in the middle of a symmetric beam moves a stop there by rounding only, which is that of the static
+/// rotation. (The stop opened and closed at one instant without end.)
+TEST(Piecewise, GoesOnWhereOnlyRoundingMovesAStop) {
+  SceneRun run(R"(
+schema = 1
+[material.m]
+young_modulus = 6.5e10
+density = 5700.0
+[section.s]
+shape = "circle"
+radius = 0.018
+[[element]]
+type = "beam"
+name = "b"
+material = "m"
+section = "s"
+length = 0.97
+elements = 2
+[[support]]
+nodes = ["b:0", "b:2"]
+fix = ["u"]
+[[contact]]
+type = "stop"
+nodes = "b:1"
+gap = 0.0
+stiffness = 4.1e7
+sides = "negative"
+[[load]]
+node = "b:1"
+dof = "theta"
+type = "ramp"
+to = 1800.0
+start = 0.00204757
+end = 0.0020475735
+[integrator]
+type = "piecewise"
+end_time = 0.017
+)");
+  const time::RunReport& report = run.run();
+  EXPECT_TRUE(report.completed) << report.message;
+  const time::State& state = run.simulation().state();
+  EXPECT_LT(std::abs(state.x[run.dof("b:1")]), 1e-12 * state.x.lpNorm<Eigen::Infinity>());
+}
+
 }  // namespace
 }  // namespace butee::test::piecewise_test

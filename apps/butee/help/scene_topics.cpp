@@ -117,8 +117,9 @@ spring_rz of springs and bearings.
 von_mises is that of the outer fibre, with N and T: in space of round sections; bending_stress that of bending along
 u. All include the element's own inertia, gyroscopic moments, weight and base motion.
 
-`butee modes SCENE --speed OMEGA` prints damped, whirling modes at a speed (rad/s), `--campbell FROM TO N` the
-critical speeds, with -o and --plot the Campbell diagram. `butee plot` draws orbits (uz over uy, in the rings and
+`butee modes SCENE --speed OMEGA` prints the damped modes at a speed of rotation (rad/s), of shafts their whirl; 0
+serves for scenes without shafts. `--campbell FROM TO N` prints the critical speeds, with -o and --plot the Campbell
+diagram. `butee plot` draws orbits (uz over uy, in the rings and
 between the stops of the node), run-up (the radius over the speed), full-spectrum (forward and backward whirl), frame
 (the deformed structure in space), contact-map (closed contacts over time and length) and wear (the powers of wear.csv
 over the length). If shafts turn or bearings have cross terms, the matrices are not symmetric. rodas4, dopri5,
