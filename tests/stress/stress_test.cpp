@@ -145,7 +145,8 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
       "wide 7547",      // hundreds of impacts whose errors add up
       "wide 79508",     // the same between hard stops
       "random 400848",  // a residual force that jumps in a step divided for outputs
-      "rubbing 70914"   // friction that reverses within a step
+      "rubbing 70914",  // friction that reverses within a step
+      "rubbing 817804"  // a friction support that reverses beside a stop on the same DOF
   };
   std::vector<Method> chosen;
   for (const Method& method : methods())
@@ -179,6 +180,19 @@ TEST(Stress, RubbingScenesThatWereWrongOnce) {
   run_all(scenes, chosen, kWork, tally);
   EXPECT_TRUE(tally.failures().empty()) << tally.failures().front().scene << tally.failures().front().outcome.message;
   EXPECT_EQ(tally.count(Verdict::correct), static_cast<std::int64_t>(scenes.size() * chosen.size()));
+}
+
+/// A load that grows fast first drives a body backwards; stages of a step reach a stop that its end does not.
+TEST(Stress, ExplicitMethodsKeepTheirPromiseInScenesThatTheyGotWrongOnce) {
+  for (const auto& [scene, name] :
+       {std::pair{"wide 815000", "dopri5"}, std::pair{"rubbing 810984", "extrapolation8"}}) {
+    std::vector<Method> chosen;
+    for (const Method& method : methods())
+      if (method.name == name) chosen.push_back(method);
+    Tally tally;
+    run_all({*random_scene_of(scene)}, chosen, kWork, tally);
+    EXPECT_EQ(tally.count(Verdict::correct), 1) << scene;
+  }
 }
 
 /// A change of contact within the rounding of t after another one once ended the program.
