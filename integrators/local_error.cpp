@@ -42,6 +42,8 @@ constexpr double kReversal = 2.0;
 /// displacements: they are rounding, and so are errors below kStillError times these. A control of them would follow
 /// vibrations of rounding at the highest frequency.
 constexpr double kStill = 1e-10, kStillError = 1e-12;
+/// Errors below this part of the motion of the whole structure, in the norm of the diagonal of M, are rounding.
+constexpr double kRoundingOfMotion = 1e-14;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -96,6 +98,8 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       discontinuities_(dynamics.load_discontinuities()),
       whole_(orders.share * std::pow(goal.tolerance, orders.estimate / orders.method)),
       most_stiff_(kMostStiff * goal.tolerance),
+      rounding_(kRoundingOfMotion / goal.tolerance),
+      root_mass_(dynamics.system().mass.diagonal().cwiseSqrt()),
       as_a_whole_(goal.as_a_whole || dynamics.size() > kLargest),
       scale_x_(dynamics.size()),
       scale_v_(dynamics.size()),
@@ -160,6 +164,11 @@ void LocalErrorControl::start(time::State& state) {
   work_ *= kStill * rate_;
   scales_.raise(work_, state.memory.segment(kScales + n, n));
   scales_.raise(state.v, state.memory.segment(kScales + n, n));
+}
+
+void LocalErrorControl::raise_above_rounding(Vector& scales) const {
+  const double least = rounding_ * root_mass_.cwiseProduct(scales).norm();
+  scales = scales.cwiseMax(least * root_mass_.cwiseInverse());
 }
 
 double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const {
@@ -232,6 +241,10 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   to.memory.segment(kNormX, 2) = from.memory.segment(kNormX, 2);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
+  if (!as_a_whole_) {
+    raise_above_rounding(scale_x_);
+    raise_above_rounding(scale_v_);
+  }
   double smooth = as_a_whole_ ? whole_ : std::pow(account_.rate() * h / orders_.constant, power_);
   if (!as_a_whole_ && h * rate_ > kStiff) smooth = std::min(smooth, most_stiff_);
   const double earned = account_.rate() * h, balance = from.memory[kAccount] + earned;

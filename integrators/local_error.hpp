@@ -109,6 +109,9 @@ class LocalErrorControl {
   /// True if the slip of a contact with smooth friction reverses within a small part of the step, so that the friction
   /// jumps in it.
   bool slip_reverses(const time::State& from, const time::State& to) const;
+  /// Raises the scales of components that move by rounding of the whole motion only, such that errors of that size
+  /// are within the tolerance.
+  void raise_above_rounding(Vector& scales) const;
   /// The errors of velocities count also as errors of displacements in outputs within the step.
   double relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const;
   /// The departure in the middle from the cubic through the ends that the acceleration at the start indicates, relative
@@ -141,6 +144,8 @@ class LocalErrorControl {
   std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s
   double whole_;                         ///< bound of epsilon for structures measured as a whole
   double most_stiff_;                    ///< bound of epsilon for steps far longer than the fastest motion
+  double rounding_;                      ///< rounding of the motion as a whole over the tolerance
+  Vector root_mass_;                     ///< of the diagonal of M, kg^(1/2) or kg^(1/2) m
   bool as_a_whole_;
   Vector scale_x_, scale_v_, work_;
 };
