@@ -241,10 +241,15 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   to.memory.segment(kNormX, 2) = from.memory.segment(kNormX, 2);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
-  if (!as_a_whole_) {
-    raise_above_rounding(scale_x_);
-    raise_above_rounding(scale_v_);
-  }
+  judge_by_scales(from, to, h, error_x, error_v, report);
+  if (as_a_whole_ || report.error <= 1.0 || report.status != time::StepStatus::ok) return;
+  raise_above_rounding(scale_x_);
+  raise_above_rounding(scale_v_);
+  judge_by_scales(from, to, h, error_x, error_v, report);
+}
+
+void LocalErrorControl::judge_by_scales(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
+                                        ConstVectorRef error_v, time::StepReport& report) {
   double smooth = as_a_whole_ ? whole_ : std::pow(account_.rate() * h / orders_.constant, power_);
   if (!as_a_whole_ && h * rate_ > kStiff) smooth = std::min(smooth, most_stiff_);
   const double earned = account_.rate() * h, balance = from.memory[kAccount] + earned;

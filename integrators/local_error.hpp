@@ -109,6 +109,9 @@ class LocalErrorControl {
   /// True if the slip of a contact with smooth friction reverses within a small part of the step, so that the friction
   /// jumps in it.
   bool slip_reverses(const time::State& from, const time::State& to) const;
+  /// judge() with the scales scale_x_ and scale_v_.
+  void judge_by_scales(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
+                       ConstVectorRef error_v, time::StepReport& report);
   /// Raises the scales of components that move by rounding of the whole motion only, such that errors of that size
   /// are within the tolerance.
   void raise_above_rounding(Vector& scales) const;
