@@ -16,7 +16,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostPieces = 256;
 /// So many changes of each stop at one instant are chatter by rounding.
 constexpr std::size_t kMostAtOnce = 6;
-/// So many end the run.
+/// So many changes of each stop at one instant end the run with a message.
 constexpr std::size_t kHopeless = 1000;
 /// The turn between two breakpoints, rad.
 constexpr double kTurn = 1.5;
