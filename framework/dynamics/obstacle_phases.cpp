@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "butee/dynamics/obstacles.hpp"
 
@@ -16,6 +17,16 @@ bool stops_rubbing(const model::ObstacleGroup& group) {
   return group.damping.pulls && group.friction.rule != Friction::Rule::none;
 }
 
+/// The uncertainty of a sum of few terms relative to the sum of their magnitudes.
+constexpr double kRoundingOfTerms = 8.0 * std::numeric_limits<double>::epsilon();
+
+/// The magnitudes of the terms of a penetration, summed, m.
+double terms_of_penetration(const model::ContactShape::Form& form, const Eigen::Vector2d& d) {
+  const Eigen::Vector2d sizes = d.cwiseAbs(), place = form.place.cwiseAbs();
+  return std::abs(form.distance) +
+         (form.kind == model::ContactShape::Form::Kind::line ? place.dot(sizes) : sizes.sum() + place.sum());
+}
+
 /// The slip speed at which regularised friction becomes steep, m/s.
 double steep_border(const Friction& friction) {
   const bool is_tanh = friction.rule == Friction::Rule::tanh;
@@ -30,6 +41,25 @@ bool tells_rebound(const model::ObstacleGroup& group) {
 }
 
 }  // namespace
+
+/// The switching functions of a phase; one within its uncertainty by rounding counts as 0.
+class Obstacles::SwitchList {
+ public:
+  SwitchList(const ContactPhase& phase, std::array<Switch, kMostSwitches>& out) : phase_(phase), out_(out) {}
+  std::size_t size() const { return count_; }
+  void add(double value, double uncertainty, NormalPhase normal, SlipPhase slip, double anchor) {
+    out_[count_++] = {std::abs(value) <= uncertainty ? 0.0 : value, {normal, slip, anchor, phase_.angle}};
+  }
+  /// A change of the normal phase.
+  void add(double value, double uncertainty, NormalPhase normal) {
+    add(value, uncertainty, normal, phase_.slip, phase_.anchor);
+  }
+
+ private:
+  const ContactPhase& phase_;
+  std::array<Switch, kMostSwitches>& out_;
+  std::size_t count_ = 0;
+};
 
 ContactPhase Obstacles::live_phase(const Contact& contact, const Kinematics& now) const {
   const model::ObstacleGroup& group = *contact.group;
@@ -118,103 +148,132 @@ double Obstacles::excess_of_slip(Index i, double t, const Kinematics& now, const
 }
 
 std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double held,
-                                std::array<Switch, kMostSwitches>& out) const {
+                                const Rounding& rounding, std::array<Switch, kMostSwitches>& out) const {
   const Contact& contact = at(i);
-  const model::ObstacleGroup& group = *contact.group;
   const ContactPhase phase = phases_[static_cast<std::size_t>(i)];
-  std::size_t count = 0;
-  const auto add = [&](double value, NormalPhase normal, SlipPhase slip, double anchor) {
-    out[count++] = {value, {normal, slip, anchor, phase.angle}};
-  };
-  if (group.shape != nullptr && phase.normal == NormalPhase::apart) {
-    add(-penetration(contact, gather(i, x).head<2>()), NormalPhase::pressed, phase.slip, phase.anchor);
-    return count;
+  SwitchList list(phase, out);
+  if (contact.group->shape != nullptr && phase.normal == NormalPhase::apart) {
+    const Eigen::Vector2d d = gather(i, x).head<2>();
+    list.add(-penetration(contact, d), rounding.displacement + kRoundingOfTerms * terms_of_penetration(contact.form, d),
+             NormalPhase::pressed);
+    return list.size();
   }
   const Kinematics now = kinematics(i, t, x, v);
-  const double g = now.approach.penetration;
+  const Rounding uncertainty{
+      rounding.displacement + kRoundingOfTerms * terms_of_penetration(contact.form, now.motion.d),
+      rounding.velocity + kRoundingOfTerms * now.motion.v.lpNorm<1>()};
+  if (contact.group->shape != nullptr) add_normal_switches(contact, phase, now, uncertainty, list);
+  if (phase.normal == NormalPhase::released || phase.normal == NormalPhase::pulling) return list.size();
+  add_slip_switches(i, phase, t, now, a, held, uncertainty, list);
+  return list.size();
+}
+
+void Obstacles::add_normal_switches(const Contact& contact, const ContactPhase& phase, const Kinematics& now,
+                                    const Rounding& uncertainty, SwitchList& list) const {
+  const model::ObstacleGroup& group = *contact.group;
+  const double g = now.approach.penetration, rate = now.rate;
   const bool is_of_law = group.damping.kind == ImpactDamping::Kind::law;
-  const bool dissipates = group.damping.kind != ImpactDamping::Kind::none;
-  if (group.shape != nullptr) {
-    switch (phase.normal) {
-      case NormalPhase::apart:
-        break;
-      case NormalPhase::released: {
-        add(g, NormalPhase::apart, phase.slip, phase.anchor);
-        if (is_of_law) {
-          const auto branch = tells_rebound(group) && now.rate < 0.0 ? NormalPhase::receding : NormalPhase::pressed;
-          add(-pressing_share(contact, branch, g, now.rate), branch, phase.slip, phase.anchor);
-          return count;
-        }
-        const double pull = group.damping.kind == ImpactDamping::Kind::hunt_crossley
-                                ? 1.0 + group.damping.coefficient * now.rate
-                                : normal(contact, NormalPhase::pressed, g, now.rate).force;
-        add(-pull, NormalPhase::pressed, phase.slip, phase.anchor);
-        return count;
+  const auto add_force = [&](double sign, NormalPhase in, NormalPhase to) {
+    const Normal at = normal(contact, in, g, rate);
+    const double terms = std::abs(at.elastic) + std::abs(at.force - at.elastic);
+    list.add(sign * at.force,
+             std::abs(at.by_penetration) * uncertainty.displacement + std::abs(at.by_rate) * uncertainty.velocity +
+                 kRoundingOfTerms * terms,
+             to);
+  };
+  const auto add_share = [&](double sign, NormalPhase in, NormalPhase to) {
+    list.add(sign * pressing_share(contact, in, g, rate), kRoundingOfTerms, to);
+  };
+  // The factor of the elastic force by Hunt and Crossley.
+  const auto add_factor = [&](double sign, NormalPhase to) {
+    const double change = group.damping.coefficient * rate;
+    list.add(sign * (1.0 + change),
+             group.damping.coefficient * uncertainty.velocity + kRoundingOfTerms * (1.0 + std::abs(change)), to);
+  };
+  if (phase.normal != NormalPhase::apart) list.add(g, uncertainty.displacement, NormalPhase::apart);
+  switch (phase.normal) {
+    case NormalPhase::apart:
+      break;
+    case NormalPhase::released:
+      if (is_of_law) {
+        const auto branch = tells_rebound(group) && rate < 0.0 ? NormalPhase::receding : NormalPhase::pressed;
+        add_share(-1.0, branch, branch);
+      } else if (group.damping.kind == ImpactDamping::Kind::hunt_crossley) {
+        add_factor(-1.0, NormalPhase::pressed);
+      } else {
+        add_force(-1.0, NormalPhase::pressed, NormalPhase::pressed);
       }
-      case NormalPhase::pressed:
-        add(g, NormalPhase::apart, phase.slip, phase.anchor);
-        if (tells_rebound(group))
-          add(now.rate, NormalPhase::receding, phase.slip, phase.anchor);
-        else if (group.damping.kind == ImpactDamping::Kind::hunt_crossley)
-          add(1.0 + group.damping.coefficient * now.rate, NormalPhase::released, phase.slip, phase.anchor);
-        else if (is_of_law)
-          add(pressing_share(contact, phase.normal, g, now.rate), NormalPhase::released, phase.slip, phase.anchor);
-        else if (dissipates && !group.damping.pulls)
-          add(normal(contact, phase.normal, g, now.rate).force, NormalPhase::released, phase.slip, phase.anchor);
-        else if (stops_rubbing(group))
-          add(normal(contact, phase.normal, g, now.rate).force, NormalPhase::pulling, phase.slip, phase.anchor);
-        break;
-      case NormalPhase::pulling:
-        add(g, NormalPhase::apart, phase.slip, phase.anchor);
-        add(-normal(contact, phase.normal, g, now.rate).force, NormalPhase::pressed, phase.slip, phase.anchor);
-        return count;
-      case NormalPhase::receding:
-        add(g, NormalPhase::apart, phase.slip, phase.anchor);
-        add(-now.rate, NormalPhase::pressed, phase.slip, phase.anchor);
-        if (is_of_law)
-          add(pressing_share(contact, phase.normal, g, now.rate), NormalPhase::released, phase.slip, phase.anchor);
-        break;
-    }
+      break;
+    case NormalPhase::pressed:
+      if (tells_rebound(group))
+        list.add(rate, uncertainty.velocity, NormalPhase::receding);
+      else if (group.damping.kind == ImpactDamping::Kind::hunt_crossley)
+        add_factor(1.0, NormalPhase::released);
+      else if (is_of_law)
+        add_share(1.0, phase.normal, NormalPhase::released);
+      else if (group.damping.kind != ImpactDamping::Kind::none && !group.damping.pulls)
+        add_force(1.0, phase.normal, NormalPhase::released);
+      else if (stops_rubbing(group))
+        add_force(1.0, phase.normal, NormalPhase::pulling);
+      break;
+    case NormalPhase::pulling:
+      add_force(-1.0, phase.normal, NormalPhase::pressed);
+      break;
+    case NormalPhase::receding:
+      list.add(-rate, uncertainty.velocity, NormalPhase::pressed);
+      if (is_of_law) add_share(1.0, phase.normal, NormalPhase::released);
+      break;
   }
-  const Friction& friction = group.friction;
+}
+
+void Obstacles::add_slip_switches(Index i, const ContactPhase& phase, double t, const Kinematics& now, ConstVectorRef a,
+                                  double held, const Rounding& uncertainty, SwitchList& list) const {
+  const Contact& contact = at(i);
+  const Friction& friction = contact.group->friction;
+  const double of_slip = now.lever * uncertainty.velocity +
+                         kRoundingOfTerms * (std::abs(contact.arm * now.motion.rotation_speed) + std::abs(now.surface));
+  const auto add_slip = [&](double sign, double border, SlipPhase to) {
+    list.add(sign * (now.slip - border), of_slip + kRoundingOfTerms * std::abs(border), phase.normal, to, 0.0);
+  };
   if (friction.rule == Friction::Rule::clip) {
     if (phase.slip != SlipPhase::backward)
-      add((phase.slip == SlipPhase::forward ? 1.0 : -1.0) * (now.slip - friction.slip_speed), phase.normal,
-          phase.slip == SlipPhase::forward ? SlipPhase::stick : SlipPhase::forward, 0.0);
+      add_slip(phase.slip == SlipPhase::forward ? 1.0 : -1.0, friction.slip_speed,
+               phase.slip == SlipPhase::forward ? SlipPhase::stick : SlipPhase::forward);
     if (phase.slip != SlipPhase::forward)
-      add((phase.slip == SlipPhase::backward ? -1.0 : 1.0) * (now.slip + friction.slip_speed), phase.normal,
-          phase.slip == SlipPhase::backward ? SlipPhase::stick : SlipPhase::backward, 0.0);
+      add_slip(phase.slip == SlipPhase::backward ? -1.0 : 1.0, -friction.slip_speed,
+               phase.slip == SlipPhase::backward ? SlipPhase::stick : SlipPhase::backward);
   }
   if (friction.rule == Friction::Rule::sqrt || friction.rule == Friction::Rule::tanh) {
     const double border = steep_border(friction);
     if (phase.slip == SlipPhase::ahead) {
-      add(now.slip - border, phase.normal, SlipPhase::smooth, 0.0);
+      add_slip(1.0, border, SlipPhase::smooth);
     } else if (phase.slip == SlipPhase::behind) {
-      add(-border - now.slip, phase.normal, SlipPhase::smooth, 0.0);
+      add_slip(-1.0, -border, SlipPhase::smooth);
     } else {
-      add(border - now.slip, phase.normal, SlipPhase::ahead, 0.0);
-      add(border + now.slip, phase.normal, SlipPhase::behind, 0.0);
+      add_slip(-1.0, border, SlipPhase::ahead);
+      add_slip(1.0, -border, SlipPhase::behind);
     }
   }
-  if (!friction.has_memory()) return count;
-  const Normal pressing = normal(contact, phase.normal, g, now.rate);
+  if (!friction.has_memory()) return;
+  const Normal pressing = normal(contact, phase.normal, now.approach.penetration, now.rate);
   const double force = pressing.force;
   if (phase.slip == SlipPhase::stick) {
     const double tension = friction.rule == Friction::Rule::rigid ? held : friction_force(i, t, now, phase, force);
-    add(friction.static_coefficient * force - tension, phase.normal, SlipPhase::forward, 0.0);
-    add(friction.static_coefficient * force + tension, phase.normal, SlipPhase::backward, 0.0);
-  } else {
-    const double sense = phase.slip == SlipPhase::forward ? 1.0 : -1.0;
-    double anchor = 0.0, excess = sense * now.slip;
-    if (friction.rule == Friction::Rule::spring) {
-      const double tension = sense * friction.coefficient * force - friction.stick_damping * now.slip;
-      anchor = path(i, t, now, phase.angle) - tension / friction.stick_stiffness;
-      // If the limit falls faster than the spring relaxes, slip goes on although the body moves back.
-      excess = excess_of_slip(i, t, now, pressing, sense, a);
-    }
-    add(excess, phase.normal, SlipPhase::stick, anchor);
+    const double limit = friction.static_coefficient * force;
+    const double of_force = kRoundingOfTerms * (std::abs(limit) + std::abs(tension));
+    list.add(limit - tension, of_force, phase.normal, SlipPhase::forward, 0.0);
+    list.add(limit + tension, of_force, phase.normal, SlipPhase::backward, 0.0);
+    return;
   }
-  return count;
+  const double sense = phase.slip == SlipPhase::forward ? 1.0 : -1.0;
+  if (friction.rule == Friction::Rule::spring) {
+    const double tension = sense * friction.coefficient * force - friction.stick_damping * now.slip;
+    // If the limit falls faster than the spring relaxes, slip goes on although the body moves back.
+    list.add(excess_of_slip(i, t, now, pressing, sense, a), 0.0, phase.normal, SlipPhase::stick,
+             path(i, t, now, phase.angle) - tension / friction.stick_stiffness);
+  } else {
+    list.add(sense * now.slip, of_slip, phase.normal, SlipPhase::stick, 0.0);
+  }
 }
 
 }  // namespace butee::dynamics

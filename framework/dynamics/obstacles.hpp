@@ -116,14 +116,18 @@ class BUTEE_EXPORT Obstacles {
   /// phase_at(), with slip and stretch from `memory` if the contact touched then and touches now.
   ContactPhase phase_after(Index i, const Eigen::Vector3d& memory, double t, ConstVectorRef x, ConstVectorRef v) const;
   /// The switching functions of the phase of contact i, positive within it, and the phases they
-  /// lead to. `held` is the tangential force that holds a rigid stick, N; `a` is read only if
-  /// switches_by_acceleration(i). Returns their number.
+  /// lead to. They are 0 where their sign is rounding. `held` is the tangential force that holds a
+  /// rigid stick, N; `a` is read only if switches_by_acceleration(i). Returns their number.
   struct Switch {
     double value;
     ContactPhase to;
   };
+  /// Uncertainty by rounding of the displacement, m, and velocity, m/s, at a contact.
+  struct Rounding {
+    double displacement = 0.0, velocity = 0.0;
+  };
   std::size_t switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double held,
-                       std::array<Switch, kMostSwitches>& out) const;
+                       const Rounding& rounding, std::array<Switch, kMostSwitches>& out) const;
   /// True if the slip of contact i ends at a motion that depends on accelerations: a stick spring with
   /// a dashpot beside it or beside the normal law.
   bool switches_by_acceleration(Index i) const;
@@ -210,10 +214,16 @@ class BUTEE_EXPORT Obstacles {
     double share, slope;
   };
 
+  class SwitchList;
+
   const Contact& at(Index i) const { return contacts_[static_cast<std::size_t>(i)]; }
   Kinematics kinematics(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
   Normal normal(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;
   ContactPhase live_phase(const Contact& contact, const Kinematics& at) const;
+  void add_normal_switches(const Contact& contact, const ContactPhase& phase, const Kinematics& now,
+                           const Rounding& uncertainty, SwitchList& list) const;
+  void add_slip_switches(Index i, const ContactPhase& phase, double t, const Kinematics& now, ConstVectorRef a,
+                         double held, const Rounding& uncertainty, SwitchList& list) const;
   /// The normal force of a closed contact divided by the sum of the magnitudes of its terms: has
   /// its sign, and is regular at g = 0.
   double pressing_share(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;

@@ -21,6 +21,9 @@ constexpr double kAtEnd = 1e-6;
 /// The largest number of changes of phase at one instant; more are not physical.
 constexpr int kMostAtOnce = 50;
 constexpr int kBisections = 60;
+/// The uncertainty of displacements and velocities relative to those of the whole structure in the norm of the diagonal
+/// of M: sums over modes cancel to this.
+constexpr double kRoundingOfModes = 4e-15;
 /// Relative decrease towards the lowest sample of a dip that rounding does not cause.
 constexpr double kRounding = 1e-9;
 
@@ -43,8 +46,15 @@ ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
   for (Sample* sample : {&now_, &work_}) sample->x = sample->v = sample->a = Vector::Zero(dynamics.size());
   values_x_.resize(all_.size());
   values_v_ = values_x_;
-  for (Index i = 0; i < obstacles_.size(); ++i)
+  root_mass_ = dynamics.system().mass.diagonal().cwiseSqrt();
+  for (Index i = 0; i < obstacles_.size(); ++i) {
+    double share = 0.0;
+    for (const auto& side : {obstacles_.ends_of(i).a, obstacles_.ends_of(i).b})
+      for (const Index dof : {side[0], side[1]})
+        if (dof >= 0) share += kRoundingOfModes / root_mass_[dof];
+    rounding_shares_.push_back(share);
     needs_accelerations_ = needs_accelerations_ || obstacles_.switches_by_acceleration(i);
+  }
   if (needs_accelerations_) values_a_ = values_x_;
 }
 
@@ -90,6 +100,10 @@ void ContactEvents::look_ahead(const State& state, double ahead, Sample& at) {
   hold(at);
 }
 
+void ContactEvents::measure(const State& state) {
+  whole_ = {root_mass_.cwiseProduct(state.x).norm(), root_mass_.cwiseProduct(state.v).norm()};
+}
+
 void ContactEvents::hold(Sample& at) {
   sticks_ = obstacles_.rigid_sticks();
   if (!sticks_.empty()) at.held = dynamics_.stick_forces(at.t, at.x, at.v);
@@ -99,7 +113,9 @@ std::size_t ContactEvents::switches(Index contact, const Sample& at) {
   double held = 0.0;
   if (const auto place = std::find(sticks_.begin(), sticks_.end(), contact); place != sticks_.end())
     held = -at.held[place - sticks_.begin()];
-  return obstacles_.switches(contact, at.t, at.x, at.v, at.a, held, found_);
+  const double share = rounding_shares_[static_cast<std::size_t>(contact)];
+  return obstacles_.switches(contact, at.t, at.x, at.v, at.a, held,
+                             {share * whole_.displacement, share * whole_.velocity}, found_);
 }
 
 double ContactEvents::value(Index contact, std::size_t which, const Sample& at) {
@@ -110,6 +126,7 @@ double ContactEvents::value(Index contact, std::size_t which, const Sample& at) 
 void ContactEvents::settle(State& state, double h, double precision) {
   const double at_end = std::max(kAtEnd, precision / kAhead);
   follow(state);
+  measure(state);
   bool changed = false;
   for (int round = 0; round < kMostAtOnce; ++round) {
     bool again = false;
@@ -205,6 +222,7 @@ std::optional<ContactEvents::Event> ContactEvents::first(const DenseOutput& moti
   watched_dofs_.erase(std::unique(watched_dofs_.begin(), watched_dofs_.end()), watched_dofs_.end());
   const State &from = motion.from(), &to = motion.to();
   const double h = to.t - from.t;
+  measure(to);
   // Methods with breakpoints within a step take longer steps.
   const int looks = kSamples * motion.trace_parts();
   const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
@@ -308,6 +326,12 @@ double ContactEvents::miss(const Event& event, double h, const State& to) {
   const double at_end = value(event.contact, event.which, now_), before = value(event.contact, event.which, work_);
   const double slope = (before - at_end) / ahead;
   return slope != 0.0 ? -at_end / slope : 0.0;
+}
+
+bool ContactEvents::is_over(const Event& event, const State& at) {
+  place(now_, at);
+  hold(now_);
+  return value(event.contact, event.which, now_) <= 0.0;
 }
 
 void ContactEvents::mark(const Event& event, State& to) {

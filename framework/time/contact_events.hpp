@@ -47,6 +47,8 @@ class BUTEE_EXPORT ContactEvents {
   /// How far the end `to` of a step of length h lies beyond the event, s, estimated with the slope of
   /// the switching function there.
   double miss(const Event& event, double h, const State& to);
+  /// Whether the phase of the event is over at the end of a step, but for rounding.
+  bool is_over(const Event& event, const State& at);
   /// Marks in `to` the contact whose phase ends with the step.
   void mark(const Event& event, State& to);
 
@@ -66,6 +68,8 @@ class BUTEE_EXPORT ContactEvents {
   /// The motion `ahead` of a state (behind it if negative) in the same phases, by its acceleration.
   void look_ahead(const State& state, double ahead, Sample& at);
   void hold(Sample& at);
+  /// Sets `whole_` to the motion of a state.
+  void measure(const State& state);
   std::size_t switches(Index contact, const Sample& at);
   double value(Index contact, std::size_t which, const Sample& at);
   /// False if the motion over the step cannot bring the contact to a change of phase.
@@ -85,6 +89,10 @@ class BUTEE_EXPORT ContactEvents {
   std::vector<std::array<std::array<Look, 2>, dynamics::Obstacles::kMostSwitches>> looks_;
   std::vector<Index> sticks_, watched_, watched_dofs_, own_dofs_;
   bool needs_accelerations_ = false;
+  Vector root_mass_;
+  /// The motion of the structure in the norm of the diagonal of M, m sqrt(kg) and m sqrt(kg)/s.
+  dynamics::Obstacles::Rounding whole_;
+  std::vector<double> rounding_shares_;  ///< uncertainty of the motion at each contact per unit of `whole_`, 1/sqrt(kg)
 };
 
 /// The memory of the contacts of a state, Obstacles::kMemorySize numbers for each contact. A run
