@@ -50,6 +50,7 @@ ContactRecorder::ContactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynam
   for (Index i = 0; i < obstacles.size(); ++i) {
     Watch watch;
     watch.is_support = obstacles.group_of(i).shape == nullptr;
+    watch.is_stop = !watch.is_support && obstacles.group_of(i).directions.size() == 1;
     watch.current.node = obstacles.name_of(i);
     watches_.push_back(std::move(watch));
     ContactWear wear;
@@ -164,6 +165,7 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
       const double taken = weight * (now.normal * now.rate + now.friction * now.slip_speed);
       wear.dissipated += taken;
       Impact& impact = watch.current;
+      if (watch.is_stop && now.normal != 0.0) impact.side = now.force[0] * now.normal > 0.0 ? -1 : 1;
       impact.impulse += weight * now.normal;
       impact.tangential_impulse += weight * now.friction;
       impact.slip += weight * slip;

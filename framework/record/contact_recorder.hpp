@@ -45,6 +45,7 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
 
   struct Watch {
     bool is_support = false, touches = false;
+    bool is_stop = false;  ///< acts in one direction, on one side or on both
     Impact current{};
     double stored = 0.0;            ///< J, at the last instant
     std::array<Sampled, 2> last{};  ///< the normal forces at the two previous instants; undefined if their t is equal

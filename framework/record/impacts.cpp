@@ -10,6 +10,7 @@
 namespace butee::record {
 
 void put_impact(const Impact& impact, ByteWriter& to) {
+  to.put(impact.side);
   to.put(impact.t_in);
   to.put(impact.t_out.has_value());
   to.put(impact.t_out.value_or(0.0));
@@ -19,6 +20,7 @@ void put_impact(const Impact& impact, ByteWriter& to) {
 }
 
 void take_impact(Impact& impact, ByteReader& from) {
+  from.take(impact.side);
   from.take(impact.t_in);
   const bool is_over = from.take<bool>();
   const auto t_out = from.take<double>();
@@ -134,7 +136,6 @@ void ImpactRecorder::save(ByteWriter& to) const {
   to.put(std::uint64_t{done_.size()});
   for (const Impact& impact : done_) {
     to.put(impact.node);
-    to.put(impact.side);
     put_impact(impact, to);
   }
 }
@@ -147,7 +148,6 @@ void ImpactRecorder::restore(ByteReader& from) {
   done_.assign(from.count(kImpactBytes), {});
   for (Impact& impact : done_) {
     from.take(impact.node);
-    from.take(impact.side);
     take_impact(impact, from);
   }
 }

@@ -22,10 +22,10 @@ struct Impact {
   double dissipated = 0.0;          ///< J
 };
 
-/// Size in bytes of an impact without its name and side, as put_impact() writes it.
-inline constexpr std::size_t kImpactBytes = 65;
+/// Size in bytes of an impact without its name, as put_impact() writes it.
+inline constexpr std::size_t kImpactBytes = 69;
 
-/// An impact without its name and side.
+/// An impact without its name.
 void put_impact(const Impact& impact, ByteWriter& to);
 void take_impact(Impact& impact, ByteReader& from);
 

@@ -145,6 +145,7 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
     group.a = all ? a : std::vector{a[i]};
     if (!b.empty()) group.b = all ? b : std::vector{b[i]};
   };
+  const Sides sides = is_stop ? sides_of(p->text("sides")) : Sides::both;
   for (std::size_t i = 0; i < gaps->size(); ++i) {
     auto made_law = law != nullptr ? law->make(*p, diagnostics_) : nullptr;
     if (!is_support && made_law == nullptr) return;
@@ -155,26 +156,31 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
     if (is_stop && !dissipates && damping->kind == ImpactDamping::Kind::none) {
       StopGroup group;
       group.law = std::move(made_law);
-      group.play = {(*gaps)[i], sides_of(p->text("sides"))};
+      group.play = {(*gaps)[i], sides};
       group.dof = directions.front();
       ends_of(group, i);
       model_.stops.push_back(std::move(group));
       continue;
     }
-    ObstacleGroup group;
-    group.kind = *kind;
-    group.law = std::move(made_law);
-    if (is_stop) group.shape = std::make_unique<StopShape>(FreePlay{(*gaps)[i], sides_of(p->text("sides"))});
-    if (shape != nullptr && (group.shape = shape->make(*p, (*gaps)[i], diagnostics_)) == nullptr) return;
-    if (group.shape != nullptr && !check_stick(*p, friction->rule, group.shape->form())) return;
-    if (is_support) group.normal_force = p->number("normal_force");
-    group.directions = directions;
-    group.damping = *damping;
-    if (dissipates) group.damping.kind = ImpactDamping::Kind::law;
-    group.friction = *friction;
-    if (p->has("radius")) group.radius = p->number("radius");
-    ends_of(group, i);
-    model_.obstacles.push_back(std::move(group));
+    // Without a gap the normal of a pair of stops would change its sign within contact; each is then a contact of its
+    // own.
+    const bool is_split = is_stop && sides == Sides::both && (*gaps)[i] == 0.0;
+    for (const Sides side : is_split ? std::vector{Sides::positive, Sides::negative} : std::vector{sides}) {
+      ObstacleGroup group;
+      group.kind = *kind;
+      group.law = made_law != nullptr ? std::move(made_law) : is_support ? nullptr : law->make(*p, diagnostics_);
+      if (is_stop) group.shape = std::make_unique<StopShape>(FreePlay{(*gaps)[i], side});
+      if (shape != nullptr && (group.shape = shape->make(*p, (*gaps)[i], diagnostics_)) == nullptr) return;
+      if (group.shape != nullptr && !check_stick(*p, friction->rule, group.shape->form())) return;
+      if (is_support) group.normal_force = p->number("normal_force");
+      group.directions = directions;
+      group.damping = *damping;
+      if (dissipates) group.damping.kind = ImpactDamping::Kind::law;
+      group.friction = *friction;
+      if (p->has("radius")) group.radius = p->number("radius");
+      ends_of(group, i);
+      model_.obstacles.push_back(std::move(group));
+    }
   }
   read_frame(*p);
 }
