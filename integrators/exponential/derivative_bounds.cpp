@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/exponential/load_parabola.hpp"
 #include "integrators/quintic.hpp"
 
 namespace butee::integrators {
@@ -25,11 +26,10 @@ void DerivativeBounds::find(std::size_t breakpoint) {
     }
   }
   for (const dynamics::ModalSystem::OtherLoad& other : modal_.other_loads()) {
-    // The parabola through the values at the start, in the middle and at the end.
-    const double f0 = other.in_time->value(t), f1 = other.in_time->value(t + 0.5 * h), f2 = other.in_time->value(t + h);
-    const double bend = 4.0 * std::abs(f0 - 2.0 * f1 + f2);
-    load[0] += (std::max({std::abs(f0), std::abs(f1), std::abs(f2)}) + 0.125 * bend) * other.shape.abs();
-    load[1] += (std::abs(f2 - f0) + bend) / h * other.shape.abs();
+    const LoadParabola f(*other.in_time, t, t + h);
+    const double bend = 4.0 * std::abs(f.bend());
+    load[0] += f.largest() * other.shape.abs();
+    load[1] += (std::abs(f.end - f.begin) + bend) / h * other.shape.abs();
     load[2] += bend / (h * h) * other.shape.abs();
   }
   const ArrayXd &omega = modal_.frequencies(), squares = omega.square();

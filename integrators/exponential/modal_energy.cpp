@@ -1,5 +1,7 @@
 #include "integrators/exponential/modal_energy.hpp"
 
+#include "integrators/exponential/load_parabola.hpp"
+
 namespace butee::integrators {
 namespace {
 
@@ -67,8 +69,10 @@ void ModalEnergy::add_work(const Breakpoint& to) {
     add(c0, 0.5 * (c0 + c1) - turn * (s0 - s1), c1);
     add(s0, 0.5 * (s0 + s1) + turn * (c0 - c1), s1);
   }
-  for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads())
-    add(load.in_time->value(last_.t), load.in_time->value(0.5 * (last_.t + to.t)), load.in_time->value(to.t));
+  for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads()) {
+    const LoadParabola f(*load.in_time, last_.t, to.t);
+    add(f.begin, f.middle, f.end);
+  }
 }
 
 void ModalEnergy::add_dissipation(const Breakpoint& to) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "butee/core/error.hpp"
+#include "integrators/exponential/load_parabola.hpp"
 
 namespace butee::integrators {
 
@@ -67,9 +68,9 @@ double ModalLoads::unresolved(double h, const Eigen::ArrayXd& reach) const {
 const Eigen::MatrixXd& ModalLoads::polynomial(double t, double h) {
   polynomial_.setZero();
   for (const Other& load : others_) {
+    const LoadParabola f(*load.in_time, t, t + h);
     StepNodes::Row values;
-    for (Index j = 0; j < StepNodes::kCount; ++j)
-      values[j] = load.in_time->value(t + StepNodes::kPlaces[static_cast<std::size_t>(j)] * h);
+    for (Index j = 0; j < StepNodes::kCount; ++j) values[j] = f.at(StepNodes::kPlaces[static_cast<std::size_t>(j)]);
     polynomial_.noalias() += load.shape * (values * StepNodes::with_middle());
   }
   return polynomial_;

@@ -315,5 +315,29 @@ INSTANTIATE_TEST_SUITE_P(
                 "there is no u_abs: the base does not move"}),
     [](const auto& one) { return one.param.name; });
 
+/// The acceleration of the base jumps where the curve of a displacement table ends; a step that ends there has the
+/// limit from the left. With an open stop, too, which the collocation of `exponential` watches.
+TEST(BaseTable, EndsWithAJumpOfTheAcceleration) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"a\"\n"
+      "stiffness = 2500.0\ndamping = 2.0\n[base]\ndisplacement = { direction = [0, 1, 0], type = \"table\", times = "
+      "[0.0, "
+      "0.05, 0.10, 0.13], values = [0.0, 0.0, 1.0e-3, 0.0] }\n[integrator]\ntype = \"exact\"\nend_time = 0.3\n";
+  const std::string stop =
+      "[[contact]]\ntype = \"stop\"\nnodes = \"a\"\ngap = 1.0\nstiffness = 1e5\ndamping = { type = \"hunt_crossley\", "
+      "factor = "
+      "0.5 }\n";
+  SceneRun exact(scene);
+  ASSERT_TRUE(exact.run().completed);
+  const time::State& right = exact.simulation().state();
+  for (const std::string& contact : {std::string(), stop}) {
+    SceneRun other(scene + contact, {"integrator.type=exponential", "integrator.tolerance=1e-6"});
+    ASSERT_TRUE(other.run().completed);
+    EXPECT_NEAR(other.simulation().state().x[0], right.x[0], 1e-12);
+    EXPECT_NEAR(other.simulation().state().v[0], right.v[0], 1e-10);
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::base_test
