@@ -44,6 +44,10 @@ constexpr double kReversal = 2.0;
 constexpr double kStill = 1e-10, kStillError = 1e-12;
 /// Errors below this part of the motion of the whole structure, in the norm of the diagonal of M, are rounding.
 constexpr double kRoundingOfMotion = 1e-14;
+/// Errors of a step below this part of the motion, or of what its forces cause in the step, are rounding.
+constexpr double kRoundingOfStep = 1e-15;
+/// In steps below this part of 1/rate_ errors of that size are rounding, not the growth at a limit of stability.
+constexpr double kShort = 0.1;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -166,9 +170,27 @@ void LocalErrorControl::start(time::State& state) {
   scales_.raise(state.v, state.memory.segment(kScales + n, n));
 }
 
-void LocalErrorControl::raise_above_rounding(Vector& scales) const {
-  const double least = rounding_ * root_mass_.cwiseProduct(scales).norm();
-  scales = scales.cwiseMax(least * root_mass_.cwiseInverse());
+void LocalErrorControl::raise_above_rounding(double t, double h, double smooth) {
+  const double x = root_mass_.cwiseProduct(scale_x_).norm(), v = root_mass_.cwiseProduct(scale_v_).norm();
+  double of_x = rounding_ * x, of_v = rounding_ * v;
+  if (h * rate_ < kShort) {
+    work_.setZero();
+    for (const model::FreeLoad& load : dynamics_.system().loads) {
+      const double value = std::abs(load.in_time->value(t));
+      for (std::size_t i = 0; i < load.dofs.size(); ++i) work_[load.dofs[i]] += std::abs(load.weights[i]) * value;
+    }
+    const double of_loads = h * work_.cwiseQuotient(root_mass_).norm();
+    of_x = std::max(of_x, kRoundingOfStep / smooth * (x + h * of_loads));
+    of_v = std::max(of_v, kRoundingOfStep / smooth * (v + h * rate_ * rate_ * x + of_loads));
+  }
+  scale_x_ = scale_x_.cwiseMax(of_x * root_mass_.cwiseInverse());
+  scale_v_ = scale_v_.cwiseMax(of_v * root_mass_.cwiseInverse());
+}
+
+double LocalErrorControl::smooth_error(double h) const {
+  if (as_a_whole_) return whole_;
+  const double smooth = std::pow(account_.rate() * h / orders_.constant, power_);
+  return h * rate_ > kStiff ? std::min(smooth, most_stiff_) : smooth;
 }
 
 double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const {
@@ -243,15 +265,13 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   to.memory.segment(kScales + n, n) = scale_v_;
   judge_by_scales(from, to, h, error_x, error_v, report);
   if (as_a_whole_ || report.error <= 1.0 || report.status != time::StepStatus::ok) return;
-  raise_above_rounding(scale_x_);
-  raise_above_rounding(scale_v_);
+  raise_above_rounding(from.t, h, smooth_error(h));
   judge_by_scales(from, to, h, error_x, error_v, report);
 }
 
 void LocalErrorControl::judge_by_scales(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
                                         ConstVectorRef error_v, time::StepReport& report) {
-  double smooth = as_a_whole_ ? whole_ : std::pow(account_.rate() * h / orders_.constant, power_);
-  if (!as_a_whole_ && h * rate_ > kStiff) smooth = std::min(smooth, most_stiff_);
+  const double smooth = smooth_error(h);
   const double earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
   double epsilon =
       as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(h, error_x, error_v);

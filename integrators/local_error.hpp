@@ -112,9 +112,11 @@ class LocalErrorControl {
   /// judge() with the scales scale_x_ and scale_v_.
   void judge_by_scales(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
                        ConstVectorRef error_v, time::StepReport& report);
-  /// Raises the scales of components that move by rounding of the whole motion only, such that errors of that size
-  /// are within the tolerance.
-  void raise_above_rounding(Vector& scales) const;
+  /// Raises scale_x_ and scale_v_ of components that move by rounding only: of the whole motion, or of forces that
+  /// balance one another. Errors of that size are then within the tolerance, and below `smooth`.
+  void raise_above_rounding(double t, double h, double smooth);
+  /// The largest error, relative to the scales, of a step of length h without a change of contact.
+  double smooth_error(double h) const;
   /// The errors of velocities count also as errors of displacements in outputs within the step.
   double relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const;
   /// The departure in the middle from the cubic through the ends that the acceleration at the start indicates, relative

@@ -18,6 +18,8 @@ using Complex = std::complex<double>;
 
 /// Orbits flatter than this are taken for lines.
 constexpr double kFlat = 1e-9;
+/// Displacements with less than this part of the inertia of the rotations are a by-product or rounding.
+constexpr double kOnlyTilts = 1e-6;
 /// Fraction of the highest frequency below which a mode at rest counts as rigid motion: rounding of
 /// dense eigenvalues.
 constexpr double kRigid = 1e-7;
@@ -65,6 +67,11 @@ class ShiftInverted {
   double shift_;
   linalg::Counters counters_;
   mutable linalg::GeneralFactor factor_;
+};
+
+/// Sums over the nodes' orbits in a mode: of signed areas, squares, and squares times inertia.
+struct Orbits {
+  double area = 0.0, square = 0.0, most = 0.0, least = 0.0, inertia = 0.0;
 };
 
 /// Modes without oscillation first, then by frequency.
@@ -126,22 +133,29 @@ WhirlMode Whirl::finished(Complex lambda, Eigen::VectorXcd shape) const {
   Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
   mode.shape = shape / shape[largest];
-  double area = 0.0, square = 0.0, most = 0.0, least = 0.0;
   const auto& free = system_.dofs.free();
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    if (free[i].kind != DofKind::uy) continue;
-    const Index z = system_.dofs.index({free[i].node, DofKind::uz});
-    if (z < 0) continue;
-    const Complex along_y = mode.shape[static_cast<Index>(i)], along_z = mode.shape[z];
-    const double turn = -2.0 * (std::conj(along_y) * along_z).imag();
-    area += turn;
-    square += std::norm(along_y) + std::norm(along_z);
-    most = std::max(most, turn);
-    least = std::min(least, turn);
-  }
-  if (square > 0.0 && lambda.imag() > 0.0) mode.direction = area / square;
+  // The orbits of the nodes, or, where only axes tilt, those of their points: (rz, -ry) in the plane (y, z).
+  const auto orbits = [&](DofKind first, DofKind second, double sign) {
+    Orbits sum;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      if (free[i].kind != first) continue;
+      const auto y = static_cast<Index>(i), z = system_.dofs.index({free[i].node, second});
+      if (z < 0) continue;
+      const Complex along_y = mode.shape[y], along_z = sign * mode.shape[z];
+      const double turn = -2.0 * (std::conj(along_y) * along_z).imag();
+      sum.area += turn;
+      sum.square += std::norm(along_y) + std::norm(along_z);
+      sum.most = std::max(sum.most, turn);
+      sum.least = std::min(sum.least, turn);
+      sum.inertia += system_.mass.coeff(y, y) * std::norm(along_y) + system_.mass.coeff(z, z) * std::norm(along_z);
+    }
+    return sum;
+  };
+  Orbits of = orbits(DofKind::uy, DofKind::uz, 1.0);
+  if (const Orbits tilt = orbits(DofKind::rz, DofKind::ry, -1.0); of.inertia < kOnlyTilts * tilt.inertia) of = tilt;
+  if (of.square > 0.0 && lambda.imag() > 0.0) mode.direction = of.area / of.square;
   if (std::abs(mode.direction) < kFlat) mode.direction = 0.0;
-  mode.is_mixed = std::min(most, -least) > 1e-3 * std::max(most, -least);
+  mode.is_mixed = std::min(of.most, -of.least) > 1e-3 * std::max(of.most, -of.least);
   return mode;
 }
 

@@ -14,7 +14,7 @@ struct BUTEE_EXPORT WhirlMode {
   std::complex<double> lambda;  ///< 1/s, rad/s; Im >= 0
   Eigen::VectorXcd shape;       ///< of the free DOFs, largest entry 1
   /// From +1 (circular orbits about +x) through 0 (motion along a line) to -1 (circular orbits the
-  /// opposite way); 0 without orbits.
+  /// opposite way); 0 without orbits. Of the turning axes, if the mode only tilts them.
   double direction = 0.0;
   bool is_mixed = false;  ///< some nodes whirl forward, others backward
 

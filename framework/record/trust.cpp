@@ -1,6 +1,7 @@
 #include "butee/record/trust.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,23 +15,33 @@ constexpr double kOfExact = 1.5, kOfAnother = 3.0, kOfNone = 10.0, kOfNoise = 3.
 constexpr double kMeaningless = 1.0;
 constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
 
-double peak_of(const Histories& histories) {
-  double peak = 0.0;
-  for (const auto& history : histories.values)
-    for (const double value : history) peak = std::max(peak, std::abs(value));
-  return peak;
+/// The peak of each history, but at least kLeastOfKind of the largest of its kind.
+std::vector<double> scales_of(const Histories& histories) {
+  constexpr double kLeastOfKind = 1e-3;
+  std::vector<double> scales;
+  std::array<double, 2> largest{};
+  const auto kind = [&](std::size_t i) { return i < histories.rotations.size() && histories.rotations[i] ? 1U : 0U; };
+  for (std::size_t i = 0; i < histories.values.size(); ++i) {
+    double peak = 0.0;
+    for (const double value : histories.values[i]) peak = std::max(peak, std::abs(value));
+    scales.push_back(peak);
+    largest[kind(i)] = std::max(largest[kind(i)], peak);
+  }
+  for (std::size_t i = 0; i < scales.size(); ++i) scales[i] = std::max(scales[i], kLeastOfKind * largest[kind(i)]);
+  return scales;
 }
 
-/// The largest difference over the probes at instant i; infinite if one of the runs did not reach
-/// it.
-double difference_at(const Histories& a, const Histories& b, std::size_t i) {
+/// The largest difference over the probes at instant i, relative to the scales; infinite if one of the runs did not
+/// reach it.
+double difference_at(const Histories& a, const Histories& b, std::size_t i, const std::vector<double>& scales) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
   if (a.times.empty() || b.times.empty()) return 0.0;
   double largest = 0.0;
   for (std::size_t probe = 0; probe < a.values.size(); ++probe) {
-    if (i >= a.values[probe].size() || i >= b.values[probe].size()) return std::numeric_limits<double>::infinity();
+    if (i >= a.values[probe].size() || i >= b.values[probe].size()) return kInfinite;
     const double difference = std::abs(a.values[probe][i] - b.values[probe][i]);
-    if (std::isnan(difference)) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, difference);
+    if (std::isnan(difference) || (difference > 0.0 && scales[probe] == 0.0)) return kInfinite;
+    if (difference > 0.0) largest = std::max(largest, difference / scales[probe]);
   }
   return largest;
 }
@@ -47,26 +58,28 @@ Trust judge(const TrustRuns& runs, double accuracy) {
   trust.accuracy = accuracy;
   const std::vector<double>& times = runs.run.times;
   trust.end = times.empty() ? 0.0 : times.back();
-  const double peak = peak_of(runs.run), factor = factor_of(runs);
+  const std::vector<double> scales = scales_of(runs.run);
+  const double factor = factor_of(runs);
+  const bool moves = std::any_of(scales.begin(), scales.end(), [](double scale) { return scale > 0.0; });
   const Growth& growth = runs.growth;
   double difference = 0.0, noise = 0.0, log_growth = 0.0;
   std::size_t looked = 0;
   trust.to_the_end = true;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    difference =
-        std::max({difference, difference_at(runs.run, runs.tightened, i), difference_at(runs.run, runs.other, i)});
-    noise = std::max(noise, difference_at(runs.other, runs.again, i));
+    difference = std::max({difference, difference_at(runs.run, runs.tightened, i, scales),
+                           difference_at(runs.run, runs.other, i, scales)});
+    noise = std::max(noise, difference_at(runs.other, runs.again, i, scales));
     if (looked < growth.times.size() && growth.times[looked] <= times[i]) {
       log_growth = growth.log_between(times[i]);
       while (looked < growth.times.size() && growth.times[looked] <= times[i]) ++looked;
     }
-    const double rounding = kRoundings * (1.0 + growth.omega * times[i]) * std::exp(std::min(log_growth, 700.0)) * peak;
-    const double bound = factor * difference + kOfNoise * std::max(noise, rounding);
-    trust.end_bound = peak > 0.0 ? bound / peak : 0.0;
-    trust.to_the_end = trust.to_the_end && bound <= accuracy * peak;
+    const double rounding = kRoundings * (1.0 + growth.omega * times[i]) * std::exp(std::min(log_growth, 700.0));
+    const double bound = moves ? factor * difference + kOfNoise * std::max(noise, rounding) : 0.0;
+    trust.end_bound = bound;
+    trust.to_the_end = trust.to_the_end && bound <= accuracy;
     if (!trust.to_the_end) continue;
-    trust.difference = peak > 0.0 ? difference / peak : 0.0;
-    trust.bound = trust.end_bound;
+    trust.difference = difference;
+    trust.bound = bound;
     trust.horizon = times[i];
   }
   const auto [rate, until] = growth.exponential();

@@ -36,10 +36,11 @@ struct Trust {
   std::vector<Statistic> statistics;
 };
 
-/// The displacements of the probes at the output times: one row per instant, one column per probe.
+/// Displacements and rotations of the probes at the output times.
 struct Histories {
   std::vector<double> times;                ///< s
-  std::vector<std::vector<double>> values;  ///< by probe
+  std::vector<std::vector<double>> values;  ///< one for each displacement, m, and rotation, rad
+  std::vector<bool> rotations{};            ///< which of them are rotations; none if empty
 };
 
 /// The runs of one scene on which a judgement is based. Missing runs have no times.
@@ -59,10 +60,11 @@ struct TrustRuns {
 ///
 /// with d, e the largest differences up to t: d of the run from the tightened and the other one, e
 /// of the other from its repetition; A is the largest growth of a disturbance between two instants
-/// up to t. If the other method has no truncation error, d contains the whole error except e, and
-/// s = 1.5 allows for the largest difference between two rows (4 rows a period of a sinusoid show
-/// at least cos(45 degrees)); otherwise s = 3, twice the factor 3/2 by which halving the step of a
-/// method of order 1 to 2 underestimates an error. Without another method s = 10.
+/// up to t. Differences are relative to the peak of each displacement or rotation, but at least a thousandth of the
+/// largest peak of its kind; `peak` is then 1. If the other method has no truncation error, d contains the whole error
+/// except e, and s = 1.5 allows for the largest difference between two rows (4 rows a period of a sinusoid show at
+/// least cos(45 degrees)); otherwise s = 3, twice the factor 3/2 by which halving the step of a method of order 1 to 2
+/// underestimates an error. Without another method s = 10.
 BUTEE_EXPORT Trust judge(const TrustRuns& runs, double accuracy);
 
 /// The largest difference of two runs in any probe at any instant that both reached.

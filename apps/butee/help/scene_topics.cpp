@@ -159,8 +159,8 @@ friction = { coefficient, ... }: the force is mu F_n against the slip speed w = 
 twists a node that has rx by -radius mu F_n, with the tangent t = (-normal_z, normal_y), in a ring the sense of
 rotation from y to z (outside a ring from z to y); one of
   slip_speed       m/s: regularised, smoothing = "sqrt" (default), "tanh" or "clip"; slides slowly instead of sticking
-  stick_stiffness  N/m: a stick spring with memory (in a ring at the radius of its gap); also stick_damping (N s/m),
-                   static_coefficient
+  stick_stiffness  N/m: a stick spring with memory (in a ring at the radius of its gap: friction_force is the force there,
+                   and gap/r of it acts on a node at the distance r); also stick_damping (N s/m), static_coefficient
   stick = "rigid"  no motion while it sticks (not in rings); static_coefficient
 and surface_speed (m/s) of the obstacle along the tangent, for example of a belt.
 
@@ -238,7 +238,7 @@ std::string output_text(const plugin::Catalogue&) {
   energy           true: work, dissipation and the balance are followed            (false)
   impacts          true: impacts.csv, a row for each closing of a stop             (false)
   trust            true: estimate the accuracy of the result                       (false; butee help trust)
-  trust_accuracy   accuracy required by trust, relative to the peak                (0.01)
+  trust_accuracy   accuracy required by trust, relative to the peak of each motion (0.01)
   states           s: instants at which the whole motion is saved, for [initial] from of other scenes
   checkpoint       save a checkpoint at every N-th accepted step; butee run --resume DIR continues
   formats          ["csv"] and formats of modules: "hdf5", the fields of all nodes and the probes

@@ -1,13 +1,16 @@
 #include "followed_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
+#include <butee/record/contact_recorder.hpp>
 #include <butee/record/impacts.hpp>
 #include <butee/record/output_times.hpp>
 #include <butee/record/probes.hpp>
@@ -30,23 +33,59 @@ constexpr double kRoundingOfPaths = 1e-14;
 /// Most and fewest stored states, and most numbers in all of them.
 constexpr double kMostStates = 1000.0, kFewestStates = 100.0, kMostNumbers = 1e6;
 
-std::vector<model::ProbeRequest> displacement_probes(const scene::Scene& session) {
+/// A displacement or rotation of a probe's node that is followed.
+struct Followed {
+  std::string label;
+  model::NodeId node;
+  model::Quantity quantity;  ///< in space if the scene's motion is
+  DofKind kind;
+};
+
+/// Those that the quantities of a probe belong to; all that its node has if it asks for none.
+std::vector<Followed> followed_by_probes(const scene::Scene& session, const model::System& system) {
+  using model::Quantity;
+  constexpr std::array<Quantity, kDofKinds> kRelative = {Quantity::ux, Quantity::u,  Quantity::uz,
+                                                         Quantity::rx, Quantity::ry, Quantity::theta},
+                                            kInSpace = {Quantity::ux_abs, Quantity::u_abs, Quantity::uz_abs,
+                                                        Quantity::rx,     Quantity::ry,    Quantity::theta};
+  const bool in_space = session.model.base_frame == model::BaseFrame::still;
+  std::vector<Followed> all;
+  for (const model::ProbeRequest& probe : session.output.probes) {
+    const auto follow = [&](const auto& wanted) {
+      const std::size_t before = all.size();
+      for (const DofKind kind : kAllDofKinds)
+        if (system.dofs.index({probe.node, kind}) >= 0 && wanted(kind))
+          all.push_back(
+              {probe.label, probe.node, (in_space ? kInSpace : kRelative)[static_cast<std::size_t>(kind)], kind});
+      return all.size() > before;
+    };
+    const auto is_asked = [&](DofKind kind) {
+      return std::any_of(probe.quantities.begin(), probe.quantities.end(),
+                         [&](model::Quantity quantity) { return model::kind_of(quantity) == kind; });
+    };
+    if (!follow(is_asked)) follow([](DofKind) { return true; });
+  }
+  return all;
+}
+
+std::vector<model::ProbeRequest> requests(const std::vector<Followed>& followed) {
   std::vector<model::ProbeRequest> probes;
-  for (const model::ProbeRequest& probe : session.output.probes)
-    probes.push_back({probe.label, probe.node, {model::Quantity::u}});
+  for (const Followed& one : followed) probes.push_back({one.label, one.node, {one.quantity}});
   return probes;
 }
 
 /// Records the probes at the compared times, and whole states.
 class Follower final : public time::Observer {
  public:
-  Follower(const scene::Scene& session, dynamics::Dynamics& dynamics, FollowedRun& to, bool with_states)
-      : probes_(displacement_probes(session), dynamics),
+  Follower(const scene::Scene& session, const std::vector<Followed>& followed, dynamics::Dynamics& dynamics,
+           FollowedRun& to, bool with_states)
+      : probes_(requests(followed), dynamics),
         to_(to),
         row_(probes_.columns().size()),
         rows_(session.output.interval, session.output.every, session.integrator.options.end_time) {
     to_.histories.values.resize(row_.size());
     to_.histories.times = compared_times(session);
+    for (const Followed& one : followed) to_.histories.rotations.push_back(is_rotation(one.kind));
     if (!with_states) return;
     to_.state_times = state_times(session, dynamics.size());
     to_.x.resize(dynamics.size(), static_cast<Index>(to_.state_times.size()));
@@ -99,11 +138,9 @@ class Follower final : public time::Observer {
 };
 
 /// The paths of the probes' displacements, followed by those of the stops.
-std::vector<TurningPoints::Path> paths_of(const scene::Scene& session, dynamics::Dynamics& dynamics) {
+std::vector<TurningPoints::Path> paths_of(const std::vector<Followed>& followed, dynamics::Dynamics& dynamics) {
   std::vector<TurningPoints::Path> paths;
-  const auto& table = dynamics.system().dofs;
-  for (const model::ProbeRequest& probe : session.output.probes)
-    paths.push_back({table.index({probe.node, model::kind_of(model::Quantity::u)}), -1});
+  for (const Followed& one : followed) paths.push_back({dynamics.system().dofs.index({one.node, one.kind}), -1});
   const dynamics::ElasticStops& contact = dynamics.stops();
   for (Index i = 0; i < contact.size(); ++i) paths.push_back({contact.dof_a(i), contact.dof_b(i)});
   return paths;
@@ -121,27 +158,32 @@ double highest_frequency(dynamics::Dynamics& dynamics) {
   return std::isfinite(square) ? std::sqrt(std::max(0.0, square)) : 0.0;
 }
 
-void sum_up(const scene::Scene& session, dynamics::Dynamics& dynamics, const std::vector<TurningPoints::Path>& paths,
-            FollowedRun& run) {
-  for (std::size_t i = 0; i < session.output.probes.size(); ++i) {
+void sum_up(const std::vector<Followed>& followed, dynamics::Dynamics& dynamics,
+            const std::vector<TurningPoints::Path>& paths, const record::ContactRecorder* contacts, FollowedRun& run) {
+  for (std::size_t i = 0; i < followed.size(); ++i) {
     double squares = 0.0;
     for (const double u : run.histories.values[i]) squares += u * u;
-    const std::string name = session.output.probes[i].label + ".u";
+    const std::string name = followed[i].label + "." + model::name_of(followed[i].quantity);
     run.numbers.push_back(
         {"rms of " + name, std::sqrt(squares / static_cast<double>(run.histories.times.size())), false});
     run.numbers.push_back({"peak of " + name, std::max(paths[i].greatest, -paths[i].least), false});
   }
-  if (dynamics.stop_count() == 0) return;
+  if (dynamics.stop_count() == 0 && contacts == nullptr) return;
   const Vector closed = dynamics.stops().closed_stiffness();
   double largest = 0.0, largest_beyond = 0.0;  // without and with rounding of the penetration
   for (Index i = 0; i < dynamics.stop_count(); ++i) {
-    const auto& path = paths[session.output.probes.size() + static_cast<std::size_t>(i)];
+    const auto& path = paths[followed.size() + static_cast<std::size_t>(i)];
     for (const double w : {path.least, path.greatest}) {
       const double force = std::abs(dynamics.stops().force_of(i, w));
       largest = std::max(largest, force);
       largest_beyond = std::max(largest_beyond, force + kRoundingOfPaths * closed[i] * std::abs(w));
     }
   }
+  // Friction supports are pressed by a given force.
+  for (std::size_t i = 0; contacts != nullptr && i < contacts->wear().size(); ++i)
+    if (dynamics.obstacles()->group_of(static_cast<Index>(i)).shape != nullptr)
+      largest = std::max(largest, contacts->wear()[i].peak_force);
+  largest_beyond = std::max(largest, largest_beyond);
   run.numbers.push_back({"largest contact force", largest, false, largest_beyond - largest});
 }
 
@@ -173,9 +215,12 @@ FollowedRun follow(scene::Scene& session, double disturbance, double most, Wante
   dynamics::Dynamics& dynamics = assembly.dynamics;
   run.size = dynamics.size();
   run.choice = assembly.integrator->choice();
-  Follower follower(session, dynamics, run, wanted.states);
-  TurningPoints turning(paths_of(session, dynamics), highest_frequency(dynamics));
+  const std::vector<Followed> followed = followed_by_probes(session, dynamics.system());
+  Follower follower(session, followed, dynamics, run, wanted.states);
+  TurningPoints turning(paths_of(followed, dynamics), highest_frequency(dynamics));
   record::ImpactRecorder impacts(dynamics);
+  std::optional<record::ContactRecorder> contacts;
+  if (wanted.numbers && dynamics.obstacles() != nullptr) assembly.simulation.add(contacts.emplace(dynamics));
   assembly.simulation.add(follower);
   if (wanted.numbers) assembly.simulation.add(turning);
   if (wanted.impacts && dynamics.stop_count() > 0) assembly.simulation.add(impacts);
@@ -192,9 +237,12 @@ FollowedRun follow(scene::Scene& session, double disturbance, double most, Wante
   run.message = report.message.empty() ? "it takes too long" : report.message;
   run.work = work();
   if (!run.completed) return run;
-  if (wanted.numbers) sum_up(session, dynamics, turning.paths(), run);
-  if (wanted.impacts && dynamics.stop_count() > 0)
-    run.numbers.push_back({"impacts", static_cast<double>(impacts.impacts().size()), true});
+  if (wanted.numbers) sum_up(followed, dynamics, turning.paths(), contacts ? &*contacts : nullptr, run);
+  if (wanted.impacts && (dynamics.stop_count() > 0 || contacts))
+    run.numbers.push_back(
+        {"impacts",
+         static_cast<double>(impacts.impacts().size() + (contacts ? contacts->impacts().size() : std::size_t{0})),
+         true});
   return run;
 }
 
