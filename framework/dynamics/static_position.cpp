@@ -1,5 +1,6 @@
 #include "butee/dynamics/static_position.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -84,6 +85,20 @@ class Equilibrium {
     return sum;
   }
 
+  /// A diagonal stiffness that is small beside those of the contacts.
+  SparseMatrix weak_support() const {
+    constexpr double kWeak = 1e-6;
+    double stiffest = 0.0;
+    if (dynamics_.stop_count() > 0) stiffest = dynamics_.stops().closed_stiffness().maxCoeff();
+    if (const Obstacles* obstacles = dynamics_.obstacles())
+      for (Index i = 0; i < obstacles->size(); ++i) stiffest = std::max(stiffest, obstacles->closed_stiffness(i));
+    const Vector mass = dynamics_.system().mass.diagonal();
+    SparseMatrix support(mass.size(), mass.size());
+    support.setIdentity();
+    support.diagonal() = kWeak * stiffest / mass.maxCoeff() * mass;
+    return support;
+  }
+
   /// The sums of the sizes of the terms of the residual.
   Vector sizes(const SparseMatrix& tangent, const Vector& x) const {
     return tangent.cwiseAbs() * x.cwiseAbs() + load_.cwiseAbs();
@@ -113,12 +128,22 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
     linalg::LinearSolver solver(tangent, dynamics.counters(), nullptr,
                                 system.stiffness_is_symmetric && dynamics.obstacles() == nullptr);
     Vector step = r;
-    const bool solved = solver.factorize(tangent);
+    bool solved = solver.factorize(tangent);
     if (solved) solver.solve(step);
-    if (!solved || !step.allFinite())
-      throw InputError("gravity.static: the scene has no static position: nothing holds " +
-                       describe_softest_motion(tangent, system.dofs) +
-                       ", or a preload buckles it; add a support or a spring there, or start without static = true");
+    // What nothing holds yet goes far with its load, until a contact along the way holds it.
+    const bool falls = !solved || !step.allFinite();
+    if (falls) {
+      const SparseMatrix held = tangent + equilibrium.weak_support();
+      step = r;
+      solved = solver.factorize(held);
+      if (solved) solver.solve(step);
+    }
+    const auto not_held = [&] {
+      return InputError("gravity.static: the scene has no static position: nothing holds " +
+                        describe_softest_motion(tangent, system.dofs) +
+                        ", or a preload buckles it; add a support or a spring there, or start without static = true");
+    };
+    if (!solved || !step.allFinite()) throw not_held();
     // Along the step the forces do work r.step; where it vanishes, a convex energy is at its lowest.
     const double work = r.dot(step);
     double low = 0.0, high = 1.0, part = 1.0, next = size;
@@ -133,7 +158,7 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
     }
     const bool is_rounding = !(next < size) && r.norm() <= kRounding * equilibrium.sizes(tangent, x).norm();
     if (is_rounding) break;
-    if (!is_better) throw not_found(size);
+    if (!is_better) throw falls ? not_held() : not_found(size);
     x = moved;
     r.swap(next_r);
     size = next;

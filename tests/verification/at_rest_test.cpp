@@ -2,6 +2,7 @@
 // that begins later is followed as from any other start.
 #include <cmath>
 
+#include <butee/core/error.hpp>
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
@@ -188,6 +189,30 @@ TEST(AtRest, ABeamInItsStaticPositionUnderALoadThatGrows) {
     EXPECT_NEAR(other.simulation().state().x[tip] - begin, moved, 0.01 * moved) << method;
     EXPECT_LT(report.steps, 100000) << method;
   }
+}
+
+/// A body that only a stop or a plane below it holds: it rests at gap + m g/k. What nothing holds is refused.
+TEST(AtRest, ABodyThatOnlyAContactHolds) {
+  const auto scene = [](const std::string& contact) {
+    return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[gravity]\nacceleration = [0.0, -9.81, "
+           "0.0]\n"
+           "static = true\n" +
+           contact + "[integrator]\ntype = \"rodas4\"\nend_time = 0.1\n";
+  };
+  const std::string stop = "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 1e-3\nstiffness = 1e5\n";
+  const std::string damped = "damping = { type = \"kelvin_voigt\", coefficient = 10.0 }\n";
+  for (const std::string& contact : {stop, stop + damped, stop + "sides = \"negative\"\n"}) {
+    SceneRun run(scene(contact));
+    EXPECT_NEAR(run.system().initial_displacement[0], -1e-3 - 2.0 * 9.81 / 1e5, 1e-12) << contact;
+    ASSERT_TRUE(run.run().completed);
+    EXPECT_NEAR(run.simulation().state().x[0], -1e-3 - 2.0 * 9.81 / 1e5, 1e-9) << contact;
+  }
+  for (const std::string& contact : {std::string(), stop + "sides = \"positive\"\n"}) try {
+      SceneRun run(scene(contact));
+      FAIL() << "was taken: " << contact;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("nothing holds u of m"), std::string::npos) << error.what();
+    }
 }
 
 }  // namespace

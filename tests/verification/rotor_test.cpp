@@ -318,5 +318,27 @@ TEST(LongShaft, GetsTheSameAnswerFromThePartThatMoves) {
   EXPECT_LT((x - y).norm(), 1e-4 * x.norm());
 }
 
+/// A disc that only tilts: omega = +-Omega I_p/(2 I_d) + sqrt((Omega I_p/(2 I_d))^2 + k/I_d), + for the forward mode.
+/// Its lateral modes beside them move along lines.
+TEST(TiltingDisc, WhirlsForwardInItsFastMode) {
+  const double speed = 200.0, inertia = 0.02, polar = 0.035, stiffness = 700.0;
+  const scene::Scene scene = read_scene(
+      "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"m\"\nmass = 3.0\ndiametral_inertia = 0.02\npolar_inertia = "
+      "0.035\n"
+      "[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = \"ry\"\nstiffness = 700.0\n[[element]]\ntype = \"spring\"\n"
+      "node = \"m\"\ndof = \"rz\"\nstiffness = 700.0\n[[element]]\ntype = \"bearing\"\nnode = \"m\"\nstiffness = "
+      "[[3.0e4, 0.0], "
+      "[0.0, 3.5e4]]\n[rotation]\nspeed = 200.0\n[integrator]\ntype = \"rk4\"\ntime_step = 1e-4\nend_time = 0.1\n");
+  const auto modes = dynamics::Whirl(scene.model).modes(speed, 4);
+  ASSERT_EQ(modes.size(), 4U);
+  const double turn = speed * polar / (2.0 * inertia), root = std::sqrt(turn * turn + stiffness / inertia);
+  EXPECT_NEAR(modes[0].frequency(), root - turn, 1e-9 * root);
+  EXPECT_NEAR(modes[0].direction, -1.0, 1e-9);
+  EXPECT_EQ(modes[1].direction, 0.0);
+  EXPECT_EQ(modes[2].direction, 0.0);
+  EXPECT_NEAR(modes[3].frequency(), root + turn, 1e-9 * root);
+  EXPECT_NEAR(modes[3].direction, 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace butee::test::rotor_test
