@@ -130,7 +130,8 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
     Vector step = r;
     bool solved = solver.factorize(tangent);
     if (solved) solver.solve(step);
-    // What nothing holds yet goes far with its load, until a contact along the way holds it.
+    // Bodies that nothing holds yet: a weak support gives a long step along their loads, and the search along it ends
+    // where a contact holds them.
     const bool falls = !solved || !step.allFinite();
     if (falls) {
       const SparseMatrix held = tangent + equilibrium.weak_support();

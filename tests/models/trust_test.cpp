@@ -351,57 +351,5 @@ TEST(TrustRuns, AreTheRunOfTheResults) {
 INSTANTIATE_TEST_SUITE_P(KnownScenes, Trust, testing::ValuesIn(all_scenes()),
                          [](const auto& one) { return one.param.name; });
 
-record::Histories two_histories(double large, double small) {
-  return {{0.0, 1.0}, {{large, large}, {small, small}}, {false, true}};
-}
-
-/// Every displacement and rotation is compared with its own peak, but at least a thousandth of the largest of its kind.
-TEST(Judgement, IsRelativeToThePeakOfEachProbe) {
-  record::TrustRuns runs;
-  runs.run = two_histories(1.0, 1e-5);
-  runs.tightened = two_histories(1.0, 1.1e-5);
-  EXPECT_NEAR(record::judge(runs, 0.01).end_bound, 10.0 * 0.1, 1e-9);
-  runs.run.rotations = runs.tightened.rotations = {false, false};
-  EXPECT_NEAR(record::judge(runs, 0.01).end_bound, 10.0 * 1e-3, 1e-9);
-}
-
-/// A chaotic rotation beside a displacement at rest, and an impact with dissipation: both are seen, by all numbers.
-TEST(Judgement, SeesRotationsAndDissipativeStops) {
-  const std::string scene =
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\nrotary_inertia = 0.01\n[[element]]\ntype = "
-      "\"spring\"\n"
-      "node = \"a\"\ndof = \"theta\"\nstiffness = 100.0\ndamping = 0.005\n[[element]]\ntype = \"spring\"\nnode = "
-      "\"a\"\n"
-      "stiffness = 100.0\n[[contact]]\ntype = \"stop\"\nnodes = \"a\"\ndof = \"theta\"\ngap = 1e-3\nstiffness = "
-      "1e5\n[[load]]\n"
-      "type = \"harmonic\"\nnode = \"a\"\ndof = \"theta\"\namplitude = 0.6\nangular_frequency = "
-      "130.0\n[integrator]\ntype = "
-      "\"rodas4\"\ntolerance = 1e-4\nend_time = 1.0\n[output]\ninterval = 1e-3\n[[output.probe]]\nlabel = \"a\"\nnode "
-      "= \"a\"\n"
-      "quantities = [\"theta\"]\n";
-  scene::Scene chaotic = read_scene(scene);
-  const record::Trust trust = app::find_trust(chaotic);
-  EXPECT_FALSE(trust.to_the_end);
-  EXPECT_LT(trust.horizon, 0.5);
-  ASSERT_FALSE(trust.statistics.empty());
-  EXPECT_EQ(trust.statistics.front().name, "rms of a.theta");
-  EXPECT_GT(trust.statistics.front().value, 1e-4);
-
-  scene::Scene dissipative = read_scene(
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
-      "\"a\"\n"
-      "stiffness = 1e4\n[[contact]]\ntype = \"stop\"\nnodes = \"a\"\ngap = 1e-3\nstiffness = 1e5\ndamping = { type = "
-      "\"kelvin_voigt\", coefficient = 50.0 }\n[initial]\nvelocity = [{ nodes = \"a\", value = 1.0 "
-      "}]\n[integrator]\nend_time = "
-      "0.01\n[[output.probe]]\nlabel = \"a\"\nnode = \"a\"\nquantities = [\"u\"]\n");
-  bool has_force = false, has_impacts = false;
-  for (const record::Trust::Statistic& s : app::find_trust(dissipative).statistics) {
-    if (s.name == "largest contact force") has_force = s.value > 100.0;
-    if (s.name == "impacts") has_impacts = s.value == 1.0;
-  }
-  EXPECT_TRUE(has_force);
-  EXPECT_TRUE(has_impacts);
-}
-
 }  // namespace
 }  // namespace butee::test::trust_test
