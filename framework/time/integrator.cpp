@@ -115,8 +115,8 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     const auto before = events_->first(dense_output(from, to));
     const bool is_same = before && before->contact == event->contact && before->which == event->which;
     if (!before || to.t - before->t <= (is_same ? std::max(kSame * step.h, good) : good)) return;
-    // A switching function that only approaches 0 falls below it by the errors of dense output, at another instant in
-    // each step: there is no change.
+    // If the step that ends at the located change does not reach it, three times in turn (chosen), the switching
+    // function only approaches 0, and falls below it by errors of the dense output: there is no change.
     if (is_same && !events_->is_over(*event, to) && ++refuted == kMostRefuted) {
       to.contact = from.contact;
       redo(step.t_end);
