@@ -61,7 +61,7 @@ ContactRecorder::ContactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynam
 }
 
 void ContactRecorder::start(const time::State& state) {
-  done_.clear();
+  ended_.clear();
   duration_ = 0.0;
   dynamics_.contact_forces(state.t, state.x, state.v, forces_);
   for (std::size_t i = 0; i < watches_.size(); ++i) {
@@ -231,19 +231,18 @@ void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact
   if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);
   if (watch.touches) return;
   impact.t_out = end;
-  done_.push_back(impact);
+  ended_.add(impact);
   impact.peak_force = impact.impulse = impact.tangential_impulse = impact.slip = impact.dissipated = 0.0;
 }
 
 std::vector<Impact> ContactRecorder::impacts() const {
-  std::vector<Impact> all = done_;
+  std::vector<Impact> lasting;
   for (const Watch& watch : watches_) {
     if (watch.is_support || !watch.touches) continue;
-    all.push_back(watch.current);
-    all.back().t_out.reset();
+    lasting.push_back(watch.current);
+    lasting.back().t_out.reset();
   }
-  std::stable_sort(all.begin(), all.end(), [](const Impact& a, const Impact& b) { return a.t_in < b.t_in; });
-  return all;
+  return ended_.with(lasting);
 }
 
 std::vector<std::string> ContactRecorder::wear_columns() {
@@ -281,11 +280,7 @@ void ContactRecorder::save(ByteWriter& to) const {
     for (const double number : {wear.work, wear.touching, wear.slip, wear.dissipated, wear.peak_force, wear.square})
       to.put(number);
   }
-  to.put(std::uint64_t{done_.size()});
-  for (const Impact& impact : done_) {
-    to.put(impact.node);
-    put_impact(impact, to);
-  }
+  ended_.save(to);
 }
 
 void ContactRecorder::restore(ByteReader& from) {
@@ -298,11 +293,7 @@ void ContactRecorder::restore(ByteReader& from) {
     for (double* number : {&wear.work, &wear.touching, &wear.slip, &wear.dissipated, &wear.peak_force, &wear.square})
       from.take(*number);
   }
-  done_.assign(from.count(kImpactBytes), {});
-  for (Impact& impact : done_) {
-    from.take(impact.node);
-    take_impact(impact, from);
-  }
+  ended_.restore(from);
 }
 
 }  // namespace butee::record

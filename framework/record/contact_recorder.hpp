@@ -74,7 +74,7 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   std::vector<Watch> watches_;
   std::vector<std::size_t> active_;
   std::vector<ContactWear> wear_;
-  std::vector<Impact> done_;
+  ImpactList ended_;
   double duration_ = 0.0;
 };
 

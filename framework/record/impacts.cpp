@@ -8,6 +8,15 @@
 #include "butee/record/quadrature.hpp"
 
 namespace butee::record {
+namespace {
+
+/// The bytes of an impact without its name, as put_impact() writes them.
+constexpr std::size_t kImpactBytes = 69;
+/// A body that is away for less than this fraction of the contacts before and after has not left the stop: it would
+/// reach this fraction of its penetration, which is below the rounding error of motion between stops.
+constexpr double kNotAway = 1e-12;
+
+}  // namespace
 
 void put_impact(const Impact& impact, ByteWriter& to) {
   to.put(impact.side);
@@ -28,6 +37,48 @@ void take_impact(Impact& impact, ByteReader& from) {
   for (double* number : {&impact.peak_force, &impact.impulse, &impact.impact_speed, &impact.tangential_impulse,
                          &impact.slip, &impact.dissipated})
     from.take(*number);
+}
+
+void ImpactList::append(std::vector<Impact>& all, const Impact& impact) {
+  const double end = impact.t_out.value_or(impact.t_in);
+  for (auto last = all.rbegin(); last != all.rend(); ++last) {
+    if (!last->t_out) continue;
+    const double away = impact.t_in - *last->t_out;
+    if (away > kNotAway * end) break;
+    if (last->node != impact.node || last->side != impact.side) continue;
+    if (away > kNotAway * std::max(*last->t_out - last->t_in, end - impact.t_in)) continue;
+    last->t_out = impact.t_out;
+    last->peak_force = std::max(last->peak_force, impact.peak_force);
+    last->impulse += impact.impulse;
+    last->tangential_impulse += impact.tangential_impulse;
+    last->slip += impact.slip;
+    last->dissipated += impact.dissipated;
+    return;
+  }
+  all.push_back(impact);
+}
+
+std::vector<Impact> ImpactList::with(const std::vector<Impact>& lasting) const {
+  std::vector<Impact> all = ended_;
+  for (const Impact& impact : lasting) append(all, impact);
+  std::stable_sort(all.begin(), all.end(), [](const Impact& a, const Impact& b) { return a.t_in < b.t_in; });
+  return all;
+}
+
+void ImpactList::save(ByteWriter& to) const {
+  to.put(std::uint64_t{ended_.size()});
+  for (const Impact& impact : ended_) {
+    to.put(impact.node);
+    put_impact(impact, to);
+  }
+}
+
+void ImpactList::restore(ByteReader& from) {
+  ended_.assign(from.count(kImpactBytes), {});
+  for (Impact& impact : ended_) {
+    from.take(impact.node);
+    take_impact(impact, from);
+  }
 }
 
 ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
@@ -57,7 +108,7 @@ double ImpactRecorder::force(const Watch& watch, double displacement) {
 }
 
 void ImpactRecorder::start(const time::State& state) {
-  done_.clear();
+  ended_.clear();
   for (Watch& watch : watches_) {
     const Point at = tracks_.at(state, watch.track);
     watch.closed = watch.penetration(at) > 0.0;
@@ -104,7 +155,7 @@ void ImpactRecorder::follow_part(Watch& watch, const StepPath& path, const Point
   if (watch.closed) {
     accumulate(watch, path, from, change);
     watch.current.t_out = change.t;
-    done_.push_back(watch.current);
+    ended_.add(watch.current);
   } else {
     watch.current.t_in = change.t;
     watch.current.t_out.reset();
@@ -133,11 +184,7 @@ void ImpactRecorder::save(ByteWriter& to) const {
     to.put(watch.closed);
     put_impact(watch.current, to);
   }
-  to.put(std::uint64_t{done_.size()});
-  for (const Impact& impact : done_) {
-    to.put(impact.node);
-    put_impact(impact, to);
-  }
+  ended_.save(to);
 }
 
 void ImpactRecorder::restore(ByteReader& from) {
@@ -145,19 +192,14 @@ void ImpactRecorder::restore(ByteReader& from) {
     from.take(watch.closed);
     take_impact(watch.current, from);
   }
-  done_.assign(from.count(kImpactBytes), {});
-  for (Impact& impact : done_) {
-    from.take(impact.node);
-    take_impact(impact, from);
-  }
+  ended_.restore(from);
 }
 
 std::vector<Impact> ImpactRecorder::impacts() const {
-  std::vector<Impact> all = done_;
+  std::vector<Impact> lasting;
   for (const Watch& watch : watches_)
-    if (watch.closed) all.push_back(watch.current);
-  std::stable_sort(all.begin(), all.end(), [](const Impact& a, const Impact& b) { return a.t_in < b.t_in; });
-  return all;
+    if (watch.closed) lasting.push_back(watch.current);
+  return ended_.with(lasting);
 }
 
 std::vector<std::string> ImpactRecorder::columns() {

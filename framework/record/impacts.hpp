@@ -22,12 +22,30 @@ struct Impact {
   double dissipated = 0.0;          ///< J
 };
 
-/// Size in bytes of an impact without its name, as put_impact() writes it.
-inline constexpr std::size_t kImpactBytes = 69;
-
 /// An impact without its name.
 void put_impact(const Impact& impact, ByteWriter& to);
 void take_impact(Impact& impact, ByteReader& from);
+
+/// The impacts that have ended.
+///
+/// On the border of a stop rounding decides whether a body touches it. Impacts of one stop between which the body is
+/// away for less than 1e-12 of their duration are therefore one.
+class BUTEE_EXPORT ImpactList {
+ public:
+  void clear() { ended_.clear(); }
+  /// `impact` has ended, after all others of its stop.
+  void add(const Impact& impact) { append(ended_, impact); }
+  /// With `lasting` impacts, in the order of t_in.
+  std::vector<Impact> with(const std::vector<Impact>& lasting) const;
+
+  void save(ByteWriter& to) const;
+  void restore(ByteReader& from);
+
+ private:
+  static void append(std::vector<Impact>& all, const Impact& impact);
+
+  std::vector<Impact> ended_;  ///< by t_out
+};
 
 /// Records every closing of a stop on the method's dense output: instants by root finding, the
 /// largest force at the largest penetration (StepPath), the impulse by Gauss' rule with five points
@@ -75,7 +93,7 @@ class BUTEE_EXPORT ImpactRecorder final : public time::Observer {
   dynamics::Dynamics& dynamics_;
   Tracks tracks_;
   std::vector<Watch> watches_;
-  std::vector<Impact> done_;
+  ImpactList ended_;
 };
 
 }  // namespace butee::record

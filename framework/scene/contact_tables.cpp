@@ -28,10 +28,12 @@ double root_between(double low, double high, Function f) {
   return 0.5 * (low + high);
 }
 
-/// Restitution of a linear spring and dashpot whose contact ends at F = 0.
+/// Restitution of a linear spring and dashpot whose contact ends at F = 0: exp(-z t) at the time
+/// t = 2 phi / sin(phi), z = cos(phi); beyond critical damping t = 2 phi / sinh(phi), z = cosh(phi).
 double restitution_without_pull(double z) {
-  const double wd = std::sqrt((1.0 - z) * (1.0 + z));
-  return std::exp(-z / wd * std::atan2(2.0 * z * wd, 2.0 * z * z - 1.0));
+  if (z == 1.0) return std::exp(-2.0);
+  const double phi = z < 1.0 ? std::acos(z) : std::acosh(z);
+  return std::exp(-2.0 * z * phi / std::sqrt(std::abs((1.0 - z) * (1.0 + z))));
 }
 
 }  // namespace
@@ -40,7 +42,9 @@ double kelvin_voigt_ratio(double restitution, bool pulls) {
   if (restitution == 1.0) return 0.0;
   const double log = std::log(restitution);
   if (pulls) return -log / std::hypot(std::numbers::pi, log);
-  return root_between(0.0, 1.0 - 1e-12, [&](double z) { return restitution - restitution_without_pull(z); });
+  double high = 1.0;
+  while (restitution_without_pull(high) > restitution) high *= 2.0;
+  return root_between(0.0, high, [&](double z) { return restitution - restitution_without_pull(z); });
 }
 
 double hunt_crossley_product(double restitution) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <butee/record/contact_recorder.hpp>
 
 #include "models/piecewise_scenes.hpp"
 #include "support/scene_run.hpp"
@@ -99,6 +100,46 @@ TEST(Piecewise, FindsTheInstantsOfContact) {
     EXPECT_NEAR(all[0][i].t_in, all[1][i].t_in, kInstants);
     EXPECT_NEAR(*all[0][i].t_out, *all[1][i].t_out, kInstants);
     EXPECT_NEAR(all[0][i].peak_force / all[1][i].peak_force, 1.0, 1e-6);
+  }
+}
+
+/// The force jumps where a stop with a dashpot closes or opens, so that a body that rounding puts back for an instant
+/// would be listed as an impact of its own.
+TEST(Piecewise, ListsEveryImpactOnDashpotsOnce) {
+  for (const char* restitution : {"0.35", "0.2", "0.15"}) {
+    for (const char* pull : {"true", "false"}) {
+      const std::string scene = R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 2.0
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 0.01
+sides = "positive"
+law = "linear"
+stiffness = 5e4
+damping = { type = "kelvin_voigt", mass = 2.0, restitution = )" +
+                                std::string(restitution) + ", pull = " + pull + R"( }
+[initial]
+velocity = [{ nodes = "m", dof = "u", value = 1.5 }]
+[integrator]
+type = "piecewise"
+end_time = 0.1
+)";
+      SceneRun run(scene, {});
+      record::ContactRecorder recorder(run.dynamics());
+      run.simulation().add(recorder);
+      ASSERT_TRUE(run.run().completed);
+      const std::vector<record::Impact> impacts = recorder.impacts();
+      ASSERT_EQ(impacts.size(), 1U) << restitution << ", pull " << pull;
+      EXPECT_NEAR(impacts[0].t_in, 0.01 / 1.5, 1e-15);
+      EXPECT_NEAR(impacts[0].impact_speed, 1.5, 1e-12);
+      EXPECT_NEAR(impacts[0].impulse, 2.0 * 1.5 * (1.0 + std::stod(restitution)), 1e-9);
+      EXPECT_NEAR(recorder.impacts()[0].dissipated, 0.5 * 2.0 * 1.5 * 1.5 * (1.0 - std::pow(std::stod(restitution), 2)),
+                  1e-9);
+    }
   }
 }
 

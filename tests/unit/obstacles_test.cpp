@@ -202,6 +202,10 @@ TEST(TangentSolver, MultipliesByTheStiffnessOfStops) {
 TEST(ContactTables, InvertTheRestitution) {
   EXPECT_NEAR(scene::kelvin_voigt_ratio(0.4, true), 0.2799979933, 1e-9);
   EXPECT_NEAR(scene::kelvin_voigt_ratio(0.7440793977, false), 0.1, 1e-9);
+  // Beyond critical damping, by the roots of the characteristic equation in 30 digits.
+  EXPECT_NEAR(scene::kelvin_voigt_ratio(0.0755883093649560692, false), 1.5, 1e-12);
+  EXPECT_NEAR(scene::kelvin_voigt_ratio(0.00928452214732631707, false), 5.0, 1e-12);
+  EXPECT_NEAR(scene::kelvin_voigt_ratio(0.135335283236612692, false), 1.0, 1e-9);
   EXPECT_NEAR(scene::hunt_crossley_product(0.5), 1.4327505333, 1e-9);
   EXPECT_NEAR(scene::hunt_crossley_product(0.95), 0.0789266053, 1e-9);
   EXPECT_NEAR(scene::jankowski_ratio(0.65), 0.3728356653, 1e-9);
