@@ -66,7 +66,7 @@ class FolderStudy {
         format_(study::row_format(arguments.format)),
         store_(folder(), study_, layout_, *format_) {
     if (team != nullptr && !arguments.shard.empty()) throw InputError("--shard: mpirun already distributes the runs");
-    study::check_first_point(study_);
+    study::check_points(study_);
     if (shard_.count > 1) study::Store::refuse_foreign(main_folder());
     if (arguments.plot) plot::require_gnuplot(arguments.plot_formats);
   }
@@ -219,7 +219,7 @@ int study_points(const StudyArguments& arguments) {
                                                                  header + "\n" + first + "\n", studies::horizon_of});
   if (study.plan.follow() != study::Follow::no)
     throw InputError("study.follow: points given one by one are not a sweep; set it to false");
-  study::check_first_point(study);
+  study::check_streamed_points(study);
   const study::Layout layout = streamed_layout(study);
   if (arguments.results != "-") {
     to.open(arguments.results, std::ios::binary);

@@ -130,7 +130,7 @@ py::tuple run_study(const Session& session, py::handle tables, int threads, cons
     study_options.horizon = [&](scene::Scene& judged) { return horizon_of(judged, session, horizon); };
     study::Study study = study::read_study(document, scene_document, study_options);
     study.catalogue = scene->catalogue;
-    study::check_first_point(study);
+    study::check_points(study);
     layout.emplace(layout_of(study));
     rows = kept.folder.empty() ? in_memory(study, *layout, options) : in_folder(study, *layout, options, kept);
   }

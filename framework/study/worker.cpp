@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <new>
 
 #include "butee/config/file_reference.hpp"
+#include "butee/config/override.hpp"
 #include "butee/config/parameters.hpp"
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
@@ -229,13 +231,48 @@ std::optional<double> Worker::horizon(const scene::Scene& scene, double end) con
   }
 }
 
-void check_first_point(const Study& study) {
-  const Layout layout = layout_of(study);
-  const auto values = study.plan.values(0);
+namespace {
+
+/// The number of points that check_points() tries at most.
+constexpr std::int64_t kTriedPoints = 16;
+
+/// Reads and assembles the scene of a point. Throws InputError.
+void check_point(const Study& study, const std::vector<config::Value>& values) {
   scene::Scene scene = scene::read_scene(scene_at(study, values), study.catalogue);
   const Counted counted = counted_of(study, scene);
   scene::Assembly assembly(scene);
   const Collector collector(study.items, scene, assembly.dynamics, counted);
+}
+
+}  // namespace
+
+void check_points(const Study& study) {
+  const std::int64_t points = study.plan.point_count(), tried = std::min(points, kTriedPoints);
+  std::exception_ptr first;
+  for (std::int64_t i = 0; i < tried; ++i) {
+    try {
+      return check_point(study, study.plan.values(tried == 1 ? 0 : i * (points - 1) / (tried - 1)));
+    } catch (const InputError&) {
+      if (!first) first = std::current_exception();
+    }
+  }
+  if (first) std::rethrow_exception(first);
+}
+
+void check_streamed_points(const Study& study) {
+  try {
+    return check_points(study);
+  } catch (const InputError&) {
+    const auto& axes = study.plan.axes();
+    if (!std::all_of(axes.begin(), axes.end(),
+                     [&](const Axis& axis) { return config::find_value(study.scene, axis.key) != nullptr; }))
+      throw;
+    try {
+      return check_point(study, {});
+    } catch (const InputError&) {  // the error of the point names the value that was given
+    }
+    throw;
+  }
 }
 
 }  // namespace butee::study

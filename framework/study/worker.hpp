@@ -48,8 +48,13 @@ class BUTEE_EXPORT Worker {
   std::size_t first_value_, first_result_;
 };
 
-/// Reads the first point of a study and assembles it, so that errors common to all points are
-/// reported at once. Throws InputError.
-BUTEE_EXPORT void check_first_point(const Study& study);
+/// Reads and assembles points of a study until one is accepted, so that errors common to all points are reported at
+/// once, and a point that is refused is a row like any other. Throws InputError with the reason of the first point if
+/// each of 16 points between the first and the last is refused.
+BUTEE_EXPORT void check_points(const Study& study);
+
+/// The same for a study whose points are given one by one, of which `study` has the first. If it is refused but changes
+/// only keys that the scene gives, the scene may be accepted as it is written. Throws InputError.
+BUTEE_EXPORT void check_streamed_points(const Study& study);
 
 }  // namespace butee::study

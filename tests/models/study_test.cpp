@@ -199,6 +199,31 @@ collect = ["peak m.u"]
   EXPECT_EQ(text.find("nan"), std::string::npos) << text;
 }
 
+/// Wherever it is among the points.
+TEST_F(StudyProgram, ARefusedPointIsARow) {
+  folder_.write("study.toml", R"(
+schema = 1
+scene = "scene.toml"
+[[vary]]
+key = "contact[0].gap"
+values = [-1.0, 1.0]
+[study]
+settle = 10
+periods = 10
+collect = ["peak m.u"]
+)");
+  perform("rows", {"--format", "csv"});
+  const std::string text = read_file(folder_.file("rows/study.csv"));
+  EXPECT_NE(text.find("contact[0].gap = -1.0: must be >= 0 (m)"), std::string::npos) << text;
+  EXPECT_NE(text.find(",completed,"), std::string::npos) << text;
+  folder_.write("points.csv", "contact[0].gap\n-1.0\n1.0\n");
+  const Outcome streamed =
+      run_program({"study", "study.toml", "--points", "points.csv", "--results", "-", "-q"}, folder_.path());
+  EXPECT_EQ(streamed.status, 0) << streamed.errors;
+  EXPECT_NE(streamed.output.find(",refused,"), std::string::npos) << streamed.output;
+  EXPECT_NE(streamed.output.find(",completed,"), std::string::npos) << streamed.output;
+}
+
 TEST_F(StudyProgram, RandomPlansAndTextsAndFiles) {
   folder_.write("points.csv", "gap,name\n0.5,linear\n1.5,linear\n");
   folder_.write("study.toml", R"(

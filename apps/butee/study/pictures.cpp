@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include <butee/config/parameters.hpp>
 #include <butee/core/error.hpp>
 #include <butee/core/format.hpp>
 
@@ -37,6 +38,44 @@ std::string file_name(std::string text) {
       text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '-');
   return text;
 }
+
+/// The intervals around the values of a numeric axis, which meet halfway between neighbours.
+class Cells {
+ public:
+  explicit Cells(const study::Axis& axis) : is_logarithmic_(axis.range && axis.range->is_logarithmic) {
+    for (std::int64_t i = 0; i < axis.size(); ++i)
+      if (const auto value = config::as_number(axis.value(i))) places_.push_back(to_place(*value));
+    std::sort(places_.begin(), places_.end());
+    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+  }
+
+  std::pair<double, double> around(double value) const {
+    const double place = to_place(value);
+    const auto i = std::min<std::size_t>(
+        static_cast<std::size_t>(std::lower_bound(places_.begin(), places_.end(), place) - places_.begin()),
+        places_.size() - 1);
+    return {to_value(place - 0.5 * step(i, -1)), to_value(place + 0.5 * step(i, 1))};
+  }
+
+  /// From the first interval to the last, for gnuplot.
+  std::string range() const {
+    return "[" + number(around(to_value(places_.front())).first) + ":" +
+           number(around(to_value(places_.back())).second) + "]";
+  }
+
+ private:
+  double to_place(double value) const { return is_logarithmic_ ? std::log(value) : value; }
+  double to_value(double place) const { return is_logarithmic_ ? std::exp(place) : place; }
+  /// The distance to the next value on a side; at an end that of the other side.
+  double step(std::size_t i, int side) const {
+    if (places_.size() == 1) return places_[0] == 0.0 ? 1.0 : 0.2 * std::abs(places_[0]);
+    if (side > 0 ? i + 1 == places_.size() : i == 0) side = -side;
+    return side > 0 ? places_[i + 1] - places_[i] : places_[i] - places_[i - 1];
+  }
+
+  bool is_logarithmic_;
+  std::vector<double> places_;
+};
 
 /// The rows of a study as numeric columns for pictures.
 class Drawing {
@@ -147,24 +186,29 @@ class Drawing {
     return picture;
   }
 
+  /// A cell around every run, in its colour.
   Picture map(std::size_t item) const {
     Picture picture;
     begin(picture, "map-" + study_.items[item].text);
     const Scale scale = scale_of(item);
-    const std::int64_t length = study_.plan.axes()[1].size();
+    const Cells columns(study_.plan.axes()[0]), lines(study_.plan.axes()[1]);
     std::int64_t count = 0;
     picture.data = "$map << EOD\n";
     store_.visit([&](const Row& row) {
-      if (count >= study_.plan.point_count()) return;  // The downward sweep is not drawn.
-      if (count++ % length == 0 && count > 1) picture.data += "\n";
-      picture.data += number(row.number(first_axis_)) + " " + number(row.number(first_axis_ + 1)) + " " +
-                      number(row.number(first_item_ + item) * scale.factor) + "\n";
+      if (count++ >= study_.plan.point_count()) return;  // The downward sweep is not drawn.
+      const double x = row.number(first_axis_), y = row.number(first_axis_ + 1);
+      const double value = row.number(first_item_ + item) * scale.factor;
+      if (!std::isfinite(value)) return;
+      const auto [left, right] = columns.around(x);
+      const auto [low, high] = lines.around(y);
+      for (const double place : {x, y, left, right, low, high}) picture.data += number(place) + " ";
+      picture.data += number(value) + "\n";
     });
     picture.data += "EOD\n";
-    picture.set += "set view map\nset pm3d map interpolate 1,1\n" + std::string(kPalette) + "set xlabel " +
-                   axis_label(0) + "\nset ylabel " + axis_label(1) + "\nset cblabel " + label(item, scale) + "\n" +
-                   is_logarithmic(0, "x") + is_logarithmic(1, "y") + "set autoscale xfix\nset autoscale yfix\n";
-    picture.plot = "splot $map using 1:2:3 with pm3d notitle";
+    picture.set += std::string(kPalette) + "set xlabel " + axis_label(0) + "\nset ylabel " + axis_label(1) +
+                   "\nset cblabel " + label(item, scale) + "\n" + is_logarithmic(0, "x") + is_logarithmic(1, "y") +
+                   "set xrange " + columns.range() + "\nset yrange " + lines.range() + "\n";
+    picture.plot = "plot $map using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder lc palette notitle";
     return picture;
   }
 

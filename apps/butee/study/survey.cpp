@@ -67,7 +67,7 @@ bool names_study(const std::string& path) {
 void print_study_survey(const ModelArguments& arguments, bool as_json) {
   const study::Study study =
       study::load_study(arguments.model, {arguments.overrides, arguments.plugins, {}, horizon_of});
-  study::check_first_point(study);
+  study::check_points(study);
   const study::Layout layout = layout_of(study);
   const Trials trials = try_runs(study, layout);
   const int threads = study::processor_count();
