@@ -58,8 +58,7 @@ void MatrixCollector::add(std::span<const NodalDof> dofs, const ElementMatrices&
 void MatrixCollector::add_turning(std::span<const NodalDof> dofs, const ElementMatrices& matrices) {
   const auto size = matrices.mass.rows();
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(size, size);
-  Eigen::MatrixXd turning = rotating_damping_ * matrices.stiffness;
-  if (matrices.rotating_damping.size() > 0) turning += matrices.rotating_damping;
+  const Eigen::MatrixXd turning = rotating_damping_of(matrices, rotating_damping_);
   const Eigen::MatrixXd circulatory = circulatory_of(dofs, turning);
   const Eigen::MatrixXd& gyroscopic = matrices.gyroscopic.size() > 0 ? matrices.gyroscopic : none;
   visit(dofs, [&](int row, int column, Index p, Index q) {

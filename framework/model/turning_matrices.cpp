@@ -16,4 +16,9 @@ Eigen::MatrixXd circulatory_of(std::span<const NodalDof> dofs, const Eigen::Matr
   return result;
 }
 
+Eigen::MatrixXd rotating_damping_of(const ElementMatrices& matrices, double proportional) {
+  return matrices.rotating_damping.size() > 0 ? matrices.rotating_damping
+                                              : Eigen::MatrixXd(proportional * matrices.stiffness);
+}
+
 }  // namespace butee::model

@@ -262,8 +262,7 @@ std::size_t ElementForces::add_piece(std::span<const NodalDof> dofs, const model
   piece.damping = matrices.damping + damping.mass_proportional * matrices.mass +
                   damping.stiffness_proportional * matrices.stiffness;
   if (turns) {
-    Eigen::MatrixXd turning = model_.rotating_damping * matrices.stiffness;
-    if (matrices.rotating_damping.size() > 0) turning += matrices.rotating_damping;
+    const Eigen::MatrixXd turning = model::rotating_damping_of(matrices, model_.rotating_damping);
     piece.damping += turning;
     piece.circulatory = model::circulatory_of(dofs, turning);
     piece.gyroscopic = matrices.gyroscopic.size() > 0 ? matrices.gyroscopic : Eigen::MatrixXd(0.0 * matrices.mass);

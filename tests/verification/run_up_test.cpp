@@ -84,6 +84,37 @@ std::string gyroscopic_run_up() {
          "[integrator]\nend_time = 0.08\n";
 }
 
+/// The stiffness of a bearing stands still, so that only its own damping turns with the shaft, and the energy balance
+/// holds in a run-up.
+TEST(RunUp, StiffnessProportionalDampingLeavesBearingsOut) {
+  const std::string scene =
+      steel("rayleigh", 6, 1.0, 0.02, "young_modulus = 2.1e11\ndensity = 7800.0") +
+      "[[element]]\ntype = \"bearing\"\nnode = \"shaft:first\"\nstiffness = [[2e6, 3e5], [-1e5, 1.5e6]]\n"
+      "damping = [[50.0, 0.0], [0.0, 50.0]]\nrotating = true\n"
+      "[[element]]\ntype = \"bearing\"\nnode = \"shaft:last\"\nstiffness = [[2e6, 0.0], [0.0, 2e6]]\n"
+      "[damping]\nrotating_stiffness_proportional = 1e-5\n"
+      "[rotation]\nspeed = { type = \"ramp\", from = 50.0, to = 300.0, end = 0.05 }\n"
+      "[[load]]\ntype = \"unbalance\"\nnode = \"shaft:2\"\nmoment = 1e-2\n"
+      "[integrator]\nend_time = 0.08\ntolerance = 1e-9\n";
+  SceneRun run(scene, {"integrator.type=dopri5"});
+  const SparseMatrix& damping = run.system().dashpots;
+  const model::DofTable& dofs = run.system().dofs;
+  const auto of = [&](model::NodeId node, DofKind kind) { return dofs.index({node, kind}); };
+  const Index y = of(0, DofKind::uy), z = of(0, DofKind::uz);
+  SceneRun without(scene,
+                   {"integrator.type=dopri5", "element[1].rotating=false", "element[1].damping=[[0.0,0.0],[0.0,0.0]]"});
+  const SparseMatrix& shaft = without.system().dashpots;
+  EXPECT_NEAR(damping.coeff(y, y) - shaft.coeff(y, y), 50.0, 1e-9);
+  EXPECT_NEAR(damping.coeff(z, z) - shaft.coeff(z, z), 50.0, 1e-9);
+  EXPECT_NEAR(shaft.coeff(y, y), shaft.coeff(z, z), 1e-9);
+  EXPECT_EQ(damping.coeff(y, z), 0.0);
+  EXPECT_EQ(damping.coeff(z, y), 0.0);
+  record::EnergyRecorder energy(run.dynamics(), nullptr, std::nullopt);
+  run.simulation().add(energy);
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_LT(std::abs(energy.balance_error()), 1e-8);
+}
+
 /// The equations of motion hold at the end of a long implicit step, for any speed at which the matrices were
 /// factorized before.
 TEST(RunUp, EffectiveEquationsAreThoseOfTheirInstant) {
