@@ -86,17 +86,22 @@ class Fields {
     while (end < rest_.size() && rest_[end] != separator_ && !is_blank(rest_[end])) ++end;
     field = rest_.substr(0, end);
     rest_.remove_prefix(end);
+    const std::size_t before = rest_.size();
     while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
     if (rest_.empty()) {
       done_ = true;
     } else if (rest_.front() == separator_) {
+      ends_at_separator = true;
       rest_.remove_prefix(1);
       while (!rest_.empty() && is_blank(rest_.front())) rest_.remove_prefix(1);
+    } else if (rest_.size() < before) {
+      ends_at_blank = true;
     }
     return true;
   }
 
   std::string_view field;
+  bool ends_at_separator = false, ends_at_blank = false;  ///< any field so far
 
  private:
   std::string_view rest_;
@@ -179,6 +184,10 @@ class NumberFile {
       for (std::size_t i = 0; i < row.size(); ++i)
         if (places_[i] == place) row[i] = number_at(place, fields.field);
     }
+    // With decimal commas between blanks, half of every number would be taken for the next column.
+    if (fields.ends_at_separator && fields.ends_at_blank)
+      refuse(lines_.number, std::string("separates columns both by blanks and by \"") + separator_ +
+                                "\"; write decimals with a point, and separate columns in one way");
     if (!table_.arguments.empty() && !(row[0] > table_.arguments.back()))
       refuse(lines_.number, "column " + std::to_string(places_[0] + 1) + " must ascend, and " + to_short_text(row[0]) +
                                 " follows " + to_short_text(table_.arguments.back()));

@@ -101,7 +101,7 @@ void SceneReader::read_distributed(const Value& entry, const std::string& path) 
   const bool is_loaded = is_read && named->second->add_line_load(pattern, along);
   if (is_read && !named->second->axis().empty() && !is_loaded)
     return p->complain(diagnostics_, "dof",
-                       std::string("\"") + name_of(along) + "\" is not a displacement of " + name + " has");
+                       std::string("\"") + name_of(along) + "\" is not a displacement that " + name + " has");
   if (!is_loaded) {
     const bool was_reported = !is_read && (model_.nodes.find(name) != nullptr || model_.nodes.select(name).excused);
     if (was_reported) return;

@@ -82,8 +82,13 @@ std::string overflowing_load(dynamics::Dynamics& dynamics, double t) {
 std::string overflow(dynamics::Dynamics& dynamics, const MethodLimits& limits, const State& from, const Step& step) {
   for (const double t : {from.t, 0.5 * (from.t + step.t_end), step.t_end})
     if (const std::string load = overflowing_load(dynamics, t); !load.empty()) return load;
-  return "the solution is no longer finite; it moves fastest in " + fastest_dof(dynamics, from) + ". " +
-         describe_remedy(dynamics, limits, step.h);
+  const std::string what =
+      "the solution is no longer finite; it moves fastest in " + fastest_dof(dynamics, from) + ". ";
+  if (limits.keeps_tolerance)
+    return what + limits.name +
+           " controls its error, so the motion itself grows without bound: look for what feeds it (cross terms of "
+           "bearings, rotating damping, negative damping of a module, friction), or end the run before";
+  return what + describe_remedy(dynamics, limits, step.h);
 }
 
 std::string singular(dynamics::Dynamics& dynamics, const Step& step) {

@@ -86,6 +86,8 @@ TEST_F(TableFile, RefusesWhatIsNoTableWithItsLine) {
   refused("0,0\n1,inf\n", "t.csv:2: column 2: \"inf\" is not finite");
   refused("0,0\n1,1e999\n", "t.csv:2: column 2: \"1e999\" is not a number");
   refused("0;0\n1;0,5\n", "t.csv:2: column 2: \"0,5\" is not a number; write decimals with a point");
+  refused("0\t1,5\n1\t2,5\n", "t.csv:1: separates columns both by blanks and by \",\"; write decimals with a point");
+  refused("0,0 1,5\n1,1 2,5\n", "t.csv:1: separates columns both by blanks and by \",\"; write decimals with a point");
   refused("", "t.csv: holds no numbers");
   refused("t,f\n", "t.csv: holds no numbers");
   refused("0,0\n1,1\n", "t.csv: holds no numbers", "skip = 9");

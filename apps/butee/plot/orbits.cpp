@@ -9,16 +9,11 @@
 namespace butee::app::plot {
 namespace {
 
-/// The column of a displacement, under either of its two names.
-const std::vector<double>* displacement(const Item& item, const char* name, const char* other) {
-  const auto* column = item.result->column(item.label, name);
-  return column != nullptr ? column : item.result->column(item.label, other);
-}
 const std::vector<double>* along_y(const Item& item) {
-  return displacement(item, "uy", "u");
+  return item.result->column(item.label, "u");
 }
 const std::vector<double>* along_z(const Item& item) {
-  return displacement(item, "uz", "w");
+  return item.result->column(item.label, "uz");
 }
 
 constexpr int kCircle = 180;  ///< points of a drawn ring

@@ -37,6 +37,18 @@ std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, co
   });
 }
 
+/// The displacements u; where no probe has one, those along the other axes or the rotations.
+std::vector<Chart> of_motion(const Drawing& drawing) {
+  auto charts = over_time(drawing, "displacement", "u", "displacement", "m", true);
+  for (const char* other : {"uz", "ux"})
+    if (charts.empty())
+      charts = over_time(drawing, "displacement", other, std::string("displacement ") + other, "m", false);
+  for (const char* rotation : {"theta", "rz", "ry", "rx"})
+    if (charts.empty())
+      charts = over_time(drawing, "rotation", rotation, std::string("rotation ") + rotation, "rad", false);
+  return charts;
+}
+
 std::vector<Chart> of_steps(const Drawing& drawing) {
   Chart chart;
   chart.name = "step";
@@ -170,7 +182,7 @@ std::vector<Chart> of_spectrum(const Drawing& drawing) {
 std::vector<Chart> charts(Kind kind, const Drawing& drawing) {
   switch (kind) {
     case Kind::displacement:
-      return over_time(drawing, "displacement", "u", "displacement", "m", true);
+      return of_motion(drawing);
     case Kind::force:
       return over_time(drawing, "force", "contact_force", "contact force", "N", false);
     case Kind::step:
@@ -233,6 +245,7 @@ std::vector<Picture> pictures(Kind kind, const std::vector<Result>& results, con
 std::string requirement_of(Kind kind) {
   switch (kind) {
     case Kind::displacement:
+      return "a probe of a displacement or rotation: [[output.probe]] with quantities = [\"u\"]";
     case Kind::spectrum:
       return "a probe of u: [[output.probe]] with quantities = [\"u\"]";
     case Kind::force:

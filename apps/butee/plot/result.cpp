@@ -1,9 +1,11 @@
 #include "result.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <utility>
 
 #include <butee/config/file_reference.hpp>
 #include <butee/config/toml.hpp>
@@ -103,6 +105,15 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
   if (const auto* rotation = scene.model.rotation.get(); rotation != nullptr && !rotation->is_constant())
     for (const double t : result.history.times()) result.speeds.push_back(rotation->speed(t));
   return result;
+}
+
+const std::vector<double>* Result::column(const std::string& probe, const std::string& quantity) const {
+  constexpr std::array<std::pair<const char*, const char*>, 3> kTwoNames = {
+      {{"u", "uy"}, {"v", "uy_v"}, {"a", "uy_a"}}};
+  if (const auto* found = history.find(probe + "." + quantity)) return found;
+  for (const auto& [name, other] : kTwoNames)
+    if (quantity == name) return history.find(probe + "." + other);
+  return nullptr;
 }
 
 void make_labels_unique(std::vector<Result>& results) {

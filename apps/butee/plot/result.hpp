@@ -44,10 +44,8 @@ struct Result {
   std::vector<ContactPlace> contact_places;  ///< for all contacts of the scene
   bool contacts_along_x = false;             ///< the contacts lie on beams along x
 
-  /// The column "probe.quantity", or nullptr.
-  const std::vector<double>* column(const std::string& probe, const std::string& quantity) const {
-    return history.find(probe + "." + quantity);
-  }
+  /// The column "probe.quantity", under either of the quantity's names (u or uy), or nullptr.
+  const std::vector<double>* column(const std::string& probe, const std::string& quantity) const;
 };
 
 /// Reads a folder. Throws InputError if it contains no results.
