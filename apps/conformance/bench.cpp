@@ -63,6 +63,10 @@ std::string rattling_beam(int elements, const std::string& law, const std::strin
   return scene + damping;
 }
 
+std::string rattling_beam(const Subject& subject) {
+  return rattling_beam(6, contact_law(subject), kRayleighDamping) + integrator_table(subject, kStep, kEnd);
+}
+
 bool takes(const Subject& subject, const std::string& scene) {
   try {
     Bench(subject.catalogue, scene);

@@ -38,6 +38,9 @@ std::string integrator_table(const std::string& name, const std::string& keys, d
 /// A short pinned beam of `elements` elements that strikes its stops early. `law` and `damping` are TOML
 /// lines.
 std::string rattling_beam(int elements, const std::string& law, const std::string& damping);
+/// The beam of most checks, with the subject's method and law: 2000 steps of kStep, s, up to kEnd.
+std::string rattling_beam(const Subject& subject);
+inline constexpr double kStep = 1e-5, kEnd = 2e-2;
 
 /// Contact laws for the beam: a smooth one, and one with a slope discontinuity.
 inline constexpr const char* kBentLaw = "law = \"arctan\"\nstiffness = 1e6\nregularization = 1e5\n";

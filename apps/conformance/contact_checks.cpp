@@ -14,16 +14,16 @@ using Eigen::Vector2d;
 using model::Approach;
 using model::ContactShape;
 
-constexpr double kGap = 0.01;
+constexpr double kFreePlay = 0.01;
 
-/// The shape of an obstacle with the subject's keys and a gap of kGap.
+/// The shape of an obstacle with the subject's keys and a gap of kFreePlay.
 std::unique_ptr<ContactShape> make_shape(const Subject& subject) {
   const config::Document document = config::parse_toml(subject.keys, "the suite's contact");
   config::Diagnostics diagnostics(document);
   const auto* type = model::find_type(subject.catalogue.types().contacts, subject.name);
   const auto parameters = config::read_parameters(document.root, "contact[0]", type->parameters, diagnostics);
   diagnostics.throw_if_any();
-  auto shape = type->make(*parameters, kGap, diagnostics);
+  auto shape = type->make(*parameters, kFreePlay, diagnostics);
   diagnostics.throw_if_any();
   require(shape != nullptr, "the maker of a contact returns one");
   return shape;
@@ -45,7 +45,7 @@ std::string text(const Vector2d& d) {
 }
 
 /// Step of finite differences, m, and their tolerance, for radii of curvature above a millimetre.
-constexpr double kReach = 1e-7, kDifference = 1e-3;
+constexpr double kAside = 1e-7, kSlopeDifference = 1e-3;
 
 Finding check_normal(const Subject& subject) {
   const auto shape = make_shape(subject);
@@ -56,10 +56,10 @@ Finding check_normal(const Subject& subject) {
     if (!(std::abs(at.normal.norm() - 1.0) <= 1e-12))
       return {false, "at d = " + text(d) + " m the normal has the length " + to_text(at.normal.norm())};
     for (const Vector2d& direction : {Vector2d(1.0, 0.0), Vector2d(0.0, 1.0)}) {
-      const Approach ahead = shape->at(d + kReach * direction), behind = shape->at(d - kReach * direction);
+      const Approach ahead = shape->at(d + kAside * direction), behind = shape->at(d - kAside * direction);
       // A corner lies between the two points.
       if ((ahead.normal - behind.normal).norm() > 0.1) continue;
-      const double slope = (ahead.penetration - behind.penetration) / (2.0 * kReach);
+      const double slope = (ahead.penetration - behind.penetration) / (2.0 * kAside);
       if (!(std::abs(slope - at.normal.dot(direction)) <= 1e-6))
         return {false, "at d = " + text(d) + " m the slope of g along " + text(direction) + " is " + to_text(slope) +
                            ", the normal there " + to_text(at.normal.dot(direction))};
@@ -73,10 +73,10 @@ Finding check_curvature(const Subject& subject) {
   for (const Vector2d& d : places()) {
     const Approach at = shape->at(d);
     const Vector2d tangent(-at.normal[1], at.normal[0]);
-    const Vector2d ahead = shape->at(d + kReach * tangent).normal, behind = shape->at(d - kReach * tangent).normal;
+    const Vector2d ahead = shape->at(d + kAside * tangent).normal, behind = shape->at(d - kAside * tangent).normal;
     if ((ahead - behind).norm() > 0.1) continue;
-    const double turned = (ahead - behind).dot(tangent) / (2.0 * kReach);
-    if (!(std::abs(turned - at.curvature) <= kDifference * (1.0 + std::abs(at.curvature))))
+    const double turned = (ahead - behind).dot(tangent) / (2.0 * kAside);
+    if (!(std::abs(turned - at.curvature) <= kSlopeDifference * (1.0 + std::abs(at.curvature))))
       return {false, "at d = " + text(d) + " m the normal turns by " + to_text(turned) + " 1/m, curvature is " +
                          to_text(at.curvature)};
   }

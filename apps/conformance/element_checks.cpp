@@ -57,7 +57,7 @@ Finding check_matrices(const Subject& subject) {
 }
 
 /// Without loads and stops, the energy must not increase.
-Finding check_motion(const Subject& subject) {
+Finding check_free_motion(const Subject& subject) {
   Bench bench(subject.catalogue, scene(subject) + integrator_table("rodas4", "tolerance = 1e-6\n", 1e-5, 0.2));
   const auto energy = [&](const time::State& state) {
     return 0.5 * state.v.dot(bench.system().mass * state.v) + 0.5 * state.x.dot(bench.system().stiffness * state.x);
@@ -73,7 +73,7 @@ Finding check_motion(const Subject& subject) {
 
 std::vector<Check> element_checks() {
   return {{"matrices", "mass, damping and stiffness are not negative, the mass is symmetric", check_matrices},
-          {"motion", "free motion gains no energy", check_motion}};
+          {"motion", "free motion gains no energy", check_free_motion}};
 }
 
 }  // namespace butee::conformance

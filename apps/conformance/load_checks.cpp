@@ -104,7 +104,7 @@ Finding check_harmonic(const Subject& subject) {
 }
 
 /// A mass on a spring under the load, integrated by two methods.
-Finding check_motion(const Subject& subject) {
+Finding check_loaded_motion(const Subject& subject) {
   std::string scene =
       "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
       "\"m\"\n"
@@ -127,7 +127,7 @@ std::vector<Check> load_checks() {
           {"discontinuities", "the discontinuities are ascending", check_discontinuities},
           {"series", "the Taylor series, if there is one, sums to the value", check_taylor},
           {"harmonic", "harmonic(), if defined, equals the value", check_harmonic},
-          {"motion", "two methods agree on the motion under the load", check_motion}};
+          {"motion", "two methods agree on the motion under the load", check_loaded_motion}};
 }
 
 }  // namespace butee::conformance

@@ -8,19 +8,14 @@
 namespace butee::conformance {
 namespace {
 
-constexpr double kStep = 1e-5, kEnd = 2e-2;
 /// Accepted difference relative to the peak; it allows for loose tolerances of adaptive methods and first
 /// order across contact.
 constexpr double kAgreement = 2e-3;
 
-std::string beam(const Subject& subject) {
-  return rattling_beam(6, contact_law(subject), kRayleighDamping) + integrator_table(subject, kStep, kEnd);
-}
-
 }  // namespace
 
 Finding check_end_time(const Subject& subject) {
-  Bench bench(subject.catalogue, beam(subject));
+  Bench bench(subject.catalogue, rattling_beam(subject));
   const auto& report = bench.simulation().run();
   if (!report.completed) return {false, report.message};
   const bool holds = report.t_end == kEnd && bench.simulation().state().t == kEnd;
@@ -28,7 +23,7 @@ Finding check_end_time(const Subject& subject) {
 }
 
 Finding check_agreement(const Subject& subject) {
-  Bench bench(subject.catalogue, beam(subject));
+  Bench bench(subject.catalogue, rattling_beam(subject));
   Bench exact(subject.catalogue,
               rattling_beam(6, contact_law(subject), kRayleighDamping) + integrator_table("exact", "", kStep, kEnd));
   if (!bench.simulation().run().completed) return {false, bench.simulation().report().message};
@@ -50,7 +45,7 @@ Finding check_overflow(const Subject& subject) {
 }
 
 Finding check_independence(const Subject& subject) {
-  Bench alone(subject.catalogue, beam(subject)), one(subject.catalogue, beam(subject));
+  Bench alone(subject.catalogue, rattling_beam(subject)), one(subject.catalogue, rattling_beam(subject));
   Bench other(subject.catalogue, rattling_beam(10, kLinearLaw, "") + integrator_table(subject, 2.0 * kStep, kEnd));
   while (alone.simulation().advance() && alone.simulation().state().t < 0.5 * kEnd) {
   }
