@@ -24,4 +24,13 @@ void LowRankUpdate::correct(VectorRef y) {
   y.noalias() -= c_ * (solved_ * work_);
 }
 
+bool DenseFactor::factorize(const Eigen::MatrixXd& matrix) {
+  factor_.compute(matrix);
+  return factor_.info() == Eigen::Success;
+}
+
+void DenseFactor::solve(VectorRef b) const {
+  factor_.solveInPlace(b);
+}
+
 }  // namespace butee::linalg

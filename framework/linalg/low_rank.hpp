@@ -53,11 +53,8 @@ class LowRankUpdate {
 /// A dense Cholesky factorization that solves in place, for matrices too large for an inverse.
 class DenseFactor {
  public:
-  [[nodiscard]] bool factorize(const Eigen::MatrixXd& matrix) {
-    factor_.compute(matrix);
-    return factor_.info() == Eigen::Success;
-  }
-  void solve(VectorRef b) const { factor_.solveInPlace(b); }
+  [[nodiscard]] bool factorize(const Eigen::MatrixXd& matrix);
+  void solve(VectorRef b) const;
 
  private:
   Eigen::LLT<Eigen::MatrixXd> factor_;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "butee/model/dofs.hpp"
 #include "butee/model/smooth_motion.hpp"

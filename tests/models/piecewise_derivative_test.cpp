@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "integrators/piecewise.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include <Eigen/LU>
 #include <butee/dynamics/damped_modes.hpp>
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <sstream>
 
+#include <Eigen/LU>
 #include <butee/dynamics/frequencies.hpp>
 #include <butee/dynamics/static_position.hpp>
 #include <butee/dynamics/whirl.hpp>

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
