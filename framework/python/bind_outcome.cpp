@@ -65,16 +65,16 @@ std::shared_ptr<Outcome> made(const py::dict& history, const py::dict& energy, c
   for (const py::handle item : rows) {
     const auto row = item.cast<py::tuple>();
     const auto number = [&](std::size_t i) { return row[i].cast<double>(); };
-    record::Impact impact{row[0].cast<std::string>(),
-                          row[1].cast<int>(),
-                          number(2),
-                          std::nullopt,
-                          number(4),
-                          number(5),
-                          number(6),
-                          number(7),
-                          number(8),
-                          number(9)};
+    record::Impact impact;
+    impact.node = row[0].cast<std::string>();
+    impact.side = row[1].cast<int>();
+    impact.t_in = number(2);
+    impact.peak_force = number(4);
+    impact.impulse = number(5);
+    impact.impact_speed = number(6);
+    impact.tangential_impulse = number(7);
+    impact.slip = number(8);
+    impact.dissipated = number(9);
     if (const double t_out = number(3); t_out == t_out) impact.t_out = t_out;
     outcome->impacts.push_back(std::move(impact));
   }

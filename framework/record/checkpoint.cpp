@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kMark = 0x0A747063'65747562U;  // "butecpt\n"
-constexpr std::uint32_t kFormat = 3;
+constexpr std::uint32_t kFormat = 4;
 constexpr const char* kNewest = "checkpoint.bin";
 constexpr const char* kBefore = "checkpoint-before.bin";
 

@@ -51,6 +51,7 @@ ContactRecorder::ContactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynam
     Watch watch;
     watch.is_support = obstacles.group_of(i).shape == nullptr;
     watch.is_stop = !watch.is_support && obstacles.group_of(i).directions.size() == 1;
+    watch.current.contact = static_cast<std::size_t>(i);
     watch.current.node = obstacles.name_of(i);
     watches_.push_back(std::move(watch));
     ContactWear wear;

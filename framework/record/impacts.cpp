@@ -11,7 +11,7 @@ namespace butee::record {
 namespace {
 
 /// The bytes of an impact without its name, as put_impact() writes them.
-constexpr std::size_t kImpactBytes = 69;
+constexpr std::size_t kImpactBytes = 77;
 /// A body that is away for less than this fraction of the contacts before and after has not left the stop: it would
 /// reach this fraction of its penetration, which is below the rounding error of motion between stops.
 constexpr double kNotAway = 1e-12;
@@ -19,6 +19,7 @@ constexpr double kNotAway = 1e-12;
 }  // namespace
 
 void put_impact(const Impact& impact, ByteWriter& to) {
+  to.put(std::uint64_t{impact.contact});
   to.put(impact.side);
   to.put(impact.t_in);
   to.put(impact.t_out.has_value());
@@ -29,6 +30,7 @@ void put_impact(const Impact& impact, ByteWriter& to) {
 }
 
 void take_impact(Impact& impact, ByteReader& from) {
+  impact.contact = static_cast<std::size_t>(from.take<std::uint64_t>());
   from.take(impact.side);
   from.take(impact.t_in);
   const bool is_over = from.take<bool>();
@@ -45,7 +47,7 @@ void ImpactList::append(std::vector<Impact>& all, const Impact& impact) {
     if (!last->t_out) continue;
     const double away = impact.t_in - *last->t_out;
     if (away > kNotAway * end) break;
-    if (last->node != impact.node || last->side != impact.side) continue;
+    if (last->contact != impact.contact) continue;
     if (away > kNotAway * std::max(*last->t_out - last->t_in, end - impact.t_in)) continue;
     last->t_out = impact.t_out;
     last->peak_force = std::max(last->peak_force, impact.peak_force);
@@ -97,6 +99,7 @@ ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamic
         if (!name.empty()) name += '|';
         name += node(dof);
       }
+      watch.current.contact = watches_.size();
       watch.current.node = name;
       watch.current.side = side > 0.0 ? 1 : -1;
       watches_.push_back(std::move(watch));

@@ -10,6 +10,7 @@ namespace butee::record {
 
 /// One closing of a stop or contact.
 struct Impact {
+  std::size_t contact = 0;          ///< the number of the stop's side or of the contact among those recorded
   std::string node;                 ///< "a" or, for a stop between two nodes, "a|b"
   int side = 1;                     ///< +1 or -1
   double t_in = 0.0;                ///< s

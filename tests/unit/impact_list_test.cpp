@@ -4,9 +4,10 @@
 namespace butee::record {
 namespace {
 
-Impact impact(const std::string& node, double t_in, std::optional<double> t_out, double force) {
+Impact impact(std::size_t contact, double t_in, std::optional<double> t_out, double force) {
   Impact made;
-  made.node = node;
+  made.contact = contact;
+  made.node = "n";
   made.t_in = t_in;
   made.t_out = t_out;
   made.peak_force = force;
@@ -17,9 +18,9 @@ Impact impact(const std::string& node, double t_in, std::optional<double> t_out,
 
 TEST(ImpactList, JoinsWhatRoundingHasParted) {
   ImpactList list;
-  list.add(impact("a", 1.0, 1.0 + 2e-16, 5.0));
-  list.add(impact("a", 1.0 + 4e-16, 1.01, 20.0));
-  list.add(impact("a", 1.01 + 3e-15, 1.01 + 4e-15, 0.0));
+  list.add(impact(0, 1.0, 1.0 + 2e-16, 5.0));
+  list.add(impact(0, 1.0 + 4e-16, 1.01, 20.0));
+  list.add(impact(0, 1.01 + 3e-15, 1.01 + 4e-15, 0.0));
   const std::vector<Impact> all = list.with({});
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].t_in, 1.0);
@@ -31,23 +32,21 @@ TEST(ImpactList, JoinsWhatRoundingHasParted) {
 
 TEST(ImpactList, KeepsShortFlightsAndOtherStopsApart) {
   ImpactList list;
-  list.add(impact("a", 1.0, 1.01, 5.0));
-  list.add(impact("b", 1.01, 1.02, 5.0));
-  list.add(impact("a", 1.01 + 1e-11, 1.03, 5.0));
-  Impact other_side = impact("a", 1.03, 1.04, 5.0);
-  other_side.side = -1;
-  list.add(other_side);
+  list.add(impact(0, 1.0, 1.01, 5.0));
+  list.add(impact(1, 1.01, 1.02, 5.0));
+  list.add(impact(0, 1.01 + 1e-11, 1.03, 5.0));
+  list.add(impact(2, 0.9, 1.035, 5.0));
   EXPECT_EQ(list.with({}).size(), 4U);
 }
 
 TEST(ImpactList, JoinsWhatLasts) {
   ImpactList list;
-  list.add(impact("a", 1.0, 1.01, 5.0));
+  list.add(impact(0, 1.0, 1.01, 5.0));
   const std::vector<Impact> all =
-      list.with({impact("a", 1.01 + 1e-15, std::nullopt, 7.0), impact("b", 0.5, std::nullopt, 1.0)});
+      list.with({impact(0, 1.01 + 1e-15, std::nullopt, 7.0), impact(1, 0.5, std::nullopt, 1.0)});
   ASSERT_EQ(all.size(), 2U);
-  EXPECT_EQ(all[0].node, "b");
-  EXPECT_EQ(all[1].node, "a");
+  EXPECT_EQ(all[0].contact, 1U);
+  EXPECT_EQ(all[1].contact, 0U);
   EXPECT_FALSE(all[1].t_out);
   EXPECT_EQ(all[1].peak_force, 7.0);
 }
