@@ -15,9 +15,7 @@ namespace {
 constexpr double kGoodWork = 1e-12;
 constexpr int kMostHalvingsOfWork = 12;
 
-}  // namespace
-
-Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics) {
+Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics, const model::BaseEnergy& base) {
   Vector force(dynamics.size());
   Energy energy;
   dynamics.inertia_force(state.v, force);
@@ -33,14 +31,25 @@ Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics) {
     energy.in_obstacles = dynamics.obstacles()->energy(state.t, state.x, state.v);
     energy.contact += energy.in_obstacles;
   }
+  const model::BaseEnergy::Parts of_base = base.at(state.t, state.x, state.v);
+  energy.kinetic += of_base.kinetic;
+  energy.strain += of_base.strain;
+  energy.of_supports = of_base.kinetic + of_base.strain;
   return energy;
+}
+
+}  // namespace
+
+Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics) {
+  return energy_of(state, dynamics, model::BaseEnergy(dynamics.system()));
 }
 
 EnergyRecorder::EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer, std::optional<OutputTimes> times)
     : dynamics_(dynamics),
       all_(static_cast<std::size_t>(dynamics.size())),
+      base_(dynamics.system()),
       has_drive_(!dynamics.system().stiffness_is_symmetric || dynamics.system().rotation != nullptr),
-      needs_x_(has_drive_ || dynamics.obstacles() != nullptr),
+      needs_x_(has_drive_ || dynamics.obstacles() != nullptr || !base_.is_empty()),
       middle_(dynamics.size()),
       middle_x_(needs_x_ ? dynamics.size() : 0),
       force_(middle_),
@@ -65,6 +74,11 @@ EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& x, const Vec
     dynamics_.elastic_force(v, force_);
     power.of_loads -= 0.5 * (forward - x.dot(force_));
   }
+  if (!base_.is_empty()) {
+    const double damping = base_.at(t, x, v).damping;
+    power.of_damping += damping;
+    power.of_loads += damping;
+  }
   if (dynamics_.obstacles() != nullptr) {
     dynamics_.contact_forces(t, x, v, contacts_);
     for (const dynamics::ContactForces& now : contacts_) {
@@ -76,9 +90,10 @@ EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& x, const Vec
 }
 
 void EnergyRecorder::start(const time::State& state) {
-  now_ = energy_of(state, dynamics_);
+  now_ = energy_of(state, dynamics_, base_);
   first_total_ = largest_ = now_.total();
   first_stored_ = now_.in_obstacles;
+  first_of_supports_ = now_.of_supports;
   work_ = dissipated_ = into_obstacles_ = 0.0;
   last_ = power(state.t, state.x, state.v);
 }
@@ -101,7 +116,9 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
     while (!due.empty() && due.front() <= t) due = due.subspan(1);
     return due.size() < before;
   };
-  const std::span<const time::EnergyAt> told = step.motion.energies(due_);
+  // Methods tell the energies of the free degrees of freedom.
+  const std::span<const time::EnergyAt> told =
+      base_.is_empty() ? step.motion.energies(due_) : std::span<const time::EnergyAt>{};
   const double work = work_, dissipated = dissipated_;
   for (const time::EnergyAt& at : told) {
     now_ = {at.kinetic, at.strain, at.contact};
@@ -120,7 +137,7 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
     write_row(instant);
   }
   add_piece(step, begin, step.to.t);
-  now_ = energy_of(step.to, dynamics_);
+  now_ = energy_of(step.to, dynamics_, base_);
   largest_ = std::max(largest_, std::abs(now_.total()));
   if (is_due(step.to.t)) write_row(step.to.t);
 }
@@ -150,7 +167,7 @@ void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
   state.t = t;
   state.x = std::move(x);
   state.v = std::move(v);
-  now_ = energy_of(state, dynamics_);
+  now_ = energy_of(state, dynamics_, base_);
 }
 
 EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& step, double t) {
@@ -216,7 +233,7 @@ std::vector<std::string> EnergyRecorder::columns() {
 }
 
 void EnergyRecorder::write_row(double t) {
-  const std::array<double, 6> row = {t, now_.kinetic, now_.strain, now_.contact, work_, dissipated()};
+  const std::array<double, 6> row = {t, now_.kinetic, now_.strain, now_.contact, work(), dissipated()};
   if (writer_ != nullptr) writer_->row(row);
   if (other_ != nullptr) other_->append_row(row);
 }
@@ -226,8 +243,9 @@ void EnergyRecorder::finish() {
 }
 
 void EnergyRecorder::save(ByteWriter& to) const {
-  for (const double number : {last_.of_loads, last_.of_damping, now_.kinetic, now_.strain, now_.contact, first_total_,
-                              largest_, work_, dissipated_, into_obstacles_, first_stored_, now_.in_obstacles})
+  for (const double number :
+       {last_.of_loads, last_.of_damping, now_.kinetic, now_.strain, now_.contact, first_total_, largest_, work_,
+        dissipated_, into_obstacles_, first_stored_, now_.in_obstacles, first_of_supports_, now_.of_supports})
     to.put(number);
   if (times_) times_->save(to);
   to.put(writer_ != nullptr ? writer_->position() : std::uint64_t{0});
@@ -235,7 +253,8 @@ void EnergyRecorder::save(ByteWriter& to) const {
 
 void EnergyRecorder::restore(ByteReader& from) {
   for (double* number : {&last_.of_loads, &last_.of_damping, &now_.kinetic, &now_.strain, &now_.contact, &first_total_,
-                         &largest_, &work_, &dissipated_, &into_obstacles_, &first_stored_, &now_.in_obstacles})
+                         &largest_, &work_, &dissipated_, &into_obstacles_, &first_stored_, &now_.in_obstacles,
+                         &first_of_supports_, &now_.of_supports})
     from.take(*number);
   if (times_) times_->restore(from);
   const auto position = from.take<std::uint64_t>();
@@ -243,7 +262,7 @@ void EnergyRecorder::restore(ByteReader& from) {
 }
 
 double EnergyRecorder::balance_error() const {
-  return largest_ > 0.0 ? (now_.total() - first_total_ + dissipated() - work_) / largest_ : 0.0;
+  return largest_ > 0.0 ? (now_.total() - first_total_ + dissipated() - work()) / largest_ : 0.0;
 }
 
 }  // namespace butee::record

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "butee/model/base_energy.hpp"
 #include "butee/model/field_format.hpp"
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/output_times.hpp"
@@ -9,10 +10,11 @@ namespace butee::record {
 
 /// The mechanical energy of a state, J.
 struct Energy {
-  double kinetic = 0.0;       ///< v.M v / 2
-  double strain = 0.0;        ///< x.K x / 2
+  double kinetic = 0.0;       ///< v.M v / 2, with moving supports (BaseEnergy)
+  double strain = 0.0;        ///< x.K x / 2, with moving supports
   double contact = 0.0;       ///< sum of U(w), zero at w = 0
   double in_obstacles = 0.0;  ///< the part of `contact` outside elastic stops
+  double of_supports = 0.0;   ///< the part of `kinetic` and `strain` by moving supports
 
   double total() const { return kinetic + strain + contact; }
 };
@@ -22,6 +24,9 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 /// Records the work of the loads and the dissipation over a run.
 ///
 ///     work = int v.F dt,   dissipated = int v.C v dt
+///
+/// Where supports move and x is measured in space, F contains their equivalent loads; the work is then that of the
+/// other loads and of the forces on the supports, and the dissipation is that between all points (BaseEnergy).
 ///
 /// Unless the method provides them (DenseOutput::energies), they are integrated by Simpson's rule
 /// from breakpoint to breakpoint of every accepted step, with the midpoint from the method's own
@@ -52,7 +57,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   void save(ByteWriter& to) const override;
   void restore(ByteReader& from) override;
 
-  double work() const { return work_; }
+  double work() const { return work_ + (now_.of_supports - first_of_supports_); }
   double dissipated() const { return dissipated_ + into_obstacles_ - (now_.in_obstacles - first_stored_); }
   /// Zero if there was never any energy.
   double balance_error() const;
@@ -90,6 +95,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
 
   dynamics::Dynamics& dynamics_;
   std::vector<Index> all_;
+  model::BaseEnergy base_;
   bool has_drive_;  ///< K is not symmetric
   bool needs_x_;
   Vector middle_, middle_x_, force_;
@@ -102,9 +108,10 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   model::FieldWriter* other_ = nullptr;
   std::optional<OutputTimes> times_;
   Energy now_;
-  double first_total_ = 0.0, largest_ = 0.0, first_stored_ = 0.0;
-  double work_ = 0.0, dissipated_ = 0.0;  ///< J; dissipated_ by damping only
-  double into_obstacles_ = 0.0;           ///< J, partly stored and partly dissipated in obstacles
+  double first_total_ = 0.0, largest_ = 0.0, first_stored_ = 0.0, first_of_supports_ = 0.0;
+  /// J; dissipated_ by damping only, work_ without the change of Energy::of_supports.
+  double work_ = 0.0, dissipated_ = 0.0;
+  double into_obstacles_ = 0.0;  ///< J, partly stored and partly dissipated in obstacles
 };
 
 }  // namespace butee::record

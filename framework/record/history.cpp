@@ -1,7 +1,6 @@
 #include "butee/record/history.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -14,9 +13,6 @@ using Clock = std::chrono::steady_clock;
 
 /// Number of rows of one step that are interpolated together.
 constexpr std::size_t kMostAtOnce = 64;
-/// Instants of a step at which columns measured in another frame than x are sampled for their
-/// peaks.
-constexpr std::size_t kBaseSamples = 16;
 
 /// The requested quantities that Peaks records, and u of every probe.
 std::vector<model::ProbeRequest> peak_requests(std::vector<model::ProbeRequest> requests, const model::System& system) {
@@ -42,7 +38,8 @@ HistoryRecorder::HistoryRecorder(const model::OutputRequest& request, double end
     : times_(request.interval, request.every, end_time),
       probes_(request.probes, dynamics),
       peaks_(peak_requests(request.probes, dynamics.system()), dynamics),
-      contact_peaks_(request.probes, dynamics),
+      contact_peaks_(SampledPeaks::What::contacts, request.probes, dynamics),
+      framed_peaks_(SampledPeaks::What::other_frame, request.probes, dynamics),
       writer_(writer),
       values_(probes_.columns().size()),
       largest_(values_.size(), 0.0) {
@@ -70,13 +67,14 @@ void HistoryRecorder::start(const time::State& state) {
   first_row_ = values_;
   peaks_.start(state);
   contact_peaks_.start(state);
+  framed_peaks_.start(state);
   std::fill(largest_.begin(), largest_.end(), 0.0);
 }
 
 void HistoryRecorder::step(const time::AcceptedStep& step) {
   peaks_.step(step);
   contact_peaks_.step(step);
-  if (probes_.has_base_shares()) follow_base_columns(step);
+  framed_peaks_.step(step);
   due_.clear();
   times_.visit(step, [&](double t) {
     if (t == step.from.t) {
@@ -112,31 +110,6 @@ void HistoryRecorder::write_row(double t, double h) {
   seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Peaks records x, which these columns are not: the largest value in each step is that of the
-/// parabola through three instants.
-void HistoryRecorder::follow_base_columns(const time::AcceptedStep& step) {
-  std::array<double, kBaseSamples> times{};
-  for (std::size_t k = 0; k + 1 < kBaseSamples; ++k)
-    times[k] = step.from.t + (step.to.t - step.from.t) * static_cast<double>(k + 1) / kBaseSamples;
-  times.back() = step.to.t;
-  const std::size_t count = values_.size();
-  base_values_.resize((kBaseSamples + 1) * count);
-  probes_.evaluate(step.from, std::span(base_values_).first(count));
-  probes_.sample(step, times);
-  for (std::size_t k = 0; k < kBaseSamples; ++k)
-    probes_.take(k, std::span(base_values_).subspan((k + 1) * count, count));
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!probes_.has_base_share(i)) continue;
-    const auto at = [&](std::size_t k) { return base_values_[k * count + i]; };
-    for (std::size_t k = 0; k <= kBaseSamples; ++k) largest_[i] = std::max(largest_[i], std::abs(at(k)));
-    for (std::size_t k = 1; k < kBaseSamples; ++k) {
-      const double slope = at(k + 1) - at(k - 1), bend = at(k + 1) - 2.0 * at(k) + at(k - 1);
-      if (bend != 0.0 && std::abs(slope) <= 2.0 * std::abs(bend))
-        largest_[i] = std::max(largest_[i], std::abs(at(k) - slope * slope / (8.0 * bend)));
-    }
-  }
-}
-
 void HistoryRecorder::take_largest() {
   for (std::size_t i = 0; i < values_.size(); ++i) largest_[i] = std::max(largest_[i], std::abs(values_[i]));
 }
@@ -155,6 +128,7 @@ void HistoryRecorder::save(ByteWriter& to) const {
   to.put(largest_);
   peaks_.save(to);
   contact_peaks_.save(to);
+  framed_peaks_.save(to);
   to.put(writer_ != nullptr ? writer_->position() : std::uint64_t{0});
 }
 
@@ -165,6 +139,7 @@ void HistoryRecorder::restore(ByteReader& from) {
   require(first_row_.size() == values_.size() && largest_.size() == values_.size(), "a history of these probes");
   peaks_.restore(from);
   contact_peaks_.restore(from);
+  framed_peaks_.restore(from);
   const auto position = from.take<std::uint64_t>();
   if (writer_ != nullptr) writer_->go_back(position);
 }
@@ -176,6 +151,7 @@ std::map<std::string, double> HistoryRecorder::peaks() const {
     peak = std::max(peak, largest_[i]);
   }
   contact_peaks_.add_to(peaks);
+  framed_peaks_.add_to(peaks);
   return peaks;
 }
 

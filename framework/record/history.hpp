@@ -3,11 +3,11 @@
 #include <map>
 
 #include "butee/model/field_format.hpp"
-#include "butee/record/contact_peaks.hpp"
 #include "butee/record/csv_writer.hpp"
 #include "butee/record/output_times.hpp"
 #include "butee/record/peaks.hpp"
 #include "butee/record/probes.hpp"
+#include "butee/record/sampled_peaks.hpp"
 
 namespace butee::record {
 
@@ -40,27 +40,25 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
   /// The same with their units.
   static std::vector<model::Field> columns_with_units(const model::OutputRequest& request);
 
-  /// Largest |value| by column: over the whole motion (Peaks, ContactPeaks) and the rows; for
+  /// Largest |value| by column: over the whole motion (Peaks, SampledPeaks) and the rows; for
   /// forces of elements over the rows only. u of every probe is always included.
   std::map<std::string, double> peaks() const;
 
  private:
   void write_due(const time::AcceptedStep& step);
   void take_largest();
-  void follow_base_columns(const time::AcceptedStep& step);
   void write_row(double t, double h);
 
   OutputTimes times_;
   Probes probes_;
   Peaks peaks_;
-  ContactPeaks contact_peaks_;
+  SampledPeaks contact_peaks_, framed_peaks_;
   CsvWriter* writer_;
   std::vector<model::FieldWriter*> writers_;
   double seconds_ = 0.0;  ///< s, spent in writers_
   double start_time_ = 0.0;
   std::vector<double> row_, first_row_;
-  std::vector<double> due_;  ///< instants of rows within a step
-  std::vector<double> base_values_;
+  std::vector<double> due_;               ///< instants of rows within a step
   std::vector<double> values_, largest_;  ///< of probes_, in a row and the largest of all rows
 };
 

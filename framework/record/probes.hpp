@@ -38,11 +38,8 @@ class BUTEE_EXPORT Probes {
   }
   /// The free DOF that a motion or contact force of a node belongs to; negative if it is held or absent.
   static Index dof_of(model::Quantity quantity, model::NodeId node, const dynamics::Dynamics& dynamics);
-  /// True if a column is measured in another frame than x: columns in space, or relative to a
-  /// moving base.
-  bool has_base_shares() const { return has_base_shares_; }
-  bool has_base_share(std::size_t column) const { return !sources_[column].base.empty(); }
-  /// The same for one quantity of a node; `model` may be null.
+  /// True if a quantity of a node is measured in another frame than x: in space, or relative to a moving base. `model`
+  /// may be null.
   static bool has_base_share(const model::Model* model, const model::DofTable& dofs, model::NodeId node,
                              model::Quantity quantity);
   /// The values in a state.

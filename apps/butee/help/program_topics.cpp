@@ -80,15 +80,15 @@ one of them has changed, running model.toml again is refused.
 
 A peak is the largest |value| over the whole motion, including the time between steps and rows: a stationary point of
 the method's own dense output, found to 1e-10 of it (the sum of several stops on a node to 1e-6), so its accuracy is
-that of the run. For normal_force, friction_force, slip and wear_power it is searched between eight instants of a
-step. For forces of elements (M, V, stresses, spring forces, reactions) it is the largest |value| of the rows, as for
-motion under [base] in the other frame (u_abs, v_abs, a_abs; with frame = "space" u, v, a instead). If a
-node has one stop, the largest peak_force of impacts.csv is the peak of contact_force, which is the force along u or, if
-no contact acts along u, along the DOF of the stops; contact_ux ... contact_rz are those along each DOF. Work and
+that of the run. For normal_force, friction_force, slip, wear_power and motion under [base] in the other frame (u_abs,
+v_abs, a_abs; with frame = "space" u, v, a instead) it is searched from samples of that output. For forces of elements
+(M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. If a node has one stop, the largest
+peak_force of impacts.csv is the peak of contact_force, which is the force along u or, if no contact acts along u, along
+the DOF of the stops; contact_ux ... contact_rz are those along each DOF. Work and
 dissipation, with energy = true, are integrals over that output; each row of energy.csv is at the end of a step or, with
 contacts in the plane, at the instant of the output. Where u is measured in space while supports move ([[base]] nodes,
-or frame = "space"), strain is that of the free DOFs with the supports at 0, and work that of the equivalent loads:
-their balance closes, but neither is the energy in the springs or the work of the supports.
+or frame = "space"), the work includes that of the forces on the supports. Under a [base] that all else is relative to,
+energies are those of the motion relative to it, and the work is that of the inertia forces.
 
 Files of an earlier run in the folder are replaced, other files stay; a folder that is not empty and was not created by
 butee is refused. A run that fails keeps its partial results, in whole lines, and reports the failure in summary.json.

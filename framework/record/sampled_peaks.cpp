@@ -1,6 +1,7 @@
-#include "butee/record/contact_peaks.hpp"
+#include "butee/record/sampled_peaks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace butee::record {
 namespace {
@@ -15,7 +16,11 @@ constexpr double kHighEnd = 0.5, kNearEnd = 1e-4;
 /// dashpots make forces jump there.
 constexpr double kBeside = 1e-9;
 
+/// Samples of a harmonic motion of a frame are at most this phase angle apart, rad.
+constexpr double kTurn = 0.5;
+
 std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node) {
+  if (dynamics.obstacles() == nullptr) return {};
   const model::System& system = dynamics.system();
   const dynamics::Obstacles& obstacles = *dynamics.obstacles();
   std::vector<Index> contacts;
@@ -26,19 +31,26 @@ std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node)
 
 }  // namespace
 
-ContactPeaks::ContactPeaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics)
-    : dynamics_(dynamics) {
-  if (dynamics.obstacles() == nullptr || dynamics.system().model == nullptr) return;
+SampledPeaks::SampledPeaks(What what, const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics)
+    : what_(what), dynamics_(dynamics), view_(what == What::contacts ? Probes::View::contacts : Probes::View::output) {
+  const model::System& system = dynamics.system();
+  if (system.model == nullptr || (what == What::contacts && dynamics.obstacles() == nullptr)) return;
   std::vector<model::ProbeRequest> chosen;
   for (model::ProbeRequest request : requests) {
-    const std::vector<Index> contacts = contacts_of(dynamics, request.node);
+    const std::vector<Index> contacts =
+        what == What::contacts ? contacts_of(dynamics, request.node) : std::vector<Index>{};
     std::erase_if(request.quantities, [&](model::Quantity quantity) {
+      if (what == What::other_frame) return !Probes::has_base_share(system.model, system.dofs, request.node, quantity);
       return source_of(quantity) != model::Source::contacts && (!is_contact_force(quantity) || contacts.empty());
     });
     if (request.quantities.empty()) continue;
+    for (const model::Quantity quantity : request.quantities)
+      if (what == What::other_frame) detail_ = std::max(detail_, static_cast<time::Detail>(order_of(quantity)));
     contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
     chosen.push_back(std::move(request));
   }
+  for (const model::BaseMotion& base : system.model->bases)
+    if (base.motion) fastest_ = std::max(fastest_, (*base.motion)[0].wave.angular_frequency);
   if (chosen.empty()) return;
   probes_ = std::make_unique<Probes>(chosen, dynamics);
   values_.resize(probes_->columns().size());
@@ -46,13 +58,14 @@ ContactPeaks::ContactPeaks(const std::vector<model::ProbeRequest>& requests, dyn
   last_.resize(values_.size());
 }
 
-void ContactPeaks::start(const time::State& state) {
+void SampledPeaks::start(const time::State& state) {
   if (!probes_) return;
   probes_->evaluate(state, values_);
   for (std::size_t i = 0; i < values_.size(); ++i) largest_[i] = std::abs(values_[i]);
 }
 
-bool ContactPeaks::is_active() const {
+bool SampledPeaks::is_active() const {
+  if (what_ == What::other_frame) return true;
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
   if (obstacles.is_live()) return true;
   return std::any_of(contacts_.begin(), contacts_.end(), [&](Index i) {
@@ -60,17 +73,20 @@ bool ContactPeaks::is_active() const {
   });
 }
 
-void ContactPeaks::step(const time::AcceptedStep& step) {
+void SampledPeaks::step(const time::AcceptedStep& step) {
   if (!probes_ || !is_active()) return;
-  const std::span<const double> breakpoints = step.motion.breakpoints();
-  const int samples = step.motion.interpolation() == time::Interpolation::near_quintic ? kSamplesOfQuintic : kSamples;
+  const std::span<const double> breakpoints =
+      what_ == What::contacts ? step.motion.breakpoints() : step.motion.breakpoints(detail_);
+  const bool is_near_quintic = step.motion.interpolation() == time::Interpolation::near_quintic;
+  const bool sees_jumps = what_ == What::contacts && dynamics_.obstacles()->is_live();
   samples_ = 0;
   look(step, step.from.t);
   double begin = step.from.t;
   for (std::size_t piece = 0; piece <= breakpoints.size(); ++piece) {
     const double end = piece < breakpoints.size() ? breakpoints[piece] : step.to.t, length = end - begin;
-    const bool may_jump =
-        dynamics_.obstacles()->is_live() && begin + kBeside * length > begin && end - kBeside * length < end;
+    const bool may_jump = sees_jumps && begin + kBeside * length > begin && end - kBeside * length < end;
+    int samples = is_near_quintic ? kSamplesOfQuintic : kSamples;
+    if (what_ == What::other_frame) samples = std::max(samples, static_cast<int>(std::ceil(length * fastest_ / kTurn)));
     if (may_jump) look(step, begin + kBeside * length);
     for (int k = 1; k < samples; ++k) {
       look(step, begin + length * k / samples);
@@ -83,11 +99,11 @@ void ContactPeaks::step(const time::AcceptedStep& step) {
   }
 }
 
-void ContactPeaks::look(const time::AcceptedStep& step, double t) {
+void SampledPeaks::look(const time::AcceptedStep& step, double t) {
   if (t <= step.from.t)
     probes_->evaluate(step.from, values_);
   else
-    probes_->evaluate(step, t, values_, Probes::View::contacts);
+    probes_->evaluate(step, t, values_, view_);
   now_ = values_;
   const bool has_two_before = samples_++ >= 2;
   for (std::size_t i = 0; i < now_.size(); ++i) {
@@ -107,13 +123,13 @@ void ContactPeaks::look(const time::AcceptedStep& step, double t) {
   }
 }
 
-void ContactPeaks::look_near(const time::AcceptedStep& step, End end) {
+void SampledPeaks::look_near(const time::AcceptedStep& step, End end) {
   for (std::size_t i = 0; i < last_.size(); ++i) {
     const auto [before, last] = last_[i];
     const Sampled &at = end == End::first ? before : last, &other = end == End::first ? last : before;
     if (!(at.value > other.value) || !(at.value >= kHighEnd * largest_[i])) continue;
     const auto value_at = [&](double t) {
-      probes_->evaluate(step, t, values_, Probes::View::contacts);
+      probes_->evaluate(step, t, values_, view_);
       return std::abs(values_[i]);
     };
     const double t = at.t + kNearEnd * (other.t - at.t);
@@ -123,7 +139,7 @@ void ContactPeaks::look_near(const time::AcceptedStep& step, End end) {
   }
 }
 
-void ContactPeaks::add_to(std::map<std::string, double>& peaks) const {
+void SampledPeaks::add_to(std::map<std::string, double>& peaks) const {
   for (std::size_t i = 0; i < largest_.size(); ++i) {
     double& peak = peaks[probes_->columns()[i]];
     peak = std::max(peak, largest_[i]);

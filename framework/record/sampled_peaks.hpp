@@ -7,17 +7,19 @@
 
 namespace butee::record {
 
-/// Records the largest |value| of probes of contacts in the plane, with dissipation or friction, over
-/// the whole motion: at kSamples instants of each piece of a step between breakpoints, or
-/// kSamplesOfQuintic of pieces that are near a quintic, as the method sees its contacts, from which
-/// local maxima are refined on its dense output.
-class BUTEE_EXPORT ContactPeaks {
+/// Records the largest |value| of probes that Peaks does not follow, over the whole motion: at kSamples instants of
+/// each piece of a step between breakpoints, or kSamplesOfQuintic of pieces that are near a quintic, from which local
+/// maxima are refined on the method's dense output.
+class BUTEE_EXPORT SampledPeaks {
  public:
   static constexpr int kSamples = 8, kSamplesOfQuintic = 3;
 
-  /// Uses the quantities of `requests` that such contacts provide. `dynamics` must outlive this
-  /// object.
-  ContactPeaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics);
+  /// Contacts in the plane, with dissipation or friction, as the method sees its contacts; or motion that is measured
+  /// in another frame than x, relative to or with moving supports.
+  enum class What { contacts, other_frame };
+
+  /// Uses the quantities of `requests` that are such. `dynamics` must outlive this object.
+  SampledPeaks(What what, const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics);
 
   void start(const time::State& state);
   void step(const time::AcceptedStep& step);
@@ -36,7 +38,11 @@ class BUTEE_EXPORT ContactPeaks {
   enum class End { first, last };
   void look_near(const time::AcceptedStep& step, End end);
 
+  What what_;
   dynamics::Dynamics& dynamics_;
+  Probes::View view_;
+  time::Detail detail_ = time::Detail::displacements;
+  double fastest_ = 0.0;            ///< rad/s, the highest frequency of a moving frame
   std::unique_ptr<Probes> probes_;  ///< null if there are none
   std::vector<Index> contacts_;     ///< of the probes
   std::vector<double> largest_, values_, now_;
