@@ -260,7 +260,12 @@ void Obstacles::add_slip_switches(Index i, const ContactPhase& phase, double t, 
   if (phase.slip == SlipPhase::stick) {
     const double tension = friction.rule == Friction::Rule::rigid ? held : friction_force(i, t, now, phase, force);
     const double limit = friction.static_coefficient * force;
-    const double of_force = kRoundingOfTerms * (std::abs(limit) + std::abs(tension));
+    double of_force = kRoundingOfTerms * (std::abs(limit) + std::abs(tension));
+    if (friction.rule == Friction::Rule::spring) {
+      const double of_path = now.lever * uncertainty.displacement +
+                             kRoundingOfTerms * (std::abs(path(i, t, now, phase.angle)) + std::abs(phase.anchor));
+      of_force += friction.stick_stiffness * of_path + friction.stick_damping * of_slip;
+    }
     list.add(limit - tension, of_force, phase.normal, SlipPhase::forward, 0.0);
     list.add(limit + tension, of_force, phase.normal, SlipPhase::backward, 0.0);
     return;

@@ -24,6 +24,10 @@ constexpr int kBisections = 60;
 /// The uncertainty of displacements and velocities relative to those of the whole structure in the norm of the diagonal
 /// of M, since sums over modes cancel to about this (chosen: 18 eps).
 constexpr double kRoundingOfModes = 4e-15;
+/// A stick spring whose tension is within this part of the sum of both limits of one of them is near it; steps are then
+/// at most this phase angle of the bodies on the spring, rad (both chosen: the tension leaves a limit by the square of
+/// the angle).
+constexpr double kNearLimit = 1e-3, kPartOfStick = 0.2;
 /// Relative decrease towards the lowest sample of a dip that rounding does not cause.
 constexpr double kRounding = 1e-9;
 
@@ -53,6 +57,7 @@ ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
       for (const Index dof : {side[0], side[1]})
         if (dof >= 0) share += kRoundingOfModes / root_mass_[dof];
     rounding_shares_.push_back(share);
+    has_stick_springs_ = has_stick_springs_ || stick_rate(i) > 0.0;
     needs_accelerations_ = needs_accelerations_ || obstacles_.switches_by_acceleration(i);
   }
   if (needs_accelerations_) values_a_ = values_x_;
@@ -69,6 +74,56 @@ void ContactEvents::start(State& state, ConstVectorRef memory) {
                              : obstacles_.phase_after(i, memory.segment<kSize>(kSize * i), state.t, state.x, state.v),
           state);
   dynamics_.acceleration(state.t, state.x, state.v, state.a);
+  release_overloaded(state);
+}
+
+void ContactEvents::release_overloaded(State& state) {
+  measure(state);
+  for (int round = 0; round < kMostAtOnce; ++round) {
+    place(now_, state);
+    hold(now_);
+    bool changed = false;
+    for (const Index i : std::vector<Index>(sticks_)) {
+      const std::size_t count = switches(i, now_);
+      for (std::size_t k = 0; k < count; ++k) {
+        if (found_[k].value >= 0.0 || found_[k].to.slip == ContactPhase::Slip::stick) continue;
+        enter(i, found_[k].to, state);
+        changed = true;
+        break;
+      }
+    }
+    if (!changed) return;
+    dynamics_.acceleration(state.t, state.x, state.v, state.a);
+  }
+}
+
+double ContactEvents::stick_rate(Index contact) const {
+  const model::Friction& friction = obstacles_.group_of(contact).friction;
+  if (friction.rule != model::Friction::Rule::spring) return 0.0;
+  double compliance = 0.0;
+  for (const auto& side : {obstacles_.ends_of(contact).a, obstacles_.ends_of(contact).b})
+    for (const Index dof : side)
+      if (dof >= 0) compliance += 1.0 / (root_mass_[dof] * root_mass_[dof]);
+  return friction.stick_stiffness * compliance;
+}
+
+double ContactEvents::longest_step(const State& state) {
+  double longest = std::numeric_limits<double>::infinity();
+  if (!has_stick_springs_) return longest;
+  follow(state);
+  measure(state);
+  place(now_, state);
+  hold(now_);
+  for (Index i = 0; i < obstacles_.size(); ++i) {
+    const double rate = stick_rate(i);
+    if (rate == 0.0 || obstacles_.phase(i).slip != ContactPhase::Slip::stick) continue;
+    // The distances of the tension from both limits are the last two switching functions.
+    const std::size_t count = switches(i, now_);
+    if (count < 2) continue;
+    const double one = found_[count - 2].value, other = found_[count - 1].value;
+    if (std::min(one, other) < kNearLimit * (one + other)) longest = std::min(longest, kPartOfStick / std::sqrt(rate));
+  }
+  return longest;
 }
 
 void ContactEvents::follow(const State& state) {

@@ -35,6 +35,10 @@ class BUTEE_EXPORT ContactEvents {
   void settle(State& state, double h, double precision);
   /// Sets the contacts to the phases of a state.
   void follow(const State& state);
+  /// The longest step from a settled state that follows the tension of every stick spring that is near its limit: a
+  /// part of the period of the bodies on that spring, s. A longer step may end beyond the limit by its error, and the
+  /// contact would slip. Infinite if there is none.
+  double longest_step(const State& state);
 
   /// A change of phase.
   struct Event {
@@ -74,6 +78,10 @@ class BUTEE_EXPORT ContactEvents {
   double value(Index contact, std::size_t which, const Sample& at);
   /// False if the motion over the step cannot bring the contact to a change of phase.
   bool is_near(Index contact, const DenseOutput& motion) const;
+  /// The stiffness of the contact's stick spring over the mass of the bodies, 1/s2, at most; 0 without one.
+  double stick_rate(Index contact) const;
+  /// Lets rigid contacts slip whose friction force exceeds what they can hold.
+  void release_overloaded(State& state);
   void enter(Index contact, const dynamics::ContactPhase& next, State& state);
   /// Narrows [begin, event.t] to the root of the event's switching function; `value` is its value
   /// at event.t.
@@ -88,7 +96,7 @@ class BUTEE_EXPORT ContactEvents {
   /// Values of every switching function of the watched contacts at the last two instants.
   std::vector<std::array<std::array<Look, 2>, dynamics::Obstacles::kMostSwitches>> looks_;
   std::vector<Index> sticks_, watched_, watched_dofs_, own_dofs_;
-  bool needs_accelerations_ = false;
+  bool needs_accelerations_ = false, has_stick_springs_ = false;
   Vector root_mass_;
   /// The motion of the structure in the norm of the diagonal of M, m sqrt(kg) and m sqrt(kg)/s.
   dynamics::Obstacles::Rounding whole_;

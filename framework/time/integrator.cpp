@@ -53,6 +53,10 @@ void Integrator::settle(State& state, double h) {
   if (events_) events_->settle(state, h, traits().event_precision);
 }
 
+double Integrator::longest_step(const State& state) {
+  return events_ ? events_->longest_step(state) : std::numeric_limits<double>::infinity();
+}
+
 StepReport Integrator::step(const State& from, const Step& step, State& to) {
   require(step.h > 0.0 && &from != &to, "a step of positive length into another state");
   require(from.a.size() == from.x.size(), "start() comes before step()");

@@ -67,6 +67,8 @@ class BUTEE_EXPORT Integrator {
   /// Switches contacts whose phase is over at a state to the next phase; the acceleration follows.
   /// `h` is the length of the coming step. A state must be settled before a step from it.
   void settle(State& state, double h);
+  /// The longest step that follows the contacts of a settled state, s.
+  double longest_step(const State& state);
 
   /// Computes the state at the end of the step. `to` is meaningful only if the report's status is
   /// ok.

@@ -164,8 +164,10 @@ bool Simulation::advance() {
   std::optional<FlushedSubnormals> flushed;
   if (state_.x.size() > kLarge) flushed.emplace();
   for (int rejections = 0; rejections <= kMostRejections; ++rejections) {
-    const Step step = propose();
+    Step step = propose();
     if (rejections == 0) integrator_.settle(state_, step.h);
+    if (const double longest = controller_ != nullptr ? integrator_.longest_step(state_) : step.h; step.h > longest)
+      step = {longest, state_.t + longest, step.single};
     if (!(step.t_end > state_.t)) {
       fail(step, "the step is below the rounding of t; it moves fastest in " + fastest_dof(dynamics_, state_) +
                      ", where the scene is too stiff or a contact law too steep for this method");

@@ -174,6 +174,52 @@ TEST(StickSpring, RemembersAcrossARestart) {
   }
 }
 
+/// At the instant at which a stick spring with a dashpot takes hold its tension is that of slip, and rounding of the
+/// path times its stiffness decides whether it exceeds that. The block stops after v0^2/(2 mu N/m).
+TEST(StickSpring, WithADashpotTakesHoldOnce) {
+  for (const char* method : {"rodas4", "dopri5", "extrapolation8", "exact"})
+    for (const char* tolerance : {"1e-3", "1e-6"})
+      for (const char* spring : {"1e6, stick_damping = 100.0", "1e7, stick_damping = 1000.0"}) {
+        SceneRun run(block(1.0, 1e-6, std::string("coefficient = 0.3, stick_stiffness = ") + spring, 1.0,
+                           "[initial]\nvelocity = [{ nodes = \"block\", value = 2.0 }]\n"),
+                     {std::string("integrator.type=") + method, std::string("integrator.tolerance=") + tolerance});
+        int steps = 0;
+        while (run.simulation().advance() && ++steps < 20000) {
+        }
+        EXPECT_LT(steps, 20000) << method << " " << tolerance << " " << spring;
+        EXPECT_NEAR(run.simulation().state().x[0], 2.0 / 3.0, 1e-2 * std::stod(tolerance) + 1e-5) << method;
+      }
+}
+
+/// The first acceleration, and the friction forces of a start.
+class Start final : public time::Observer {
+ public:
+  explicit Start(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {}
+  void start(const time::State& state) override {
+    a = state.a[0];
+    dynamics_.contact_forces(state.t, state.x, state.v, forces);
+  }
+  void step(const time::AcceptedStep&) override {}
+  double a = 0.0;
+  std::vector<dynamics::ContactForces> forces;
+
+ private:
+  dynamics::Dynamics& dynamics_;
+};
+
+/// A start at rest under more force than friction holds: the block slips from the first instant.
+TEST(RigidFriction, HoldsNoMoreThanItCanAtTheStart) {
+  for (const auto& [place, friction] : {std::pair(0.5, 3.0), std::pair(-0.5, -3.0), std::pair(0.02, 2.0)}) {
+    SceneRun run(block(1.0, 100.0, "coefficient = 0.3, stick = \"rigid\"", 0.01,
+                       "[initial]\ndisplacement = [{ nodes = \"block\", value = " + std::to_string(place) + " }]\n"));
+    Start start(run.dynamics());
+    run.simulation().add(start);
+    ASSERT_TRUE(run.run().completed);
+    EXPECT_NEAR(start.a, -100.0 * place + friction, 1e-9) << place;
+    EXPECT_NEAR(std::abs(start.forces.at(0).friction), std::abs(friction), 1e-9) << place;
+  }
+}
+
 /// Jenkins element: a spring k_t in series with a slider dissipates 4 mu N (A - mu N/k_t) in a cycle of
 /// amplitude A.
 TEST(StickSpring, DissipatesWhatJenkinsElementDoes) {
