@@ -39,6 +39,20 @@ void write_picture(const model::Model& model, const check::Survey& survey, const
   if (!file) throw RunError(path + ": cannot be written");
 }
 
+void find_critical_steps(const scene::Scene& session, const model::System& system, check::Facts& facts) {
+  dynamics::Dynamics dynamics(system);
+  const auto steps = [&](const std::string& method) -> std::optional<time::CriticalSteps> {
+    const plugin::IntegratorEntry* entry = session.catalogue.find(method);
+    if (entry == nullptr) return std::nullopt;
+    const time::IntegratorType& type = entry->declaration;
+    return time::critical_steps(dynamics, {type.name, type.stability_limit, type.damping_limit}, facts.open,
+                                facts.closed);
+  };
+  facts.of_runge_kutta = steps("rk4");
+  facts.of_central_differences = steps("central_differences");
+  facts.of_method = steps(session.integrator.name);
+}
+
 int check_command(const CheckArguments& arguments) {
   if (studies::names_study(arguments.model.model)) {
     if (!arguments.picture.empty())
@@ -56,6 +70,7 @@ int check_command(const CheckArguments& arguments) {
   facts.closed = system.stops.empty() && system.obstacles.empty()
                      ? facts.open
                      : frequency_range(system, dynamics::StopState::closed);
+  find_critical_steps(session, system, facts);
   facts.mechanics = check::mechanics_of(system, session.integrator.options.end_time);
   facts.cost = check::estimate(session, reading_seconds);
   const auto advice = check::advise(session, system, facts);

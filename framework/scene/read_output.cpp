@@ -57,7 +57,7 @@ class OutputReader {
         end_time_(end_time),
         diagnostics_(diagnostics),
         complete_(diagnostics.error_count() == 0) {
-    if (model.initial_motion && begin_ >= end_time_)
+    if (complete_ && model.initial_motion && begin_ >= end_time_)
       diagnostics.error("initial.keep_time", diagnostics.document().root.table()->find("initial")->at,
                         "begins the run at t = " + to_text(begin_) + " s, and its end_time is " + to_text(end_time_) +
                             " s; end_time counts from the same zero");
@@ -95,7 +95,7 @@ class OutputReader {
     else
       request.interval = p->has("interval") ? p->number("interval") : (end_time_ - begin_) / kDefaultIntervals;
     read_states(*p, request);
-    if (request.interval && end_time_ / *request.interval > kMostRows)
+    if (complete_ && request.interval && end_time_ / *request.interval > kMostRows)
       p->complain(diagnostics_, "interval",
                   "gives more than 1e9 rows until end_time = " + to_text(end_time_) + " s; make it larger");
     if (p->has("checkpoint")) request.checkpoint = p->integer("checkpoint");
@@ -106,7 +106,7 @@ class OutputReader {
     const FormatRequest formats = read_formats(*p, formats_, diagnostics_);
     request.csv = formats.csv;
     request.fields = read_fields(*p, formats.fields, complete_ ? &model_ : nullptr, diagnostics_);
-    if (request.fields.interval && end_time_ / *request.fields.interval > kMostRows)
+    if (complete_ && request.fields.interval && end_time_ / *request.fields.interval > kMostRows)
       diagnostics_.error("output.fields.interval", p->value("fields"),
                          "gives more than 1e9 records until end_time = " + to_text(end_time_) + " s; make it larger");
     return request;
@@ -118,7 +118,7 @@ class OutputReader {
     request.states = p.numbers("states");
     std::sort(request.states.begin(), request.states.end());
     for (const double t : request.states)
-      if (t < begin_ || t > end_time_)
+      if (complete_ && (t < begin_ || t > end_time_))
         return p.complain(diagnostics_, "states",
                           "holds " + to_text(t) + " s, which is not between the beginning of the run and end_time = " +
                               to_text(end_time_) + " s");
@@ -167,7 +167,7 @@ class OutputReader {
   const Model& model_;
   double begin_, end_time_;
   Diagnostics& diagnostics_;
-  bool complete_;
+  bool complete_;  ///< no mistakes before: end_time is known
   std::vector<std::string> formats_;
   std::set<std::string> labels_;
   std::optional<model::DofTable> dofs_;

@@ -1,6 +1,7 @@
 #include "butee/time/diagnosis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "butee/core/text.hpp"
@@ -19,6 +20,12 @@ constexpr double kSafe = 0.9;
 /// A larger force is taken to cause overflow.
 constexpr double kHuge = 1e150;
 
+/// A method whose limit of h c/m without a spring is half that of h omega or less takes damping at the step before, as
+/// central differences do: stable for (h omega/stability)^2 + h c/damping <= 1, by the equations of one mode.
+bool lags_damping(const MethodLimits& limits) {
+  return limits.damping <= 0.5 * limits.stability;
+}
+
 /// 1/h for an eigenvalue of the motion.
 double rate(const MethodLimits& limits, double imaginary, double real) {
   return std::abs(imaginary) / limits.stability + std::abs(real) / limits.damping;
@@ -26,9 +33,19 @@ double rate(const MethodLimits& limits, double imaginary, double real) {
 
 /// For a mode with damping c per mass: lambda^2 + c lambda + omega^2 = 0.
 double rate_of_mode(const MethodLimits& limits, double omega, double c) {
+  if (lags_damping(limits)) {
+    const double of_damping = c / limits.damping;
+    return 0.5 * (of_damping + std::hypot(of_damping, 2.0 * omega / limits.stability));
+  }
   const double square = omega * omega - 0.25 * c * c;
   if (square >= 0.0) return rate(limits, std::sqrt(square), 0.5 * c);
   return rate(limits, 0.0, 0.5 * c + std::sqrt(-square));
+}
+
+/// Of two real eigenvalues, which may belong to one overdamped mode.
+double rate_of_pair(const MethodLimits& limits, double one, double other) {
+  if (!lags_damping(limits)) return rate(limits, 0.0, std::max(std::abs(one), std::abs(other)));
+  return rate_of_mode(limits, std::sqrt(std::abs(one * other)), std::abs(one) + std::abs(other));
 }
 
 std::optional<double> dense_rate(dynamics::Dynamics& dynamics, const MethodLimits& limits,
@@ -49,18 +66,27 @@ std::optional<double> dense_rate(dynamics::Dynamics& dynamics, const MethodLimit
   const auto values = linalg::eigenvalues(motion);
   if (!values) return std::nullopt;
   double largest = 0.0;
-  for (const std::complex<double>& value : *values)
-    largest = std::max(largest, rate(limits, value.imag(), value.real()));
-  return largest;
+  std::array<double, 2> most = {0.0, 0.0};  // the two largest real eigenvalues
+  for (const std::complex<double>& value : *values) {
+    if (value.imag() != 0.0) {
+      largest = std::max(largest, rate_of_mode(limits, std::abs(value), 2.0 * std::abs(value.real())));
+    } else if (const double size = std::abs(value.real()); size > most[0]) {
+      most = {size, most[0]};
+    } else {
+      most[1] = std::max(most[1], size);
+    }
+  }
+  return std::max(largest, rate_of_pair(limits, most[0], most[1]));
 }
 
-std::optional<double> critical_rate(dynamics::Dynamics& dynamics, const MethodLimits& limits,
-                                    dynamics::StopState stops) {
+/// `range`: of the frequencies, where they are known already.
+std::optional<double> critical_rate(dynamics::Dynamics& dynamics, const MethodLimits& limits, dynamics::StopState stops,
+                                    std::optional<dynamics::FrequencyRange> range) {
   const model::System& system = dynamics.system();
   const bool has_others = system.dashpots.size() > 0 || system.damping.is_modal();
   if (dynamics.has_damping() && dynamics.size() <= kDense)
     return dense_rate(dynamics, limits, dynamics::stiffness_with_stops(system, stops));
-  const auto range = dynamics::frequency_range(system, stops);
+  if (!range) range = dynamics::frequency_range(system, stops);
   if (!range) return std::nullopt;
   if (has_others) return rate(limits, range->highest, 0.0);
   const double m = system.damping.mass_proportional, k = system.damping.stiffness_proportional;
@@ -104,10 +130,13 @@ std::string singular(dynamics::Dynamics& dynamics, const Step& step) {
 
 }  // namespace
 
-std::optional<CriticalSteps> critical_steps(dynamics::Dynamics& dynamics, const MethodLimits& limits) {
+std::optional<CriticalSteps> critical_steps(dynamics::Dynamics& dynamics, const MethodLimits& limits,
+                                            const std::optional<dynamics::FrequencyRange>& of_open,
+                                            const std::optional<dynamics::FrequencyRange>& of_closed) {
   if (!limits.is_bounded()) return std::nullopt;
-  const auto open = critical_rate(dynamics, limits, dynamics::StopState::open);
-  const auto closed = dynamics.stop_count() > 0 ? critical_rate(dynamics, limits, dynamics::StopState::closed) : open;
+  const bool has_stops = dynamics.stop_count() > 0 || dynamics.obstacles() != nullptr;
+  const auto open = critical_rate(dynamics, limits, dynamics::StopState::open, of_open);
+  const auto closed = has_stops ? critical_rate(dynamics, limits, dynamics::StopState::closed, of_closed) : open;
   if (!open || !closed) return std::nullopt;
   const auto step = [](double r) { return r > 0.0 ? 1.0 / r : kInfinity; };
   return CriticalSteps{step(*open), step(*closed)};

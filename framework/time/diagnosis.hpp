@@ -5,6 +5,7 @@
 #include <string>
 
 #include "butee/dynamics/dynamics.hpp"
+#include "butee/dynamics/frequencies.hpp"
 #include "butee/time/state.hpp"
 
 namespace butee::time {
@@ -25,10 +26,14 @@ struct CriticalSteps {
   double closed;  ///< with all stops closed
 };
 
-/// 1/h = max over the modes of |Im lambda|/limits.stability + |Re lambda|/limits.damping: exact
-/// without damping, safe with damping. Nothing for unconditionally stable methods and if the
-/// frequencies could not be computed. Dashpots count in systems of up to 100 DOFs.
-BUTEE_EXPORT std::optional<CriticalSteps> critical_steps(dynamics::Dynamics& dynamics, const MethodLimits& limits);
+/// 1/h = max over the modes of |Im lambda|/limits.stability + |Re lambda|/limits.damping: exact without damping, safe
+/// with damping of methods with stages; for methods that take damping at the step before (central differences) the
+/// exact limit of a mode, safe for overdamped ones. Nothing for unconditionally stable methods and if the frequencies
+/// could not be computed. Dashpots count in systems of up to 100 DOFs. `open`, `closed`: the frequencies in these
+/// states of the stops, where they are known already.
+BUTEE_EXPORT std::optional<CriticalSteps> critical_steps(dynamics::Dynamics& dynamics, const MethodLimits& limits,
+                                                         const std::optional<dynamics::FrequencyRange>& open = {},
+                                                         const std::optional<dynamics::FrequencyRange>& closed = {});
 
 /// Advice on the step: "h = 1e-3 s is 3 times the critical step of rk4, ...: take ...". If the step
 /// is below the critical one, or the method has none, other remedies.

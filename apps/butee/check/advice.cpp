@@ -49,12 +49,11 @@ class Adviser {
     const scene::IntegratorChoice& choice = session_.integrator;
     const time::IntegratorType& type = session_.catalogue.find(choice.name)->declaration;
     const double h = choice.options.time_step;
-    if (h > 0.0 && facts_.open && facts_.closed && h > type.stability_limit / facts_.closed->highest)
-      add("critical-step",
-          "time_step = " + to_short_text(h) + " s is larger than the critical step of " + choice.name + ", " +
-              to_short_text(type.stability_limit / facts_.closed->highest) + " s with all stops closed" +
-              (h > type.stability_limit / facts_.open->highest ? " and also with all stops open" : "") +
-              ": the solution would grow without bound; take a smaller step or an implicit method");
+    if (const auto& critical = facts_.of_method; h > 0.0 && critical && h > critical->closed)
+      add("critical-step", "time_step = " + to_short_text(h) + " s is larger than the critical step of " + choice.name +
+                               ", " + to_short_text(critical->closed) + " s with all stops closed" +
+                               (h > critical->open ? " and also with all stops open" : "") +
+                               ": the solution would grow without bound; take a smaller step or an implicit method");
     if (!type.fixed_step || h == 0.0) return;
     const double contact = facts_.mechanics.shortest_contact;
     if (!system_.stops.empty() && h * kStepsInContact > contact)

@@ -22,6 +22,8 @@ struct Advice {
 /// Quantities of a scene that are known before it runs.
 struct Facts {
   std::optional<dynamics::FrequencyRange> open, closed;  ///< empty if the eigenvalue solver did not converge
+  /// Of classical Runge-Kutta, of central differences, and of the scene's method unless it is stable at any step.
+  std::optional<time::CriticalSteps> of_runge_kutta, of_central_differences, of_method;
   Mechanics mechanics;
   Survey survey;
   Estimate cost;

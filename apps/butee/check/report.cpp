@@ -20,7 +20,6 @@ constexpr double kZeroFrequency = 1e-6;
 /// Number of entries printed from a list of damped modes.
 constexpr Index kListedModes = 10;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kRungeKutta4 = 2.8284271247461903, kCentralDifferences = 2.0;
 
 Index stop_count(const model::System& system) {
   Index stops = 0;
@@ -100,25 +99,27 @@ void print_range(const char* label, const std::optional<dynamics::FrequencyRange
               span(range->lowest / kTwoPi, range->highest / kTwoPi).c_str());
 }
 
-void print_step(const scene::Scene& session, double open, double closed) {
+void print_step(const scene::Scene& session, const Facts& facts) {
   const scene::IntegratorChoice& choice = session.integrator;
-  const double limit = session.catalogue.find(choice.name)->declaration.stability_limit, h = choice.options.time_step;
-  std::printf(
-      "critical   step of classical Runge-Kutta %s s (stops open), %s s (all closed); of central differences %s s, %s "
-      "s\n",
-      to_short_text(kRungeKutta4 / open).c_str(), to_short_text(kRungeKutta4 / closed).c_str(),
-      to_short_text(kCentralDifferences / open).c_str(), to_short_text(kCentralDifferences / closed).c_str());
+  const double h = choice.options.time_step;
+  if (const auto& one = facts.of_runge_kutta, &other = facts.of_central_differences; one && other)
+    std::printf(
+        "critical   step of classical Runge-Kutta %s s (stops open), %s s (all closed); of central differences %s s, "
+        "%s s\n",
+        to_short_text(one->open).c_str(), to_short_text(one->closed).c_str(), to_short_text(other->open).c_str(),
+        to_short_text(other->closed).c_str());
   if (h == 0.0) {
     std::printf("method     %s, which chooses its own steps\n", choice.name.c_str());
     return;
   }
   std::printf("method     %s, time_step %s s\n", choice.name.c_str(), to_short_text(h).c_str());
-  if (std::isinf(limit))
+  if (!facts.of_method)
     std::printf(
         "           stable at every step for linear motion; %s steps in the shortest period with all stops closed\n",
-        to_short_text(kTwoPi / (closed * h)).c_str());
-  else if (h <= limit / closed)
-    std::printf("           below its critical step by a factor of %s\n", to_short_text(limit / (closed * h)).c_str());
+        to_short_text(kTwoPi / (facts.closed->highest * h)).c_str());
+  else if (h <= facts.of_method->closed)
+    std::printf("           below its critical step by a factor of %s\n",
+                to_short_text(facts.of_method->closed / h).c_str());
 }
 
 void print_mechanics(const Mechanics& mechanics) {
@@ -188,7 +189,7 @@ void print(const scene::Scene& session, const model::System& system, const Facts
   print_range(has_stops ? "frequency  all stops open:  " : "frequency ", facts.open);
   if (has_stops) print_range("           all stops closed:", facts.closed);
   if (facts.open && facts.closed) {
-    print_step(session, facts.open->highest, facts.closed->highest);
+    print_step(session, facts);
     if (facts.open->lowest < kZeroFrequency * facts.open->highest)
       std::printf(
           "free       with all stops open the structure can move as a rigid body or a mechanism (lowest frequency ~ "
@@ -213,9 +214,9 @@ Json to_json(const scene::Scene& session, const model::System& system, const Fac
   json["loads"] = session.model.loads.size();
   json["skipped"] = skipped(session, system);
   json["angular_frequency"] = {{"open", json_of(facts.open)}, {"closed", json_of(facts.closed)}};
-  if (facts.closed)
-    json["critical_step"] = {{"runge_kutta_4", kRungeKutta4 / facts.closed->highest},
-                             {"central_differences", kCentralDifferences / facts.closed->highest}};
+  if (facts.of_runge_kutta && facts.of_central_differences)
+    json["critical_step"] = {{"runge_kutta_4", facts.of_runge_kutta->closed},
+                             {"central_differences", facts.of_central_differences->closed}};
   json["method"] = session.integrator.name;
   json["time_step"] = session.integrator.options.time_step;
   json["end_time"] = session.integrator.options.end_time;
