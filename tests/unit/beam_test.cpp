@@ -196,9 +196,6 @@ TEST(Section, ShapesHaveTheirAreaAndSecondMoment) {
   expect(section("tube", {{"outer_radius", 0.06}, {"inner_radius", 0.04}}), pi * 0.002, pi / 4 * 1.04e-5);
   expect(section("circle", {{"radius", 0.1}}), pi * 0.01, pi / 4 * 1e-4);
   expect(section("rectangle", {{"width", 0.2}, {"height", 0.3}}), 0.06, 4.5e-4);
-  // Timoshenko and Goodier give 0.1406 and 0.229.
-  EXPECT_NEAR(section("rectangle", {{"width", 1.0}, {"height", 1.0}}).torsion_constant, 0.1405770, 1e-7);
-  EXPECT_NEAR(section("rectangle", {{"width", 2.0}, {"height", 1.0}}).torsion_constant, 2.0 * 0.2286816, 1e-6);
   expect(section("general", {{"area", 0.5}, {"second_moment", 0.25}}), 0.5, 0.25);
   EXPECT_EQ(elements::section_types().size(), 4U);
 }
