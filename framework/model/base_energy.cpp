@@ -45,7 +45,7 @@ class BaseEnergy::Sum final : public MatrixSink {
     return moves ? motion(b).direction[axis_of(dof.kind)] : 0.0;
   }
 
-  /// What springs and dashpots see of a base motion.
+  /// The displacement per unit of a base motion that strains springs and dashpots.
   double relative_to(Index b, NodalDof dof) const {
     if (!motion(b).nodes.empty()) return of_supports(b, dof);
     return is_rotation(dof.kind) || dofs_.index(dof) < 0 ? 0.0 : -motion(b).direction[axis_of(dof.kind)];

@@ -6,8 +6,8 @@
 
 namespace butee::model {
 
-/// What moving supports add to the energies of the free degrees of freedom where x is measured in space
-/// (BaseFrame::still), J.
+/// The contribution of moving supports to the energies of a structure whose x is measured in space (BaseFrame::still),
+/// J.
 ///
 /// With x the free degrees of freedom and s = sum_b s_b D_b(t) what the base motions prescribe, the strain energy is
 /// (x + s).K (x + s)/2 over all degrees of freedom, of which x.K_ff x/2 is known; likewise the kinetic energy with M

@@ -38,8 +38,8 @@ HistoryRecorder::HistoryRecorder(const model::OutputRequest& request, double end
     : times_(request.interval, request.every, end_time),
       probes_(request.probes, dynamics),
       peaks_(peak_requests(request.probes, dynamics.system()), dynamics),
-      contact_peaks_(SampledPeaks::What::contacts, request.probes, dynamics),
-      framed_peaks_(SampledPeaks::What::other_frame, request.probes, dynamics),
+      contact_peaks_(SampledPeaks::Kind::contacts, request.probes, dynamics),
+      framed_peaks_(SampledPeaks::Kind::other_frame, request.probes, dynamics),
       writer_(writer),
       values_(probes_.columns().size()),
       largest_(values_.size(), 0.0) {

@@ -31,21 +31,21 @@ std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node)
 
 }  // namespace
 
-SampledPeaks::SampledPeaks(What what, const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics)
-    : what_(what), dynamics_(dynamics), view_(what == What::contacts ? Probes::View::contacts : Probes::View::output) {
+SampledPeaks::SampledPeaks(Kind kind, const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics)
+    : kind_(kind), dynamics_(dynamics), view_(kind == Kind::contacts ? Probes::View::contacts : Probes::View::output) {
   const model::System& system = dynamics.system();
-  if (system.model == nullptr || (what == What::contacts && dynamics.obstacles() == nullptr)) return;
+  if (system.model == nullptr || (kind == Kind::contacts && dynamics.obstacles() == nullptr)) return;
   std::vector<model::ProbeRequest> chosen;
   for (model::ProbeRequest request : requests) {
     const std::vector<Index> contacts =
-        what == What::contacts ? contacts_of(dynamics, request.node) : std::vector<Index>{};
+        kind == Kind::contacts ? contacts_of(dynamics, request.node) : std::vector<Index>{};
     std::erase_if(request.quantities, [&](model::Quantity quantity) {
-      if (what == What::other_frame) return !Probes::has_base_share(system.model, system.dofs, request.node, quantity);
+      if (kind == Kind::other_frame) return !Probes::has_base_share(system.model, system.dofs, request.node, quantity);
       return source_of(quantity) != model::Source::contacts && (!is_contact_force(quantity) || contacts.empty());
     });
     if (request.quantities.empty()) continue;
     for (const model::Quantity quantity : request.quantities)
-      if (what == What::other_frame) detail_ = std::max(detail_, static_cast<time::Detail>(order_of(quantity)));
+      if (kind == Kind::other_frame) detail_ = std::max(detail_, static_cast<time::Detail>(order_of(quantity)));
     contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
     chosen.push_back(std::move(request));
   }
@@ -65,7 +65,7 @@ void SampledPeaks::start(const time::State& state) {
 }
 
 bool SampledPeaks::is_active() const {
-  if (what_ == What::other_frame) return true;
+  if (kind_ == Kind::other_frame) return true;
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
   if (obstacles.is_live()) return true;
   return std::any_of(contacts_.begin(), contacts_.end(), [&](Index i) {
@@ -76,9 +76,9 @@ bool SampledPeaks::is_active() const {
 void SampledPeaks::step(const time::AcceptedStep& step) {
   if (!probes_ || !is_active()) return;
   const std::span<const double> breakpoints =
-      what_ == What::contacts ? step.motion.breakpoints() : step.motion.breakpoints(detail_);
+      kind_ == Kind::contacts ? step.motion.breakpoints() : step.motion.breakpoints(detail_);
   const bool is_near_quintic = step.motion.interpolation() == time::Interpolation::near_quintic;
-  const bool sees_jumps = what_ == What::contacts && dynamics_.obstacles()->is_live();
+  const bool sees_jumps = kind_ == Kind::contacts && dynamics_.obstacles()->is_live();
   samples_ = 0;
   look(step, step.from.t);
   double begin = step.from.t;
@@ -86,7 +86,7 @@ void SampledPeaks::step(const time::AcceptedStep& step) {
     const double end = piece < breakpoints.size() ? breakpoints[piece] : step.to.t, length = end - begin;
     const bool may_jump = sees_jumps && begin + kBeside * length > begin && end - kBeside * length < end;
     int samples = is_near_quintic ? kSamplesOfQuintic : kSamples;
-    if (what_ == What::other_frame) samples = std::max(samples, static_cast<int>(std::ceil(length * fastest_ / kTurn)));
+    if (kind_ == Kind::other_frame) samples = std::max(samples, static_cast<int>(std::ceil(length * fastest_ / kTurn)));
     if (may_jump) look(step, begin + kBeside * length);
     for (int k = 1; k < samples; ++k) {
       look(step, begin + length * k / samples);

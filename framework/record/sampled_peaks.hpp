@@ -16,10 +16,10 @@ class BUTEE_EXPORT SampledPeaks {
 
   /// Contacts in the plane, with dissipation or friction, as the method sees its contacts; or motion that is measured
   /// in another frame than x, relative to or with moving supports.
-  enum class What { contacts, other_frame };
+  enum class Kind { contacts, other_frame };
 
   /// Uses the quantities of `requests` that are such. `dynamics` must outlive this object.
-  SampledPeaks(What what, const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics);
+  SampledPeaks(Kind kind, const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics);
 
   void start(const time::State& state);
   void step(const time::AcceptedStep& step);
@@ -38,7 +38,7 @@ class BUTEE_EXPORT SampledPeaks {
   enum class End { first, last };
   void look_near(const time::AcceptedStep& step, End end);
 
-  What what_;
+  Kind kind_;
   dynamics::Dynamics& dynamics_;
   Probes::View view_;
   time::Detail detail_ = time::Detail::displacements;

@@ -42,7 +42,7 @@ double rate_of_mode(const MethodLimits& limits, double omega, double c) {
   return rate(limits, 0.0, 0.5 * c + std::sqrt(-square));
 }
 
-/// Of two real eigenvalues, which may belong to one overdamped mode.
+/// 1/h for two real eigenvalues, which may belong to one overdamped mode.
 double rate_of_pair(const MethodLimits& limits, double one, double other) {
   if (!lags_damping(limits)) return rate(limits, 0.0, std::max(std::abs(one), std::abs(other)));
   return rate_of_mode(limits, std::sqrt(std::abs(one * other)), std::abs(one) + std::abs(other));

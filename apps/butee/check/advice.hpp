@@ -22,7 +22,7 @@ struct Advice {
 /// Quantities of a scene that are known before it runs.
 struct Facts {
   std::optional<dynamics::FrequencyRange> open, closed;  ///< empty if the eigenvalue solver did not converge
-  /// Of classical Runge-Kutta, of central differences, and of the scene's method unless it is stable at any step.
+  /// Critical steps of three methods; that of the scene's own method is empty if it is stable at any step.
   std::optional<time::CriticalSteps> of_runge_kutta, of_central_differences, of_method;
   Mechanics mechanics;
   Survey survey;
