@@ -4,6 +4,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include <Eigen/LU>
+#include <butee/core/error.hpp>
 #include <butee/dynamics/damped_modes.hpp>
 #include <gtest/gtest.h>
 
