@@ -43,7 +43,7 @@ std::vector<Chart> of_motion(const Drawing& drawing) {
   for (const char* other : {"uz", "ux"})
     if (charts.empty())
       charts = over_time(drawing, "displacement", other, std::string("displacement ") + other, "m", false);
-  for (const char* rotation : {"theta", "rz", "ry", "rx"})
+  for (const char* rotation : {"theta", "ry", "rx"})
     if (charts.empty())
       charts = over_time(drawing, "rotation", rotation, std::string("rotation ") + rotation, "rad", false);
   return charts;

@@ -108,8 +108,8 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
 }
 
 const std::vector<double>* Result::column(const std::string& probe, const std::string& quantity) const {
-  constexpr std::array<std::pair<const char*, const char*>, 3> kTwoNames = {
-      {{"u", "uy"}, {"v", "uy_v"}, {"a", "uy_a"}}};
+  constexpr std::array<std::pair<const char*, const char*>, 5> kTwoNames = {
+      {{"u", "uy"}, {"v", "uy_v"}, {"a", "uy_a"}, {"uz", "w"}, {"theta", "rz"}}};
   if (const auto* found = history.find(probe + "." + quantity)) return found;
   for (const auto& [name, other] : kTwoNames)
     if (quantity == name) return history.find(probe + "." + other);
