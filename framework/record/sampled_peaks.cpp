@@ -16,8 +16,9 @@ constexpr double kHighEnd = 0.5, kNearEnd = 1e-4;
 /// dashpots make forces jump there.
 constexpr double kBeside = 1e-9;
 
-/// Samples of a harmonic motion of a frame are at most this phase angle apart, rad.
-constexpr double kTurn = 0.5;
+/// Samples of a harmonic motion of a frame are at most this phase angle apart, rad, but not more in a piece than
+/// kMostSamples: beyond, the peak is that of the samples.
+constexpr double kTurn = 0.5, kMostSamples = 1e6;
 
 std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node) {
   if (dynamics.obstacles() == nullptr) return {};
@@ -50,7 +51,7 @@ SampledPeaks::SampledPeaks(Kind kind, const std::vector<model::ProbeRequest>& re
     chosen.push_back(std::move(request));
   }
   for (const model::BaseMotion& base : system.model->bases)
-    if (base.motion) fastest_ = std::max(fastest_, (*base.motion)[0].wave.angular_frequency);
+    if (base.motion) fastest_ = std::max(fastest_, std::abs((*base.motion)[0].wave.angular_frequency));
   if (chosen.empty()) return;
   probes_ = std::make_unique<Probes>(chosen, dynamics);
   values_.resize(probes_->columns().size());
@@ -86,7 +87,8 @@ void SampledPeaks::step(const time::AcceptedStep& step) {
     const double end = piece < breakpoints.size() ? breakpoints[piece] : step.to.t, length = end - begin;
     const bool may_jump = sees_jumps && begin + kBeside * length > begin && end - kBeside * length < end;
     int samples = is_near_quintic ? kSamplesOfQuintic : kSamples;
-    if (kind_ == Kind::other_frame) samples = std::max(samples, static_cast<int>(std::ceil(length * fastest_ / kTurn)));
+    if (kind_ == Kind::other_frame)
+      samples = std::max(samples, static_cast<int>(std::min(kMostSamples, std::ceil(length * fastest_ / kTurn))));
     if (may_jump) look(step, begin + kBeside * length);
     for (int k = 1; k < samples; ++k) {
       look(step, begin + length * k / samples);
