@@ -8,6 +8,7 @@
 #include <butee/record/history.hpp>
 #include <gtest/gtest.h>
 
+#include "pinned_bar.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::base_energy_test {
@@ -20,29 +21,6 @@ std::string text(double value) {
   out.precision(17);
   out << value;
   return out.str();
-}
-
-/// A pinned bar without a motion of its supports.
-std::string still_bar() {
-  return R"(
-schema = 1
-[material.steel]
-young_modulus = 2e11
-density       = 7800.0
-[section.round]
-shape  = "circle"
-radius = 0.005
-[[element]]
-type = "beam"
-name = "bar"
-material = "steel"
-section = "round"
-length = 2.0
-elements = 8
-[[support]]
-nodes = ["bar:first", "bar:last"]
-fix = ["u"]
-)";
 }
 
 /// Peaks of motion in space, between rows and within long steps: those of the steady solution, which the start is on.
@@ -94,7 +72,7 @@ Energies energies_of(const std::string& scene) {
 
 /// Strain and dissipation do not depend on where x is measured from.
 TEST(MovedBase, HasTheEnergiesOfTheWholeStructure) {
-  const std::string bar = still_bar();
+  const std::string bar = pinned_bar(8);
   const std::string displacement =
       "displacement = { direction = [0, 1, 0], type = \"harmonic\", amplitude = 1e-3, angular_frequency = 30.0, phase "
       "= "
@@ -122,7 +100,7 @@ TEST(MovedBase, HasTheEnergiesOfTheWholeStructure) {
 
 /// A bar that moves as a rigid body with its supports has the energy M V^2/2, and no strain.
 TEST(MovedSupport, AddsItsShareOfTheKineticEnergy) {
-  const std::string bar = still_bar();
+  const std::string bar = pinned_bar(8);
   const Energies moved =
       energies_of(bar +
                   "[[base]]\nnodes = [\"bar:first\", \"bar:last\"]\nacceleration = { direction = [0, 1, 0], type = "

@@ -8,6 +8,7 @@
 #include <butee/record/history.hpp>
 #include <gtest/gtest.h>
 
+#include "pinned_bar.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::base_test {
@@ -147,31 +148,10 @@ TEST(Pounding, OfTwinsIsThatOfOneAtAWall) {
 }
 
 std::string moved_bar(int elements, double frequency) {
-  return R"(
-schema = 1
-[material.steel]
-young_modulus = 2e11
-density       = 7800.0
-[section.round]
-shape  = "circle"
-radius = 0.005
-[[element]]
-type = "beam"
-name = "bar"
-material = "steel"
-section = "round"
-length = 2.0
-elements = )" +
-         std::to_string(elements) +
-         "\n[[support]]\nnodes = [\"bar:first\", \"bar:last\"]\nfix = [\"u\"]\n"
+  return pinned_bar(elements) +
          "[[base]]\nnodes = \"bar:first\"\ndisplacement = { direction = [0, 1, 0], type = \"harmonic\", amplitude = "
          "1.0, angular_frequency = " +
          text(2 * pi * frequency) + " }\n[integrator]\ntype = \"newmark\"\ntime_step = 1e-3\nend_time = 1e-2\n";
-}
-
-std::string still_bar() {
-  const std::string scene = moved_bar(8, 3.0);
-  return scene.substr(0, scene.find("[[base]]"));
 }
 
 /// Steady-state midspan displacement of a pinned bar with a moving left support: K_dyn x = F at one
@@ -201,7 +181,7 @@ TEST(MovedSupport, MovesTheMidspanAsTheClosedFormSays) {
 /// The same motion of all supports, given by acceleration, by displacement, or for each support; seen from
 /// the base or from space.
 TEST(MovedBase, IsTheSameHoweverItIsSaid) {
-  const std::string bar = still_bar();
+  const std::string bar = pinned_bar(8);
   const double omega = 30.0;
   const std::string cosine = "direction = [0, 1, 0], type = \"harmonic\", angular_frequency = " + text(omega) + " }\n";
   const std::string displacement = "{ amplitude = 1e-3, " + cosine,
