@@ -9,9 +9,10 @@ namespace {
 
 constexpr std::size_t kChunkValues = std::size_t{1} << 17;  ///< a megabyte of doubles
 constexpr std::size_t kMostRows = 512;                      ///< largest number of rows of a chunk
-/// Shortest time between flushes for rows of probes only; a reader that opens the file during a
-/// flush must retry.
-constexpr auto kPauseOfHistory = std::chrono::milliseconds(500);
+/// Shortest time between flushes. They should be rare, since the library overwrites its metadata
+/// piece by piece: a reader that opens the file in between must retry, and a kill in between damages
+/// the file.
+constexpr auto kPause = std::chrono::milliseconds(500);
 
 Handle create_file(const std::string& path) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set up a file");
@@ -93,14 +94,23 @@ void FieldFile::append(double t, std::span<const double> values) {
   const std::size_t in_chunk = records_ % rows_;
   const bool full = in_chunk + times_.size() == rows_;
   if (full || (times_.size() >= in_chunk && Clock::now() - committed_ > kPatience)) commit();
+  flush_if_due();
 }
 
 void FieldFile::append_row(std::span<const double> values) {
-  if (history_.append(values) && Clock::now() - flushed_ > kPauseOfHistory) flush();
+  if (history_.append(values)) is_flushed_ = false;
+  flush_if_due();
+}
+
+void FieldFile::flush_if_due() {
+  if (is_flushed_ || Clock::now() - flushed_ <= kPause) return;
+  flush();
+  xdmf_.publish();
 }
 
 void FieldFile::flush() {
   check(H5Fflush(file_, H5F_SCOPE_LOCAL), "write fields.h5");
+  is_flushed_ = true;
   flushed_ = Clock::now();
 }
 
@@ -110,10 +120,9 @@ void FieldFile::commit() {
     extend(sets_[field], records_, times_.size(), waiting_.data() + field * rows_ * nodes_);
   extend(time_, records_, times_.size(), times_.data());
   history_.commit();
-  flush();
+  is_flushed_ = false;
   const std::size_t all = records_ + times_.size();
   for (const double t : times_) xdmf_.add(records_++, all, t);
-  xdmf_.publish();
   times_.clear();
   committed_ = Clock::now();
 }
