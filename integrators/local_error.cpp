@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/fastest_rates.hpp"
+
 namespace butee::integrators {
 namespace {
 
@@ -54,40 +56,6 @@ constexpr double kKinkOrder = 2.0;
 /// the other end.
 constexpr double kTouches = 1e-3;
 
-/// The largest k/m of a single DOF, 1/s^2.
-double highest(const Vector& stiffness, const Vector& mass) {
-  double square = 0.0;
-  for (Index i = 0; i < mass.size(); ++i)
-    if (stiffness[i] > 0.0) square = std::max(square, stiffness[i] / mass[i]);
-  return square;
-}
-
-/// The highest rate at which damping decelerates a single DOF, 1/s.
-double damping_rate(const model::System& system, const Vector& stiffness, const Vector& mass) {
-  double rate = 0.0;
-  for (Index i = 0; i < mass.size(); ++i) {
-    const double dashpot = system.dashpots.size() > 0 ? system.dashpots.coeff(i, i) : 0.0;
-    rate = std::max(rate, system.damping.mass_proportional +
-                              (system.damping.stiffness_proportional * stiffness[i] + dashpot) / mass[i]);
-  }
-  return rate;
-}
-
-/// The highest rate at which friction supports decelerate a single DOF in the steep part of their
-/// friction law, 1/s.
-double friction_rate(const dynamics::Obstacles* obstacles, const Vector& mass) {
-  double rate = 0.0;
-  if (obstacles == nullptr) return rate;
-  for (Index i = 0; i < obstacles->size(); ++i) {
-    const model::ObstacleGroup& group = obstacles->group_of(i);
-    if (group.shape != nullptr || !(group.friction.slip_speed > 0.0)) continue;
-    const double damping = group.friction.coefficient * group.normal_force / group.friction.slip_speed;
-    for (const Index dof : {obstacles->ends_of(i).a[0], obstacles->ends_of(i).b[0]})
-      if (dof >= 0) rate = std::max(rate, damping / mass[dof]);
-  }
-  return rate;
-}
-
 }  // namespace
 
 LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& goal, Orders orders, Steps steps)
@@ -109,26 +77,14 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       scale_v_(dynamics.size()),
       work_(dynamics.size()) {
   const model::System& system = dynamics.system();
-  Vector stiffness = system.stiffness.diagonal();
-  const Vector mass = system.mass.diagonal();
-  const double square = highest(stiffness, mass);
-  first_step_ = square > 0.0 ? 0.1 / std::sqrt(square) : 1e-6 * std::min(1.0, goal.run_time);
+  const FastestRates rates = fastest_rates(dynamics);
+  first_step_ = rates.open > 0.0 ? 0.1 / rates.open : 1e-6 * std::min(1.0, goal.run_time);
   for (const model::FreeLoad& load : system.loads)
     if (const auto harmonic = load.in_time->harmonic(); harmonic && harmonic->angular_frequency > 0.0)
       first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
-  const double damping = damping_rate(system, stiffness, mass);
-  const dynamics::ElasticStops& contact = dynamics.stops();
-  const Vector closed = contact.closed_stiffness();
-  for (Index i = 0; i < contact.size(); ++i)
-    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
-      if (dof >= 0) stiffness[dof] += closed[i];
-  if (obstacles_ != nullptr)
-    for (Index i = 0; i < obstacles_->size(); ++i)
-      for (const auto& ends : {obstacles_->ends_of(i).a, obstacles_->ends_of(i).b})
-        for (const Index dof : {ends[0], ends[1]})
-          if (dof >= 0) stiffness[dof] += obstacles_->closed_stiffness(i);
-  omega_ = std::max(std::sqrt(highest(stiffness, mass)), friction_rate(obstacles_, mass));
-  rate_ = omega_ > 0.0 ? std::max(omega_, damping) : 0.0;
+  omega_ = rates.closed;
+  rate_ = rates.any();
+  if (std::isfinite(orders.damping)) longest_ = orders.damping / bound_of_damping(system);
 }
 
 bool LocalErrorControl::touches_anew(const time::State& from, const time::State& to) const {
@@ -327,6 +283,7 @@ void LocalErrorControl::judge_by_scales(const time::State& from, time::State& to
   const double order = has_changed && r > 1.0 ? kKinkOrder : power_ * orders_.method;
   const double next = has_changed && r <= 1.0 ? to.memory[kOld] : r;
   report.proposal = steps_ == Steps::any ? any_step(h, next, from.memory[kOld], order) : grid_step(h, next, order);
+  report.proposal = std::min(report.proposal, longest_);
 }
 
 double LocalErrorControl::any_step(double h, double r, double old, double order) const {

@@ -50,6 +50,9 @@ class LocalErrorControl {
     /// For an explicit method, the stability limit of h omega with closed stops: a longer step in
     /// which a stop closes or opens is repeated even if its estimate is small enough.
     double stability = std::numeric_limits<double>::infinity();
+    /// For an explicit method, the largest product of a step and the highest rate at which damping decelerates a DOF.
+    /// Damped motion grows in longer steps, and the estimate vanishes at some of them.
+    double damping = std::numeric_limits<double>::infinity();
     /// For structures measured as a whole: the fraction of tolerance^(q/p) that the estimate may
     /// reach.
     double share = 1.0;
@@ -144,6 +147,7 @@ class LocalErrorControl {
   /// stiffness.
   double omega_ = 0.0;
   double rate_ = 0.0;  ///< that, or the highest rate at which damping decelerates a DOF, 1/s
+  double longest_ = std::numeric_limits<double>::infinity();  ///< step by Orders::damping, s
   Steps steps_;
   ComponentScales scales_;
   std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s
