@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <utility>
+#include <limits>
 
 #include "butee/core/error.hpp"
 
@@ -21,15 +20,23 @@ constexpr double kAtEnd = 1e-6;
 /// The largest number of changes of phase at one instant; more are not physical.
 constexpr int kMostAtOnce = 50;
 constexpr int kBisections = 60;
-/// The uncertainty of displacements and velocities relative to those of the whole structure in the norm of the diagonal
-/// of M, since sums over modes cancel to about this (chosen: 18 eps).
-constexpr double kRoundingOfModes = 4e-15;
 /// A stick spring whose tension is within this part of the sum of both limits of one of them is near it; steps are then
 /// at most this phase angle of the bodies on the spring, rad (both chosen: the tension leaves a limit by the square of
 /// the angle).
 constexpr double kNearLimit = 1e-3, kPartOfStick = 0.2;
 /// Relative decrease towards the lowest sample of a dip that rounding does not cause.
 constexpr double kRounding = 1e-9;
+
+/// The stiffness of the contact's stick spring over the mass of the bodies, 1/s2, at most; 0 without one.
+double stick_rate(const Obstacles& obstacles, Index contact, const Vector& mass) {
+  const model::Friction& friction = obstacles.group_of(contact).friction;
+  if (friction.rule != model::Friction::Rule::spring) return 0.0;
+  double compliance = 0.0;
+  for (const auto& side : {obstacles.ends_of(contact).a, obstacles.ends_of(contact).b})
+    for (const Index dof : side)
+      if (dof >= 0) compliance += 1.0 / mass[dof];
+  return friction.stick_stiffness * compliance;
+}
 
 /// Number of samples that resolve the loads over a step, since rigid sticks do not move while the
 /// loads change.
@@ -45,22 +52,15 @@ int samples_of_loads(const model::System& system, double h) {
 }  // namespace
 
 ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
-    : dynamics_(dynamics), obstacles_(*dynamics.obstacles()), all_(static_cast<std::size_t>(dynamics.size())) {
-  std::iota(all_.begin(), all_.end(), Index{0});
-  for (Sample* sample : {&now_, &work_}) sample->x = sample->v = sample->a = Vector::Zero(dynamics.size());
-  values_x_.resize(all_.size());
-  values_v_ = values_x_;
-  root_mass_ = dynamics.system().mass.diagonal().cwiseSqrt();
-  for (Index i = 0; i < obstacles_.size(); ++i) {
-    double share = 0.0;
-    for (const auto& side : {obstacles_.ends_of(i).a, obstacles_.ends_of(i).b})
-      for (const Index dof : {side[0], side[1]})
-        if (dof >= 0) share += kRoundingOfModes / root_mass_[dof];
-    rounding_shares_.push_back(share);
-    has_stick_springs_ = has_stick_springs_ || stick_rate(i) > 0.0;
-    needs_accelerations_ = needs_accelerations_ || obstacles_.switches_by_acceleration(i);
-  }
-  if (needs_accelerations_) values_a_ = values_x_;
+    : dynamics_(dynamics),
+      obstacles_(*dynamics.obstacles()),
+      switches_(dynamics),
+      now_(switches_.room()),
+      work_(switches_.room()) {
+  const Vector mass = dynamics.system().mass.diagonal();
+  for (Index i = 0; i < obstacles_.size(); ++i) stick_rates_.push_back(stick_rate(obstacles_, i, mass));
+  if (std::all_of(stick_rates_.begin(), stick_rates_.end(), [](double rate) { return rate == 0.0; }))
+    stick_rates_.clear();
 }
 
 void ContactEvents::start(State& state, ConstVectorRef memory) {
@@ -78,49 +78,37 @@ void ContactEvents::start(State& state, ConstVectorRef memory) {
 }
 
 void ContactEvents::release_overloaded(State& state) {
-  measure(state);
+  switches_.measure(state);
   for (int round = 0; round < kMostAtOnce; ++round) {
-    place(now_, state);
-    hold(now_);
+    switches_.take(state, now_);
     bool changed = false;
-    for (const Index i : std::vector<Index>(sticks_)) {
-      const std::size_t count = switches(i, now_);
-      for (std::size_t k = 0; k < count; ++k) {
-        if (found_[k].value >= 0.0 || found_[k].to.slip == ContactPhase::Slip::stick) continue;
-        enter(i, found_[k].to, state);
-        changed = true;
-        break;
-      }
+    for (const Index i : std::vector<Index>(switches_.sticks())) {
+      const auto found = switches_.of(i, now_);
+      const auto over = std::find_if(found.begin(), found.end(), [](const Obstacles::Switch& one) {
+        return one.value < 0.0 && one.to.slip != ContactPhase::Slip::stick;
+      });
+      if (over == found.end()) continue;
+      enter(i, over->to, state);
+      changed = true;
     }
     if (!changed) return;
     dynamics_.acceleration(state.t, state.x, state.v, state.a);
   }
 }
 
-double ContactEvents::stick_rate(Index contact) const {
-  const model::Friction& friction = obstacles_.group_of(contact).friction;
-  if (friction.rule != model::Friction::Rule::spring) return 0.0;
-  double compliance = 0.0;
-  for (const auto& side : {obstacles_.ends_of(contact).a, obstacles_.ends_of(contact).b})
-    for (const Index dof : side)
-      if (dof >= 0) compliance += 1.0 / (root_mass_[dof] * root_mass_[dof]);
-  return friction.stick_stiffness * compliance;
-}
-
 double ContactEvents::longest_step(const State& state) {
   double longest = std::numeric_limits<double>::infinity();
-  if (!has_stick_springs_) return longest;
+  if (stick_rates_.empty()) return longest;
   follow(state);
-  measure(state);
-  place(now_, state);
-  hold(now_);
+  switches_.measure(state);
+  switches_.take(state, now_);
   for (Index i = 0; i < obstacles_.size(); ++i) {
-    const double rate = stick_rate(i);
+    const double rate = stick_rates_[static_cast<std::size_t>(i)];
     if (rate == 0.0 || obstacles_.phase(i).slip != ContactPhase::Slip::stick) continue;
     // The distances of the tension from both limits are the last two switching functions.
-    const std::size_t count = switches(i, now_);
-    if (count < 2) continue;
-    const double one = found_[count - 2].value, other = found_[count - 1].value;
+    const auto found = switches_.of(i, now_);
+    if (found.size() < 2) continue;
+    const double one = found[found.size() - 2].value, other = found.back().value;
     if (std::min(one, other) < kNearLimit * (one + other)) longest = std::min(longest, kPartOfStick / std::sqrt(rate));
   }
   return longest;
@@ -140,68 +128,31 @@ void ContactEvents::enter(Index contact, const ContactPhase& next, State& state)
       static_cast<double>(next.slip), next.anchor, next.angle, 0.0;
 }
 
-void ContactEvents::place(Sample& at, const State& state) {
-  at.t = state.t;
-  at.x = state.x;
-  at.v = state.v;
-  at.a = state.a;
-}
-
-void ContactEvents::look_ahead(const State& state, double ahead, Sample& at) {
-  at.t = state.t + ahead;
-  at.x.noalias() = state.x + ahead * (state.v + 0.5 * ahead * state.a);
-  at.v.noalias() = state.v + ahead * state.a;
-  if (needs_accelerations_) dynamics_.acceleration(at.t, at.x, at.v, at.a);
-  hold(at);
-}
-
-void ContactEvents::measure(const State& state) {
-  whole_ = {root_mass_.cwiseProduct(state.x).norm(), root_mass_.cwiseProduct(state.v).norm()};
-}
-
-void ContactEvents::hold(Sample& at) {
-  sticks_ = obstacles_.rigid_sticks();
-  if (!sticks_.empty()) at.held = dynamics_.stick_forces(at.t, at.x, at.v);
-}
-
-std::size_t ContactEvents::switches(Index contact, const Sample& at) {
-  double held = 0.0;
-  if (const auto place = std::find(sticks_.begin(), sticks_.end(), contact); place != sticks_.end())
-    held = -at.held[place - sticks_.begin()];
-  const double share = rounding_shares_[static_cast<std::size_t>(contact)];
-  return obstacles_.switches(contact, at.t, at.x, at.v, at.a, held,
-                             {share * whole_.displacement, share * whole_.velocity}, found_);
-}
-
-double ContactEvents::value(Index contact, std::size_t which, const Sample& at) {
-  switches(contact, at);
-  return found_[which].value;
-}
-
 void ContactEvents::settle(State& state, double h, double precision) {
   const double at_end = std::max(kAtEnd, precision / kAhead);
   follow(state);
-  measure(state);
+  switches_.measure(state);
   bool changed = false;
+  std::array<Obstacles::Switch, Obstacles::kMostSwitches> present;
   for (int round = 0; round < kMostAtOnce; ++round) {
     bool again = false;
     if (changed) dynamics_.acceleration(state.t, state.x, state.v, state.a);
-    place(now_, state);
-    hold(now_);
-    look_ahead(state, kAhead * h, work_);
+    switches_.take(state, now_);
+    switches_.look_ahead(state, kAhead * h, work_);
     for (Index i = 0; i < obstacles_.size(); ++i) {
       double& mark = state.contact[kEntries * i + kEntries - 1];
       if (mark == 0.0 && obstacles_.phase(i).normal == ContactPhase::Normal::apart && obstacles_.is_apart(i, work_.x))
         continue;
-      const std::size_t count = switches(i, now_);
-      const auto present = found_;
+      const auto found = switches_.of(i, now_);
+      const std::size_t count = found.size();
+      std::copy(found.begin(), found.end(), present.begin());
       std::optional<std::size_t> over;
       if (mark > 0.0 && static_cast<std::size_t>(mark) <= count) {
         over = static_cast<std::size_t>(mark) - 1;
       } else {
-        switches(i, work_);
+        const auto ahead = switches_.of(i, work_);
         for (std::size_t k = 0; k < count && !over; ++k)
-          if (found_[k].value < 0.0 && present[k].value <= at_end * -found_[k].value) over = k;
+          if (ahead[k].value < 0.0 && present[k].value <= at_end * -ahead[k].value) over = k;
       }
       mark = 0.0;
       if (!over) continue;
@@ -231,29 +182,6 @@ void ContactEvents::add_dofs(Index contact, std::vector<Index>& dofs) const {
       if (dof >= 0) dofs.push_back(dof);
 }
 
-void ContactEvents::sample(const DenseOutput& motion, double t, const std::vector<Index>& dofs, Sample& at) {
-  at.t = t;
-  const State& to = motion.to();
-  if (t >= to.t) {
-    at.x = to.x;
-    at.v = to.v;
-    at.a = to.a;
-  } else {
-    const std::vector<Index>& used = sticks_.empty() ? dofs : all_;
-    const std::span<double> x(values_x_.data(), used.size()), v(values_v_.data(), used.size());
-    motion.trace(t, used, {x, v, {}});
-    for (std::size_t k = 0; k < used.size(); ++k) {
-      at.x[used[k]] = x[k];
-      at.v[used[k]] = v[k];
-    }
-    if (needs_accelerations_) {
-      motion.interpolate(t, used, {{}, {}, {values_a_.data(), used.size()}});
-      for (std::size_t k = 0; k < used.size(); ++k) at.a[used[k]] = values_a_[k];
-    }
-  }
-  if (!sticks_.empty()) hold(at);
-}
-
 bool ContactEvents::is_near(Index contact, const DenseOutput& motion) const {
   const State &from = motion.from(), &to = motion.to();
   const ContactPhase phase = obstacles_.phase(contact);
@@ -263,7 +191,7 @@ bool ContactEvents::is_near(Index contact, const DenseOutput& motion) const {
 }
 
 std::optional<ContactEvents::Event> ContactEvents::first(const DenseOutput& motion) {
-  sticks_ = obstacles_.rigid_sticks();
+  switches_.update_sticks();
   watched_.clear();
   watched_dofs_.clear();
   for (Index i = 0; i < obstacles_.size(); ++i)
@@ -277,13 +205,14 @@ std::optional<ContactEvents::Event> ContactEvents::first(const DenseOutput& moti
   watched_dofs_.erase(std::unique(watched_dofs_.begin(), watched_dofs_.end()), watched_dofs_.end());
   const State &from = motion.from(), &to = motion.to();
   const double h = to.t - from.t;
-  measure(to);
+  switches_.measure(to);
   // Methods with breakpoints within a step take longer steps.
   const int looks = kSamples * motion.trace_parts();
-  const int samples = sticks_.empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
+  const int samples = switches_.sticks().empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
   // A dip between samples is detected by a lowest value.
   looks_.assign(watched_.size(), {});
+  std::array<Obstacles::Switch, Obstacles::kMostSwitches> present;
   // Two samples close to each end detect a dip between the end and its neighbour.
   for (int k = -1; k <= samples + 1; ++k) {
     const double t = k == -1            ? from.t
@@ -291,20 +220,19 @@ std::optional<ContactEvents::Event> ContactEvents::first(const DenseOutput& moti
                      : k == samples     ? to.t - kAhead * h
                      : k == samples + 1 ? to.t
                                         : from.t + h * k / samples;
-    if (k == -1) {
-      place(now_, from);
-      hold(now_);
-    } else {
-      sample(motion, t, watched_dofs_, now_);
-    }
+    if (k == -1)
+      switches_.take(from, now_);
+    else
+      switches_.interpolate(motion, t, watched_dofs_, now_);
     std::optional<Event> earliest;
     const auto take = [&earliest](const Event& event) {
       if (!earliest || event.t < earliest->t) earliest = event;
     };
     for (std::size_t w = 0; w < watched_.size(); ++w) {
       const Index i = watched_[w];
-      const std::size_t count = switches(i, now_);
-      const auto present = found_;
+      const auto found = switches_.of(i, now_);
+      const std::size_t count = found.size();
+      std::copy(found.begin(), found.end(), present.begin());
       for (std::size_t which = 0; which < count; ++which) {
         auto& [first, second] = looks_[w][which];
         const Look now{t, present[which].value};
@@ -316,8 +244,8 @@ std::optional<ContactEvents::Event> ContactEvents::first(const DenseOutput& moti
           const auto at = [&](double instant) {
             own_dofs_.clear();
             add_dofs(i, own_dofs_);
-            sample(motion, instant, own_dofs_, work_);
-            return value(i, which, work_);
+            switches_.interpolate(motion, instant, own_dofs_, work_);
+            return switches_.value(i, which, work_);
           };
           if (const auto dip = below_zero({first, second, now}, at))
             take(refine(motion, {dip->first.t, i, which}, dip->second.t, dip->first.value));
@@ -336,8 +264,8 @@ ContactEvents::Event ContactEvents::refine(const DenseOutput& motion, Event even
   own_dofs_.clear();
   add_dofs(event.contact, own_dofs_);
   const auto at = [&](double t) {
-    sample(motion, t, own_dofs_, work_);
-    return this->value(event.contact, event.which, work_);
+    switches_.interpolate(motion, t, own_dofs_, work_);
+    return switches_.value(event.contact, event.which, work_);
   };
   // The Illinois variant of the false position method, which keeps a bracket; bisection if it
   // converges too slowly.
@@ -375,18 +303,17 @@ ContactEvents::Event ContactEvents::refine(const DenseOutput& motion, Event even
 
 double ContactEvents::miss(const Event& event, double h, const State& to) {
   const double ahead = 1e-3 * h;
-  place(now_, to);
-  hold(now_);
-  look_ahead(to, -ahead, work_);
-  const double at_end = value(event.contact, event.which, now_), before = value(event.contact, event.which, work_);
+  switches_.take(to, now_);
+  const double at_end = switches_.value(event.contact, event.which, now_);
+  switches_.look_ahead(to, -ahead, work_);
+  const double before = switches_.value(event.contact, event.which, work_);
   const double slope = (before - at_end) / ahead;
   return slope != 0.0 ? -at_end / slope : 0.0;
 }
 
 bool ContactEvents::is_over(const Event& event, const State& at) {
-  place(now_, at);
-  hold(now_);
-  return value(event.contact, event.which, now_) <= 0.0;
+  switches_.take(at, now_);
+  return switches_.value(event.contact, event.which, now_) <= 0.0;
 }
 
 void ContactEvents::mark(const Event& event, State& to) {

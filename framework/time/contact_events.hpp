@@ -4,8 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "butee/dynamics/dynamics.hpp"
-#include "butee/time/dense_output.hpp"
+#include "butee/time/contact_switches.hpp"
 #include "butee/time/dip.hpp"
 
 namespace butee::time {
@@ -59,27 +58,10 @@ class BUTEE_EXPORT ContactEvents {
  private:
   static constexpr int kSamples = 8;
 
-  struct Sample {
-    double t = 0.0;
-    Vector x, v, a;  ///< a only if a contact switches by acceleration
-    Vector held;     ///< forces that hold the rigid sticks, N
-  };
-  /// Evaluates the motion of `dofs` at `t`, or of all DOFs if contacts stick rigidly.
-  void sample(const DenseOutput& motion, double t, const std::vector<Index>& dofs, Sample& at);
   /// Appends the DOFs of a contact.
   void add_dofs(Index contact, std::vector<Index>& dofs) const;
-  static void place(Sample& at, const State& state);
-  /// The motion `ahead` of a state (behind it if negative) in the same phases, by its acceleration.
-  void look_ahead(const State& state, double ahead, Sample& at);
-  void hold(Sample& at);
-  /// Sets `whole_` to the motion of a state.
-  void measure(const State& state);
-  std::size_t switches(Index contact, const Sample& at);
-  double value(Index contact, std::size_t which, const Sample& at);
   /// False if the motion over the step cannot bring the contact to a change of phase.
   bool is_near(Index contact, const DenseOutput& motion) const;
-  /// The stiffness of the contact's stick spring over the mass of the bodies, 1/s2, at most; 0 without one.
-  double stick_rate(Index contact) const;
   /// Lets rigid contacts slip whose friction force exceeds what they can hold.
   void release_overloaded(State& state);
   void enter(Index contact, const dynamics::ContactPhase& next, State& state);
@@ -89,18 +71,12 @@ class BUTEE_EXPORT ContactEvents {
 
   dynamics::Dynamics& dynamics_;
   dynamics::Obstacles& obstacles_;
-  std::vector<Index> all_;
-  std::vector<double> values_x_, values_v_, values_a_;
-  std::array<dynamics::Obstacles::Switch, dynamics::Obstacles::kMostSwitches> found_{};
-  Sample now_, work_;
+  ContactSwitches switches_;
+  ContactSwitches::Sample now_, work_;
   /// Values of every switching function of the watched contacts at the last two instants.
   std::vector<std::array<std::array<Look, 2>, dynamics::Obstacles::kMostSwitches>> looks_;
-  std::vector<Index> sticks_, watched_, watched_dofs_, own_dofs_;
-  bool needs_accelerations_ = false, has_stick_springs_ = false;
-  Vector root_mass_;
-  /// The motion of the structure in the norm of the diagonal of M, m sqrt(kg) and m sqrt(kg)/s.
-  dynamics::Obstacles::Rounding whole_;
-  std::vector<double> rounding_shares_;  ///< uncertainty of the motion at each contact per unit of `whole_`, 1/sqrt(kg)
+  std::vector<Index> watched_, watched_dofs_, own_dofs_;
+  std::vector<double> stick_rates_;  ///< of every contact, 1/s2; empty if there is no stick spring
 };
 
 /// The memory of the contacts of a state, Obstacles::kMemorySize numbers for each contact. A run
