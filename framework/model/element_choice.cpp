@@ -173,6 +173,11 @@ DofKind contact_kind(const Model& model, NodeId node, Quantity quantity) {
   return is_on_u || !first ? DofKind::uy : *first;
 }
 
+const char* unit_at(const Model& model, NodeId node, Quantity quantity) {
+  const bool is_moment = quantity == Quantity::contact_force && is_rotation(contact_kind(model, node, quantity));
+  return unit_of(is_moment ? Quantity::contact_rz : quantity);
+}
+
 std::string why_not(Quantity quantity, const Model& model, const DofTable& dofs, NodeId node,
                     const std::string& element) {
   const NodalDof dof{node, kind_of(quantity)};

@@ -34,6 +34,9 @@ BUTEE_EXPORT std::string why_not(Quantity quantity, const Model& model, const Do
 /// else the first one along which its contacts act. kind_of() for all other quantities.
 BUTEE_EXPORT DofKind contact_kind(const Model& model, NodeId node, Quantity quantity);
 
+/// The unit of a quantity at the node: contact_force is a moment where all contacts of the node act on rotations.
+BUTEE_EXPORT const char* unit_at(const Model& model, NodeId node, Quantity quantity);
+
 /// The name of an element; "" if it has none.
 BUTEE_EXPORT const std::string& element_name(const Model& model, std::size_t element);
 

@@ -31,7 +31,7 @@ py::list impacts(const Outcome& outcome) {
   for (const record::Impact& impact : outcome.impacts)
     rows.append(py::make_tuple(impact.node, impact.side, impact.t_in, impact.t_out.value_or(kNone), impact.peak_force,
                                impact.impulse, impact.impact_speed, impact.tangential_impulse, impact.slip,
-                               impact.dissipated));
+                               impact.dissipated, impact.dof));
   return rows;
 }
 
@@ -75,6 +75,7 @@ std::shared_ptr<Outcome> made(const py::dict& history, const py::dict& energy, c
     impact.tangential_impulse = number(7);
     impact.slip = number(8);
     impact.dissipated = number(9);
+    impact.dof = row[10].cast<std::string>();
     if (const double t_out = number(3); t_out == t_out) impact.t_out = t_out;
     outcome->impacts.push_back(std::move(impact));
   }

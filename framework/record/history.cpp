@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "butee/core/error.hpp"
+#include "butee/model/element_choice.hpp"
 
 namespace butee::record {
 namespace {
@@ -48,15 +49,17 @@ HistoryRecorder::HistoryRecorder(const model::OutputRequest& request, double end
 
 std::vector<std::string> HistoryRecorder::columns(const model::OutputRequest& request) {
   std::vector<std::string> names;
-  for (const model::Field& column : columns_with_units(request)) names.push_back(column.name);
+  for (const model::Field& column : columns_with_units(request, nullptr)) names.push_back(column.name);
   return names;
 }
 
-std::vector<model::Field> HistoryRecorder::columns_with_units(const model::OutputRequest& request) {
+std::vector<model::Field> HistoryRecorder::columns_with_units(const model::OutputRequest& request,
+                                                              const model::Model* model) {
   std::vector<model::Field> all = {{"t", "s"}};
   for (const model::ProbeRequest& probe : request.probes)
     for (const model::Quantity quantity : probe.quantities)
-      all.push_back({probe.label + "." + name_of(quantity), unit_of(quantity)});
+      all.push_back({probe.label + "." + name_of(quantity),
+                     model != nullptr ? unit_at(*model, probe.node, quantity) : unit_of(quantity)});
   all.push_back({"h", "s"});
   return all;
 }

@@ -37,8 +37,8 @@ class BUTEE_EXPORT HistoryRecorder final : public time::Observer {
 
   /// "t", the probes' columns, "h"
   static std::vector<std::string> columns(const model::OutputRequest& request);
-  /// The same with their units.
-  static std::vector<model::Field> columns_with_units(const model::OutputRequest& request);
+  /// The same with their units; without a model contact_force has that of a force.
+  static std::vector<model::Field> columns_with_units(const model::OutputRequest& request, const model::Model* model);
 
   /// Largest |value| by column: over the whole motion (Peaks, SampledPeaks) and the rows; for
   /// forces of elements over the rows only. u of every probe is always included.

@@ -10,7 +10,7 @@
 namespace butee::record {
 namespace {
 
-/// The bytes of an impact without its name, as put_impact() writes them.
+/// The bytes of an impact without its names, as put_impact() writes them.
 constexpr std::size_t kImpactBytes = 77;
 /// A body that is away for less than this fraction of the contacts before and after has not left the stop: it would
 /// reach this fraction of its penetration, which is below the rounding error of motion between stops.
@@ -85,9 +85,9 @@ void ImpactList::restore(ByteReader& from) {
 
 ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
   const dynamics::ElasticStops& contact = dynamics.stops();
-  const auto node = [&](Index dof) {
+  const auto names_of = [&](Index dof) {  // of "theta of string:3"
     const std::string name = dynamics.dof_name(dof);
-    return name.substr(name.rfind(' ') + 1);
+    return std::pair(name.substr(name.rfind(' ') + 1), name.substr(0, name.find(' ')));
   };
   for (Index i = 0; i < contact.size(); ++i)
     for (const double side : {1.0, -1.0}) {
@@ -96,8 +96,10 @@ ImpactRecorder::ImpactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynamic
       std::string name;
       for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) {
         if (dof < 0) continue;
+        const auto [node, kind] = names_of(dof);
         if (!name.empty()) name += '|';
-        name += node(dof);
+        name += node;
+        watch.current.dof = kind;
       }
       watch.current.contact = watches_.size();
       watch.current.node = name;
@@ -202,12 +204,14 @@ std::vector<Impact> ImpactRecorder::impacts() const {
   std::vector<Impact> lasting;
   for (const Watch& watch : watches_)
     if (watch.closed) lasting.push_back(watch.current);
-  return ended_.with(lasting);
+  std::vector<Impact> all = ended_.with(lasting);
+  for (Impact& impact : all) impact.dof = watches_[impact.contact].current.dof;  // those of a checkpoint lack it
+  return all;
 }
 
 std::vector<std::string> ImpactRecorder::columns() {
-  return {"node", "side",      "t_in", "t_out", "peak_force", "impulse", "impact_speed", "tangential_impulse",
-          "slip", "dissipated"};
+  return {"node", "side",       "t_in", "t_out", "peak_force", "impulse", "impact_speed", "tangential_impulse",
+          "slip", "dissipated", "dof"};
 }
 
 std::string ImpactRecorder::csv_line(const Impact& impact) {
@@ -220,7 +224,7 @@ std::string ImpactRecorder::csv_line(const Impact& impact) {
     line += ',';
     append_number(line, value);
   }
-  return line;
+  return line + "," + impact.dof;
 }
 
 }  // namespace butee::record

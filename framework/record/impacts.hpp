@@ -21,9 +21,10 @@ struct Impact {
   double tangential_impulse = 0.0;  ///< N s, of friction, opposite to the slip
   double slip = 0.0;                ///< m, sliding distance of the contact
   double dissipated = 0.0;          ///< J
+  std::string dof;                  ///< "u", "theta", "uz", ... of a stop; empty for a ring or plane
 };
 
-/// An impact without its name.
+/// An impact without its names.
 void put_impact(const Impact& impact, ByteWriter& to);
 void take_impact(Impact& impact, ByteReader& from);
 

@@ -71,6 +71,7 @@ def test_impacts_are_the_programs(both):
     assert list(columns) == list(result.impacts.dtype.names)
     assert len(result.impacts) > 0
     assert list(result.impacts["node"]) == columns.pop("node")
+    assert list(result.impacts["dof"]) == columns.pop("dof") == ["u"] * len(result.impacts)
     assert list(result.impacts["side"]) == [int(side) for side in columns.pop("side")]
     for name, texts in columns.items():
         assert same_bits(np.ascontiguousarray(result.impacts[name]), texts), name

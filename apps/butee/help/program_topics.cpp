@@ -60,7 +60,8 @@ std::string results_text(const plugin::Catalogue&) {
   states.bin     the motion of all nodes at the end of a completed run and at the instants of [output] states, as a
                  start for [initial] from of another scene; binary, read only by butee
   impacts.csv    if [output] impacts = true: node, side, t_in, t_out, peak_force, impulse, impact_speed,
-                 tangential_impulse (N s), slip (m) and dissipated (J), the last three are 0 for elastic stops
+                 tangential_impulse (N s), slip (m) and dissipated (J), the last three are 0 for elastic stops;
+                 dof: u, theta, uz, ... of a stop, empty for a ring or plane
   wear.csv       of contacts in the plane, with dissipation or friction: work (J, the integral of |F_n w|) and mean_power,
                  contact_share (of the time), slip (m), dissipated (J), peak and rms normal force (N)
   energy.csv     if [output] energy = true: t, kinetic, strain, contact, work, dissipated (J)

@@ -13,7 +13,7 @@ from . import _butee
 from ._errors import RunError
 
 _IMPACT = [("side", "i4"), ("t_in", "f8"), ("t_out", "f8"), ("peak_force", "f8"), ("impulse", "f8"), ("impact_speed", "f8"),
-           ("tangential_impulse", "f8"), ("slip", "f8"), ("dissipated", "f8")]
+           ("tangential_impulse", "f8"), ("slip", "f8"), ("dissipated", "f8"), ("dof", "U5")]
 
 
 class Result(Mapping[str, np.ndarray]):
@@ -101,7 +101,8 @@ class Result(Mapping[str, np.ndarray]):
         """The closings of stops, if the scene has ``output.impacts = true``, as a structured array of shape (impacts,).
 
         Fields: ``node``, ``side`` (+1 or -1), ``t_in`` and ``t_out`` (s; NaN if still closed), ``peak_force`` (N), ``impulse``
-        (N s), ``impact_speed`` (m/s), ``tangential_impulse`` (N s), ``slip`` (m), ``dissipated`` (J).
+        (N s), ``impact_speed`` (m/s), ``tangential_impulse`` (N s), ``slip`` (m), ``dissipated`` (J), ``dof`` ("u", "uz", ... of a stop,
+        empty for a ring or plane).
         """
         rows = self._core.impacts()
         longest = max((len(row[0]) for row in rows), default=1)
