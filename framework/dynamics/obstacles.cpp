@@ -70,13 +70,6 @@ Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
   phases_.resize(contacts_.size());
 }
 
-bool Obstacles::touches_node(Index i, const model::DofTable& dofs, model::NodeId node) const {
-  for (const auto& side : {ends_of(i).a, ends_of(i).b})
-    for (const Index dof : side)
-      if (dof >= 0 && dofs.free()[static_cast<std::size_t>(dof)].node == node) return true;
-  return false;
-}
-
 void Obstacles::follow(ConstVectorRef phases) {
   is_live_ = false;
   require(phases.size() == kStateSize * size(), "the phases of every contact");

@@ -83,8 +83,6 @@ class BUTEE_EXPORT Obstacles {
   const model::ObstacleGroup& group_of(Index i) const { return *at(i).group; }
   const std::string& name_of(Index i) const { return *at(i).name; }
   const model::FreeObstacles::Ends& ends_of(Index i) const { return *at(i).ends; }
-  /// Whether contact i acts on a free DOF of a node, given by its canonical number.
-  bool touches_node(Index i, const model::DofTable& dofs, model::NodeId node) const;
   /// The free DOFs of all contacts, without repetition, ascending.
   const std::vector<Index>& dofs() const { return dofs_; }
   /// True if a contact sticks rigidly in some phase, so that its force follows from the motion of

@@ -53,6 +53,11 @@ ContactRecorder::ContactRecorder(dynamics::Dynamics& dynamics) : dynamics_(dynam
     watch.is_stop = !watch.is_support && obstacles.group_of(i).directions.size() == 1;
     watch.current.contact = static_cast<std::size_t>(i);
     watch.current.node = obstacles.name_of(i);
+    if (watch.is_stop) {
+      const auto& ends = obstacles.ends_of(i);
+      const std::string name = dynamics.dof_name(std::max(ends.a[0], ends.b[0]));  // "uz of rotor"
+      watch.current.dof = name.substr(0, name.find(' '));
+    }
     watches_.push_back(std::move(watch));
     ContactWear wear;
     wear.node = obstacles.name_of(i);
@@ -243,7 +248,9 @@ std::vector<Impact> ContactRecorder::impacts() const {
     lasting.push_back(watch.current);
     lasting.back().t_out.reset();
   }
-  return ended_.with(lasting);
+  std::vector<Impact> all = ended_.with(lasting);
+  for (Impact& impact : all) impact.dof = watches_[impact.contact].current.dof;  // those of a checkpoint lack it
+  return all;
 }
 
 std::vector<std::string> ContactRecorder::wear_columns() {

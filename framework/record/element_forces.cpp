@@ -47,8 +47,10 @@ void ElementForces::add(model::Quantity quantity, model::NodeId node, const std:
       add_reaction({node, kind_of(quantity)}, column.sums.front());
       break;
     case model::Source::contacts:
+      add_states(quantity, node, column.sums.front());
+      break;
     case model::Source::stops:
-      add_obstacles(quantity, node, column.sums.front());
+      add_contacts({node, contact_kind(model_, node, quantity)}, 1.0, column.sums.front());
       break;
     case model::Source::motion:
       throw LogicError("no force of an element");
@@ -110,22 +112,21 @@ void ElementForces::add_loads_of_part(const model::Element* beam, const model::S
   }
 }
 
-void ElementForces::add_obstacles(model::Quantity quantity, model::NodeId node, Sum& sum) {
-  sum.quantity = quantity;
-  const model::DofTable& dofs = dynamics_.system().dofs;
-  if (is_contact_force(quantity)) {
-    sum.dof = dofs.index({node, contact_kind(model_, node, quantity)});
-    const dynamics::ElasticStops& contact = dynamics_.stops();
-    for (Index i = 0; i < contact.size(); ++i) {
-      if (sum.dof >= 0 && contact.dof_a(i) == sum.dof) sum.stops.push_back({i, 1.0});
-      if (sum.dof >= 0 && contact.dof_b(i) == sum.dof) sum.stops.push_back({i, -1.0});
-    }
-  }
-  if (dynamics_.obstacles() == nullptr) return;
-  for (Index i = 0; i < dynamics_.obstacles()->size(); ++i)
-    if (dynamics_.obstacles()->touches_node(i, dofs, model_.nodes.canonical(node))) sum.obstacles.push_back(i);
-  obstacles_.insert(obstacles_.end(), sum.obstacles.begin(), sum.obstacles.end());
+void ElementForces::need(Index obstacle) {
+  obstacles_.push_back(obstacle);
   sort_once(obstacles_);
+}
+
+void ElementForces::add_contacts(NodalDof dof, double part, Sum& sum) {
+  sum.contacts = contacts_on(model_, dynamics_.system().dofs, dof);
+  sum.part = part;
+  for (const ContactsOn::Obstacle& one : sum.contacts.obstacles) need(one.contact);
+}
+
+void ElementForces::add_states(model::Quantity quantity, model::NodeId node, Sum& sum) {
+  sum.quantity = quantity;
+  sum.states = obstacles_at(model_, dynamics_.system().dofs, node);
+  for (const Index i : sum.states) need(i);
 }
 
 std::vector<Index> ElementForces::dofs() const {
@@ -143,7 +144,7 @@ std::vector<Index> ElementForces::dofs() const {
       for (const Index dof : ends) take(dof);
   for (const Column& column : columns_)
     for (const Sum& sum : column.sums)
-      for (const StopShare& stop : sum.stops)
+      for (const ContactsOn::Stop& stop : sum.contacts.stops)
         for (const Index dof : {dynamics_.stops().dof_a(stop.stop), dynamics_.stops().dof_b(stop.stop)}) take(dof);
   sort_once(needed);
   return needed;
@@ -157,11 +158,10 @@ void ElementForces::evaluate_contacts(double t, ConstVectorRef x, ConstVectorRef
   for (const Index i : obstacles_) contacts_[static_cast<std::size_t>(i)] = all.forces(i, t, x, v);
 }
 
-double ElementForces::sum_of_obstacles(const Sum& of) const {
+double ElementForces::sum_of_states(const Sum& of) const {
   double sum = 0.0;
-  for (const Index i : of.obstacles) {
+  for (const Index i : of.states) {
     const dynamics::ContactForces& now = contacts_[static_cast<std::size_t>(i)];
-    const model::FreeObstacles::Ends& ends = dynamics_.obstacles()->ends_of(i);
     switch (of.quantity) {
       case model::Quantity::contact_normal:
         sum += now.normal;
@@ -172,15 +172,8 @@ double ElementForces::sum_of_obstacles(const Sum& of) const {
       case model::Quantity::contact_slip:
         sum += now.slip_speed;
         break;
-      case model::Quantity::contact_wear:
-        sum += std::abs(now.normal * now.slip_speed);
-        break;
       default:
-        for (std::size_t k = 0; k < 2; ++k) {
-          if (of.dof >= 0 && ends.a[k] == of.dof) sum += now.force[static_cast<Index>(k)];
-          if (of.dof >= 0 && ends.b[k] == of.dof) sum -= now.force[static_cast<Index>(k)];
-        }
-        if (of.dof >= 0 && ends.a[2] == of.dof) sum += now.torque;
+        sum += std::abs(now.normal * now.slip_speed);
     }
   }
   return sum;
@@ -219,23 +212,7 @@ void ElementForces::add_reaction(NodalDof dof, Sum& sum) {
     for (const auto& element : model_.elements) element->assemble(parts);
     sum.loads.push_back({load.in_time.get(), weight});
   }
-  add_stops(dof, sum);
-}
-
-void ElementForces::add_stops(NodalDof dof, Sum& sum) {
-  const model::DofTable& table = dynamics_.system().dofs;
-  const model::NodeId wanted = model_.nodes.canonical(dof.node);
-  Index stop = 0;
-  for (const model::StopGroup& group : model_.stops)
-    for (std::size_t i = 0; i < group.a.size(); ++i) {
-      const bool is_free_a = table.index({group.a[i], group.dof}) >= 0;
-      const bool is_free_b = !group.b.empty() && table.index({group.b[i], group.dof}) >= 0;
-      if (!is_free_a && !is_free_b) continue;  // Such stops are not assembled.
-      if (group.dof == dof.kind && model_.nodes.canonical(group.a[i]) == wanted) sum.stops.push_back({stop, -1.0});
-      if (group.dof == dof.kind && !group.b.empty() && model_.nodes.canonical(group.b[i]) == wanted)
-        sum.stops.push_back({stop, 1.0});
-      ++stop;
-    }
+  add_contacts(dof, -1.0, sum);
 }
 
 void ElementForces::add_pieces_at(std::size_t element, NodalDof dof, double sign, Sum& sum) {
@@ -312,8 +289,10 @@ double ElementForces::value_of(const Sum& sum, double t, ConstVectorRef x) {
   double value = sum.constant;
   for (const Share& share : sum.shares) value += share.weights.dot(pieces_[share.piece].p);
   for (const LoadShare& load : sum.loads) value += load.weight * load.in_time->value(t);
-  for (const StopShare& stop : sum.stops) value += stop.sign * force_of_stop(stop.stop, x);
-  return value + sum_of_obstacles(sum);
+  for (const ContactsOn::Stop& stop : sum.contacts.stops) value += sum.part * stop.sign * force_of_stop(stop.stop, x);
+  for (const ContactsOn::Obstacle& one : sum.contacts.obstacles)
+    value += sum.part * one.of(contacts_[static_cast<std::size_t>(one.contact)]);
+  return value + sum_of_states(sum);
 }
 
 void ElementForces::evaluate(double t, ConstVectorRef x, ConstVectorRef v, std::span<double> values) {

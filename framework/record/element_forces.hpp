@@ -6,6 +6,7 @@
 
 #include "butee/dynamics/dynamics.hpp"
 #include "butee/model/output_request.hpp"
+#include "butee/record/contacts_on.hpp"
 
 namespace butee::record {
 
@@ -66,18 +67,14 @@ class BUTEE_EXPORT ElementForces {
     const model::TimeFunction* in_time;
     double weight;
   };
-  struct StopShare {
-    Index stop;
-    double sign;
-  };
-  /// constant + sum of weights.p + sum of weight f(t) + sum of sign F_c
+  /// constant + sum of weights.p + sum of weight f(t) + part (sum of forces of contacts)
   struct Sum {
     std::vector<Share> shares;
     std::vector<LoadShare> loads;
-    std::vector<StopShare> stops;
-    std::vector<Index> obstacles;
-    model::Quantity quantity = model::Quantity::contact_force;  ///< for obstacles
-    Index dof = model::DofTable::kFixed;                        ///< DOF on which contact_force acts
+    ContactsOn contacts;
+    double part = 1.0;                                          ///< of the forces of `contacts`
+    std::vector<Index> states;                                  ///< contacts whose `quantity` is added
+    model::Quantity quantity = model::Quantity::contact_force;  ///< normal force, friction, slip speed or wear power
     double constant = 0.0;
   };
   /// A sum times a factor, or the von Mises stress of a beam's outer fibre from N, T, My and Mz.
@@ -88,13 +85,14 @@ class BUTEE_EXPORT ElementForces {
   };
 
   void add_section_force(model::Quantity quantity, model::NodeId node, const std::string& element, Column& column);
-  /// Adds the contacts in the plane, with dissipation or friction, at a node; for contact_force
-  /// also its stops.
-  void add_obstacles(model::Quantity quantity, model::NodeId node, Sum& sum);
-  double sum_of_obstacles(const Sum& of) const;
+  /// Adds `part` of the forces of all contacts on the DOF.
+  void add_contacts(model::NodalDof dof, double part, Sum& sum);
+  /// Adds a quantity of the contacts in the plane, with dissipation or friction, at a node.
+  void add_states(model::Quantity quantity, model::NodeId node, Sum& sum);
+  void need(Index obstacle);
+  double sum_of_states(const Sum& of) const;
   void add_springs(model::NodalDof dof, const std::string& element, Sum& sum);
   void add_reaction(model::NodalDof dof, Sum& sum);
-  void add_stops(model::NodalDof dof, Sum& sum);
   /// Adds sign p of every part of an element at the DOF.
   void add_pieces_at(std::size_t element, model::NodalDof dof, double sign, Sum& sum);
   std::size_t add_piece(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices, bool turns);

@@ -1,5 +1,7 @@
 #include "butee/record/peaks.hpp"
 
+#include "butee/model/element_choice.hpp"
+#include "butee/record/contacts_on.hpp"
 #include "butee/record/probes.hpp"
 
 namespace butee::record {
@@ -27,8 +29,8 @@ Peaks::Peaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamic
       const Index dof = Probes::dof_of(quantity, request.node, dynamics);
       Column column{
           request.label + "." + name_of(quantity), kNone, static_cast<std::size_t>(order_of(quantity)), {}, 0.0};
-      if (dof >= 0 && is_contact_force(quantity))
-        column.stops = stops_on(dof);
+      if (is_contact_force(quantity))
+        column.stops = stops_on(quantity, request.node);
       else if (dof >= 0)
         column.track = follow(dof, model::DofTable::kFixed, column.order);
       columns_.push_back(std::move(column));
@@ -42,15 +44,19 @@ std::size_t Peaks::follow(Index a, Index b, std::size_t order) {
   return track;
 }
 
-std::vector<Peaks::Stop> Peaks::stops_on(Index dof) {
+std::vector<Peaks::Stop> Peaks::stops_on(model::Quantity quantity, model::NodeId node) {
+  const model::System& system = dynamics_.system();
+  if (system.model == nullptr) return {};
   const dynamics::ElasticStops& contact = dynamics_.stops();
+  const ContactsOn contacts =
+      contacts_on(*system.model, system.dofs, {node, contact_kind(*system.model, node, quantity)});
   std::vector<Stop> stops;
-  for (Index i = 0; i < contact.size(); ++i) {
+  if (!contacts.obstacles.empty()) return stops;  // SampledPeaks follows the sum.
+  for (const auto& [i, sign] : contacts.stops) {
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
-    if (a != dof && b != dof) continue;
     // The speed resolves penetrations that are small beside the displacement.
     tracks_.add(a, b, 1);
-    stops.push_back({i, follow(a, b, 0), a == dof ? 1.0 : -1.0});
+    stops.push_back({i, follow(a, b, 0), sign});
   }
   return stops;
 }

@@ -55,7 +55,7 @@ class BUTEE_EXPORT Peaks final : public time::Observer {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   std::size_t follow(Index a, Index b, std::size_t order);
-  std::vector<Stop> stops_on(Index dof);
+  std::vector<Stop> stops_on(model::Quantity quantity, model::NodeId node);
   /// Updates the column with the sum of several stop forces between two instants, given a point of
   /// each stop.
   void follow_sum(const time::AcceptedStep& step, Column& column, const std::vector<Point>& from,

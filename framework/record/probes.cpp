@@ -28,11 +28,13 @@ Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynam
   for (const model::ProbeRequest& request : requests)
     for (const model::Quantity quantity : request.quantities) {
       columns_.push_back(request.label + "." + name_of(quantity));
-      if (is_element_force(quantity) || (is_contact_force(quantity) && dynamics.obstacles() != nullptr)) {
+      const Index dof = dof_of(quantity, request.node, dynamics);
+      const bool is_on_support = dof < 0 && dynamics.system().model != nullptr;
+      if (is_element_force(quantity) ||
+          (is_contact_force(quantity) && (dynamics.obstacles() != nullptr || is_on_support))) {
         sources_.push_back(element_force(quantity, request));
         continue;
       }
-      const Index dof = dof_of(quantity, request.node, dynamics);
       Column column{samples_of(quantity), slot(dof), stops_.size(), stops_.size()};
       if (is_contact_force(quantity) && dof >= 0) add_stops(dof);
       column.last_stop = stops_.size();

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "butee/model/element_choice.hpp"
+#include "butee/record/contacts_on.hpp"
+
 namespace butee::record {
 namespace {
 
@@ -20,16 +23,6 @@ constexpr double kBeside = 1e-9;
 /// kMostSamples: beyond, the peak is that of the samples.
 constexpr double kTurn = 0.5, kMostSamples = 1e6;
 
-std::vector<Index> contacts_of(dynamics::Dynamics& dynamics, model::NodeId node) {
-  if (dynamics.obstacles() == nullptr) return {};
-  const model::System& system = dynamics.system();
-  const dynamics::Obstacles& obstacles = *dynamics.obstacles();
-  std::vector<Index> contacts;
-  for (Index i = 0; i < obstacles.size(); ++i)
-    if (obstacles.touches_node(i, system.dofs, system.model->nodes.canonical(node))) contacts.push_back(i);
-  return contacts;
-}
-
 }  // namespace
 
 SampledPeaks::SampledPeaks(Kind kind, const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics)
@@ -39,7 +32,7 @@ SampledPeaks::SampledPeaks(Kind kind, const std::vector<model::ProbeRequest>& re
   std::vector<model::ProbeRequest> chosen;
   for (model::ProbeRequest request : requests) {
     const std::vector<Index> contacts =
-        kind == Kind::contacts ? contacts_of(dynamics, request.node) : std::vector<Index>{};
+        kind == Kind::contacts ? obstacles_at(*system.model, system.dofs, request.node) : std::vector<Index>{};
     std::erase_if(request.quantities, [&](model::Quantity quantity) {
       if (kind == Kind::other_frame) return !Probes::has_base_share(system.model, system.dofs, request.node, quantity);
       return source_of(quantity) != model::Source::contacts && (!is_contact_force(quantity) || contacts.empty());
@@ -48,6 +41,11 @@ SampledPeaks::SampledPeaks(Kind kind, const std::vector<model::ProbeRequest>& re
     for (const model::Quantity quantity : request.quantities)
       if (kind == Kind::other_frame) detail_ = std::max(detail_, static_cast<time::Detail>(order_of(quantity)));
     contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
+    for (const model::Quantity quantity : request.quantities)
+      has_stops_ = has_stops_ || (kind == Kind::contacts && is_contact_force(quantity) &&
+                                  !contacts_on(*system.model, system.dofs,
+                                               {request.node, contact_kind(*system.model, request.node, quantity)})
+                                       .stops.empty());
     chosen.push_back(std::move(request));
   }
   for (const model::BaseMotion& base : system.model->bases)
@@ -66,7 +64,7 @@ void SampledPeaks::start(const time::State& state) {
 }
 
 bool SampledPeaks::is_active() const {
-  if (kind_ == Kind::other_frame) return true;
+  if (kind_ == Kind::other_frame || has_stops_) return true;
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
   if (obstacles.is_live()) return true;
   return std::any_of(contacts_.begin(), contacts_.end(), [&](Index i) {

@@ -45,6 +45,7 @@ class BUTEE_EXPORT SampledPeaks {
   double fastest_ = 0.0;            ///< rad/s, the highest frequency of a moving frame
   std::unique_ptr<Probes> probes_;  ///< null if there are none
   std::vector<Index> contacts_;     ///< of the probes
+  bool has_stops_ = false;          ///< elastic stops add to their forces
   std::vector<double> largest_, values_, now_;
   int samples_ = 0;                           ///< in the present step so far
   std::vector<std::array<Sampled, 2>> last_;  ///< for each column, the two previous samples
