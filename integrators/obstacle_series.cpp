@@ -66,6 +66,7 @@ void ObstacleSeries::begin(double t, ConstVectorRef x, ConstVectorRef v, double 
     contact.phase = phase;
     const dynamics::ContactForces now = obstacles_.forces(i, t, x, v);
     contact.surface = now.surface;
+    contact.surface_rate = length * obstacles_.surface_acceleration(i, t);
     const Friction& friction = group.friction;
     contact.stretch = friction.rule == Friction::Rule::spring
                           ? (now.friction - friction.stick_damping * now.slip_speed) / friction.stick_stiffness
@@ -109,6 +110,10 @@ void ObstacleSeries::place(Contact& contact, Index k) {
       arm.z[0] -= form.place[1];
     }
     contact.square[at] = product(arm.y, arm.y, k) + product(arm.z, arm.z, k);
+    if (k == 0 && contact.square[0] == 0.0)
+      throw RunError(obstacles_.name_of(contact.index) +
+                     " is in the centre of a ring without a gap, where its normal has no direction and exact has no "
+                     "series; take dopri5, extrapolation8 or rodas4");
     contact.radius[at] = k == 0 ? std::sqrt(contact.square[0]) : power(contact.square, 0.5, contact.radius, k);
     contact.inverse[at] = k == 0 ? 1.0 / contact.radius[0] : power(contact.square, -0.5, contact.inverse, k);
     n.y[at] = form.sense * product(arm.y, contact.inverse, k);
@@ -148,7 +153,8 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
   const model::ObstacleGroup& group = obstacles_.group_of(contact.index);
   const Friction& friction = group.friction;
   contact.along[at] = product(contact.tangent.y, contact.v.y, k) + product(contact.tangent.z, contact.v.z, k);
-  contact.slip[at] = contact.along[at] + contact.turning[at] + (k == 0 ? contact.surface : 0.0);
+  const double surface = k == 0 ? contact.surface : k == 1 ? contact.surface_rate : 0.0;
+  contact.slip[at] = contact.along[at] + contact.turning[at] + surface;
   const bool slides =
       contact.phase.slip == ContactPhase::Slip::forward || contact.phase.slip == ContactPhase::Slip::backward;
   if (slides) {
@@ -161,13 +167,7 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
       return 0.0;
     case Friction::Rule::spring: {
       // The rate of the path is the slip speed.
-      if (k == 0) {
-        contact.path[0] = contact.stretch;
-      } else {
-        double speed = contact.along[at - 1] + contact.turning[at - 1];
-        if (k == 1) speed += contact.surface;
-        contact.path[at] = length_ / static_cast<double>(k) * speed;
-      }
+      contact.path[at] = k == 0 ? contact.stretch : length_ / static_cast<double>(k) * contact.slip[at - 1];
       return friction.stick_stiffness * contact.path[at] + friction.stick_damping * contact.slip[at];
     }
     case Friction::Rule::sqrt:
@@ -203,8 +203,21 @@ double ObstacleSeries::rub(Contact& contact, Index k) {
   return friction.coefficient * product(contact.pressing, contact.share, k);
 }
 
+bool ObstacleSeries::is_round_spring(const model::ObstacleGroup& group) {
+  if (group.shape == nullptr) return false;
+  const ContactShape::Form form = group.shape->form();
+  return form.kind == ContactShape::Form::Kind::circle && form.sense > 0.0 && form.distance == 0.0 &&
+         group.damping.kind == ImpactDamping::Kind::none && group.friction.rule == Friction::Rule::none;
+}
+
 void ObstacleSeries::add(Contact& contact, Index k, VectorRef force) {
   const auto at = static_cast<std::size_t>(k);
+  if (const model::ObstacleGroup& group = obstacles_.group_of(contact.index); is_round_spring(group)) {
+    Eigen::Vector2d arm(contact.d.y[at], contact.d.z[at]);
+    if (k == 0) arm -= group.shape->form().place;
+    arm *= -group.law->closed_stiffness();
+    return obstacles_.scatter(contact.index, {arm[0], arm[1], 0.0}, force);
+  }
   place(contact, k);
   contact.pressing[at] = press(contact, k);
   contact.friction[at] = rub(contact, k);

@@ -34,12 +34,15 @@ class ObstacleSeries {
   struct Contact {
     Index index;
     dynamics::ContactPhase phase;
-    double surface, stretch;
+    double surface, surface_rate;  ///< m/s: of the surface at the start, and its change over the length
+    double stretch;                ///< m
     Plane d, v, normal, tangent;
     Series square, radius, inverse, penetration, rate, pressing, along, slip, smooth, root, share, path, friction,
         turning;
   };
 
+  /// True for a ring without a gap, friction and damping: the force is -k times the displacement from its centre.
+  static bool is_round_spring(const model::ObstacleGroup& group);
   void add(Contact& contact, Index k, VectorRef force);
   void place(Contact& contact, Index k);
   double press(Contact& contact, Index k);

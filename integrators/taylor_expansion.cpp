@@ -105,7 +105,7 @@ void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
     velocity_ = (static_cast<double>(k + 1) / h) * to.x.col(k + 1);
     if (obstacles_) obstacles_->add(k, to.x.col(k), velocity_, force_);
     dynamics_.solve_acceleration(to.x.col(k), velocity_, force_);
-    if (obstacles_) dynamics_.hold_sticks(to.begin, force_);
+    if (obstacles_) dynamics_.hold_sticks(k == 0 ? std::optional(to.begin) : std::nullopt, force_);
     to.x.col(k + 2) = (h * h / static_cast<double>((k + 1) * (k + 2))) * force_;
   }
 }

@@ -83,6 +83,10 @@ std::vector<double> Dynamics::load_discontinuities() const {
   return parts_->loads.discontinuities();
 }
 
+std::vector<double> Dynamics::load_jumps() const {
+  return parts_->loads.jumps();
+}
+
 void Dynamics::add_contact_force(ConstVectorRef x, VectorRef force) {
   if (stop_count() == 0) return;
   stops_->displacement(x, parts_->stop_displacement);
@@ -156,7 +160,7 @@ linalg::LinearSolver& Dynamics::mass_solver() {
   return *solver;
 }
 
-void Dynamics::hold_sticks(double t, VectorRef a) {
+void Dynamics::hold_sticks(std::optional<double> t, VectorRef a) {
   if (parts_->sticks) parts_->sticks->hold(t, mass_solver(), a);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,9 @@ class BUTEE_EXPORT Dynamics {
   /// The forces of every contact of obstacles() at a motion, including those that hold rigid
   /// sticks.
   void contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std::vector<ContactForces>& all);
-  /// a += M^-1 T^T times the forces that hold the contacts that stick rigidly now, if any
-  void hold_sticks(double t, VectorRef a);
+  /// a += M^-1 T^T times the forces that hold the contacts that stick rigidly now, if any. Without t, `a` is a
+  /// derivative of the acceleration.
+  void hold_sticks(std::optional<double> t, VectorRef a);
   /// v := the velocity after the impulse that stops the sliding of the contacts that stick rigidly
   void stop_sliding(double t, VectorRef v);
   linalg::Counters& counters() { return *counters_; }
@@ -114,6 +116,8 @@ class BUTEE_EXPORT Dynamics {
   ModalSystem& modal(Index count = 0);
   /// The instants at which a load or one of its derivatives jumps, ascending.
   std::vector<double> load_discontinuities() const;
+  /// Those at which a load or the angular acceleration of the rotation itself jumps, ascending.
+  std::vector<double> load_jumps() const;
 
   /// "u of string:17"
   std::string dof_name(Index dof) const;

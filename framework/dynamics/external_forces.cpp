@@ -1,9 +1,14 @@
 #include "butee/dynamics/external_forces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace butee::dynamics {
 namespace {
+
+/// Relative change of a load over the rounding of t that is a jump. Loads that are no jumps but steep change by 1e-7 at
+/// most (is_steep).
+constexpr double kJump = 1e-3;
 
 /// True if a load is a parabola over less than kFew spacings of the doubles at t: rounding of t changes it by more than
 /// 1/kFew.
@@ -61,9 +66,35 @@ std::vector<double> ExternalForces::discontinuities() const {
     all.insert(all.end(), instants.begin(), instants.end());
   };
   for (const model::FreeLoad& load : system_.loads) take(load.in_time->discontinuities());
-  if (system_.rotation != nullptr) take(system_.rotation->discontinuities());
+  if (const model::Rotation* rotation = varying_rotation()) take(rotation->discontinuities());
   std::sort(all.begin(), all.end());
   return all;
+}
+
+std::vector<double> ExternalForces::jumps() const {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < is_steep_.size(); ++i) {
+    if (is_steep_[i] != 0) continue;
+    const model::TimeFunction& load = *system_.loads[i].in_time;
+    for (const double t : load.discontinuities()) {
+      const double before = load.value(just_before(t)), after = load.value(t);
+      if (t > 0.0 && std::abs(after - before) > kJump * std::max(std::abs(after), std::abs(before))) all.push_back(t);
+    }
+  }
+  if (const model::Rotation* rotation = varying_rotation())
+    for (const double t : rotation->discontinuities())
+      if (t > 0.0) all.push_back(t);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+const model::Rotation* ExternalForces::varying_rotation() const {
+  if (system_.rotation != nullptr || system_.model == nullptr) return system_.rotation;
+  const model::Rotation* const rotation = system_.model->rotation.get();
+  if (rotation == nullptr || rotation->is_constant()) return nullptr;
+  const bool rubs = std::any_of(system_.obstacles.begin(), system_.obstacles.end(),
+                                [](const model::FreeObstacles& obstacles) { return obstacles.group->radius != 0.0; });
+  return rubs ? rotation : nullptr;
 }
 
 }  // namespace butee::dynamics

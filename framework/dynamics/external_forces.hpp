@@ -9,6 +9,11 @@
 
 namespace butee::dynamics {
 
+/// An instant before t > 0 by rounding: sums of instants that should give it stay below t.
+inline double just_before(double t) {
+  return t * (1.0 - 4.0 * std::numeric_limits<double>::epsilon());
+}
+
 /// F(t) of the loads of a system. Load values are kept for one instant, since the stages of a
 /// method often share it.
 class ExternalForces {
@@ -38,8 +43,14 @@ class ExternalForces {
   void replaced();
   /// The instants at which a load, the speed of rotation or a derivative jumps, ascending.
   std::vector<double> discontinuities() const;
+  /// Those at which a value jumps, or the angular acceleration of the rotation, on which gyroscopic, circulatory and
+  /// friction forces depend.
+  std::vector<double> jumps() const;
 
  private:
+  /// The rotation, if its speed varies and forces depend on it other than loads; else null.
+  const model::Rotation* varying_rotation() const;
+
   void evaluate(double t, double after);
 
   const model::System& system_;

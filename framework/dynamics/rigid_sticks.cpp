@@ -29,13 +29,13 @@ void RigidSticks::solve(VectorRef y) {
   y += motion_ * force_;
 }
 
-void RigidSticks::hold(double t, linalg::LinearSolver& mass, VectorRef a) {
+void RigidSticks::hold(std::optional<double> t, linalg::LinearSolver& mass, VectorRef a) {
   if (!obstacles_.has_rigid_friction() || !prepare(mass)) return;
   force_.resize(static_cast<Index>(contacts_.size()));
   for (Index i = 0; i < force_.size(); ++i) {
     const Index contact = contacts_[static_cast<std::size_t>(i)];
-    force_[i] = -obstacles_.surface_acceleration(contact, t) -
-                obstacles_.tangent_of(contact).dot(obstacles_.gather(contact, a));
+    force_[i] = -obstacles_.tangent_of(contact).dot(obstacles_.gather(contact, a));
+    if (t) force_[i] -= obstacles_.surface_acceleration(contact, *t);
   }
   solve(a);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "butee/dynamics/obstacles.hpp"
@@ -14,8 +15,9 @@ class RigidSticks {
   /// `obstacles` must outlive this object.
   explicit RigidSticks(Obstacles& obstacles) : obstacles_(obstacles) {}
 
-  /// a += M^-1 T^T times the forces that keep T a = db/dt
-  void hold(double t, linalg::LinearSolver& mass, VectorRef a);
+  /// a += M^-1 T^T times the forces that keep T a = db/dt at t. Without t, `a` is a derivative of the acceleration:
+  /// db/dt is constant between the instants at which the speed of rotation bends.
+  void hold(std::optional<double> t, linalg::LinearSolver& mass, VectorRef a);
   /// v += M^-1 T^T times the impulses that give T v = b
   void stop(double t, linalg::LinearSolver& mass, VectorRef v);
   /// The forces of the last hold() since clear(), N, in the order of Obstacles::rigid_sticks().

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "butee/dynamics/external_forces.hpp"
 #include "butee/record/quadrature.hpp"
 
 namespace butee::record {
@@ -14,6 +15,9 @@ namespace {
 /// energy.
 constexpr double kGoodWork = 1e-12;
 constexpr int kMostHalvingsOfWork = 12;
+/// The same for what a fast decay at the start of a piece may hide, and the halvings that resolve any decay.
+constexpr double kGoodLayer = 1e-8;
+constexpr int kMostHalvingsOfLayer = 48;
 
 Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics, const model::BaseEnergy& base) {
   Vector force(dynamics.size());
@@ -53,6 +57,7 @@ EnergyRecorder::EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer, 
       middle_(dynamics.size()),
       middle_x_(needs_x_ ? dynamics.size() : 0),
       force_(middle_),
+      jumps_(dynamics.load_jumps()),
       writer_(writer),
       times_(std::move(times)) {
   std::iota(all_.begin(), all_.end(), Index{0});
@@ -129,6 +134,7 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
   }
   if (!told.empty()) return;
   double begin = step.from.t;
+  if (is_jump(begin)) last_ = power(begin, step.from.x, step.from.v);
   for (const double instant : ends_of_pieces(step)) {
     add_piece(step, begin, instant);
     begin = instant;
@@ -170,14 +176,18 @@ void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
   now_ = energy_of(state, dynamics_, base_);
 }
 
+bool EnergyRecorder::is_jump(double t) const {
+  return std::binary_search(jumps_.begin(), jumps_.end(), t);
+}
+
 EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& step, double t) {
-  if (t == step.to.t) return power(t, step.to.x, step.to.v);
+  if (t == step.to.t) return power(is_jump(t) ? dynamics::just_before(t) : t, step.to.x, step.to.v);
   const auto span = [](Vector& vector) { return std::span(vector.data(), static_cast<std::size_t>(vector.size())); };
   step.motion.interpolate(t, all_, {needs_x_ ? span(middle_x_) : std::span<double>{}, span(middle_), {}});
   return power(t, middle_x_, middle_);
 }
 
-EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, double begin, double end) {
+EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, double begin, double end, double* layer) {
   const auto points = gauss_points(begin, end);
   constexpr auto kPoints = static_cast<Index>(std::tuple_size_v<decltype(gauss_points(0.0, 0.0))>);
   std::array<double, kPoints> instants{};
@@ -187,11 +197,19 @@ EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, doub
   if (needs_x_) x_at_.resize(dynamics_.size(), kPoints);
   step.motion.interpolate(instants, all_, {needs_x_ ? span(x_at_) : std::span<double>{}, span(v_at_), {}});
   Power sum{};
+  Power continued{};  // the polynomial through the points, continued to `begin`
   for (Index k = 0; k < kPoints; ++k) {
     const QuadraturePoint& point = points[static_cast<std::size_t>(k)];
     middle_ = v_at_.col(k);
     if (needs_x_) middle_x_ = x_at_.col(k);
-    sum += point.weight * power(point.t, middle_x_, middle_);
+    const Power now = power(point.t, middle_x_, middle_);
+    sum += point.weight * now;
+    if (layer != nullptr) continued += lagrange_at(begin, points, static_cast<std::size_t>(k)) * now;
+  }
+  if (layer != nullptr) {
+    const Power first = begin == step.from.t ? power(begin, step.from.x, step.from.v) : power_within(step, begin);
+    *layer = (points.front().t - begin) *
+             std::max(std::abs(first.of_damping - continued.of_damping), std::abs(first.of_loads - continued.of_loads));
   }
   return sum;
 }
@@ -204,12 +222,15 @@ void EnergyRecorder::add(const Power& done) {
 
 void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings) {
   const double middle = 0.5 * (begin + end);
-  const Power first = gauss(step, begin, middle), second = gauss(step, middle, end);
+  double layer = 0.0, layer_of_second = 0.0;
+  const Power first = gauss(step, begin, middle, &layer), second = gauss(step, middle, end, &layer_of_second);
+  layer = std::max(layer, layer_of_second);
   const double miss = std::max(std::abs(first.of_loads + second.of_loads - whole.of_loads),
                                std::abs(first.of_damping + second.of_damping - whole.of_damping));
   // For a start from rest the piece itself is the only reference.
   const double size = std::max(largest_, std::abs(whole.of_loads) + std::abs(whole.of_damping));
-  if (miss > kGoodWork * size && halvings < kMostHalvingsOfWork) {
+  if ((miss > kGoodWork * size && halvings < kMostHalvingsOfWork) ||
+      (layer > kGoodLayer * size && halvings < kMostHalvingsOfLayer)) {
     add_halved(step, begin, middle, first, halvings + 1);
     add_halved(step, middle, end, second, halvings + 1);
     return;

@@ -81,12 +81,15 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   Power power(double t, const Vector& x, const Vector& v);
   Power power_within(const time::AcceptedStep& step, double t);
   void add(const Power& done);
-  Power gauss(const time::AcceptedStep& step, double begin, double end);
+  /// `layer`: if not null, set to the energy that a fast decay from `begin` on may hide before the first point, J.
+  Power gauss(const time::AcceptedStep& step, double begin, double end, double* layer = nullptr);
   /// `whole` is the result of gauss() for the interval.
   void add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings);
   /// Adds the work between two instants with no breakpoint between them.
   void add_piece(const time::AcceptedStep& step, double begin, double end);
   bool uses_gauss(const time::AcceptedStep& step) const;
+  /// True if a load jumps at t: the power before it is another one.
+  bool is_jump(double t) const;
   /// The ends of the pieces within a step, its own end excepted. Valid until the next call.
   const std::vector<double>& ends_of_pieces(const time::AcceptedStep& step);
   void find_due(const time::AcceptedStep& step);
@@ -102,6 +105,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   Eigen::MatrixXd x_at_, v_at_;  ///< at the points of a quadrature rule, one column each
   std::vector<double> due_;      ///< instants for which a row is not yet written
   std::vector<double> ends_;     ///< of the pieces of a step
+  std::vector<double> jumps_;    ///< instants at which loads jump, s
   Power last_{};
   std::vector<dynamics::ContactForces> contacts_;
   CsvWriter* writer_;

@@ -21,4 +21,13 @@ inline std::array<QuadraturePoint, 5> gauss_points(double begin, double end) {
            {middle + outer, outer_weight}}};
 }
 
+/// Lagrange's polynomial of point k of a rule at t: 1 at that point, 0 at the others.
+template <std::size_t kPoints>
+double lagrange_at(double t, const std::array<QuadraturePoint, kPoints>& points, std::size_t k) {
+  double value = 1.0;
+  for (std::size_t i = 0; i < kPoints; ++i)
+    if (i != k) value *= (t - points[i].t) / (points[k].t - points[i].t);
+  return value;
+}
+
 }  // namespace butee::record

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "butee/core/error.hpp"
+#include "butee/time/contact_events.hpp"
 #include "butee/time/departure.hpp"
 
 namespace butee::time {
@@ -16,6 +17,8 @@ bool is_finite(const State& state) {
 }
 
 }  // namespace
+
+Integrator::Integrator(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {}
 
 void Integrator::start(State& state) {
   start(state, Vector());
@@ -39,10 +42,11 @@ void Integrator::complete(State& state, ConstVectorRef contact_memory) {
   }
 }
 
-void Integrator::pass_discontinuity(State& state) {
-  if (traits().starts_as_published) return;
+void Integrator::pass_discontinuity(State& state, bool jumps) {
+  if (traits().starts_as_published && !jumps) return;
   if (events_) events_->follow(state);
-  if (!leave_middle(dynamics_, state)) return;
+  const bool leaves = !traits().starts_as_published && leave_middle(dynamics_, state);
+  if (!leaves && !jumps) return;
   Vector jump = -state.a;
   dynamics_.acceleration(state.t, state.x, state.v, state.a);
   jump += state.a;

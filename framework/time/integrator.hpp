@@ -8,12 +8,13 @@
 
 #include "butee/config/parameters.hpp"
 #include "butee/dynamics/dynamics.hpp"
-#include "butee/time/contact_events.hpp"
 #include "butee/time/dense_output.hpp"
 #include "butee/time/state.hpp"
 #include "butee/time/step_controller.hpp"
 
 namespace butee::time {
+
+class ContactEvents;
 
 /// Properties of a method for a system, constant from its construction on.
 struct Traits {
@@ -47,7 +48,7 @@ struct Traits {
 class BUTEE_EXPORT Integrator {
  public:
   /// `dynamics` must outlive this object.
-  explicit Integrator(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {}
+  explicit Integrator(dynamics::Dynamics& dynamics);
   virtual ~Integrator();
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
@@ -61,8 +62,8 @@ class BUTEE_EXPORT Integrator {
   void start(State& state, ConstVectorRef contact_memory);
 
   /// At a discontinuity of the loads or of their slopes: stops that nothing has moved so far leave the middle of their
-  /// gap.
-  void pass_discontinuity(State& state);
+  /// gap. `jumps`: the acceleration of the state is that before a jump of the loads.
+  void pass_discontinuity(State& state, bool jumps);
 
   /// Switches contacts whose phase is over at a state to the next phase; the acceleration follows.
   /// `h` is the length of the coming step. A state must be settled before a step from it.

@@ -10,6 +10,7 @@
 #include "butee/core/subnormals.hpp"
 #include "butee/core/text.hpp"
 #include "butee/core/zeros.hpp"
+#include "butee/dynamics/external_forces.hpp"
 #include "butee/time/contact_events.hpp"
 
 namespace butee::time {
@@ -56,7 +57,7 @@ Simulation::Simulation(dynamics::Dynamics& dynamics, Integrator& integrator, Sim
   state_.x = dynamics.system().initial_displacement;
   state_.v = dynamics.system().initial_velocity;
   if (controller_ != nullptr && !traits_.handles_load_discontinuities)
-    discontinuities_ = dynamics.load_discontinuities();
+    discontinuities_ = dynamics.load_discontinuities(), jumps_ = dynamics.load_jumps();
 }
 
 Step Simulation::propose() const {
@@ -64,7 +65,12 @@ Step Simulation::propose() const {
   if (controller_ != nullptr) {
     double landing = std::min(next_discontinuity(), end);
     if (traits_.lands_on_outputs) landing = std::min(landing, next_landing());
-    if (state_.t + next_h_ >= landing) return {landing - state_.t, landing, watched_};
+    if (state_.t + next_h_ >= landing) {
+      // All stages of a step that ends at a jump of the loads belong before it.
+      const double before = dynamics::just_before(landing);
+      if (is_jump(landing) && before > state_.t) landing = before;
+      return {landing - state_.t, landing, watched_};
+    }
     return {next_h_, state_.t + next_h_, watched_};
   }
   const double h = options_.time_step;
@@ -72,6 +78,10 @@ Step Simulation::propose() const {
   if (t_end < end - kDivides * h) return {h, t_end};
   const bool divides = t_end <= end + kDivides * h;
   return {divides ? h : end - state_.t, end};
+}
+
+bool Simulation::is_jump(double t) const {
+  return std::binary_search(jumps_.begin(), jumps_.end(), t);
 }
 
 double Simulation::next_discontinuity() const {
@@ -136,7 +146,7 @@ void Simulation::loads_changed(bool jump) {
   if (jump || !report_.message.empty()) {
     start_anew();
   } else {
-    integrator_.pass_discontinuity(state_);
+    integrator_.pass_discontinuity(state_, false);
     growth_.start(state_);
   }
 }
@@ -217,6 +227,9 @@ bool Simulation::advance() {
 void Simulation::accept(const Step& step, const StepReport& result) {
   ++accepted_;
   report_.steps += result.inner_steps;
+  if (const auto jump = std::upper_bound(jumps_.begin(), jumps_.end(), next_.t);
+      jump != jumps_.end() && next_.t >= dynamics::just_before(*jump))
+    next_.t = *jump;
   report_.t_end = next_.t;
   const double h = (next_.t < step.t_end ? next_.t - state_.t : step.h) / result.inner_steps;
   const AcceptedStep accepted{state_, next_, h, integrator_.dense_output(state_, next_),
@@ -224,7 +237,7 @@ void Simulation::accept(const Step& step, const StepReport& result) {
   for (Observer* observer : observers_) observer->step(accepted);
   std::swap(state_, next_);
   if (std::binary_search(discontinuities_.begin(), discontinuities_.end(), state_.t))
-    integrator_.pass_discontinuity(state_);
+    integrator_.pass_discontinuity(state_, is_jump(state_.t));
   const bool is_last = !(state_.t < options_.end_time);
   if (growth_.step(next_, state_, h, is_last)) {
     fail({h, state_.t}, growth_.describe(state_, h));

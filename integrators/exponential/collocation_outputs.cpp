@@ -208,7 +208,8 @@ double CollocationOutputs::find_fastest(const State& from, const State& to, doub
     find_rate(at.t, place, modal(to) + 2 * p, Eigen::Map<const Eigen::VectorXd>(modal(at), 2 * p), rate);
     turning = turning.max((rate.head(p).array().square() + rate.tail(p).array().square()).sqrt());
   }
-  return fast_.find(from, to, slow, turning / modes_.speed(), detail);
+  // Rigid motion does not turn.
+  return fast_.find(from, to, slow, (modes_.speed() > 0.0).select(turning / modes_.speed(), 0.0), detail);
 }
 
 double CollocationOutputs::longest(const State& from, const State& to) const {

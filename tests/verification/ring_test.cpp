@@ -146,6 +146,21 @@ TEST(ClosedContacts, StiffenTheStructure) {
   EXPECT_NEAR(plane.second, 20.0, 1e-9);
 }
 
+/// A ring without a gap is a spring in every direction, also from its centre on.
+TEST(ClosedContacts, WithoutAGapAreASpringAroundTheCentre) {
+  for (const std::string method : {"exact", "rodas4"}) {
+    SceneRun run("schema = 1\n" + body("m", 2.0, 100.0, 0.0) +
+                     "[[contact]]\ntype = \"ring\"\nnodes = \"m\"\ngap = 0.0\nstiffness = 700.0\nlaw = "
+                     "\"linear\"\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"uz\", value = 0.1 "
+                     "}]\n[integrator]\nend_time = 1.0\n",
+                 {"integrator.type=" + method});
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_NEAR(run.simulation().state().x[run.dof("m", DofKind::uz)], 0.1 / 20.0 * std::sin(20.0),
+                method == "exact" ? 1e-14 : 1e-6)
+        << method;
+  }
+}
+
 /// S3: without unbalance, a start above the threshold of backward whirl ends in whirl, and one below it comes
 /// to rest. With the wrong sign of friction both would grow without bound.
 TEST_P(RingMethods, DryWhirlHasItsThresholdAndItsEndState) {

@@ -117,6 +117,50 @@ TEST(RunUp, StiffnessProportionalDampingLeavesBearingsOut) {
 
 /// The equations of motion hold at the end of a long implicit step, for any speed at which the matrices were
 /// factorized before.
+/// The surface of a disc that runs up drags it along a plane: u'' + k u + c (u' - r Omega' t) = 0.
+TEST(RunUp, DragsABodyByItsSurface) {
+  constexpr double k = 1e4, c = 5.0, rate = 0.5, kEnd = 0.5;
+  const double b = c * rate / k, a = -c * b / k, decay = 0.5 * c, w = std::sqrt(k - decay * decay);
+  const double u =
+      a + b * kEnd + std::exp(-decay * kEnd) * (-a * std::cos(w * kEnd) + (-decay * a - b) / w * std::sin(w * kEnd));
+  for (const std::string method : {"exact", "rodas4", "dopri5", "extrapolation8"}) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"r\"\nmass = 1.0\n[[element]]\ntype = \"bearing\"\nnode = "
+        "\"r\"\nstiffness = [[1e4, 0.0], [0.0, 1e4]]\n[[contact]]\ntype = \"plane\"\nnodes = \"r\"\nnormal = [0.0, "
+        "1.0]\ngap = 0.0\nlaw = \"linear\"\nstiffness = 1e4\nradius = 0.01\nfriction = { coefficient = 0.5, "
+        "slip_speed = 1.0, smoothing = \"clip\" }\n[rotation]\nspeed = { type = \"ramp\", to = 50.0, end = 1.0 "
+        "}\n[[load]]\nnode = \"r\"\ndof = \"uz\"\ntype = \"constant\"\nvalue = 20.0\n[initial]\ndisplacement = [{ "
+        "nodes "
+        "= \"r\", dof = \"uz\", value = 1e-3 }]\n[integrator]\nend_time = 0.5\n",
+        {"integrator.type=" + method});
+    ASSERT_TRUE(run.run().completed);
+    EXPECT_NEAR(run.simulation().state().x[run.dof("r", DofKind::uy)] / u, 1.0, method == "exact" ? 1e-9 : 1e-4)
+        << method;
+  }
+}
+
+/// A rotor that stands still until its run-up begins moves as one whose run-up begins at once: the unbalance begins
+/// with a jump, m e Omega'.
+TEST(RunUp, MayBeginAfterARest) {
+  const auto end = [](const std::string& method, double start) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"r\"\nmass = 2.0\n[[element]]\ntype = \"bearing\"\nnode = "
+        "\"r\"\nstiffness = [[2e4, 0.0], [0.0, 2e4]]\ndamping = [[8.0, 0.0], [0.0, 8.0]]\n[rotation]\nspeed = { type = "
+        "\"ramp\", to = 150.0, start = " +
+            std::to_string(start) + ", end = " + std::to_string(start + 1.0) +
+            " }\n[[load]]\ntype = \"unbalance\"\nnode = \"r\"\nmoment = 2e-3\n[integrator]\ntolerance = "
+            "1e-6\nend_time = " +
+            std::to_string(start + 0.9) + "\n",
+        {"integrator.type=" + method});
+    EXPECT_TRUE(run.run().completed) << method << run.simulation().report().message;
+    return std::hypot(run.simulation().state().x[run.dof("r", DofKind::uy)],
+                      run.simulation().state().x[run.dof("r", DofKind::uz)]);
+  };
+  const double truth = end("rodas4", 0.0);
+  for (const std::string method : {"rodas4", "dopri5", "extrapolation8", "bathe_adaptive", "auto"})
+    EXPECT_NEAR(end(method, 0.125) / truth, 1.0, 1e-4) << method;
+}
+
 TEST(RunUp, EffectiveEquationsAreThoseOfTheirInstant) {
   SceneRun run(gyroscopic_run_up(), {"integrator.type=rodas4"});
   dynamics::Dynamics& dynamics = run.dynamics();
