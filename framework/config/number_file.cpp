@@ -151,6 +151,9 @@ class NumberFile {
              "has no column names, but columns requests \"" + *name + "\"; count columns from 1 instead");
     }
     if (!any) throw InputError(": holds no numbers");
+    if (places_[0] == places_[1])
+      refuse(lines_.number, "columns requests column " + std::to_string(places_[0] + 1) +
+                                " twice; give one for the times and another one for the values");
     for (; any; any = lines_.next()) read_row();
     return std::move(table_);
   }

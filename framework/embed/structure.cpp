@@ -140,7 +140,10 @@ Structure Structure::from_document(config::Document document, const StructureOpt
   std::vector<std::pair<model::NodalDof, NodalForce*>> made;
   for (const std::string& selector : options.forced) parts->add_forces(selector, made);
   parts->assembly.emplace(parts->scene);
-  for (const auto& [dof, force] : made) parts->forces[parts->assembly->system.dofs.index(dof)] = force;
+  for (const auto& [dof, force] : made)
+    if (const Index free = parts->assembly->system.dofs.index(dof); !parts->forces.emplace(free, force).second)
+      throw InputError("forced names " + parts->assembly->dynamics.dof_name(free) +
+                       " twice; name every degree of freedom once");
   return Structure(std::move(parts));
 }
 

@@ -60,7 +60,11 @@ Trust judge(const TrustRuns& runs, double accuracy) {
   trust.end = times.empty() ? 0.0 : times.back();
   const std::vector<double> scales = scales_of(runs.run);
   const double factor = factor_of(runs);
-  const bool moves = std::any_of(scales.begin(), scales.end(), [](double scale) { return scale > 0.0; });
+  const auto moves_in = [](const Histories& histories) {
+    const std::vector<double> largest = scales_of(histories);
+    return std::any_of(largest.begin(), largest.end(), [](double scale) { return scale > 0.0; });
+  };
+  const bool moves = moves_in(runs.run) || moves_in(runs.tightened) || moves_in(runs.other);
   const Growth& growth = runs.growth;
   double difference = 0.0, noise = 0.0, log_growth = 0.0;
   std::size_t looked = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <limits>
 #include <new>
 #include <numbers>
 
@@ -19,6 +20,9 @@ using Clock = std::chrono::steady_clock;
 /// The ratio of a stop's force to the residual force of open stops above which the stop counts as
 /// closed.
 constexpr double kMoreThanPull = 1.1;
+
+/// Instants closer than a step by this part of it are a step apart.
+constexpr double kRoundingOfStep = 1e-6;
 
 /// The largest residual force of an open stop, N; nonzero for the arctan law.
 double largest_pull(const dynamics::ElasticStops& contact) {
@@ -111,7 +115,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
 void Run::add_fields(const record::ResultFolder& folder) {
   const model::OutputRequest& output = scene_.output;
   model::FieldLayout layout = record::make_layout(scene_.model, assembly_.system, output.fields);
-  layout.columns = record::HistoryRecorder::columns_with_units(output);
+  layout.columns = record::HistoryRecorder::columns_with_units(output, &scene_.model);
   std::vector<std::unique_ptr<model::FieldWriter>> writers;
   for (const std::string& name : output.fields.formats)
     writers.push_back(find_type(scene_.catalogue.types().formats, name)->make(folder.path(), layout));
@@ -159,6 +163,7 @@ void Run::summarize() {
   summary_.energy = record::energy_of(assembly_.simulation.state(), assembly_.dynamics);
   if (energy_) summary_.followed = {energy_->work(), energy_->dissipated(), energy_->balance_error()};
   look_at_slips();
+  look_at_loads();
   look_at_rows();
 }
 
@@ -166,6 +171,28 @@ void Run::look_at_slips() {
   if (!slips_) return;
   const std::string complaint = slips_->complaint(*tolerance_of(scene_.integrator));
   if (!complaint.empty()) summary_.report.warnings.push_back(complaint);
+}
+
+void Run::look_at_loads() {
+  if (assembly_.integrator->controller() != nullptr) return;
+  const auto& options = scene_.integrator.options;
+  double shortest = options.time_step * (1.0 - kRoundingOfStep);
+  std::string place;
+  for (const model::FreeLoad& load : assembly_.system.loads) {
+    double last = -std::numeric_limits<double>::infinity();
+    for (const double t : load.in_time->discontinuities()) {
+      if (t > last && last >= 0.0 && last < options.end_time && t - last < shortest) {
+        shortest = t - last;
+        place = assembly_.dynamics.dof_name(load.dofs.front());
+      }
+      last = t;
+    }
+  }
+  if (place.empty()) return;
+  summary_.report.warnings.push_back("the load on " + place + " changes within " + to_short_text(shortest) +
+                                     " s, and steps of " + to_short_text(options.time_step) +
+                                     " s see it only at their own instants. Take time_step = " +
+                                     to_short_text(shortest) + " or a method with error control");
 }
 
 void Run::look_at_rows() {

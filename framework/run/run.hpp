@@ -64,6 +64,8 @@ class BUTEE_EXPORT Run {
   void summarize();
   /// Warns if the tolerance does not resolve the sense of friction.
   void look_at_slips();
+  /// Warns of loads that change faster than fixed steps.
+  void look_at_loads();
   /// Warns if a force was requested and rows are too far apart to show it.
   void look_at_rows();
   void write_files(const record::ResultFolder& folder);

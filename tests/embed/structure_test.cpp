@@ -219,6 +219,7 @@ TEST(Structure, SaysWhatIsWrong) {
   EXPECT_THROW(mass.advance_to(-1.0), LogicError);
   EXPECT_THROW(Structure::from_toml("schema = 1\n[integrator]\ntype = \"rk5\"\n", with_plugins()), InputError);
   EXPECT_THROW(Structure::from_toml(oscillator(kExact), with_plugins({.forced = {"nobody"}})), InputError);
+  EXPECT_THROW(Structure::from_toml(oscillator(kExact), with_plugins({.forced = {"m", "m.u"}})), InputError);
   // A failed run keeps the state of the last good step and does not continue.
   Structure lost = Structure::from_toml(oscillator("[integrator]\ntype = \"rk4\"\ntime_step = 1.0\n"),
                                         with_plugins({.forced = {"m"}}));

@@ -97,6 +97,7 @@ TEST_F(TableFile, RefusesWhatIsNoTableWithItsLine) {
           "columns = [\"Time (s)\", \"Force\"]");
   refused("0,0\n", "t.csv:1: has no column names, but columns requests \"t\"", "columns = [\"t\", \"f\"]");
   refused("0,0\n1,1\n", "t.csv:1: has 2 columns, but column 7 is requested", "columns = [1, 7]");
+  refused("0,0\n1,1\n", "t.csv:1: columns requests column 1 twice; give one for the times", "columns = [1, 1]");
 }
 
 TEST_F(TableFile, RefusesWhatIsNoFile) {

@@ -178,10 +178,11 @@ class Scene(Analyses):
 
         Keywords are keys of ``[integrator]``: ``end_time``, ``time_step``, ``type``, ``tolerance``, ...
         ``progress`` is True for a bar on standard error, or a function of the present time and the end time (s) that is called
-        some times a second. ``output`` is a folder for the files that ``butee run -o`` writes, including checkpoints if the scene
-        requests them (``output.checkpoint``). With ``resume`` an interrupted run continues from the newest checkpoint to the same
-        bits, and the result contains the rows from there on. ``repeat`` integrates the scene this many times and returns the result
-        of the fastest run (``summary["wall_seconds"]``); files are those of the last run.
+        some times a second. ``output`` is a folder for the files that ``butee run -o`` writes, including checkpoints if the
+        scene requests them (``output.checkpoint``). With ``resume`` an interrupted run continues from the newest checkpoint to
+        the same bits, and the result contains the rows from there on; without a checkpoint it runs from the start. ``repeat``
+        integrates the scene this many times and returns the result of the fastest run (``summary["wall_seconds"]``); files are
+        those of the last run.
 
         Other Python threads continue meanwhile. Ctrl-C ends the run after a step. Raises InputError if the scene cannot be run,
         and RunError, with the result so far, if the run fails.
