@@ -83,8 +83,8 @@ std::vector<double> Dynamics::load_discontinuities() const {
   return parts_->loads.discontinuities();
 }
 
-std::vector<double> Dynamics::load_jumps() const {
-  return parts_->loads.jumps();
+bool Dynamics::loads_jump(double t) const {
+  return parts_->loads.jump_at(t);
 }
 
 void Dynamics::add_contact_force(ConstVectorRef x, VectorRef force) {

@@ -116,8 +116,9 @@ class BUTEE_EXPORT Dynamics {
   ModalSystem& modal(Index count = 0);
   /// The instants at which a load or one of its derivatives jumps, ascending.
   std::vector<double> load_discontinuities() const;
-  /// Those at which a load or the angular acceleration of the rotation itself jumps, ascending.
-  std::vector<double> load_jumps() const;
+  /// True if a load or the angular acceleration of the rotation itself jumps at t, by comparison with an instant
+  /// before.
+  bool loads_jump(double t) const;
 
   /// "u of string:17"
   std::string dof_name(Index dof) const;

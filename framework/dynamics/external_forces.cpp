@@ -71,21 +71,16 @@ std::vector<double> ExternalForces::discontinuities() const {
   return all;
 }
 
-std::vector<double> ExternalForces::jumps() const {
-  std::vector<double> all;
+bool ExternalForces::jump_at(double t) const {
+  if (!(t > 0.0)) return false;
   for (std::size_t i = 0; i < is_steep_.size(); ++i) {
     if (is_steep_[i] != 0) continue;
     const model::TimeFunction& load = *system_.loads[i].in_time;
-    for (const double t : load.discontinuities()) {
-      const double before = load.value(just_before(t)), after = load.value(t);
-      if (t > 0.0 && std::abs(after - before) > kJump * std::max(std::abs(after), std::abs(before))) all.push_back(t);
-    }
+    const double before = load.value(just_before(t)), after = load.value(t);
+    if (std::abs(after - before) > kJump * std::max(std::abs(after), std::abs(before))) return true;
   }
-  if (const model::Rotation* rotation = varying_rotation())
-    for (const double t : rotation->discontinuities())
-      if (t > 0.0) all.push_back(t);
-  std::sort(all.begin(), all.end());
-  return all;
+  const model::Rotation* const rotation = varying_rotation();
+  return rotation != nullptr && rotation->acceleration(just_before(t)) != rotation->acceleration(t);
 }
 
 const model::Rotation* ExternalForces::varying_rotation() const {

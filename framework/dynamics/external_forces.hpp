@@ -43,9 +43,9 @@ class ExternalForces {
   void replaced();
   /// The instants at which a load, the speed of rotation or a derivative jumps, ascending.
   std::vector<double> discontinuities() const;
-  /// Those at which a value jumps, or the angular acceleration of the rotation, on which gyroscopic, circulatory and
+  /// True if a load jumps at t, or the angular acceleration of the rotation, on which gyroscopic, circulatory and
   /// friction forces depend.
-  std::vector<double> jumps() const;
+  bool jump_at(double t) const;
 
  private:
   /// The rotation, if its speed varies and forces depend on it other than loads; else null.

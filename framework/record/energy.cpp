@@ -57,7 +57,6 @@ EnergyRecorder::EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer, 
       middle_(dynamics.size()),
       middle_x_(needs_x_ ? dynamics.size() : 0),
       force_(middle_),
-      jumps_(dynamics.load_jumps()),
       writer_(writer),
       times_(std::move(times)) {
   std::iota(all_.begin(), all_.end(), Index{0});
@@ -134,7 +133,7 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
   }
   if (!told.empty()) return;
   double begin = step.from.t;
-  if (is_jump(begin)) last_ = power(begin, step.from.x, step.from.v);
+  if (dynamics_.loads_jump(begin)) last_ = power(begin, step.from.x, step.from.v);
   for (const double instant : ends_of_pieces(step)) {
     add_piece(step, begin, instant);
     begin = instant;
@@ -176,12 +175,8 @@ void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
   now_ = energy_of(state, dynamics_, base_);
 }
 
-bool EnergyRecorder::is_jump(double t) const {
-  return std::binary_search(jumps_.begin(), jumps_.end(), t);
-}
-
 EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& step, double t) {
-  if (t == step.to.t) return power(is_jump(t) ? dynamics::just_before(t) : t, step.to.x, step.to.v);
+  if (t == step.to.t) return power(dynamics_.loads_jump(t) ? dynamics::just_before(t) : t, step.to.x, step.to.v);
   const auto span = [](Vector& vector) { return std::span(vector.data(), static_cast<std::size_t>(vector.size())); };
   step.motion.interpolate(t, all_, {needs_x_ ? span(middle_x_) : std::span<double>{}, span(middle_), {}});
   return power(t, middle_x_, middle_);

@@ -88,8 +88,6 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   /// Adds the work between two instants with no breakpoint between them.
   void add_piece(const time::AcceptedStep& step, double begin, double end);
   bool uses_gauss(const time::AcceptedStep& step) const;
-  /// True if a load jumps at t: the power before it is another one.
-  bool is_jump(double t) const;
   /// The ends of the pieces within a step, its own end excepted. Valid until the next call.
   const std::vector<double>& ends_of_pieces(const time::AcceptedStep& step);
   void find_due(const time::AcceptedStep& step);
@@ -105,7 +103,6 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   Eigen::MatrixXd x_at_, v_at_;  ///< at the points of a quadrature rule, one column each
   std::vector<double> due_;      ///< instants for which a row is not yet written
   std::vector<double> ends_;     ///< of the pieces of a step
-  std::vector<double> jumps_;    ///< instants at which loads jump, s
   Power last_{};
   std::vector<dynamics::ContactForces> contacts_;
   CsvWriter* writer_;

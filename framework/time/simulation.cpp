@@ -57,18 +57,19 @@ Simulation::Simulation(dynamics::Dynamics& dynamics, Integrator& integrator, Sim
   state_.x = dynamics.system().initial_displacement;
   state_.v = dynamics.system().initial_velocity;
   if (controller_ != nullptr && !traits_.handles_load_discontinuities)
-    discontinuities_ = dynamics.load_discontinuities(), jumps_ = dynamics.load_jumps();
+    discontinuities_ = dynamics.load_discontinuities();
 }
 
 Step Simulation::propose() const {
   const double end = options_.end_time;
   if (controller_ != nullptr) {
-    double landing = std::min(next_discontinuity(), end);
+    double landing = std::min(next_discontinuity(state_.t), end);
     if (traits_.lands_on_outputs) landing = std::min(landing, next_landing());
     if (state_.t + next_h_ >= landing) {
       // All stages of a step that ends at a jump of the loads belong before it.
       const double before = dynamics::just_before(landing);
-      if (is_jump(landing) && before > state_.t) landing = before;
+      if (before > state_.t && landing == next_discontinuity(state_.t) && dynamics_.loads_jump(landing))
+        landing = before;
       return {landing - state_.t, landing, watched_};
     }
     return {next_h_, state_.t + next_h_, watched_};
@@ -80,12 +81,8 @@ Step Simulation::propose() const {
   return {divides ? h : end - state_.t, end};
 }
 
-bool Simulation::is_jump(double t) const {
-  return std::binary_search(jumps_.begin(), jumps_.end(), t);
-}
-
-double Simulation::next_discontinuity() const {
-  const auto next = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), state_.t);
+double Simulation::next_discontinuity(double t) const {
+  const auto next = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), t);
   return next == discontinuities_.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 
@@ -227,9 +224,9 @@ bool Simulation::advance() {
 void Simulation::accept(const Step& step, const StepReport& result) {
   ++accepted_;
   report_.steps += result.inner_steps;
-  if (const auto jump = std::upper_bound(jumps_.begin(), jumps_.end(), next_.t);
-      jump != jumps_.end() && next_.t >= dynamics::just_before(*jump))
-    next_.t = *jump;
+  if (const double next = next_discontinuity(next_.t);
+      next_.t >= dynamics::just_before(next) && dynamics_.loads_jump(next))
+    next_.t = next;
   report_.t_end = next_.t;
   const double h = (next_.t < step.t_end ? next_.t - state_.t : step.h) / result.inner_steps;
   const AcceptedStep accepted{state_, next_, h, integrator_.dense_output(state_, next_),
@@ -237,7 +234,7 @@ void Simulation::accept(const Step& step, const StepReport& result) {
   for (Observer* observer : observers_) observer->step(accepted);
   std::swap(state_, next_);
   if (std::binary_search(discontinuities_.begin(), discontinuities_.end(), state_.t))
-    integrator_.pass_discontinuity(state_, is_jump(state_.t));
+    integrator_.pass_discontinuity(state_, dynamics_.loads_jump(state_.t));
   const bool is_last = !(state_.t < options_.end_time);
   if (growth_.step(next_, state_, h, is_last)) {
     fail({h, state_.t}, growth_.describe(state_, h));

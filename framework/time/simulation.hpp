@@ -142,8 +142,8 @@ class BUTEE_EXPORT Simulation {
   void start_anew();
   Step propose() const;
   double next_landing() const;
-  double next_discontinuity() const;
-  bool is_jump(double t) const;
+  /// The first one after t; infinite if there is none.
+  double next_discontinuity(double t) const;
   void accept(const Step& step, const StepReport& result);
   /// True if the steps of an adaptive method have become so short that the run would never end.
   bool has_stalled();
@@ -160,7 +160,6 @@ class BUTEE_EXPORT Simulation {
   GrowthWatch growth_;
   RunReport report_;
   std::vector<double> discontinuities_;  ///< instants of load discontinuities, at which steps end
-  std::vector<double> jumps_;            ///< those at which a load itself jumps
   double next_h_;
   double origin_ = 0.0;        ///< s, from which steps of fixed length are counted
   std::int64_t accepted_ = 0;  ///< number of steps of fixed length
