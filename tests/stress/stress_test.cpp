@@ -13,10 +13,10 @@ namespace {
 
 /// Work limit of a run in evaluations and solves; equals some ten thousand steps of a small scene.
 constexpr std::int64_t kWork = 20000;
-/// Under the sanitizers a run takes ten times as long, so only every fourth scene of a list and the ends of
+/// Under the sanitizers a run takes ten times as long, so only every tenth scene of a list and the ends of
 /// each axis are run. They check the code; the optimised build checks the numbers.
 #ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t kEvery = 4;
+constexpr std::uint64_t kEvery = 10;
 constexpr int kPoints = 2;
 #else
 constexpr std::uint64_t kEvery = 1;
