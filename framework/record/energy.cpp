@@ -15,7 +15,7 @@ namespace {
 /// energy.
 constexpr double kGoodWork = 1e-12;
 constexpr int kMostHalvingsOfWork = 12;
-/// The same for what a fast decay at the start of a piece may hide, and the halvings that resolve any decay.
+/// The same for what a fast decay at the start of a step may hide, and the halvings that resolve any decay.
 constexpr double kGoodLayer = 1e-8;
 constexpr int kMostHalvingsOfLayer = 48;
 
@@ -202,7 +202,7 @@ EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, doub
     if (layer != nullptr) continued += lagrange_at(begin, points, static_cast<std::size_t>(k)) * now;
   }
   if (layer != nullptr) {
-    const Power first = begin == step.from.t ? power(begin, step.from.x, step.from.v) : power_within(step, begin);
+    const Power first = power(begin, step.from.x, step.from.v);
     *layer = (points.front().t - begin) *
              std::max(std::abs(first.of_damping - continued.of_damping), std::abs(first.of_loads - continued.of_loads));
   }
@@ -217,9 +217,10 @@ void EnergyRecorder::add(const Power& done) {
 
 void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings) {
   const double middle = 0.5 * (begin + end);
-  double layer = 0.0, layer_of_second = 0.0;
-  const Power first = gauss(step, begin, middle, &layer), second = gauss(step, middle, end, &layer_of_second);
-  layer = std::max(layer, layer_of_second);
+  double layer = 0.0;
+  // Fast decays begin with a step.
+  const Power first = gauss(step, begin, middle, begin == step.from.t ? &layer : nullptr),
+              second = gauss(step, middle, end);
   const double miss = std::max(std::abs(first.of_loads + second.of_loads - whole.of_loads),
                                std::abs(first.of_damping + second.of_damping - whole.of_damping));
   // For a start from rest the piece itself is the only reference.

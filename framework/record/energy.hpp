@@ -81,7 +81,8 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   Power power(double t, const Vector& x, const Vector& v);
   Power power_within(const time::AcceptedStep& step, double t);
   void add(const Power& done);
-  /// `layer`: if not null, set to the energy that a fast decay from `begin` on may hide before the first point, J.
+  /// `layer`: if not null, set to the energy that a fast decay from `begin` on, the start of the step, may hide before
+  /// the first point, J.
   Power gauss(const time::AcceptedStep& step, double begin, double end, double* layer = nullptr);
   /// `whole` is the result of gauss() for the interval.
   void add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings);
