@@ -13,7 +13,7 @@ void for_assembled(const Groups& groups, const model::DofTable& dofs, const Alon
   Index number = 0;
   for (const auto& group : groups)
     for (std::size_t i = 0; i < group.a.size(); ++i) {
-      const auto kinds = along(group);
+      const auto& kinds = along(group);
       const bool moves = std::any_of(kinds.begin(), kinds.end(), [&](DofKind kind) {
         return dofs.index({group.a[i], kind}) >= 0 || (!group.b.empty() && dofs.index({group.b[i], kind}) >= 0);
       });

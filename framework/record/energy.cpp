@@ -58,7 +58,7 @@ EnergyRecorder::EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer, 
       middle_x_(needs_x_ ? dynamics.size() : 0),
       force_(middle_),
       writer_(writer),
-      times_(std::move(times)) {
+      times_(times) {
   std::iota(all_.begin(), all_.end(), Index{0});
 }
 
