@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/butee/trust.hpp"
+#include "support/program.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::judgement_test {
@@ -59,6 +60,22 @@ TEST(Judgement, SeesRotationsAndDissipativeStops) {
   }
   EXPECT_TRUE(has_force);
   EXPECT_TRUE(has_impacts);
+}
+
+/// A run that misses a short pulse, and with it all motion, is not accurate, and says what it missed.
+TEST(Judgement, DoesNotCallARunAccurateThatMissedTheMotion) {
+  const TemporaryFolder folder;
+  folder.write("pulse.toml",
+               "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = "
+               "\"spring\"\nnode = \"m\"\nstiffness = 800.0\n[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = "
+               "[0.10005, 0.1001, 0.10015]\nvalues = [0.0, 2e4, 0.0]\n[integrator]\ntype = \"newmark\"\ntime_step = "
+               "1e-3\nend_time = 0.5\n[[output.probe]]\nlabel = \"m\"\nnode = \"m\"\nquantities = [\"u\"]\n");
+  const Outcome outcome = run_program({"run", "pulse.toml", "--trust"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output.find("the run is accurate to"), std::string::npos) << outcome.output;
+  EXPECT_NE((outcome.output + outcome.errors).find("the load on u of m changes within 5e-05 s, and steps of 0.001 s"),
+            std::string::npos)
+      << outcome.errors << outcome.output;
 }
 
 }  // namespace

@@ -16,7 +16,6 @@
 
 #include "apps/butee/trust/followed_run.hpp"
 #include "support/extended_motion.hpp"
-#include "support/program.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::trust_test {
@@ -324,22 +323,6 @@ TEST_P(Trust, BoundsTheErrorHoldsThePeaksAndKnowsChaos) {
     EXPECT_GE(trust.amplification, 0.85 * factor);
     EXPECT_LE(trust.amplification, 1.5 * factor);
   }
-}
-
-/// A run that misses a short pulse, and with it all motion, is not accurate, and says what it missed.
-TEST(TrustRuns, DoNotCallARunAccurateThatMissedTheMotion) {
-  const TemporaryFolder folder;
-  folder.write("pulse.toml",
-               "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = "
-               "\"spring\"\nnode = \"m\"\nstiffness = 800.0\n[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = "
-               "[0.10005, 0.1001, 0.10015]\nvalues = [0.0, 2e4, 0.0]\n[integrator]\ntype = \"newmark\"\ntime_step = "
-               "1e-3\nend_time = 0.5\n[[output.probe]]\nlabel = \"m\"\nnode = \"m\"\nquantities = [\"u\"]\n");
-  const Outcome outcome = run_program({"run", "pulse.toml", "--trust"}, folder.path());
-  ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  EXPECT_EQ(outcome.output.find("the run is accurate to"), std::string::npos) << outcome.output;
-  EXPECT_NE((outcome.output + outcome.errors).find("the load on u of m changes within 5e-05 s, and steps of 0.001 s"),
-            std::string::npos)
-      << outcome.errors << outcome.output;
 }
 
 /// A method that ends its steps at the rows of the results is judged in a run with these rows.
