@@ -33,6 +33,27 @@ extern "C" void note_interruption(int) {
   interrupted = 1;
 }
 
+/// The reference as an input of a row: its origin, and the bits of its values.
+std::string text_of(const Reference& reference) {
+  std::string text = reference.origin + to_text(reference.horizon);
+  for (const std::vector<double>& column : reference.values)
+    text.append(reinterpret_cast<const char*>(column.data()), column.size() * sizeof(double));
+  return text;
+}
+
+/// The names of scenes: those of their files, with a number behind a name that was there before.
+std::vector<std::string> names_of(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    const std::string stem = std::filesystem::path(file).stem().string();
+    std::string name = stem;
+    for (int number = 2; std::find(names.begin(), names.end(), name) != names.end(); ++number)
+      name = stem + "-" + std::to_string(number);
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 /// FNV-1a hash of the inputs of a row.
 std::string fingerprint_of(const std::string& text) {
   std::uint64_t hash = 1469598103934665603U;
@@ -57,7 +78,11 @@ class Comparison {
 
   int perform() {
     std::vector<Prepared> scenes;
-    for (std::size_t i = 0; i < study_.scenes.size(); ++i) scenes.push_back(prepare(i));
+    const std::vector<std::string> names = names_of(study_.scenes);
+    for (std::size_t i = 0; i < study_.scenes.size(); ++i) {
+      scenes.push_back(prepare(i));
+      scenes.back().name = names[i];
+    }
     const record::ResultFolder folder(folder_);
     const record::FolderLock lock = folder.lock();
     const std::string runs = folder.file("runs.csv");
@@ -77,6 +102,7 @@ class Comparison {
 
  private:
   struct Prepared {
+    std::string name;
     config::Document document;
     scene::Scene session;
     Question question;
@@ -97,20 +123,27 @@ class Comparison {
     const auto range = frequency_range(system, dynamics::StopState::closed);
     auto sweeps =
         complete_sweeps(study_, session.catalogue, range ? range->highest : 0.0, session.integrator.options.end_time);
-    return {std::move(document), std::move(session), std::move(question), std::move(sweeps)};
+    return {"", std::move(document), std::move(session), std::move(question), std::move(sweeps)};
   }
 
   SceneResult compare_scene(Prepared& scene) {
     SceneResult result;
-    result.scene = std::filesystem::path(scene.document.sources.front()).stem().string();
+    result.scene = scene.name;
     result.title = scene.session.model.title;
     result.column = join(scene.question.columns);
     result.end_time = scene.session.integrator.options.end_time;
     log::info(result.scene + ": reference");
     result.reference = find_reference(study_, scene.document, scene.session.catalogue, scene.question);
-    log::info(result.scene + ": reference by " + result.reference.origin + ", uncertainty " +
-              to_short_text(result.reference.uncertainty) +
-              (result.reference.parted ? ", trusted to t = " + to_short_text(result.reference.horizon) + " s" : ""));
+    const Reference& reference = result.reference;
+    log::info(result.scene + ": reference by " + reference.origin +
+              (reference.method.empty() ? "" : ", uncertainty " + to_short_text(reference.uncertainty)) +
+              (reference.parted ? ", trusted to t = " + to_short_text(reference.horizon) + " s" : ""));
+    for (std::size_t i = 0; i < reference.values.size(); ++i)
+      if (std::all_of(reference.values[i].begin(), reference.values[i].end(), [](double y) { return y == 0.0; }))
+        log::warning(result.scene + ": " + scene.question.columns[i] +
+                     " is zero throughout the reference: there is no relative error of it, and a run that differs "
+                     "has an infinite one");
+    reference_text_ = text_of(reference);
     for (const Sweep& sweep : scene.sweeps) run_sweep(scene, sweep, result);
     return result;
   }
@@ -150,7 +183,7 @@ class Comparison {
     row.value = value;
     row.fingerprint = fingerprint_of(BUTEE_VERSION + target() + compiled_for() +
                                      config::write_toml(config::with_files_found_from(document, ".")) + result.column +
-                                     to_text(result.reference.horizon));
+                                     reference_text_);
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Row& other) {
       return other.fingerprint == row.fingerprint && other.scene == row.scene;
     });
@@ -160,7 +193,10 @@ class Comparison {
     if (!answer.completed) row.outcome = answer.message;
     row.error = error_of(answer.values, result.reference);
     // For the reference's own method, the error is known only as the uncertainty.
-    if (row.method == result.reference.method) row.error.rms = std::max(row.error.rms, result.reference.uncertainty);
+    if (row.method == result.reference.method) {
+      row.error.rms = std::max(row.error.rms, result.reference.uncertainty);
+      row.error.largest = std::max(row.error.largest, result.reference.uncertainty);
+    }
     row.seconds = answer.seconds;
     row.steps = answer.report.steps;
     row.rejected = answer.report.rejected;
@@ -203,6 +239,7 @@ class Comparison {
   Study study_;
   std::string folder_;
   std::vector<Row> kept_;
+  std::string reference_text_;  ///< of the scene that is compared
 };
 
 }  // namespace

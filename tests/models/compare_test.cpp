@@ -138,10 +138,34 @@ TEST(Compare, TakesAReferenceFromAFile) {
   for (int row = 0; row <= 4; ++row) squares += std::pow(std::cos(1.25 * row) + (row == 2 ? 0.5 : 0.0), 2);
   ASSERT_TRUE(rows.contains("exact,,0"));
   EXPECT_NEAR(error_in(rows.at("exact,,0")), 0.5 / std::sqrt(squares), 1e-6);  // the file has six digits
+  EXPECT_NE(read_file(folder.file("out/report.md")).find("Its own error is not known"), std::string::npos);
+  // With another reference the errors are measured again.
+  std::string other = "t,ball.u\n";
+  for (int row = 0; row <= 4; ++row)
+    other += std::to_string(0.125 * row) + "," + std::to_string(std::cos(1.25 * row)) + "\n";
+  folder.write("given.csv", other);
+  ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out"}, folder.path()).status, 0);
+  EXPECT_LT(error_in(rows_of(read_file(folder.file("out/runs.csv"))).at("exact,,0")), 1e-6);
   folder.write("given.csv", "t,ball.u\n0.0,1.0\n");
   const Outcome outcome = run_program({"compare", "study.toml", "-o", "out"}, folder.path());
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.errors.find("has no row at t = 0.125"), std::string::npos) << outcome.errors;
+}
+
+TEST(Compare, TellsOfAColumnThatIsZeroAndMeasuresTheOthers) {
+  const TemporaryFolder folder;
+  std::string scene = kSwing;
+  scene.replace(scene.find("[\"u\"]"), 5, "[\"u\", \"contact_force\"]");
+  folder.write("swing.toml", scene);
+  std::string study = kStudy;
+  study.replace(study.find("targets"), 0, "quantity = [\"ball.u\", \"ball.contact_force\"]\n");
+  folder.write("study.toml", study);
+  const Outcome outcome = run_program({"compare", "study.toml", "-o", "out"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("ball.contact_force is zero throughout the reference"), std::string::npos)
+      << outcome.errors;
+  const auto rows = rows_of(read_file(folder.file("out/runs.csv")));
+  EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.0625")), runge_kutta_error(0.0625, 2), 1e-12);
 }
 
 TEST(Compare, RefusesWhatItCannotCompare) {

@@ -15,7 +15,7 @@ struct Reference {
   Values values;             ///< at the times of the question, up to the horizon
   double horizon = 0.0;      ///< s; two computations diverge beyond it
   bool parted = false;       ///< true: the two computations diverge before the end
-  double uncertainty = 0.0;  ///< relative rms of their difference up to the horizon, in the worst column
+  double uncertainty = 0.0;  ///< relative rms of their difference up to the horizon, in the worst column; 0 for a file
 };
 
 /// Computes the reference twice by the method `exact` at different orders; if `exact` refuses the scene,
@@ -24,7 +24,8 @@ struct Reference {
 Reference find_reference(const Study& study, const config::Document& scene, plugin::Catalogue& catalogue,
                          const Question& question);
 
-/// Relative rms and largest error up to the horizon; infinite if an answer stops before it.
+/// Relative rms and largest error up to the horizon; infinite if an answer stops before it, or departs from a column
+/// that is zero throughout.
 struct Error {
   double rms = 0.0;
   double largest = 0.0;  ///< relative to the peak

@@ -48,6 +48,10 @@ bool is_beyond_doubt(const SceneResult& result, double target) {
 
 void write_reference(std::ostream& out, const SceneResult& result) {
   const Reference& r = result.reference;
+  if (r.method.empty()) {
+    out << "Reference: " << r.origin << ". Its own error is not known: differences from it are given as errors.\n";
+    return;
+  }
   out << "Reference: " << r.origin << "; its uncertainty (relative rms of two computations) is "
       << number(r.uncertainty) << ".\n";
   if (r.parted)
