@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "butee/core/error.hpp"
+#include "butee/model/element_choice.hpp"
+#include "butee/record/contacts_on.hpp"
 #include "butee/study/collect_parts.hpp"
 
 namespace butee::study {
@@ -38,6 +40,13 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
     return !is_element_force(item.quantity) &&
            !record::Probes::has_base_share(&scene.model, dofs, probe_of(item, scene).node, item.quantity);
   };
+  // Peaks follows the forces of elastic stops only.
+  const auto is_of_obstacle = [&](const Item& item) {
+    if (!is_contact_force(item.quantity)) return false;
+    const model::NodeId node = probe_of(item, scene).node;
+    return !record::contacts_on(scene.model, dofs, {node, contact_kind(scene.model, node, item.quantity)})
+                .obstacles.empty();
+  };
   for (const Item& item : items)
     if ((item.kind == Kind::max || item.kind == Kind::min) && !is_followed(item))
       throw InputError("\"" + item.text + "\": refers to another frame than the solution; use peak");
@@ -46,10 +55,12 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
     if (item.kind == Kind::wear && dynamics.obstacles() == nullptr)
       throw InputError("\"wear\": no contact of the scene has friction; add friction, or remove it");
 
-  if (const auto chosen = chosen_by([&](const Item& i) { return i.kind == Kind::peak && is_followed(i); });
+  if (const auto chosen =
+          chosen_by([&](const Item& i) { return i.kind == Kind::peak && is_followed(i) && !is_of_obstacle(i); });
       !chosen.empty())
     add(chosen, std::make_unique<PeakPart>(probes_of(chosen), dynamics));
-  if (const auto chosen = chosen_by([&](const Item& i) { return i.kind == Kind::peak && !is_followed(i); });
+  if (const auto chosen =
+          chosen_by([&](const Item& i) { return i.kind == Kind::peak && (!is_followed(i) || is_of_obstacle(i)); });
       !chosen.empty())
     add(chosen, std::make_unique<SampledPeakPart>(probes_of(chosen), dynamics, counted_));
   if (const auto chosen = chosen_by([](const Item& i) { return i.kind == Kind::max || i.kind == Kind::min; });

@@ -1,5 +1,6 @@
 #include "butee/study/steady.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -19,6 +20,7 @@ SteadyWatch::SteadyWatch(dynamics::Dynamics& dynamics, double period, double tol
       sections_(static_cast<std::size_t>(kKept)),
       dofs_(static_cast<std::size_t>(dynamics.size())) {
   std::iota(dofs_.begin(), dofs_.end(), Index{0});
+  for (const double t : dynamics.load_discontinuities()) earliest_ = std::max(earliest_, t);
 }
 
 double SteadyWatch::size_of(const Vector& x, const Vector& v) const {
@@ -35,7 +37,7 @@ void SteadyWatch::step(const time::AcceptedStep& step) {
     section.x.resize(dynamics_.size());
     section.v.resize(dynamics_.size());
     step.motion.interpolate(t, dofs_, {{section.x.data(), dofs_.size()}, {section.v.data(), dofs_.size()}, {}});
-    if (taken_ >= kKept && taken_ % kBetweenLooks == 0) look();
+    if (taken_ >= kKept && taken_ % kBetweenLooks == 0 && t > earliest_) look();
   }
 }
 

@@ -12,7 +12,8 @@ namespace butee::study {
 /// With s_k the state at the end of period k and |s|^2 = v.M v + (2 pi/T)^2 x.M x, d_k = |s_k -
 /// s_{k-p}| decays like q^(k/p); the remaining distance is about d_k q/(1 - q), with q estimated
 /// over the last 32 periods. The motion is steady if that and d_k are below the tolerance times
-/// |s_k|. Checked every 8 periods; the steps are not changed.
+/// |s_k|. Checked every 8 periods, from the last instant on at which a load or its slope jumps; the steps are not
+/// changed.
 class SteadyWatch final : public time::Observer {
  public:
   /// `dynamics` must outlive this object; `period` in s.
@@ -42,6 +43,7 @@ class SteadyWatch final : public time::Observer {
 
   dynamics::Dynamics& dynamics_;
   double period_, tolerance_;
+  double earliest_ = 0.0;  ///< s, of the last such instant
   std::vector<Section> sections_;
   std::vector<Index> dofs_;
   std::int64_t taken_ = 0, repeats_ = 0;

@@ -176,6 +176,29 @@ tolerance = 1.0e-7
   EXPECT_EQ(perform("12000.0", "steady = 1e-5")[1][0], 601.0);
 }
 
+/// A load that begins after the motion has repeated itself: (10 N)/(9 N/m) beside the oscillation.
+TEST(StudyResults, DoNotCallAMotionSteadyBeforeALaterLoad) {
+  const std::string ramp = "[[load]]\ntype = \"ramp\"\nnode = \"m\"\nto = 10.0\nstart = 250.0\nend = 260.0\n";
+  const auto results =
+      results_of(kOscillator + ramp, "settle = 120\nperiods = 2\nsteady = 1e-6", {"mean m.u", "settled"});
+  EXPECT_NEAR(results[0][0], 10.0 / 9.0, 1e-5);
+  EXPECT_LE(results[1][0], 120.0);
+}
+
+/// A constant load of 5 N keeps a damped stop closed: 9 u + 1000 (u - 0.1) = 5 + 2 cos 2t with both dashpots.
+TEST(StudyResults, HavePeaksOfForcesWithDissipation) {
+  const std::string stop =
+      "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.1\nsides = \"positive\"\nstiffness = 1000.0\ndamping = { "
+      "type = "
+      "\"kelvin_voigt\", coefficient = 10.0 }\n[[load]]\ntype = \"constant\"\nnode = \"m\"\nvalue = 5.0\n";
+  const auto results =
+      results_of(kOscillator + stop, "settle = 40\nperiods = 4", {"peak m.contact_force", "mean m.contact_force"});
+  const double mean = 1000.0 * (105.0 / 1009.0 - 0.1),
+               swing = 2.0 * std::hypot(1000.0, 20.0) / std::hypot(1009.0 - 4.0, 20.8);
+  EXPECT_NEAR(std::abs(results[1][0]), mean, 1e-6);
+  EXPECT_NEAR(results[0][0], mean + swing, 1e-6);
+}
+
 TEST(StudyResults, AreRefusedWithTheirReason) {
   const auto reason = [](const std::string& item) {
     try {
