@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "butee/core/error.hpp"
+#include "butee/model/element_choice.hpp"
 
 namespace butee::record {
 namespace {
@@ -13,6 +14,15 @@ using Clock = std::chrono::steady_clock;
 
 double at(std::span<const double> samples, std::int32_t place) {
   return place < 0 ? 0.0 : samples[static_cast<std::size_t>(place)];
+}
+
+/// True if the nodes have contacts other than elastic stops on u.
+bool is_general(const std::vector<model::NodeId>& nodes, dynamics::Dynamics& dynamics) {
+  if (dynamics.obstacles() != nullptr) return true;
+  const model::Model* const model = dynamics.system().model;
+  return model != nullptr && std::any_of(nodes.begin(), nodes.end(), [model](model::NodeId node) {
+           return contact_kind(*model, node, model::Quantity::contact_force) != DofKind::u;
+         });
 }
 
 }  // namespace
@@ -33,9 +43,13 @@ FieldRecorder::FieldRecorder(const model::OutputRequest& output, double end_time
   };
   needs_v_ = needs(1);
   needs_a_ = needs(2);
-  needs_stops_ = dynamics.stop_count() > 0 && wants({model::Quantity::contact_force, model::Quantity::stop_state});
+  needs_stops_ = (dynamics.stop_count() > 0 || dynamics.obstacles() != nullptr) &&
+                 wants({model::Quantity::contact_force, model::Quantity::stop_state});
   find_dofs(output.fields.nodes);
-  if (needs_stops_) find_stops();
+  if (needs_stops_ && is_general(output.fields.nodes, dynamics))
+    find_contacts(output.fields.nodes);
+  else if (needs_stops_)
+    find_stops();
   x_.resize(dofs_.size());
   if (needs_v_) v_.resize(dofs_.size());
   if (needs_a_) a_.resize(dofs_.size());
@@ -113,18 +127,74 @@ void FieldRecorder::evaluate_stops(std::span<const double> x) {
   }
 }
 
+void FieldRecorder::find_contacts(const std::vector<model::NodeId>& nodes) {
+  const model::System& system = dynamics_.system();
+  std::vector<bool> is_sampled(static_cast<std::size_t>(dynamics_.size()), false);
+  for (const Index dof : dofs_) is_sampled[static_cast<std::size_t>(dof)] = true;
+  const auto sample = [&](Index dof) {
+    if (dof < 0 || is_sampled[static_cast<std::size_t>(dof)]) return;
+    is_sampled[static_cast<std::size_t>(dof)] = true;
+    dofs_.push_back(dof);
+  };
+  for (const model::NodeId node : nodes) {
+    contacts_.push_back(contacts_on(*system.model, system.dofs,
+                                    {node, contact_kind(*system.model, node, model::Quantity::contact_force)}));
+    for (const ContactsOn::Stop& one : contacts_.back().stops)
+      for (const Index dof : {dynamics_.stops().dof_a(one.stop), dynamics_.stops().dof_b(one.stop)}) sample(dof);
+    for (const ContactsOn::Obstacle& one : contacts_.back().obstacles)
+      for (const auto& side :
+           {dynamics_.obstacles()->ends_of(one.contact).a, dynamics_.obstacles()->ends_of(one.contact).b})
+        for (const Index dof : side) sample(dof);
+  }
+  needs_v_ = true;
+  all_x_ = all_v_ = Vector::Zero(dynamics_.size());
+  force_.resize(nodes.size());
+  state_.resize(nodes.size());
+}
+
+void FieldRecorder::evaluate_contacts(double t, const time::Interpolated& samples) {
+  for (std::size_t k = 0; k < dofs_.size(); ++k) {
+    all_x_[dofs_[k]] = samples.x[k];
+    all_v_[dofs_[k]] = samples.v[k];
+  }
+  dynamics::ElasticStops& stops = dynamics_.stops();
+  const auto of = [this](Index dof) { return dof < 0 ? 0.0 : all_x_[dof]; };
+  for (std::size_t node = 0; node < contacts_.size(); ++node) {
+    double force = 0.0, state = 0.0;
+    for (const auto& [stop, sign] : contacts_[node].stops) {
+      const double w = of(stops.dof_a(stop)) - of(stops.dof_b(stop));
+      force += sign * stops.force_of(stop, w);
+      if (const double side = stops.play_of(stop).closed_side(w); side != 0.0) state = sign * side;
+    }
+    for (const ContactsOn::Obstacle& one : contacts_[node].obstacles) {
+      const dynamics::ContactForces now = dynamics_.obstacles()->forces(one.contact, t, all_x_, all_v_);
+      force += one.of(now);
+      if (!(now.penetration > 0.0) || one.place == ContactsOn::Obstacle::kMoment) continue;
+      const dynamics::Obstacles::Motion motion = dynamics_.obstacles()->motion(one.contact, all_x_, all_v_);
+      state = std::copysign(1.0, one.factor * motion.d[static_cast<Index>(one.place)]);
+    }
+    force_[node] = force;
+    state_[node] = state;
+  }
+}
+
 void FieldRecorder::fill(double t, const time::Interpolated& samples) {
-  if (needs_stops_) evaluate_stops(samples.x);
+  if (!contacts_.empty())
+    evaluate_contacts(t, samples);
+  else if (needs_stops_)
+    evaluate_stops(samples.x);
   auto out = record_.begin();
   const std::array<std::span<const double>, 3> motion = {samples.x, samples.v, samples.a};
   for (const model::Quantity quantity : quantities_) {
     const auto& places = places_[static_cast<std::size_t>(kind_of(quantity))];
-    const std::span<const double> from = source_of(quantity) == model::Source::motion
-                                             ? motion[static_cast<std::size_t>(order_of(quantity))]
-                                         : quantity == model::Quantity::contact_force ? std::span<const double>(force_)
-                                                                                      : std::span<const double>(state_);
+    const bool is_motion = source_of(quantity) == model::Source::motion;
+    const std::span<const double> from =
+        is_motion ? motion[static_cast<std::size_t>(order_of(quantity))]
+                  : std::span<const double>(quantity == model::Quantity::contact_force ? force_ : state_);
     if (from.empty())
       out = std::fill_n(out, places.size(), 0.0);
+    else if (!is_motion && !contacts_.empty())
+      out = std::copy(from.begin(), from.end(), out);
     else
       out = std::transform(places.begin(), places.end(), out, [&](std::int32_t place) { return at(from, place); });
   }

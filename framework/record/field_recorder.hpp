@@ -5,6 +5,7 @@
 
 #include "butee/model/field_format.hpp"
 #include "butee/model/output_request.hpp"
+#include "butee/record/contacts_on.hpp"
 #include "butee/record/output_times.hpp"
 
 namespace butee::record {
@@ -47,6 +48,11 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
   void find_base_terms(const std::vector<model::NodeId>& nodes);
   void find_stops();
   void evaluate_stops(std::span<const double> x);
+  /// For contacts with dissipation or friction or in the plane, and stops on other DOFs than u: the contacts of each
+  /// node, and the DOFs on which they depend.
+  void find_contacts(const std::vector<model::NodeId>& nodes);
+  /// Fills force_ and state_, one entry for each node.
+  void evaluate_contacts(double t, const time::Interpolated& samples);
   /// Fills a record from x, v, a at dofs_ at an instant.
   void fill(double t, const time::Interpolated& samples);
   void fill(const time::State& state);
@@ -60,6 +66,8 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
   std::array<std::vector<std::int32_t>, kDofKinds> places_;  ///< by kind and recorded node: the index in dofs_, or -1
   std::vector<BaseTerm> base_;
   std::vector<KeptStop> stops_;
+  std::vector<ContactsOn> contacts_;  ///< of each recorded node; empty if stops_ are all that is needed
+  Vector all_x_, all_v_;              ///< motion of the DOFs of contacts_
   std::vector<double> x_, v_, a_, force_, state_, record_;
   bool needs_v_ = false, needs_a_ = false, needs_stops_ = false;
   bool finished_ = false;

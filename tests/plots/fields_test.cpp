@@ -1,9 +1,11 @@
 // Fields of all nodes: they equal the probes, other programs can read them, and a killed run leaves whole
 // records.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +110,61 @@ TEST(Fields, AreWhatTheProbesSay) {
   // A fixed DOF, and an absent one: a lone mass has no rotation.
   for (const double value : course(*reader, "u", "string:0")) EXPECT_EQ(value, 0.0);
   for (const double value : course(*reader, "theta", "rotor")) EXPECT_EQ(value, 0.0);
+}
+
+/// Contacts with dissipation, in the plane or on uz, as the probes see them.
+TEST(Fields, HaveTheForcesOfAllContacts) {
+  NEEDS_HDF5();
+  const std::string body = R"(schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "a"
+dof = "DOF"
+stiffness = 1000.0
+[initial]
+velocity = [{ nodes = "a", dof = "DOF", value = 0.3 }]
+[integrator]
+type = "dopri5"
+end_time = 0.1
+[output]
+interval = 1e-3
+formats = ["csv", "hdf5"]
+[[output.probe]]
+label = "a"
+node = "a"
+quantities = ["DOF", "contact_force"]
+[[contact]]
+nodes = "a"
+gap = 1e-3
+stiffness = 1e6
+)";
+  const std::map<std::string, std::pair<std::string, std::string>> contacts = {
+      {"damped", {"u", "type = \"stop\"\ndamping = { type = \"kelvin_voigt\", coefficient = 10.0 }\n"}},
+      {"ring",
+       {"uy", "type = \"ring\"\n[[element]]\ntype = \"spring\"\nnode = \"a\"\ndof = \"uz\"\nstiffness = 1000.0\n"}},
+      {"across", {"uz", "type = \"stop\"\ndof = \"uz\"\n"}}};
+  for (const auto& [name, contact] : contacts) {
+    SCOPED_TRACE(name);
+    const auto& [dof, keys] = contact;
+    std::string text = body;
+    for (std::size_t at = text.find("DOF"); at != std::string::npos; at = text.find("DOF")) text.replace(at, 3, dof);
+    const TemporaryFolder folder;
+    folder.write("scene.toml", text + keys);
+    const Outcome outcome = run_program({"run", "scene.toml", "-q"}, folder.path());
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    const CsvTable history(folder.file("scene-results/history.csv"));
+    const auto reader = hdf5()->open(folder.file("scene-results"));
+    const auto force = course(*reader, "contact_force", "a"), state = course(*reader, "stop_state", "a");
+    EXPECT_EQ(force, history.column("a.contact_force"));
+    EXPECT_GT(*std::max_element(force.begin(), force.end()), 100.0);
+    const auto w = history.column("a." + dof);
+    for (std::size_t i = 0; i < w.size(); ++i)
+      EXPECT_EQ(state[i], w[i] > 1e-3 ? 1.0 : w[i] < -1e-3 ? -1.0 : 0.0) << "record " << i;
+  }
 }
 
 TEST(Fields, CostTheRunNothingAndChangeNothing) {
