@@ -50,6 +50,14 @@ class Equilibrium {
         w_(dynamics.stop_count()) {
     if (dynamics.obstacles() != nullptr) dynamics.obstacles()->follow_live();
     dynamics.external_force(t, load_);
+    const model::System& system = dynamics.system();
+    if (system.model == nullptr || system.model->bases.empty()) return;
+    // At rest relative to the base: in space all DOFs move with it.
+    rest_ = motion_with_base(*system.model, system.dofs, 1, t);
+    dynamics.damping_force(rest_, elastic_);
+    load_ -= elastic_;
+    dynamics.inertia_force(motion_with_base(*system.model, system.dofs, 2, t), elastic_);
+    load_ -= elastic_;
   }
 
   /// r := F + F_c(x) - K x; returns |r| over |F| + |F_c| + |K x|, or 0 without any force.
@@ -106,7 +114,8 @@ class Equilibrium {
 
  private:
   Dynamics& dynamics_;
-  Vector load_, elastic_, rest_;
+  Vector load_, elastic_;
+  Vector rest_;  ///< velocity of the DOFs at rest, m/s
   double t_;
   Vector w_;
 };

@@ -102,6 +102,15 @@ std::vector<BaseShare> base_shares(const Model& model, const DofTable& dofs, Nod
   return shares;
 }
 
+Vector motion_with_base(const Model& model, const DofTable& dofs, int order, double t) {
+  Vector motion = Vector::Zero(dofs.free_count());
+  if (model.bases.empty() || model.base_frame != BaseFrame::still) return motion;
+  for (Index i = 0; i < motion.size(); ++i)
+    for (const BaseShare& share : base_shares(model, dofs, dofs.free()[static_cast<std::size_t>(i)], order, false))
+      motion[i] -= share.factor * share.motion->value(t);
+  return motion;
+}
+
 bool knows_base_motion(const Model& model) {
   return std::all_of(model.bases.begin(), model.bases.end(),
                      [](const BaseMotion& base) { return base.motion.has_value(); });

@@ -42,6 +42,10 @@ struct BaseShare {
 BUTEE_EXPORT std::vector<BaseShare> base_shares(const Model& model, const DofTable& dofs, NodalDof dof, int order,
                                                 bool absolute);
 
+/// The motion of all free DOFs with the base, in x, v or a (order 0, 1, 2): what they have in space beside their motion
+/// relative to the base. Zero unless x is a motion in space (BaseFrame::still).
+BUTEE_EXPORT Vector motion_with_base(const Model& model, const DofTable& dofs, int order, double t);
+
 /// True if every base motion that affects x is known in closed form.
 BUTEE_EXPORT bool knows_base_motion(const Model& model);
 

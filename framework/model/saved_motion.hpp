@@ -9,7 +9,7 @@
 
 namespace butee::model {
 
-/// The motion of all free DOFs at one instant.
+/// The motion of all free DOFs at one instant, relative to the base.
 struct SavedMotion {
   double t = 0.0;  ///< s
   Vector x, v;     ///< m or rad, m/s or rad/s

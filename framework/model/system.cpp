@@ -119,15 +119,9 @@ void set_start(const Model& model, System& system) {
   system.initial_displacement = initial_vector(start.displacement, model.initial_displacement, system.dofs);
   system.initial_velocity = initial_vector(start.velocity, model.initial_velocity, system.dofs);
   system.initial_time = start.time;
-  if (model.base_frame == BaseFrame::still && !model.bases.empty() && model.bases.front().nodes.empty())
-    for (Index i = 0; i < system.size(); ++i) {
-      // The given value is relative to the base; u is x minus these shares.
-      const NodalDof dof = system.dofs.free()[static_cast<std::size_t>(i)];
-      for (const BaseShare& share : base_shares(model, system.dofs, dof, 0, false))
-        system.initial_displacement[i] -= share.factor * share.motion->value(system.initial_time);
-      for (const BaseShare& share : base_shares(model, system.dofs, dof, 1, false))
-        system.initial_velocity[i] -= share.factor * share.motion->value(system.initial_time);
-    }
+  // The given motion is relative to the base.
+  system.initial_displacement += motion_with_base(model, system.dofs, 0, system.initial_time);
+  system.initial_velocity += motion_with_base(model, system.dofs, 1, system.initial_time);
 }
 
 }  // namespace

@@ -59,6 +59,11 @@ void StateKeeper::write(const std::string& path, const model::System& system, co
   model::SavedMotions saved(system.model->nodes, system.dofs);
   saved.motions = kept_;
   if (saved.motions.empty() || saved.motions.back().t < last.t) saved.motions.push_back({last.t, last.x, last.v});
+  // Other scenes start from motion relative to the base.
+  for (model::SavedMotion& motion : saved.motions) {
+    motion.x -= motion_with_base(*system.model, system.dofs, 0, motion.t);
+    motion.v -= motion_with_base(*system.model, system.dofs, 1, motion.t);
+  }
   const std::vector<std::byte> bytes = to_bytes(saved);
   File file(path, O_WRONLY | O_CREAT | O_TRUNC);
   if (file.write(bytes) < bytes.size() || !file.close())

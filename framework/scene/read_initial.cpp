@@ -91,10 +91,6 @@ void SceneReader::read_initial_motion(const Parameters& p) {
   if (motion == nullptr)
     return complain("at", "is not an instant saved by that run; saved: " + times_of(saved) + " s. Add it to [output] " +
                               "states of that scene and run it again");
-  if (model_.base_frame == BaseFrame::still && !model_.bases.empty() && model_.bases.front().nodes.empty())
-    return complain("from",
-                    "requires motion relative to the base, but stops with frame = \"space\" make it a motion in "
-                    "space; give displacement and velocity");
   if (model_.starts_static)
     return complain("from",
                     "conflicts with [gravity] static, which starts at rest in the static position; give one of "

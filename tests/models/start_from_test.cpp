@@ -175,16 +175,33 @@ TEST_F(StartFrom, RefusesOtherStructuresAndFolders) {
   refused(scene(method("rk4", "0.4") + kGoOn), "is damaged: its checksum is wrong");
 }
 
-/// The saved motion would be overwritten by the static position, or contain the motion of the base twice.
-TEST_F(StartFrom, RefusesStartsThatWouldChangeTheMotion) {
+/// The saved motion would be overwritten by the static position.
+TEST_F(StartFrom, RefusesAStaticStartBesideASavedMotion) {
   completes("first", scene(method("rk4", "0.2")));
   refused(scene(method("rk4", "0.4") + kGoOn + "[gravity]\nacceleration = [0.0, -9.81, 0.0]\nstatic = true\n"),
           "conflicts with [gravity] static, which starts at rest in the static position");
-  std::string in_space = scene(method("rk4", "0.4") + kGoOn +
-                               "[base]\nacceleration = { direction = [0, 1, 0], type = \"harmonic\", amplitude = "
-                               "1.0, angular_frequency = 70.0 }\n");
-  in_space.replace(in_space.find("gap = 1.0e-3"), 12, "gap = 1.0e-3\nframe = \"space\"");
-  refused(in_space, "requires motion relative to the base");
+}
+
+/// Motions are saved relative to the base, also by runs that compute them in space.
+TEST_F(StartFrom, TakesMotionFromAnotherFrame) {
+  const auto in = [](const std::string& frame, const std::string& end_time, const std::string& start) {
+    std::string all = scene(method("exact", end_time) + start +
+                            "[base]\ndisplacement = { direction = [0, 1, 0], type = \"harmonic\", amplitude = 1e-3, "
+                            "angular_frequency = 70.0, phase = 0.3 }\n");
+    return all.replace(all.find("gap = 1.0e-3"), 12, "gap = 1.0\nframe = \"" + frame + "\"");
+  };
+  completes("whole", in("base", "0.4", ""));
+  const auto whole = history("whole");
+  for (const std::string first : {"base", "space"})
+    for (const std::string second : {"base", "space"}) {
+      completes("first", in(first, "0.2", ""));
+      completes("second", in(second, "0.4", kGoOn));
+      const auto rest = history("second");
+      for (const std::string column : {"mid.u", "mid.v"})
+        for (const std::size_t i : {0U, 11U, 20U})
+          EXPECT_NEAR(rest.column(column)[i], whole.column(column)[i + 20], column == "mid.u" ? 1e-11 : 1e-8)
+              << first << " " << second << " " << column << " " << i;
+    }
 }
 
 TEST_F(StartFrom, ModelTomlFindsTheFolderAndNoticesAChange) {

@@ -218,6 +218,35 @@ TEST(MovedBase, IsTheSameHoweverItIsSaid) {
     }
 }
 
+/// At rest relative to a base that moves at the start: its acceleration acts, its dashpots do not.
+TEST(MovedBase, StartsFromTheSameStaticPositionInEitherFrame) {
+  const auto motion = [](const std::string& frame) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+        "\"m\"\nstiffness = 2000.0\ndamping = 20.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 1.0\nstiffness "
+        "= "
+        "8e4\nframe = \"" +
+        frame +
+        "\"\n[gravity]\nacceleration = [0, -9.81, 0]\nstatic = true\n[base]\ndisplacement = { direction = [0, 1, 0], "
+        "type = \"harmonic\", amplitude = 0.01, angular_frequency = 28.0, phase = 0.7 }\n[integrator]\ntype = "
+        "\"exact\"\nend_time = 0.2\n");
+    Rows rows(run.dynamics(), run.model().nodes, "m", {model::Quantity::u, model::Quantity::v, model::Quantity::a},
+              {0.0, 0.1, 0.2});
+    run.simulation().add(rows);
+    EXPECT_TRUE(run.run().completed);
+    return rows.rows;
+  };
+  const auto base = motion("base"), space = motion("space");
+  const double acceleration = -0.01 * 28.0 * 28.0 * std::cos(0.7);
+  EXPECT_NEAR(base[0][0], -2.0 * (9.81 + acceleration) / 2000.0, 1e-12);
+  for (const auto& rows : {base, space}) {
+    EXPECT_NEAR(rows[0][1], 0.0, 1e-15);
+    EXPECT_NEAR(rows[0][2], 0.0, 1e-9);
+  }
+  for (std::size_t i = 0; i < base.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(space[i][k], base[i][k], 1e-12 * std::pow(100.0, k)) << i << k;
+}
+
 /// A spline through samples of a smooth motion: accelerations are accurate to h^2.
 TEST(MovedBase, GoesSmoothlyThroughATable) {
   std::vector<double> times, values;
