@@ -38,6 +38,20 @@ double stick_rate(const Obstacles& obstacles, Index contact, const Vector& mass)
   return friction.stick_stiffness * compliance;
 }
 
+/// The release of a rigid stick whose force exceeds its limit by the fraction `overload`. Where several exceed theirs
+/// at an instant, only the one with the largest is released: without it the others may hold.
+struct Release {
+  Index contact;
+  ContactPhase to;
+  double overload;
+};
+
+/// That fraction, from the switching functions of a rigid stick: the last two are limit -+ force.
+double overload(std::span<const Obstacles::Switch> switches) {
+  const double one = switches[switches.size() - 2].value, other = switches.back().value, limit = 0.5 * (one + other);
+  return limit > 0.0 ? -std::min(one, other) / limit : std::numeric_limits<double>::infinity();
+}
+
 /// Number of samples that resolve the loads over a step, since rigid sticks do not move while the
 /// loads change.
 int samples_of_loads(const model::System& system, double h) {
@@ -79,19 +93,19 @@ void ContactEvents::start(State& state, ConstVectorRef memory) {
 
 void ContactEvents::release_overloaded(State& state) {
   switches_.measure(state);
-  for (int round = 0; round < kMostAtOnce; ++round) {
+  for (Index round = 0; round < kMostAtOnce + obstacles_.size(); ++round) {
     switches_.take(state, now_);
-    bool changed = false;
+    std::optional<Release> worst;
     for (const Index i : std::vector<Index>(switches_.sticks())) {
       const auto found = switches_.of(i, now_);
       const auto over = std::find_if(found.begin(), found.end(), [](const Obstacles::Switch& one) {
         return one.value < 0.0 && one.to.slip != ContactPhase::Slip::stick;
       });
       if (over == found.end()) continue;
-      enter(i, over->to, state);
-      changed = true;
+      if (const double by = overload(found); !worst || by > worst->overload) worst = {i, over->to, by};
     }
-    if (!changed) return;
+    if (!worst) return;
+    enter(worst->contact, worst->to, state);
     dynamics_.acceleration(state.t, state.x, state.v, state.a);
   }
 }
@@ -134,8 +148,21 @@ void ContactEvents::settle(State& state, double h, double precision) {
   switches_.measure(state);
   bool changed = false;
   std::array<Obstacles::Switch, Obstacles::kMostSwitches> present;
-  for (int round = 0; round < kMostAtOnce; ++round) {
+  const auto change = [&](Index i, ContactPhase next) {
+    const ContactPhase before = obstacles_.phase(i);
+    if (next.touches() && !before.touches()) {
+      const auto normal = next.normal;
+      obstacles_.set_phase(i, next);
+      next = obstacles_.phase_at(i, state.t, state.x, state.v);
+      next.normal = normal;
+    }
+    enter(i, next, state);
+    if (next.slip == ContactPhase::Slip::stick) dynamics_.stop_sliding(state.t, state.v);
+    changed = true;
+  };
+  for (Index round = 0; round < kMostAtOnce + obstacles_.size(); ++round) {
     bool again = false;
+    std::optional<Release> worst;
     if (changed) dynamics_.acceleration(state.t, state.x, state.v, state.a);
     switches_.take(state, now_);
     switches_.look_ahead(state, kAhead * h, work_);
@@ -147,26 +174,29 @@ void ContactEvents::settle(State& state, double h, double precision) {
       const std::size_t count = found.size();
       std::copy(found.begin(), found.end(), present.begin());
       std::optional<std::size_t> over;
-      if (mark > 0.0 && static_cast<std::size_t>(mark) <= count) {
+      const bool is_marked = mark > 0.0 && static_cast<std::size_t>(mark) <= count;
+      double by = 0.0;
+      if (is_marked) {
         over = static_cast<std::size_t>(mark) - 1;
       } else {
         const auto ahead = switches_.of(i, work_);
         for (std::size_t k = 0; k < count && !over; ++k)
           if (ahead[k].value < 0.0 && present[k].value <= at_end * -ahead[k].value) over = k;
+        if (over && sticks_rigidly(i)) by = overload(ahead);
       }
       mark = 0.0;
       if (!over) continue;
-      const ContactPhase before = obstacles_.phase(i);
-      ContactPhase next = present[*over].to;
-      if (next.touches() && !before.touches()) {
-        const auto normal = next.normal;
-        obstacles_.set_phase(i, next);
-        next = obstacles_.phase_at(i, state.t, state.x, state.v);
-        next.normal = normal;
+      if (const ContactPhase& next = present[*over].to;
+          !is_marked && sticks_rigidly(i) && next.touches() && next.slip != ContactPhase::Slip::stick) {
+        if (!worst || by > worst->overload) worst = {i, next, by};
+        continue;
       }
-      enter(i, next, state);
-      if (next.slip == ContactPhase::Slip::stick) dynamics_.stop_sliding(state.t, state.v);
-      again = changed = true;
+      change(i, present[*over].to);
+      again = true;
+    }
+    if (!again && worst) {
+      change(worst->contact, worst->to);
+      again = true;
     }
     if (!again) break;
   }

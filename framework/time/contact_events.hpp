@@ -64,6 +64,10 @@ class BUTEE_EXPORT ContactEvents {
   bool is_near(Index contact, const DenseOutput& motion) const;
   /// Lets rigid contacts slip whose friction force exceeds what they can hold.
   void release_overloaded(State& state);
+  bool sticks_rigidly(Index contact) const {
+    return obstacles_.group_of(contact).friction.rule == model::Friction::Rule::rigid &&
+           obstacles_.phase(contact).slip == dynamics::ContactPhase::Slip::stick;
+  }
   void enter(Index contact, const dynamics::ContactPhase& next, State& state);
   /// Narrows [begin, event.t] to the root of the event's switching function; `value` is its value
   /// at event.t.

@@ -347,5 +347,29 @@ TEST(RegularisedFriction, TellsASlipSpeedThatTheToleranceDoesNotResolve) {
   EXPECT_NE(complaint.find("tolerance = 1.3"), std::string::npos) << complaint;
 }
 
+/// Block a, 1.5 kg, on block b, 2.5 kg, on a belt; a sticks to b up to 10.5 N, b slides on the belt with 3 N.
+std::string pile(const std::string& belt, const std::string& load) {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.5\n[[element]]\ntype = \"mass\"\nname = "
+         "\"b\"\nmass = 2.5\n[[contact]]\ntype = \"friction\"\nbetween = [\"a\", \"b\"]\nnormal_force = "
+         "30.0\nfriction = { coefficient = 0.2, static_coefficient = 0.35, stick = \"rigid\" }\n[[contact]]\ntype = "
+         "\"friction\"\nnodes = \"b\"\nnormal_force = 20.0\nfriction = { coefficient = 0.15, stick = \"rigid\", "
+         "surface_speed = " +
+         belt + " }\n[[load]]\nnode = \"a\"\n" + load +
+         "[integrator]\ntype = \"dopri5\"\ntolerance = 1e-9\nend_time = 0.2\n";
+}
+
+/// Without the contact that gives way first, the others hold.
+TEST_P(FrictionMethods, ReleasesOnlyTheContactThatGivesWayFirst) {
+  // A load of 14 N overloads both contacts at rest; once b slides, a needs 14 - 1.5 (14 - 3)/4 = 9.875 N.
+  SceneRun jump(pile("0.0", "type = \"constant\"\nvalue = 14.0\n"), {GetParam()});
+  ASSERT_TRUE(jump.run().completed) << jump.simulation().report().message;
+  for (const Index body : {0, 1}) EXPECT_NEAR(jump.simulation().state().v[body], 11.0 / 4.0 * 0.2, 1e-8);
+  // A ramp to 14 N at 0.1 s; both move with the belt's 3 N, pass its speed at 0.1 + 0.05/4.25 s, and go on against it.
+  SceneRun pass(pile("0.3", "type = \"ramp\"\nto = 14.0\nend = 0.1\n"), {GetParam()});
+  ASSERT_TRUE(pass.run().completed) << pass.simulation().report().message;
+  for (const Index body : {0, 1})
+    EXPECT_NEAR(pass.simulation().state().v[body], 0.3 + 11.0 / 4.0 * (0.1 - 0.05 / 4.25), 1e-8);
+}
+
 }  // namespace
 }  // namespace butee::test::friction_test
