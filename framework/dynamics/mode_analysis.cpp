@@ -12,17 +12,18 @@ namespace {
 
 using model::NodeId;
 
-/// The indices (group, stop) of all stops that act on a node of `nodes`; of all stops if that is
-/// null.
-std::set<std::pair<std::size_t, std::size_t>> places_of(const model::Model& model, const std::set<NodeId>* nodes) {
-  std::set<std::pair<std::size_t, std::size_t>> places;
-  const auto touches = [&](NodeId node) { return nodes->contains(model.nodes.canonical(node)); };
-  for (std::size_t g = 0; g < model.stops.size(); ++g) {
-    const model::StopGroup& group = model.stops[g];
+/// The stops of a model in one direction, elastic or with dissipation, closed.
+std::vector<ClosedStop> all_closed(const model::Model& model) {
+  std::vector<ClosedStop> stops;
+  const auto add = [&stops](const auto& group, DofKind dof) {
     for (std::size_t i = 0; i < group.a.size(); ++i)
-      if (nodes == nullptr || touches(group.a[i]) || (!group.b.empty() && touches(group.b[i]))) places.emplace(g, i);
-  }
-  return places;
+      stops.push_back(
+          {group.a[i], group.b.empty() ? ClosedStop::kGround : group.b[i], group.law->closed_stiffness(), dof});
+  };
+  for (const model::StopGroup& group : model.stops) add(group, group.dof);
+  for (const model::ObstacleGroup& group : model.obstacles)
+    if (group.shape != nullptr && group.directions.size() == 1) add(group, group.directions.front());
+  return stops;
 }
 
 std::set<NodeId> selected(const model::Model& model, const std::string& selector) {
@@ -66,20 +67,24 @@ class Ratios {
 }  // namespace
 
 std::vector<ClosedStop> closed_stops(const model::Model& model, const std::vector<std::string>& selectors) {
-  std::set<std::pair<std::size_t, std::size_t>> places;
+  const std::vector<ClosedStop> all = all_closed(model);
+  std::vector<bool> is_chosen(all.size(), false);
   for (const std::string& selector : selectors) {
-    const bool all = selector == "all";
-    const std::set<NodeId> nodes = all ? std::set<NodeId>{} : selected(model, selector);
-    auto found = places_of(model, all ? nullptr : &nodes);
-    if (found.empty())
-      throw InputError("--closed " + selector + (all ? ": the scene has no stops" : ": no stop acts there"));
-    places.merge(found);
+    const bool every = selector == "all";
+    const std::set<NodeId> nodes = every ? std::set<NodeId>{} : selected(model, selector);
+    const auto touches = [&](NodeId node) {
+      return node != ClosedStop::kGround && nodes.contains(model.nodes.canonical(node));
+    };
+    bool found = false;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (every || touches(all[i].a) || touches(all[i].b)) is_chosen[i] = found = true;
+    if (!found)
+      throw InputError("--closed " + selector +
+                       (every ? ": the scene has no stops in one direction" : ": no stop in one direction acts there"));
   }
   std::vector<ClosedStop> stops;
-  for (const auto& [g, i] : places) {
-    const model::StopGroup& group = model.stops[g];
-    stops.push_back({group.a[i], group.b.empty() ? ClosedStop::kGround : group.b[i], group.law->closed_stiffness()});
-  }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (is_chosen[i]) stops.push_back(all[i]);
   return stops;
 }
 
@@ -95,6 +100,9 @@ ModeAnalysis analyse_modes(const model::Model& model, const model::System& syste
   analysis.title = model.title;
   analysis.dofs = system.size();
   for (const model::FreeStops& stops : system.stops) analysis.stops += static_cast<Index>(stops.size());
+  for (const model::FreeObstacles& obstacles : system.obstacles)
+    if (obstacles.group->shape != nullptr && obstacles.group->directions.size() == 1)
+      analysis.stops += static_cast<Index>(obstacles.ends.size());
   analysis.closed = static_cast<Index>(closed.size());
   analysis.total_mass = structure.total_mass();
   analysis.dense = found.dense;

@@ -139,7 +139,7 @@ void Structure::visit(model::MatrixSink& sink) const {
     ElementMatrices matrices(grounded ? 1 : 2);
     matrices.stiffness.setConstant(-stop.stiffness);
     matrices.stiffness.diagonal().setConstant(stop.stiffness);
-    const std::array<NodalDof, 2> dofs = {NodalDof{stop.a, DofKind::u}, NodalDof{stop.b, DofKind::u}};
+    const std::array<NodalDof, 2> dofs = {NodalDof{stop.a, stop.dof}, NodalDof{stop.b, stop.dof}};
     sink.add(std::span(dofs).first(grounded ? 1 : 2), matrices);
   }
 }

@@ -11,7 +11,8 @@ namespace butee::dynamics {
 struct ClosedStop {
   static constexpr model::NodeId kGround = -1;
   model::NodeId a = 0, b = kGround;
-  double stiffness = 0.0;  ///< N/m
+  double stiffness = 0.0;  ///< N/m or N m/rad
+  DofKind dof = DofKind::u;
 };
 
 /// M and K of a model without its loads, damping and open stops, summed in extended precision.

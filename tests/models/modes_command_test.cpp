@@ -203,7 +203,7 @@ TEST_F(ModesCommand, RefusesWhatItCannotDo) {
       {{model_path("oscillator"), "-n", "2"}, "no more modes than free DOFs: 1"},
       {{model_path("beam1"), "--closed", "string:99"}, "--closed string:99"},
       {{model_path("beam1"), "--closed", "well"}, "--closed well"},
-      {{model_path("long-string"), "--closed", "string:7"}, "no stop acts there"},
+      {{model_path("long-string"), "--closed", "string:7"}, "no stop in one direction acts there"},
       {{model_path("long-string"), "-n", "9000"}, "ask for at most 1000"},
       {{model_path("beam1"), "-n", "0"}, "-n"}};
   for (const auto& [arguments, words] : wrong) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <butee/dynamics/mode_analysis.hpp>
 #include <butee/linalg/dense_pairs.hpp>
 #include <gtest/gtest.h>
 
@@ -195,6 +196,21 @@ TEST(Modes, TakeAClosedStopAsASpring) {
   const auto expected = modes_of(with_spring, 5), found = dynamics::find_modes(closed, 5);
   for (Index i = 0; i < 5; ++i) EXPECT_NEAR(found.frequencies[i] / expected.frequencies[i], 1.0, kOrthogonal);
   EXPECT_GT(found.frequencies[0], 1.01 * modes_of(open, 1).frequencies[0]);
+}
+
+/// Two stops on uz, one of them with dissipation: sqrt((k + k_c)/m) along uz, sqrt(k/m) along uy.
+TEST(Modes, CloseStopsOfAnyDirection) {
+  const SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\ndof = \"uy\"\nstiffness = 100.0\n[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = "
+      "\"uz\"\nstiffness = 300.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ndof = \"uz\"\ngap = 0.1\nstiffness = "
+      "1000.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ndof = \"uz\"\ngap = 0.2\nstiffness = 2000.0\ndamping = { "
+      "type = \"kelvin_voigt\", coefficient = 1.0 }\n[integrator]\ntype = \"dopri5\"\nend_time = 1.0\n");
+  const auto closed = dynamics::closed_stops(run.model(), {"all"});
+  EXPECT_EQ(closed.size(), 2U);
+  const auto modes = dynamics::analyse_modes(run.model(), run.system(), closed, 2).modes;
+  EXPECT_NEAR(modes[0].omega, std::sqrt(100.0 / 2.0), 1e-12);
+  EXPECT_NEAR(modes[1].omega, std::sqrt(3300.0 / 2.0), 1e-11);
 }
 
 }  // namespace
