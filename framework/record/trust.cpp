@@ -115,7 +115,7 @@ std::string describe(const Trust& trust) {
   std::vector<std::string> beside;
   if (!trust.other.empty()) beside.push_back("a run by " + trust.other);
   if (!trust.tightened.empty()) beside.push_back("one with " + trust.tightened);
-  std::string text = "  trust: compared with " + join(beside, " and ") + ", the error of the probes is ";
+  std::string text = "  trust: compared with " + join(beside, " and ") + ", the error of the probes' displacements and rotations is ";
   const std::string accuracy = to_short_text(trust.accuracy) + " of the peak";
   if (trust.to_the_end)
     text += "at most " + to_short_text(trust.bound) + " of the peak to the end: the run is accurate to " + accuracy;

@@ -142,9 +142,9 @@ A study defines the comparison in detail:
 std::string trust_text(const plugin::Catalogue&) {
   return R"(`butee run --trust`, or [output] trust = true, runs the scene again: as it is, with half the step or a
 tenth of the tolerance, by a method of another family (`exact` where it can), and from disturbed states. It prints an
-error bound of the probes, the time up to which this bound is within trust_accuracy (1 % of the peak), the growth of
-small differences, whether the motion is chaotic, and bounds of rms values, peaks and forces. summary.json contains
-the same under `trust`. It takes about ten times as long as the run; if no method of another family needs less than a
+error bound of the probes' displacements and rotations, the time up to which this bound is within trust_accuracy (1 %
+of the peak), the growth of small differences, whether the motion is chaotic, and bounds of rms values, peaks and
+forces. Velocities and accelerations are not judged row by row. summary.json contains the same under `trust`. It takes about ten times as long as the run; if no method of another family needs less than a
 few times the run's work, a message says so and the bound is wider.
 
 Motion against stops is often chaotic: differences grow like e^(20 t) in one of the paper's scenes. Then no method can
