@@ -48,6 +48,22 @@ TEST(Spectrum, ShowsTheAmplitudesOfCosinesAtTheirFrequencies) {
   EXPECT_NEAR(spectrum.frequencies.back(), 500.0, kRounding * 500.0);
 }
 
+/// A history has a row at the end of the run, which may come early.
+TEST(Spectrum, LeavesOutALastRowThatComesEarly) {
+  auto t = times(1000, 1e-3);
+  t.push_back(t.back() + 3e-4);
+  const Spectrum spectrum = amplitude_spectrum(t, of(t, [](double at) { return std::cos(kTwoPi * 200.0 * at); }));
+  ASSERT_EQ(spectrum.frequencies.size(), 500U);
+  EXPECT_NEAR(spectrum.frequencies[199], 200.0, kRounding * 200.0);
+  EXPECT_NEAR(spectrum.amplitudes[199], 1.0, kRounding);
+}
+
+TEST(Spectrum, CountsTheLineAtHalfTheSamplingRateOnce) {
+  const auto t = times(64, 1.0 / 64.0);
+  const Spectrum spectrum = amplitude_spectrum(t, of(t, [](double at) { return std::cos(kTwoPi * 32.0 * at); }));
+  EXPECT_NEAR(spectrum.amplitudes.back(), 1.0, kRounding);
+}
+
 TEST(Spectrum, TakesUnevenTimes) {
   auto t = times(2001, 5e-4);
   for (std::size_t i = 1; i + 1 < t.size(); i += 2) t[i] += 1e-4;

@@ -40,6 +40,16 @@ std::vector<double> gaps_of(const model::Model& model, model::NodeId node, DofKi
     if (stops.play.has_negative()) gaps.push_back(stops.play.lower());
     if (stops.play.has_positive()) gaps.push_back(stops.play.upper());
   }
+  // Stops with dissipation or friction.
+  using Kind = model::ContactShape::Form::Kind;
+  for (const model::ObstacleGroup& group : model.obstacles) {
+    if (group.shape == nullptr || group.directions != std::vector{kind} || !group.b.empty() ||
+        !holds(model.nodes, group.a, node))
+      continue;
+    const model::ContactShape::Form form = group.shape->form();
+    if (form.kind == Kind::line) gaps.push_back(form.place[0] * form.distance);
+    if (form.kind == Kind::circle) gaps.insert(gaps.end(), {-form.distance, form.distance});
+  }
   std::sort(gaps.begin(), gaps.end());
   gaps.erase(std::unique(gaps.begin(), gaps.end()), gaps.end());
   return gaps;

@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::size_t kFewest = 8;
 
-/// Resamples the signal linearly at evenly spaced times, as many as samples. The last interval of a history
-/// may be shorter.
-std::vector<double> resampled(const std::vector<double>& t, const std::vector<double>& x, double dt) {
-  std::vector<double> even(t.size());
+/// Resamples the signal linearly at `count` evenly spaced times.
+std::vector<double> resampled(const std::vector<double>& t, const std::vector<double>& x, double dt,
+                              std::size_t count) {
+  std::vector<double> even(count);
   std::size_t i = 0;
   for (std::size_t k = 0; k < even.size(); ++k) {
     const double at = std::min(t.front() + static_cast<double>(k) * dt, t.back());
@@ -26,15 +26,25 @@ std::vector<double> resampled(const std::vector<double>& t, const std::vector<do
   return even;
 }
 
+/// The number of samples at equal distances: all but the last if only that comes early, at the end of a run.
+std::size_t regular(const std::vector<double>& t) {
+  constexpr double kEqual = 1e-6;
+  const std::size_t n = t.size();
+  const double dt = t[1] - t[0];
+  for (std::size_t i = 1; i + 2 < n; ++i)
+    if (std::abs(t[i + 1] - t[i] - dt) > kEqual * dt) return n;
+  return t[n - 1] - t[n - 2] < (1.0 - kEqual) * dt ? n - 1 : n;
+}
+
 /// The Fourier transform of y + i z (or of y alone), minus its mean, under a Hann window; `sum` receives the
 /// sum of the window's values. Empty for too few samples. `dt` receives the time between two samples, s.
 std::vector<std::complex<double>> transformed(const std::vector<double>& times, const std::vector<double>& y,
                                               const std::vector<double>& z, double& sum, double& dt) {
-  const std::size_t n = times.size();
-  if (n < kFewest || !(times.back() > times.front())) return {};
-  dt = (times.back() - times.front()) / static_cast<double>(n - 1);
-  const std::vector<double> real = resampled(times, y, dt);
-  const std::vector<double> imaginary = z.empty() ? std::vector<double>(n, 0.0) : resampled(times, z, dt);
+  if (times.size() < kFewest || !(times.back() > times.front())) return {};
+  const std::size_t n = regular(times);
+  dt = (times[n - 1] - times.front()) / static_cast<double>(n - 1);
+  const std::vector<double> real = resampled(times, y, dt, n);
+  const std::vector<double> imaginary = z.empty() ? std::vector<double>(n, 0.0) : resampled(times, z, dt, n);
   std::vector<std::complex<double>> signal(n), lines;
   std::complex<double> mean = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -60,7 +70,8 @@ Spectrum amplitude_spectrum(const std::vector<double>& times, const std::vector<
   Spectrum spectrum;
   for (std::size_t k = 1; k < lines.size() && k <= lines.size() / 2; ++k) {
     spectrum.frequencies.push_back(static_cast<double>(k) / (static_cast<double>(lines.size()) * dt));
-    spectrum.amplitudes.push_back(2.0 * std::abs(lines[k]) / sum);
+    // The line at half the sampling rate is its own mirror image.
+    spectrum.amplitudes.push_back((2 * k == lines.size() ? 1.0 : 2.0) * std::abs(lines[k]) / sum);
   }
   return spectrum;
 }
