@@ -147,7 +147,8 @@ std::string describe_remedy(dynamics::Dynamics& dynamics, const MethodLimits& li
   const auto critical = critical_steps(dynamics, limits);
   if (critical && h > critical->closed) {
     std::string text = "h = " + to_short_text(h) + " s is " + to_short_text(h / critical->closed) +
-                       " times the critical step of " + limits.name + ", " + to_short_text(critical->closed) + " s";
+                       " times the critical step of " + limits.name + ", " + to_short_text(critical->closed) + " s" +
+                       (dynamics.has_damping() ? " (a safe bound, as there is damping)" : "");
     if (has_stops)
       text +=
           " with all stops closed (" + to_short_text(critical->open) + " s with all open), the limit of its stability";

@@ -50,10 +50,13 @@ class Adviser {
     const time::IntegratorType& type = session_.catalogue.find(choice.name)->declaration;
     const double h = choice.options.time_step;
     if (const auto& critical = facts_.of_method; h > 0.0 && critical && h > critical->closed)
-      add("critical-step", "time_step = " + to_short_text(h) + " s is larger than the critical step of " + choice.name +
-                               ", " + to_short_text(critical->closed) + " s with all stops closed" +
-                               (h > critical->open ? " and also with all stops open" : "") +
-                               ": the solution would grow without bound; take a smaller step or an implicit method");
+      add("critical-step",
+          "time_step = " + to_short_text(h) + " s is larger than the critical step of " + choice.name + ", " +
+              to_short_text(critical->closed) + " s with all stops closed" +
+              (h > critical->open ? " and also with all stops open" : "") +
+              (has_damping() ? " (a safe bound, as there is damping): the solution may grow without bound"
+                             : ": the solution would grow without bound") +
+              "; take a smaller step or an implicit method");
     if (!type.fixed_step || h == 0.0) return;
     const double contact = facts_.mechanics.shortest_contact;
     if (!system_.stops.empty() && h * kStepsInContact > contact)
@@ -64,6 +67,12 @@ class Adviser {
     if (const double period = shortest_period(); h * kStepsInPeriod > period)
       add("load-step", "time_step = " + to_short_text(h) + " s makes only " + to_short_text(period / h) +
                            " steps in the shortest period of a load, " + to_short_text(period) + " s");
+  }
+
+  bool has_damping() const {
+    const auto& damping = system_.damping;
+    return system_.dashpots.size() > 0 || damping.is_modal() || damping.mass_proportional != 0.0 ||
+           damping.stiffness_proportional != 0.0;
   }
 
   double shortest_period() const {

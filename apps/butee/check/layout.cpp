@@ -112,9 +112,10 @@ class Placer {
 void add_supports(const model::Model& model, const Placer& placer, Layout& layout) {
   std::map<NodeId, SupportMark> marks;
   for (const model::NodalDof& dof : model.fixed) {
+    if (dof.kind == DofKind::rx) continue;  // Twist is not drawn.
     SupportMark& mark = marks[model.nodes.canonical(dof.node)];
     mark.at = placer.of(dof.node);
-    (dof.kind == DofKind::u ? mark.u : mark.theta) = true;
+    (is_rotation(dof.kind) ? mark.theta : mark.u) = true;
   }
   for (const auto& [node, mark] : marks) layout.supports.push_back(mark);
 }
@@ -122,8 +123,9 @@ void add_supports(const model::Model& model, const Placer& placer, Layout& layou
 void add_stops(const model::Model& model, const Placer& placer, const std::vector<std::string>& laws, Layout& layout) {
   for (std::size_t g = 0; g < model.stops.size(); ++g) {
     const model::StopGroup& group = model.stops[g];
-    layout.stop_labels.push_back("gap " + to_short_text(group.play.gap) + " m, " +
-                                 to_short_text(group.law->closed_stiffness()) + " N/m" +
+    const bool turns = is_rotation(group.dof);
+    layout.stop_labels.push_back("gap " + to_short_text(group.play.gap) + (turns ? " rad, " : " m, ") +
+                                 to_short_text(group.law->closed_stiffness()) + (turns ? " N m/rad" : " N/m") +
                                  (g < laws.size() ? ", " + laws[g] : ""));
     for (std::size_t i = 0; i < group.a.size(); ++i) {
       StopMark mark;
@@ -146,9 +148,12 @@ void add_loads(const model::Model& model, const Placer& placer, Layout& layout) 
       if (load.pattern.size() == 1 || value.dof.kind == DofKind::u) mark.at.push_back(placer.of(value.dof.node));
     if (mark.at.empty()) continue;
     const bool single = load.pattern.size() == 1;
-    mark.moment = single && load.pattern.front().dof.kind == DofKind::theta;
-    mark.label = describe(*load.in_time, single ? load.pattern.front().value : 1.0,
-                          single ? (mark.moment ? "N m" : "N") : "N/m");
+    mark.moment = single && is_rotation(load.pattern.front().dof.kind);
+    const bool is_line = load.line != nullptr && load.per_length != 0.0;
+    mark.label = describe(*load.in_time, is_line ? load.per_length : load.pattern.front().value,
+                          is_line       ? "N/m"
+                          : mark.moment ? "N m"
+                                        : "N");
     layout.loads.push_back(std::move(mark));
   }
 }
@@ -162,6 +167,11 @@ std::string describe(const model::TimeFunction& function, double weight, const c
   double largest = std::abs(function.value(0.0));
   const std::vector<double> instants = function.discontinuities();
   for (const double t : instants) largest = std::max(largest, std::abs(function.value(t)));
+  // Between them a load may oscillate, as an unbalance that runs up.
+  constexpr int kSamples = 20000;
+  if (!instants.empty())
+    for (int i = 0; i <= kSamples; ++i)
+      largest = std::max(largest, std::abs(function.value(instants.back() * (1.05 * i / kSamples))));
   const bool constant =
       instants.empty() && function.value(0.0) == function.value(1.0) && function.value(0.0) == function.value(17.3);
   if (constant) return to_short_text(weight * function.value(0.0)) + " " + unit;

@@ -148,11 +148,7 @@ class Drawing {
       svg_.text(40.0, line, "stops: " + layout_.stop_labels[i]);
     }
     if (layout_.stops.empty() || !(widest_gap_ > 0.0)) return;
-    std::string scale = "gaps are drawn to a separate scale";
-    if (const double span = layout_.right - layout_.left; span > 0.0)
-      scale += ", " + to_short_text(std::round(kLargestGap / widest_gap_ / ((kWidth - 2.0 * kMargin) / span))) +
-               " times that of the lengths";
-    svg_.text(40.0, line, scale, "start", 11.0, "#777777");
+    svg_.text(40.0, line, "gaps are not to scale", "start", 11.0, "#777777");
   }
 
   const Layout& layout_;

@@ -50,7 +50,8 @@ class TextDrawing {
  public:
   TextDrawing(const Layout& layout, int width, bool utf8)
       : layout_(layout), glyphs_(utf8 ? kBoxes : kPlain), width_(std::clamp(width, kNarrowest, kWidest)) {
-    for (const Body& body : layout.bodies) name_width_ = std::max(name_width_, static_cast<int>(body.name.size()));
+    for (int row = 0; row < layout.rows; ++row)
+      name_width_ = std::max(name_width_, static_cast<int>(names_in(row).size()));
     name_width_ = std::min(name_width_, kMostName) + 2;
   }
 
@@ -74,8 +75,8 @@ class TextDrawing {
       theta = theta || support.theta;
     }
     std::string text;
-    if (u) text += glyphs_.support + " u held   ";
-    if (theta) text += glyphs_.clamp + " theta held";
+    if (u) text += glyphs_.support + " displacement held   ";
+    if (theta) text += glyphs_.clamp + " rotation held";
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text.empty() ? "" : text + "\n";
   }
@@ -96,6 +97,14 @@ class TextDrawing {
     return text;
   }
 
+  /// "collar, pipe"
+  std::string names_in(int row) const {
+    std::string names;
+    for (const Body& body : layout_.bodies)
+      if (body.row == row) names += (names.empty() ? "" : ", ") + body.name;
+    return names;
+  }
+
   int column(double x) const {
     const double span = layout_.right - layout_.left;
     const int room = width_ - name_width_ - 1;
@@ -104,9 +113,9 @@ class TextDrawing {
 
   std::string draw_row(int row) const {
     Line loads(width_), above(width_), beam(width_), below(width_), length(width_), link(width_);
+    beam.write(0, names_in(row).substr(0, static_cast<std::size_t>(name_width_ - 1)));
     for (const Body& body : layout_.bodies) {
       if (body.row != row) continue;
-      beam.write(0, body.name.substr(0, static_cast<std::size_t>(name_width_ - 1)));
       if (body.lone) {
         beam.put(column(body.begin), glyphs_.lone);
         continue;

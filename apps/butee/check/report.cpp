@@ -21,6 +21,13 @@ constexpr double kZeroFrequency = 1e-6;
 constexpr Index kListedModes = 10;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
+/// Nodes; two names of one node count once.
+int node_count(const model::NodeTable& nodes) {
+  int count = 0;
+  for (model::NodeId node = 0; node < nodes.size(); ++node) count += nodes.canonical(node) == node ? 1 : 0;
+  return count;
+}
+
 Index stop_count(const model::System& system) {
   Index stops = 0;
   for (const auto& group : system.stops) stops += static_cast<Index>(group.size());
@@ -30,8 +37,8 @@ Index stop_count(const model::System& system) {
 
 void print_contents(const model::Model& model, const model::System& system, const Survey& survey) {
   std::printf("scene      %s\n", model.title.empty() ? "(without a title)" : printable(model.title).c_str());
-  std::printf("elements   %zu on %d %s\n", model.elements.size(), model.nodes.size(),
-              model.nodes.size() == 1 ? "node" : "nodes");
+  const int nodes = node_count(model.nodes);
+  std::printf("elements   %zu on %d %s\n", model.elements.size(), nodes, nodes == 1 ? "node" : "nodes");
   std::printf("mass       %s kg", to_short_text(survey.total_mass).c_str());
   if (survey.lumped_mass > 0.0) std::printf(", of it %s kg on single nodes", to_short_text(survey.lumped_mass).c_str());
   std::printf("\nDOFs       %td free, %td fixed\n", system.size(), system.dofs.fixed_count());
@@ -206,7 +213,7 @@ Json to_json(const scene::Scene& session, const model::System& system, const Fac
   Json json;
   json["title"] = session.model.title;
   json["elements"] = session.model.elements.size();
-  json["nodes"] = session.model.nodes.size();
+  json["nodes"] = node_count(session.model.nodes);
   json["mass"] = facts.survey.total_mass;
   json["free_dofs"] = system.size();
   json["fixed_dofs"] = system.dofs.fixed_count();
