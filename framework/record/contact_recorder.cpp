@@ -75,7 +75,7 @@ void ContactRecorder::start(const time::State& state) {
     watch.touches = watch.is_support || is_in_contact(forces_[i]);
     watch.stored = forces_[i].stored;
     watch.current.t_in = state.t;
-    watch.current.impact_speed = forces_[i].rate;
+    watch.current.impact_speed = std::max(0.0, forces_[i].rate);
     watch.current.peak_force = watch.touches ? forces_[i].normal : 0.0;
     watch.current.impulse = watch.current.tangential_impulse = watch.current.slip = watch.current.dissipated = 0.0;
     const ContactWear& named = wear_[i];

@@ -118,7 +118,7 @@ void ImpactRecorder::start(const time::State& state) {
     const Point at = tracks_.at(state, watch.track);
     watch.closed = watch.penetration(at) > 0.0;
     watch.current.t_in = state.t;
-    watch.current.impact_speed = watch.speed(at);
+    watch.current.impact_speed = std::max(0.0, watch.speed(at));
     watch.current.peak_force = watch.closed ? force(watch, at.of[0]) : 0.0;
     watch.current.impulse = 0.0;
   }

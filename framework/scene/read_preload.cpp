@@ -92,12 +92,12 @@ void SceneReader::check_buckling() {
   const double factor = dynamics::critical_preload_factor(model_, 1.0);
   if (!(factor <= 1.0)) return;
   const std::string what = "buckles the structure: its compression of " + to_short_text(largest) +
-                           " N is beyond the critical load of " + to_text(factor * largest) + " N";
+                           " N is beyond the critical load of " + to_short_text(factor * largest) + " N";
   const std::string key = element_places_[at].first + ".preload";
   if (model_.stops.empty())
     diagnostics_.error(key, element_places_[at].second, what + "; make it smaller, or hold the beam sideways");
   else
-    diagnostics_.warning(key, element_places_[at].second, what + "; only the stops hold it");
+    diagnostics_.warning(key, element_places_[at].second, what + "; only contacts can hold it");
 }
 
 }  // namespace butee::scene

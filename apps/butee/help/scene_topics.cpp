@@ -140,7 +140,8 @@ std::string contact_text(const plugin::Catalogue& catalogue) {
   law        default "linear"; the laws and their parameters are below
   damping    dissipation while closed, a table (below)
   friction   Coulomb friction along the tangent, a table (below); not on a stop
-  radius     m, of the body at the contact: adds radius x speed of [rotation] to the slip speed
+  radius     m, of the body at the contact (of the first one with `between`): adds radius x speed of [rotation] to the
+             slip speed
 
 stop: dof (default "u"; any of ux ... rz) and sides ("both" by default, "positive" or "negative"). With the
 penetration g (negative while open) and one side s: g = s u - gap, F = -s K_c(g) g. Both sides: the nearer one.
