@@ -95,10 +95,10 @@ bool suits_collocation(dynamics::Dynamics& dynamics) {
       !system.is_symmetric || !system.obstacles.empty() || (system.size() > 1 && system.dashpots.size() > 0);
   if (!is_coupled || system.rotation != nullptr || system.size() > kQuickModes) return false;
   for (Index i = 0; i < dynamics.stop_count(); ++i)
-    if (!dynamics.stops().law_of(i).is_piecewise_linear()) return false;
+    if (!dynamics.stops().law_of(i).is_silent_while_open()) return false;
   for (const model::FreeObstacles& obstacles : system.obstacles)
     if (obstacles.group->friction.has_memory() ||
-        (obstacles.group->law != nullptr && !obstacles.group->law->is_piecewise_linear()))
+        (obstacles.group->law != nullptr && !obstacles.group->law->is_silent_while_open()))
       return false;
   return std::all_of(system.loads.begin(), system.loads.end(), [](const model::FreeLoad& load) {
     return load.in_time->harmonic() || load.in_time->is_piecewise_parabolic();

@@ -33,13 +33,6 @@ double reach_of(const model::ContactShape::Form& form) {
   }
 }
 
-/// True if the law has no force at any opening from 1e-15 m to 1 m, one in each decade.
-bool is_silent_while_open(const model::ContactLaw& law) {
-  for (double opening = 1.0; opening > 1e-16; opening *= 0.1)
-    if (law.secant(-opening) != 0.0) return false;
-  return true;
-}
-
 }  // namespace
 
 Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
@@ -54,7 +47,7 @@ Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
       if (free.group->shape != nullptr) {
         contact.form = free.group->shape->form();
         contact.reach = reach_of(contact.form);
-        contact.is_silent_apart = is_silent_while_open(*free.group->law);
+        contact.is_silent_apart = free.group->law->is_silent_while_open();
         contact.rest_energy = free.group->law->energy(free.group->shape->at({0.0, 0.0}).penetration);
         contact.has_round_spring = free.group->friction.rule == Friction::Rule::spring &&
                                    contact.form.kind == model::ContactShape::Form::Kind::circle;

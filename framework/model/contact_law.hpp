@@ -61,6 +61,13 @@ class BUTEE_EXPORT ContactLaw {
   /// True for F = k_c max(g, 0), whose slope discontinuity methods may locate.
   virtual bool is_piecewise_linear() const { return false; }
 
+  /// True if no force acts while the stop is open: at openings from 1 m down to 1e-16 m.
+  bool is_silent_while_open() const {
+    for (double opening = 1.0; opening > 1e-16; opening *= 0.1)
+      if (secant(-opening) != 0.0) return false;
+    return true;
+  }
+
   /// The series of a smooth law; nullptr if it has none.
   virtual std::unique_ptr<ForceSeries> force_series() const { return nullptr; }
 

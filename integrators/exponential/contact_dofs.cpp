@@ -10,8 +10,8 @@ namespace {
 
 [[noreturn]] void refuse_law() {
   throw InputError(
-      "integrator.type: the law of a contact is not piecewise linear, as exponential requires for coupled modes and "
-      "contacts in the plane; take rodas4, dopri5, extrapolation8 or exact, or auto, which chooses among them");
+      "integrator.type: the law of a contact acts while the contact is apart, which exponential cannot treat in the "
+      "plane");
 }
 
 void sort_once(std::vector<Index>& dofs) {
@@ -26,7 +26,7 @@ ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedMod
   if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
     for (Index i = 0; i < obstacles->size(); ++i) {
       const model::ObstacleGroup& group = obstacles->group_of(i);
-      if (group.law != nullptr && !group.law->is_piecewise_linear()) refuse_law();
+      if (group.law != nullptr && !group.law->is_silent_while_open()) refuse_law();
       for (const auto& side : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
         for (const Index dof : side) take(dof, obstacles->closed_stiffness(i), modes);
       need_velocity_ = need_velocity_ || group.damping.kind != model::ImpactDamping::Kind::none ||
@@ -35,7 +35,6 @@ ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedMod
   const dynamics::ElasticStops& contact = dynamics.stops();
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i) {
-    if (!contact.law_of(i).is_piecewise_linear()) refuse_law();
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) take(dof, closed[i], modes);
   }
   sort_once(dofs_);

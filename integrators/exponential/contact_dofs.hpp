@@ -10,7 +10,7 @@ namespace butee::integrators {
 /// The DOFs on which contacts act, with the properties that collocation needs.
 class ContactDofs {
  public:
-  /// Throws InputError for laws that are not piecewise linear.
+  /// Throws InputError for contacts in the plane whose law acts while they are apart.
   ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes);
 
   const std::vector<Index>& all() const { return dofs_; }  ///< ascending

@@ -19,7 +19,7 @@ namespace butee::integrators {
 /// forces at the nodes, motion of the contacts, forces again. The error of the step is the change
 /// of its end if the value in the middle is left out and the forces are evaluated once more, plus
 /// the error of Lobatto's rule. A smooth step has order 10. Steps end where a contact changes its
-/// phase and where a stop with a piecewise linear law opens or closes. Derivation:
+/// phase and at the borders of stops (StopBorders). Derivation:
 /// plugins/exponential/COLLOCATION.md.
 class ModalCollocation final : public time::Integrator {
  public:

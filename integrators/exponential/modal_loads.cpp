@@ -20,7 +20,7 @@ ModalLoads::ModalLoads(const dynamics::DampedModes& modes, const model::System& 
       throw InputError(
           "integrator.type: a load is neither harmonic nor made of straight lines or parabolas in time, which this "
           "method "
-          "needs; take rodas4, dopri5, extrapolation8 or exact, or auto, which chooses among them");
+          "needs");
   }
   polynomial_.setZero(2 * modes.count(), StepNodes::kCount);
 }
@@ -49,20 +49,22 @@ double ModalLoads::highest_frequency() const {
   return highest;
 }
 
-double ModalLoads::unresolved(double h, const Eigen::ArrayXd& reach) const {
+ModalLoads::Resolution ModalLoads::resolution(double h, const Eigen::ArrayXd& reach) const {
   const Index p = modes_.count();
-  double sum = 0.0;
+  Resolution all;
   for (const TurningLoad& load : turning_) {
     const double missed = StepNodes::missed_part(std::abs(load.angular_frequency) * h);
     for (Index k = 0; k < p; ++k)
       for (const double sense : {1.0, -1.0}) {
         // Near resonance the response is limited to its growth within one step.
         const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
-        const double away = std::hypot(modes_.decay()[k], sense * load.angular_frequency - modes_.turn()[k]);
-        sum += missed * reach[k] * std::hypot(force[k], force[p + k]) * std::min(h, 1.0 / away);
+        const double away = std::hypot(modes_.decay()[k], sense * load.angular_frequency - modes_.turn()[k]),
+                     amplitude = reach[k] * std::hypot(force[k], force[p + k]) * std::min(h, 1.0 / away);
+        all.missed += missed * amplitude;
+        all.reached = std::max(all.reached, amplitude * std::min(1.0, modes_.speed()[k] * h));
       }
   }
-  return sum;
+  return all;
 }
 
 const Eigen::MatrixXd& ModalLoads::polynomial(double t, double h) {

@@ -15,10 +15,13 @@ class ModalLoads {
   const std::vector<TurningLoad>& turning() const { return turning_; }
   /// The highest frequency of a harmonic load, rad/s; 0 without one.
   double highest_frequency() const;
-  /// Bound of the difference between the motion driven by harmonic loads and the polynomial through
-  /// its values at the nodes of a step of length h. reach[k] is the displacement of mode k for |z|
-  /// = 1.
-  double unresolved(double h, const Eigen::ArrayXd& reach) const;
+  /// Bounds for a step of length h, m.
+  struct Resolution {
+    double missed = 0.0;   ///< difference between the motion and the polynomial through its values at the nodes
+    double reached = 0.0;  ///< displacement that one mode reaches in the step from rest
+  };
+  /// Those of the motion driven by harmonic loads; reach[k] is the displacement of mode k for |z| = 1.
+  Resolution resolution(double h, const Eigen::ArrayXd& reach) const;
   bool has_others() const { return !others_.empty(); }
   /// The coefficients of 1, s, ..., s^6 of the other loads over a step of length h from t, 2p x 7.
   const Eigen::MatrixXd& polynomial(double t, double h);

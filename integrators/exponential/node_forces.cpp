@@ -26,7 +26,11 @@ constexpr double kRoundingOfEnd = 1e-12;
 }  // namespace
 
 NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes)
-    : dynamics_(dynamics), modes_(modes), dofs_(dynamics, modes) {
+    : dynamics_(dynamics),
+      modes_(modes),
+      dofs_(dynamics, modes),
+      borders_(dynamics.stops()),
+      scales_(dynamics.system()) {
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
   const Index p = modes.count();
   free_ = nodes_ = polynomial_ = missed_ = Eigen::MatrixXd::Zero(2 * p, kCount);
@@ -40,14 +44,16 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
 }
 
 double NodeForces::unresolved(const State& from, const double* z, const ModalLoads& loads, double h) const {
-  double scale = 0.0, sum = loads.unresolved(h, dofs_.reach());
+  auto [sum, scale] = loads.resolution(h, dofs_.reach());
+  const Index p = modes_.count();
+  for (Index k = 0; k < p; ++k) {
+    const double amplitude = dofs_.reach()[k] * std::hypot(z[k], z[p + k]), turn = modes_.speed()[k] * h;
+    sum += amplitude * StepNodes::missed_part(turn);
+    scale = std::max(scale, amplitude * std::min(1.0, turn));
+  }
   const auto scales = LocalErrorControl::scales_x(from);
   for (const Index dof : dofs_.all()) scale = std::max(scale, scales[dof]);
-  if (scale == 0.0) return 0.0;
-  const Index p = modes_.count();
-  for (Index k = 0; k < p; ++k)
-    sum += dofs_.reach()[k] * std::hypot(z[k], z[p + k]) * StepNodes::missed_part(modes_.speed()[k] * h);
-  return sum / scale;
+  return scale > 0.0 ? sum / scale : 0.0;
 }
 
 void NodeForces::find_forces(double t, double h, Index node) {
@@ -59,6 +65,7 @@ void NodeForces::find_forces(double t, double h, Index node) {
     force[dof] = 0.0;
   }
   dynamics_.add_contact_force(x, force);
+  if (!sides_.empty()) keep_sides(x, force);
   dynamics_.add_obstacle_force(t + StepNodes::kPlaces[static_cast<std::size_t>(node)] * h, x, v, force);
   for (Index k = 0; k < active_.count(); ++k) forces_(k, node) = force[active_.dofs[static_cast<std::size_t>(k)]];
 }
@@ -80,21 +87,27 @@ void NodeForces::move(const StepResponse& response, const StepNodes::Matrix& coe
   response.add_force(polynomial_.data(), nodes_);
 }
 
-double NodeForces::change(const State& from, double h) const {
-  const auto scale_x = LocalErrorControl::scales_x(from), scale_v = LocalErrorControl::scales_v(from);
+void NodeForces::find_scales(const State& from, double h) {
   const double time = dofs_.highest_frequency() > 0.0 ? 1.0 / dofs_.highest_frequency() : h;
+  scale_x_ = LocalErrorControl::scales_x(from);
+  scale_v_ = LocalErrorControl::scales_v(from);
+  work_ = time * from.a;
+  scales_.raise(work_, scale_v_);
+  work_ = time * scale_v_;
+  scales_.raise(work_, scale_x_);
+}
+
+double NodeForces::change(double h) const {
   double largest = 0.0;
   for (Index k = 0; k < active_.count(); ++k) {
     const auto now = forces_.row(k), before = forces_before_.row(k);
     const double difference = (now - before).cwiseAbs().maxCoeff();
     if (std::isnan(difference)) return difference;
     if (difference <= kRounding * now.cwiseAbs().maxCoeff()) continue;
-    // At a start from rest the scale is the speed that the acceleration causes within 1/omega of
-    // the contact.
     const Index dof = active_.dofs[static_cast<std::size_t>(k)];
-    const double speed = std::max(scale_v[dof], time * std::abs(from.a[dof])),
-                 way = std::max(scale_x[dof], time * speed), change = h * dofs_.inverse_mass(dof) * difference;
-    largest = std::max({largest, change / std::max(speed, change), h * change / std::max(way, h * change)});
+    const double change = h * dofs_.inverse_mass(dof) * difference;
+    largest =
+        std::max({largest, change / std::max(scale_v_[dof], change), h * change / std::max(scale_x_[dof], h * change)});
   }
   return largest;
 }
@@ -112,6 +125,7 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
   start(from);
   const double t = from.t, h = response.h();
   acceleration_.begin(forces_.size());
+  find_scales(from, h);
   find_weights(from);
   double least = std::numeric_limits<double>::infinity();
   int best = 0;
@@ -119,7 +133,7 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
     move(response, StepNodes::with_middle());
     forces_before_ = forces_;
     find_forces(t, h);
-    const double now = change(from, h);
+    const double now = change(h);
     if (std::isnan(now)) return Outcome::not_finite;
     if (now <= settled) {
       estimate(t, response);
@@ -157,10 +171,30 @@ void NodeForces::start(const State& from) {
     moved_(k, 0) = from.x[dof];
     moved_velocity_(k, 0) = from.v[dof];
   }
+  if (!borders_.jumping().empty()) find_sides();
   instant_.x.setZero();
   instant_.v.setZero();
   find_forces(from.t, 0.0, 0);
   for (Index j = 1; j < kCount; ++j) forces_.col(j) = forces_.col(0);
+}
+
+void NodeForces::find_sides() {
+  constexpr Index kNext = 1;
+  for (Index k = 0; k < active_.count(); ++k) moved_(k, kNext) = active_.displacement.col(k).dot(free_.col(kNext));
+  sides_.clear();
+  for (const Index i : borders_.jumping()) {
+    const StepNodes::Row w = displacement_of(i);
+    sides_.push_back(StopBorders::side_of_step(w[0], w[kNext]));
+  }
+}
+
+void NodeForces::keep_sides(const Vector& x, Vector& force) const {
+  for (std::size_t j = 0; j < sides_.size(); ++j) {
+    const Index i = borders_.jumping()[j], a = dynamics_.stops().dof_a(i), b = dynamics_.stops().dof_b(i);
+    const double more = borders_.continuation(i, sides_[j], (a >= 0 ? x[a] : 0.0) - (b >= 0 ? x[b] : 0.0));
+    if (a >= 0) force[a] += more;
+    if (b >= 0) force[b] -= more;
+  }
 }
 
 void NodeForces::find_support_friction(double t, double h) {
@@ -245,19 +279,18 @@ void NodeForces::find_nodes(double t, const double* loads, const StepResponse& r
   response.add_force(polynomial_.data(), nodes_);
 }
 
+StepNodes::Row NodeForces::displacement_of(Index stop) const {
+  StepNodes::Row motion = StepNodes::Row::Zero();
+  const dynamics::ElasticStops& stops = dynamics_.stops();
+  if (stops.dof_a(stop) >= 0) motion += moved_.row(active_.place(stops.dof_a(stop)));
+  if (stops.dof_b(stop) >= 0) motion -= moved_.row(active_.place(stops.dof_b(stop)));
+  return motion;
+}
+
 double NodeForces::first_contact_change(double last) const {
-  const dynamics::ElasticStops& contact = dynamics_.stops();
-  const auto row = [&](Index dof) -> StepNodes::Row {
-    if (dof < 0) return StepNodes::Row::Zero();
-    return moved_.row(active_.place(dof));
-  };
   double first = last;
-  for (Index i = 0; i < contact.size(); ++i) {
-    const StepNodes::Row motion = (row(contact.dof_a(i)) - row(contact.dof_b(i))) * StepNodes::with_middle();
-    const model::FreePlay& play = contact.play_of(i);
-    if (play.has_positive()) first = StepNodes::first_crossing(motion, play.upper(), first);
-    if (play.has_negative()) first = StepNodes::first_crossing(motion, play.lower(), first);
-  }
+  for (Index i = 0; i < dynamics_.stops().size(); ++i)
+    first = borders_.first_crossing(i, displacement_of(i) * StepNodes::with_middle(), first);
   return first;
 }
 

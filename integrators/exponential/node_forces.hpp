@@ -4,6 +4,7 @@
 
 #include "integrators/exponential/contact_dofs.hpp"
 #include "integrators/exponential/modal_loads.hpp"
+#include "integrators/exponential/stop_borders.hpp"
 #include "integrators/exponential/sweep_acceleration.hpp"
 #include "integrators/local_error.hpp"
 
@@ -17,13 +18,13 @@ namespace butee::integrators {
 /// or closed there.
 class NodeForces {
  public:
-  /// Throws InputError for laws that are not piecewise linear. Both must outlive it.
+  /// Throws InputError for contacts that collocation cannot treat. Both must outlive it.
   NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes);
 
   const ContactDofs& dofs() const { return dofs_; }
   /// Bound of the difference between the motion of the contacts, without contact forces, and the
   /// polynomial through its values at the nodes, divided by the largest displacement scale of the
-  /// contacts.
+  /// contacts or, at a start, by what a mode reaches in the step.
   double unresolved(const time::State& from, const double* z, const ModalLoads& loads, double h) const;
 
   enum class Outcome { converged, diverged, not_finite };
@@ -49,8 +50,8 @@ class NodeForces {
   /// The largest error of a contact's velocity within the step, relative to the scales of velocities
   /// `scale_v` of all DOFs. At the end of the step the error is far smaller.
   double inner_error(const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const;
-  /// The fraction of the step after which a stop opens or closes; `last`, which may slightly exceed
-  /// 1, if none does.
+  /// The fraction of the step after which a stop crosses one of its borders; `last`, which may slightly exceed 1, if
+  /// none does.
   double first_contact_change(double last) const;
 
  private:
@@ -59,6 +60,12 @@ class NodeForces {
   /// Takes the end from the nodes.
   Outcome finished();
   void start(const time::State& from);
+  /// Finds on which side of the middle the stops are whose force jumps there.
+  void find_sides();
+  /// Continues the forces of their sides beyond the middle.
+  void keep_sides(const Vector& x, Vector& force) const;
+  /// The displacement of a stop at the nodes.
+  StepNodes::Row displacement_of(Index stop) const;
   /// The weights of forces in the norm of the acceleration: their effects on the relative speeds.
   void find_weights(const time::State& from);
   /// Computes the forces at one node, and at all nodes except the start.
@@ -68,8 +75,11 @@ class NodeForces {
   /// The friction of supports at the nodes, from the motion there.
   void find_support_friction(double t, double h);
   void estimate(double t, const StepResponse& response);
+  /// Sets the scales of displacements and velocities for change(). At a start from rest they are the speed that the
+  /// acceleration causes within 1/omega of the contacts, and the way at that speed.
+  void find_scales(const time::State& from, double h);
   /// The largest relative change of a velocity or displacement by the last sweep.
-  double change(const time::State& from, double h) const;
+  double change(double h) const;
 
   /// A motion of the active DOFs only, and its forces.
   struct Instant {
@@ -79,6 +89,8 @@ class NodeForces {
   dynamics::Dynamics& dynamics_;
   const dynamics::DampedModes& modes_;
   ContactDofs dofs_;
+  StopBorders borders_;
+  std::vector<double> sides_;  ///< of borders_.jumping() in the step
   ActiveDofs active_;
   Instant instant_;
   Eigen::MatrixXd free_, nodes_, polynomial_, coefficients_;
@@ -86,6 +98,8 @@ class NodeForces {
   AtNodes forces_, forces_before_, moved_, moved_velocity_, weights_;  ///< for the active DOFs
   SweepAcceleration acceleration_;
   Eigen::VectorXd end_, error_;
+  ComponentScales scales_;
+  Vector scale_x_, scale_v_, work_;
   std::vector<Index> supports_;  ///< friction supports with a smooth law
   AtNodes support_friction_;     ///< for each of them, N
   Vector impulse_errors_;        ///< of the active DOFs at the end of the step, N s

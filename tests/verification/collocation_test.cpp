@@ -189,6 +189,16 @@ type = "exponential"
 end_time = 1.0
 )";
 
+std::string replaced(std::string scene, const std::string& from, const std::string& to) {
+  const std::size_t place = scene.find(from);
+  return place == std::string::npos ? "" : scene.replace(place, from.size(), to);
+}
+
+/// The beam with a regularised law: a transition of 0.05 mm, which takes steps of its own, and a force of each open
+/// stop that jumps in the middle of the gap.
+const std::string kRegularised =
+    replaced(kBeam, "stiffness = 1e6", "stiffness = 1e6\nlaw = \"arctan\"\nregularization = 2e4");
+
 class CoupledScenes : public testing::TestWithParam<std::string> {};
 
 double distance(const time::State& a, const time::State& b) {
@@ -254,7 +264,7 @@ TEST_P(CoupledScenes, HaveTheSameOutputsForAnySteps) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Collocation, CoupledScenes, testing::Values(kPipe, kBeam, kFlight, kRest));
+INSTANTIATE_TEST_SUITE_P(Collocation, CoupledScenes, testing::Values(kPipe, kBeam, kFlight, kRest, kRegularised));
 
 TEST(Collocation, StaysInEquilibrium) {
   // Equilibrium: 128 x + 64 (x - 1/2) = 80
@@ -308,6 +318,22 @@ end_time = 0.125
   }
 }
 
+/// The forces of `hertz` begin with the power 3/2 of the penetration. The reference is another method.
+TEST(Collocation, TakesContactsOfCurvedBodies) {
+  const std::string hertz = "law = \"hertz\"\nstiffness = 2e7";
+  for (const std::string& scene :
+       {replaced(kPipe, "stiffness = 1e6", hertz), replaced(kBeam, "stiffness = 1e6", hertz)}) {
+    ASSERT_FALSE(scene.empty());
+    SceneRun reference(scene, {"integrator.type=extrapolation8", "integrator.tolerance=1e-9"});
+    ASSERT_TRUE(reference.run().completed) << reference.simulation().report().message;
+    for (const char* tolerance : {"1e-3", "1e-5", "1e-7"}) {
+      SceneRun run(scene, {"integrator.type=exponential", std::string("integrator.tolerance=") + tolerance});
+      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+      EXPECT_LT(distance(run.simulation().state(), reference.simulation().state()), 30.0 * std::stod(tolerance));
+    }
+  }
+}
+
 std::string complaint(const std::string& toml) {
   try {
     SceneRun run(toml, {"integrator.type=exponential"});
@@ -330,6 +356,13 @@ TEST(Collocation, RefusesRigidStickAndNamesTheOthers) {
   rigid.replace(rigid.find("slip_speed = 0.05"), 17, "stick = \"rigid\"");
   const std::string message = complaint(rigid);
   EXPECT_NE(message.find("exact"), std::string::npos) << message;
+}
+
+TEST(Collocation, RefusesRingsWhoseLawActsWhileTheyAreApart) {
+  const std::string message =
+      complaint(replaced(kRest, "stiffness = 1e5", "stiffness = 1e5\nlaw = \"arctan\"\nregularization = 1e6"));
+  EXPECT_NE(message.find("acts while the contact is apart"), std::string::npos) << message;
+  EXPECT_NE(message.find("rodas4"), std::string::npos) << message;
 }
 
 }  // namespace
