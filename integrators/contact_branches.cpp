@@ -28,7 +28,7 @@ ContactBranches::ContactBranches(const dynamics::ElasticStops& contact, int orde
     if (!law.is_piecewise_linear() && series_.back() == nullptr)
       throw InputError(
           "integrator.type: exact needs stops whose law is piecewise linear or gives its Taylor series; "
-          "take law = \"linear\" or \"arctan\", or another integrator");
+          "take law = \"linear\" or \"arctan\"");
     gap_.push_back(contact.play_of(i).gap);
     penetration_.emplace_back();
     penetration_.back().reserve(series_.back() ? terms : 0);

@@ -38,9 +38,8 @@ ObstacleSeries::ObstacleSeries(dynamics::Dynamics& dynamics, int order)
     if (group.shape == nullptr) continue;
     if (!group.law->is_piecewise_linear() || group.damping.kind == ImpactDamping::Kind::law ||
         group.shape->form().kind == ContactShape::Form::Kind::other)
-      throw InputError(
-          "integrator.type: exact expands contacts (" + group.kind +
-          ") in series only with law = \"linear\" on lines and circles; take dopri5, extrapolation8 or rodas4");
+      throw InputError("integrator.type: exact expands contacts (" + group.kind +
+                       ") in series only with law = \"linear\" on lines and circles");
   }
 }
 

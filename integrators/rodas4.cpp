@@ -24,7 +24,7 @@ Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
   if (dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles()))
     throw InputError(
         "integrator.type: rodas4 takes derivatives of forces, and that of the contact's dissipation is infinite where "
-        "the contact closes; take dopri5 or extrapolation8, or auto, which chooses among them");
+        "the contact closes");
   for (std::size_t i = 0; i < kStages; ++i) p_[i] = q_[i] = Vector::Zero(dynamics.size());
   work_ = other_ = residual_v_ = rate_ = Vector::Zero(dynamics.size());
   stop_displacement_ = stop_force_ = tangent_ = stop_work_ = Vector::Zero(dynamics.stop_count());

@@ -9,8 +9,6 @@
 namespace butee::integrators {
 namespace {
 
-constexpr const char* kOthers = "take exact, exponential or rodas4, or auto, which chooses among them";
-
 /// A Kelvin-Voigt stop on one displacement with the law and shape of the contact type `stop`.
 bool is_linear_stop(const model::ObstacleGroup& group) {
   using Kind = model::ImpactDamping::Kind;
@@ -25,27 +23,23 @@ std::string SmallSystem::obstacle_to(dynamics::Dynamics& dynamics) {
   const model::System& system = dynamics.system();
   if (system.size() > kMostDofs)
     return std::to_string(system.size()) + " DOFs are more than the " + std::to_string(kMostDofs) +
-           " that piecewise takes; take exponential or rodas4, or auto, which chooses among them";
+           " that piecewise takes";
   if (!system.is_symmetric || system.rotation != nullptr)
-    return "shafts turn or bearings have cross terms, so that the matrices are not symmetric; take rodas4, dopri5, "
-           "extrapolation8 or exact, or auto, which chooses among them";
+    return "shafts turn or bearings have cross terms, so that the matrices are not symmetric";
   for (const model::FreeStops& stops : system.stops) {
-    if (!stops.law->is_piecewise_linear())
-      return std::string("piecewise needs stops with law = \"linear\"; ") + kOthers;
+    if (!stops.law->is_piecewise_linear()) return "piecewise needs stops with law = \"linear\"";
     if (stops.play.has_both() && stops.play.gap < 0.0)
-      return std::string("the force of a stop with two sides and a negative gap jumps; ") + kOthers;
+      return "the force of a stop with two sides and a negative gap jumps";
   }
   for (const model::FreeObstacles& obstacles : system.obstacles)
     if (!is_linear_stop(*obstacles.group))
       return "piecewise takes stops with law = \"linear\", elastic or with Kelvin-Voigt dissipation, without friction, "
-             "and no rings, planes or friction supports; take rodas4, dopri5, extrapolation8 or exact, or auto, which "
-             "chooses among them";
+             "and no rings, planes or friction supports";
   for (const model::FreeLoad& load : system.loads)
     if (!load.in_time->harmonic() && !load.in_time->is_piecewise_parabolic())
-      return "a load is neither harmonic nor made of straight lines or parabolas in time; take rodas4, dopri5, "
-             "extrapolation8 or exact, or auto, which chooses among them";
+      return "a load is neither harmonic nor made of straight lines or parabolas in time";
   if (system.damping.mass_proportional < 0.0 || system.damping.stiffness_proportional < 0.0)
-    return std::string("damping is negative, so that motions grow without bound; ") + kOthers;
+    return "damping is negative, so that motions grow without bound";
   return {};
 }
 

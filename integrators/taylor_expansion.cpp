@@ -49,9 +49,7 @@ TaylorExpander::TaylorExpander(dynamics::Dynamics& dynamics, int order, double t
   if (dynamics.obstacles() != nullptr) obstacles_.emplace(dynamics, order);
   for (const model::FreeLoad& load : dynamics.system().loads)
     if (!load.in_time->taylor(0.0, 1.0, load_))
-      throw InputError(
-          "integrator.type: exact needs loads that give their Taylor series, as the standard ones do; "
-          "take another integrator");
+      throw InputError("integrator.type: exact needs loads that give their Taylor series, as the standard ones do");
 }
 
 bool TaylorExpander::expand(double t, const Vector& x, const Vector& v, ContactBranches& branches,

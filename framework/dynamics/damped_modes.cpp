@@ -123,18 +123,16 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
 DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   const model::System& system = dynamics.system();
   const Index n = system.size();
-  const char* const others = "; take rodas4, dopri5, extrapolation8 or exact, or auto, which chooses among them";
   if (system.rotation != nullptr)
-    throw InputError(
-        std::string("integrator.type: the speed of rotation varies, so the structure has no constant modes") + others);
+    throw InputError("integrator.type: the speed of rotation varies, so the structure has no constant modes");
   if (n > kMost)
     throw InputError("integrator.type: " + std::to_string(n) +
                      " DOFs whose damping, turning parts or contacts require all modes are more than " +
-                     std::to_string(kMost) + others);
+                     std::to_string(kMost));
   SparseMatrix transposed = system.stiffness.transpose();
   SparseMatrix even = 0.5 * (system.stiffness + transposed);
   const auto natural = linalg::dense_pairs(even, system.mass);
-  if (!natural) throw InputError(std::string("integrator.type: the modes could not be computed") + others);
+  if (!natural) throw InputError("integrator.type: the modes could not be computed");
   const Eigen::MatrixXd& shapes = natural->vectors;
 
   Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);
@@ -179,7 +177,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
     if (!solve(k, c, block)) {
       for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];
       if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
-        throw InputError(std::string("integrator.type: the modes of this structure do not form a basis") + others);
+        throw InputError("integrator.type: the modes of this structure do not form a basis");
     }
     condition_ = std::max(condition_, block.vectors.norm() * block.inverse.norm());
     for (Index i = 0; i < 2 * b; ++i)

@@ -52,8 +52,7 @@ ModalSystem::ModalSystem(Dynamics& dynamics, Index count) {
   if (!system.is_symmetric)
     throw InputError(
         "integrator.type: shafts turn or bearings have cross terms in this scene, so that its matrices are not "
-        "symmetric and it lacks the real modes that this method requires; take rodas4, dopri5, extrapolation8 or "
-        "exact, or auto, which chooses among them");
+        "symmetric and it lacks the real modes that this method requires");
   Modes modes = find_modes(system, count);
   if (modes.frequencies.size() < system.size()) add_static(system, modes);
   frequencies_ = modes.frequencies.array();
@@ -88,8 +87,8 @@ void ModalSystem::find_decay(Dynamics& dynamics) {
   const Eigen::MatrixXd beside = modal - Eigen::MatrixXd(modal.diagonal().asDiagonal());
   if (beside.cwiseAbs().maxCoeff() > kUncoupled * largest)
     throw InputError(
-        "integrator.type: the dashpots couple the modes of this scene, which then have no closed-form solution; take "
-        "generalized_alpha or rodas4, or write the damping as [damping] mass_proportional, stiffness_proportional or "
+        "integrator.type: the dashpots couple the modes of this scene, which then have no closed-form solution; write "
+        "the damping as [damping] mass_proportional, stiffness_proportional or "
         "modal");
 }
 
@@ -101,8 +100,7 @@ void ModalSystem::project_loads(const Dynamics& dynamics) {
     if (!harmonic && !load.in_time->is_piecewise_parabolic())
       throw InputError(
           "integrator.type: a load of this scene is neither harmonic nor made of straight lines or parabolas in time, "
-          "such as the unbalance of a run-up, so its response has no closed form; take rodas4, dopri5, extrapolation8 "
-          "or exact, or auto, which chooses among them");
+          "such as the unbalance of a run-up, so its response has no closed form");
     if (!harmonic) {
       other_loads_.push_back({load.in_time, std::move(shape)});
       continue;

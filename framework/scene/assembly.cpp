@@ -1,8 +1,10 @@
 #include "butee/scene/assembly.hpp"
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "butee/dynamics/modal_dashpots.hpp"
 #include "butee/dynamics/static_position.hpp"
+#include "butee/scene/able_methods.hpp"
 
 namespace butee::scene {
 namespace {
@@ -33,14 +35,21 @@ model::System assemble_changed(const model::Model& model, const std::function<vo
 
 std::unique_ptr<time::Integrator> make_integrator(Scene& scene, dynamics::Dynamics& dynamics) {
   const IntegratorChoice& choice = scene.integrator;
-  const auto made_or_located = [&] {
-    try {
-      return scene.catalogue.load(choice.name).make(choice.parameters, dynamics);
-    } catch (const InputError& error) {
-      throw InputError(located(scene.document, error.what()));
-    }
+  const auto refusal = [&](const std::string& reason) {
+    const std::vector<std::string> able = able_methods(scene, dynamics);
+    return InputError(located(scene.document, reason + (able.empty() ? "" : "; these can: " + join(able))));
   };
-  auto made = made_or_located();
+  const time::IntegratorType& type = scene.catalogue.load(choice.name);
+  if (const ContactNeeds needs = contact_needs(scene.model); type.contacts < needs.support)
+    throw refusal("integrator.type: " + choice.name + " cannot treat " + needs.words);
+  std::unique_ptr<time::Integrator> made;
+  try {
+    made = type.make(choice.parameters, dynamics);
+  } catch (const InputError& error) {
+    const std::string reason = error.what();
+    if (reason.starts_with("integrator.type: ") || reason.starts_with("integrator.tolerance: ")) throw refusal(reason);
+    throw;
+  }
   if (made == nullptr)
     throw RunError(scene.catalogue.find(choice.name)->module + ": made no method for \"" + choice.name + "\"");
   return made;

@@ -22,14 +22,6 @@ std::vector<Parameter> common_parameters() {
           number("end_time", "s", "the end of the run, which starts at t = 0").above(0)};
 }
 
-std::vector<Parameter> parameters_of(const plugin::IntegratorEntry& entry) {
-  std::vector<Parameter> all = common_parameters();
-  if (entry.declaration.finds_first_step) all.front() = all.front().optional();
-  const auto& own = entry.declaration.parameters;
-  all.insert(all.end(), own.begin(), own.end());
-  return all;
-}
-
 time::MethodLimits limits_of(const time::IntegratorType& type) {
   return {type.name, type.stability_limit, type.damping_limit, type.finds_first_step};
 }
@@ -180,6 +172,14 @@ bool is_override(const Value& value) {
 
 }  // namespace
 
+std::vector<config::Parameter> parameters_of(const plugin::IntegratorEntry& entry) {
+  std::vector<Parameter> all = common_parameters();
+  if (entry.declaration.finds_first_step) all.front() = all.front().optional();
+  const auto& own = entry.declaration.parameters;
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
 std::string set_aside_keys(config::Document& document, const plugin::Catalogue& catalogue) {
   Table* root = document.root.table();
   Value* integrator = root != nullptr ? root->find("integrator") : nullptr;
@@ -203,32 +203,6 @@ std::string set_aside_keys(config::Document& document, const plugin::Catalogue& 
     return std::find(aside.begin(), aside.end(), entry.first) != aside.end();
   });
   return line;
-}
-
-void check_contacts(const model::Model& model, const IntegratorChoice& choice, plugin::Catalogue& catalogue,
-                    const Value& root, Diagnostics& diagnostics) {
-  using time::ContactSupport;
-  ContactSupport needed = ContactSupport::elastic_stops;
-  const char* what = "contacts in the plane, with dissipation or friction";
-  for (const model::ObstacleGroup& group : model.obstacles) {
-    needed = std::max(needed, ContactSupport::without_memory);
-    if (group.friction.rule == model::Friction::Rule::spring) {
-      needed = std::max(needed, ContactSupport::without_rigid);
-      what = "friction with a stick spring, whose memory ends steps where it sticks and slips";
-    }
-    if (group.friction.rule != model::Friction::Rule::rigid) continue;
-    needed = ContactSupport::all;
-    what = "friction with rigid stick";
-    break;
-  }
-  if (needed == ContactSupport::elastic_stops || catalogue.load(choice.name).contacts >= needed) return;
-  std::vector<std::string> able;
-  for (const auto& entry : catalogue.integrators())
-    if (catalogue.load(entry.declaration.name).contacts >= needed) able.push_back(entry.declaration.name);
-  const Value* integrator = root.table()->find("integrator");
-  const Value* type = integrator->table()->find("type");
-  diagnostics.error("integrator.type", type != nullptr ? type->at : integrator->at,
-                    choice.name + " cannot treat " + what + "; these can: " + join(able));
 }
 
 std::optional<IntegratorChoice> read_integrator(const Value& root, const plugin::Catalogue& catalogue,

@@ -22,10 +22,8 @@ BUTEE_EXPORT std::optional<IntegratorChoice> read_integrator(const config::Value
                                                              const plugin::Catalogue& catalogue,
                                                              config::Diagnostics& diagnostics);
 
-/// Reports contacts of the model that the chosen method cannot treat, and names methods that can.
-BUTEE_EXPORT void check_contacts(const model::Model& model, const IntegratorChoice& choice,
-                                 plugin::Catalogue& catalogue, const config::Value& root,
-                                 config::Diagnostics& diagnostics);
+/// The parameters of a method: those of all methods, and its own.
+std::vector<config::Parameter> parameters_of(const plugin::IntegratorEntry& entry);
 
 /// If an override (`--set integrator.type=NAME`) chose the method, removes from [integrator] the
 /// file's direct keys that belong only to other methods, and returns a one-line message. Other

@@ -85,7 +85,6 @@ Scene read_scene(config::Document document, plugin::Catalogue catalogue, Output 
   model::OutputRequest request;
   if (output == Output::read)
     request = read_output(document.root, draft.model, end_time, diagnostics, catalogue.types().formats);
-  if (draft.integrator) check_contacts(draft.model, *draft.integrator, catalogue, document.root, diagnostics);
   if (draft.integrator)
     if (const auto& check = catalogue.load(draft.integrator->name).check)
       check(draft.integrator->parameters, diagnostics);

@@ -36,16 +36,14 @@ bool is_coupled(const model::System& system) {
 std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options) {
   if (dynamics.stop_count() > 0 && options.tolerance < kSmallestWithStops)
     throw InputError("integrator.tolerance: must be at least " + to_short_text(kSmallestWithStops) +
-                     " for exponential with stops: below it the errors of many impacts exceed the error bound; take "
-                     "rodas4, extrapolation8, exact or piecewise, or auto, which chooses among them");
+                     " for exponential with stops: below it the errors of many impacts exceed the error bound");
   if (is_coupled(dynamics.system())) {
     auto integrator = std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
     if (const double smallest = integrator->smallest_tolerance(); options.tolerance < smallest)
       throw ToleranceBelowRounding(
           "integrator.tolerance: must be at least " + to_short_text(smallest) +
           " for exponential here: its modes are almost parallel, as for free or critically damped motion with "
-          "dashpots, and rounding exceeds the error bound below it; take rodas4, dopri5, extrapolation8 or exact, or "
-          "auto, which chooses among them");
+          "dashpots, and rounding exceeds the error bound below it");
     return integrator;
   }
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
@@ -66,7 +64,7 @@ time::IntegratorType exponential_type() {
                          .at_least(0)
                          .or_else(std::int64_t{0})},
       .finds_first_step = true,
-      .contacts = time::ContactSupport::without_memory,
+      .contacts = time::ContactSupport::without_rigid,
       .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
         return make_exponential(dynamics,
                                 {p.number("tolerance"), p.number("end_time"), static_cast<Index>(p.integer("modes"))});

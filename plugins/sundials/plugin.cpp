@@ -46,7 +46,7 @@ time::IntegratorType type_of(std::string name, std::string summary, plugins::Fam
         if (is_implicit && dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles()))
           throw InputError(
               "integrator.type: the implicit methods of SUNDIALS take derivatives of forces, and that of the contact's "
-              "dissipation is infinite where the contact closes; take arkode_erk, dopri5 or extrapolation8, or auto");
+              "dissipation is infinite where the contact closes");
         const double given = p.number("absolute_tolerance");
         return std::make_unique<plugins::SundialsIntegrator>(
             dynamics, family, p.number("tolerance"), given > 0.0 ? given : p.number("tolerance") * length_of(dynamics),
