@@ -24,6 +24,8 @@ class InterpolationCheck {
   double error() const { return error_; }
 
  private:
+  /// The rounding of the displacements of stops in a step, m.
+  double rounding(const TriedStep& step) const;
   /// Computes the accelerations `a` of the stops without contact, m/s^2.
   void find_accelerations(double t, const ModalState& state, const Eigen::ArrayXd* constant_force, Eigen::ArrayXd& a);
 
