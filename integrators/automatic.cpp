@@ -97,7 +97,7 @@ bool suits_collocation(dynamics::Dynamics& dynamics) {
   for (Index i = 0; i < dynamics.stop_count(); ++i)
     if (!dynamics.stops().law_of(i).is_silent_while_open()) return false;
   for (const model::FreeObstacles& obstacles : system.obstacles)
-    if (obstacles.group->friction.has_memory() ||
+    if (obstacles.group->friction.rule == model::Friction::Rule::rigid ||
         (obstacles.group->law != nullptr && !obstacles.group->law->is_silent_while_open()))
       return false;
   return std::all_of(system.loads.begin(), system.loads.end(), [](const model::FreeLoad& load) {

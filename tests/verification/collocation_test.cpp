@@ -199,6 +199,9 @@ std::string replaced(std::string scene, const std::string& from, const std::stri
 const std::string kRegularised =
     replaced(kBeam, "stiffness = 1e6", "stiffness = 1e6\nlaw = \"arctan\"\nregularization = 2e4");
 
+/// The pipe with stick springs: their tension depends on where they took hold.
+const std::string kSticking = replaced(kPipe, "slip_speed = 0.05", "stick_stiffness = 2e5");
+
 class CoupledScenes : public testing::TestWithParam<std::string> {};
 
 double distance(const time::State& a, const time::State& b) {
@@ -264,7 +267,8 @@ TEST_P(CoupledScenes, HaveTheSameOutputsForAnySteps) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Collocation, CoupledScenes, testing::Values(kPipe, kBeam, kFlight, kRest, kRegularised));
+INSTANTIATE_TEST_SUITE_P(Collocation, CoupledScenes,
+                         testing::Values(kPipe, kBeam, kFlight, kRest, kRegularised, kSticking));
 
 TEST(Collocation, StaysInEquilibrium) {
   // Equilibrium: 128 x + 64 (x - 1/2) = 80

@@ -165,13 +165,13 @@ rotation from y to z (outside a ring from z to y); one of
   stick = "rigid"  no motion while it sticks (not in rings); static_coefficient
 and surface_speed (m/s) of the obstacle along the tangent, for example of a belt.
 
-rodas4, dopri5, extrapolation8 and exact end their steps where a contact closes, opens, sticks or slips, so that only
-the regularisation causes an error; rk4 and related methods evaluate rings, planes, dissipation and regularised
-friction at their stages, without locating contact changes. exponential takes them with law = "linear" and a constant
-speed of rotation, but no stick springs. exact takes law = "linear"; piecewise takes linear stops, elastic or with
-kelvin_voigt, of up to 24 DOFs; rigid stick is for dopri5, extrapolation8 and exact; jankowski is not for rodas4. auto
-chooses among them; other methods refuse. Methods other than piecewise may miss a contact shorter than an eighth of a
-step.
+exponential, rodas4, dopri5, extrapolation8 and exact end their steps where a contact closes, opens, sticks or slips,
+so that only the regularisation causes an error; rk4 and related methods evaluate rings, planes, dissipation and
+regularised friction at their stages, without locating contact changes. exponential takes contacts with a constant
+speed of rotation and a law without force while they are apart. exact takes law = "linear" in the plane and with
+dissipation; piecewise takes linear stops, elastic or with kelvin_voigt, of up to 24 DOFs; rigid stick is for dopri5,
+extrapolation8 and exact; jankowski is not for rodas4. auto chooses among them; other methods refuse. Methods other
+than piecewise may miss a contact shorter than an eighth of a step.
 )" + listed(catalogue.types().laws) +
          "\nThe linear law is the exact unilateral spring; arctan is smooth, but has a small residual force at open "
          "stops\n"
