@@ -106,8 +106,8 @@ BUTEE_C_EXPORT int butee_peak(const butee_structure* structure, const char* node
 BUTEE_C_EXPORT int butee_energy(const butee_structure* structure, double* kinetic, double* strain, double* contact);
 
 /*
- * The state to go back to in an iteration. A snapshot is of use for its own structure and others of the same scene and
- * the same `forced`, and outlives it.
+ * The state to go back to in an iteration. A snapshot is of use for its own structure and others of the same scene, the
+ * same `forced` and the same followed peaks, and outlives it.
  */
 BUTEE_C_EXPORT int butee_save(const butee_structure* structure, butee_snapshot** made);
 BUTEE_C_EXPORT int butee_restore(butee_structure* structure, const butee_snapshot* snapshot);

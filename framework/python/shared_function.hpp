@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "butee/config/parameter.hpp"
+#include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "butee/python/interpreter_lock.hpp"
 
 namespace butee::python {
@@ -18,13 +20,20 @@ inline std::shared_ptr<pybind11::function> shared_function(const pybind11::funct
           [](pybind11::function* held) { with_interpreter([held] { delete held; }); }};
 }
 
-/// function(first, parameters...), called from any thread.
+/// function(first, parameters...), called from any thread. Throws RunError if that is not a number.
 inline double call_with(const pybind11::function& function, double first, const std::vector<double>& parameters) {
   return with_interpreter([&] {
     pybind11::tuple arguments(parameters.size() + 1);
     arguments[0] = first;
     for (std::size_t i = 0; i < parameters.size(); ++i) arguments[i + 1] = parameters[i];
-    return function(*arguments).cast<double>();
+    const pybind11::object result = function(*arguments);
+    try {
+      return result.cast<double>();
+    } catch (const pybind11::cast_error&) {
+      const auto name = pybind11::str(pybind11::getattr(function, "__name__", function));
+      throw RunError("the Python function " + std::string(name) + " returned " + std::string(pybind11::repr(result)) +
+                     " at " + to_short_text(first) + ", not a number");
+    }
   });
 }
 

@@ -167,6 +167,13 @@ def test_laws_that_are_none():
     with pytest.raises(TypeError):
         butee.law("python_other", energy=lambda g: 0.0)(linear)
 
+    @butee.law("python_forgetful")
+    def forgetful(g, k):
+        k * g
+
+    with pytest.raises(butee.RunError, match="function forgetful returned None at .*, not a number"):
+        with_law(law="python_forgetful", k=1e6)
+
     @butee.law("python_late")
     def late(g, k):
         if 1e-8 < g < 0.9e-6:

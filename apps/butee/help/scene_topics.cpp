@@ -104,9 +104,9 @@ only those that an element uses. Supports, loads, springs, stops, initial values
              with stops and without friction
   [base] acceleration = { direction = [0, 1, 0], type = "table", file = "quake.csv" }: the acceleration of all supports and
              of the ground (m/s2), from initial_velocity (0) on; or displacement = {...} (m), a smooth curve through a
-             table. u is relative to the base, u_abs, v_abs, a_abs (ux_abs, uz_abs ...) are those in space. Stops to ground
-             move with the base; frame = "space" in every [[contact]] to ground keeps them where they are. Several [[base]]
-             add up.
+             table; the length of direction does not matter. u is relative to the base, u_abs, v_abs, a_abs (ux_abs,
+             uz_abs ...) are those in space. Stops to ground move with the base; frame = "space" in every [[contact]] to
+             ground keeps them where they are. Several [[base]] add up.
   [[base]] nodes = [...]: supports that move independently; each entry defines one motion. u is then measured in space, and
              the ground of springs and stops stands still; [initial] is the start in space.
 
