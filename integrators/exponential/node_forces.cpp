@@ -122,8 +122,8 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
     nodes_ = free_;
     return finished();
   }
-  start(from);
   const double t = from.t, h = response.h();
+  start(from, h);
   acceleration_.begin(forces_.size());
   find_scales(from, h);
   find_weights(from);
@@ -165,26 +165,29 @@ void NodeForces::find_weights(const State& from) {
   }
 }
 
-void NodeForces::start(const State& from) {
+void NodeForces::start(const State& from, double h) {
   for (Index k = 0; k < active_.count(); ++k) {
     const Index dof = active_.dofs[static_cast<std::size_t>(k)];
     moved_(k, 0) = from.x[dof];
     moved_velocity_(k, 0) = from.v[dof];
   }
-  if (!borders_.jumping().empty()) find_sides();
+  if (!borders_.jumping().empty()) find_sides(from, h);
   instant_.x.setZero();
   instant_.v.setZero();
   find_forces(from.t, 0.0, 0);
   for (Index j = 1; j < kCount; ++j) forces_.col(j) = forces_.col(0);
 }
 
-void NodeForces::find_sides() {
-  constexpr Index kNext = 1;
-  for (Index k = 0; k < active_.count(); ++k) moved_(k, kNext) = active_.displacement.col(k).dot(free_.col(kNext));
+void NodeForces::find_sides(const State& from, double h) {
+  const double s = StepNodes::kPlaces[1] * h;
+  const dynamics::ElasticStops& stops = dynamics_.stops();
   sides_.clear();
   for (const Index i : borders_.jumping()) {
-    const StepNodes::Row w = displacement_of(i);
-    sides_.push_back(StopBorders::side_of_step(w[0], w[kNext]));
+    const auto of = [a = stops.dof_a(i), b = stops.dof_b(i)](const Vector& y) {
+      return (a >= 0 ? y[a] : 0.0) - (b >= 0 ? y[b] : 0.0);
+    };
+    const double start = of(from.x);
+    sides_.push_back(StopBorders::side_of_step(start, start + s * (of(from.v) + 0.5 * s * of(from.a))));
   }
 }
 

@@ -59,9 +59,9 @@ class NodeForces {
 
   /// Takes the end from the nodes.
   Outcome finished();
-  void start(const time::State& from);
-  /// Finds on which side of the middle the stops are whose force jumps there.
-  void find_sides();
+  void start(const time::State& from, double h);
+  /// Finds on which side of the middle the stops are whose force jumps there, by the motion at the start.
+  void find_sides(const time::State& from, double h);
   /// Continues the forces of their sides beyond the middle.
   void keep_sides(const Vector& x, Vector& force) const;
   /// The displacement of a stop at the nodes.

@@ -29,8 +29,8 @@ class StopBorders {
 
   /// The stops whose force jumps at w = 0.
   const std::vector<Index>& jumping() const { return jumping_; }
-  /// The side of the middle, +1 or -1, on which a stop is in a step: that of its displacement at the start, or at the
-  /// next node if the start is at the jump but for the precision with which steps end there.
+  /// The side of the middle, +1 or -1, on which a stop is in a step: that of its displacement at the start, or soon
+  /// after it if the start is at the jump but for the precision with which steps end there.
   static double side_of_step(double start, double next);
   /// What makes the force at w that of the law of a given side, continued beyond w = 0, N: 0 on that side.
   double continuation(Index stop, double side, double w) const;

@@ -322,6 +322,55 @@ end_time = 0.125
   }
 }
 
+/// In the middle of a gap the force jumps by 1 % of the acceleration. A load on the other body alone would move body a
+/// to the positive side; the pull of a blunt stop of 1.7 N moves it to the negative one.
+TEST(Collocation, LeavesTheMiddleOfAGapToTheSideOfItsMotion) {
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 1.0
+[[element]]
+type = "mass"
+name = "b"
+mass = 1.0
+[[element]]
+type = "spring"
+nodes = ["a", "b"]
+stiffness = 500.0
+damping = 0.3
+[[contact]]
+type = "stop"
+nodes = "a"
+gap = 0.01
+stiffness = 5e3
+law = "arctan"
+regularization = 3e4
+[[contact]]
+type = "stop"
+nodes = "a"
+sides = "negative"
+gap = 0.01
+stiffness = 1e4
+law = "arctan"
+regularization = 600.0
+[[load]]
+type = "constant"
+node = "b"
+value = 3.0
+[integrator]
+end_time = 0.004
+)";
+  SceneRun exact(scene, {"integrator.type=exact"}),
+      run(scene, {"integrator.type=exponential", "integrator.tolerance=1e-7"});
+  ASSERT_TRUE(exact.run().completed);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  const double wanted = exact.simulation().state().v[0];
+  EXPECT_LT(wanted, 0.0);
+  EXPECT_NEAR(run.simulation().state().v[0] / wanted, 1.0, 1e-5);
+}
+
 /// The forces of `hertz` begin with the power 3/2 of the penetration. The reference is another method.
 TEST(Collocation, TakesContactsOfCurvedBodies) {
   const std::string hertz = "law = \"hertz\"\nstiffness = 2e7";
