@@ -123,34 +123,39 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
 DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   const model::System& system = dynamics.system();
   const Index n = system.size();
-  if (system.rotation != nullptr)
-    throw InputError("integrator.type: the speed of rotation varies, so the structure has no constant modes");
   if (n > kMost)
     throw InputError("integrator.type: " + std::to_string(n) +
                      " DOFs whose damping, turning parts or contacts require all modes are more than " +
                      std::to_string(kMost));
-  SparseMatrix transposed = system.stiffness.transpose();
-  SparseMatrix even = 0.5 * (system.stiffness + transposed);
+  SparseMatrix elastic = system.stiffness;
+  if (system.rotation != nullptr) {
+    dynamics.set_time(0.5 * run_time);
+    reference_speed_ = system.rotation->speed(0.5 * run_time);
+    if (system.circulatory.size() > 0) elastic += reference_speed_ * system.circulatory;
+  }
+  SparseMatrix transposed = elastic.transpose();
+  SparseMatrix even = 0.5 * (elastic + transposed);
   const auto natural = linalg::dense_pairs(even, system.mass);
   if (!natural) throw InputError("integrator.type: the modes could not be computed");
   const Eigen::MatrixXd& shapes = natural->vectors;
 
   Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);
-  if (dynamics.has_damping()) {
+  if (dynamics.has_damping() || system.rotation != nullptr) {
     Eigen::MatrixXd forces(n, n);
     for (Index j = 0; j < n; ++j) dynamics.damping_force(shapes.col(j), forces.col(j));
     damping.noalias() = shapes.transpose() * forces;
-    if (system.dashpots.size() > 0) {
+    if (system.dashpots.size() > 0 || system.rotation != nullptr) {
       SparseMatrix sizes = system.damping.mass_proportional * system.mass.cwiseAbs();
       sizes += system.damping.stiffness_proportional * system.stiffness.cwiseAbs();
-      sizes += system.dashpots.cwiseAbs();
+      if (system.dashpots.size() > 0) sizes += system.dashpots.cwiseAbs();
+      if (system.gyroscopic.size() > 0) sizes += std::abs(reference_speed_) * system.gyroscopic.cwiseAbs();
       clear_rounding(sizes, shapes, damping);
     }
   } else {
     damping.setZero();
   }
-  if (!system.stiffness_is_symmetric) {
-    SparseMatrix odd = 0.5 * (system.stiffness - transposed);
+  if (!system.stiffness_is_symmetric || system.circulatory.size() > 0) {
+    SparseMatrix odd = 0.5 * (elastic - transposed);
     stiffness.noalias() = shapes.transpose() * (odd * shapes);
     clear_rounding(odd.cwiseAbs(), shapes, stiffness);
   }

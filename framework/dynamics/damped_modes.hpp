@@ -31,10 +31,12 @@ class BUTEE_EXPORT DampedModes {
   static constexpr Index kMost = 600;
   static constexpr double kNudge = 1e-10;
 
-  /// `run_time` is T, s. Throws InputError if the speed of rotation varies, there are too many
-  /// DOFs, or no basis of modes is found.
+  /// `run_time` is T, s. If the speed of rotation varies, the modes are those at its value at T/2. Throws InputError if
+  /// there are too many DOFs or no basis of modes is found.
   DampedModes(Dynamics& dynamics, double run_time);
 
+  /// The speed of rotation of these modes, rad/s, if it varies in the system; else 0.
+  double reference_speed() const { return reference_speed_; }
   /// The largest |V| |V^-1| of the blocks, V the eigenvectors, in Frobenius norms: motion that is
   /// transformed to the modes and back has relative rounding errors of this times epsilon.
   double condition() const { return condition_; }
@@ -68,7 +70,7 @@ class BUTEE_EXPORT DampedModes {
 
   Eigen::ArrayXd decay_, turn_, speed_, kinetic_;
   Eigen::MatrixXd displacement_, velocity_, input_, from_x_, from_v_;
-  double condition_ = 1.0;
+  double condition_ = 1.0, reference_speed_ = 0.0;
 };
 
 }  // namespace butee::dynamics

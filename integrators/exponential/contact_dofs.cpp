@@ -21,7 +21,8 @@ void sort_once(std::vector<Index>& dofs) {
 
 }  // namespace
 
-ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes)
+ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes,
+                         const std::vector<Index>& others)
     : inverse_mass_(Vector::Zero(dynamics.size())) {
   if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
     for (Index i = 0; i < obstacles->size(); ++i) {
@@ -37,6 +38,7 @@ ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedMod
   for (Index i = 0; i < contact.size(); ++i) {
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) take(dof, closed[i], modes);
   }
+  for (const Index dof : others) find_inverse_mass(dof, modes);
   sort_once(dofs_);
   const Index p = modes.count();
   reach_ = Eigen::ArrayXd::Zero(p);
@@ -49,13 +51,18 @@ ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedMod
 void ContactDofs::take(Index dof, double stiffness, const dynamics::DampedModes& modes) {
   if (dof < 0) return;
   dofs_.push_back(dof);
-  // The velocity of the DOF after an impulse of 1 N s on it, summed over all modes.
-  inverse_mass_[dof] = std::max(0.0, modes.velocity().col(dof).dot(modes.input().col(dof)));
+  find_inverse_mass(dof, modes);
   highest_frequency_ = std::max(highest_frequency_, std::sqrt(stiffness * inverse_mass_[dof]));
 }
 
-bool ActiveDofs::find(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes) {
-  std::vector<Index> found;
+void ContactDofs::find_inverse_mass(Index dof, const dynamics::DampedModes& modes) {
+  // The velocity of the DOF after an impulse of 1 N s on it, summed over all modes.
+  inverse_mass_[dof] = std::max(0.0, modes.velocity().col(dof).dot(modes.input().col(dof)));
+}
+
+bool ActiveDofs::find(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes,
+                      const std::vector<Index>& others) {
+  std::vector<Index> found = others;
   const auto take = [&](Index dof) {
     if (dof >= 0) found.push_back(dof);
   };

@@ -10,13 +10,14 @@ namespace butee::integrators {
 /// The DOFs on which contacts act, with the properties that collocation needs.
 class ContactDofs {
  public:
-  /// Throws InputError for contacts in the plane whose law acts while they are apart.
-  ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes);
+  /// Throws InputError for contacts in the plane whose law acts while they are apart. `others` are DOFs of other forces
+  /// at the nodes of a step.
+  ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes, const std::vector<Index>& others);
 
   const std::vector<Index>& all() const { return dofs_; }  ///< ascending
   /// The largest displacement of each mode at a contact for |z| = 1.
   const Eigen::ArrayXd& reach() const { return reach_; }
-  /// (M^-1)_dd of a DOF with contact, 1/kg
+  /// (M^-1)_dd of a DOF with contact or another such force, 1/kg
   double inverse_mass(Index dof) const { return inverse_mass_[dof]; }
   /// The highest frequency of a mass at a contact on its closed stiffness, rad/s; 0 without contacts.
   double highest_frequency() const { return highest_frequency_; }
@@ -25,6 +26,7 @@ class ContactDofs {
 
  private:
   void take(Index dof, double stiffness, const dynamics::DampedModes& modes);
+  void find_inverse_mass(Index dof, const dynamics::DampedModes& modes);
 
   std::vector<Index> dofs_;
   Eigen::ArrayXd reach_;
@@ -33,14 +35,14 @@ class ContactDofs {
   bool need_velocity_ = false;
 };
 
-/// The DOFs of contacts that may act in a step, and the columns of the modes for them, 2p x number
-/// of DOFs.
+/// The DOFs of contacts that may act in a step and of other forces at its nodes, and the columns of the modes for them,
+/// 2p x number of DOFs.
 struct ActiveDofs {
   std::vector<Index> dofs;  ///< ascending
   Eigen::MatrixXd input, displacement, velocity;
 
   /// Finds them from the phases of the contacts; true if they have changed.
-  bool find(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes);
+  bool find(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes, const std::vector<Index>& others);
   Index count() const { return static_cast<Index>(dofs.size()); }
   /// The index of a DOF in `dofs`.
   Index place(Index dof) const;

@@ -1,4 +1,6 @@
 // The parameters of the method `exponential`, and the choice between its forms.
+#include <algorithm>
+
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "integrators/exponential/exponential.hpp"
@@ -25,10 +27,11 @@ std::string describe_basis(const dynamics::ModalSystem& modal, Index dofs) {
   return text + "; give more modes, or use another type, if this error is too large";
 }
 
-/// True if the modes are coupled or contacts act in the plane.
+/// True if the modes are coupled, contacts act in the plane or the speed of an unbalance varies.
 bool is_coupled(const model::System& system) {
   return !system.is_symmetric || system.rotation != nullptr || !system.obstacles.empty() ||
-         (system.size() > 1 && system.dashpots.size() > 0);
+         (system.size() > 1 && system.dashpots.size() > 0) ||
+         std::any_of(system.loads.begin(), system.loads.end(), VaryingForces::contains);
 }
 
 }  // namespace

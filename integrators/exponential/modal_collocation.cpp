@@ -23,6 +23,9 @@ constexpr double kSettled = 0.05;
 constexpr double kResolved = 0.1;
 /// Allowed error of the contacts' velocities within a step, as a fraction of the tolerance.
 constexpr double kInner = 1.0;
+/// An unbalance of varying speed turns by less than this in a step, rad, so that its forces at the nodes show its
+/// motion; the error control shortens steps further.
+constexpr double kMostTurn = 3.0;
 /// Number of step responses kept; those of shortened steps are used once or twice.
 constexpr std::size_t kKept = 12;
 /// A step is shortened at most kMostCuts times because a stop opens or closes within it. It must
@@ -63,8 +66,9 @@ ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goa
 
 double ModalCollocation::first_step(const State&) const {
   constexpr double kOfContact = 0.3;
-  const double frequency = std::max({forces_.dofs().highest_frequency() / kOfContact, loads_.highest_frequency(),
-                                     modes_.count() > 0 ? modes_.speed()[0] : 0.0});
+  const double frequency =
+      std::max({forces_.dofs().highest_frequency() / kOfContact, loads_.highest_frequency(),
+                forces_.varying().highest_frequency(), modes_.count() > 0 ? modes_.speed()[0] : 0.0});
   return frequency > 0.0 ? on_grid(1.0 / frequency) : std::numeric_limits<double>::infinity();
 }
 
@@ -102,6 +106,8 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   const double wanted = to.t - from.t,
                coarse = forces_.unresolved(from, modal(from), loads_, wanted) / (kResolved * tolerance_);
   if (coarse > 1.0) return redo_with(wanted * std::max(0.1, by_resolution(coarse)));
+  if (const double turn = forces_.varying().highest_frequency() * wanted; turn > kMostTurn)
+    return redo_with(wanted * kMostTurn / turn);
   double h = wanted;
   for (int cut = 0;; ++cut) {
     const StepResponse& response = this->response(h);

@@ -5,6 +5,7 @@
 
 #include "butee/core/error.hpp"
 #include "integrators/exponential/load_parabola.hpp"
+#include "integrators/exponential/varying_forces.hpp"
 
 namespace butee::integrators {
 
@@ -16,11 +17,10 @@ ModalLoads::ModalLoads(const dynamics::DampedModes& modes, const model::System& 
       add_harmonic(*harmonic, shape);
     else if (load.in_time->is_piecewise_parabolic())
       others_.push_back({load.in_time, std::move(shape)});
-    else
+    else if (!VaryingForces::contains(load))
       throw InputError(
           "integrator.type: a load is neither harmonic nor made of straight lines or parabolas in time, which this "
-          "method "
-          "needs");
+          "method needs");
   }
   polynomial_.setZero(2 * modes.count(), StepNodes::kCount);
 }

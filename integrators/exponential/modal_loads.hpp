@@ -9,7 +9,7 @@ namespace butee::integrators {
 /// piecewise parabolic loads, which are polynomials over a step between their discontinuities.
 class ModalLoads {
  public:
-  /// Throws InputError for any other load. `modes` and `system` must outlive it.
+  /// Throws InputError for other loads, except those of VaryingForces. `modes` and `system` must outlive it.
   ModalLoads(const dynamics::DampedModes& modes, const model::System& system);
 
   const std::vector<TurningLoad>& turning() const { return turning_; }

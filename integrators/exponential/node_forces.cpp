@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "butee/dynamics/external_forces.hpp"
+
 namespace butee::integrators {
 namespace {
 
@@ -28,7 +30,9 @@ constexpr double kRoundingOfEnd = 1e-12;
 NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes)
     : dynamics_(dynamics),
       modes_(modes),
-      dofs_(dynamics, modes),
+      varying_(dynamics.system(), modes.reference_speed()),
+      dofs_(dynamics, modes, varying_.dofs()),
+      need_velocity_(dofs_.need_velocity() || varying_.need_velocity()),
       borders_(dynamics.stops()),
       scales_(dynamics.system()) {
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
@@ -61,12 +65,15 @@ void NodeForces::find_forces(double t, double h, Index node) {
   for (Index k = 0; k < active_.count(); ++k) {
     const Index dof = active_.dofs[static_cast<std::size_t>(k)];
     x[dof] = moved_(k, node);
-    if (dofs_.need_velocity()) v[dof] = moved_velocity_(k, node);
+    if (need_velocity_) v[dof] = moved_velocity_(k, node);
     force[dof] = 0.0;
   }
   dynamics_.add_contact_force(x, force);
   if (!sides_.empty()) keep_sides(x, force);
-  dynamics_.add_obstacle_force(t + StepNodes::kPlaces[static_cast<std::size_t>(node)] * h, x, v, force);
+  const double now = t + StepNodes::kPlaces[static_cast<std::size_t>(node)] * h;
+  dynamics_.add_obstacle_force(now, x, v, force);
+  // A step may end where the acceleration of the rotation jumps.
+  if (!varying_.dofs().empty()) varying_.add(node == kEnd ? dynamics::just_before(now) : now, x, v, force);
   for (Index k = 0; k < active_.count(); ++k) forces_(k, node) = force[active_.dofs[static_cast<std::size_t>(k)]];
 }
 
@@ -74,8 +81,7 @@ void NodeForces::find_forces(double t, double h) {
   const auto nodes = nodes_.rightCols(kCount - 1);
   for (Index k = 0; k < active_.count(); ++k) {
     moved_.row(k).tail(kCount - 1).noalias() = active_.displacement.col(k).transpose() * nodes;
-    if (dofs_.need_velocity())
-      moved_velocity_.row(k).tail(kCount - 1).noalias() = active_.velocity.col(k).transpose() * nodes;
+    if (need_velocity_) moved_velocity_.row(k).tail(kCount - 1).noalias() = active_.velocity.col(k).transpose() * nodes;
   }
   for (Index j = 1; j < kCount; ++j) find_forces(t, h, j);
 }
@@ -113,7 +119,7 @@ double NodeForces::change(double h) const {
 }
 
 NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& response, double settled) {
-  if (active_.find(dynamics_, modes_))
+  if (active_.find(dynamics_, modes_, varying_.dofs()))
     for (AtNodes* rows : {&forces_, &moved_, &moved_velocity_, &weights_}) rows->resize(active_.count(), kCount);
   error_.setZero();
   if (active_.count() == 0) {

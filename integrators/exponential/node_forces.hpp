@@ -6,11 +6,12 @@
 #include "integrators/exponential/modal_loads.hpp"
 #include "integrators/exponential/stop_borders.hpp"
 #include "integrators/exponential/sweep_acceleration.hpp"
+#include "integrators/exponential/varying_forces.hpp"
 #include "integrators/local_error.hpp"
 
 namespace butee::integrators {
 
-/// The contact forces at the nodes of a step, and the motion of the damped modes under the
+/// The contact forces at the nodes of a step, with VaryingForces, and the motion of the damped modes under the
 /// polynomials through these forces.
 ///
 /// Sweeps compute both: forces at the nodes, motion at the nodes, forces again. Contacts keep the
@@ -22,6 +23,7 @@ class NodeForces {
   NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes);
 
   const ContactDofs& dofs() const { return dofs_; }
+  const VaryingForces& varying() const { return varying_; }
   /// Bound of the difference between the motion of the contacts, without contact forces, and the
   /// polynomial through its values at the nodes, divided by the largest displacement scale of the
   /// contacts or, at a start, by what a mode reaches in the step.
@@ -88,7 +90,9 @@ class NodeForces {
 
   dynamics::Dynamics& dynamics_;
   const dynamics::DampedModes& modes_;
+  VaryingForces varying_;
   ContactDofs dofs_;
+  bool need_velocity_;
   StopBorders borders_;
   std::vector<double> sides_;  ///< of borders_.jumping() in the step
   ActiveDofs active_;
