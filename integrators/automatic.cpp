@@ -9,6 +9,7 @@
 #include "integrators/active_part.hpp"
 #include "integrators/dormand_prince.hpp"
 #include "integrators/exponential/exponential.hpp"
+#include "integrators/exponential/varying_forces.hpp"
 #include "integrators/methods.hpp"
 #include "integrators/piecewise.hpp"
 #include "integrators/rodas4.hpp"
@@ -91,9 +92,10 @@ bool has_strong_jump(dynamics::Dynamics& dynamics, double tolerance) {
 /// True if `exponential` supports the scene with damped modes and these are computed quickly.
 bool suits_collocation(dynamics::Dynamics& dynamics) {
   const model::System& system = dynamics.system();
-  const bool is_coupled =
-      !system.is_symmetric || !system.obstacles.empty() || (system.size() > 1 && system.dashpots.size() > 0);
-  if (!is_coupled || system.rotation != nullptr || system.size() > kQuickModes) return false;
+  const bool is_coupled = !system.is_symmetric || system.rotation != nullptr || !system.obstacles.empty() ||
+                          (system.size() > 1 && system.dashpots.size() > 0) ||
+                          std::any_of(system.loads.begin(), system.loads.end(), VaryingForces::contains);
+  if (!is_coupled || system.size() > kQuickModes) return false;
   for (Index i = 0; i < dynamics.stop_count(); ++i)
     if (!dynamics.stops().law_of(i).is_silent_while_open()) return false;
   for (const model::FreeObstacles& obstacles : system.obstacles)
@@ -101,7 +103,7 @@ bool suits_collocation(dynamics::Dynamics& dynamics) {
         (obstacles.group->law != nullptr && !obstacles.group->law->is_silent_while_open()))
       return false;
   return std::all_of(system.loads.begin(), system.loads.end(), [](const model::FreeLoad& load) {
-    return load.in_time->harmonic() || load.in_time->is_piecewise_parabolic();
+    return load.in_time->harmonic() || load.in_time->is_piecewise_parabolic() || VaryingForces::contains(load);
   });
 }
 

@@ -10,7 +10,7 @@
 
 namespace butee::integrators {
 
-/// The form of `exponential` for structures with coupled modes (dashpots, rotating parts, bearings
+/// The form of `exponential` for structures with coupled modes (dashpots, rotating parts of any speed, bearings
 /// with cross terms) and for contacts in the plane, with dissipation or with friction.
 ///
 /// The linear part, including harmonic loads, is exact in damped modes (dynamics::DampedModes).

@@ -78,11 +78,18 @@ void NodeForces::find_forces(double t, double h, Index node) {
 }
 
 void NodeForces::find_forces(double t, double h) {
+  // For few DOFs products row by row are faster.
+  constexpr Index kFew = 16;
   const auto nodes = nodes_.rightCols(kCount - 1);
-  for (Index k = 0; k < active_.count(); ++k) {
-    moved_.row(k).tail(kCount - 1).noalias() = active_.displacement.col(k).transpose() * nodes;
-    if (need_velocity_) moved_velocity_.row(k).tail(kCount - 1).noalias() = active_.velocity.col(k).transpose() * nodes;
-  }
+  const auto find = [&](const Eigen::MatrixXd& shapes, AtNodes& values) {
+    if (active_.count() > kFew)
+      values.rightCols(kCount - 1).noalias() = shapes.transpose() * nodes;
+    else
+      for (Index k = 0; k < active_.count(); ++k)
+        values.row(k).tail(kCount - 1).noalias() = shapes.col(k).transpose() * nodes;
+  };
+  find(active_.displacement, moved_);
+  if (need_velocity_) find(active_.velocity, moved_velocity_);
   for (Index j = 1; j < kCount; ++j) find_forces(t, h, j);
 }
 

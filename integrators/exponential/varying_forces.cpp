@@ -6,14 +6,6 @@
 #include "butee/model/rotation.hpp"
 
 namespace butee::integrators {
-namespace {
-
-/// force -= factor A y
-void subtract(const SparseMatrix& matrix, double factor, const Vector& y, Vector& force) {
-  if (matrix.size() > 0 && factor != 0.0) force.noalias() -= factor * (matrix * y);
-}
-
-}  // namespace
 
 VaryingForces::VaryingForces(const model::System& system, double reference_speed)
     : system_(system), reference_speed_(reference_speed) {
@@ -36,16 +28,18 @@ bool VaryingForces::contains(const model::FreeLoad& load) {
   return dynamic_cast<const model::TurningUnbalance*>(load.in_time) != nullptr && !load.in_time->harmonic();
 }
 
-void VaryingForces::add(double t, const Vector& x, const Vector& v, Vector& force) const {
+void VaryingForces::add(double t, const Vector& x, const Vector& v, Vector& force) {
   for (const model::FreeLoad* load : unbalances_) {
     const double value = load->in_time->value(t);
     for (std::size_t i = 0; i < load->dofs.size(); ++i) force[load->dofs[i]] += load->weights[i] * value;
   }
   if (system_.rotation == nullptr) return;
   const double more = system_.rotation->speed(t) - reference_speed_;
-  subtract(system_.gyroscopic, more, v, force);
-  subtract(system_.circulatory, more, x, force);
-  subtract(system_.gyroscopic, system_.rotation->acceleration(t), x, force);
+  if (system_.gyroscopic.size() > 0) {
+    work_ = more * v + system_.rotation->acceleration(t) * x;
+    force.noalias() -= system_.gyroscopic * work_;
+  }
+  if (system_.circulatory.size() > 0) force.noalias() -= more * (system_.circulatory * x);
 }
 
 }  // namespace butee::integrators

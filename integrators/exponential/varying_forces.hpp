@@ -27,13 +27,14 @@ class VaryingForces {
   double highest_frequency() const { return highest_frequency_; }
 
   /// force += the forces at time t
-  void add(double t, const Vector& x, const Vector& v, Vector& force) const;
+  void add(double t, const Vector& x, const Vector& v, Vector& force);
 
  private:
   const model::System& system_;
   double reference_speed_, highest_frequency_ = 0.0;
   std::vector<const model::FreeLoad*> unbalances_;
   std::vector<Index> dofs_;
+  Vector work_;
 };
 
 }  // namespace butee::integrators

@@ -122,9 +122,8 @@ serves for scenes without shafts. `--campbell FROM TO N` prints the critical spe
 diagram. `butee plot` draws orbits (uz over uy, in the rings and
 between the stops of the node), run-up (the radius over the speed), full-spectrum (forward and backward whirl), frame
 (the deformed structure in space), contact-map (closed contacts over time and length) and wear (the powers of wear.csv
-over the length). If shafts turn or bearings have cross terms, the matrices are not symmetric. rodas4, dopri5,
-extrapolation8, exact and all methods with fixed steps take them, exponential with a constant speed; auto chooses among
-them.
+over the length). If shafts turn or bearings have cross terms, the matrices are not symmetric. exponential, rodas4,
+dopri5, extrapolation8, exact and all methods with fixed steps take them; auto chooses among them.
 )";
 }
 
@@ -167,8 +166,8 @@ and surface_speed (m/s) of the obstacle along the tangent, for example of a belt
 
 exponential, rodas4, dopri5, extrapolation8 and exact end their steps where a contact closes, opens, sticks or slips,
 so that only the regularisation causes an error; rk4 and related methods evaluate rings, planes, dissipation and
-regularised friction at their stages, without locating contact changes. exponential takes contacts with a constant
-speed of rotation and a law without force while they are apart. exact takes law = "linear" in the plane and with
+regularised friction at their stages, without locating contact changes. exponential takes contacts with a law that has
+no force while they are apart. exact takes law = "linear" in the plane and with
 dissipation; piecewise takes linear stops, elastic or with kelvin_voigt, of up to 24 DOFs; rigid stick is for dopri5,
 extrapolation8 and exact; jankowski is not for rodas4. auto chooses among them; other methods refuse. Methods other
 than piecewise may miss a contact shorter than an eighth of a step.
