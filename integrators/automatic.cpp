@@ -92,10 +92,11 @@ bool has_strong_jump(dynamics::Dynamics& dynamics, double tolerance) {
 /// True if `exponential` supports the scene with damped modes and these are computed quickly.
 bool suits_collocation(dynamics::Dynamics& dynamics) {
   const model::System& system = dynamics.system();
-  const bool is_coupled = !system.is_symmetric || system.rotation != nullptr || !system.obstacles.empty() ||
+  const bool is_coupled = !system.is_symmetric || !system.obstacles.empty() ||
                           (system.size() > 1 && system.dashpots.size() > 0) ||
                           std::any_of(system.loads.begin(), system.loads.end(), VaryingForces::contains);
-  if (!is_coupled || system.size() > kQuickModes) return false;
+  // If the speed of turning parts varies, all their DOFs take part in its sweeps, and rodas4 may be faster.
+  if (!is_coupled || system.rotation != nullptr || system.size() > kQuickModes) return false;
   for (Index i = 0; i < dynamics.stop_count(); ++i)
     if (!dynamics.stops().law_of(i).is_silent_while_open()) return false;
   for (const model::FreeObstacles& obstacles : system.obstacles)

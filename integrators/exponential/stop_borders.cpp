@@ -44,11 +44,12 @@ double StopBorders::first_crossing(Index stop, const Row& displacement, double l
 }
 
 double StopBorders::side_of_step(double start, double next) {
-  return std::copysign(1.0, std::abs(start) > kAtJump * std::abs(next) ? start : next);
+  const double w = std::abs(start) > kAtJump * std::abs(next) ? start : next;
+  return w == 0.0 ? 0.0 : std::copysign(1.0, w);
 }
 
 double StopBorders::continuation(Index stop, double side, double w) const {
-  if (side * w > 0.0) return 0.0;
+  if (side == 0.0 || side * w > 0.0) return 0.0;
   const double g = side * w - stops_.play_of(stop).gap;
   return -side * stops_.law_of(stop).secant(g) * g - stops_.force_of(stop, w);
 }

@@ -30,9 +30,10 @@ class StopBorders {
   /// The stops whose force jumps at w = 0.
   const std::vector<Index>& jumping() const { return jumping_; }
   /// The side of the middle, +1 or -1, on which a stop is in a step: that of its displacement at the start, or soon
-  /// after it if the start is at the jump but for the precision with which steps end there.
+  /// after it if the start is at the jump but for the precision with which steps end there; 0 at rest in the middle.
   static double side_of_step(double start, double next);
-  /// What makes the force at w that of the law of a given side, continued beyond w = 0, N: 0 on that side.
+  /// What makes the force at w that of the law of a given side, continued beyond w = 0, N: 0 on that side, and for side
+  /// 0.
   double continuation(Index stop, double side, double w) const;
 
  private:

@@ -326,6 +326,46 @@ end_time = 0.125
   }
 }
 
+/// At rest in the middle no side is the right one, until a load moves the body.
+TEST(Collocation, RestsInTheMiddleOfAGapUntilALoadActs) {
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 1.0
+[[element]]
+type = "mass"
+name = "b"
+mass = 1.0
+[[element]]
+type = "spring"
+nodes = ["a", "b"]
+stiffness = 500.0
+damping = 0.3
+[[contact]]
+type = "stop"
+nodes = "a"
+gap = 0.01
+stiffness = 5e3
+law = "arctan"
+regularization = 3e4
+[[load]]
+type = "ramp"
+node = "b"
+to = 3.0
+start = 0.01
+end = 0.02
+[integrator]
+end_time = 0.05
+)";
+  SceneRun exact(scene, {"integrator.type=exact"}), run(scene, {"integrator.type=exponential"});
+  ASSERT_TRUE(exact.run().completed);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  EXPECT_GT(exact.simulation().state().x[1], 1e-4);
+  EXPECT_LT(distance(run.simulation().state(), exact.simulation().state()), 1e-3);
+}
+
 /// A mass without gyroscopic terms: only the force of the unbalance varies with the speed.
 TEST(Collocation, FollowsAnUnbalanceThatRunsUp) {
   const std::string scene = R"(
