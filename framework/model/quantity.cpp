@@ -96,7 +96,7 @@ constexpr std::array<Description, 74> kAll = {{
     {"normal_force", "N", "normal force of the contacts on the node, with dissipation", Source::contacts, DofKind::uy,
      0},
     {"friction_force", "N", "their friction force, positive against a positive slip", Source::contacts, DofKind::uy, 0},
-    {"slip", "m/s", "their slip speed", Source::contacts, DofKind::uy, 0},
+    {"slip", "m/s", "their slip speed; 0 without friction", Source::contacts, DofKind::uy, 0},
     {"wear_power", "W", "normal force times slip speed (Archard), of the closed contacts", Source::contacts,
      DofKind::uy, 0},
     {"contact_ux", "N", "force of all contacts on the node along ux", Source::stops, DofKind::ux, 0},

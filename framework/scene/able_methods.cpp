@@ -9,6 +9,9 @@ namespace {
 
 /// The part of the run that a method with a fixed step takes as its step, if the scene has none.
 constexpr double kStep = 1e-3;
+/// Larger systems take seconds to try all methods on; only the one that chooses among them is tried.
+constexpr Index kTried = 2000;
+constexpr const char* kAutomatic = "auto";
 
 /// The value of a parameter for a trial; nothing if its default serves, or if there is none.
 std::optional<config::Value> value_for(const config::Parameter& parameter, const IntegratorChoice& choice) {
@@ -61,7 +64,7 @@ std::vector<std::string> able_methods(Scene& scene, dynamics::Dynamics& dynamics
   const ContactNeeds needs = contact_needs(scene.model);
   std::vector<std::string> able;
   for (const std::string& name : scene.catalogue.integrator_names()) {
-    if (name == scene.integrator.name) continue;
+    if (name == scene.integrator.name || (dynamics.size() > kTried && name != kAutomatic)) continue;
     const plugin::IntegratorEntry& entry = *scene.catalogue.find(name);
     const std::vector<config::Parameter> parameters = parameters_of(entry);
     const time::IntegratorType& type = scene.catalogue.load(name);

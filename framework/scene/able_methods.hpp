@@ -15,9 +15,9 @@ struct ContactNeeds {
 };
 ContactNeeds contact_needs(const model::Model& model);
 
-/// The names of the methods that accept a scene, found by trying them: with its end time and, where they have these,
-/// its step and its tolerance; other required parameters have the values with which comparisons begin. All modules are
-/// loaded.
+/// The names of the methods that accept a scene, found by trying them: with its end time and, where they have these, its
+/// step and its tolerance; other required parameters have the values with which comparisons begin. All modules are
+/// loaded. Of systems with more than 2000 DOFs only `auto` is tried.
 std::vector<std::string> able_methods(Scene& scene, dynamics::Dynamics& dynamics);
 
 }  // namespace butee::scene

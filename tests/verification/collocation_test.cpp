@@ -206,6 +206,31 @@ const std::string kSticking = replaced(kPipe, "slip_speed = 0.05", "stick_stiffn
 const std::string kRunUp =
     replaced(kPipe, "speed = 30.0", "speed = { type = \"ramp\", from = 10.0, to = 45.0, end = 0.5 }");
 
+/// Two bodies at rest, one of them in the middle of a gap, where the force of its stop jumps.
+const std::string kInTheMiddle = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "a"
+mass = 1.0
+[[element]]
+type = "mass"
+name = "b"
+mass = 1.0
+[[element]]
+type = "spring"
+nodes = ["a", "b"]
+stiffness = 500.0
+damping = 0.3
+[[contact]]
+type = "stop"
+nodes = "a"
+gap = 0.01
+stiffness = 5e3
+law = "arctan"
+regularization = 3e4
+)";
+
 class CoupledScenes : public testing::TestWithParam<std::string> {};
 
 double distance(const time::State& a, const time::State& b) {
@@ -328,29 +353,7 @@ end_time = 0.125
 
 /// At rest in the middle no side is the right one, until a load moves the body.
 TEST(Collocation, RestsInTheMiddleOfAGapUntilALoadActs) {
-  const std::string scene = R"(
-schema = 1
-[[element]]
-type = "mass"
-name = "a"
-mass = 1.0
-[[element]]
-type = "mass"
-name = "b"
-mass = 1.0
-[[element]]
-type = "spring"
-nodes = ["a", "b"]
-stiffness = 500.0
-damping = 0.3
-[[contact]]
-type = "stop"
-nodes = "a"
-gap = 0.01
-stiffness = 5e3
-law = "arctan"
-regularization = 3e4
-[[load]]
+  const std::string scene = kInTheMiddle + R"([[load]]
 type = "ramp"
 node = "b"
 to = 3.0
@@ -406,29 +409,7 @@ end_time = 1.2
 /// In the middle of a gap the force jumps by 1 % of the acceleration. A load on the other body alone would move body a
 /// to the positive side; the pull of a blunt stop of 1.7 N moves it to the negative one.
 TEST(Collocation, LeavesTheMiddleOfAGapToTheSideOfItsMotion) {
-  const std::string scene = R"(
-schema = 1
-[[element]]
-type = "mass"
-name = "a"
-mass = 1.0
-[[element]]
-type = "mass"
-name = "b"
-mass = 1.0
-[[element]]
-type = "spring"
-nodes = ["a", "b"]
-stiffness = 500.0
-damping = 0.3
-[[contact]]
-type = "stop"
-nodes = "a"
-gap = 0.01
-stiffness = 5e3
-law = "arctan"
-regularization = 3e4
-[[contact]]
+  const std::string scene = kInTheMiddle + R"([[contact]]
 type = "stop"
 nodes = "a"
 sides = "negative"
