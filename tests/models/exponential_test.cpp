@@ -280,13 +280,17 @@ TEST(Exponential, WithTheLowestModesComesCloserTheMoreThereAreAndSaysWhatIsLeftO
 }
 
 TEST(Exponential, RefusesLoadsOfWhichItKnowsTooLittle) {
-  // The unbalance of an accelerating shaft, with a dashpot that couples the modes.
+  // A support that moves along a spline, with a dashpot that couples the modes.
   const std::string scene =
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
-      "\"b\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 10.0\n[[element]]\n"
-      "type = \"spring\"\nnode = \"a\"\nstiffness = 1e3\ndamping = 5.0\n[[load]]\ntype = \"unbalance\"\nnode = "
-      "\"a\"\nmoment = 0.1\n[rotation]\nspeed = { type = \"ramp\", from = 0.0, to = 50.0, end = 1.0 }\n[integrator]\n"
-      "type = \"exponential\"\nend_time = 0.1\n";
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"g\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
+      "\"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = \"b\"\nmass = 2.0\n[[element]]\ntype = "
+      "\"spring\"\nnodes = "
+      "[\"g\", \"a\"]\nstiffness = 1e3\ndamping = 5.0\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", "
+      "\"b\"]\nstiffness = "
+      "10.0\n[[support]]\nnodes = [\"g\"]\nfix = [\"u\"]\n[[base]]\nnodes = [\"g\"]\ndisplacement = { direction = [0, "
+      "1, "
+      "0], type = \"table\", times = [0.0, 0.1, 0.2, 0.3], values = [0.0, 1e-3, 3e-3, 2e-3] }\n[integrator]\ntype = "
+      "\"exponential\"\nend_time = 0.1\n";
   try {
     SceneRun run(scene);
     FAIL() << "was taken";
