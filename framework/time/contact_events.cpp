@@ -46,7 +46,7 @@ struct Release {
   double overload;
 };
 
-/// That fraction, from the switching functions of a rigid stick: the last two are limit -+ force.
+/// The overload of a rigid stick, from its switching functions: the last two are limit -+ force.
 double overload(std::span<const Obstacles::Switch> switches) {
   const double one = switches[switches.size() - 2].value, other = switches.back().value, limit = 0.5 * (one + other);
   return limit > 0.0 ? -std::min(one, other) / limit : std::numeric_limits<double>::infinity();

@@ -32,8 +32,8 @@ class StopBorders {
   /// The side of the middle, +1 or -1, on which a stop is in a step: that of its displacement at the start, or soon
   /// after it if the start is at the jump but for the precision with which steps end there; 0 at rest in the middle.
   static double side_of_step(double start, double next);
-  /// What makes the force at w that of the law of a given side, continued beyond w = 0, N: 0 on that side, and for side
-  /// 0.
+  /// The force, N, to add to that of a stop at w so that the law of a given side goes on beyond w = 0: 0 on that side,
+  /// and for side 0.
   double continuation(Index stop, double side, double w) const;
 
  private:
