@@ -117,6 +117,8 @@ double StepNodes::first_crossing(const Row& coefficients, double border, double 
         (at(middle) * at_begin > 0.0 ? begin : end) = middle;
       }
     }
+    // A sample on the border tells nothing about a crossing; the next one does.
+    if (at_end == 0.0 && end < last) continue;
     begin = end;
     at_begin = at_end;
   }
