@@ -114,7 +114,7 @@ std::optional<SceneReader::PendingElement> SceneReader::read_element(const Value
   std::vector<config::Parameter> declared = type.parameters;
   declared.insert(declared.begin(), config::text("name", "the name of the element").optional());
   auto parameters = read_parameters(entry, path, declared, diagnostics_, {"type"});
-  if (!parameters) return std::nullopt;
+  if (!parameters || too_large_) return std::nullopt;
 
   const std::size_t errors_before = diagnostics_.error_count();
   const auto coordinates = type.nodes(*parameters, diagnostics_);
@@ -137,7 +137,8 @@ std::optional<SceneReader::PendingElement> SceneReader::read_element(const Value
 void SceneReader::check_size(const std::vector<double>& coordinates, const std::string& path, const Value& entry) {
   const double nodes = static_cast<double>(model_.nodes.size()) + static_cast<double>(coordinates.size());
   const std::string complaint = memory_complaint(nodes * kBytesOfNode);
-  if (!complaint.empty())
+  too_large_ = !complaint.empty();
+  if (too_large_)
     diagnostics_.error(path, entry.at,
                        "with this element the scene has " + to_short_text(2.0 * nodes) + " degrees of freedom and " +
                            complaint + "; take fewer elements");

@@ -106,6 +106,7 @@ class SceneReader {
   std::map<std::string, std::optional<Section>> sections_;
   std::vector<std::string> element_names_;
   bool lacks_elements_ = false;  ///< an element has an error of its own, so that its DOFs may be missing
+  bool too_large_ = false;       ///< the scene does not fit in memory, so that no further nodes are made
   std::vector<std::pair<std::string, const Element*>> named_elements_;
   std::vector<std::pair<std::string, config::Location>> element_places_;
 };
