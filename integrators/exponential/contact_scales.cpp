@@ -83,7 +83,8 @@ void ContactScales::find_shares(const ArrayXd& w_end, double displacement, Array
 }
 
 ContactScale ContactScales::of(Index stop, ContactScale reached, double displacement) const {
-  const double x_floor = kFloor * displacement, v_floor = kFloor * largest_.speed;
+  // At a start from rest the step under trial has the largest speed so far.
+  const double x_floor = kFloor * displacement, v_floor = kFloor * std::max(largest_.speed, reached.speed);
   if (const Index place = pair_of_[static_cast<std::size_t>(stop)]; place >= 0) {
     const Pair& pair = pairs_[static_cast<std::size_t>(place)];
     const PairScale& scale = pair_scales_[static_cast<std::size_t>(place)];

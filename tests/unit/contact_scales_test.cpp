@@ -65,6 +65,15 @@ TEST(ContactScales, OfAPairAreThoseOfTheBodyThatItsForceMovesMostForItsScale) {
   EXPECT_NEAR(scale.displacement, 0.5 / 0.2, 1e-14);
 }
 
+/// At a start from rest nothing else gives a pair a scale; an error of the step could otherwise not be relative to one.
+TEST(ContactScales, OfAPairAtRestComeFromTheStepUnderTrial) {
+  Scene scene;
+  scene.scales.load(std::vector<double>(12, 0.0).data(), {0.0, 0.0});
+  const integrators::ContactScale scale = scene.scales.of(0, {1e-9, 1e-6}, 1e-9);
+  EXPECT_NEAR(scale.displacement, 1e-12 / 0.8, 1e-26);
+  EXPECT_NEAR(scale.speed, 1e-9 / 0.8, 1e-23);
+}
+
 TEST(ContactScales, OfAStopAreItsLargestValuesSoFarAndAThousandthOfAllOthers) {
   Scene scene;
   scene.scales.load(std::vector<double>(8, 0.0).data(), {1.0, 10.0});
