@@ -4,11 +4,11 @@
 #include <cmath>
 #include <pybind11/stl.h>
 
+#include "butee/core/quadrature.hpp"
 #include "butee/plugin/catalogue.hpp"
 #include "butee/python/bindings.hpp"
 #include "butee/python/interpreter_lock.hpp"
 #include "butee/python/shared_function.hpp"
-#include "butee/record/quadrature.hpp"
 
 namespace py = pybind11;
 
@@ -55,7 +55,7 @@ class PythonLaw final : public model::BatchedLaw<PythonLaw> {
       // The two halves of each interval, with five points each.
       const double middle = 0.5 * (begin + end);
       for (const auto& [a, b] : {std::pair(begin, middle), std::pair(middle, end)})
-        for (const auto& [at, weight] : record::gauss_points(a, b)) sum += weight * force(at);
+        for (const auto& [at, weight] : gauss_points(a, b)) sum += weight * force(at);
       end = begin;
     }
     return sum;

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include "butee/core/quadrature.hpp"
 #include "butee/record/bisection.hpp"
 #include "butee/record/csv_writer.hpp"
-#include "butee/record/quadrature.hpp"
 
 namespace butee::record {
 namespace {

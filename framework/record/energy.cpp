@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "butee/core/quadrature.hpp"
 #include "butee/dynamics/external_forces.hpp"
-#include "butee/record/quadrature.hpp"
 
 namespace butee::record {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "butee/core/quadrature.hpp"
 #include "butee/record/bisection.hpp"
 #include "butee/record/csv_writer.hpp"
-#include "butee/record/quadrature.hpp"
 
 namespace butee::record {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
-#include "butee/record/quadrature.hpp"
+#include "butee/core/quadrature.hpp"
 
 namespace butee::study {
 namespace {
@@ -57,7 +57,7 @@ SampledPeakPart::SampledPeakPart(const std::vector<model::ProbeRequest>& probes,
 }
 
 MeanPart::Integral MeanPart::integrate(const time::AcceptedStep& step, double begin, double end) {
-  const auto points = record::gauss_points(begin, end);
+  const auto points = gauss_points(begin, end);
   std::array<double, points.size()> times{};
   for (std::size_t k = 0; k < points.size(); ++k) times[k] = points[k].t;
   Integral result{std::vector<double>(row_.size()), std::vector<double>(row_.size())};

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace butee::record {
+namespace butee {
 
 /// An instant and its weight in an integral, s.
 struct QuadraturePoint {
@@ -30,4 +30,4 @@ double lagrange_at(double t, const std::array<QuadraturePoint, kPoints>& points,
   return value;
 }
 
-}  // namespace butee::record
+}  // namespace butee
