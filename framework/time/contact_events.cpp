@@ -331,14 +331,14 @@ ContactEvents::Event ContactEvents::refine(const DenseOutput& motion, Event even
   return event;
 }
 
-double ContactEvents::miss(const Event& event, double h, const State& to) {
+ContactEvents::Miss ContactEvents::miss(const Event& event, double h, const State& to) {
   const double ahead = 1e-3 * h;
   switches_.take(to, now_);
   const double at_end = switches_.value(event.contact, event.which, now_);
   switches_.look_ahead(to, -ahead, work_);
   const double before = switches_.value(event.contact, event.which, work_);
   const double slope = (before - at_end) / ahead;
-  return slope != 0.0 ? -at_end / slope : 0.0;
+  return {slope != 0.0 ? -at_end / slope : 0.0, slope > 0.0};
 }
 
 bool ContactEvents::is_over(const Event& event, const State& at) {

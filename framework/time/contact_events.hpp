@@ -47,9 +47,13 @@ class BUTEE_EXPORT ContactEvents {
   };
   /// The first change within a step, on the dense output of a method.
   std::optional<Event> first(const DenseOutput& motion);
-  /// How far the end `to` of a step of length h lies beyond the event, s, estimated with the slope of
-  /// the switching function there.
-  double miss(const Event& event, double h, const State& to);
+  /// How far the end of a step lies beyond an event, by the value and the slope of the switching function there.
+  struct Miss {
+    double t;    ///< s
+    bool falls;  ///< true if the function falls: a change of phase begins there, none ends
+  };
+  /// The miss of the end `to` of a step of length h.
+  Miss miss(const Event& event, double h, const State& to);
   /// Whether the phase of the event is over at the end of a step, but for rounding.
   bool is_over(const Event& event, const State& at);
   /// Marks in `to` the contact whose phase ends with the step.

@@ -85,9 +85,9 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
   constexpr double kLeast = 1e-10, kSame = 1e-6, kSpacings = 4.0;
   // Tolerances refer to the length that was asked for: changes of two contacts almost at the same instant leave a step
   // too short to be a measure.
-  const double good = traits().event_precision * step.h;
   const double spacing = std::nextafter(from.t, std::numeric_limits<double>::infinity()) - from.t,
-               earliest = from.t + std::max(kLeast * step.h, kSpacings * spacing);
+               earliest = from.t + std::max(kLeast * step.h, kSpacings * spacing),
+               good = std::max(traits().event_precision * step.h, kSpacings * spacing);
   const auto is_accepted = [&] { return controller() == nullptr || controller()->decide(step.h, report).accept; };
   const double wanted = report.proposal;
   const auto redo = [&](double t_end) {
@@ -107,9 +107,11 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     if (!event) return;
     double end = std::min(std::max(event->t, earliest), to.t);
     if (!redo(end)) return;
+    bool is_at_end = false;
     for (int k = 0; k < 3 && to.t == end && is_accepted(); ++k) {
-      const double miss = events_->miss(*event, to.t - from.t, to);
-      if (std::abs(miss) <= good || std::abs(miss) > 0.1 * (to.t - from.t)) break;
+      const auto [miss, falls] = events_->miss(*event, to.t - from.t, to);
+      is_at_end = falls && std::abs(miss) <= good;
+      if (is_at_end || std::abs(miss) <= good || std::abs(miss) > 0.1 * (to.t - from.t)) break;
       const double t_end = to.t - miss;
       if (!(t_end >= earliest && t_end <= step.t_end) || t_end == to.t) break;
       end = t_end;
@@ -118,11 +120,12 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     // A method may end a step even earlier, for reasons of its own; the change is then sought anew.
     if (to.t != end) continue;
     events_->mark(*event, to);
-    // Another change may come earlier; the end of the step is then not this event. This one itself
-    // may lie before the end by its error.
+    // Another change may come earlier; the end of the step is then not this event. In the dense output this one itself
+    // may lie before the end by its error; the state at the end is more accurate.
     const auto before = events_->first(dense_output(from, to));
     const bool is_same = before && before->contact == event->contact && before->which == event->which;
-    if (!before || to.t - before->t <= (is_same ? std::max(kSame * step.h, good) : good)) return;
+    if (!before || (is_same && is_at_end) || to.t - before->t <= (is_same ? std::max(kSame * step.h, good) : good))
+      return;
     // If the step that ends at the located change does not reach it, three times in turn (chosen), the switching
     // function only approaches 0, and falls below it by errors of the dense output: there is no change.
     if (is_same && !events_->is_over(*event, to) && ++refuted == kMostRefuted) {
