@@ -23,7 +23,7 @@ void sort_once(std::vector<Index>& dofs) {
 
 ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes,
                          const std::vector<Index>& others)
-    : inverse_mass_(Vector::Zero(dynamics.size())) {
+    : inverse_mass_(Vector::Zero(dynamics.size())), stiffness_(Vector::Zero(dynamics.size())) {
   if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
     for (Index i = 0; i < obstacles->size(); ++i) {
       const model::ObstacleGroup& group = obstacles->group_of(i);
@@ -52,6 +52,7 @@ void ContactDofs::take(Index dof, double stiffness, const dynamics::DampedModes&
   if (dof < 0) return;
   dofs_.push_back(dof);
   find_inverse_mass(dof, modes);
+  stiffness_[dof] += stiffness;
   highest_frequency_ = std::max(highest_frequency_, std::sqrt(stiffness * inverse_mass_[dof]));
 }
 

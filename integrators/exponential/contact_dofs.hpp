@@ -19,6 +19,8 @@ class ContactDofs {
   const Eigen::ArrayXd& reach() const { return reach_; }
   /// (M^-1)_dd of a DOF with contact or another such force, 1/kg
   double inverse_mass(Index dof) const { return inverse_mass_[dof]; }
+  /// The sum of the closed stiffnesses of the contacts on a DOF, N/m
+  double stiffness(Index dof) const { return stiffness_[dof]; }
   /// The highest frequency of a mass at a contact on its closed stiffness, rad/s; 0 without contacts.
   double highest_frequency() const { return highest_frequency_; }
   /// True if a contact has dissipation or friction.
@@ -30,7 +32,7 @@ class ContactDofs {
 
   std::vector<Index> dofs_;
   Eigen::ArrayXd reach_;
-  Vector inverse_mass_;
+  Vector inverse_mass_, stiffness_;
   double highest_frequency_ = 0.0;
   bool need_velocity_ = false;
 };

@@ -21,6 +21,9 @@ constexpr int kPatience = 4;
 constexpr double kLeastScale = 1e-3;
 /// Changes of a force below this fraction of it are rounding errors.
 constexpr double kRounding = 1e-13;
+/// The rounding error of a displacement at a node, relative to the largest one: that of a sum over many modes. A stiff
+/// contact multiplies it.
+constexpr double kRoundingOfPlace = 16.0 * std::numeric_limits<double>::epsilon();
 /// The same for the effect of contacts on the end of a step; the polynomials' coefficients lose
 /// further digits.
 constexpr double kRoundingOfEnd = 1e-12;
@@ -34,6 +37,7 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
       dofs_(dynamics, modes, varying_.dofs()),
       need_velocity_(dofs_.need_velocity() || varying_.need_velocity()),
       borders_(dynamics.stops()),
+      onset_(dynamics),
       scales_(dynamics.system()) {
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
   const Index p = modes.count();
@@ -112,12 +116,13 @@ void NodeForces::find_scales(const State& from, double h) {
 
 double NodeForces::change(double h) const {
   double largest = 0.0;
+  const double place = kRoundingOfPlace * moved_.cwiseAbs().maxCoeff();
   for (Index k = 0; k < active_.count(); ++k) {
     const auto now = forces_.row(k), before = forces_before_.row(k);
     const double difference = (now - before).cwiseAbs().maxCoeff();
     if (std::isnan(difference)) return difference;
-    if (difference <= kRounding * now.cwiseAbs().maxCoeff()) continue;
     const Index dof = active_.dofs[static_cast<std::size_t>(k)];
+    if (difference <= std::max(kRounding * now.cwiseAbs().maxCoeff(), place * dofs_.stiffness(dof))) continue;
     const double change = h * dofs_.inverse_mass(dof) * difference;
     largest =
         std::max({largest, change / std::max(scale_v_[dof], change), h * change / std::max(scale_x_[dof], h * change)});
@@ -227,6 +232,25 @@ void NodeForces::find_support_friction(double t, double h) {
   }
 }
 
+void NodeForces::add_onsets(double t, double h) {
+  auto& [x, v, force] = instant_;
+  Vector& errors = work_;
+  errors = Vector::Zero(dynamics_.size());
+  for (const Index node : {Index{0}, kEnd}) {
+    for (Index k = 0; k < active_.count(); ++k) {
+      const Index dof = active_.dofs[static_cast<std::size_t>(k)];
+      x[dof] = moved_(k, node);
+      v[dof] = need_velocity_ || node == 0 ? moved_velocity_(k, node) : active_.velocity.col(k).dot(nodes_.col(node));
+    }
+    onset_.add_errors({node == 0 ? t : t + h, node == 0 ? h : -h, x, v}, errors);
+  }
+  for (Index k = 0; k < active_.count(); ++k) {
+    const double error = errors[active_.dofs[static_cast<std::size_t>(k)]];
+    impulse_errors_[k] += error;
+    inner_errors_[k] += ContactOnset::kInner * error;
+  }
+}
+
 void NodeForces::estimate(double t, const StepResponse& response) {
   const Eigen::MatrixXd nodes = nodes_, polynomial = polynomial_;
   const AtNodes moved = moved_, legendre = forces_ * StepNodes::legendre();
@@ -248,6 +272,7 @@ void NodeForces::estimate(double t, const StepResponse& response) {
         inner_errors_[k] = std::max(inner_errors_[k], StepNodes::inner_error(row));
       }
   }
+  if (onset_.any()) add_onsets(t, response.h());
   impulse_errors_ *= response.h();
   move(response, StepNodes::without_middle());
   // This hardly moves the end if the linear part is slow; the response of the contacts to it makes

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "integrators/exponential/contact_dofs.hpp"
+#include "integrators/exponential/contact_onset.hpp"
 #include "integrators/exponential/modal_loads.hpp"
 #include "integrators/exponential/stop_borders.hpp"
 #include "integrators/exponential/sweep_acceleration.hpp"
@@ -77,6 +78,8 @@ class NodeForces {
   /// The friction of supports at the nodes, from the motion there.
   void find_support_friction(double t, double h);
   void estimate(double t, const StepResponse& response);
+  /// Adds the errors of forces that begin or end with the step to impulse_errors_ (here in N) and inner_errors_.
+  void add_onsets(double t, double h);
   /// Sets the scales of displacements and velocities for change(). At a start from rest they are the speed that the
   /// acceleration causes within 1/omega of the contacts, and the way at that speed.
   void find_scales(const time::State& from, double h);
@@ -94,6 +97,7 @@ class NodeForces {
   ContactDofs dofs_;
   bool need_velocity_;
   StopBorders borders_;
+  ContactOnset onset_;
   std::vector<double> sides_;  ///< of borders_.jumping() in the step
   ActiveDofs active_;
   Instant instant_;

@@ -135,5 +135,54 @@ TEST(StickSpring, SticksAgainWithDashpotsBesideBothSprings) {
     }
 }
 
+/// A whirling rotor strikes its stator. The dashpot beside the stick spring ends the slip a microsecond after each
+/// contact begins, when the force of Hertz has hardly grown; the error of the dense output there exceeds the precision
+/// of located changes of phase.
+TEST(StickSpring, SticksJustAfterAHertzContactBegins) {
+  const auto in_both = [](const std::string& node, const std::string& values) {
+    return "[[element]]\ntype = \"spring\"\nnode = \"" + node + "\"\ndof = \"uy\"\n" + values +
+           "[[element]]\ntype = \"spring\"\nnode = \"" + node + "\"\ndof = \"uz\"\n" + values;
+  };
+  const std::string scene = R"(schema = 1
+[[element]]
+type = "mass"
+name = "rotor"
+mass = 0.1654
+[[element]]
+type = "mass"
+name = "stator"
+mass = 0.0186
+)" + in_both("rotor", "stiffness = 1044.0\ndamping = 3.78\n") +
+                            in_both("stator", "stiffness = 753.0\ndamping = 0.0133\n") + R"([rotation]
+speed = 68.0
+[[load]]
+type = "unbalance"
+node = "rotor"
+moment = 0.0003844
+[[contact]]
+type = "ring"
+between = ["rotor", "stator"]
+gap = 0.0010034
+stiffness = 299281.0
+law = "hertz"
+radius = 0.003712
+friction = { coefficient = 0.174, stick_stiffness = 755.0, static_coefficient = 0.1807, stick_damping = 11.66 }
+[integrator]
+end_time = 0.1
+)";
+  const auto end_of = [&scene](const std::string& method, double tolerance) {
+    SceneRun run(scene, {"integrator.type=" + method, "integrator.tolerance=" + to_text(tolerance)});
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    return run.simulation().state();
+  };
+  const time::State wanted = end_of("extrapolation8", 1e-9);
+  for (const std::string method : {"exponential", "dopri5", "rodas4"})
+    for (const double tolerance : {1e-4, 1e-5, 1e-6}) {
+      const time::State found = end_of(method, tolerance);
+      EXPECT_LT((found.x - wanted.x).norm(), 30.0 * tolerance * wanted.x.norm()) << method << " " << tolerance;
+      EXPECT_LT((found.v - wanted.v).norm(), 30.0 * tolerance * wanted.v.norm()) << method << " " << tolerance;
+    }
+}
+
 }  // namespace
 }  // namespace butee::test::slip_reversal_test
