@@ -112,7 +112,7 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
   motion.topRightCorner(b, b) = block.scale.matrix().asDiagonal();
   motion.bottomLeftCorner(b, b) = -stiffness * block.scale.inverse().matrix().asDiagonal();
   motion.bottomRightCorner(b, b) = -damping;
-  auto pairs = linalg::general_pairs(motion, linalg::Fallback::none);
+  auto pairs = linalg::general_pairs(motion);
   if (!pairs) return false;
   block.values = pairs->values;
   block.vectors = std::move(pairs->vectors);

@@ -173,7 +173,7 @@ std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
   motion.bottomLeftCorner(n, n) = -(scale.cwiseInverse().asDiagonal() * stiffness);
   motion.bottomRightCorner(n, n) =
       -(scale.cwiseInverse().asDiagonal() * (modal_damping_ + speed * modal_gyroscopic_) * scale.asDiagonal());
-  const auto found = linalg::general_pairs(motion, linalg::Fallback::complex_iteration);
+  const auto found = linalg::general_pairs(motion);
   if (!found) throw RunError("the whirling modes could not be computed");
   const linalg::ComplexPairs& pairs = *found;
   std::vector<Index> places;

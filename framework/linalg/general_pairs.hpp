@@ -15,12 +15,9 @@ struct ComplexPairs {
   Eigen::MatrixXcd vectors;
 };
 
-/// The real QR iteration gives up now and then where pairs lie close together; the complex one then
-/// finds them, but its pairs are conjugate, or real, only to rounding.
-enum class Fallback { none, complex_iteration };
-
-/// All pairs of any square matrix; nothing if the iterations do not converge. Not installed.
-BUTEE_EXPORT std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix, Fallback fallback);
+/// All pairs of any square matrix, complex ones exactly conjugate; nothing if the iterations do not converge or an entry
+/// is not finite. Not installed.
+BUTEE_EXPORT std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix);
 
 /// All pairs in extended precision, by the real iteration, with the inverse of the vectors.
 struct ExtendedComplexPairs {
