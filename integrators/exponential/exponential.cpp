@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "butee/core/error.hpp"
+#include "integrators/exponential/contact_scales.hpp"
 #include "integrators/local_error.hpp"
 
 namespace butee::integrators {
@@ -44,6 +45,23 @@ StepGoal step_goal(const ExponentialOptions& options) {
 
 void put_extras(State& state, const StepSizeControl::Memory& sizes, ContactScale scale, double end) {
   state.memory.tail(kExtras) << sizes.index, scale.displacement, scale.speed, sizes.is_contact_free, sizes.longer, end;
+}
+
+/// The scales of stops that do not move yet: a thousandth of the largest displacement and speed of their kind. Speeds
+/// are at least those that the accelerations cause within 1/rate, where `rate` is the highest frequency, rad/s.
+ContactScale least_scale(dynamics::Dynamics& dynamics, const State& state, double rate) {
+  const ComponentScales scales(dynamics.system());
+  Vector of_x(dynamics.size()), of_v(dynamics.size());
+  scales.largest_of_kind(state.x.cwiseAbs(), of_x);
+  scales.largest_of_kind(state.v.cwiseAbs().cwiseMax(state.a.cwiseAbs() / rate), of_v);
+  ContactScale least;
+  const dynamics::ElasticStops& stops = dynamics.stops();
+  for (Index i = 0; i < stops.size(); ++i)
+    for (const Index dof : {stops.dof_a(i), stops.dof_b(i)})
+      if (dof >= 0)
+        least = {std::max(least.displacement, ContactScales::kFloor * of_x[dof]),
+                 std::max(least.speed, ContactScales::kFloor * of_v[dof])};
+  return least;
 }
 
 }  // namespace
@@ -94,7 +112,10 @@ void Exponential<Step>::do_start(State& state) {
     Vector w(modal_.stop_count()), speed(modal_.stop_count());
     modal_.stop_shapes().displacement(state.memory.data(), w.data());
     modal_.stop_shapes().displacement(state.memory.data() + n, speed.data());
-    scale = {w.lpNorm<Eigen::Infinity>(), speed.lpNorm<Eigen::Infinity>()};
+    const ContactScale floor =
+        least_scale(dynamics(), state, std::max(contact_frequency(), modal_.frequencies().maxCoeff()));
+    scale = {std::max(floor.displacement, w.lpNorm<Eigen::Infinity>()),
+             std::max(floor.speed, speed.lpNorm<Eigen::Infinity>())};
     // In a static position on closed stops all speeds are rounding.
     scale.speed = std::max(scale.speed, kLeastSpeed * contact_frequency() * scale.displacement);
   }
