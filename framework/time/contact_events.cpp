@@ -12,20 +12,16 @@ namespace {
 using dynamics::ContactPhase;
 using dynamics::Obstacles;
 
-/// The first instant sampled in a step, as a fraction of it.
-constexpr double kAhead = 1e-4;
+constexpr double kAhead = ContactSearch::kAhead;
 /// A switching function is at its end if it is this small relative to its change until the first
 /// sample, or if it ends within the precision of located changes.
 constexpr double kAtEnd = 1e-6;
 /// The largest number of changes of phase at one instant; more are not physical.
 constexpr int kMostAtOnce = 50;
-constexpr int kBisections = 60;
 /// A stick spring whose tension is within this part of the sum of both limits of one of them is near it; steps are then
 /// at most this phase angle of the bodies on the spring, rad (both chosen: the tension leaves a limit by the square of
 /// the angle).
 constexpr double kNearLimit = 1e-3, kPartOfStick = 0.2;
-/// Relative decrease towards the lowest sample of a dip that rounding does not cause.
-constexpr double kRounding = 1e-9;
 
 /// The stiffness of the contact's stick spring over the mass of the bodies, 1/s2, at most; 0 without one.
 double stick_rate(const Obstacles& obstacles, Index contact, const Vector& mass) {
@@ -52,23 +48,13 @@ double overload(std::span<const Obstacles::Switch> switches) {
   return limit > 0.0 ? -std::min(one, other) / limit : std::numeric_limits<double>::infinity();
 }
 
-/// Number of samples that resolve the loads over a step, since rigid sticks do not move while the
-/// loads change.
-int samples_of_loads(const model::System& system, double h) {
-  constexpr double kPerTurn = 32.0, kMost = 1e5;
-  double turns = 0.0;
-  for (const model::FreeLoad& load : system.loads)
-    if (const auto harmonic = load.in_time->harmonic())
-      turns = std::max(turns, std::abs(harmonic->angular_frequency) * h / 6.283);
-  return static_cast<int>(std::min(kPerTurn * turns, kMost));
-}
-
 }  // namespace
 
 ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
     : dynamics_(dynamics),
       obstacles_(*dynamics.obstacles()),
       switches_(dynamics),
+      search_(dynamics, switches_),
       now_(switches_.room()),
       work_(switches_.room()) {
   const Vector mass = dynamics.system().mass.diagonal();
@@ -206,147 +192,7 @@ void ContactEvents::settle(State& state, double h, double precision) {
       enter(i, next, state);
 }
 
-void ContactEvents::add_dofs(Index contact, std::vector<Index>& dofs) const {
-  for (const auto& side : {obstacles_.ends_of(contact).a, obstacles_.ends_of(contact).b})
-    for (const Index dof : side)
-      if (dof >= 0) dofs.push_back(dof);
-}
-
-bool ContactEvents::is_near(Index contact, const DenseOutput& motion) const {
-  const State &from = motion.from(), &to = motion.to();
-  const ContactPhase phase = obstacles_.phase(contact);
-  if (phase.normal != ContactPhase::Normal::apart || obstacles_.group_of(contact).shape == nullptr) return true;
-  return obstacles_.may_touch(contact, obstacles_.motion(contact, from.x, from.v),
-                              obstacles_.motion(contact, to.x, to.v), to.t - from.t);
-}
-
-std::optional<ContactEvents::Event> ContactEvents::first(const DenseOutput& motion) {
-  switches_.update_sticks();
-  watched_.clear();
-  watched_dofs_.clear();
-  for (Index i = 0; i < obstacles_.size(); ++i)
-    if (is_near(i, motion)) {
-      watched_.push_back(i);
-      add_dofs(i, watched_dofs_);
-    }
-  if (watched_.empty()) return std::nullopt;
-  // One DOF may belong to several contacts.
-  std::sort(watched_dofs_.begin(), watched_dofs_.end());
-  watched_dofs_.erase(std::unique(watched_dofs_.begin(), watched_dofs_.end()), watched_dofs_.end());
-  const State &from = motion.from(), &to = motion.to();
-  const double h = to.t - from.t;
-  switches_.measure(to);
-  // Methods with breakpoints within a step take longer steps.
-  const int looks = kSamples * motion.trace_parts();
-  const int samples = switches_.sticks().empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
-  double last = from.t;
-  // A dip between samples is detected by a lowest value.
-  looks_.assign(watched_.size(), {});
-  std::array<Obstacles::Switch, Obstacles::kMostSwitches> present;
-  // Two samples close to each end detect a dip between the end and its neighbour.
-  for (int k = -1; k <= samples + 1; ++k) {
-    const double t = k == -1            ? from.t
-                     : k == 0           ? from.t + kAhead * h
-                     : k == samples     ? to.t - kAhead * h
-                     : k == samples + 1 ? to.t
-                                        : from.t + h * k / samples;
-    if (k == -1)
-      switches_.take(from, now_);
-    else
-      switches_.interpolate(motion, t, watched_dofs_, now_);
-    std::optional<Event> earliest;
-    const auto take = [&earliest](const Event& event) {
-      if (!earliest || event.t < earliest->t) earliest = event;
-    };
-    for (std::size_t w = 0; w < watched_.size(); ++w) {
-      const Index i = watched_[w];
-      const auto found = switches_.of(i, now_);
-      const std::size_t count = found.size();
-      std::copy(found.begin(), found.end(), present.begin());
-      for (std::size_t which = 0; which < count; ++which) {
-        auto& [first, second] = looks_[w][which];
-        const Look now{t, present[which].value};
-        // At its start a step may be leaving the event at which the last one ended.
-        if (now.value < 0.0 && k >= 0) {
-          take(refine(motion, {t, i, which}, last, now.value));
-        } else if (k >= 1 && second.value >= 0.0 && second.value <= now.value &&
-                   first.value - second.value > kRounding * second.value) {
-          const auto at = [&](double instant) {
-            own_dofs_.clear();
-            add_dofs(i, own_dofs_);
-            switches_.interpolate(motion, instant, own_dofs_, work_);
-            return switches_.value(i, which, work_);
-          };
-          if (const auto dip = below_zero({first, second, now}, at))
-            take(refine(motion, {dip->first.t, i, which}, dip->second.t, dip->first.value));
-        }
-        first = second;
-        second = now;
-      }
-    }
-    if (earliest) return earliest;
-    last = t;
-  }
-  return std::nullopt;
-}
-
-ContactEvents::Event ContactEvents::refine(const DenseOutput& motion, Event event, double begin, double value) {
-  own_dofs_.clear();
-  add_dofs(event.contact, own_dofs_);
-  const auto at = [&](double t) {
-    switches_.interpolate(motion, t, own_dofs_, work_);
-    return switches_.value(event.contact, event.which, work_);
-  };
-  // The Illinois variant of the false position method, which keeps a bracket; bisection if it
-  // converges too slowly.
-  const double precision = 1e-15 * std::abs(motion.to().t);
-  double end = event.t, at_end = value, at_begin = at(begin);
-  if (at_begin < 0.0) at_begin = 0.0;
-  double width = end - begin;
-  int side = 0;
-  for (int i = 0; i < kBisections && end - begin > precision; ++i) {
-    double middle = i % 3 == 2 && end - begin > 0.5 * width ? 0.5 * (begin + end)
-                                                            : end - at_end * (end - begin) / (at_end - at_begin);
-    if (i % 3 == 2) width = end - begin;
-    if (!(middle > begin && middle < end)) middle = 0.5 * (begin + end);
-    if (middle <= begin || middle >= end) break;
-    const double found = at(middle);
-    if (found < 0.0) {
-      end = middle;
-      at_end = found;
-      if (side < 0) at_begin *= 0.5;
-      side = -1;
-    } else {
-      begin = middle;
-      at_begin = found;
-      if (side > 0) at_end *= 0.5;
-      side = 1;
-      if (found == 0.0) {
-        end = middle;
-        break;
-      }
-    }
-  }
-  event.t = end;
-  return event;
-}
-
-ContactEvents::Miss ContactEvents::miss(const Event& event, double h, const State& to) {
-  const double ahead = 1e-3 * h;
-  switches_.take(to, now_);
-  const double at_end = switches_.value(event.contact, event.which, now_);
-  switches_.look_ahead(to, -ahead, work_);
-  const double before = switches_.value(event.contact, event.which, work_);
-  const double slope = (before - at_end) / ahead;
-  return {slope != 0.0 ? -at_end / slope : 0.0, slope > 0.0};
-}
-
-bool ContactEvents::is_over(const Event& event, const State& at) {
-  switches_.take(at, now_);
-  return switches_.value(event.contact, event.which, now_) <= 0.0;
-}
-
-void ContactEvents::mark(const Event& event, State& to) {
+void ContactEvents::mark(const ContactSearch::Event& event, State& to) {
   to.contact[kEntries * event.contact + kEntries - 1] = static_cast<double>(event.which + 1);
 }
 

@@ -4,19 +4,17 @@
 #include <optional>
 #include <vector>
 
+#include "butee/time/contact_search.hpp"
 #include "butee/time/contact_switches.hpp"
-#include "butee/time/dip.hpp"
 
 namespace butee::time {
 
-/// Locates the changes of phase of contacts on a method's dense output.
+/// The phases of contacts from step to step.
 ///
 /// Within a step every contact keeps the phase that it has at the start. A step in which a phase
-/// ends is cut there, so that every step is smooth. State::contact holds the phases, kEntries
-/// numbers for each contact; the last one tells which switching function ended the step (0: none).
-/// An end is detected if a switching function has the opposite sign at one of kSamples instants
-/// within the step, or at the lowest point of a dip between three of them. Shorter phases are not
-/// detected.
+/// ends is cut there (ContactSearch), so that every step is smooth. State::contact holds the phases,
+/// kEntries numbers for each contact; the last one tells which switching function ended the step (0:
+/// none).
 class BUTEE_EXPORT ContactEvents {
  public:
   static constexpr Index kEntries = dynamics::Obstacles::kStateSize + 1;
@@ -39,33 +37,12 @@ class BUTEE_EXPORT ContactEvents {
   /// contact would slip. Infinite if there is none.
   double longest_step(const State& state);
 
-  /// A change of phase.
-  struct Event {
-    double t;  ///< s
-    Index contact;
-    std::size_t which;  ///< index of the switching function of the contact
-  };
-  /// The first change within a step, on the dense output of a method.
-  std::optional<Event> first(const DenseOutput& motion);
-  /// How far the end of a step lies beyond an event, by the value and the slope of the switching function there.
-  struct Miss {
-    double t;    ///< s
-    bool falls;  ///< true if the function falls: a change of phase begins there, none ends
-  };
-  /// The miss of the end `to` of a step of length h.
-  Miss miss(const Event& event, double h, const State& to);
-  /// Whether the phase of the event is over at the end of a step, but for rounding.
-  bool is_over(const Event& event, const State& at);
+  /// The search for changes within a step.
+  ContactSearch& search() { return search_; }
   /// Marks in `to` the contact whose phase ends with the step.
-  void mark(const Event& event, State& to);
+  void mark(const ContactSearch::Event& event, State& to);
 
  private:
-  static constexpr int kSamples = 8;
-
-  /// Appends the DOFs of a contact.
-  void add_dofs(Index contact, std::vector<Index>& dofs) const;
-  /// False if the motion over the step cannot bring the contact to a change of phase.
-  bool is_near(Index contact, const DenseOutput& motion) const;
   /// Lets rigid contacts slip whose friction force exceeds what they can hold.
   void release_overloaded(State& state);
   bool sticks_rigidly(Index contact) const {
@@ -73,17 +50,12 @@ class BUTEE_EXPORT ContactEvents {
            obstacles_.phase(contact).slip == dynamics::ContactPhase::Slip::stick;
   }
   void enter(Index contact, const dynamics::ContactPhase& next, State& state);
-  /// Narrows [begin, event.t] to the root of the event's switching function; `value` is its value
-  /// at event.t.
-  Event refine(const DenseOutput& motion, Event event, double begin, double value);
 
   dynamics::Dynamics& dynamics_;
   dynamics::Obstacles& obstacles_;
   ContactSwitches switches_;
+  ContactSearch search_;
   ContactSwitches::Sample now_, work_;
-  /// Values of every switching function of the watched contacts at the last two instants.
-  std::vector<std::array<std::array<Look, 2>, dynamics::Obstacles::kMostSwitches>> looks_;
-  std::vector<Index> watched_, watched_dofs_, own_dofs_;
   std::vector<double> stick_rates_;  ///< of every contact, 1/s2; empty if there is no stick spring
 };
 

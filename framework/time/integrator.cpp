@@ -103,13 +103,13 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
   };
   int refuted = 0;
   for (int trial = 0; trial < kMostTrials && is_accepted(); ++trial) {
-    auto event = events_->first(dense_output(from, to));
+    auto event = events_->search().first(dense_output(from, to));
     if (!event) return;
     double end = std::min(std::max(event->t, earliest), to.t);
     if (!redo(end)) return;
     bool is_at_end = false;
     for (int k = 0; k < 3 && to.t == end && is_accepted(); ++k) {
-      const auto [miss, falls] = events_->miss(*event, to.t - from.t, to);
+      const auto [miss, falls] = events_->search().miss(*event, to.t - from.t, to);
       is_at_end = falls && std::abs(miss) <= good;
       if (is_at_end || std::abs(miss) <= good || std::abs(miss) > 0.1 * (to.t - from.t)) break;
       const double t_end = to.t - miss;
@@ -122,13 +122,13 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     events_->mark(*event, to);
     // Another change may come earlier; the end of the step is then not this event. In the dense output this one itself
     // may lie before the end by its error; the state at the end is more accurate.
-    const auto before = events_->first(dense_output(from, to));
+    const auto before = events_->search().first(dense_output(from, to));
     const bool is_same = before && before->contact == event->contact && before->which == event->which;
     if (!before || (is_same && is_at_end) || to.t - before->t <= (is_same ? std::max(kSame * step.h, good) : good))
       return;
     // If the step that ends at the located change does not reach it, three times in turn (chosen), the switching
     // function only approaches 0, and falls below it by errors of the dense output: there is no change.
-    if (is_same && !events_->is_over(*event, to) && ++refuted == kMostRefuted) {
+    if (is_same && !events_->search().is_over(*event, to) && ++refuted == kMostRefuted) {
       to.contact = from.contact;
       redo(step.t_end);
       return;
