@@ -66,6 +66,31 @@ void clear_rounding(const SparseMatrix& sizes, const Eigen::MatrixXd& shapes, Ei
   product = (product.cwiseAbs().array() > bound.array()).select(product, 0.0);
 }
 
+/// The number of modes that do not oscillate within a run of `run_time` seconds or whose frequency is rounding;
+/// `squares` are those of all frequencies, ascending, rad2/s2.
+Index count_rigid(const Vector& squares, double run_time) {
+  constexpr double kStill = 1e-12, kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const double most = std::max(kStill / (run_time * run_time), kRounding * squares[squares.size() - 1]);
+  return std::upper_bound(squares.begin(), squares.end(), most) - squares.begin();
+}
+
+/// Turns the first `count` shapes, those of rigid motion, such that the symmetric part of the damping among them is
+/// diagonal, and the damping with them; false if it is already. A dashpot between two free bodies then acts on their
+/// relative motion alone. In other shapes it would join them, and their common motion has no basis of eigenvectors.
+bool separate_rigid(Index count, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping) {
+  const Eigen::MatrixXd among = damping.topLeftCorner(count, count);
+  const Eigen::MatrixXd even = 0.5 * (among + among.transpose());
+  if (even.isDiagonal(0.0)) return false;
+  SparseMatrix identity(count, count);
+  identity.setIdentity();
+  const auto turned = linalg::dense_pairs(SparseMatrix(even.sparseView()), identity);
+  if (!turned) return false;
+  shapes.leftCols(count) *= turned->vectors;
+  damping.leftCols(count) *= turned->vectors;
+  damping.topRows(count) = turned->vectors.transpose() * damping.topRows(count).eval();
+  return true;
+}
+
 /// A matrix whose rows combine the rows of another one. Blocks of few modes leave most of it empty.
 class Coefficients {
  public:
@@ -135,9 +160,9 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   }
   SparseMatrix transposed = elastic.transpose();
   SparseMatrix even = 0.5 * (elastic + transposed);
-  const auto natural = linalg::dense_pairs(even, system.mass);
+  auto natural = linalg::dense_pairs(even, system.mass);
   if (!natural) throw InputError("integrator.type: the modes could not be computed");
-  const Eigen::MatrixXd& shapes = natural->vectors;
+  Eigen::MatrixXd& shapes = natural->vectors;
 
   Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);
   if (dynamics.has_damping() || system.rotation != nullptr) {
@@ -150,6 +175,8 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
       if (system.dashpots.size() > 0) sizes += system.dashpots.cwiseAbs();
       if (system.gyroscopic.size() > 0) sizes += std::abs(reference_speed_) * system.gyroscopic.cwiseAbs();
       clear_rounding(sizes, shapes, damping);
+      if (separate_rigid(count_rigid(natural->values, run_time), shapes, damping))
+        clear_rounding(sizes, shapes, damping);
     }
   } else {
     damping.setZero();

@@ -1,10 +1,12 @@
 // The damped modes of coupled structures, and their motion under polynomial and harmonic forces, compared
 // with the matrix exponential of the first-order system (Eigen's unsupported module).
+#include <array>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include <Eigen/LU>
 #include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
 #include <butee/dynamics/damped_modes.hpp>
 #include <gtest/gtest.h>
 
@@ -224,7 +226,6 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
 
 INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight));
 
-/// Angles below and above the limit of the vectorised functions.
 /// Dashpots between parts do not act on rigid motion: only its double eigenvalue, moved apart by kNudge,
 /// conditions the basis, not a block of all modes joined to it by rounding.
 TEST(DampedModes, KeepRigidMotionApartAndRefuseTolerancesBelowItsRounding) {
@@ -253,6 +254,34 @@ TEST(DampedModes, KeepRigidMotionApartAndRefuseTolerancesBelowItsRounding) {
   EXPECT_NE(chosen.integrator().choice().find("rodas4"), std::string::npos) << chosen.integrator().choice();
 }
 
+/// Free bodies joined by a weak dashpot: their common motion stays apart from the decay of the relative one, c/mu (mu:
+/// the reduced mass). In one block both lost up to seven digits.
+TEST(DampedModes, FollowFreeBodiesJoinedByAWeakDashpot) {
+  const double a = 1.0, b = 0.5, mu = a * b / (a + b), of_a = 10.0, of_b = 9.6,
+               common = (a * of_a + b * of_b) / (a + b);
+  for (const double dashpot : {2e-3, 0.02, 0.2, 0.3}) {
+    const std::string scene =
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = "
+        "\"mass\"\nname = \"b\"\nmass = 0.5\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", "
+        "\"b\"]\nstiffness = 0.0\ndamping = " +
+        to_text(dashpot) +
+        "\n[initial]\nvelocity = [{ nodes = \"a\", dof = \"u\", value = 10.0 }, { nodes = \"b\", "
+        "dof = \"u\", value = 9.6 }]\n[integrator]\ntype = \"exponential\"\ntolerance = "
+        "1e-8\nend_time = 1.0\n";
+    SceneRun run(scene);
+    Sampler sampler(run.dof("a"), {0.0025, 0.1, 1.0});
+    run.simulation().add(sampler);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    ASSERT_EQ(sampler.x.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double t = std::array{0.0025, 0.1, 1.0}[i],
+                   way = (of_a - of_b) * mu / dashpot * -std::expm1(-dashpot / mu * t);
+      EXPECT_NEAR(sampler.x[i], common * t + b / (a + b) * way, 1e-9) << dashpot << " " << t;
+    }
+  }
+}
+
+/// Angles below and above the limit of the vectorised functions.
 TEST(DampedModes, TurnByComplexExponentials) {
   SceneRun run(kShaft);
   const DampedModes modes(run.dynamics(), 1.0);
