@@ -19,6 +19,9 @@ const double kTooMuch = std::log(100.0);
 /// of the paper the energy grew up to some thousandfold, with good displacements at the end.
 const double kTooMuchUnseen = std::log(1e5);
 constexpr double kNoGrowth = 0.01;
+/// Energy of the errors of a method that keeps its tolerance, relative to the largest energy: the square of the largest
+/// tolerance. Motion that has decayed below it consists of errors.
+constexpr double kOfErrors = 0.01;
 /// Number of instants within a span at which loads are evaluated, in addition to their
 /// discontinuities.
 constexpr int kInstants = 16;
@@ -65,7 +68,7 @@ void GrowthWatch::start(const State& state) {
   excess_ = 0.0;
   next_look_ = is_watching_ || may_be_coarse_ ? kFirstLook : std::numeric_limits<std::int64_t>::max();
   last_time_ = begin_time_ = start_time_ = state.t;
-  last_energy_ = begin_energy_ = start_energy_ = energy(state);
+  last_energy_ = begin_energy_ = start_energy_ = largest_energy_ = energy(state);
   sound_energy_ = 0.0;
   if (may_be_coarse_) contact_frequency_ = dynamics::contact_frequency(dynamics_.system(), dynamics_.stops());
 }
@@ -79,8 +82,9 @@ void GrowthWatch::prepare() {
 
 void GrowthWatch::save(ByteWriter& to) const {
   for (const std::int64_t count : {count_, next_look_}) to.put(count);
-  for (const double number : {last_time_, last_energy_, excess_, begin_time_, begin_energy_, start_time_, start_energy_,
-                              largest_x_, coarseness_, coarse_step_, longest_step_, contact_frequency_})
+  for (const double number :
+       {last_time_, last_energy_, excess_, begin_time_, begin_energy_, start_time_, start_energy_, largest_energy_,
+        largest_x_, coarseness_, coarse_step_, longest_step_, contact_frequency_})
     to.put(number);
   to.put(is_met_);
 }
@@ -88,8 +92,9 @@ void GrowthWatch::save(ByteWriter& to) const {
 void GrowthWatch::restore(ByteReader& from) {
   prepare();
   for (std::int64_t* count : {&count_, &next_look_}) from.take(*count);
-  for (double* number : {&last_time_, &last_energy_, &excess_, &begin_time_, &begin_energy_, &start_time_,
-                         &start_energy_, &largest_x_, &coarseness_, &coarse_step_, &longest_step_, &contact_frequency_})
+  for (double* number :
+       {&last_time_, &last_energy_, &excess_, &begin_time_, &begin_energy_, &start_time_, &start_energy_,
+        &largest_energy_, &largest_x_, &coarseness_, &coarse_step_, &longest_step_, &contact_frequency_})
     from.take(*number);
   from.take(is_met_);
 }
@@ -156,7 +161,9 @@ bool GrowthWatch::look(const State& from, const State& to, double h) {
   if (may_be_coarse_) note_coarseness(from, to, h);
   if (!is_watching_) return false;
   const double now = energy(to);
-  const double growth = now > last_energy_ ? excess_over(explained(last_energy_, last_time_, to.t), now) : 0.0;
+  const double of_errors = limits_.keeps_tolerance ? kOfErrors * largest_energy_ : 0.0,
+               before = std::max(last_energy_, of_errors);
+  const double growth = now > before ? excess_over(explained(before, last_time_, to.t), now) : 0.0;
   if (growth > kNoGrowth) {
     excess_ += growth;
   } else if (std::isfinite(now)) {
@@ -168,6 +175,7 @@ bool GrowthWatch::look(const State& from, const State& to, double h) {
   }
   last_time_ = to.t;
   last_energy_ = now;
+  if (std::isfinite(now)) largest_energy_ = std::max(largest_energy_, now);
   return excess_ > too_much_ || has_grown_since_start(to.t, now);
 }
 

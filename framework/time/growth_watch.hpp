@@ -18,7 +18,8 @@ namespace butee::time {
 /// ... 256 accepted steps and then after every 256; the bound is evaluated only if E has grown.
 /// Energy above the bound is excess. A sequence of checks whose excess adds up to a factor of 100,
 /// or an energy that much above the bound since the start, is taken for an instability (a larger
-/// factor for explicit methods that control displacements alone). Unconditionally stable methods
+/// factor for explicit methods that control displacements alone). For methods that keep a tolerance, energy below a
+/// hundredth of the largest one so far may be errors, and its growth is not counted. Unconditionally stable methods
 /// are watched only if there are stops. With fixed steps the watch also records how coarse they
 /// are. Checked in tests/unit/growth_watch_test.cpp.
 class BUTEE_EXPORT GrowthWatch {
@@ -69,6 +70,7 @@ class BUTEE_EXPORT GrowthWatch {
   double last_time_ = 0.0, last_energy_ = 0.0;
   double excess_ = 0.0;  ///< logarithm of the excess factor since the growth began
   double begin_time_ = 0.0, begin_energy_ = 0.0, start_time_ = 0.0, start_energy_ = 0.0;
+  double largest_energy_ = 0.0;
   double sound_energy_ = 0.0;  ///< below this energy nothing has grown since the start, J
 
   double largest_x_ = 0.0;  ///< largest |x|_M so far

@@ -47,21 +47,30 @@ void put_extras(State& state, const StepSizeControl::Memory& sizes, ContactScale
   state.memory.tail(kExtras) << sizes.index, scale.displacement, scale.speed, sizes.is_contact_free, sizes.longer, end;
 }
 
-/// The scales of stops that do not move yet: a thousandth of the largest displacement and speed of their kind. Speeds
-/// are at least those that the accelerations cause within 1/rate, where `rate` is the highest frequency, rad/s.
-ContactScale least_scale(dynamics::Dynamics& dynamics, const State& state, double rate) {
+/// The scales of stops that do not move yet: a thousandth of the largest displacement and speed of their kind, or of
+/// the root mean square of the modes' motion at the stops, which is a lower bound of the largest one in a run. A mode
+/// of frequency omega with the speed v and the acceleration a at the start moves at (v^2 + (a/omega)^2)^(1/2).
+ContactScale least_scale(dynamics::Dynamics& dynamics, const ModalSystem& modal, const State& state, double run_time) {
   const ComponentScales scales(dynamics.system());
   Vector of_x(dynamics.size()), of_v(dynamics.size());
   scales.largest_of_kind(state.x.cwiseAbs(), of_x);
-  scales.largest_of_kind(state.v.cwiseAbs().cwiseMax(state.a.cwiseAbs() / rate), of_v);
+  scales.largest_of_kind(state.v.cwiseAbs(), of_v);
+  Vector v(modal.size()), a(modal.size());
+  modal.to_modal(state.v, v);
+  modal.to_modal(state.a, a);
+  const Eigen::ArrayXd time = modal.frequencies().inverse().min(run_time);
+  const Eigen::ArrayXd speed = (v.array().square() + (a.array() * time).square()).sqrt(), displacement = speed * time;
+  const auto mean = [&modal](Index dof, const Eigen::ArrayXd& amplitude) {
+    return std::sqrt(0.5) * (modal.shape_rows().col(dof).array() * amplitude).matrix().norm();
+  };
   ContactScale least;
   const dynamics::ElasticStops& stops = dynamics.stops();
   for (Index i = 0; i < stops.size(); ++i)
     for (const Index dof : {stops.dof_a(i), stops.dof_b(i)})
       if (dof >= 0)
-        least = {std::max(least.displacement, ContactScales::kFloor * of_x[dof]),
-                 std::max(least.speed, ContactScales::kFloor * of_v[dof])};
-  return least;
+        least = {std::max({least.displacement, of_x[dof], mean(dof, displacement)}),
+                 std::max({least.speed, of_v[dof], mean(dof, speed)})};
+  return {ContactScales::kFloor * least.displacement, ContactScales::kFloor * least.speed};
 }
 
 }  // namespace
@@ -112,8 +121,7 @@ void Exponential<Step>::do_start(State& state) {
     Vector w(modal_.stop_count()), speed(modal_.stop_count());
     modal_.stop_shapes().displacement(state.memory.data(), w.data());
     modal_.stop_shapes().displacement(state.memory.data() + n, speed.data());
-    const ContactScale floor =
-        least_scale(dynamics(), state, std::max(contact_frequency(), modal_.frequencies().maxCoeff()));
+    const ContactScale floor = least_scale(dynamics(), modal_, state, options_.run_time);
     scale = {std::max(floor.displacement, w.lpNorm<Eigen::Infinity>()),
              std::max(floor.speed, speed.lpNorm<Eigen::Infinity>())};
     // In a static position on closed stops all speeds are rounding.

@@ -65,6 +65,21 @@ TEST(GrowthWatch, NamesTheCriticalStep) {
   }
 }
 
+/// Motion that has decayed by ten decades consists of errors, which may grow at a stop by any factor.
+TEST(GrowthWatch, LeavesErrorsWithinTheToleranceAlone) {
+  for (const double damping : {20.0, 60.0})
+    for (const double tolerance : {1e-1, 3e-2, 1e-2, 1e-3}) {
+      SceneRun run(
+          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+          "\"a\"\nstiffness = 1000.0\ndamping = " +
+          to_text(damping) +
+          "\n[[contact]]\ntype = \"stop\"\nnodes = \"a\"\ngap = 1e-6\nstiffness = 2000.0\n[initial]\nvelocity = "
+          "[{nodes = \"a\", value = 1.0}]\n[integrator]\ntype = \"dopri5\"\nend_time = 5.0\ntolerance = " +
+          to_text(tolerance) + "\n");
+      EXPECT_TRUE(run.run().completed) << damping << " " << tolerance << ": " << run.simulation().report().message;
+    }
+}
+
 TEST(GrowthWatch, SeesGrowthThatIsTooSlowToOverflow) {
   // 2.83 is slightly above 2 sqrt 2: the spectral radius is 1.009.
   const std::string message =
