@@ -10,6 +10,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/dynamics/dynamics.hpp"
+#include "butee/dynamics/frequencies.hpp"
 #include "butee/dynamics/kernel/modal_motion.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/general_pairs.hpp"
@@ -162,6 +163,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   SparseMatrix even = 0.5 * (elastic + transposed);
   auto natural = linalg::dense_pairs(even, system.mass);
   if (!natural) throw InputError("integrator.type: the modes could not be computed");
+  require_no_growth(natural->values[0], natural->values[n - 1]);
   Eigen::MatrixXd& shapes = natural->vectors;
 
   Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);

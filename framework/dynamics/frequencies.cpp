@@ -8,6 +8,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/core/memory.hpp"
+#include "butee/core/text.hpp"
 #include "butee/dynamics/elastic_stops.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/lanczos.hpp"
@@ -87,6 +88,7 @@ bool is_complete(const SparseMatrix& stiffness, const SparseMatrix& mass, const 
 }
 
 Modes modes_of(const linalg::Pairs& pairs, double highest) {
+  if (pairs.values.size() > 0) require_no_growth(pairs.values[0], highest);
   const Vector values = (pairs.values.array() > kRigid * highest).select(pairs.values, 0.0);
   return {values.cwiseSqrt(), pairs.vectors};
 }
@@ -123,6 +125,16 @@ void add_obstacles(const model::System& system, SparseMatrix& stiffness) {
 }
 
 }  // namespace
+
+void require_no_growth(double lowest, double highest) {
+  // Rounding of the eigenvalues of stiff structures stays far below.
+  constexpr double kNegative = 1e-11;
+  if (lowest >= -kNegative * std::abs(highest)) return;
+  throw InputError("the stiffness has the negative eigenvalue " + to_short_text(lowest) +
+                   " 1/s2: the structure is unstable, its motion grows as e^(" + to_short_text(std::sqrt(-lowest)) +
+                   " t), and it has no natural frequency there; look for a negative stiffness in imported matrices or "
+                   "in an element of a module");
+}
 
 double contact_frequency(const model::System& system, const ElasticStops& contact) {
   double square = 0.0;

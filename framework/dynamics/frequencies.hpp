@@ -19,6 +19,10 @@ enum class StopState { open, closed };
 /// Lanczos for large ones (relative accuracy about 1e-6); nothing if Lanczos did not converge.
 BUTEE_EXPORT std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops);
 
+/// Throws InputError if the lowest eigenvalue of K phi = omega^2 M phi, 1/s2, is negative by more than rounding
+/// relative to the highest one: such motion grows and is no mode.
+BUTEE_EXPORT void require_no_growth(double lowest, double highest);
+
 /// Modes of an undamped system with open stops, lowest first: K phi_i = omega_i^2 M phi_i, Phi^T M
 /// Phi = 1.
 struct Modes {

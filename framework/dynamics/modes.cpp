@@ -6,6 +6,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
+#include "butee/dynamics/frequencies.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/lanczos.hpp"
 
@@ -235,6 +236,7 @@ NaturalModes find_modes(const Structure& structure, Index count) {
     modes.problem = "the eigenvalue solver did not converge";
     return modes;
   }
+  require_no_growth(pairs.values[0], scale);
   if (modes.dense) modes.shift = -kShiftPart * std::max(pairs.values[count - 1], 1e-10 * scale);
   if (modes.shift == 0.0) modes.shift = -1.0;
   if (!factor.factorize(modes.shift)) modes.problem = "K - s M could not be factorized";
