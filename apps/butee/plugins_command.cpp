@@ -117,8 +117,9 @@ bool answers_to(const Row& row, const std::string& name) {
 
 void write_manifest(const std::string& module) {
   const std::string path = plugin::manifest_path(module);
+  const std::string manifest = plugin::write_manifest(plugin::load_module(module).types());
   std::ofstream file(path, std::ios::binary);
-  file << plugin::write_manifest(plugin::load_module(module).types());
+  file << manifest;
   file.close();
   if (!file) throw RunError(path + ": cannot be written");
 }

@@ -44,7 +44,26 @@ void MatrixCollector::visit(std::span<const NodalDof> dofs, Visit entry) const {
   }
 }
 
+void MatrixCollector::check(std::span<const NodalDof> dofs, const ElementMatrices& matrices) const {
+  const auto n = static_cast<Index>(dofs.size());
+  if (n == 0) throw InputError("an element adds matrices without DOFs");
+  for (const Eigen::MatrixXd* matrix : {&matrices.mass, &matrices.stiffness, &matrices.damping})
+    if (matrix->rows() != n || matrix->cols() != n)
+      throw InputError("an element on " + dofs_.name(dofs.front()) + " adds a matrix of " +
+                       std::to_string(matrix->rows()) + " x " + std::to_string(matrix->cols()) + " for " +
+                       std::to_string(n) + " DOFs");
+  for (Index i = 0; i < n; ++i) {
+    if (dofs_.exists(dofs[static_cast<std::size_t>(i)])) continue;
+    // A lumped mass has inertia along all axes and claims only those that other elements use.
+    for (const Eigen::MatrixXd* matrix : {&matrices.stiffness, &matrices.damping})
+      if (!matrix->row(i).isZero(0.0) || !matrix->col(i).isZero(0.0))
+        throw InputError("an element acts on " + dofs_.name(dofs[static_cast<std::size_t>(i)]) +
+                         ", which no element has claimed: its claim() must name all its DOFs");
+  }
+}
+
 void MatrixCollector::add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) {
+  check(dofs, matrices);
   if (!is_symmetric(matrices.mass))
     throw InputError("the mass matrix of an element on " + dofs_.name(dofs.front()) + " is not symmetric");
   stiffness_is_symmetric_ = stiffness_is_symmetric_ && is_symmetric(matrices.stiffness);

@@ -42,6 +42,8 @@ class MatrixCollector final : public MatrixSink {
 
   template <class Visit>
   void visit(std::span<const NodalDof> dofs, Visit entry) const;
+  /// Throws InputError for matrices of another size than `dofs`, and for stiffness or damping on DOFs that do not exist.
+  void check(std::span<const NodalDof> dofs, const ElementMatrices& matrices) const;
   void add_turning(std::span<const NodalDof> dofs, const ElementMatrices& matrices);
   void add_entry(int i, int j, double m, double k, double c, double g = 0.0, double w = 0.0) {
     dashpots_.add(mass_, i, j, c);

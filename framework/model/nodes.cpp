@@ -98,6 +98,7 @@ NodeId NodeTable::add(const std::string& name, std::vector<double> coordinates) 
 }
 
 NodeId NodeTable::canonical(NodeId node) const {
+  if (node < 0 || node >= size()) throw InputError("there is no node of number " + std::to_string(node));
   while (root_[static_cast<std::size_t>(node)] != node) node = root_[static_cast<std::size_t>(node)];
   return node;
 }

@@ -62,7 +62,9 @@ std::string for_target(const std::string& path) {
 
 /// Opens a module and checks its compatibility. To be called under a CrashWatch.
 void* open_module(const std::string& path) {
-  void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
+  // dlopen searches the folders of system libraries for a name without a folder.
+  const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
+  void* handle = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
   if (handle == nullptr) throw RunError(path + ": cannot be loaded: " + last_error());
   const auto tag = symbol<const butee_abi_tag* (*)()>(handle, "butee_plugin_abi", path);
   if (const std::string found = differences(*tag()); !found.empty())
@@ -70,7 +72,7 @@ void* open_module(const std::string& path) {
                    "; build it again with this version's headers and flags");
   // Resolves all its functions only now, so that a missing one does not cause a crash in the middle
   // of a run.
-  if (dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD) == nullptr)
+  if (dlopen(file.c_str(), RTLD_NOW | RTLD_NOLOAD) == nullptr)
     throw RunError(path + ": cannot be loaded: " + last_error() +
                    "; build it again with this version's headers and flags");
   return handle;
