@@ -6,9 +6,9 @@
 namespace butee::dynamics {
 namespace {
 
-/// Relative change of a load over the rounding of t that is a jump. Loads that are no jumps but steep change by 1e-7 at
-/// most (is_steep).
-constexpr double kJump = 1e-3;
+/// Relative change of a load over the rounding of t that is a jump. At a corner where a steep load returns to 0 any
+/// change is large relative to the load, but it is no more than kCorner times that over the same time before.
+constexpr double kJump = 1e-3, kCorner = 10.0;
 
 /// True if a load is a parabola over less than kFew spacings of the doubles at t: rounding of t changes it by more than
 /// 1/kFew.
@@ -76,8 +76,10 @@ bool ExternalForces::jump_at(double t) const {
   for (std::size_t i = 0; i < is_steep_.size(); ++i) {
     if (is_steep_[i] != 0) continue;
     const model::TimeFunction& load = *system_.loads[i].in_time;
-    const double before = load.value(just_before(t)), after = load.value(t);
-    if (std::abs(after - before) > kJump * std::max(std::abs(after), std::abs(before))) return true;
+    const double earlier = load.value(just_before(just_before(t))), before = load.value(just_before(t)),
+                 after = load.value(t), change = std::abs(after - before);
+    if (change > kJump * std::max(std::abs(after), std::abs(before)) && change > kCorner * std::abs(before - earlier))
+      return true;
   }
   const model::Rotation* const rotation = varying_rotation();
   return rotation != nullptr && rotation->acceleration(just_before(t)) != rotation->acceleration(t);
