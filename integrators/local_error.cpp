@@ -79,11 +79,13 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   const model::System& system = dynamics.system();
   const FastestRates rates = fastest_rates(dynamics);
   first_step_ = rates.open > 0.0 ? 0.1 / rates.open : 1e-6 * std::min(1.0, goal.run_time);
-  for (const model::FreeLoad& load : system.loads)
-    if (const auto harmonic = load.in_time->harmonic(); harmonic && harmonic->angular_frequency > 0.0)
-      first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
   omega_ = rates.closed;
-  rate_ = rates.any();
+  rate_ = fastest_ = rates.any();
+  for (const model::FreeLoad& load : system.loads)
+    if (const auto harmonic = load.in_time->harmonic(); harmonic && harmonic->angular_frequency > 0.0) {
+      first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
+      fastest_ = std::max(fastest_, harmonic->angular_frequency);
+    }
   if (std::isfinite(orders.damping)) longest_ = orders.damping / bound_of_damping(system);
 }
 
@@ -205,12 +207,12 @@ double LocalErrorControl::whole_error(const time::State& from, time::State& to, 
   if (!(epsilon > smooth) || rate_ == 0.0) return epsilon;
   // At a start from rest, as for components in judge().
   scale_x_ = (to.v - from.v) / h;
-  const double speed = std::max({v, norm(from.a) / rate_, norm(scale_x_) / rate_});
-  return std::max(part(of_x, std::max(x, speed / rate_)), part(of_v, speed));
+  const double speed = std::max({v, norm(from.a) / fastest_, norm(scale_x_) / fastest_});
+  return std::max(part(of_x, std::max(x, speed / fastest_)), part(of_v, speed));
 }
 
 void LocalErrorControl::judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
-                              ConstVectorRef error_v, time::StepReport& report) {
+                              ConstVectorRef error_v, time::StepReport& report, bool bends_within) {
   const Index n = to.x.size();
   scale_x_ = scales_x(from);
   scale_v_ = scales_v(from);
@@ -219,14 +221,14 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   to.memory.segment(kNormX, 2) = from.memory.segment(kNormX, 2);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
-  judge_by_scales(from, to, h, error_x, error_v, report);
+  judge_by_scales(from, to, h, error_x, error_v, report, bends_within);
   if (as_a_whole_ || report.error <= 1.0 || report.status != time::StepStatus::ok) return;
   raise_above_rounding(from.t, h, smooth_error(h));
-  judge_by_scales(from, to, h, error_x, error_v, report);
+  judge_by_scales(from, to, h, error_x, error_v, report, bends_within);
 }
 
 void LocalErrorControl::judge_by_scales(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
-                                        ConstVectorRef error_v, time::StepReport& report) {
+                                        ConstVectorRef error_v, time::StepReport& report, bool bends_within) {
   const double smooth = smooth_error(h);
   const double earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
   double epsilon =
@@ -240,17 +242,18 @@ void LocalErrorControl::judge_by_scales(const time::State& from, time::State& to
     return;
   }
   if (!as_a_whole_ && epsilon > smooth && rate_ > 0.0) {
-    // At a start from rest errors are relative to the velocities that the accelerations cause within 1/rate_, or until
-    // a load's slope jumps, and to a part of the displacements that these velocities cause within 1/rate_.
+    // At a start from rest errors are relative to the velocities that the accelerations cause within 1/fastest_, or
+    // until a load's slope jumps, and to a part of the displacements that these velocities cause within 1/fastest_.
     const auto jump = std::upper_bound(discontinuities_.begin(), discontinuities_.end(), from.t);
-    const double time = jump == discontinuities_.end() ? 1.0 / rate_ : std::min(1.0 / rate_, *jump - from.t);
+    const double time = jump == discontinuities_.end() ? 1.0 / fastest_ : std::min(1.0 / fastest_, *jump - from.t);
     work_ = time * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs()).cwiseMax((to.v - from.v).cwiseAbs() / h);
     scales_.raise(work_, scale_v_);
-    work_ = (kFromRest / rate_) * scale_v_;
+    work_ = (kFromRest / fastest_) * scale_v_;
     scales_.raise(work_, scale_x_);
     epsilon = relative_error(h, error_x, error_v);
   }
-  const bool has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) || slip_reverses(from, to);
+  const bool has_changed =
+      bends_within || contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) || slip_reverses(from, to);
   double r = epsilon / smooth, charge = 0.0;
   if (as_a_whole_) {
     if (has_changed) r *= orders_.contact_change;

@@ -74,9 +74,10 @@ class LocalErrorControl {
   /// Fills the memory of the initial state, which has at least memory_size() entries.
   void start(time::State& state);
   /// Judges a step by the error estimates e_x and e_v. `to` holds its own acceleration or that of
-  /// `from`. Fills error and proposal of the report, and the memory of `to`.
+  /// `from`. Fills error and proposal of the report, and the memory of `to`. `bends_within`: a stage of the step met a
+  /// stop that is open at both ends, so that the estimate is not that of a smooth force.
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
-             time::StepReport& report);
+             time::StepReport& report, bool bends_within = false);
 
   /// True if nothing has moved up to this state but by rounding.
   bool is_still(const time::State& state);
@@ -114,7 +115,7 @@ class LocalErrorControl {
   bool slip_reverses(const time::State& from, const time::State& to) const;
   /// judge() with the scales scale_x_ and scale_v_.
   void judge_by_scales(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
-                       ConstVectorRef error_v, time::StepReport& report);
+                       ConstVectorRef error_v, time::StepReport& report, bool bends_within);
   /// Raises scale_x_ and scale_v_ of components that move by rounding only: of the whole motion, or of forces that
   /// balance one another. Errors of that size are then within the tolerance, and below `smooth`.
   void raise_above_rounding(double t, double h, double smooth);
@@ -146,7 +147,8 @@ class LocalErrorControl {
   /// The highest frequency of a single DOF with all stops closed, or rate with supports slipping, 1/s; 0 without any
   /// stiffness.
   double omega_ = 0.0;
-  double rate_ = 0.0;  ///< that, or the highest rate at which damping decelerates a DOF, 1/s
+  double rate_ = 0.0;     ///< that, or the highest rate at which damping decelerates a DOF, 1/s
+  double fastest_ = 0.0;  ///< that, or the highest frequency of a harmonic load, 1/s
   double longest_ = std::numeric_limits<double>::infinity();  ///< step by Orders::damping, s
   Steps steps_;
   ComponentScales scales_;
