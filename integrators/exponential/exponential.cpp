@@ -49,8 +49,10 @@ void put_extras(State& state, const StepSizeControl::Memory& sizes, ContactScale
 
 /// The scales of stops that do not move yet: a thousandth of the largest displacement and speed of their kind, or of
 /// the root mean square of the modes' motion at the stops, which is a lower bound of the largest one in a run. A mode
-/// of frequency omega with the speed v and the acceleration a at the start moves at (v^2 + (a/omega)^2)^(1/2).
-ContactScale least_scale(dynamics::Dynamics& dynamics, const ModalSystem& modal, const State& state, double run_time) {
+/// of frequency omega moves at (v^2 + (a/omega)^2)^(1/2) after a start with the speed v and the acceleration a. Stops
+/// may confine the motion to the smallest gap and to that of the frequency `closed` of a closed stop, rad/s.
+ContactScale least_scale(dynamics::Dynamics& dynamics, const ModalSystem& modal, const State& state, double run_time,
+                         double closed) {
   const ComponentScales scales(dynamics.system());
   Vector of_x(dynamics.size()), of_v(dynamics.size());
   scales.largest_of_kind(state.x.cwiseAbs(), of_x);
@@ -58,18 +60,23 @@ ContactScale least_scale(dynamics::Dynamics& dynamics, const ModalSystem& modal,
   Vector v(modal.size()), a(modal.size());
   modal.to_modal(state.v, v);
   modal.to_modal(state.a, a);
-  const Eigen::ArrayXd time = modal.frequencies().inverse().min(run_time);
-  const Eigen::ArrayXd speed = (v.array().square() + (a.array() * time).square()).sqrt(), displacement = speed * time;
+  const Eigen::ArrayXd time = modal.frequencies().inverse().min(run_time),
+                       speed = (v.array().square() + (a.array() * time.min(1.0 / closed)).square()).sqrt(),
+                       displacement = speed * time;
   const auto mean = [&modal](Index dof, const Eigen::ArrayXd& amplitude) {
     return std::sqrt(0.5) * (modal.shape_rows().col(dof).array() * amplitude).matrix().norm();
   };
-  ContactScale least;
   const dynamics::ElasticStops& stops = dynamics.stops();
+  double gap = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < stops.size(); ++i) gap = std::min(gap, stops.play_of(i).gap);
+  ContactScale least;
   for (Index i = 0; i < stops.size(); ++i)
     for (const Index dof : {stops.dof_a(i), stops.dof_b(i)})
-      if (dof >= 0)
-        least = {std::max({least.displacement, of_x[dof], mean(dof, displacement)}),
-                 std::max({least.speed, of_v[dof], mean(dof, speed)})};
+      if (dof >= 0) {
+        const double speed_there = mean(dof, speed), confined = std::max(0.0, gap) + speed_there / closed;
+        least = {std::max({least.displacement, of_x[dof], std::min(confined, mean(dof, displacement))}),
+                 std::max({least.speed, of_v[dof], speed_there})};
+      }
   return {ContactScales::kFloor * least.displacement, ContactScales::kFloor * least.speed};
 }
 
@@ -121,7 +128,7 @@ void Exponential<Step>::do_start(State& state) {
     Vector w(modal_.stop_count()), speed(modal_.stop_count());
     modal_.stop_shapes().displacement(state.memory.data(), w.data());
     modal_.stop_shapes().displacement(state.memory.data() + n, speed.data());
-    const ContactScale floor = least_scale(dynamics(), modal_, state, options_.run_time);
+    const ContactScale floor = least_scale(dynamics(), modal_, state, options_.run_time, contact_frequency());
     scale = {std::max(floor.displacement, w.lpNorm<Eigen::Infinity>()),
              std::max(floor.speed, speed.lpNorm<Eigen::Infinity>())};
     // In a static position on closed stops all speeds are rounding.
