@@ -112,14 +112,17 @@ std::unique_ptr<time::Integrator> make_rodas4(dynamics::Dynamics& dynamics, cons
   return std::make_unique<Rodas4>(dynamics, goal);
 }
 
-/// Null if rounding in the modes does not allow the tolerance.
-std::unique_ptr<time::Integrator> exponential_unless_rounded(dynamics::Dynamics& dynamics,
-                                                             const ExponentialOptions& options) {
+/// Null if it refuses the scene, with the reason.
+std::unique_ptr<time::Integrator> exponential_or_reason(dynamics::Dynamics& dynamics, const ExponentialOptions& options,
+                                                        std::string& reason) {
   try {
     return make_exponential(dynamics, options);
   } catch (const ToleranceBelowRounding&) {
-    return nullptr;
+    reason = "rounding in the modes exceeds the tolerance";
+  } catch (const InputError& error) {
+    reason = error.what();
   }
+  return nullptr;
 }
 
 }  // namespace
@@ -168,8 +171,9 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
   const std::string with = " with tolerance " + to_short_text(tolerance);
   std::unique_ptr<time::Integrator> integrator;
   if (choice.method == Choice::Method::exponential) {
-    integrator = exponential_unless_rounded(dynamics, {tolerance, end_time, 0});
-    if (integrator == nullptr) choice = {Choice::Method::rodas4, "rounding in the modes exceeds the tolerance"};
+    std::string reason;
+    integrator = exponential_or_reason(dynamics, {tolerance, end_time, 0}, reason);
+    if (integrator == nullptr) choice = {Choice::Method::rodas4, reason};
   }
   std::string what;
   if (choice.method == Choice::Method::exponential) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -94,6 +95,32 @@ TEST_F(MatricesFile, AreNamedInModelTomlAndFoundFromThere) {
   EXPECT_EQ(changed.status, 2);
   EXPECT_TRUE(holds(changed.errors, "stiffness = \"../k.mtx\": is not the file that the model was run with"))
       << changed.errors;
+}
+
+/// x = v/omega sinh(omega t) for a stiffness of -1000 N/m on 2 kg: no mode of a structure at rest.
+TEST_F(MatricesFile, OfAnUnstableStructureHaveNoModes) {
+  folder_.write("unstable.mtx", kSymmetric + "2 2 2\n1 1 -1000.0\n2 2 3e5\n");
+  const auto scene = [](const std::string& type) {
+    return "schema = 1\n[[element]]\ntype = \"matrices\"\nname = \"two\"\nmass = \"m.mtx\"\nstiffness = "
+           "\"unstable.mtx\"\ndofs = \"u\"\n[initial]\nvelocity = [{ nodes = \"two:0\", value = 0.5 "
+           "}]\n[integrator]\ntype = "
+           "\"" +
+           type + "\"\nend_time = 0.1\n[[output.probe]]\nlabel = \"p\"\nnode = \"two:0\"\nquantities = [\"u\"]\n";
+  };
+  folder_.write("s.toml", scene("exponential"));
+  for (const char* command : {"run", "modes"}) {
+    const Outcome outcome = run_program({command, "s.toml"}, folder_.path());
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_TRUE(holds(outcome.errors, "negative eigenvalue -500 1/s2")) << outcome.errors;
+  }
+  folder_.write("s.toml", scene("auto"));
+  const Outcome outcome = run_program({"run", "s.toml"}, folder_.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_TRUE(holds(outcome.output, "rodas4")) << outcome.output;
+  const std::string history = read_file(folder_.file("s-results/history.csv")),
+                    last = history.substr(history.rfind('\n', history.size() - 2) + 1);
+  const double omega = std::sqrt(500.0), wanted = 0.5 / omega * std::sinh(omega * 0.1);
+  EXPECT_NEAR(std::stod(last.substr(last.find(',') + 1)), wanted, 1e-3 * wanted);
 }
 
 }  // namespace

@@ -65,6 +65,15 @@ TEST(Load, TableIsPiecewiseLinearAndConstantOutside) {
   EXPECT_EQ(ball.at(9.0), 0.0);
 }
 
+/// The last corner of a steep pulse: over the rounding of t the load changes by all of its value, but does not jump.
+TEST(Load, CornersAreNoJumps) {
+  SceneRun scene(kHeader + mass("ball", "2.0") +
+                 load("type = \"table\"\nnode = \"ball\"\ntimes = [0.04, 0.0400000011, 0.0400000022]\nvalues = [0.0, "
+                      "1e9, 0.0]"));
+  for (const double corner : {0.04, 0.0400000011, 0.0400000022})
+    EXPECT_FALSE(scene.dynamics().loads_jump(corner)) << corner;
+}
+
 TEST(Load, TwoOnOneNodeAdd) {
   LoadedMass ball(load("type = \"constant\"\nnode = \"ball\"\nvalue = 3.0") +
                   load("type = \"ramp\"\nnode = \"ball\"\nto = 8.0\nend = 2.0"));

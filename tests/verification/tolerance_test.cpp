@@ -259,6 +259,68 @@ TEST(ToleranceOfStiffMotion, HoldsInLongSteps) {
     }
 }
 
+/// A body that turns 1e-8 m before its stop: stages with few parts of a step meet the stop, the motion does not.
+TEST(ToleranceBesideAStop, HoldsWhereOnlyStagesMeetIt) {
+  constexpr double kSpeed = 0.1, kTurn = 100.0;
+  for (const char* method : {"extrapolation8", "dopri5", "rodas4"})
+    for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8}) {
+      SceneRun run(
+          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+          "\"m\"\nstiffness = 1e4\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 1.00001e-3\nlaw = "
+          "\"linear\"\nstiffness = 2e4\n[initial]\nvelocity = [{ nodes = \"m\", value = 0.1 }]\n[integrator]\nend_time "
+          "= "
+          "5.0\n",
+          {std::string("integrator.type=") + method, "integrator.tolerance=" + to_text(tolerance)});
+      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+      const time::State& end = run.simulation().state();
+      EXPECT_NEAR(end.x[0], kSpeed / kTurn * std::sin(kTurn * 5.0), 10.0 * tolerance * kSpeed / kTurn)
+          << method << " " << tolerance;
+      EXPECT_NEAR(end.v[0], kSpeed * std::cos(kTurn * 5.0), 10.0 * tolerance * kSpeed) << method << " " << tolerance;
+    }
+}
+
+/// A load 300 times faster than the structure. A disturbance of the velocity by one tolerance moves the body by 160
+/// tolerances of its displacement.
+TEST(ToleranceUnderAFastLoad, IsKeptByMethodsOfOrderTwo) {
+  constexpr double kForce = 1e4, kTurn = 1e4, kDelta = 0.5, kEnd = 0.1;
+  const double own = std::sqrt(1000.0 - kDelta * kDelta);
+  const std::complex<double> steady = kForce / std::complex<double>(1000.0 - kTurn * kTurn, kTurn);
+  const double a = -steady.real(), b = (kDelta * a + kTurn * steady.imag()) / own;
+  const double wanted = (steady * std::polar(1.0, kTurn * kEnd)).real() +
+                        std::exp(-kDelta * kEnd) * (a * std::cos(own * kEnd) + b * std::sin(own * kEnd));
+  for (const char* method : {"bathe_adaptive", "hht_alpha_adaptive", "generalized_alpha_adaptive",
+                             "discrete_gradient_adaptive", "central_differences_adaptive"})
+    for (const double tolerance : {1e-2, 1e-3}) {
+      SceneRun run(
+          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+          "\"m\"\nstiffness = 1000.0\ndamping = 1.0\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = "
+          "1e4\nangular_frequency = 1e4\n[integrator]\nend_time = 0.1\n",
+          {std::string("integrator.type=") + method, "integrator.tolerance=" + to_text(tolerance)});
+      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+      EXPECT_NEAR(run.simulation().state().x[0], wanted, 160.0 * tolerance * 2e-4) << method << " " << tolerance;
+    }
+}
+
+/// A pulse of two nanoseconds in whose corners the load changes by more than a thousandth over the rounding of t.
+TEST(ToleranceAfterAShortPulse, IsKeptByMethodsOfOrderTwo) {
+  constexpr double kPulse = 1.0, kMass = 0.9, kBegin = 0.0415, kWidth = 1.119e-9;
+  for (const char* method :
+       {"bathe_adaptive", "hht_alpha_adaptive", "generalized_alpha_adaptive", "discrete_gradient_adaptive"})
+    for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+      SceneRun run(
+          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 0.9\n[[element]]\ntype = "
+          "\"spring\"\nnode = \"m\"\nstiffness = 6770.0\n[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = [" +
+              to_text(kBegin) + ", " + to_text(kBegin + kWidth) + ", " + to_text(kBegin + 2.0 * kWidth) +
+              "]\nvalues = [0.0, " + to_text(kPulse / kWidth) +
+              ", 0.0]\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 0.1\nangular_frequency = "
+              "108.0\n[integrator]\nend_time = 0.0416\n",
+          {std::string("integrator.type=") + method, "integrator.tolerance=" + to_text(tolerance)});
+      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+      EXPECT_NEAR(run.simulation().state().v[0], kPulse / kMass, 10.0 * tolerance * kPulse / kMass + 2e-3)
+          << method << " " << tolerance;
+    }
+}
+
 TEST(ToleranceScene, StrikesItsStopAndMagnifiesLittle) {
   Index impacts = 0;
   const std::vector<double> first = course("type = \"exact\"\ntime_step = 1e-3\n", &impacts);
