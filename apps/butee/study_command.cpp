@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <poll.h>
+#include <unistd.h>
 
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
@@ -195,18 +198,48 @@ int study_in_team(const StudyArguments& arguments, study::Team& team) {
   return status;
 }
 
+/// Lines of a file descriptor. Waits for the next one until the program is interrupted.
+class Lines {
+ public:
+  explicit Lines(int file) : file_(file) {}
+  bool next(std::string& line) {
+    constexpr int kMilliseconds = 100;
+    std::size_t end = 0;
+    while ((end = text_.find('\n')) == std::string::npos) {
+      pollfd waiting{file_, POLLIN, 0};
+      while (poll(&waiting, 1, kMilliseconds) <= 0)
+        if (interruption() != nullptr) return false;
+      char part[4096];
+      const ssize_t got = read(file_, part, sizeof(part));
+      if (got <= 0) break;
+      text_.append(part, static_cast<std::size_t>(got));
+    }
+    if (end == std::string::npos && text_.empty()) return false;
+    line = text_.substr(0, end);
+    text_.erase(0, end == std::string::npos ? end : end + 1);
+    return true;
+  }
+
+ private:
+  int file_;
+  std::string text_;
+};
+
 /// Reads points from a file or standard input, writes rows to a file or standard output.
 int study_points(const StudyArguments& arguments) {
-  std::ifstream file;
   std::ofstream to;
+  int file = STDIN_FILENO;
   if (arguments.points != "-") {
-    file.open(arguments.points, std::ios::binary);
-    if (!file) throw InputError("--points " + arguments.points + ": cannot be read");
+    file = open(arguments.points.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) throw InputError("--points " + arguments.points + ": cannot be read");
+    std::error_code none;
+    if (std::filesystem::equivalent(arguments.points, arguments.results, none))
+      throw InputError("--results " + arguments.results + ": is the file of the points; name another one");
   }
-  std::istream& from = arguments.points == "-" ? std::cin : file;
+  Lines lines(file);
   std::string header, first;
   const auto next = [&](std::string& line) {
-    while (std::getline(from, line)) {
+    while (lines.next(line)) {
       while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
       if (!line.empty() && line.front() != '#') return true;
     }
@@ -240,7 +273,10 @@ int study_points(const StudyArguments& arguments) {
   };
   study::answer(study, layout, arguments.threads > 0 ? arguments.threads : study::processor_count(),
                 {next_point, respond, [] { return interruption() == nullptr; }});
-  return interruption() == nullptr ? kDone : kFailed;
+  if (interruption() == nullptr) return kDone;
+  log::error(std::string("interrupted by ") + interruption() + "; " +
+             (arguments.results == "-" ? "standard output" : arguments.results) + " holds the rows of finished points");
+  return kFailed;
 }
 
 int study_command(const StudyArguments& arguments) {

@@ -1,6 +1,7 @@
 #include "butee/study/points.hpp"
 
 #include <sstream>
+#include <string_view>
 
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
@@ -18,7 +19,9 @@ std::string trimmed(const std::string& text) {
 
 PointTable read_points(const std::string& text) {
   PointTable table;
-  std::istringstream lines(text);
+  // Excel begins a CSV file in UTF-8 with a byte-order mark.
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  std::istringstream lines(text.starts_with(kMark) ? text.substr(kMark.size()) : text);
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;

@@ -107,6 +107,8 @@ std::vector<Axis> axes_of_points(const std::string& text) {
   if (table.names.empty()) throw InputError("the points have no first line with the keys that vary");
   std::vector<Axis> axes;
   for (std::size_t i = 0; i < table.names.size(); ++i) {
+    if (std::count(table.names.begin(), table.names.end(), table.names[i]) > 1)
+      throw InputError("the first line of the points names " + table.names[i] + " twice");
     axes.push_back({table.names[i], {}});
     for (const auto& row : table.rows) axes.back().values.push_back(value_of(row[i]));
   }

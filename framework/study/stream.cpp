@@ -46,7 +46,9 @@ class Answering {
     for (std::string line; goes_on() && stream_.next(line);) {
       if (line.empty() || line.front() == '#') continue;
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return waiting_.size() < kReadAhead * static_cast<std::size_t>(threads_) || error_; });
+      changed_.wait(lock, [&] {
+        return waiting_.size() < kReadAhead * static_cast<std::size_t>(threads_) || error_ || has_stopped_;
+      });
       waiting_.push_back({number++, line});
       changed_.notify_all();
     }
@@ -65,15 +67,20 @@ class Answering {
         {
           std::unique_lock lock(mutex_);
           changed_.wait(lock, [&] { return !waiting_.empty() || is_over_; });
-          if (waiting_.empty() || !goes_on()) return;
+          if (waiting_.empty()) return;
+          if (!goes_on()) break;
           point = std::move(waiting_.front());
           waiting_.pop_front();
           changed_.notify_all();
         }
         const auto row = row_of(worker, point);
-        if (!row) return;
+        if (!row) break;
         respond(point.number, *row);
       }
+      // Interrupted: the reader may wait for room.
+      const std::lock_guard guard(mutex_);
+      has_stopped_ = true;
+      changed_.notify_all();
     } catch (...) {
       const std::lock_guard guard(mutex_);
       if (!error_) error_ = std::current_exception();
@@ -115,7 +122,7 @@ class Answering {
   std::mutex mutex_, output_;
   std::condition_variable changed_;
   std::deque<Point> waiting_;
-  bool is_over_ = false;
+  bool is_over_ = false, has_stopped_ = false;
   std::atomic<bool> is_broken_{false};
   std::exception_ptr error_;
   std::map<std::int64_t, std::string> ready_;

@@ -1,10 +1,13 @@
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 
+#include "support/process.hpp"
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
 #include "support/study_rows.hpp"
@@ -174,6 +177,47 @@ TEST_F(StudyProgram, AnswersPointsInTheirOrder) {
   for (std::size_t i = 0; i < all.rows(); ++i) EXPECT_EQ(found[i], peaks[all.rows() - 1 - i]) << i;
   EXPECT_EQ(status[all.rows()], "refused");
   EXPECT_EQ(status[all.rows() + 1], "refused");
+}
+
+/// More points than are read ahead; a signal ends the study however many threads wait for them.
+TEST_F(StudyProgram, ASignalEndsTheAnswersToPoints) {
+  std::string points = "contact[0].gap,load[0].amplitude\n";
+  for (int i = 0; i < 2000; ++i) points += "0.5,0.3\n";
+  folder_.write("points.csv", points);
+  for (const std::string threads : {"1", "2"}) {
+    fs::remove(folder_.file("rows.csv"));
+    Process process({"study", "study.toml", "--set", "integrator.tolerance=1e-9", "--points", "points.csv", "--results",
+                     "rows.csv", "-q", "-j", threads},
+                    folder_.path());
+    while ((!fs::exists(folder_.file("rows.csv")) || fs::file_size(folder_.file("rows.csv")) < 300) &&
+           !process.ends_within(std::chrono::milliseconds(1)))
+      continue;
+    process.send(SIGTERM);
+    EXPECT_TRUE(process.ends_within(std::chrono::milliseconds(10000))) << threads;
+    EXPECT_EQ(process.wait(), 1) << threads;
+    EXPECT_EQ(read_file(folder_.file("rows.csv")).back(), '\n');
+  }
+}
+
+/// Excel begins a file in UTF-8 with a byte-order mark.
+TEST_F(StudyProgram, TakesPointsWithAByteOrderMarkAndRefusesAmbiguousOnes) {
+  const std::string mark = "\xEF\xBB\xBF", header = "contact[0].gap,load[0].amplitude\n";
+  folder_.write("points.csv", mark + header + "0.5,0.3\n");
+  const auto answers = [&](const std::string& results) {
+    return run_program({"study", "study.toml", "--points", "points.csv", "--results", results, "-q"}, folder_.path());
+  };
+  Outcome outcome = answers("-");
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find(",completed,"), std::string::npos) << outcome.output;
+  const std::string before = read_file(folder_.file("points.csv"));
+  outcome = answers("points.csv");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("is the file of the points"), std::string::npos) << outcome.errors;
+  EXPECT_EQ(read_file(folder_.file("points.csv")), before);
+  folder_.write("points.csv", "contact[0].gap,contact[0].gap\n0.5,0.3\n");
+  outcome = answers("-");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("names contact[0].gap twice"), std::string::npos) << outcome.errors;
 }
 
 TEST_F(StudyProgram, FailedPointsAreRowsWithTheirReason) {
