@@ -10,7 +10,6 @@
 
 #include "butee/core/error.hpp"
 #include "butee/dynamics/dynamics.hpp"
-#include "butee/dynamics/frequencies.hpp"
 #include "butee/dynamics/kernel/modal_motion.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/general_pairs.hpp"
@@ -23,6 +22,8 @@ using Complex = std::complex<double>;
 /// Entries below this fraction of the geometric mean of the largest in their row and column are
 /// rounding.
 constexpr double kUncoupled = 1e-12;
+/// Squares of frequencies between 0 and minus this fraction of the highest are rounding.
+constexpr double kRoundingOfSquares = 1e-11;
 /// |V| |V^-1| of a set of vectors above which it is not accepted as a basis.
 constexpr double kDefective = 1e6, kHopeless = 1e8;
 
@@ -163,7 +164,6 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   SparseMatrix even = 0.5 * (elastic + transposed);
   auto natural = linalg::dense_pairs(even, system.mass);
   if (!natural) throw InputError("integrator.type: the modes could not be computed");
-  require_no_growth(natural->values[0], natural->values[n - 1]);
   Eigen::MatrixXd& shapes = natural->vectors;
 
   Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);
@@ -191,7 +191,10 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   Parts parts(n);
   join_entries(damping, parts);
   join_entries(stiffness, parts);
-  stiffness.diagonal() += natural->values.cwiseMax(0.0);
+  // Values below 0 are rounding of rigid motion, or those of a structure that is unstable without damping and bearings.
+  const double rounding = kRoundingOfSquares * std::abs(natural->values[n - 1]);
+  stiffness.diagonal() +=
+      (natural->values.array() < 0.0 && natural->values.array() > -rounding).select(0.0, natural->values);
 
   std::vector<Block> blocks;
   std::vector<std::pair<std::size_t, Index>> kept;  ///< block and its damped mode

@@ -93,8 +93,14 @@ Modes modes_of(const linalg::Pairs& pairs, double highest) {
   return {values.cwiseSqrt(), pairs.vectors};
 }
 
-std::optional<Modes> dense_modes(const model::System& system, Index count) {
-  const auto pairs = linalg::dense_pairs(system.stiffness, system.mass);
+/// The solvers read only one half of a matrix.
+SparseMatrix even_stiffness(const model::System& system) {
+  if (system.stiffness_is_symmetric) return system.stiffness;
+  return 0.5 * (system.stiffness + SparseMatrix(system.stiffness.transpose()));
+}
+
+std::optional<Modes> dense_modes(const SparseMatrix& stiffness, const SparseMatrix& mass, Index count) {
+  const auto pairs = linalg::dense_pairs(stiffness, mass);
   if (!pairs) return std::nullopt;
   return modes_of({pairs->values.head(count), pairs->vectors.leftCols(count)}, pairs->values.maxCoeff());
 }
@@ -165,8 +171,7 @@ SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) 
 
 std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops) {
   SparseMatrix stiffness = stiffness_with_stops(system, stops);
-  // Frequencies are those of the symmetric part, since the solvers read only one half of the
-  // matrix.
+  // The solvers read only one half of the matrix.
   if (!system.stiffness_is_symmetric) stiffness = 0.5 * (stiffness + SparseMatrix(stiffness.transpose()));
   if (system.size() <= linalg::kDense) {
     const auto values = linalg::dense_values(Eigen::MatrixXd(stiffness), Eigen::MatrixXd(system.mass));
@@ -186,11 +191,13 @@ std::optional<Modes> lowest_modes(const model::System& system, Index count) {
   if (const std::string complaint = memory_complaint(numbers * sizeof(double)); !complaint.empty())
     throw InputError("the " + std::to_string(count) + " lowest modes of " + std::to_string(system.size()) +
                      " degrees of freedom: that " + complaint + "; take fewer modes, or a method that needs none");
-  if (system.size() <= linalg::kDense || 2 * count + 1 > system.size()) return dense_modes(system, count);
-  const auto highest = highest_eigenvalue(system.stiffness, system.mass);
+  const SparseMatrix stiffness = even_stiffness(system);
+  if (system.size() <= linalg::kDense || 2 * count + 1 > system.size())
+    return dense_modes(stiffness, system.mass, count);
+  const auto highest = highest_eigenvalue(stiffness, system.mass);
   if (!highest) return std::nullopt;
-  const auto pairs = lowest_pairs(system.stiffness, system.mass, *highest, count, kShapeTolerance);
-  if (!pairs || !is_complete(system.stiffness, system.mass, pairs->values, *highest)) return std::nullopt;
+  const auto pairs = lowest_pairs(stiffness, system.mass, *highest, count, kShapeTolerance);
+  if (!pairs || !is_complete(stiffness, system.mass, pairs->values, *highest)) return std::nullopt;
   return modes_of(*pairs, *highest);
 }
 

@@ -35,7 +35,8 @@ struct Modes {
 /// did not converge or missed a mode.
 ///
 /// If omega_i is below 3e-7 of the highest frequency, rounding cannot distinguish it from rigid
-/// motion: it is set to zero.
+/// motion: it is set to zero. Of a stiffness that is not symmetric the symmetric part counts. Throws InputError as
+/// require_no_growth().
 BUTEE_EXPORT std::optional<Modes> lowest_modes(const model::System& system, Index count);
 
 /// The largest sqrt(k_c/m) of all stops, rad/s, with the masses on the diagonal of M at the stop's

@@ -133,6 +133,22 @@ damping = 20.0
 end_time = 1.0
 )";
 
+/// A bearing with cross terms; the symmetric part of its stiffness has an eigenvalue of -500 N/m.
+const std::string kIndefinite = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "journal"
+mass = 2.0
+[[element]]
+type = "bearing"
+node = "journal"
+stiffness = [[1000.0, 4000.0], [-1000.0, 1000.0]]
+damping = [[90.0, 5.0], [-5.0, 80.0]]
+[integrator]
+end_time = 1.0
+)";
+
 /// Scale of displacements, 1/s; it balances the matrix, so that its exponential loses few digits.
 constexpr double kScale = 1e5;
 
@@ -224,7 +240,7 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight));
+INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight, kIndefinite));
 
 /// Dashpots between parts do not act on rigid motion: only its double eigenvalue, moved apart by kNudge,
 /// conditions the basis, not a block of all modes joined to it by rounding.
