@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,9 +42,10 @@ BUTEE_EXPORT model::ProbeRequest probe_of(const Item& item, const scene::Scene& 
 
 /// The part of a run over which results are collected.
 struct Counted {
-  double begin = 0.0, end = 0.0;  ///< s
-  double period = 0.0;            ///< s; 0 if there is none
-  std::int64_t periods = 0;       ///< number of periods in it
+  double begin = 0.0, end = 0.0;                              ///< s
+  double period = 0.0;                                        ///< s; 0 if there is none
+  std::int64_t periods = 0;                                   ///< number of periods in it
+  double interval = std::numeric_limits<double>::infinity();  ///< s; [output] interval of the scene, if it has one
 };
 
 class CollectorPart;

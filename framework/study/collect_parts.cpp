@@ -1,5 +1,6 @@
 #include "butee/study/collect_parts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <numbers>
@@ -42,8 +43,9 @@ double dominant_frequency(std::vector<double> signal, double dt) {
 
 model::OutputRequest rows_of(const std::vector<model::ProbeRequest>& probes, const Counted& counted) {
   model::OutputRequest request;
-  request.interval = (counted.period > 0.0 ? counted.period : counted.end - counted.begin) /
-                     (counted.period > 0.0 ? kSamplesPerPeriod : kFewestSamples);
+  const double fewest =
+      counted.period > 0.0 ? counted.period / kSamplesPerPeriod : (counted.end - counted.begin) / kFewestSamples;
+  request.interval = std::min(fewest, counted.interval);
   request.probes = probes;
   return request;
 }

@@ -27,7 +27,7 @@ const std::vector<ItemKind>& item_kinds() {
   static const std::vector<ItemKind> all = {
       {Kind::peak, "peak",
        "largest |value| over the periods that count, including between steps (forces of elements: at 64 instants of "
-       "each period)"},
+       "each period, or 4096 of a run without one, and at least every [output] interval)"},
       {Kind::max, "max", "largest value, of displacements, velocities and accelerations"},
       {Kind::min, "min", "smallest value, of the same quantities"},
       {Kind::mean, "mean", "mean over time"},

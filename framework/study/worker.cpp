@@ -47,6 +47,7 @@ Counted counted_of(const Study& study, const scene::Scene& scene) {
       study.settle > 0 || study.periods ||
       std::any_of(study.items.begin(), study.items.end(), [](const Item& i) { return i.needs_period(); });
   if (needs_period) counted.period = study.period ? *study.period : period_of(scene.model);
+  if (scene.output.interval) counted.interval = *scene.output.interval;
   counted.begin = static_cast<double>(study.settle) * counted.period;
   counted.end = study.periods ? static_cast<double>(study.settle + *study.periods) * counted.period
                               : scene.integrator.options.end_time;

@@ -179,6 +179,22 @@ TEST_F(StudyProgram, AnswersPointsInTheirOrder) {
   EXPECT_EQ(status[all.rows() + 1], "refused");
 }
 
+/// Forces of elements are sampled; the interval of the scene makes the samples as dense as the rows of a run. At
+/// resonance the displacement reaches 0.3/0.1 and the force of spring and dashpot sqrt(1.01) times that.
+TEST_F(StudyProgram, SamplesForcesAtTheIntervalOfTheScene) {
+  std::string scene = kScene;
+  const std::size_t stop = scene.find("[[contact]]");
+  scene.erase(stop, scene.find("[[load]]") - stop);
+  folder_.write("scene.toml", scene + "end_time = 400.0\n[output]\ninterval = 2e-3\n");
+  folder_.write("study.toml",
+                "schema = 1\nscene = \"scene.toml\"\n[[vary]]\nkey = \"load[0].amplitude\"\nvalues = [0.3]\n[study]\n"
+                "collect = [\"peak m.spring_force\"]\n");
+  perform("rows", {"--format", "csv"});
+  const CsvTable rows(folder_.file("rows/study.csv"));
+  ASSERT_EQ(rows.rows(), 1U);
+  EXPECT_NEAR(std::stod(rows.text_column("peak m.spring_force")[0]), 3.0 * std::sqrt(1.01), 5e-7);
+}
+
 /// More points than are read ahead; a signal ends the study however many threads wait for them.
 TEST_F(StudyProgram, ASignalEndsTheAnswersToPoints) {
   std::string points = "contact[0].gap,load[0].amplitude\n";
