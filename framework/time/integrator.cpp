@@ -1,5 +1,6 @@
 #include "butee/time/integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "butee/core/error.hpp"
@@ -82,7 +83,8 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
 
 void Integrator::end_at_event(const State& from, const Step& step, State& to, StepReport& report) {
   constexpr int kMostTrials = 6, kMostRefuted = 3;
-  constexpr double kLeast = 1e-10, kSame = 1e-6, kSpacings = 4.0;
+  // kNear: the largest error of the dense output near a change, as a part of the step that ends there (chosen).
+  constexpr double kLeast = 1e-10, kSame = 1e-6, kSpacings = 4.0, kNear = 1e-2;
   // Tolerances refer to the length that was asked for: changes of two contacts almost at the same instant leave a step
   // too short to be a measure.
   const double spacing = std::nextafter(from.t, std::numeric_limits<double>::infinity()) - from.t,
@@ -124,8 +126,9 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     // may lie before the end by its error; the state at the end is more accurate.
     const auto before = events_->search().first(dense_output(from, to));
     const bool is_same = before && before->contact == event->contact && before->which == event->which;
-    if (!before || (is_same && is_at_end) || to.t - before->t <= (is_same ? std::max(kSame * step.h, good) : good))
-      return;
+    const double tolerated =
+        !is_same ? good : std::max({kSame * step.h, good, is_at_end ? kNear * (to.t - from.t) : 0.0});
+    if (!before || to.t - before->t <= tolerated) return;
     // If the step that ends at the located change does not reach it, three times in turn (chosen), the switching
     // function only approaches 0, and falls below it by errors of the dense output: there is no change.
     if (is_same && !events_->search().is_over(*event, to) && ++refuted == kMostRefuted) {
