@@ -37,18 +37,12 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
       dofs_(dynamics, modes, varying_.dofs()),
       need_velocity_(dofs_.need_velocity() || varying_.need_velocity()),
       borders_(dynamics.stops()),
-      onset_(dynamics),
+      errors_(dynamics, dofs_),
       scales_(dynamics.system()) {
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
   const Index p = modes.count();
   free_ = nodes_ = polynomial_ = missed_ = Eigen::MatrixXd::Zero(2 * p, kCount);
   end_ = error_ = Vector::Zero(2 * p);
-  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
-    for (Index i = 0; i < obstacles->size(); ++i) {
-      const model::ObstacleGroup& group = obstacles->group_of(i);
-      if (group.shape == nullptr && group.friction.rule != model::Friction::Rule::none) supports_.push_back(i);
-    }
-  support_friction_.resize(static_cast<Index>(supports_.size()), kCount);
 }
 
 double NodeForces::unresolved(const State& from, const double* z, const ModalLoads& loads, double h) const {
@@ -218,62 +212,10 @@ void NodeForces::keep_sides(const Vector& x, Vector& force) const {
   }
 }
 
-void NodeForces::find_support_friction(double t, double h) {
-  auto& [x, v, force] = instant_;
-  for (Index node = 0; node < kCount; ++node) {
-    for (Index k = 0; k < active_.count(); ++k) {
-      const Index dof = active_.dofs[static_cast<std::size_t>(k)];
-      x[dof] = moved_(k, node);
-      v[dof] = moved_velocity_(k, node);
-    }
-    const double now = t + StepNodes::kPlaces[static_cast<std::size_t>(node)] * h;
-    for (std::size_t i = 0; i < supports_.size(); ++i)
-      support_friction_(static_cast<Index>(i), node) = dynamics_.obstacles()->forces(supports_[i], now, x, v).friction;
-  }
-}
-
-void NodeForces::add_onsets(double t, double h) {
-  auto& [x, v, force] = instant_;
-  Vector& errors = work_;
-  errors = Vector::Zero(dynamics_.size());
-  for (const Index node : {Index{0}, kEnd}) {
-    for (Index k = 0; k < active_.count(); ++k) {
-      const Index dof = active_.dofs[static_cast<std::size_t>(k)];
-      x[dof] = moved_(k, node);
-      v[dof] = need_velocity_ || node == 0 ? moved_velocity_(k, node) : active_.velocity.col(k).dot(nodes_.col(node));
-    }
-    onset_.add_errors({node == 0 ? t : t + h, node == 0 ? h : -h, x, v}, errors);
-  }
-  for (Index k = 0; k < active_.count(); ++k) {
-    const double error = errors[active_.dofs[static_cast<std::size_t>(k)]];
-    impulse_errors_[k] += error;
-    inner_errors_[k] += ContactOnset::kInner * error;
-  }
-}
-
 void NodeForces::estimate(double t, const StepResponse& response) {
   const Eigen::MatrixXd nodes = nodes_, polynomial = polynomial_;
-  const AtNodes moved = moved_, legendre = forces_ * StepNodes::legendre();
-  impulse_errors_.resize(active_.count());
-  inner_errors_.resize(active_.count());
-  for (Index k = 0; k < active_.count(); ++k) {
-    impulse_errors_[k] = StepNodes::quadrature_error(legendre.row(k));
-    inner_errors_[k] = StepNodes::inner_error(legendre.row(k));
-  }
-  // Beside the force of a stop on the same DOF, the slow decay of a small force that reverses would not be seen.
-  if (!supports_.empty()) find_support_friction(t, response.h());
-  for (std::size_t i = 0; i < supports_.size(); ++i) {
-    const StepNodes::Row row = support_friction_.row(static_cast<Index>(i)) * StepNodes::legendre();
-    for (const auto& side :
-         {dynamics_.obstacles()->ends_of(supports_[i]).a, dynamics_.obstacles()->ends_of(supports_[i]).b})
-      if (side[0] >= 0) {
-        const Index k = active_.place(side[0]);
-        impulse_errors_[k] = std::max(impulse_errors_[k], StepNodes::quadrature_error(row));
-        inner_errors_[k] = std::max(inner_errors_[k], StepNodes::inner_error(row));
-      }
-  }
-  if (onset_.any()) add_onsets(t, response.h());
-  impulse_errors_ *= response.h();
+  const AtNodes moved = moved_;
+  errors_.find({t, response.h(), active_, forces_, moved_, moved_velocity_, nodes_.col(kEnd)});
   move(response, StepNodes::without_middle());
   // This hardly moves the end if the linear part is slow; the response of the contacts to it makes
   // the difference visible.
@@ -282,23 +224,13 @@ void NodeForces::estimate(double t, const StepResponse& response) {
   error_ = nodes_.col(kEnd) - nodes.col(kEnd);
   // The polynomials with and without the value in the middle have the same integral; the error of
   // this integral is added separately.
-  error_.noalias() += active_.input * impulse_errors_;
-  for (Index k = 0; k < active_.count(); ++k)
-    inner_errors_[k] *= response.h() * dofs_.inverse_mass(active_.dofs[static_cast<std::size_t>(k)]);
+  error_.noalias() += active_.input * errors_.of_impulse();
   // In equilibrium only rounding errors remain.
   if (error_.norm() <= kRoundingOfEnd * (nodes.col(kEnd) - free_.col(kEnd)).norm()) error_.setZero();
   missed_ = polynomial_ - polynomial;
   nodes_ = nodes;
   polynomial_ = polynomial;
   moved_ = moved;
-}
-
-double NodeForces::inner_error(const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const {
-  double largest = 0.0;
-  for (Index k = 0; k < active_.count(); ++k)
-    if (const double scale = scale_v[active_.dofs[static_cast<std::size_t>(k)]]; scale > 0.0)
-      largest = std::max(largest, inner_errors_[k] / scale);
-  return largest;
 }
 
 void NodeForces::end_at(double part, double t, const double* z, const double* loads, const PlaceResponse& response) {

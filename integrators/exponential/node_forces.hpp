@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "integrators/exponential/contact_dofs.hpp"
-#include "integrators/exponential/contact_onset.hpp"
+#include "integrators/exponential/force_errors.hpp"
 #include "integrators/exponential/modal_loads.hpp"
 #include "integrators/exponential/stop_borders.hpp"
 #include "integrators/exponential/sweep_acceleration.hpp"
@@ -52,7 +52,7 @@ class NodeForces {
   const Eigen::VectorXd& error() const { return error_; }
   /// The largest error of a contact's velocity within the step, relative to the scales of velocities
   /// `scale_v` of all DOFs. At the end of the step the error is far smaller.
-  double inner_error(const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const;
+  double inner_error(const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const { return errors_.inner(active_, scale_v); }
   /// The fraction of the step after which a stop crosses one of its borders; `last`, which may slightly exceed 1, if
   /// none does.
   double first_contact_change(double last) const;
@@ -75,11 +75,7 @@ class NodeForces {
   void find_forces(double t, double h, Index node);
   void find_forces(double t, double h);
   void move(const StepResponse& response, const StepNodes::Matrix& coefficients);
-  /// The friction of supports at the nodes, from the motion there.
-  void find_support_friction(double t, double h);
   void estimate(double t, const StepResponse& response);
-  /// Adds the errors of forces that begin or end with the step to impulse_errors_ (here in N) and inner_errors_.
-  void add_onsets(double t, double h);
   /// Sets the scales of displacements and velocities for change(). At a start from rest they are the speed that the
   /// acceleration causes within 1/omega of the contacts, and the way at that speed.
   void find_scales(const time::State& from, double h);
@@ -97,7 +93,7 @@ class NodeForces {
   ContactDofs dofs_;
   bool need_velocity_;
   StopBorders borders_;
-  ContactOnset onset_;
+  ForceErrors errors_;
   std::vector<double> sides_;  ///< of borders_.jumping() in the step
   ActiveDofs active_;
   Instant instant_;
@@ -108,10 +104,6 @@ class NodeForces {
   Eigen::VectorXd end_, error_;
   ComponentScales scales_;
   Vector scale_x_, scale_v_, work_;
-  std::vector<Index> supports_;  ///< friction supports with a smooth law
-  AtNodes support_friction_;     ///< for each of them, N
-  Vector impulse_errors_;        ///< of the active DOFs at the end of the step, N s
-  Vector inner_errors_;          ///< of the velocities of the active DOFs within it, m/s
 };
 
 }  // namespace butee::integrators
