@@ -1,12 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <fcntl.h>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <poll.h>
-#include <unistd.h>
 
 #include <butee/config/toml.hpp>
 #include <butee/core/error.hpp>
@@ -15,7 +10,6 @@
 #include <butee/core/text.hpp>
 #include <butee/study/perform.hpp>
 #include <butee/study/store.hpp>
-#include <butee/study/stream.hpp>
 #include <butee/study/team.hpp>
 
 #include "commands.hpp"
@@ -25,6 +19,7 @@
 #include "study/horizon.hpp"
 #include "study/pictures.hpp"
 #include "study/progress_line.hpp"
+#include "study/streamed_points.hpp"
 
 namespace butee::app {
 namespace {
@@ -198,91 +193,11 @@ int study_in_team(const StudyArguments& arguments, study::Team& team) {
   return status;
 }
 
-/// Lines of a file descriptor. Waits for the next one until the program is interrupted.
-class Lines {
- public:
-  explicit Lines(int file) : file_(file) {}
-  bool next(std::string& line) {
-    constexpr int kMilliseconds = 100;
-    std::size_t end = 0;
-    while ((end = text_.find('\n')) == std::string::npos) {
-      pollfd waiting{file_, POLLIN, 0};
-      while (poll(&waiting, 1, kMilliseconds) <= 0)
-        if (interruption() != nullptr) return false;
-      char part[4096];
-      const ssize_t got = read(file_, part, sizeof(part));
-      if (got <= 0) break;
-      text_.append(part, static_cast<std::size_t>(got));
-    }
-    if (end == std::string::npos && text_.empty()) return false;
-    line = text_.substr(0, end);
-    text_.erase(0, end == std::string::npos ? end : end + 1);
-    return true;
-  }
-
- private:
-  int file_;
-  std::string text_;
-};
-
-/// Reads points from a file or standard input, writes rows to a file or standard output.
-int study_points(const StudyArguments& arguments) {
-  std::ofstream to;
-  int file = STDIN_FILENO;
-  if (arguments.points != "-") {
-    file = open(arguments.points.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) throw InputError("--points " + arguments.points + ": cannot be read");
-    std::error_code none;
-    if (std::filesystem::equivalent(arguments.points, arguments.results, none))
-      throw InputError("--results " + arguments.results + ": is the file of the points; name another one");
-  }
-  Lines lines(file);
-  std::string header, first;
-  const auto next = [&](std::string& line) {
-    while (lines.next(line)) {
-      while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-      if (!line.empty() && line.front() != '#') return true;
-    }
-    return false;
-  };
-  if (!next(header) || !next(first))
-    throw InputError("--points " + arguments.points +
-                     ": holds no points: a line with the keys, then a line for each point");
-  study::Study study = study::load_study(arguments.model.model, {arguments.model.overrides, arguments.model.plugins,
-                                                                 header + "\n" + first + "\n", studies::horizon_of});
-  if (study.plan.follow() != study::Follow::no)
-    throw InputError("study.follow: points given one by one are not a sweep; set it to false");
-  study::check_streamed_points(study);
-  const study::Layout layout = streamed_layout(study);
-  if (arguments.results != "-") {
-    to.open(arguments.results, std::ios::binary);
-    if (!to) throw InputError("--results " + arguments.results + ": cannot be written");
-  }
-  std::ostream& out = arguments.results == "-" ? std::cout : to;
-  watch_for_interruption();
-  bool has_first = true;
-  const auto next_point = [&](std::string& line) {
-    if (!has_first) return next(line);
-    has_first = false;
-    line = first;
-    return true;
-  };
-  const auto respond = [&](const std::string& line) {
-    out << line << '\n' << std::flush;
-    if (!out) throw RunError("--results " + arguments.results + ": cannot be written");
-  };
-  study::answer(study, layout, arguments.threads > 0 ? arguments.threads : study::processor_count(),
-                {next_point, respond, [] { return interruption() == nullptr; }});
-  if (interruption() == nullptr) return kDone;
-  log::error(std::string("interrupted by ") + interruption() + "; " +
-             (arguments.results == "-" ? "standard output" : arguments.results) + " holds the rows of finished points");
-  return kFailed;
-}
-
 int study_command(const StudyArguments& arguments) {
   if (arguments.points.empty() != arguments.results.empty())
     throw InputError("--points and --results go together: points from a file or -, rows into a file or -");
-  if (!arguments.points.empty()) return study_points(arguments);
+  if (!arguments.points.empty())
+    return studies::answer_points({arguments.model, arguments.points, arguments.results, arguments.threads});
   const auto team = study::join_team();
   return team != nullptr ? study_in_team(arguments, *team) : study_alone(arguments);
 }

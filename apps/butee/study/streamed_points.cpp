@@ -1,0 +1,103 @@
+#include "streamed_points.hpp"
+
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <poll.h>
+#include <unistd.h>
+
+#include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
+#include <butee/study/perform.hpp>
+#include <butee/study/stream.hpp>
+
+#include "../interruption.hpp"
+#include "horizon.hpp"
+
+namespace butee::app::studies {
+namespace {
+
+/// Lines of a file descriptor. Waits for the next one until the program is interrupted.
+class Lines {
+ public:
+  explicit Lines(int file) : file_(file) {}
+  bool next(std::string& line) {
+    constexpr int kMilliseconds = 100;
+    std::size_t end = 0;
+    while ((end = text_.find('\n')) == std::string::npos) {
+      pollfd waiting{file_, POLLIN, 0};
+      while (poll(&waiting, 1, kMilliseconds) <= 0)
+        if (interruption() != nullptr) return false;
+      char part[4096];
+      const ssize_t got = read(file_, part, sizeof(part));
+      if (got <= 0) break;
+      text_.append(part, static_cast<std::size_t>(got));
+    }
+    if (end == std::string::npos && text_.empty()) return false;
+    line = text_.substr(0, end);
+    text_.erase(0, end == std::string::npos ? end : end + 1);
+    return true;
+  }
+
+ private:
+  int file_;
+  std::string text_;
+};
+
+}  // namespace
+
+int answer_points(const StreamedPoints& request) {
+  std::ofstream to;
+  int file = STDIN_FILENO;
+  if (request.points != "-") {
+    file = open(request.points.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) throw InputError("--points " + request.points + ": cannot be read");
+    std::error_code none;
+    if (std::filesystem::equivalent(request.points, request.results, none))
+      throw InputError("--results " + request.results + ": is the file of the points; name another one");
+  }
+  Lines lines(file);
+  std::string header, first;
+  const auto next = [&](std::string& line) {
+    while (lines.next(line)) {
+      while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+      if (!line.empty() && line.front() != '#') return true;
+    }
+    return false;
+  };
+  if (!next(header) || !next(first))
+    throw InputError("--points " + request.points +
+                     ": holds no points: a line with the keys, then a line for each point");
+  study::Study study = study::load_study(
+      request.model.model, {request.model.overrides, request.model.plugins, header + "\n" + first + "\n", horizon_of});
+  if (study.plan.follow() != study::Follow::no)
+    throw InputError("study.follow: points given one by one are not a sweep; set it to false");
+  study::check_streamed_points(study);
+  const study::Layout layout = streamed_layout(study);
+  if (request.results != "-") {
+    to.open(request.results, std::ios::binary);
+    if (!to) throw InputError("--results " + request.results + ": cannot be written");
+  }
+  std::ostream& out = request.results == "-" ? std::cout : to;
+  watch_for_interruption();
+  bool has_first = true;
+  const auto next_point = [&](std::string& line) {
+    if (!has_first) return next(line);
+    has_first = false;
+    line = first;
+    return true;
+  };
+  const auto respond = [&](const std::string& line) {
+    out << line << '\n' << std::flush;
+    if (!out) throw RunError("--results " + request.results + ": cannot be written");
+  };
+  study::answer(study, layout, request.threads > 0 ? request.threads : study::processor_count(),
+                {next_point, respond, [] { return interruption() == nullptr; }});
+  if (interruption() == nullptr) return kDone;
+  log::error(std::string("interrupted by ") + interruption() + "; " +
+             (request.results == "-" ? "standard output" : request.results) + " holds the rows of finished points");
+  return kFailed;
+}
+
+}  // namespace butee::app::studies
