@@ -34,8 +34,9 @@ PointTable read_points(const std::string& text) {
       continue;
     }
     if (cells.size() != table.names.size())
-      throw InputError("line " + std::to_string(number) + " has " + std::to_string(cells.size()) +
-                       " cells and the first line names " + std::to_string(table.names.size()) + " columns");
+      throw InputError("line " + std::to_string(number) + " needs a cell for each of the " +
+                       std::to_string(table.names.size()) + " columns that the first line names; it has " +
+                       std::to_string(cells.size()));
     table.rows.push_back(std::move(cells));
     table.lines.push_back(number);
   }

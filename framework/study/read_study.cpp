@@ -30,6 +30,8 @@ constexpr double kStepsUntilEnd = 1000.0;
 
 const std::vector<std::string> kPlans = {"grid", "list", "sobol", "latin"};
 constexpr double kMostPeriods = 1e9;
+/// All integers below are exact as a double.
+constexpr double kLargestInteger = 9e15;
 
 PlanKind kind_of(const std::string& name) {
   return static_cast<PlanKind>(std::find(kPlans.begin(), kPlans.end(), name) - kPlans.begin());
@@ -134,11 +136,29 @@ config::Document scene_beside(const config::Document& study) {
   return config::load_toml(config::path_beside(study, *study.root.table()->find("scene")->text()));
 }
 
-config::Document with_overrides(config::Document scene, const Parameters& p, const StudyOptions& options) {
+config::Document with_overrides(config::Document scene, const Parameters& p, const StudyOptions& options,
+                                const std::vector<Axis>& axes) {
+  const auto apply = [&](const std::string& assignment, const std::string& source) {
+    const std::string key = assignment.substr(0, assignment.find('='));
+    if (std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.key == key; }))
+      throw InputError(source + " \"" + assignment + "\": the study varies " + key +
+                       ", so that this value would be used in no run; remove it, or the key from what varies");
+    config::apply_override(scene, assignment);
+  };
   if (p.has("set"))
-    for (const std::string& assignment : p.texts("set")) config::apply_override(scene, assignment);
-  for (const std::string& assignment : options.overrides) config::apply_override(scene, assignment);
+    for (const std::string& assignment : p.texts("set")) apply(assignment, "study.set");
+  for (const std::string& assignment : options.overrides) apply(assignment, "--set");
   return scene;
+}
+
+/// A value of a range for a key that the scene gives as an integer: 4 instead of 4.0.
+Value as_in_scene(const config::Document& scene, const Axis& axis, const Value& value) {
+  const auto* number = std::get_if<double>(&value.data);
+  if (!axis.range || number == nullptr || *number != std::floor(*number) || !(std::abs(*number) < kLargestInteger))
+    return value;
+  const Value* present = config::find_value(scene, axis.key);
+  if (present == nullptr || !std::holds_alternative<std::int64_t>(present->data)) return value;
+  return Value(static_cast<std::int64_t>(*number));
 }
 
 }  // namespace
@@ -185,7 +205,8 @@ bool is_study(const config::Document& document) {
 config::Document scene_at(const Study& study, const std::vector<Value>& values) {
   config::Document scene = study.scene;
   for (std::size_t i = 0; i < values.size(); ++i)
-    config::apply_override(scene, study.plan.axes()[i].key + "=" + config::to_toml(values[i]));
+    config::apply_override(scene, study.plan.axes()[i].key + "=" +
+                                      config::to_toml(as_in_scene(study.scene, study.plan.axes()[i], values[i])));
   // The study determines the end of its runs; until it is known, any end after the first step will
   // do.
   Table* integrator = (*scene.root.table())["integrator"].table();
@@ -267,8 +288,9 @@ Study study_of(const config::Document& document, const config::Document* known_s
       throw InputError(document.sources.front() + ": " + error.what());
     }
   };
-  Study study{document, with_overrides(known_scene != nullptr ? *known_scene : scene_beside(document), *p, options),
-              plugin::Catalogue::with_plugins(options.plugins), make_plan()};
+  config::Document scene =
+      with_overrides(known_scene != nullptr ? *known_scene : scene_beside(document), *p, options, axes);
+  Study study{document, std::move(scene), plugin::Catalogue::with_plugins(options.plugins), make_plan()};
   study.settle = p->integer("settle");
   if (p->has("periods")) study.periods = p->integer("periods");
   if (p->has("period")) study.period = p->number("period");

@@ -100,8 +100,9 @@ class Answering {
     row.set_integer(layout_.find(kRunColumn), point.number);
     row.set_integer(layout_.find(kPointColumn), point.number);
     row.set_text(layout_.find(kStatusColumn), "refused");
-    row.set_text(layout_.find(kReasonColumn), "the line has " + std::to_string(values.size()) + " cells, but " +
-                                                  std::to_string(study_.plan.axes().size()) + " keys vary");
+    row.set_text(layout_.find(kReasonColumn), "the line needs a cell for each of the " +
+                                                  std::to_string(study_.plan.axes().size()) +
+                                                  " keys that vary; it has " + std::to_string(values.size()));
     return row;
   }
 

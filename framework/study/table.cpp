@@ -138,7 +138,7 @@ Row from_csv(const Layout& layout, const std::string& line) {
   std::size_t wanted = 0;
   for (const Column& column : layout.columns()) wanted += column.type == Column::Type::text ? 1 : column.length;
   if (cells.size() != wanted)
-    throw RunError("a line has " + std::to_string(cells.size()) + " cells instead of " + std::to_string(wanted));
+    throw RunError("a line needs " + std::to_string(wanted) + " cells; it has " + std::to_string(cells.size()));
   Row row(layout);
   auto cell = cells.begin();
   const auto read = [&](auto& value) {
