@@ -78,6 +78,30 @@ Subject subject_of(const plugin::Catalogue& catalogue, const Named& type, const 
   return {catalogue, type.kind, type.name, keys_for(declared, keys_of_type(given, declared)) + places};
 }
 
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The types to test. Throws InputError if the request names a type or a parameter that there is not.
+std::vector<Named> requested(std::vector<Named> types, const Request& request) {
+  std::vector<std::string> names;
+  for (const Named& type : types) names.push_back(type.name);
+  for (const std::string& name : request.only)
+    if (!has(names, name))
+      throw InputError("--only " + name + ": " + request.module + " has no type of this name" +
+                       suggestion(name, names) + "; it has: " + (names.empty() ? "none" : join(names)));
+  if (!request.only.empty()) std::erase_if(types, [&](const Named& type) { return !has(request.only, type.name); });
+  std::vector<std::string> keys;
+  for (const Named& type : types)
+    for (const std::string& key : config::names_of(*type.parameters))
+      if (!has(keys, key)) keys.push_back(key);
+  for (const std::string& assignment : request.given)
+    if (const std::string key = assignment.substr(0, assignment.find('=')); !has(keys, key))
+      throw InputError("--set " + assignment + ": none of the types tested has a parameter " + key +
+                       suggestion(key, keys) + "; they have: " + (keys.empty() ? "none" : join(keys)));
+  return types;
+}
+
 void print(const Check& check, const Finding& finding) {
   std::printf("  %-4s  %-13s  %s\n", finding.passed ? "ok" : "FAIL", check.name.c_str(), finding.details.c_str());
   if (!finding.passed) std::printf("        %-13s  demanded: %s\n", "", check.demand.c_str());
@@ -106,9 +130,7 @@ bool test_module(const Request& request) {
 
   std::size_t passed = 0, count = 0;
   json report = json::array();
-  for (const Named& type : types_of(catalogue, request.module)) {
-    if (!request.only.empty() && std::find(request.only.begin(), request.only.end(), type.name) == request.only.end())
-      continue;
+  for (const Named& type : requested(types_of(catalogue, request.module), request)) {
     const Subject subject = subject_of(catalogue, type, request.given);
     if (!request.as_json) std::printf("%s %s\n", type.kind.c_str(), type.name.c_str());
     for (const Check& check : checks_of(type.kind)) {

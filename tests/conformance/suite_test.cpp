@@ -106,5 +106,19 @@ TEST(ConformanceSuite, CoversTheWholeCatalogue) {
   EXPECT_EQ(registered, covered);
 }
 
+/// A name that no type of the module has is refused before the first check.
+TEST(SuiteOfOtherKinds, NamesOfTheRequestExist) {
+  const TemporaryFolder folder;
+  const auto refusal_of = [&](const std::string& option, const std::string& value) {
+    const auto result =
+        run_program({"test-plugin", std::string(BUTEE_TEST_PLUGINS) + "/smooth.so", option, value}, folder.path());
+    EXPECT_EQ(result.status, 2) << value;
+    return result.errors;
+  };
+  EXPECT_NE(refusal_of("--set", "widht=1e-4").find("a parameter widht (did you mean \"width\"?)"), std::string::npos);
+  EXPECT_NE(refusal_of("--only", "smoth").find("has no type of this name (did you mean \"smooth\"?)"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace butee::test::suite_test
