@@ -1,5 +1,8 @@
 #include "butee/scene/assembly.hpp"
 
+#include <exception>
+#include <new>
+
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/dynamics/modal_dashpots.hpp"
@@ -49,6 +52,13 @@ std::unique_ptr<time::Integrator> make_integrator(Scene& scene, dynamics::Dynami
     const std::string reason = error.what();
     if (reason.starts_with("integrator.type: ") || reason.starts_with("integrator.tolerance: ")) throw refusal(reason);
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const RunError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw RunError(scene.catalogue.find(choice.name)->module + ": making the method \"" + choice.name +
+                   "\" failed: " + error.what());
   }
   if (made == nullptr)
     throw RunError(scene.catalogue.find(choice.name)->module + ": made no method for \"" + choice.name + "\"");

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <new>
 #include <optional>
 
 #include "butee/core/error.hpp"
@@ -183,8 +185,13 @@ bool Simulation::advance() {
     StepReport result;
     try {
       result = integrator_.step(state_, step, next_);
-    } catch (const RunError& error) {
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
       fail(step, error.what());
+      return false;
+    } catch (...) {
+      fail(step, "the method threw an exception that is not a std::exception");
       return false;
     }
     report_.newton_iterations += result.newton_iterations;
