@@ -88,6 +88,14 @@ TEST_F(Package, HasExamplesThatRun) {
   EXPECT_EQ(has("gfortran"), fs::exists(folder.file("examples/build/coupled_beam")));
 }
 
+/// The documents keep their folders, so that links between them lead somewhere.
+TEST_F(Package, HasTheDocuments) {
+  const fs::path documents = package() + "/share/doc/butee";
+  for (const char* name : {"README.md", "CHANGELOG.md", "apps/tutorial.md", "plugins/tutorial.md",
+                           "framework/embed/README.md", "plugins/exponential/THEORY.md"})
+    EXPECT_TRUE(fs::is_regular_file(documents / name)) << name;
+}
+
 TEST_F(Package, IsFoundByPkgConfig) {
   if (!has("pkg-config") || !has("cc")) GTEST_SKIP() << "pkg-config is not there";
   const TemporaryFolder folder;
