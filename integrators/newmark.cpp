@@ -62,9 +62,11 @@ std::vector<Parameter> newton_parameters() {
                     .at_least(1)
                     .at_most(1000)
                     .or_else(std::int64_t{20}));
-  all.push_back(config::text("on_newton_failure", "stop: the run ends if they do not suffice; keep: the step is kept")
-                    .one_of({"stop", "keep"})
-                    .or_else("stop"));
+  all.push_back(
+      config::text("on_newton_failure",
+                   "if they do not suffice: stop ends the run, or halves an adaptive step; keep keeps the step")
+          .one_of({"stop", "keep"})
+          .or_else("stop"));
   return all;
 }
 

@@ -38,8 +38,8 @@ ObstacleSeries::ObstacleSeries(dynamics::Dynamics& dynamics, int order)
     if (group.shape == nullptr) continue;
     if (!group.law->is_piecewise_linear() || group.damping.kind == ImpactDamping::Kind::law ||
         group.shape->form().kind == ContactShape::Form::Kind::other)
-      throw InputError("integrator.type: exact expands contacts (" + group.kind +
-                       ") in series only with law = \"linear\" on lines and circles");
+      throw InputError("integrator.type: exact treats a " + group.kind +
+                       " only with law = \"linear\" and a straight or circular border");
   }
 }
 

@@ -61,6 +61,8 @@ int check_command(const CheckArguments& arguments) {
     studies::print_study_survey(arguments.model, arguments.json);
     return kDone;
   }
+  if (!arguments.picture.empty() && std::filesystem::path(arguments.picture).extension() != ".svg")
+    throw InputError("--picture " + arguments.picture + ": the picture is SVG; give a name that ends with .svg");
   scene::Scene session = open_session(arguments.model);
   const double reading_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   const model::System system = assemble(session.model);

@@ -23,6 +23,17 @@ std::string overview(const CLI::App& program) {
   return text;
 }
 
+/// True for the name of a method, an element or another type.
+bool is_name_of_scene(const std::string& name) {
+  const auto catalogue = plugin::Catalogue::with_plugins();
+  const auto has = [&name](const auto& types) {
+    return std::any_of(types.begin(), types.end(), [&](const auto& type) { return type.name == name; });
+  };
+  const auto& types = catalogue.types();
+  return catalogue.find(name) != nullptr || has(types.elements) || has(types.sections) || has(types.laws) ||
+         has(types.contacts) || has(types.loads) || has(types.formats);
+}
+
 int help_command(const CLI::App& program, const HelpArguments& arguments) {
   std::string text;
   std::vector<std::string> known;
@@ -31,14 +42,16 @@ int help_command(const CLI::App& program, const HelpArguments& arguments) {
     if (topic.name == arguments.topic) text = topic.text(plugin::Catalogue::with_plugins());
   }
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    known.push_back(command->get_name());
+    if (std::find(known.begin(), known.end(), command->get_name()) == known.end()) known.push_back(command->get_name());
     if (command->get_name() != arguments.topic) continue;
     text += (text.empty() ? "" : "\n") + command->help("butee");
   }
   if (arguments.topic.empty()) text = arguments.man ? help::manual_page(program) : overview(program);
   if (text.empty())
     throw InputError("butee help " + arguments.topic + ": there is no such topic or command" +
-                     suggestion(arguments.topic, known) + "; known: " + join(known));
+                     (is_name_of_scene(arguments.topic) ? "; `butee plugins " + arguments.topic + "` explains it"
+                                                        : suggestion(arguments.topic, known)) +
+                     "; known: " + join(known));
   std::fputs(text.c_str(), stdout);
   return kDone;
 }

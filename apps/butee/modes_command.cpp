@@ -49,7 +49,8 @@ void let_turn(model::Model& model, bool is_at_rest) {
   }
   if (!is_at_rest && std::find(model.turns.begin(), model.turns.end(), true) == model.turns.end())
     throw InputError(
-        "--speed: nothing turns in this scene: it has no disc and no beam along x with motion = \"lateral\" or "
+        "--speed and --campbell: nothing turns in this scene: it has no disc and no beam along x with motion = "
+        "\"lateral\" or "
         "\"spatial\"");
 }
 

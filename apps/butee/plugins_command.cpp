@@ -146,7 +146,8 @@ int plugins_command(const PluginsArguments& arguments) {
   }
   if (wanted.empty())
     throw InputError("there is no \"" + arguments.name + "\"" + suggestion(arguments.name, known) +
-                     "; `butee plugins` lists all");
+                     "; `butee plugins` lists all; contacts stop and friction, distributed loads and damping: "
+                     "`butee help contact`, loads, damping");
   if (arguments.json) {
     Json list = Json::array();
     for (const Row* row : wanted) list.push_back(json_of(*row));

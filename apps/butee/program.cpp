@@ -24,8 +24,8 @@ constexpr const char* kExamples =
 int parse_and_run(int argc, char** argv) {
   CLI::App program("butee: transient dynamics of beams and oscillators that strike stops");
   // Checked first: an unavailable BUTEE_TARGET is invalid input for every command.
-  program.set_version_flag("--version", "butee " BUTEE_VERSION "\ninstruction set: " + target() + " of " +
-                                            join(targets()) + "; the rest compiled for " + compiled_for());
+  program.set_version_flag("--version", "butee " BUTEE_VERSION "\ninstruction set: " + target() + " (available: " +
+                                            join(targets()) + "); the rest compiled for " + compiled_for());
   program.require_subcommand(1);
   program.footer(kExamples);
   const std::vector<Command> commands = {

@@ -43,7 +43,7 @@ std::string keys_for(const std::vector<Parameter>& declared, const std::vector<s
     if (!parameter.required || std::find(named.begin(), named.end(), parameter.name) != named.end()) continue;
     if (!parameter.first_try)
       throw InputError(parameter.name +
-                       " = : is required and has neither a default nor a try_first(); give one by --set " +
+                       ": is required and has neither a default nor a first value to try; give one by --set " +
                        parameter.name + "=VALUE");
     lines += parameter.name + " = " + config::to_toml(*parameter.first_try) + "\n";
   }

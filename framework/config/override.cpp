@@ -54,14 +54,16 @@ std::vector<Step> parse_path(const std::string& path, const std::string& assignm
 
 Value& descend(Value& from, const Step& step, const std::string& assignment) {
   Table* table = from.table();
-  if (table == nullptr) refuse(assignment, "\"" + step.key + "\" cannot be set inside " + from.kind());
+  if (table == nullptr)
+    refuse(assignment, "\"" + step.key + "\" cannot be set inside " + from.kind() +
+                           (from.array() != nullptr ? "; name one of its entries, such as contact[0]" : ""));
   Value* value = &(*table)[step.key];
   for (const std::size_t index : step.indices) {
     Array* array = value->array();
     const std::size_t size = array != nullptr ? array->size() : 0;
     if (index >= size)
       refuse(assignment, "there is no " + step.key + "[" + std::to_string(index) + "]; the file has " +
-                             std::to_string(size) + " of them");
+                             std::to_string(size) + " of them, counted from 0");
     value = &(*array)[index];
   }
   return *value;

@@ -29,6 +29,10 @@ std::string quoted_choices(const Parameter& parameter) {
   return "\"" + join(parameter.choices, "\", \"") + "\"";
 }
 
+bool begins_like_number(const std::string& word) {
+  return !word.empty() && std::string("0123456789+-.").find(word.front()) != std::string::npos;
+}
+
 std::string number_complaint(const Parameter& parameter, const Value& value) {
   const auto number = as_number(value);
   const std::string* word = value.text();
@@ -37,7 +41,10 @@ std::string number_complaint(const Parameter& parameter, const Value& value) {
     return "";
   if (!number)
     return "must be a number" + (parameter.choices.empty() ? "" : " or " + quoted_choices(parameter)) + ", not " +
-           (word != nullptr && !parameter.choices.empty() ? "another string" : value.kind());
+           (word != nullptr && !parameter.choices.empty() ? "another string" : value.kind()) +
+           (word != nullptr && begins_like_number(*word)
+                ? "; write it with a decimal point, without a unit and without quotes"
+                : "");
   const bool inside = std::isfinite(*number) && *number <= parameter.upper &&
                       (parameter.lower_open ? *number > parameter.lower : *number >= parameter.lower);
   if (inside) return "";
@@ -58,7 +65,9 @@ std::string text_complaint(const Parameter& parameter, const Value& value) {
 template <class Complaint>
 std::string array_complaint(const Parameter& parameter, const Value& value, const char* of, Complaint complaint) {
   const Array* array = value.array();
-  if (array == nullptr) return std::string("must be an array of ") + of + ", not " + value.kind();
+  if (array == nullptr)
+    return "must be an array of " + (parameter.length ? std::to_string(*parameter.length) + " " : "") + of + ", not " +
+           value.kind();
   if (parameter.length && array->size() != *parameter.length)
     return "must hold " + std::to_string(*parameter.length) + " values, not " + std::to_string(array->size());
   for (std::size_t i = 0; i < array->size(); ++i)
@@ -181,7 +190,8 @@ std::string Parameter::complaint(const Value& value) const {
       return number_complaint(*this, value);
     case Kind::integer:
       if (!std::holds_alternative<std::int64_t>(value.data))
-        return std::string("must be an integer, not ") + value.kind();
+        return std::string("must be an integer, not ") + value.kind() +
+               (std::holds_alternative<double>(value.data) ? "; write it without a decimal point" : "");
       return number_complaint(*this, value);
     case Kind::boolean:
       return std::holds_alternative<bool>(value.data) ? "" : std::string("must be true or false, not ") + value.kind();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -140,6 +141,10 @@ std::string shorten(const std::string& what, const std::string& name, const Orde
     if (number.find_first_not_of("0123456789") == std::string::npos) line = number;
     if (!line.empty() && !defined_twice) break;
   }
+  if (sentence.find("invalid line format") != std::string::npos || sentence.rfind("bad ", 0) == 0)
+    sentence +=
+        "; numbers have a point with digits on both sides (0.5, 1.0e-4) and no unit, texts stand in double quotes, "
+        "comments begin with #";
   const std::int32_t number = line.empty() ? 1 : static_cast<std::int32_t>(std::stol(line));
   return name + ":" + std::to_string(text.original(number)) + ": not valid TOML: " + sentence;
 }
@@ -172,6 +177,8 @@ Document parse_toml(const std::string& given, const std::string& name) {
 Document load_toml(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   file.peek();  // An empty file is good after this; a folder or other object that opens but cannot be read is not.
+  if (std::error_code none; !file && std::filesystem::is_directory(path, none))
+    throw InputError(path + ": is a folder; name the TOML file in it");
   if (!file) throw InputError(path + ": cannot be read; check the name and its permissions");
   std::string text;
   for (std::array<char, 65536> part{}; file.read(part.data(), part.size()), file.gcount() > 0;) {

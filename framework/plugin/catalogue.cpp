@@ -65,8 +65,11 @@ Catalogue Catalogue::with_plugins(const std::vector<std::string>& extra) {
   if (const std::string folder = standard_plugin_folder(); fs::is_directory(folder)) catalogue.add(folder);
   if (const char* path = std::getenv("BUTEE_PLUGIN_PATH")) {
     std::istringstream folders(path);
-    for (std::string folder; std::getline(folders, folder, ':');)
-      if (!folder.empty()) catalogue.add(folder);
+    for (std::string folder; std::getline(folders, folder, ':');) try {
+        if (!folder.empty()) catalogue.add(folder);
+      } catch (const InputError& error) {
+        throw InputError(std::string("BUTEE_PLUGIN_PATH: ") + error.what());
+      }
   }
   for (const std::string& item : extra) catalogue.add(item);
   return catalogue;

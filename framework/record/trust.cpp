@@ -118,7 +118,8 @@ std::string describe(const Trust& trust) {
   std::string text = "  trust: compared with " + join(beside, " and ") + ", the error of the probes' displacements and rotations is ";
   const std::string accuracy = to_short_text(trust.accuracy) + " of the peak";
   if (trust.to_the_end)
-    text += "at most " + to_short_text(trust.bound) + " of the peak to the end: the run is accurate to " + accuracy;
+    text += "at most " + to_short_text(trust.bound) + " of the peak to the end, within the " +
+            to_short_text(trust.accuracy) + " demanded (trust_accuracy)";
   else
     text += "at most " + accuracy + " up to t = " + to_short_text(trust.horizon) +
             " s: the run is accurate up to that time" +

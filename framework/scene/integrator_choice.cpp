@@ -134,7 +134,8 @@ class ChoiceReader {
       std::string complaint = "unknown key" + suggestion(key, known);
       if (!owners.empty())
         complaint = "is no parameter of " + chosen->declaration.name + "; it belongs to " + join(owners) +
-                    ": move it to a table [integrator." + owners.front() + "]";
+                    ": remove it, or move it to a table [integrator." + owners.front() +
+                    "], which counts where that method is chosen";
       diagnostics_.error("integrator." + key, value, complaint + "; known here: " + join(known));
     }
   }
@@ -153,7 +154,9 @@ class ChoiceReader {
         if (value != nullptr && !parameter.complaint(*value).empty()) continue;
       }
       if (value != nullptr) merged[parameter.name] = *value;
-      declared.push_back(parameter);
+      // Whether a step is needed depends on the method.
+      declared.push_back(chosen == nullptr && parameter.name == "time_step" ? Parameter(parameter).optional()
+                                                                            : parameter);
     }
     return read_parameters(Value(std::move(merged), at_), "integrator", declared, diagnostics_);
   }

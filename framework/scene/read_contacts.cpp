@@ -253,9 +253,7 @@ bool SceneReader::read_ends(const Parameters& p, const std::vector<DofKind>& dir
   const auto nodes = select(p, "nodes");
   if (!nodes) return false;
   a = *nodes;
-  bool ok = true;
-  for (const NodeId node : a) ok = check_directions(p, "nodes", node, directions) && ok;
-  return ok;
+  return std::all_of(a.begin(), a.end(), [&](NodeId node) { return check_directions(p, "nodes", node, directions); });
 }
 
 bool SceneReader::check_directions(const Parameters& p, const char* key, NodeId node,

@@ -12,6 +12,24 @@ using config::number;
 using config::Parameters;
 using config::Value;
 
+namespace {
+
+/// The motion of beams that has a degree of freedom which planar ones lack.
+std::string motion_with(DofKind kind) {
+  switch (kind) {
+    case DofKind::uz:
+    case DofKind::ry:
+      return "; beams with motion = \"lateral\" or \"spatial\" do";
+    case DofKind::ux:
+    case DofKind::rx:
+      return "; beams with motion = \"spatial\" do";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> model_keys() {
   return {"schema", "title",   "material", "section",  "element", "support", "contact",
           "load",   "damping", "initial",  "rotation", "gravity", "base"};
@@ -153,7 +171,9 @@ void SceneReader::read_supports() {
         if (dofs.exists(dof))
           model_.fixed.push_back(dof);
         else if (!lacks_elements_)
-          p->complain(diagnostics_, "fix", model_.nodes.name(node) + " has no " + kind + ": no element there uses it");
+          p->complain(
+              diagnostics_, "fix",
+              model_.nodes.name(node) + " has no " + kind + ": no element there uses it" + motion_with(dof.kind));
       }
   }
 }
@@ -180,7 +200,7 @@ void SceneReader::check_free(const Parameters& parameters, const std::string& ke
   if (!dofs_->exists(dof)) {
     if (!lacks_elements_)
       parameters.complain(diagnostics_, parameters.given("dof") ? "dof" : key,
-                          dofs_->name(dof) + " does not exist: no element there uses it");
+                          dofs_->name(dof) + " does not exist: no element there uses it" + motion_with(dof.kind));
   } else if (dofs_->is_fixed(dof)) {
     parameters.complain(
         diagnostics_, key,

@@ -98,6 +98,11 @@ Scene read_scene(config::Document document, plugin::Catalogue catalogue, Output 
 Scene load_scene(const std::string& path, const std::vector<std::string>& overrides,
                  const std::vector<std::string>& plugins) {
   config::Document document = config::load_toml(path);
+  const config::Table& root = *document.root.table();
+  if (root.find("element") == nullptr && (root.find("scene") != nullptr || root.find("scenes") != nullptr))
+    throw InputError(path +
+                     ": is not a scene but a study of scenes; `butee study` performs those with `scene`, `butee "
+                     "compare` those with `scenes`");
   for (const std::string& assignment : overrides) config::apply_override(document, assignment);
   return read_scene(std::move(document), plugin::Catalogue::with_plugins(plugins));
 }

@@ -71,7 +71,10 @@ void NodeForces::find_forces(double t, double h, Index node) {
   const double now = t + StepNodes::kPlaces[static_cast<std::size_t>(node)] * h;
   dynamics_.add_obstacle_force(now, x, v, force);
   // A step may end where the acceleration of the rotation jumps.
-  if (!varying_.dofs().empty()) varying_.add(node == kEnd ? dynamics::just_before(now) : now, x, v, force);
+  if (!varying_.dofs().empty()) {
+    ++dynamics_.counters().force_evaluations;
+    varying_.add(node == kEnd ? dynamics::just_before(now) : now, x, v, force);
+  }
   for (Index k = 0; k < active_.count(); ++k) forces_(k, node) = force[active_.dofs[static_cast<std::size_t>(k)]];
 }
 

@@ -42,7 +42,7 @@ TEST(BadUsage, OfFiles) {
   const TemporaryFolder folder;
   folder.write("empty.toml", "");
   expect_refusal({"run", "nowhere.toml"}, folder, {"nowhere.toml: cannot be read"});
-  expect_refusal({"run", "."}, folder, {".: cannot be read"});
+  expect_refusal({"run", "."}, folder, {".: is a folder; name the TOML file in it"});
   expect_refusal(
       {"run", "empty.toml"}, folder,
       {"empty.toml:1: schema: missing", "empty.toml:1: element: missing", "empty.toml:1: integrator: missing"});

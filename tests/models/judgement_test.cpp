@@ -72,7 +72,7 @@ TEST(Judgement, DoesNotCallARunAccurateThatMissedTheMotion) {
                "1e-3\nend_time = 0.5\n[[output.probe]]\nlabel = \"m\"\nnode = \"m\"\nquantities = [\"u\"]\n");
   const Outcome outcome = run_program({"run", "pulse.toml", "--trust"}, folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  EXPECT_EQ(outcome.output.find("the run is accurate to"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("demanded (trust_accuracy)"), std::string::npos) << outcome.output;
   EXPECT_NE((outcome.output + outcome.errors).find("the load on u of m changes within 5e-05 s, and steps of 0.001 s"),
             std::string::npos)
       << outcome.errors << outcome.output;

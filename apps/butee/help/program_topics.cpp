@@ -144,8 +144,9 @@ std::string trust_text(const plugin::Catalogue&) {
 tenth of the tolerance, by a method of another family (`exact` where it can), and from disturbed states. It prints an
 error bound of the probes' displacements and rotations, the time up to which this bound is within trust_accuracy (1 %
 of the peak), the growth of small differences, whether the motion is chaotic, and bounds of rms values, peaks and
-forces. Velocities and accelerations are not judged row by row. summary.json contains the same under `trust`. It takes about ten times as long as the run; if no method of another family needs less than a
-few times the run's work, a message says so and the bound is wider.
+forces. Velocities and accelerations are not judged row by row. summary.json contains the same under `trust`. It takes
+ten times as long as the run or longer, since the other method is far more accurate: seconds for runs of milliseconds.
+If no method of another family can run the scene within a bound of its work, a message says so and the bound is wider.
 
 Motion against stops is often chaotic: differences grow like e^(20 t) in one of the paper's scenes. Then no method can
 predict the motion for long, while peaks and rms values may still be accurate.
