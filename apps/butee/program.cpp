@@ -1,6 +1,7 @@
 #include "program.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <butee/core/error.hpp>
 #include <butee/core/target.hpp>
@@ -42,6 +43,10 @@ int parse_and_run(int argc, char** argv) {
                      "; known: " + join(known));
   try {
     program.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    const int status = program.exit(error);
+    std::fputs("Keys of a scene are set by --set KEY=VALUE, such as --set integrator.tolerance=1e-3\n", stderr);
+    return status == 0 ? kDone : kBadInput;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? kDone : kBadInput;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "butee/core/text.hpp"
 #include "butee/dynamics/frequencies.hpp"
@@ -224,22 +225,26 @@ void GrowthWatch::note_coarseness(const State& from, const State& to, double h) 
 std::vector<std::string> GrowthWatch::warnings() const {
   std::vector<std::string> all;
   if (!may_be_coarse_) return all;
-  const auto take = [this](double h) {
-    return has_fixed_steps_
-               ? ". Take a time_step of " + to_short_text(h) +
-                     " s or less, or a method with error control, such as auto"
-               : ". Tighten its control, so that steps come down to " + to_short_text(h) + " s, or take auto";
-  };
+  const bool is_coarse = coarseness_ > kCoarse,
+             misses_impacts = is_met_ && longest_step_ * contact_frequency_ > kCoarseImpact;
+  double advised = std::numeric_limits<double>::infinity();
+  if (is_coarse) advised = coarse_step_ * std::cbrt(kFine / coarseness_);
+  if (misses_impacts) advised = std::min(advised, 0.1 / contact_frequency_);
+  const std::string advice = has_fixed_steps_ ? ". Take a time_step of " + to_short_text(advised) +
+                                                    " s or less, or a method with error control, such as auto"
+                                              : ". Tighten its control, so that steps come down to " +
+                                                    to_short_text(advised) + " s, or take auto";
   const std::string prefix = limits_.name + ": ";
-  if (coarseness_ > kCoarse)
-    all.push_back(prefix + "steps of " + to_short_text(coarse_step_) +
+  // The last of equal steps may be shorter.
+  const double step = has_fixed_steps_ ? longest_step_ : coarse_step_;
+  if (is_coarse)
+    all.push_back(prefix + "steps of " + to_short_text(step) +
                   " s are too long for this motion; the error of a single step was up to " +
-                  to_short_text(coarseness_) + " of the largest displacement" +
-                  take(coarse_step_ * std::cbrt(kFine / coarseness_)));
-  if (is_met_ && longest_step_ * contact_frequency_ > kCoarseImpact)
+                  to_short_text(coarseness_) + " of the largest displacement" + advice);
+  if (misses_impacts)
     all.push_back(prefix + "an impact at the stiffest stop lasts " + to_short_text(kPi / contact_frequency_) +
                   " s or less, so that steps of " + to_short_text(longest_step_) + " s do not resolve its force" +
-                  take(0.1 / contact_frequency_));
+                  advice);
   return all;
 }
 

@@ -30,6 +30,11 @@ ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedMod
       if (group.law != nullptr && !group.law->is_silent_while_open()) refuse_law();
       for (const auto& side : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
         for (const Index dof : side) take(dof, obstacles->closed_stiffness(i), modes);
+      const bool is_simple =
+          group.shape != nullptr && group.shape->form().kind != model::ContactShape::Form::Kind::other;
+      const double directions = static_cast<double>(group.directions.size()), nodes = group.b.empty() ? 1.0 : 2.0;
+      limit_clearance(group.law.get(), is_simple ? -group.shape->at({0.0, 0.0}).penetration : 0.0,
+                      nodes * std::sqrt(directions));
       need_velocity_ = need_velocity_ || group.damping.kind != model::ImpactDamping::Kind::none ||
                        group.friction.rule != model::Friction::Rule::none;
     }
@@ -37,6 +42,7 @@ ContactDofs::ContactDofs(dynamics::Dynamics& dynamics, const dynamics::DampedMod
   const Vector closed = contact.closed_stiffness();
   for (Index i = 0; i < contact.size(); ++i) {
     for (const Index dof : {contact.dof_a(i), contact.dof_b(i)}) take(dof, closed[i], modes);
+    limit_clearance(&contact.law_of(i), contact.play_of(i).gap, contact.dof_b(i) >= 0 ? 2.0 : 1.0);
   }
   for (const Index dof : others) find_inverse_mass(dof, modes);
   sort_once(dofs_);
@@ -54,6 +60,11 @@ void ContactDofs::take(Index dof, double stiffness, const dynamics::DampedModes&
   find_inverse_mass(dof, modes);
   stiffness_[dof] += stiffness;
   highest_frequency_ = std::max(highest_frequency_, std::sqrt(stiffness * inverse_mass_[dof]));
+}
+
+void ContactDofs::limit_clearance(const model::ContactLaw* law, double distance, double most) {
+  clearance_ =
+      std::min(clearance_, law != nullptr && law->is_silent_while_open() ? std::max(0.0, distance) / most : 0.0);
 }
 
 void ContactDofs::find_inverse_mass(Index dof, const dynamics::DampedModes& modes) {

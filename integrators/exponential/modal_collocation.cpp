@@ -105,7 +105,9 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   };
   const double wanted = to.t - from.t,
                coarse = forces_.unresolved(from, modal(from), loads_, wanted) / (kResolved * tolerance_);
-  if (coarse > 1.0) return redo_with(wanted * std::max(0.1, by_resolution(coarse)));
+  // Far from all contacts their motion between the nodes does not matter.
+  const bool is_far = coarse > 0.0 && forces_.stays_apart(modal(from));
+  if (coarse > 1.0 && !is_far) return redo_with(wanted * std::max(0.1, by_resolution(coarse)));
   if (const double turn = forces_.varying().highest_frequency() * wanted; turn > kMostTurn)
     return redo_with(wanted * kMostTurn / turn);
   double h = wanted;
@@ -131,6 +133,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
     to.t = from.t + h;
     ++report.inner_rejected;
   }
+  if (coarse > 1.0 && !forces_.stays_apart()) return redo_with(h * std::max(0.1, by_resolution(coarse)));
   accept(from, h, to);
   if (const double most = outputs_.longest(from, to); h > most) return redo_with(most);
   solved_end_ = to.t;
@@ -140,7 +143,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
       control_.is_still(to) ? 0.0 : forces_.inner_error(LocalErrorControl::scales_v(to)) / (kInner * tolerance_);
   if (inner > 1.0) return redo_with(h * std::max(0.1, by_inner(inner)));
   if (inner > 0.0) report.proposal = std::min(report.proposal, on_grid(h * by_inner(inner)));
-  if (coarse > 0.0) report.proposal = std::min(report.proposal, on_grid(h * by_resolution(coarse)));
+  if (coarse > 0.0 && !is_far) report.proposal = std::min(report.proposal, on_grid(h * by_resolution(coarse)));
   // A step shortened by a change of contact does not limit the next step.
   if (h < wanted) report.proposal = std::max(report.proposal, wanted);
   return report;

@@ -19,6 +19,10 @@ constexpr double kContraction = 0.6;
 constexpr int kPatience = 4;
 /// The smallest scale of a velocity in the weights of the sweeps, as a fraction of the largest.
 constexpr double kLeastScale = 1e-3;
+/// The largest displacement within a step, and that of the polynomial through the nodes, over the sum of the modes'
+/// amplitudes at the nodes, at most: the polynomial reaches 3.12 times the largest value at the nodes (its Lebesgue
+/// constant), the modes by little more than that value.
+constexpr double kBetweenNodes = 3.2;
 /// Changes of a force below this fraction of it are rounding errors.
 constexpr double kRounding = 1e-13;
 /// The rounding error of a displacement at a node, relative to the largest one: that of a sum over many modes. A stiff
@@ -56,6 +60,19 @@ double NodeForces::unresolved(const State& from, const double* z, const ModalLoa
   const auto scales = LocalErrorControl::scales_x(from);
   for (const Index dof : dofs_.all()) scale = std::max(scale, scales[dof]);
   return scale > 0.0 ? sum / scale : 0.0;
+}
+
+bool NodeForces::stays_apart(const double* z) const {
+  const Index p = modes_.count();
+  double sum = 0.0;
+  for (Index k = 0; k < p; ++k) sum += dofs_.reach()[k] * std::hypot(z[k], z[p + k]);
+  return kBetweenNodes * sum < dofs_.clearance();
+}
+
+bool NodeForces::stays_apart() const {
+  for (Index j = 0; j < kCount; ++j)
+    if (!stays_apart(nodes_.col(j).data())) return false;
+  return true;
 }
 
 void NodeForces::find_forces(double t, double h, Index node) {

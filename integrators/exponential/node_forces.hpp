@@ -29,6 +29,11 @@ class NodeForces {
   /// polynomial through its values at the nodes, divided by the largest displacement scale of the
   /// contacts or, at a start, by what a mode reaches in the step.
   double unresolved(const time::State& from, const double* z, const ModalLoads& loads, double h) const;
+  /// True if the displacements of contacts at modal coordinates `z` (2p numbers) are so small that none of them can act
+  /// in a step at whose nodes they are that small.
+  bool stays_apart(const double* z) const;
+  /// The same for the motion at all nodes of the step found last.
+  bool stays_apart() const;
 
   enum class Outcome { converged, diverged, not_finite };
   /// Computes the motion of a step from `from`; free_nodes() must hold its motion without contacts.

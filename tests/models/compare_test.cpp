@@ -186,7 +186,7 @@ TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
   const Outcome orderly = run_program(
       {"run", model_path("beam1"), "--set", "integrator.time_step=1e-4", "--trust", "-o", "out"}, folder.path());
   ASSERT_EQ(orderly.status, 0) << orderly.errors;
-  EXPECT_NE(orderly.output.find("to the end: the run is accurate"), std::string::npos) << orderly.output;
+  EXPECT_NE(orderly.output.find("to the end, within the 0.01 demanded (trust_accuracy)"), std::string::npos) << orderly.output;
   EXPECT_EQ(orderly.output.find("grow like e^"), std::string::npos) << orderly.output;
   // `exact` would take ten times as long as all other runs.
   EXPECT_NE(orderly.output.find("compared with a run by exponential"), std::string::npos) << orderly.output;

@@ -106,8 +106,9 @@ std::string limits_text(const plugin::Catalogue&) {
                axial forces that change with the motion (a preload is a constant)
   Large motion large rotations, stress stiffening, motion after buckling
   Materials    plasticity, creep, fatigue; damping beyond Rayleigh's, modal damping, bearings and dashpots
-  Contact      in three directions at once; at places that move along a beam, or between surfaces; rigid stick in a ring
-  Loads        forces that depend on the motion, moving loads
+  Contact      in three directions at once; at places that move along a beam, or between surfaces; rigid stick in a ring;
+               stops that press at rest (a gap below 0), or between a body and a support that moves by itself
+  Loads        forces that depend on the motion, moving loads; jumps in a table (two values at one instant)
   Results      stresses of transverse shear, of torsion in sections that are not round; fatigue; optimal parameters; static
                solutions without a run
 
