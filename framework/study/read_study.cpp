@@ -43,6 +43,17 @@ class Reader {
   Reader(const config::Document& document, Diagnostics& diagnostics)
       : document_(document), diagnostics_(diagnostics), root_(*document.root.table()) {}
 
+  /// A comparison of methods gets one kind of message, not one for each of its keys.
+  void refuse_comparison() {
+    const Value* table = root_.find("study");
+    for (const char* of_compare : {"scenes", "method", "targets"})
+      if (table != nullptr && table->table() != nullptr && table->table()->find(of_compare) != nullptr)
+        diagnostics_.error(std::string("study.") + of_compare, table->at,
+                           "belongs to a comparison of methods, which is `butee compare`; a study of `butee study` has "
+                           "scene and [[vary]]");
+    diagnostics_.throw_if_any();
+  }
+
   void check_root() {
     read_parameters(document_.root, "",
                     {config::integer("schema", "the version of this format").at_least(1).at_most(1),
@@ -56,11 +67,6 @@ class Reader {
   std::optional<Parameters> settings() {
     const Value empty;
     const Value* table = root_.find("study");
-    for (const char* of_compare : {"scenes", "method", "targets"})
-      if (table != nullptr && table->table() != nullptr && table->table()->find(of_compare) != nullptr)
-        diagnostics_.error(std::string("study.") + of_compare, table->at,
-                           "belongs to a comparison of methods, which is `butee compare`; a study of `butee study` has "
-                           "scene and [[vary]]");
     auto p = read_parameters(table != nullptr ? *table : empty, "study", study_parameters(), diagnostics_, {"follow"});
     follow_ = read_follow(table);
     return p;
@@ -243,6 +249,7 @@ namespace {
 Study study_of(const config::Document& document, const config::Document* known_scene, const StudyOptions& options) {
   Diagnostics diagnostics(document);
   Reader reader(document, diagnostics);
+  reader.refuse_comparison();
   reader.check_root();
   const auto p = reader.settings();
   diagnostics.throw_if_any();

@@ -76,6 +76,8 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
   const std::string history_path = (fs::path(folder) / "history.csv").string();
   if (!fs::is_directory(folder)) throw InputError(folder + ": is not a folder; name the result folder of `butee run`");
   if (!fs::exists(model_path)) throw InputError(folder + ": holds no results of `butee run`: model.toml is missing");
+  if (!fs::exists(fs::path(folder) / "summary.json") && fs::exists(fs::path(folder) / "report.md"))
+    throw InputError(folder + ": is a folder of `butee compare`, whose pictures are already in it");
   // Pictures do not need the time functions of loads, and the result folder may have been moved away from
   // their files.
   const config::Document document = config::without_files(config::load_toml(model_path));
