@@ -24,7 +24,7 @@ std::string overview(const CLI::App& program) {
 }
 
 /// True for the name of a method, an element or another type.
-bool is_name_of_scene(const std::string& name) {
+bool is_type_name(const std::string& name) {
   const auto catalogue = plugin::Catalogue::with_plugins();
   const auto has = [&name](const auto& types) {
     return std::any_of(types.begin(), types.end(), [&](const auto& type) { return type.name == name; });
@@ -49,8 +49,8 @@ int help_command(const CLI::App& program, const HelpArguments& arguments) {
   if (arguments.topic.empty()) text = arguments.man ? help::manual_page(program) : overview(program);
   if (text.empty())
     throw InputError("butee help " + arguments.topic + ": there is no such topic or command" +
-                     (is_name_of_scene(arguments.topic) ? "; `butee plugins " + arguments.topic + "` explains it"
-                                                        : suggestion(arguments.topic, known)) +
+                     (is_type_name(arguments.topic) ? "; `butee plugins " + arguments.topic + "` explains it"
+                                                    : suggestion(arguments.topic, known)) +
                      "; known: " + join(known));
   std::fputs(text.c_str(), stdout);
   return kDone;

@@ -50,8 +50,7 @@ void let_turn(model::Model& model, bool is_at_rest) {
   if (!is_at_rest && std::find(model.turns.begin(), model.turns.end(), true) == model.turns.end())
     throw InputError(
         "--speed and --campbell: nothing turns in this scene: it has no disc and no beam along x with motion = "
-        "\"lateral\" or "
-        "\"spatial\"");
+        "\"lateral\" or \"spatial\"");
 }
 
 /// Warns if the rounding error of the stiffness, eps sum |K_ii| |x_i|^2, is not negligible relative to x^H K

@@ -146,8 +146,8 @@ int plugins_command(const PluginsArguments& arguments) {
   }
   if (wanted.empty())
     throw InputError("there is no \"" + arguments.name + "\"" + suggestion(arguments.name, known) +
-                     "; `butee plugins` lists all; contacts stop and friction, distributed loads and damping: "
-                     "`butee help contact`, loads, damping");
+                     "; `butee plugins` lists all; for stop, friction, distributed loads and damping see `butee help "
+                     "contact`, `butee help loads` and `butee help damping`");
   if (arguments.json) {
     Json list = Json::array();
     for (const Row* row : wanted) list.push_back(json_of(*row));

@@ -200,8 +200,7 @@ void print(const scene::Scene& session, const model::System& system, const Facts
     if (facts.open->lowest < kZeroFrequency * facts.open->highest)
       std::printf(
           "free       with all stops open the lowest frequency is nearly 0 beside the highest: a rigid body, a "
-          "mechanism, "
-          "or a very soft structure: %s\n",
+          "mechanism, or a very soft structure: %s\n",
           dynamics::describe_softest_motion(system.stiffness, system.dofs).c_str());
   }
   print_mechanics(facts.mechanics);
