@@ -101,17 +101,41 @@ class Coefficients {
     entries_.emplace_back(real_row, column, value.real());
     entries_.emplace_back(imaginary_row, column, value.imag());
   }
-  Eigen::MatrixXd times(const Eigen::MatrixXd& other, Index rows) const {
-    constexpr double kFull = 0.1;  // chosen
-    SparseMatrix matrix(rows, other.rows());
+  SparseMatrix matrix(Index rows, Index columns) const {
+    SparseMatrix matrix(rows, columns);
     matrix.setFromTriplets(entries_.begin(), entries_.end());
-    if (static_cast<double>(matrix.nonZeros()) < kFull * static_cast<double>(matrix.size())) return matrix * other;
-    return Eigen::MatrixXd(matrix) * other;
+    return matrix;
   }
 
  private:
   std::vector<Eigen::Triplet<double>> entries_;
 };
+
+Eigen::MatrixXd product(const SparseMatrix& coefficients, const Eigen::MatrixXd& other) {
+  constexpr double kFull = 0.1;  // chosen
+  if (static_cast<double>(coefficients.nonZeros()) < kFull * static_cast<double>(coefficients.size()))
+    return coefficients * other;
+  return Eigen::MatrixXd(coefficients) * other;
+}
+
+/// The parts of the DOFs (rows) that columns of `shapes` move.
+std::vector<DampedModes::Natural::Part> parts_of(const Eigen::MatrixXd& shapes) {
+  const Index n = shapes.rows();
+  Parts joined(n + shapes.cols());
+  for (Index j = 0; j < shapes.cols(); ++j)
+    for (Index i = 0; i < n; ++i)
+      if (shapes(i, j) != 0.0) joined.join(i, n + j);
+  std::vector<DampedModes::Natural::Part> parts;
+  for (const std::vector<Index>& list : joined.lists()) {
+    DampedModes::Natural::Part& part = parts.emplace_back();
+    for (const Index i : list)
+      if (i < n)
+        part.dofs.push_back(i);
+      else
+        part.modes.push_back(i - n);
+  }
+  return parts;
+}
 
 }  // namespace
 
@@ -249,11 +273,12 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   }
   speed_ = (decay_.square() + turn_.square()).sqrt();
   const Eigen::MatrixXd by_dof = shapes.transpose(), by_force = (system.mass * shapes).transpose();
-  displacement_ = of_x.times(by_dof, 2 * p);
-  velocity_ = of_v.times(by_dof, 2 * p);
-  input_ = from_v.times(by_dof, 2 * p);
-  from_v_ = from_v.times(by_force, 2 * p);
-  from_x_ = from_q.times(by_force, 2 * p);
+  natural_ = {shapes, of_x.matrix(2 * p, n), of_v.matrix(2 * p, n), from_v.matrix(2 * p, n), parts_of(shapes)};
+  displacement_ = product(natural_.displacement, by_dof);
+  velocity_ = product(natural_.velocity, by_dof);
+  input_ = product(natural_.input, by_dof);
+  from_v_ = product(natural_.input, by_force);
+  from_x_ = product(from_q.matrix(2 * p, n), by_force);
 }
 
 void DampedModes::turn_by(double t, Index first, Eigen::Ref<Eigen::ArrayXd> re, Eigen::Ref<Eigen::ArrayXd> im) const {

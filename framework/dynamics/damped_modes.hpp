@@ -52,6 +52,19 @@ class BUTEE_EXPORT DampedModes {
   const Eigen::MatrixXd& velocity() const { return velocity_; }          ///< 2p x n
   const Eigen::MatrixXd& input() const { return input_; }                ///< 2p x n: z' gets column d times f_d
 
+  /// The natural modes that the damped ones combine: with the coordinates q of natural modes, x = shapes q, q =
+  /// displacement^T z, q' = velocity^T z, and forces f add input shapes^T f to z'.
+  struct Natural {
+    Eigen::MatrixXd shapes;                      ///< n x n, column i is natural mode i
+    SparseMatrix displacement, velocity, input;  ///< 2p x n
+    /// DOFs and the natural modes that move them alone, such as those of one plane.
+    struct Part {
+      std::vector<Index> dofs, modes;
+    };
+    std::vector<Part> parts;
+  };
+  const Natural& natural() const { return natural_; }
+
   /// re + i im = e^(lambda t) of the modes from `first` on, as many as there is room for.
   void turn_by(double t, Index first, Eigen::Ref<Eigen::ArrayXd> re, Eigen::Ref<Eigen::ArrayXd> im) const;
   /// z, 2p numbers, of the motion (x, v).
@@ -70,6 +83,7 @@ class BUTEE_EXPORT DampedModes {
 
   Eigen::ArrayXd decay_, turn_, speed_, kinetic_;
   Eigen::MatrixXd displacement_, velocity_, input_, from_x_, from_v_;
+  Natural natural_;
   double condition_ = 1.0, reference_speed_ = 0.0;
 };
 

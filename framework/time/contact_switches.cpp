@@ -25,6 +25,10 @@ ContactSwitches::ContactSwitches(dynamics::Dynamics& dynamics)
         if (dof >= 0) share += kRoundingOfModes / root_mass_[dof];
     rounding_shares_.push_back(share);
     needs_accelerations_ = needs_accelerations_ || obstacles_.switches_by_acceleration(i);
+    const model::ObstacleGroup& group = obstacles_.group_of(i);
+    needs_velocities_ = needs_velocities_ || needs_accelerations_ ||
+                        group.friction.rule != model::Friction::Rule::none ||
+                        group.damping.kind != model::ImpactDamping::Kind::none;
   }
   if (needs_accelerations_) values_a_ = values_x_;
 }
@@ -69,12 +73,10 @@ void ContactSwitches::interpolate(const DenseOutput& motion, double t, const std
     if (needs_accelerations_) at.a = to.a;
   } else {
     const std::vector<Index>& used = sticks_.empty() ? dofs : all_;
-    const std::span<double> x(values_x_.data(), used.size()), v(values_v_.data(), used.size());
+    const std::span<double> x(values_x_.data(), used.size()), v(values_v_.data(), needs_velocities_ ? used.size() : 0);
     motion.trace(t, used, {x, v, {}});
-    for (std::size_t k = 0; k < used.size(); ++k) {
-      at.x[used[k]] = x[k];
-      at.v[used[k]] = v[k];
-    }
+    for (std::size_t k = 0; k < used.size(); ++k) at.x[used[k]] = x[k];
+    for (std::size_t k = 0; k < v.size(); ++k) at.v[used[k]] = v[k];
     if (needs_accelerations_) {
       motion.interpolate(t, used, {{}, {}, {values_a_.data(), used.size()}});
       for (std::size_t k = 0; k < used.size(); ++k) at.a[used[k]] = values_a_[k];

@@ -52,7 +52,7 @@ class ContactSwitches {
   std::vector<Index> all_, sticks_;
   std::vector<double> values_x_, values_v_, values_a_;
   std::array<Switch, dynamics::Obstacles::kMostSwitches> found_{};
-  bool needs_accelerations_ = false;
+  bool needs_velocities_ = false, needs_accelerations_ = false;
   Vector root_mass_;
   /// The motion of the structure in the norm of the diagonal of M, m sqrt(kg) and m sqrt(kg)/s.
   dynamics::Obstacles::Rounding whole_;

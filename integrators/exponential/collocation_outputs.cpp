@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace butee::integrators {
 namespace {
@@ -25,18 +26,26 @@ constexpr double kMostBreakpoints = 4096.0;
 
 NodeTraces::NodeTraces(const dynamics::DampedModes& modes) : modes_(modes) {
   const Index n = modes.displacement().cols();
-  found_.resize(static_cast<std::size_t>(n));
-  x_.resize(kCount, n);
-  v_.resize(kCount, n);
+  for (Traces* traces : {&x_, &v_}) {
+    traces->found.resize(static_cast<std::size_t>(n));
+    traces->at_nodes.resize(kCount, n);
+  }
 }
 
-std::pair<NodeTraces::Trace, NodeTraces::Trace> NodeTraces::of(Index dof, const Eigen::MatrixXd& nodes) {
-  if (auto& found = found_[static_cast<std::size_t>(dof)]; found != step_) {
-    found = step_;
-    x_.col(dof).noalias() = nodes.transpose() * modes_.displacement().col(dof);
-    v_.col(dof).noalias() = nodes.transpose() * modes_.velocity().col(dof);
+NodeTraces::Trace NodeTraces::Traces::of(Index dof, const Eigen::MatrixXd& shapes, const Lanes& nodes) {
+  if (char& is_found = found[static_cast<std::size_t>(dof)]; !is_found) {
+    is_found = true;
+    // Separate sums of real and imaginary parts, so that one addition need not wait for the other.
+    const Index p = nodes.rows() / 2;
+    const double *const re = shapes.col(dof).data(), *const im = re + p;
+    Lane sum_re = Lane::Zero(), sum_im = Lane::Zero();
+    for (Index k = 0; k < p; ++k) {
+      sum_re += re[k] * lane_of<8>(nodes, k);
+      sum_im += im[k] * lane_of<8>(nodes, p + k);
+    }
+    at_nodes.col(dof) = (sum_re + sum_im).head<kCount>();
   }
-  return {std::as_const(x_).col(dof), std::as_const(v_).col(dof)};
+  return std::as_const(at_nodes).col(dof);
 }
 
 CollocationOutputs::CollocationOutputs(const dynamics::DampedModes& modes, const ModalLoads& loads, double tolerance,
@@ -51,7 +60,7 @@ CollocationOutputs::CollocationOutputs(const dynamics::DampedModes& modes, const
   last_.z.setZero(2 * modes.count());
 }
 
-void CollocationOutputs::accept(double begin, double end, const Eigen::MatrixXd& nodes) {
+void CollocationOutputs::accept(double begin, double end, const Lanes& nodes) {
   begin_ = begin;
   end_ = end;
   nodes_ = &nodes;
@@ -60,7 +69,7 @@ void CollocationOutputs::accept(double begin, double end, const Eigen::MatrixXd&
   batch_.times.clear();
   for (Breakpoints& breakpoints : breakpoints_) breakpoints.is_known = false;
   has_fast_motion_.reset();
-  least_growth_.reset();
+  slow_.reset();
 }
 
 void CollocationOutputs::reset() {
@@ -74,28 +83,30 @@ std::optional<Index> CollocationOutputs::node_at(const State& from, const State&
   return std::nullopt;
 }
 
-void CollocationOutputs::move_to(const State& from, const State& to, double place, Eigen::VectorXd& z) {
+void CollocationOutputs::move_to(const State& from, const State& to, double place, Eigen::Ref<Eigen::VectorXd> z) {
   const Index p = modes_.count();
   const double h = to.t - from.t;
   Index slow = 0;
   if (holds(from, to)) {
     // Slow modes are interpolated by the polynomial through the nodes, with an error of
     // StepNodes::kMiss (|lambda| h)^7 of their amplitude, unless harmonic loads are faster.
-    if (!least_growth_) least_growth_ = least_growth(from, to);
-    const double most = std::pow(kOutput * tolerance_ * *least_growth_ / StepNodes::kMiss, 1.0 / 7.0) / h;
-    if (loads_.highest_frequency() <= most)
-      while (slow < p && modes_.speed()[slow] <= most) ++slow;
+    if (!slow_) {
+      const double most = std::pow(kOutput * tolerance_ * least_growth(from, to) / StepNodes::kMiss, 1.0 / 7.0) / h;
+      if (loads_.highest_frequency() <= most)
+        while (slow < p && modes_.speed()[slow] <= most) ++slow;
+      slow_ = slow;
+    }
+    slow = *slow_;
     const auto weights = StepNodes::lagrange(place);
-    z.head(slow).noalias() = nodes_->topRows(slow) * weights;
-    z.segment(p, slow).noalias() = nodes_->middleRows(p, slow) * weights;
+    z.head(slow).noalias() = nodes_->topLeftCorner(slow, kCount) * weights;
+    z.segment(p, slow).noalias() = nodes_->middleRows(p, slow).leftCols<kCount>() * weights;
   }
   if (slow == p) return;
   const double *const begin = modal(from), *const forces = modal(to) + 2 * p;
   Index fast = slow;
   if (holds(from, to)) {
     while (fast < p && modes_.speed()[fast] * h < FastMotion::kLeast) ++fast;
-    if (!has_fast_motion_)
-      has_fast_motion_ = fast_motion_.begin(from.t, h, begin, forces, fast, fast_.silent(from, to, fast));
+    if (!has_fast_motion_) has_fast_motion_ = fast_motion_.begin(from.t, h, begin, forces, fast);
     if (!*has_fast_motion_) fast = p;
     if (fast < p) fast_motion_.move(place, z);
   } else {
@@ -104,8 +115,8 @@ void CollocationOutputs::move_to(const State& from, const State& to, double plac
   if (slow < fast) PlaceResponse(modes_, loads_.turning(), place, h, slow, fast).move(from.t, begin, forces, z);
 }
 
-void CollocationOutputs::find_rate(double t, double place, const double* forces, const Eigen::VectorXd& z,
-                                   Eigen::VectorXd& rate) const {
+void CollocationOutputs::find_rate(double t, double place, const double* forces,
+                                   const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::VectorXd& rate) const {
   const Index p = modes_.count();
   const Eigen::Map<const Eigen::MatrixXd> polynomial(forces, 2 * p, kCount);
   rate.resize(2 * p);
@@ -116,22 +127,26 @@ void CollocationOutputs::find_rate(double t, double place, const double* forces,
   loads_.add_turning(t, rate);
 }
 
-void CollocationOutputs::find(const State& from, const State& to, double t, bool wants_rate) {
+void CollocationOutputs::find(const State& from, const State& to, double t, Eigen::Ref<Eigen::VectorXd> z) {
   const double place = (t - from.t) / (to.t - from.t);
+  if (const auto node = node_at(from, to, t))
+    z = nodes_->col(*node);
+  else if (place <= 0.0)
+    z = Eigen::Map<const Eigen::VectorXd>(modal(from), z.size());
+  else
+    move_to(from, to, place, z);
+}
+
+void CollocationOutputs::find(const State& from, const State& to, double t, bool wants_rate) {
   const bool is_held = holds(from, to);
   if (!is_held || last_.instant != t) {
     last_.instant = is_held ? t : std::numeric_limits<double>::quiet_NaN();
     last_.has_rate = false;
-    if (const auto node = node_at(from, to, t))
-      last_.z = nodes_->col(*node);
-    else if (place <= 0.0)
-      last_.z = Eigen::Map<const Eigen::VectorXd>(modal(from), last_.z.size());
-    else
-      move_to(from, to, place, last_.z);
+    find(from, to, t, last_.z);
   }
   if (!wants_rate || last_.has_rate) return;
   last_.has_rate = true;
-  find_rate(t, place, modal(to) + last_.z.size(), last_.z, last_.rate);
+  find_rate(t, (t - from.t) / (to.t - from.t), modal(to) + last_.z.size(), last_.z, last_.rate);
 }
 
 void CollocationOutputs::interpolate(const State& from, const State& to, double t, std::span<const Index> dofs,
@@ -147,27 +162,12 @@ void CollocationOutputs::interpolate(const State& from, const State& to, double 
 void CollocationOutputs::interpolate_all(const State& from, const State& to, std::span<const double> times,
                                          std::span<const Index> dofs, time::Interpolated out) {
   const Index p = modes_.count(), count = static_cast<Index>(times.size());
-  const bool wants_rate = !out.a.empty();
   // Several observers ask for the motion at the breakpoints, one after the other.
   if (!holds(from, to) || !std::ranges::equal(batch_.times, times)) {
     batch_.times.assign(times.begin(), times.end());
-    batch_.has_rates = false;
     batch_.z.resize(2 * p, count);
-    for (Index j = 0; j < count; ++j) {
-      find(from, to, times[static_cast<std::size_t>(j)], false);
-      batch_.z.col(j) = last_.z;
-    }
+    for (Index j = 0; j < count; ++j) find(from, to, times[static_cast<std::size_t>(j)], batch_.z.col(j));
   }
-  if (wants_rate && !batch_.has_rates) {
-    batch_.rates.resize(2 * p, count);
-    for (Index j = 0; j < count; ++j) {
-      const double t = times[static_cast<std::size_t>(j)];
-      find_rate(t, (t - from.t) / (to.t - from.t), modal(to) + 2 * p, batch_.z.col(j), last_.rate);
-      batch_.rates.col(j) = last_.rate;
-    }
-    last_.instant = std::numeric_limits<double>::quiet_NaN();
-  }
-  batch_.has_rates = batch_.has_rates || wants_rate;
   if (!holds(from, to)) batch_.times.clear();
   const auto rows = static_cast<Index>(dofs.size());
   bool are_all = rows == modes_.displacement().cols();
@@ -184,7 +184,30 @@ void CollocationOutputs::interpolate_all(const State& from, const State& to, std
   };
   fill(out.x, modes_.displacement(), batch_.z);
   fill(out.v, modes_.velocity(), batch_.z);
-  fill(out.a, modes_.velocity(), batch_.rates);
+  if (out.a.empty()) return;
+  const double* const forces = modal(to) + 2 * p;
+  const auto place_of = [&](double t) { return (t - from.t) / (to.t - from.t); };
+  if (are_all) {
+    Eigen::MatrixXd rates(2 * p, count);
+    for (Index j = 0; j < count; ++j) {
+      const double t = times[static_cast<std::size_t>(j)];
+      find_rate(t, place_of(t), forces, batch_.z.col(j), last_.rate);
+      rates.col(j) = last_.rate;
+    }
+    last_.instant = std::numeric_limits<double>::quiet_NaN();
+    return fill(out.a, modes_.velocity(), rates);
+  }
+  const std::size_t loads = loads_.turning().size();
+  phases_.clear();
+  for (const double t : times)
+    for (const TurningLoad& load : loads_.turning())
+      phases_.push_back({std::cos(load.angular_frequency * t), std::sin(load.angular_frequency * t)});
+  for (Index i = 0; i < rows; ++i) {
+    const DofAcceleration acceleration(modes_, loads_, dofs[static_cast<std::size_t>(i)], forces);
+    for (std::size_t j = 0; j < times.size(); ++j)
+      out.a[j * dofs.size() + static_cast<std::size_t>(i)] = acceleration.at(
+          place_of(times[j]), batch_.z.col(static_cast<Index>(j)), std::span(phases_).subspan(j * loads, loads));
+  }
 }
 
 void CollocationOutputs::trace(const State& from, const State& to, double t, std::span<const Index> dofs,
@@ -192,9 +215,8 @@ void CollocationOutputs::trace(const State& from, const State& to, double t, std
   if (!holds(from, to) || !out.a.empty()) return interpolate(from, to, t, dofs, out);
   const auto weights = StepNodes::lagrange((t - from.t) / (to.t - from.t));
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const auto [x, v] = traces_.of(dofs[i], *nodes_);
-    if (!out.x.empty()) out.x[i] = weights.dot(x);
-    if (!out.v.empty()) out.v[i] = weights.dot(v);
+    if (!out.x.empty()) out.x[i] = weights.dot(traces_.displacement(dofs[i], *nodes_));
+    if (!out.v.empty()) out.v[i] = weights.dot(traces_.velocity(dofs[i], *nodes_));
   }
 }
 

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "butee/time/integrator.hpp"
+#include "integrators/exponential/dof_acceleration.hpp"
 #include "integrators/exponential/fast_modes.hpp"
+#include "integrators/exponential/fast_motion.hpp"
+#include "integrators/exponential/lanes.hpp"
 #include "integrators/exponential/modal_loads.hpp"
 
 namespace butee::integrators {
@@ -18,16 +19,24 @@ class NodeTraces {
  public:
   explicit NodeTraces(const dynamics::DampedModes& modes);
 
-  void reset() { ++step_; }
+  void reset() {
+    x_.found.assign(x_.found.size(), false);
+    v_.found.assign(v_.found.size(), false);
+  }
   using Trace = Eigen::Matrix<double, StepNodes::kCount, Eigen::Dynamic>::ConstColXpr;
-  /// x and v of a DOF at the nodes; `nodes` holds z there, 2p x 7.
-  std::pair<Trace, Trace> of(Index dof, const Eigen::MatrixXd& nodes);
+  /// x or v of a DOF at the nodes; `nodes` holds z there, 2p rows.
+  Trace displacement(Index dof, const Lanes& nodes) { return x_.of(dof, modes_.displacement(), nodes); }
+  Trace velocity(Index dof, const Lanes& nodes) { return v_.of(dof, modes_.velocity(), nodes); }
 
  private:
+  struct Traces {
+    std::vector<char> found;
+    Eigen::Matrix<double, StepNodes::kCount, Eigen::Dynamic> at_nodes;
+    Trace of(Index dof, const Eigen::MatrixXd& shapes, const Lanes& nodes);
+  };
+
   const dynamics::DampedModes& modes_;
-  std::uint64_t step_ = 0;
-  std::vector<std::uint64_t> found_;
-  Eigen::Matrix<double, StepNodes::kCount, Eigen::Dynamic> x_, v_;
+  Traces x_, v_;
 };
 
 /// The motion within the steps of ModalCollocation: outputs, traces of contacts, and breakpoints
@@ -38,9 +47,9 @@ class CollocationOutputs final : public time::Interpolant {
   /// it.
   CollocationOutputs(const dynamics::DampedModes& modes, const ModalLoads& loads, double tolerance, Index memory_begin);
 
-  /// Sets the current step, an accepted one. `nodes` holds z at its nodes, 2p x 7, and must stay
-  /// valid until the next call.
-  void accept(double begin, double end, const Eigen::MatrixXd& nodes);
+  /// Sets the current step, an accepted one. `nodes` holds z at its nodes, 2p rows, and must
+  /// stay valid until the next call.
+  void accept(double begin, double end, const Lanes& nodes);
   /// Discards the current step.
   void reset();
 
@@ -52,7 +61,7 @@ class CollocationOutputs final : public time::Interpolant {
   /// x and v at an instant, by the polynomial through the nodes of the step that was accepted last.
   void trace(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
              time::Interpolated out) override;
-  int trace_parts(const time::State&, const time::State&) override { return StepNodes::kCount - 1; }
+  int trace_parts(const time::State&, const time::State&) override { return kTraceParts; }
   /// The nodes of the step and, if modes or loads rotate fast between them, instants that limit the
   /// angle from one breakpoint to the next; for time::Detail::power equal parts.
   std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail detail) override;
@@ -60,16 +69,22 @@ class CollocationOutputs final : public time::Interpolant {
   /// if the fastest motion is as fast as in this step.
   double longest(const time::State& from, const time::State& to) const;
 
+  /// A polynomial of degree 6 has few extremes in a step: 16 instants and the search of dips between them detect its
+  /// zeros.
+  static constexpr int kTraceParts = 2;
+
  private:
   const double* modal(const time::State& state) const { return state.memory.data() + memory_begin_; }
   bool holds(const time::State& from, const time::State& to) const { return from.t == begin_ && to.t == end_; }
   std::optional<Index> node_at(const time::State& from, const time::State& to, double t) const;
-  /// Fills z_ with the modal coordinates at an instant, and rate_ with dz/dt if `wants_rate`.
+  /// Fills last_ with the modal coordinates at an instant, and with dz/dt if `wants_rate`.
   void find(const time::State& from, const time::State& to, double t, bool wants_rate);
-  /// z at a position within a step.
-  void move_to(const time::State& from, const time::State& to, double place, Eigen::VectorXd& z);
+  /// z at an instant, and at a position within a step.
+  void find(const time::State& from, const time::State& to, double t, Eigen::Ref<Eigen::VectorXd> z);
+  void move_to(const time::State& from, const time::State& to, double place, Eigen::Ref<Eigen::VectorXd> z);
   /// dz/dt for given z and force polynomials.
-  void find_rate(double t, double place, const double* forces, const Eigen::VectorXd& z, Eigen::VectorXd& rate) const;
+  void find_rate(double t, double place, const double* forces, const Eigen::Ref<const Eigen::VectorXd>& z,
+                 Eigen::VectorXd& rate) const;
   /// FastModes::find() for the step.
   double find_fastest(const time::State& from, const time::State& to, double slow, time::Detail detail) const;
 
@@ -80,10 +95,10 @@ class CollocationOutputs final : public time::Interpolant {
   FastModes fast_;
   NodeTraces traces_;
   double begin_ = 0.0, end_ = -1.0;  ///< the current step, s
-  const Eigen::MatrixXd* nodes_ = nullptr;
+  const Lanes* nodes_ = nullptr;
   FastMotion fast_motion_;               ///< of the current step
   std::optional<bool> has_fast_motion_;  ///< whether it could be found; empty before the first request
-  std::optional<double> least_growth_;   ///< the smallest ratio of a scale at the start of the step to that at its end
+  std::optional<Index> slow_;            ///< the number of modes that the polynomial through the nodes gives
   // The motion of the last request. Callers often request the same instant for one DOF after
   // another.
   struct Request {
@@ -92,13 +107,13 @@ class CollocationOutputs final : public time::Interpolant {
     Eigen::VectorXd z, rate;
   };
   Request last_;
-  /// The modal coordinates, and dz/dt where requested, at the instants of the last request for several, 2p x count.
+  /// The modal coordinates at the instants of the last request for several, 2p x count.
   struct Batch {
     std::vector<double> times;  ///< empty: none
-    bool has_rates = false;
-    Eigen::MatrixXd z, rates;
+    Eigen::MatrixXd z;
   };
   Batch batch_;
+  std::vector<DofAcceleration::Phase> phases_;
   struct Breakpoints {
     bool is_known = false;  ///< they are those of the current step
     std::vector<double> all;

@@ -72,8 +72,7 @@ void ContactDofs::find_inverse_mass(Index dof, const dynamics::DampedModes& mode
   inverse_mass_[dof] = std::max(0.0, modes.velocity().col(dof).dot(modes.input().col(dof)));
 }
 
-bool ActiveDofs::find(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes,
-                      const std::vector<Index>& others) {
+bool ActiveDofs::find(dynamics::Dynamics& dynamics, const std::vector<Index>& others) {
   std::vector<Index> found = others;
   const auto take = [&](Index dof) {
     if (dof >= 0) found.push_back(dof);
@@ -92,13 +91,7 @@ bool ActiveDofs::find(dynamics::Dynamics& dynamics, const dynamics::DampedModes&
   sort_once(found);
   if (found == dofs) return false;
   dofs = std::move(found);
-  for (Eigen::MatrixXd* columns : {&input, &displacement, &velocity}) columns->resize(2 * modes.count(), count());
-  for (Index k = 0; k < count(); ++k) {
-    const Index dof = dofs[static_cast<std::size_t>(k)];
-    input.col(k) = modes.input().col(dof);
-    displacement.col(k) = modes.displacement().col(dof);
-    velocity.col(k) = modes.velocity().col(dof);
-  }
+  superposition.choose(dofs);
   return true;
 }
 

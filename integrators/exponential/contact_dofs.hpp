@@ -5,6 +5,7 @@
 
 #include "butee/dynamics/damped_modes.hpp"
 #include "butee/dynamics/dynamics.hpp"
+#include "integrators/exponential/modal_superposition.hpp"
 
 namespace butee::integrators {
 
@@ -44,14 +45,16 @@ class ContactDofs {
   bool need_velocity_ = false;
 };
 
-/// The DOFs of contacts that may act in a step and of other forces at its nodes, and the columns of the modes for them,
-/// 2p x number of DOFs.
+/// The DOFs of contacts that may act in a step and of other forces at its nodes, and their motion from the modes.
 struct ActiveDofs {
   std::vector<Index> dofs;  ///< ascending
-  Eigen::MatrixXd input, displacement, velocity;
+  ModalSuperposition superposition;
+
+  /// `modes` must outlive it.
+  explicit ActiveDofs(const dynamics::DampedModes& modes) : superposition(modes) {}
 
   /// Finds them from the phases of the contacts; true if they have changed.
-  bool find(dynamics::Dynamics& dynamics, const dynamics::DampedModes& modes, const std::vector<Index>& others);
+  bool find(dynamics::Dynamics& dynamics, const std::vector<Index>& others);
   Index count() const { return static_cast<Index>(dofs.size()); }
   /// The index of a DOF in `dofs`.
   Index place(Index dof) const;

@@ -85,21 +85,4 @@ double FastModes::find(const State& from, const State& to, double slow, const Ei
   return slow;
 }
 
-Eigen::ArrayXd FastModes::silent(const State& from, const State& to, Index first) const {
-  constexpr double kTiny = std::numeric_limits<double>::min();
-  const Scales scale = scales(from, to);
-  const Eigen::ArrayXd by_x = 1.0 / scale.x.max(kTiny), by_v = 1.0 / scale.v.max(kTiny),
-                       by_a = 1.0 / scale.a.max(kTiny);
-  const Index p = modes_.count();
-  const double part = kSilent / static_cast<double>(p);
-  Eigen::ArrayXd all = Eigen::ArrayXd::Zero(p);
-  for (Index k = first; k < p; ++k) {
-    // The largest motion, relative to its scale, for |z| = 1.
-    const double most = std::max((shape_.col(k).array() * by_x).maxCoeff(),
-                                 (speed_shape_.col(k).array() * by_v.max(modes_.speed()[k] * by_a)).maxCoeff());
-    all[k] = part / most;
-  }
-  return all;
-}
-
 }  // namespace butee::integrators

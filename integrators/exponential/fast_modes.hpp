@@ -27,13 +27,8 @@ class FastModes {
   /// Largest phase angle of the fastest motion between breakpoints, rad: the error of a quintic is
   /// then 4e-4 of the motion and 6e-4 of its speed.
   static constexpr double kMostTurn = 1.5;
-  /// The |z| of each mode below which all modes together move no output of the step, from the mode
-  /// `first` on, by more than kSilent times the tolerance.
-  Eigen::ArrayXd silent(const time::State& from, const time::State& to, Index first) const;
 
  private:
-  static constexpr double kSilent = 0.01;
-
   /// The scales of x, v and a of all DOFs in a step, times the tolerance.
   struct Scales {
     Eigen::ArrayXd x, v, a;

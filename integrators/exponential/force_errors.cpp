@@ -69,7 +69,7 @@ void ForceErrors::add_onsets(const Step& step) {
     for (Index k = 0; k < step.active.count(); ++k) {
       const Index dof = step.active.dofs[static_cast<std::size_t>(k)];
       x_[dof] = step.x(k, at_end ? StepNodes::kEnd : 0);
-      v_[dof] = at_end ? step.active.velocity.col(k).dot(step.end) : step.v(k, 0);
+      v_[dof] = at_end ? step.modes.velocity().col(dof).dot(step.end) : step.v(k, 0);
     }
     onset_.add_errors({at_end ? step.t + step.h : step.t, at_end ? -step.h : step.h, x_, v_}, onset_errors_);
   }

@@ -21,11 +21,12 @@ class ForceErrors {
   ForceErrors(dynamics::Dynamics& dynamics, const ContactDofs& dofs);
 
   /// A step of length h from t: forces, displacements and, where contacts need them, velocities of the active DOFs at
-  /// the nodes, and z at the end.
+  /// the nodes, the modes, and z at the end.
   struct Step {
     double t, h;
     const ActiveDofs& active;
     const AtNodes &forces, &x, &v;
+    const dynamics::DampedModes& modes;
     Eigen::Ref<const Eigen::VectorXd> end;
   };
   void find(const Step& step);

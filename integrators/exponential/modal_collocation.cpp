@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace butee::integrators {
 namespace {
@@ -59,10 +62,16 @@ ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goa
       modes_(dynamics, goal.run_time),
       loads_(modes_, dynamics.system()),
       forces_(dynamics, modes_),
+      all_dofs_(modes_),
       tolerance_(goal.tolerance),
       rate_(ErrorAccount(goal).rate()),
       memory_begin_(LocalErrorControl::memory_size(dynamics.size())),
-      outputs_(modes_, loads_, goal.tolerance, memory_begin_) {}
+      of_part_(modes_, loads_.turning()),
+      outputs_(modes_, loads_, goal.tolerance, memory_begin_) {
+  std::vector<Index> all(static_cast<std::size_t>(dynamics.size()));
+  std::iota(all.begin(), all.end(), Index{0});
+  all_dofs_.choose(all);
+}
 
 double ModalCollocation::first_step(const State&) const {
   constexpr double kOfContact = 0.3;
@@ -88,8 +97,12 @@ const StepResponse& ModalCollocation::response(double h) {
     responses_.splice(responses_.begin(), responses_, found);
     return responses_.front();
   }
-  if (responses_.size() >= kKept) responses_.pop_back();
-  return responses_.emplace_front(modes_, loads_.turning(), h);
+  if (responses_.size() < kKept)
+    responses_.emplace_front(modes_, loads_.turning());
+  else
+    responses_.splice(responses_.begin(), responses_, std::prev(responses_.end()));
+  responses_.front().set(h);
+  return responses_.front();
 }
 
 StepReport ModalCollocation::do_step(const State& from, const time::Step& step, State& to) {
@@ -165,16 +178,15 @@ bool ModalCollocation::end_at(const State& from, State& to, StepReport& report) 
 time::Interpolant& ModalCollocation::interpolant() {
   if (!are_nodes_known_) {
     const double h = step_end_ - step_begin_;
-    forces_.find_nodes(step_begin_, loads_.has_others() ? loads_.polynomial(step_begin_, h).data() : nullptr,
-                       StepResponse(modes_, loads_.turning(), h));
+    of_part_.set(h);
+    forces_.find_nodes(step_begin_, loads_.has_others() ? loads_.polynomial(step_begin_, h).data() : nullptr, of_part_);
     are_nodes_known_ = true;
   }
   return outputs_;
 }
 
 void ModalCollocation::judge(const State& from, State& to, double h, StepReport& report) {
-  const Vector error_x = modes_.displacement().transpose() * forces_.error(),
-               error_v = modes_.velocity().transpose() * forces_.error();
+  const Vector error_x = motion_.col(1), error_v = motion_.col(3);
   control_.judge(from, to, h, error_x, error_v, report);
 }
 
@@ -186,10 +198,11 @@ void ModalCollocation::accept(const State& from, double h, State& to) {
   const Eigen::VectorXd& end = forces_.end();
   to.memory.segment(memory_begin_, 2 * p) = end;
   Eigen::Map<Eigen::MatrixXd> polynomial(to.memory.data() + memory_begin_ + 2 * p, 2 * p, kCount);
-  polynomial = forces_.polynomial();
+  polynomial = forces_.polynomial().leftCols<kCount>();
   if (loads_.has_others()) polynomial += loads_.polynomial(from.t, h);
-  to.x.noalias() = modes_.displacement().transpose() * end;
-  to.v.noalias() = modes_.velocity().transpose() * end;
+  all_dofs_.motions(end, forces_.error(), motion_);
+  to.x = motion_.col(0);
+  to.v = motion_.col(2);
   dynamics().acceleration(to.t, to.x, to.v, to.a);
 }
 

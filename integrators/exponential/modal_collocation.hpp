@@ -7,6 +7,7 @@
 #include "integrators/exponential/collocation_outputs.hpp"
 #include "integrators/exponential/modal_loads.hpp"
 #include "integrators/exponential/node_forces.hpp"
+#include "integrators/exponential/step_response.hpp"
 
 namespace butee::integrators {
 
@@ -49,7 +50,7 @@ class ModalCollocation final : public time::Integrator {
   /// Shortens the step that forces_ holds so that it ends at to.t, with the same forces; false if
   /// their error is too large there.
   bool end_at(const time::State& from, time::State& to, time::StepReport& report);
-  /// Fills `to` with the end of the step that forces_ holds.
+  /// Fills `to` with the end of the step that forces_ holds, and motion_.
   void accept(const time::State& from, double h, time::State& to);
   /// Judges the errors of displacements and velocities at the end of the step.
   void judge(const time::State& from, time::State& to, double h, time::StepReport& report);
@@ -59,9 +60,12 @@ class ModalCollocation final : public time::Integrator {
   dynamics::DampedModes modes_;
   ModalLoads loads_;
   NodeForces forces_;
+  ModalSuperposition all_dofs_;
+  LanesOf<4> motion_;  ///< displacements at the end of a step and their errors, velocities and their errors
   double tolerance_, rate_;
   Index memory_begin_;  ///< offset of z and the force polynomials in State::memory
   std::list<StepResponse> responses_;
+  StepResponse of_part_;                       ///< over the last step that was shortened
   double step_begin_ = 0.0, step_end_ = -1.0;  ///< the step that forces_ holds, s
   double solved_end_ = -1.0;                   ///< end of the step for which its forces were computed, s
   bool are_nodes_known_ = true;                ///< false: forces_ holds the end of a shortened step, not yet its nodes

@@ -23,6 +23,14 @@ ModalLoads::ModalLoads(const dynamics::DampedModes& modes, const model::System& 
           "method needs");
   }
   polynomial_.setZero(2 * modes.count(), StepNodes::kCount);
+  const Index p = modes.count();
+  for (const TurningLoad& load : turning_)
+    for (const double sense : {1.0, -1.0}) {
+      const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
+      responses_.push_back(
+          {std::abs(load.angular_frequency), (force.head(p).array().square() + force.tail(p).array().square()).sqrt(),
+           (modes.decay().square() + (sense * load.angular_frequency - modes.turn()).square()).rsqrt()});
+    }
 }
 
 void ModalLoads::add_harmonic(const model::Harmonic& harmonic, const Eigen::VectorXd& shape) {
@@ -50,19 +58,13 @@ double ModalLoads::highest_frequency() const {
 }
 
 ModalLoads::Resolution ModalLoads::resolution(double h, const Eigen::ArrayXd& reach) const {
-  const Index p = modes_.count();
   Resolution all;
-  for (const TurningLoad& load : turning_) {
-    const double missed = StepNodes::missed_part(std::abs(load.angular_frequency) * h);
-    for (Index k = 0; k < p; ++k)
-      for (const double sense : {1.0, -1.0}) {
-        // Near resonance the response is limited to its growth within one step.
-        const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
-        const double away = std::hypot(modes_.decay()[k], sense * load.angular_frequency - modes_.turn()[k]),
-                     amplitude = reach[k] * std::hypot(force[k], force[p + k]) * std::min(h, 1.0 / away);
-        all.missed += missed * amplitude;
-        all.reached = std::max(all.reached, amplitude * std::min(1.0, modes_.speed()[k] * h));
-      }
+  for (const Response& response : responses_) {
+    // Near resonance the response is limited to its growth within one step.
+    const double missed = StepNodes::missed_part(response.angular_frequency * h);
+    const auto amplitude = reach * response.force * response.slowness.min(h);
+    all.missed += missed * amplitude.sum();
+    all.reached = std::max(all.reached, (amplitude * (modes_.speed() * h).min(1.0)).maxCoeff());
   }
   return all;
 }

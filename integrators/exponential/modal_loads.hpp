@@ -35,8 +35,15 @@ class ModalLoads {
   };
   void add_harmonic(const model::Harmonic& harmonic, const Eigen::VectorXd& shape);
 
+  /// The modal forces of a term e^(i Omega t) and how far it is from resonance.
+  struct Response {
+    double angular_frequency;        ///< |Omega|, rad/s
+    Eigen::ArrayXd force, slowness;  ///< of each mode: |f|, and 1/|i Omega - lambda|, s
+  };
+
   const dynamics::DampedModes& modes_;
   std::vector<TurningLoad> turning_;
+  std::vector<Response> responses_;  ///< two for each turning load
   std::vector<Other> others_;
   Eigen::MatrixXd polynomial_;
 };

@@ -1,24 +1,21 @@
 #include "integrators/exponential/modal_response.hpp"
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <type_traits>
 
 namespace butee::integrators {
 namespace {
 
 using Complex = std::complex<double>;
+using Series = ResponseSeries;
 
 constexpr int kPowers = static_cast<int>(StepNodes::kCount);
-/// Largest |lambda c h| for which the series is used, and its number of terms; the last term is
-/// below rounding there.
-constexpr double kSmall = 7.0;
-constexpr int kMostTerms = 34;
-constexpr double kRounding = 1e-18;
-
-/// (e^w - 1)/w for |w| <= 1/2.
+/// (e^w - 1)/w for |w|^2 <= Series::kNearResonance.
 Complex phi(Complex w) {
   Complex sum = 1.0, term = 1.0;
-  for (int k = 2; k < 18; ++k) sum += term *= w / static_cast<double>(k);
+  for (int k = 2; k < Series::kTermsOfPhi; ++k) sum += term *= w / static_cast<double>(k);
   return sum;
 }
 
@@ -43,7 +40,7 @@ void PlaceResponse::find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstA
   power[0] = h;
   for (std::size_t r = 1; r < power.size(); ++r) power[r] = power[r - 1] * place;
   Index slow = 0;
-  while (slow < p && speed[slow] * place * h <= kSmall) ++slow;
+  while (slow < p && speed[slow] * place * h <= Series::kSmall) ++slow;
   // With w = lambda c h: moment_r = h c^(r+1) sum_k w^k r!/(r+k+1)!, here for the highest r.
   constexpr int top = kPowers - 1;
   // A few modes at a time stay in registers and take the terms that the fastest of them needs.
@@ -54,7 +51,7 @@ void PlaceResponse::find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstA
     Part tr = Part::Constant(power[kPowers] / kPowers), ti = Part::Zero(), sr = tr, si = ti;
     const double largest = speed[k + kSize - 1] * place * h;
     double bound = 1.0;
-    for (int n = 1; n < kMostTerms && bound > kRounding; ++n) {
+    for (int n = 1; n < Series::kMostTerms && bound > Series::kRounding; ++n) {
       const double factor = 1.0 / (top + n + 1);
       bound *= largest * factor;
       const Part re = factor * (tr * wr - ti * wi);
@@ -120,7 +117,7 @@ void PlaceResponse::add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const
     }
     // For small w this cancels; then e^(lambda length) length phi(w).
     for (Index k = 0; k < p; ++k) {
-      if (std::norm(w(k)) > 0.25) continue;
+      if (std::norm(w(k)) > Series::kNearResonance) continue;
       const Complex part = Complex(pr[k], pi[k]) * length * phi(w(k)) * Complex(of_re[k], of_im[k]);
       out[k] = part.real();
       out[p + k] = part.imag();
@@ -165,77 +162,6 @@ void PlaceResponse::add_force(const double* g, Eigen::Ref<Eigen::VectorXd> out) 
   Index k = 0;
   for (; k + kTogether <= rest; k += kTogether) add(k, std::integral_constant<int, kTogether>());
   for (; k < rest; ++k) add(k, std::integral_constant<int, 1>());
-}
-
-bool FastMotion::begin(double t, double h, const double* z, const double* g, Index first,
-                       const Eigen::ArrayXd& silent) {
-  const Index p = modes_.count(), rest = p - first, loads = static_cast<Index>(loads_.size());
-  const auto complex = [&](const double* numbers) {
-    const Eigen::Map<const Eigen::ArrayXd> re(numbers + first, rest), im(numbers + p + first, rest);
-    Eigen::ArrayXcd all(rest);
-    all.real() = re;
-    all.imag() = im;
-    return all;
-  };
-  Eigen::ArrayXcd lambda(rest);
-  lambda.real() = modes_.decay().tail(rest);
-  lambda.imag() = modes_.turn().tail(rest);
-  t_ = t;
-  h_ = h;
-  first_ = first;
-  polynomial_.resize(rest, kPowers);
-  for (Index r = kPowers - 1; r >= 0; --r) {
-    polynomial_.col(r) = -complex(g + 2 * p * r) / lambda;
-    if (r < kPowers - 1) polynomial_.col(r) += (static_cast<double>(r + 1) / h) * polynomial_.col(r + 1) / lambda;
-  }
-  silent_ = silent.tail(rest);
-  free_ = complex(z) - polynomial_.col(0);
-  forth_.resize(rest, loads);
-  back_.resize(rest, loads);
-  for (Index j = 0; j < loads; ++j) {
-    const TurningLoad& load = loads_[static_cast<std::size_t>(j)];
-    const Complex turn(0.0, load.angular_frequency), phase = std::exp(turn * t);
-    if (((turn - lambda).abs() * h < kResonant).any() || ((turn + lambda).abs() * h < kResonant).any()) return false;
-    forth_.col(j) = complex(load.forth.data()) / (turn - lambda);
-    back_.col(j) = -complex(load.back.data()) / (turn + lambda);
-    free_ -= forth_.col(j) * phase + back_.col(j) * std::conj(phase);
-  }
-  return true;
-}
-
-void FastMotion::move(double place, Eigen::VectorXd& z) const {
-  const Index p = modes_.count(), rest = p - first_;
-  const double length = place * h_;
-  Eigen::ArrayXcd sum = polynomial_.col(kPowers - 1);
-  for (Index r = kPowers - 2; r >= 0; --r) sum = sum * place + polynomial_.col(r);
-  for (Index j = 0; j < forth_.cols(); ++j) {
-    const Complex phase = std::polar(1.0, loads_[static_cast<std::size_t>(j)].angular_frequency * (t_ + length));
-    sum += forth_.col(j) * phase + back_.col(j) * std::conj(phase);
-  }
-  const auto decay = modes_.decay().tail(rest), turn = modes_.turn().tail(rest);
-  for (Index k = 0; k < rest; ++k) {
-    const double largest = std::abs(free_[k].real()) + std::abs(free_[k].imag());
-    if (largest < silent_[k]) continue;
-    const double size = std::exp(decay[k] * length);
-    if (largest * size >= silent_[k]) sum[k] += free_[k] * std::polar(size, turn[k] * length);
-  }
-  z.segment(first_, rest) = sum.real();
-  z.tail(rest) = sum.imag();
-}
-
-StepResponse::StepResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double h)
-    : h_(h) {
-  for (Index j = 1; j < StepNodes::kCount; ++j)
-    places_.emplace_back(modes, loads, StepNodes::kPlaces[static_cast<std::size_t>(j)], h);
-}
-
-void StepResponse::move(double t, const double* z, const double* g, Eigen::MatrixXd& nodes) const {
-  nodes.col(0) = Eigen::Map<const Eigen::VectorXd>(z, nodes.rows());
-  for (std::size_t j = 0; j < places_.size(); ++j) places_[j].move(t, z, g, nodes.col(static_cast<Index>(j) + 1));
-}
-
-void StepResponse::add_force(const double* g, Eigen::MatrixXd& nodes) const {
-  for (std::size_t j = 0; j < places_.size(); ++j) places_[j].add_force(g, nodes.col(static_cast<Index>(j) + 1));
 }
 
 }  // namespace butee::integrators

@@ -16,6 +16,17 @@ struct TurningLoad {
   Eigen::VectorXd forth, back;
 };
 
+/// How the responses of modes are computed: with w = lambda c h, moments from a series up to |w| = kSmall, and (e^w -
+/// 1)/w from a series up to |w|^2 = kNearResonance.
+struct ResponseSeries {
+  static constexpr double kSmall = 7.0;
+  /// The last term is below rounding at kSmall.
+  static constexpr int kMostTerms = 34;
+  static constexpr double kRounding = 1e-18;
+  static constexpr double kNearResonance = 0.25;
+  static constexpr int kTermsOfPhi = 18;
+};
+
 /// The motion of damped modes at one position c h of a step of length h, without truncation error:
 ///
 ///     z(t + c h) = e^(lambda c h) z(t) + sum_r moment_r g_r + harmonics,   g_r the coefficient of s^r in the force
@@ -51,59 +62,6 @@ class PlaceResponse {
     Eigen::VectorXd forth, back;
   };
   std::vector<Harmonic> harmonics_;
-};
-
-/// The motion of fast damped modes within one step, without truncation error:
-///
-///     z(t + s h) = e^(lambda s h) c + sum_r p_r s^r + harmonics,   p_r = ((r + 1) p_(r+1)/h - g_r)/lambda
-///
-/// The constants are found once for a step, so that an instant costs an exponential function and a
-/// polynomial for each mode. Checked in tests/verification/damped_modes_test.cpp.
-class FastMotion {
- public:
-  /// The smallest |lambda| h: the terms of p_0 are up to 6!/kLeast^6 times g/lambda, so that at
-  /// most three digits cancel.
-  static constexpr double kLeast = 1.0;
-
-  /// Both must outlive it.
-  FastMotion(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads)
-      : modes_(modes), loads_(loads) {}
-
-  /// Sets the step of length h from t, for the modes from `first` on; arguments as for
-  /// PlaceResponse::move(). Free motion of mode k with |c| below silent[k] is left out. False if a
-  /// load nearly resonates with one of the modes: digits would then cancel.
-  bool begin(double t, double h, const double* z, const double* g, Index first, const Eigen::ArrayXd& silent);
-  /// Fills the entries of these modes in `z` (2p) with the motion at a position of the step.
-  void move(double place, Eigen::VectorXd& z) const;
-
- private:
-  /// The smallest |i Omega - lambda| h.
-  static constexpr double kResonant = 0.1;
-
-  const dynamics::DampedModes& modes_;
-  const std::vector<TurningLoad>& loads_;
-  double t_ = 0.0, h_ = 0.0;  ///< s
-  Index first_ = 0;
-  Eigen::ArrayXd silent_;                       ///< bounds of |c|
-  Eigen::ArrayXcd free_;                        ///< c
-  Eigen::ArrayXXcd polynomial_, forth_, back_;  ///< p_r; responses to e^(i Omega t), e^(-i Omega t), one column each
-};
-
-/// The responses at all nodes of a step except its start.
-class StepResponse {
- public:
-  StepResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double h);
-
-  double h() const { return h_; }
-  /// Fills the columns of `nodes` (2p x 7) with z at the nodes; arguments as for
-  /// PlaceResponse::move().
-  void move(double t, const double* z, const double* g, Eigen::MatrixXd& nodes) const;
-  /// Adds the response to the force `g` to all columns of `nodes` except the start.
-  void add_force(const double* g, Eigen::MatrixXd& nodes) const;
-
- private:
-  double h_;
-  std::vector<PlaceResponse> places_;
 };
 
 }  // namespace butee::integrators

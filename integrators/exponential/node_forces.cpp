@@ -42,21 +42,21 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
       need_velocity_(dofs_.need_velocity() || varying_.need_velocity()),
       borders_(dynamics.stops()),
       errors_(dynamics, dofs_),
+      active_(modes),
       scales_(dynamics.system()) {
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
   const Index p = modes.count();
-  free_ = nodes_ = polynomial_ = missed_ = Eigen::MatrixXd::Zero(2 * p, kCount);
+  free_ = nodes_ = polynomial_ = missed_ = Lanes::Zero(2 * p, Lanes::ColsAtCompileTime);
   end_ = error_ = Vector::Zero(2 * p);
 }
 
 double NodeForces::unresolved(const State& from, const double* z, const ModalLoads& loads, double h) const {
   auto [sum, scale] = loads.resolution(h, dofs_.reach());
   const Index p = modes_.count();
-  for (Index k = 0; k < p; ++k) {
-    const double amplitude = dofs_.reach()[k] * std::hypot(z[k], z[p + k]), turn = modes_.speed()[k] * h;
-    sum += amplitude * StepNodes::missed_part(turn);
-    scale = std::max(scale, amplitude * std::min(1.0, turn));
-  }
+  const Eigen::Map<const Eigen::ArrayXd> re(z, p), im(z + p, p);
+  const Eigen::ArrayXd amplitude = dofs_.reach() * (re.square() + im.square()).sqrt(), turn = modes_.speed() * h;
+  for (Index k = 0; k < p; ++k) sum += amplitude[k] * StepNodes::missed_part(turn[k]);
+  scale = std::max(scale, (amplitude * turn.min(1.0)).maxCoeff());
   const auto scales = LocalErrorControl::scales_x(from);
   for (const Index dof : dofs_.all()) scale = std::max(scale, scales[dof]);
   return scale > 0.0 ? sum / scale : 0.0;
@@ -64,15 +64,16 @@ double NodeForces::unresolved(const State& from, const double* z, const ModalLoa
 
 bool NodeForces::stays_apart(const double* z) const {
   const Index p = modes_.count();
-  double sum = 0.0;
-  for (Index k = 0; k < p; ++k) sum += dofs_.reach()[k] * std::hypot(z[k], z[p + k]);
-  return kBetweenNodes * sum < dofs_.clearance();
+  const Eigen::Map<const Eigen::ArrayXd> re(z, p), im(z + p, p);
+  return kBetweenNodes * (dofs_.reach() * (re.square() + im.square()).sqrt()).sum() < dofs_.clearance();
 }
 
 bool NodeForces::stays_apart() const {
-  for (Index j = 0; j < kCount; ++j)
-    if (!stays_apart(nodes_.col(j).data())) return false;
-  return true;
+  const Index p = modes_.count();
+  Lane sum = Lane::Zero();
+  for (Index k = 0; k < p; ++k)
+    sum += dofs_.reach()[k] * (lane_of<8>(nodes_, k).square() + lane_of<8>(nodes_, p + k).square()).sqrt();
+  return kBetweenNodes * sum.head(kCount).maxCoeff() < dofs_.clearance();
 }
 
 void NodeForces::find_forces(double t, double h, Index node) {
@@ -96,26 +97,21 @@ void NodeForces::find_forces(double t, double h, Index node) {
 }
 
 void NodeForces::find_forces(double t, double h) {
-  // For few DOFs products row by row are faster.
-  constexpr Index kFew = 16;
-  const auto nodes = nodes_.rightCols(kCount - 1);
-  const auto find = [&](const Eigen::MatrixXd& shapes, AtNodes& values) {
-    if (active_.count() > kFew)
-      values.rightCols(kCount - 1).noalias() = shapes.transpose() * nodes;
-    else
-      for (Index k = 0; k < active_.count(); ++k)
-        values.row(k).tail(kCount - 1).noalias() = shapes.col(k).transpose() * nodes;
-  };
-  find(active_.displacement, moved_);
-  if (need_velocity_) find(active_.velocity, moved_velocity_);
+  active_.superposition.displacements(nodes_, row_);
+  moved_.rightCols(kCount - 1) = row_.middleCols<kCount - 1>(1);
+  if (need_velocity_) {
+    active_.superposition.velocities(nodes_, row_);
+    moved_velocity_.rightCols(kCount - 1) = row_.middleCols<kCount - 1>(1);
+  }
   for (Index j = 1; j < kCount; ++j) find_forces(t, h, j);
 }
 
 void NodeForces::move(const StepResponse& response, const StepNodes::Matrix& coefficients) {
-  coefficients_.noalias() = forces_ * coefficients;
-  polynomial_.noalias() = active_.input * coefficients_;
+  coefficients_.setZero(active_.count(), Lanes::ColsAtCompileTime);
+  coefficients_.leftCols<kCount>() = forces_.lazyProduct(coefficients);
+  active_.superposition.modal_forces(coefficients_, polynomial_);
   nodes_ = free_;
-  response.add_force(polynomial_.data(), nodes_);
+  response.add_force(polynomial_, nodes_);
 }
 
 void NodeForces::find_scales(const State& from, double h) {
@@ -145,7 +141,7 @@ double NodeForces::change(double h) const {
 }
 
 NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& response, double settled) {
-  if (active_.find(dynamics_, modes_, varying_.dofs()))
+  if (active_.find(dynamics_, varying_.dofs()))
     for (AtNodes* rows : {&forces_, &moved_, &moved_velocity_, &weights_}) rows->resize(active_.count(), kCount);
   error_.setZero();
   if (active_.count() == 0) {
@@ -183,7 +179,7 @@ NodeForces::Outcome NodeForces::find(const State& from, const StepResponse& resp
 
 NodeForces::Outcome NodeForces::finished() {
   end_ = nodes_.col(kEnd);
-  return nodes_.allFinite() ? Outcome::converged : Outcome::not_finite;
+  return std::isfinite(nodes_.lpNorm<1>()) ? Outcome::converged : Outcome::not_finite;
 }
 
 void NodeForces::find_weights(const State& from) {
@@ -233,43 +229,50 @@ void NodeForces::keep_sides(const Vector& x, Vector& force) const {
 }
 
 void NodeForces::estimate(double t, const StepResponse& response) {
-  const Eigen::MatrixXd nodes = nodes_, polynomial = polynomial_;
+  kept_nodes_ = nodes_;
+  kept_polynomial_ = polynomial_;
   const AtNodes moved = moved_;
-  errors_.find({t, response.h(), active_, forces_, moved_, moved_velocity_, nodes_.col(kEnd)});
+  errors_.find({t, response.h(), active_, forces_, moved_, moved_velocity_, modes_, nodes_.col(kEnd)});
   move(response, StepNodes::without_middle());
   // This hardly moves the end if the linear part is slow; the response of the contacts to it makes
   // the difference visible.
   find_forces(t, response.h());
   move(response, StepNodes::without_middle());
-  error_ = nodes_.col(kEnd) - nodes.col(kEnd);
+  error_ = nodes_.col(kEnd) - kept_nodes_.col(kEnd);
   // The polynomials with and without the value in the middle have the same integral; the error of
   // this integral is added separately.
-  error_.noalias() += active_.input * errors_.of_impulse();
+  for (Index k = 0; k < active_.count(); ++k)
+    error_ += errors_.of_impulse()[k] * modes_.input().col(active_.dofs[static_cast<std::size_t>(k)]);
   // In equilibrium only rounding errors remain.
-  if (error_.norm() <= kRoundingOfEnd * (nodes.col(kEnd) - free_.col(kEnd)).norm()) error_.setZero();
-  missed_ = polynomial_ - polynomial;
-  nodes_ = nodes;
-  polynomial_ = polynomial;
+  if (error_.norm() <= kRoundingOfEnd * (kept_nodes_.col(kEnd) - free_.col(kEnd)).norm()) error_.setZero();
+  missed_ = polynomial_ - kept_polynomial_;
+  nodes_.swap(kept_nodes_);
+  polynomial_.swap(kept_polynomial_);
   moved_ = moved;
 }
 
 void NodeForces::end_at(double part, double t, const double* z, const double* loads, const PlaceResponse& response) {
-  double power = 1.0;
-  for (Index r = 0; r < kCount; ++r, power *= part) {
-    polynomial_.col(r) *= power;
-    missed_.col(r) *= power;
-  }
+  Lane powers = Lane::Zero();
+  powers[0] = 1.0;
+  for (Index r = 1; r < kCount; ++r) powers[r] = part * powers[r - 1];
+  for (Lanes* all : {&polynomial_, &missed_})
+    for (Index k = 0; k < all->rows(); ++k) lane_of<8>(*all, k) *= powers;
   response.move(t, z, loads, end_);
-  response.add_force(polynomial_.data(), end_);
+  add_response(response, polynomial_, end_);
   error_.setZero();
-  response.add_force(missed_.data(), error_);
+  add_response(response, missed_, error_);
+}
+
+void NodeForces::add_response(const PlaceResponse& response, const Lanes& polynomial, Eigen::VectorXd& out) {
+  columns_ = polynomial.leftCols<kCount>();
+  response.add_force(columns_.data(), out);
 }
 
 void NodeForces::find_nodes(double t, const double* loads, const StepResponse& response) {
   const Eigen::VectorXd begin = nodes_.col(0);
   response.move(t, begin.data(), loads, free_);
   nodes_ = free_;
-  response.add_force(polynomial_.data(), nodes_);
+  response.add_force(polynomial_, nodes_);
 }
 
 StepNodes::Row NodeForces::displacement_of(Index stop) const {

@@ -5,6 +5,7 @@
 #include "integrators/exponential/contact_dofs.hpp"
 #include "integrators/exponential/force_errors.hpp"
 #include "integrators/exponential/modal_loads.hpp"
+#include "integrators/exponential/step_response.hpp"
 #include "integrators/exponential/stop_borders.hpp"
 #include "integrators/exponential/sweep_acceleration.hpp"
 #include "integrators/exponential/varying_forces.hpp"
@@ -48,10 +49,10 @@ class NodeForces {
   /// Finds the motion at the nodes of the shortened step.
   void find_nodes(double t, const double* loads, const StepResponse& response);
 
-  Eigen::MatrixXd& free_nodes() { return free_; }
-  const Eigen::MatrixXd& nodes() const { return nodes_; }            ///< z at the nodes, 2p x 7
-  const Eigen::VectorXd& end() const { return end_; }                ///< z at the end
-  const Eigen::MatrixXd& polynomial() const { return polynomial_; }  ///< coefficients of 1, s, ..., s^6, 2p x 7
+  Lanes& free_nodes() { return free_; }
+  const Lanes& nodes() const { return nodes_; }            ///< z at the nodes, 2p rows
+  const Eigen::VectorXd& end() const { return end_; }      ///< z at the end
+  const Lanes& polynomial() const { return polynomial_; }  ///< coefficients of 1, s, ..., s^6, 2p rows
   /// Error estimate of z at the end: z computed without the values in the middle of the step, minus
   /// z, plus the error of Lobatto's rule for the impulse of the forces.
   const Eigen::VectorXd& error() const { return error_; }
@@ -80,6 +81,8 @@ class NodeForces {
   void find_forces(double t, double h, Index node);
   void find_forces(double t, double h);
   void move(const StepResponse& response, const StepNodes::Matrix& coefficients);
+  /// Adds the response at one position to the polynomial with these coefficients.
+  void add_response(const PlaceResponse& response, const Lanes& polynomial, Eigen::VectorXd& out);
   void estimate(double t, const StepResponse& response);
   /// Sets the scales of displacements and velocities for change(). At a start from rest they are the speed that the
   /// acceleration causes within 1/omega of the contacts, and the way at that speed.
@@ -102,8 +105,10 @@ class NodeForces {
   std::vector<double> sides_;  ///< of borders_.jumping() in the step
   ActiveDofs active_;
   Instant instant_;
-  Eigen::MatrixXd free_, nodes_, polynomial_, coefficients_;
-  Eigen::MatrixXd missed_;  ///< polynomial_ computed without the values in the middle, minus polynomial_
+  Lanes free_, nodes_, polynomial_, kept_nodes_, kept_polynomial_;
+  Lanes missed_;              ///< polynomial_ computed without the values in the middle, minus polynomial_
+  Lanes coefficients_, row_;  ///< of the forces; motion of the active DOFs
+  Eigen::MatrixXd columns_;   ///< for add_response()
   AtNodes forces_, forces_before_, moved_, moved_velocity_, weights_;  ///< for the active DOFs
   SweepAcceleration acceleration_;
   Eigen::VectorXd end_, error_;
