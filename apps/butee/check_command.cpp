@@ -90,6 +90,7 @@ int check_command(const CheckArguments& arguments) {
   if (!arguments.json)
     for (const check::Advice& item : advice) log::warning(item.text);
   for (const std::string& warning : session.warnings) log::warning(warning);
+  if (!facts.cost.refusal.empty()) throw InputError("a run of this scene is refused: " + facts.cost.refusal);
   return kDone;
 }
 

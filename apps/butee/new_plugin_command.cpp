@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <butee/core/error.hpp>
+#include <butee/plugin/catalogue.hpp>
 #include <butee/version.hpp>
 
 #include "commands.hpp"
@@ -41,9 +42,23 @@ void check_name(const std::string& name) {
     throw InputError("NAME = \"" + name +
                      "\": must be lower-case letters, digits and _, beginning with a letter: it becomes a C++ name and "
                      "the name in scenes, such as my_method");
-  static constexpr std::array kTaken = {"butee", "std", "auto", "double", "int", "class", "new", "long"};
+  static constexpr std::array kTaken = {"butee", "std", "auto", "stop", "double", "int", "class", "new", "long"};
   if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end())
     throw InputError("NAME = \"" + name + "\": is a keyword of C++ or a name of butee; choose another one");
+}
+
+/// A module with a name in use would not load beside the other one.
+void check_is_free(const NewPluginArguments& arguments) {
+  const plugin::Catalogue catalogue = plugin::Catalogue::with_plugins();
+  const model::ModelTypes& types = catalogue.types();
+  const std::vector<std::string> taken = arguments.kind == "integrator" ? catalogue.integrator_names()
+                                         : arguments.kind == "law"      ? type_names(types.laws)
+                                         : arguments.kind == "contact"  ? type_names(types.contacts)
+                                         : arguments.kind == "load"     ? type_names(types.loads)
+                                                                        : type_names(types.elements);
+  if (std::find(taken.begin(), taken.end(), arguments.name) != taken.end())
+    throw InputError("NAME = \"" + arguments.name + "\": is the name of another " + arguments.kind +
+                     "; choose another one (`butee plugins` lists those of modules)");
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
@@ -72,6 +87,7 @@ void write_files(const fs::path& from, const fs::path& to, const NewPluginArgume
 
 int new_plugin_command(const NewPluginArguments& arguments) {
   check_name(arguments.name);
+  check_is_free(arguments);
   const fs::path folder = arguments.folder.empty() ? arguments.name : arguments.folder;
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
     throw InputError(folder.string() + ": exists already; choose another folder with -o, or remove it");

@@ -64,8 +64,9 @@ std::vector<std::string> able_methods(Scene& scene, dynamics::Dynamics& dynamics
   const ContactNeeds needs = contact_needs(scene.model);
   std::vector<std::string> able;
   for (const std::string& name : scene.catalogue.integrator_names()) {
-    if (name == scene.integrator.name || (dynamics.size() > kTried && name != kAutomatic)) continue;
     const plugin::IntegratorEntry& entry = *scene.catalogue.find(name);
+    const bool is_alias = name != entry.declaration.name;
+    if (is_alias || name == scene.integrator.name || (dynamics.size() > kTried && name != kAutomatic)) continue;
     const std::vector<config::Parameter> parameters = parameters_of(entry);
     const time::IntegratorType& type = scene.catalogue.load(name);
     if (type.contacts >= needs.support && accepts(type, scene.integrator, parameters, dynamics)) able.push_back(name);

@@ -1,3 +1,4 @@
+#include "butee/core/text.hpp"
 #include "butee/scene/scene_reader.hpp"
 
 namespace butee::scene {
@@ -17,7 +18,13 @@ void SceneReader::read_gravity() {
   const auto g = p->numbers("acceleration");
   auto pattern = inertia_pattern(model_, Eigen::Vector3d(g[0], g[1], g[2]));
   if (pattern.empty()) {
-    p->complain(diagnostics_, "acceleration", "acts along no displacement of the scene");
+    std::vector<std::string> able;
+    for (int axis = 0; axis < 3; ++axis)
+      if (!inertia_pattern(model_, Eigen::Vector3d::Unit(axis)).empty()) able.emplace_back(1, "xyz"[axis]);
+    p->complain(
+        diagnostics_, "acceleration",
+        "acts along no displacement of the scene" +
+            (able.empty() ? "" : ", which moves along " + join(able) + "; the numbers are those along x, y and z"));
     return;
   }
   config::Table unity;

@@ -36,6 +36,10 @@ TEST(BadUsage, OfTheCommandLine) {
   expect_refusal({"run", kFile, "--progress", "sometimes"}, folder, {"--progress", "auto"});
   expect_refusal({"run", kFile, "-q", "-v"}, folder, {"-q", "-v"});
   expect_refusal({"run", kFile, "--plugin", "nowhere.so"}, folder, {"nowhere.so: there is no such module"});
+  expect_refusal({"new-plugin", "rk4"}, folder, {"NAME = \"rk4\": is the name of another integrator"});
+  expect_refusal({"new-plugin", "ring", "--kind", "contact"}, folder, {"\"ring\": is the name of another contact"});
+  expect_refusal({"run", kFile, "--set", "gravity.acceleration=[-9.81, 0, 0]"}, folder,
+                 {"gravity.acceleration", "acts along no displacement of the scene, which moves along"});
 }
 
 TEST(BadUsage, OfFiles) {

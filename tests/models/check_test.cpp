@@ -23,6 +23,46 @@ Outcome check(const std::string& model, const std::vector<std::string>& more = {
   return outcome;
 }
 
+/// What it can tell of a scene whose run would be refused, and then the refusal, as `run` gives it.
+TEST(Check, FailsWhereARunWouldBeRefused) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+dof = "uy"
+stiffness = 100.0
+[[element]]
+type = "spring"
+node = "m"
+dof = "uz"
+stiffness = 120.0
+[[contact]]
+type = "plane"
+nodes = "m"
+gap = 0.01
+normal = [1.0, 0.0]
+stiffness = 1e5
+friction = { coefficient = 0.2, stick = "rigid" }
+[integrator]
+type = "exponential"
+end_time = 1.0
+)");
+  const Outcome checked = run_program({"check", "scene.toml"}, folder.path()),
+                run = run_program({"run", "scene.toml"}, folder.path());
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(checked.status, 2);
+  expect_holds(checked.output, {"2 free", "method     exponential"});
+  const std::string mark = "a run of this scene is refused: ";
+  const std::size_t place = checked.errors.find(mark);
+  ASSERT_NE(place, std::string::npos) << checked.errors;
+  EXPECT_EQ(checked.errors.substr(place + mark.size()), run.errors);
+}
+
 TEST(Check, FindsTheFrequenciesOfTheOscillator) {
   // sqrt(1e9/100) and sqrt(1.1e10/100) rad/s.
   const Outcome outcome = check("oscillator");

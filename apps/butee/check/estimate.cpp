@@ -160,7 +160,7 @@ Estimate estimate(scene::Scene& session, double reading_seconds) {
     watch_for_interruption();
     try_out(session, reading_seconds, result);
   } catch (const InputError& error) {
-    result.failure = std::string("a run of this scene is refused: ") + error.what();
+    result.refusal = error.what();
   }
   return result;
 }

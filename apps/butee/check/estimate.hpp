@@ -21,7 +21,8 @@ struct Estimate {
   std::optional<double> rows;     ///< rows of results
   std::optional<double> bytes;    ///< size of the files that grow with the run
   std::string choice;             ///< the method that `auto` chose, and the reason
-  std::string failure;            ///< why a run would be refused, or failed in the trial; empty on success
+  std::string refusal;            ///< why a run would be refused; empty if it would not
+  std::string failure;            ///< how the trial failed; empty on success
 };
 
 /// `reading_seconds`: time from the start of the process to the session. Throws RunError on an interruption.

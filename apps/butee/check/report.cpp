@@ -151,11 +151,12 @@ void print_cost(const Estimate& cost, bool trust) {
   if (!cost.choice.empty()) std::printf("chosen     %s\n", cost.choice.c_str());
   const std::string steps =
       cost.steps ? formatted(cost.whole || cost.steps_known ? "%.0f steps" : "about %.2g steps", *cost.steps) : "";
-  if (cost.failure.empty() && cost.seconds)
+  const bool has_trial = cost.failure.empty() && cost.refusal.empty();
+  if (has_trial && cost.seconds)
     std::printf("estimate   %s%.2g s in all%s, %s (%s)\n", cost.whole ? "" : "about ", *cost.seconds,
                 trust ? " without trust" : "", steps.c_str(),
                 cost.whole ? "from a complete trial run" : "from a short trial");
-  else if (cost.failure.empty())
+  else if (has_trial)
     std::printf(
         "estimate   none: a trial of %.2g s covered %.2g %% of the time; this does not suffice for an estimate%s\n",
         cost.trial_seconds, 100.0 * cost.part, steps.empty() ? "" : ("; " + steps).c_str());
@@ -229,6 +230,7 @@ Json to_json(const scene::Scene& session, const model::System& system, const Fac
   json["end_time"] = session.integrator.options.end_time;
   json["contact"] = json_of(facts.mechanics);
   const Estimate& cost = facts.cost;
+  json["refused"] = cost.refusal.empty() ? Json() : Json(cost.refusal);
   json["estimate"] = {{"seconds", json_of(cost.seconds)},
                       {"steps", json_of(cost.steps)},
                       {"whole", cost.whole},
