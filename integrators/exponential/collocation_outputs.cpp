@@ -24,17 +24,30 @@ constexpr double kMostBreakpoints = 4096.0;
 
 }  // namespace
 
-NodeTraces::NodeTraces(const dynamics::DampedModes& modes) : modes_(modes) {
+NodeTraces::NodeTraces(const dynamics::DampedModes& modes, const std::vector<Index>& contacts)
+    : modes_(modes), contacts_(contacts), superposition_(modes) {
   const Index n = modes.displacement().cols();
+  is_of_contact_.resize(static_cast<std::size_t>(n));
+  superposition_.choose(contacts);
+  if (superposition_.goes_by_natural_modes())
+    for (const Index dof : contacts) is_of_contact_[static_cast<std::size_t>(dof)] = true;
   for (Traces* traces : {&x_, &v_}) {
     traces->found.resize(static_cast<std::size_t>(n));
     traces->at_nodes.resize(kCount, n);
   }
 }
 
-NodeTraces::Trace NodeTraces::Traces::of(Index dof, const Eigen::MatrixXd& shapes, const Lanes& nodes) {
-  if (char& is_found = found[static_cast<std::size_t>(dof)]; !is_found) {
-    is_found = true;
+NodeTraces::Trace NodeTraces::of(Index dof, Traces& traces, const Eigen::MatrixXd& shapes, Superpose superpose,
+                                 const Lanes& nodes) {
+  if (traces.found[static_cast<std::size_t>(dof)]) return std::as_const(traces.at_nodes).col(dof);
+  if (is_of_contact_[static_cast<std::size_t>(dof)]) {
+    (superposition_.*superpose)(nodes, rows_);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      traces.found[static_cast<std::size_t>(contacts_[i])] = true;
+      traces.at_nodes.col(contacts_[i]) = lane_of<8>(rows_, static_cast<Index>(i)).head<kCount>();
+    }
+  } else {
+    traces.found[static_cast<std::size_t>(dof)] = true;
     // Separate sums of real and imaginary parts, so that one addition need not wait for the other.
     const Index p = nodes.rows() / 2;
     const double *const re = shapes.col(dof).data(), *const im = re + p;
@@ -43,19 +56,19 @@ NodeTraces::Trace NodeTraces::Traces::of(Index dof, const Eigen::MatrixXd& shape
       sum_re += re[k] * lane_of<8>(nodes, k);
       sum_im += im[k] * lane_of<8>(nodes, p + k);
     }
-    at_nodes.col(dof) = (sum_re + sum_im).head<kCount>();
+    traces.at_nodes.col(dof) = (sum_re + sum_im).head<kCount>();
   }
-  return std::as_const(at_nodes).col(dof);
+  return std::as_const(traces.at_nodes).col(dof);
 }
 
-CollocationOutputs::CollocationOutputs(const dynamics::DampedModes& modes, const ModalLoads& loads, double tolerance,
-                                       Index memory_begin)
+CollocationOutputs::CollocationOutputs(const dynamics::DampedModes& modes, const ModalLoads& loads,
+                                       const std::vector<Index>& contacts, double tolerance, Index memory_begin)
     : modes_(modes),
       loads_(loads),
       tolerance_(tolerance),
       memory_begin_(memory_begin),
       fast_(modes, tolerance),
-      traces_(modes),
+      traces_(modes, contacts),
       fast_motion_(modes, loads.turning()) {
   last_.z.setZero(2 * modes.count());
 }
@@ -165,14 +178,14 @@ void CollocationOutputs::interpolate_all(const State& from, const State& to, std
   // Several observers ask for the motion at the breakpoints, one after the other.
   if (!holds(from, to) || !std::ranges::equal(batch_.times, times)) {
     batch_.times.assign(times.begin(), times.end());
-    batch_.z.resize(2 * p, count);
+    if (batch_.z.cols() < count) batch_.z.resize(2 * p, 2 * count);
     for (Index j = 0; j < count; ++j) find(from, to, times[static_cast<std::size_t>(j)], batch_.z.col(j));
   }
   if (!holds(from, to)) batch_.times.clear();
   const auto rows = static_cast<Index>(dofs.size());
   bool are_all = rows == modes_.displacement().cols();
   for (Index i = 0; i < rows && are_all; ++i) are_all = dofs[static_cast<std::size_t>(i)] == i;
-  const auto fill = [&](std::span<double> values, const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& motion) {
+  const auto fill = [&](std::span<double> values, const Eigen::MatrixXd& shapes, const auto& motion) {
     if (values.empty()) return;
     Eigen::Map<Eigen::MatrixXd> all(values.data(), rows, count);
     if (are_all) {
@@ -182,8 +195,9 @@ void CollocationOutputs::interpolate_all(const State& from, const State& to, std
     for (Index i = 0; i < rows; ++i)
       all.row(i).noalias() = shapes.col(dofs[static_cast<std::size_t>(i)]).transpose() * motion;
   };
-  fill(out.x, modes_.displacement(), batch_.z);
-  fill(out.v, modes_.velocity(), batch_.z);
+  const auto z = batch_.z.leftCols(count);
+  fill(out.x, modes_.displacement(), z);
+  fill(out.v, modes_.velocity(), z);
   if (out.a.empty()) return;
   const double* const forces = modal(to) + 2 * p;
   const auto place_of = [&](double t) { return (t - from.t) / (to.t - from.t); };
@@ -191,7 +205,7 @@ void CollocationOutputs::interpolate_all(const State& from, const State& to, std
     Eigen::MatrixXd rates(2 * p, count);
     for (Index j = 0; j < count; ++j) {
       const double t = times[static_cast<std::size_t>(j)];
-      find_rate(t, place_of(t), forces, batch_.z.col(j), last_.rate);
+      find_rate(t, place_of(t), forces, z.col(j), last_.rate);
       rates.col(j) = last_.rate;
     }
     last_.instant = std::numeric_limits<double>::quiet_NaN();

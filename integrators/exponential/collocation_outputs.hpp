@@ -11,13 +11,16 @@
 #include "integrators/exponential/fast_motion.hpp"
 #include "integrators/exponential/lanes.hpp"
 #include "integrators/exponential/modal_loads.hpp"
+#include "integrators/exponential/modal_superposition.hpp"
 
 namespace butee::integrators {
 
-/// The motion of DOFs at the nodes of a step, computed at the first request for a DOF.
+/// The motion of DOFs at the nodes of a step, computed at the first request: for all DOFs of contacts at once if that
+/// goes through the natural modes, else for one DOF after the other.
 class NodeTraces {
  public:
-  explicit NodeTraces(const dynamics::DampedModes& modes);
+  /// `modes` must outlive it; `contacts` are the DOFs of contacts.
+  NodeTraces(const dynamics::DampedModes& modes, const std::vector<Index>& contacts);
 
   void reset() {
     x_.found.assign(x_.found.size(), false);
@@ -25,17 +28,26 @@ class NodeTraces {
   }
   using Trace = Eigen::Matrix<double, StepNodes::kCount, Eigen::Dynamic>::ConstColXpr;
   /// x or v of a DOF at the nodes; `nodes` holds z there, 2p rows.
-  Trace displacement(Index dof, const Lanes& nodes) { return x_.of(dof, modes_.displacement(), nodes); }
-  Trace velocity(Index dof, const Lanes& nodes) { return v_.of(dof, modes_.velocity(), nodes); }
+  Trace displacement(Index dof, const Lanes& nodes) {
+    return of(dof, x_, modes_.displacement(), &ModalSuperposition::displacements, nodes);
+  }
+  Trace velocity(Index dof, const Lanes& nodes) {
+    return of(dof, v_, modes_.velocity(), &ModalSuperposition::velocities, nodes);
+  }
 
  private:
   struct Traces {
     std::vector<char> found;
     Eigen::Matrix<double, StepNodes::kCount, Eigen::Dynamic> at_nodes;
-    Trace of(Index dof, const Eigen::MatrixXd& shapes, const Lanes& nodes);
   };
+  using Superpose = void (ModalSuperposition::*)(const Lanes&, Lanes&);
+  Trace of(Index dof, Traces& traces, const Eigen::MatrixXd& shapes, Superpose superpose, const Lanes& nodes);
 
   const dynamics::DampedModes& modes_;
+  std::vector<Index> contacts_;
+  std::vector<char> is_of_contact_;  ///< for each DOF
+  ModalSuperposition superposition_;
+  Lanes rows_;
   Traces x_, v_;
 };
 
@@ -43,9 +55,10 @@ class NodeTraces {
 /// between which a quintic approximates it.
 class CollocationOutputs final : public time::Interpolant {
  public:
-  /// `memory_begin` is the offset of z and the force polynomials in State::memory. All must outlive
-  /// it.
-  CollocationOutputs(const dynamics::DampedModes& modes, const ModalLoads& loads, double tolerance, Index memory_begin);
+  /// `contacts` are the DOFs of contacts; `memory_begin` is the offset of z and the force polynomials in State::memory.
+  /// `modes` and `loads` must outlive it.
+  CollocationOutputs(const dynamics::DampedModes& modes, const ModalLoads& loads, const std::vector<Index>& contacts,
+                     double tolerance, Index memory_begin);
 
   /// Sets the current step, an accepted one. `nodes` holds z at its nodes, 2p rows, and must
   /// stay valid until the next call.
@@ -107,7 +120,7 @@ class CollocationOutputs final : public time::Interpolant {
     Eigen::VectorXd z, rate;
   };
   Request last_;
-  /// The modal coordinates at the instants of the last request for several, 2p x count.
+  /// The modal coordinates at the instants of the last request for several, in the first columns.
   struct Batch {
     std::vector<double> times;  ///< empty: none
     Eigen::MatrixXd z;

@@ -67,7 +67,7 @@ ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goa
       rate_(ErrorAccount(goal).rate()),
       memory_begin_(LocalErrorControl::memory_size(dynamics.size())),
       of_part_(modes_, loads_.turning()),
-      outputs_(modes_, loads_, goal.tolerance, memory_begin_) {
+      outputs_(modes_, loads_, forces_.dofs().all(), goal.tolerance, memory_begin_) {
   std::vector<Index> all(static_cast<std::size_t>(dynamics.size()));
   std::iota(all.begin(), all.end(), Index{0});
   all_dofs_.choose(all);

@@ -23,8 +23,8 @@ struct ResponseSeries {
   /// The last term is below rounding at kSmall.
   static constexpr int kMostTerms = 34;
   static constexpr double kRounding = 1e-18;
-  static constexpr double kNearResonance = 0.25;
-  static constexpr int kTermsOfPhi = 18;
+  static constexpr double kNearResonance = 0.01;
+  static constexpr int kTermsOfPhi = 12;
 };
 
 /// The motion of damped modes at one position c h of a step of length h, without truncation error:

@@ -24,6 +24,7 @@ class ModalSuperposition {
   /// Sets the DOFs; rows of motion and forces are in this order.
   void choose(const std::vector<Index>& dofs);
   Index count() const { return count_; }
+  bool goes_by_natural_modes() const { return !parts_.empty(); }
 
   /// x := displacements, for z with 2p rows.
   void displacements(const Lanes& z, Lanes& x);
