@@ -11,13 +11,7 @@ namespace {
 using Complex = std::complex<double>;
 using Series = ResponseSeries;
 
-constexpr int kPowers = static_cast<int>(StepNodes::kCount);
-/// (e^w - 1)/w for |w|^2 <= Series::kNearResonance.
-Complex phi(Complex w) {
-  Complex sum = 1.0, term = 1.0;
-  for (int k = 2; k < Series::kTermsOfPhi; ++k) sum += term *= w / static_cast<double>(k);
-  return sum;
-}
+constexpr int kPowers = Series::kPowers;
 
 }  // namespace
 
@@ -41,34 +35,18 @@ void PlaceResponse::find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstA
   for (std::size_t r = 1; r < power.size(); ++r) power[r] = power[r - 1] * place;
   Index slow = 0;
   while (slow < p && speed[slow] * place * h <= Series::kSmall) ++slow;
-  // With w = lambda c h: moment_r = h c^(r+1) sum_k w^k r!/(r+k+1)!, here for the highest r.
-  constexpr int top = kPowers - 1;
   // A few modes at a time stay in registers and take the terms that the fastest of them needs.
   const auto sum_series = [&](Index k, auto size) {
     constexpr int kSize = decltype(size)::value;
     using Part = Eigen::Array<double, kSize, 1>;
     const Part dr = h * decay.segment<kSize>(k), di = h * turn.segment<kSize>(k), wr = place * dr, wi = place * di;
-    Part tr = Part::Constant(power[kPowers] / kPowers), ti = Part::Zero(), sr = tr, si = ti;
-    const double largest = speed[k + kSize - 1] * place * h;
-    double bound = 1.0;
-    for (int n = 1; n < Series::kMostTerms && bound > Series::kRounding; ++n) {
-      const double factor = 1.0 / (top + n + 1);
-      bound *= largest * factor;
-      const Part re = factor * (tr * wr - ti * wi);
-      ti = factor * (tr * wi + ti * wr);
-      tr = re;
-      sr += tr;
-      si += ti;
-    }
-    // moment_(r-1) = (lambda h moment_r + h c^r)/r
-    for (int r = top; r >= 0; --r) {
-      moments_.col(2 * r).segment<kSize>(k) = sr;
-      moments_.col(2 * r + 1).segment<kSize>(k) = si;
-      if (r == 0) break;
-      const Part re = (dr * sr - di * si + power[static_cast<std::size_t>(r)]) / r;
-      si = (dr * si + di * sr) / r;
-      sr = re;
-    }
+    std::array<Part, kPowers + 1> powers;
+    for (std::size_t r = 0; r < powers.size(); ++r) powers[r].setConstant(power[r]);
+    Series::moments(dr, di, wr, wi, powers, speed[k + kSize - 1] * place * h,
+                    [this, k](int r, const Part& re, const Part& im) {
+                      moments_.col(2 * r).segment<kSize>(k) = re;
+                      moments_.col(2 * r + 1).segment<kSize>(k) = im;
+                    });
   };
   constexpr Index kTogether = 8;
   Index k = 0;
@@ -118,7 +96,9 @@ void PlaceResponse::add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const
     // For small w this cancels; then e^(lambda length) length phi(w).
     for (Index k = 0; k < p; ++k) {
       if (std::norm(w(k)) > Series::kNearResonance) continue;
-      const Complex part = Complex(pr[k], pi[k]) * length * phi(w(k)) * Complex(of_re[k], of_im[k]);
+      using One = Eigen::Array<double, 1, 1>;
+      const auto [sum_re, sum_im] = Series::phi(One(w(k).real()), One(w(k).imag()));
+      const Complex part = Complex(pr[k], pi[k]) * length * Complex(sum_re[0], sum_im[0]) * Complex(of_re[k], of_im[k]);
       out[k] = part.real();
       out[p + k] = part.imag();
     }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "butee/dynamics/damped_modes.hpp"
+#include "integrators/exponential/response_series.hpp"
 #include "integrators/exponential/step_nodes.hpp"
 
 namespace butee::integrators {
@@ -14,17 +15,6 @@ namespace butee::integrators {
 struct TurningLoad {
   double angular_frequency;  ///< rad/s
   Eigen::VectorXd forth, back;
-};
-
-/// How the responses of modes are computed: with w = lambda c h, moments from a series up to |w| = kSmall, and (e^w -
-/// 1)/w from a series up to |w|^2 = kNearResonance.
-struct ResponseSeries {
-  static constexpr double kSmall = 7.0;
-  /// The last term is below rounding at kSmall.
-  static constexpr int kMostTerms = 34;
-  static constexpr double kRounding = 1e-18;
-  static constexpr double kNearResonance = 0.01;
-  static constexpr int kTermsOfPhi = 12;
 };
 
 /// The motion of damped modes at one position c h of a step of length h, without truncation error:

@@ -11,7 +11,7 @@ namespace {
 
 using Series = ResponseSeries;
 
-constexpr int kPowers = static_cast<int>(StepNodes::kCount);
+constexpr int kPowers = Series::kPowers;
 
 /// The positions of the nodes; 0 in the unused lane.
 Lane places_of_lanes() {
@@ -49,31 +49,14 @@ void StepResponse::find_moments(Index mode) {
   std::array<Lane, kPowers + 1> power;  // h c^r
   power[0] = Lane::Constant(h_);
   for (std::size_t r = 1; r < power.size(); ++r) power[r] = power[r - 1] * places;
-  constexpr int top = kPowers - 1;
   if (speed * StepNodes::kPlaces[1] <= Series::kSmall) {
     const Lane wr = dr * places, wi = di * places;
-    Lane tr = power[kPowers] / kPowers, ti = Lane::Zero(), sr = tr, si = ti;
-    const double largest = std::min(speed, Series::kSmall);
-    double bound = 1.0;
-    for (int n = 1; n < Series::kMostTerms && bound > Series::kRounding; ++n) {
-      const double factor = 1.0 / (top + n + 1);
-      bound *= largest * factor;
-      const Lane re = factor * (tr * wr - ti * wi);
-      ti = factor * (tr * wi + ti * wr);
-      tr = re;
-      sr += tr;
-      si += ti;
-    }
-    for (int r = top; r >= 0; --r) {
-      auto [to_re, to_im] = moment(r);
-      to_re = sr;
-      to_im = si;
-      if (r == 0) break;
-      const double part = 1.0 / r;
-      const Lane re = part * (dr * sr - di * si + power[static_cast<std::size_t>(r)]);
-      si = part * (dr * si + di * sr);
-      sr = re;
-    }
+    Series::moments(dr, di, wr, wi, power, std::min(speed, Series::kSmall),
+                    [&](Index r, const Lane& re, const Lane& im) {
+                      auto [to_re, to_im] = moment(r);
+                      to_re = re;
+                      to_im = im;
+                    });
   } else {
     moments_.row(mode).setZero();
   }
@@ -111,15 +94,7 @@ void StepResponse::find(const TurningLoad& load, Harmonic& harmonic) const {
       // For w = (i Omega - lambda) L near 0 this cancels; then e^(lambda L) L (e^w - 1)/w.
       if (square * lengths[1] * lengths[1] <= Series::kNearResonance) {
         const Lane wr = away_re * lengths, wi = away_im * lengths;
-        Lane tr = Lane::Ones(), ti = Lane::Zero(), sr = tr, si = ti;
-        for (int n = 2; n < Series::kTermsOfPhi; ++n) {
-          const double factor = 1.0 / n;
-          const Lane next = factor * (tr * wr - ti * wi);
-          ti = factor * (tr * wi + ti * wr);
-          tr = next;
-          sr += tr;
-          si += ti;
-        }
+        const auto [sr, si] = Series::phi(wr, wi);
         const auto is_near = (square * lengths.square() <= Series::kNearResonance).eval();
         re = is_near.select(lengths * (pr * sr - pi * si), re);
         im = is_near.select(lengths * (pr * si + pi * sr), im);
