@@ -88,5 +88,25 @@ TEST(Record, IsMadeByItsScript) {
   }
 }
 
+/// The scenes of apps/studies/rings.toml, at their beginning: `exponential` has the peaks of `exact`.
+TEST(StudyOfRings, HasScenesOnWhichMethodsAgree) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"pipe", "pipe-friction", "pipe-fast", "mass", "rotor"}) {
+    const std::string scene = BUTEE_TEST_SOURCE "/apps/studies/rings/" + name + ".toml",
+                      end = "integrator.end_time=" + std::string(name == "mass" ? "0.02" : "0.2");
+    const auto peak_of = [&](const std::vector<std::string>& more) {
+      std::vector<std::string> arguments = {"run", scene, "-q", "-o", "results", "--set", end};
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      const Outcome run = run_program(arguments, folder.path());
+      EXPECT_EQ(run.status, 0) << run.errors;
+      const auto summary = nlohmann::json::parse(read_file(folder.file("results/summary.json")));
+      return summary["peak"]["mid.uy"].get<double>();
+    };
+    const double wanted = peak_of({"--set", "integrator.type=exact", "--set", "integrator.tolerance="});
+    EXPECT_GT(wanted, 1e-4) << name;
+    EXPECT_NEAR(peak_of({}), wanted, 1e-3 * wanted) << name;
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::practice_test
