@@ -10,6 +10,7 @@
 #include "integrators/dormand_prince.hpp"
 #include "integrators/exponential/exponential.hpp"
 #include "integrators/exponential/varying_forces.hpp"
+#include "integrators/fastest_rates.hpp"
 #include "integrators/methods.hpp"
 #include "integrators/piecewise.hpp"
 #include "integrators/rodas4.hpp"
@@ -20,9 +21,6 @@ namespace {
 
 /// Up to this number of DOFs the modes are computed within a millisecond.
 constexpr Index kSmall = 96;
-
-/// Up to this number of DOFs the damped modes are computed in less than a second for any coupling.
-constexpr Index kQuickModes = 140;
 
 struct Cost {
   double exponential, rodas4;  ///< s
@@ -89,14 +87,51 @@ bool has_strong_jump(dynamics::Dynamics& dynamics, double tolerance) {
   return false;
 }
 
-/// True if `exponential` supports the scene with damped modes and these are computed quickly.
+/// Whether damped modes are worth their cost, beside a run by rodas4. All costs in s, to a factor of two, were measured
+/// on pipes of 136 to 560 DOFs in rings (plugins/auto/README.md); another machine changes all of them by about the same
+/// factor.
+class DampedModesBudget {
+ public:
+  DampedModesBudget(dynamics::Dynamics& dynamics, double tolerance, double end_time)
+      : size_(dynamics.size()), most_(kPart * cost_of_rodas4(dynamics, tolerance, end_time)) {}
+
+  /// True if it covers the natural modes.
+  bool suffices() const {
+    return size_ <= kQuick || (size_ <= dynamics::DampedModes::kMost && kOfNatural * cube(size_) < most_);
+  }
+  /// The largest number of coupled modes whose damped modes it covers.
+  Index most_coupled() const {
+    return std::clamp(static_cast<Index>(std::cbrt(most_ / kOfCoupled)), kQuick, kMostCoupled);
+  }
+
+ private:
+  /// Up to this number of DOFs the modes are always computed, in 0.1 s.
+  static constexpr Index kQuick = 140;
+  /// s over the cube of the number of DOFs, and over that of the number of coupled modes.
+  static constexpr double kOfNatural = 1.5e-9, kOfCoupled = 1.7e-8;
+  /// Chosen: without contact rodas4 is faster than estimated; the damped modes of a block take 1.1 s at most.
+  static constexpr double kPart = 0.3;
+  static constexpr Index kMostCoupled = 400;
+
+  static double cube(Index n) { return std::pow(static_cast<double>(n), 3.0); }
+  /// 1.4 steps for each radian of the fastest DOF at a tolerance of 1e-3.
+  static double cost_of_rodas4(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
+    const double radians = fastest_rates(dynamics).open * end_time, finer = std::pow(1e-3 / tolerance, 0.25);
+    return 1.4 * radians * finer * 3e-7 * static_cast<double>(dynamics.size());
+  }
+
+  Index size_;
+  double most_;  ///< s
+};
+
+/// True if `exponential` supports the scene with damped modes.
 bool suits_collocation(dynamics::Dynamics& dynamics) {
   const model::System& system = dynamics.system();
   const bool is_coupled = !system.is_symmetric || !system.obstacles.empty() ||
                           (system.size() > 1 && system.dashpots.size() > 0) ||
                           std::any_of(system.loads.begin(), system.loads.end(), VaryingForces::contains);
   // If the speed of turning parts varies, all their DOFs take part in its sweeps, and rodas4 may be faster.
-  if (!is_coupled || system.rotation != nullptr || system.size() > kQuickModes) return false;
+  if (!is_coupled || system.rotation != nullptr) return false;
   for (Index i = 0; i < dynamics.stop_count(); ++i)
     if (!dynamics.stops().law_of(i).is_silent_while_open()) return false;
   for (const model::FreeObstacles& obstacles : system.obstacles)
@@ -121,6 +156,7 @@ std::unique_ptr<time::Integrator> exponential_or_reason(dynamics::Dynamics& dyna
     reason = "rounding in the modes exceeds the tolerance";
   } catch (const InputError& error) {
     reason = error.what();
+    if (const std::string key = "integrator.type: "; reason.starts_with(key)) reason.erase(0, key.size());
   }
   return nullptr;
 }
@@ -139,7 +175,7 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
     return {Method::dopri5, "the slope of a contact's dissipation is infinite where it closes"};
   const bool is_too_tight = dynamics.stop_count() > 0 && tolerance < kSmallestWithStops;
   const char* const too_tight = "the tolerance is below the smallest one of exponential with stops";
-  if (suits_collocation(dynamics)) {
+  if (suits_collocation(dynamics) && DampedModesBudget(dynamics, tolerance, end_time).suffices()) {
     if (is_too_tight) return {Method::rodas4, too_tight};
     return {Method::exponential, "the linear part is exact in its damped modes, and only contacts are approximated"};
   }
@@ -172,7 +208,12 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
   std::unique_ptr<time::Integrator> integrator;
   if (choice.method == Choice::Method::exponential) {
     std::string reason;
-    integrator = exponential_or_reason(dynamics, {tolerance, end_time, 0}, reason);
+    integrator =
+        exponential_or_reason(dynamics,
+                              {.tolerance = tolerance,
+                               .run_time = end_time,
+                               .most_coupled = DampedModesBudget(dynamics, tolerance, end_time).most_coupled()},
+                              reason);
     if (integrator == nullptr) choice = {Choice::Method::rodas4, reason};
   }
   std::string what;

@@ -171,7 +171,7 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
   return block.inverse.allFinite() && block.vectors.norm() * block.inverse.norm() < kDefective * static_cast<double>(b);
 }
 
-DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
+DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled) {
   const model::System& system = dynamics.system();
   const Index n = system.size();
   if (n > kMost)
@@ -223,6 +223,9 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time) {
   std::vector<Block> blocks;
   std::vector<std::pair<std::size_t, Index>> kept;  ///< block and its damped mode
   for (std::vector<Index>& modes : parts.lists()) {
+    if (static_cast<Index>(modes.size()) > most_coupled)
+      throw InputError("integrator.type: " + std::to_string(modes.size()) +
+                       " modes are coupled, and computing their damped modes takes too long for this run");
     Block& block = blocks.emplace_back();
     block.modes = std::move(modes);
     const auto b = static_cast<Index>(block.modes.size());

@@ -32,8 +32,8 @@ class BUTEE_EXPORT DampedModes {
   static constexpr double kNudge = 1e-10;
 
   /// `run_time` is T, s. If the speed of rotation varies, the modes are those at its value at T/2. Throws InputError if
-  /// there are too many DOFs or no basis of modes is found.
-  DampedModes(Dynamics& dynamics, double run_time);
+  /// there are too many DOFs, more than `most_coupled` modes in a block or no basis of modes.
+  DampedModes(Dynamics& dynamics, double run_time, Index most_coupled = kMost);
 
   /// The speed of rotation of these modes, rad/s, if it varies in the system; else 0.
   double reference_speed() const { return reference_speed_; }

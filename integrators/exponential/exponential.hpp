@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "butee/core/error.hpp"
+#include "butee/dynamics/damped_modes.hpp"
 #include "butee/time/integrator.hpp"
 #include "integrators/exponential/exponential_step.hpp"
 #include "integrators/exponential/single_step.hpp"
@@ -14,6 +15,8 @@ struct ExponentialOptions {
   double tolerance = 1e-4;  ///< relative to the scale of each component (integrators/error-control.md)
   double run_time = 1.0;    ///< s
   Index modes = 0;          ///< number of lowest modes; 0: all, for large systems 300
+  /// The largest number of natural modes that damping, turning parts or cross terms may couple.
+  Index most_coupled = dynamics::DampedModes::kMost;
 };
 
 /// exponential: the linear part is propagated exactly in modal coordinates; the forces of stops are

@@ -41,7 +41,8 @@ std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics,
     throw InputError("integrator.tolerance: must be at least " + to_short_text(kSmallestWithStops) +
                      " for exponential with stops: below it the errors of many impacts exceed the error bound");
   if (is_coupled(dynamics.system())) {
-    auto integrator = std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time});
+    auto integrator =
+        std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time}, options.most_coupled);
     if (const double smallest = integrator->smallest_tolerance(); options.tolerance < smallest)
       throw ToleranceBelowRounding(
           "integrator.tolerance: must be at least " + to_short_text(smallest) +
@@ -69,8 +70,9 @@ time::IntegratorType exponential_type() {
       .finds_first_step = true,
       .contacts = time::ContactSupport::without_rigid,
       .make = [](const config::Parameters& p, dynamics::Dynamics& dynamics) -> std::unique_ptr<time::Integrator> {
-        return make_exponential(dynamics,
-                                {p.number("tolerance"), p.number("end_time"), static_cast<Index>(p.integer("modes"))});
+        return make_exponential(dynamics, {.tolerance = p.number("tolerance"),
+                                           .run_time = p.number("end_time"),
+                                           .modes = static_cast<Index>(p.integer("modes"))});
       }};
 }
 

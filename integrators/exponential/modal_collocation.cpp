@@ -56,10 +56,10 @@ double by_inner(double inner) {
 
 }  // namespace
 
-ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal)
+ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal, Index most_coupled)
     : Integrator(dynamics),
       control_(dynamics, goal, kOrders, LocalErrorControl::Steps::geometric),
-      modes_(dynamics, goal.run_time),
+      modes_(dynamics, goal.run_time, most_coupled),
       loads_(modes_, dynamics.system()),
       forces_(dynamics, modes_),
       all_dofs_(modes_),

@@ -24,7 +24,7 @@ namespace butee::integrators {
 /// plugins/exponential/COLLOCATION.md.
 class ModalCollocation final : public time::Integrator {
  public:
-  ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal);
+  ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal, Index most_coupled = dynamics::DampedModes::kMost);
 
   /// The tolerance below which rounding in the basis of modes may exceed the guaranteed error
   /// (COLLOCATION.md, Modes).

@@ -54,6 +54,20 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
             0U);
 }
 
+/// Damped modes of 200 DOFs take longer to compute than a few waves, and those of one block of 200 modes longer than
+/// those of many small blocks.
+TEST(Automatic, TakesDampedModesWhereTheRunIsWorthThem) {
+  const auto choice = [](const std::string& end_time) {
+    return SceneRun(beam(100, kStops + kDashpot, "tolerance = 1e-3\nend_time = " + end_time + "\n"))
+        .integrator()
+        .choice();
+  };
+  EXPECT_NE(choice("1e-4").find("rodas4 with tolerance 0.001 on the moving part: dashpots couple"), std::string::npos)
+      << choice("1e-4");
+  EXPECT_NE(choice("2e-3").find("200 modes are coupled"), std::string::npos) << choice("2e-3");
+  EXPECT_EQ(choice("0.5").rfind("exponential with tolerance 0.001: the linear part", 0), 0U) << choice("0.5");
+}
+
 /// One mass between stops, as problem SDND121 of Code_Aster's suite.
 std::string oscillator(const std::string& tolerance, double stop = 1e10, const std::string& damping = "0.0",
                        const std::string& more = "") {
