@@ -31,14 +31,6 @@ void ForceErrors::find(const Step& step) {
     inner_errors_[k] *= step.h * dofs_.inverse_mass(step.active.dofs[static_cast<std::size_t>(k)]);
 }
 
-double ForceErrors::inner(const ActiveDofs& active, const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const {
-  double largest = 0.0;
-  for (Index k = 0; k < active.count(); ++k)
-    if (const double scale = scale_v[active.dofs[static_cast<std::size_t>(k)]]; scale > 0.0)
-      largest = std::max(largest, inner_errors_[k] / scale);
-  return largest;
-}
-
 // Beside the force of a stop on the same DOF, the slow decay of a small force that reverses would not be seen.
 void ForceErrors::add_supports(const Step& step) {
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();

@@ -33,9 +33,8 @@ class ForceErrors {
 
   /// The errors of the impulses on the active DOFs, N s.
   const Vector& of_impulse() const { return impulse_errors_; }
-  /// The largest error of a velocity of the active DOFs within the step, relative to the scales of velocities `scale_v`
-  /// of all DOFs. At the end of the step the error is far smaller.
-  double inner(const ActiveDofs& active, const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const;
+  /// The largest errors of the velocities of the active DOFs within the step, m/s. At its end they are far smaller.
+  const Vector& within() const { return inner_errors_; }
 
  private:
   /// Takes the errors of the friction of supports where they are larger than those of the whole force on their DOFs.

@@ -152,8 +152,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   solved_end_ = to.t;
   judge(from, to, h, report);
   if (report.error > 1.0) return report;
-  const double inner =
-      control_.is_still(to) ? 0.0 : forces_.inner_error(LocalErrorControl::scales_v(to)) / (kInner * tolerance_);
+  const double inner = control_.is_still(to) ? 0.0 : forces_.inner_error(from, to) / (kInner * tolerance_);
   if (inner > 1.0) return redo_with(h * std::max(0.1, by_inner(inner)));
   if (inner > 0.0) report.proposal = std::min(report.proposal, on_grid(h * by_inner(inner)));
   if (coarse > 0.0 && !is_far) report.proposal = std::min(report.proposal, on_grid(h * by_resolution(coarse)));

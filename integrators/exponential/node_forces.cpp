@@ -23,6 +23,8 @@ constexpr double kLeastScale = 1e-3;
 /// amplitudes at the nodes, at most: the polynomial reaches 3.12 times the largest value at the nodes (its Lebesgue
 /// constant), the modes by little more than that value.
 constexpr double kBetweenNodes = 3.2;
+/// A scale that grows by less in a step counts as constant.
+constexpr double kSettledScale = 0.5;
 /// Changes of a force below this fraction of it are rounding errors.
 constexpr double kRounding = 1e-13;
 /// The rounding error of a displacement at a node, relative to the largest one: that of a sum over many modes. A stiff
@@ -249,6 +251,23 @@ void NodeForces::estimate(double t, const StepResponse& response) {
   nodes_.swap(kept_nodes_);
   polynomial_.swap(kept_polynomial_);
   moved_ = moved;
+}
+
+double NodeForces::inner_error(const State& from, const State& to) const {
+  const auto begin = LocalErrorControl::scales_v(from), end = LocalErrorControl::scales_v(to);
+  double largest = 0.0;
+  for (Index k = 0; k < active_.count(); ++k) {
+    const Index dof = active_.dofs[static_cast<std::size_t>(k)];
+    double scale = begin[dof];
+    // A scale that grows in the step, as at a start from rest, is taken at the first node behind the start. The error
+    // before it is smaller, as it begins at 0.
+    if (scale < kSettledScale * end[dof]) {
+      const double early = need_velocity_ ? moved_velocity_(k, 1) : modes_.velocity().col(dof).dot(nodes_.col(1));
+      scale = std::min(std::max({scale, kLeastScale * end[dof], std::abs(early)}), end[dof]);
+    }
+    if (scale > 0.0) largest = std::max(largest, errors_.within()[k] / scale);
+  }
+  return largest;
 }
 
 void NodeForces::end_at(double part, double t, const double* z, const double* loads, const PlaceResponse& response) {

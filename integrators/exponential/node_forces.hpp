@@ -56,9 +56,9 @@ class NodeForces {
   /// Error estimate of z at the end: z computed without the values in the middle of the step, minus
   /// z, plus the error of Lobatto's rule for the impulse of the forces.
   const Eigen::VectorXd& error() const { return error_; }
-  /// The largest error of a contact's velocity within the step, relative to the scales of velocities
-  /// `scale_v` of all DOFs. At the end of the step the error is far smaller.
-  double inner_error(const Eigen::Ref<const Eigen::ArrayXd>& scale_v) const { return errors_.inner(active_, scale_v); }
+  /// The largest error of a contact's velocity within the step found last, which ends with `to`, relative to the scale
+  /// of that velocity early in the step. At the end of the step the error is far smaller.
+  double inner_error(const time::State& from, const time::State& to) const;
   /// The fraction of the step after which a stop crosses one of its borders; `last`, which may slightly exceed 1, if
   /// none does.
   double first_contact_change(double last) const;
