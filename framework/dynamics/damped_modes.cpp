@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include "butee/core/error.hpp"
 #include "butee/dynamics/dynamics.hpp"
@@ -76,20 +77,17 @@ Index count_rigid(const Vector& squares, double run_time) {
   return std::upper_bound(squares.begin(), squares.end(), most) - squares.begin();
 }
 
-/// Turns the first `count` shapes, those of rigid motion, such that the symmetric part of the damping among them is
-/// diagonal, and the damping with them; false if it is already. A dashpot between two free bodies then acts on their
-/// relative motion alone. In other shapes it would join them, and their common motion has no basis of eigenvectors.
+/// Turns the first `count` shapes, those of rigid motion, and the damping with them, such that motions on which no
+/// damping and no gyroscopic moment acts are shapes of their own: the common motion of two bodies joined by a dashpot,
+/// the translation of a free rotor. They have no basis of eigenvectors, and would leave none to shapes that they share.
+/// False if nothing couples the shapes.
 bool separate_rigid(Index count, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping) {
-  const Eigen::MatrixXd among = damping.topLeftCorner(count, count);
-  const Eigen::MatrixXd even = 0.5 * (among + among.transpose());
-  if (even.isDiagonal(0.0)) return false;
-  SparseMatrix identity(count, count);
-  identity.setIdentity();
-  const auto turned = linalg::dense_pairs(SparseMatrix(even.sparseView()), identity);
-  if (!turned) return false;
-  shapes.leftCols(count) *= turned->vectors;
-  damping.leftCols(count) *= turned->vectors;
-  damping.topRows(count) = turned->vectors.transpose() * damping.topRows(count).eval();
+  if (count < 2 || damping.leftCols(count).isZero(0.0)) return false;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(damping.leftCols(count), Eigen::ComputeThinV);
+  const Eigen::MatrixXd& turn = parts.matrixV();
+  shapes.leftCols(count) *= turn;
+  damping.leftCols(count) *= turn;
+  damping.topRows(count) = turn.transpose() * damping.topRows(count).eval();
   return true;
 }
 
@@ -167,7 +165,20 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
   if (!pairs) return false;
   block.values = pairs->values;
   block.vectors = std::move(pairs->vectors);
+  // q' of a mode is lambda q. The eigenvectors satisfy this to rounding of the highest frequency only, with which slow
+  // displacements would drift away from the integral of their velocities.
+  for (Index k = 0; k < 2 * b; ++k)
+    for (Index i = 0; i < b; ++i) {
+      const Complex lambda = block.values[k] / block.scale[i];
+      Complex &displacement = block.vectors(i, k), &velocity = block.vectors(b + i, k);
+      if (std::abs(lambda) >= 1.0)
+        displacement = velocity / lambda;
+      else
+        velocity = lambda * displacement;
+    }
   block.inverse = block.vectors.inverse();
+  block.error =
+      ((block.vectors * block.values.asDiagonal() * block.inverse).real() - motion).bottomRows(b).cwiseAbs().maxCoeff();
   return block.inverse.allFinite() && block.vectors.norm() * block.inverse.norm() < kDefective * static_cast<double>(b);
 }
 
@@ -244,6 +255,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled
         throw InputError("integrator.type: the modes of this structure do not form a basis");
     }
     condition_ = std::max(condition_, block.vectors.norm() * block.inverse.norm());
+    rounding_ = std::max(rounding_, run_time * block.error);
     for (Index i = 0; i < 2 * b; ++i)
       if (block.values[i].imag() >= 0.0) kept.emplace_back(blocks.size() - 1, i);
   }

@@ -40,6 +40,9 @@ class BUTEE_EXPORT DampedModes {
   /// The largest |V| |V^-1| of the blocks, V the eigenvectors, in Frobenius norms: motion that is
   /// transformed to the modes and back has relative rounding errors of this times epsilon.
   double condition() const { return condition_; }
+  /// The relative error that rounding in the modes causes in motion over the run time: T |V Lambda V^-1 - A| in the
+  /// largest entry, for y' = A y in coordinates y of equal size.
+  double rounding() const { return rounding_; }
   Index count() const { return decay_.size(); }           ///< p
   const Eigen::ArrayXd& decay() const { return decay_; }  ///< Re lambda, 1/s
   const Eigen::ArrayXd& turn() const { return turn_; }    ///< Im lambda >= 0, rad/s
@@ -78,13 +81,14 @@ class BUTEE_EXPORT DampedModes {
     Eigen::ArrayXd scale;      ///< s_i, 1/s, of the coordinates (s q, q')
     Eigen::VectorXcd values;
     Eigen::MatrixXcd vectors, inverse;
+    double error = 0.0;  ///< |V Lambda V^-1 - A| in the largest entry, 1/s
   };
   static bool solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping, Block& block);
 
   Eigen::ArrayXd decay_, turn_, speed_, kinetic_;
   Eigen::MatrixXd displacement_, velocity_, input_, from_x_, from_v_;
   Natural natural_;
-  double condition_ = 1.0, reference_speed_ = 0.0;
+  double condition_ = 1.0, rounding_ = 0.0, reference_speed_ = 0.0;
 };
 
 }  // namespace butee::dynamics

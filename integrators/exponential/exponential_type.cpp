@@ -46,8 +46,8 @@ std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics,
     if (const double smallest = integrator->smallest_tolerance(); options.tolerance < smallest)
       throw ToleranceBelowRounding(
           "integrator.tolerance: must be at least " + to_short_text(smallest) +
-          " for exponential here: its modes are almost parallel, as for free or critically damped motion with "
-          "dashpots, and rounding exceeds the error bound below it");
+          " for exponential here: below it rounding exceeds the error bound, since some modes are almost parallel, as "
+          "for free or critically damped motion with dashpots, or far faster than others");
     return integrator;
   }
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);

@@ -27,8 +27,8 @@ class ModalCollocation final : public time::Integrator {
   ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goal, Index most_coupled = dynamics::DampedModes::kMost);
 
   /// The tolerance below which rounding in the basis of modes may exceed the guaranteed error
-  /// (COLLOCATION.md, Modes).
-  double smallest_tolerance() const { return kRoundings * modes_.condition(); }
+  /// (COLLOCATION.md, Damped modes).
+  double smallest_tolerance() const { return std::max(kRoundings * modes_.condition(), modes_.rounding()); }
 
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State& state) const override;
