@@ -23,7 +23,7 @@ Outcome check(const std::string& model, const std::vector<std::string>& more = {
   return outcome;
 }
 
-/// What it can tell of a scene whose run would be refused, and then the refusal, as `run` gives it.
+/// Where a run would be refused, check reports on the scene and then fails with the message of the run.
 TEST(Check, FailsWhereARunWouldBeRefused) {
   const TemporaryFolder folder;
   folder.write("scene.toml", R"(schema = 1

@@ -291,7 +291,7 @@ TEST(DampedModes, FollowFreeBodiesJoinedByAWeakDashpot) {
 }
 
 /// A free rotor under a harmonic force at its end: its centre of mass moves as a free mass, whatever gyroscopic moments
-/// do. Shapes of rigid motion that mixed translation and tilting left it wrong by 1e-5, at any tolerance.
+/// do.
 TEST(DampedModes, MoveTheCentreOfMassOfAFreeRotorAsAFreeMass) {
   const double mass = 3.0, disc = 2.0, amplitude = 5.0, omega = 40.0, end = 2.0;
   const std::string scene =
