@@ -80,15 +80,34 @@ Index count_rigid(const Vector& squares, double run_time) {
 /// Turns the first `count` shapes, those of rigid motion, and the damping with them, such that motions on which no
 /// damping and no gyroscopic moment acts are shapes of their own: the common motion of two bodies joined by a dashpot,
 /// the translation of a free rotor. They have no basis of eigenvectors, and would leave none to shapes that they share.
-/// False if nothing couples the shapes.
-bool separate_rigid(Index count, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping) {
+/// What is left of damping on them is rounding of the shapes. It would join them to all other modes, and is set to 0 if
+/// it does not act within `run_time` seconds. False if nothing couples the shapes.
+bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping) {
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon(), kStill = 1e-10;
   if (count < 2 || damping.leftCols(count).isZero(0.0)) return false;
   const Eigen::JacobiSVD<Eigen::MatrixXd> parts(damping.leftCols(count), Eigen::ComputeThinV);
   const Eigen::MatrixXd& turn = parts.matrixV();
   shapes.leftCols(count) *= turn;
   damping.leftCols(count) *= turn;
   damping.topRows(count) = turn.transpose() * damping.topRows(count).eval();
+  const double least = std::min(kRounding * damping.norm(), kStill / run_time);
+  for (Index i = 0; i < count; ++i)
+    if (parts.singularValues()[i] <= least) {
+      damping.col(i).setZero();
+      damping.row(i).setZero();
+    }
   return true;
+}
+
+/// Sets the squares of the frequencies of those of the first `count` shapes to 0 on which the stiffness acts by rounding
+/// of its entries only: over a run of T seconds a square of rounding kappa moves a free body by kappa T^2/6 of its way.
+void clear_rigid(Index count, const SparseMatrix& stiffness, const Eigen::MatrixXd& shapes, Vector& squares) {
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const SparseMatrix sizes = stiffness.cwiseAbs();
+  for (Index i = 0; i < count; ++i) {
+    const Vector shape = shapes.col(i).cwiseAbs();
+    if (std::abs(squares[i]) <= kRounding * shape.dot(sizes * shape)) squares[i] = 0.0;
+  }
 }
 
 /// A matrix whose rows combine the rows of another one. Blocks of few modes leave most of it empty.
@@ -201,6 +220,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled
   if (!natural) throw InputError("integrator.type: the modes could not be computed");
   Eigen::MatrixXd& shapes = natural->vectors;
 
+  const Index rigid = count_rigid(natural->values, run_time);
   Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);
   if (dynamics.has_damping() || system.rotation != nullptr) {
     Eigen::MatrixXd forces(n, n);
@@ -212,8 +232,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled
       if (system.dashpots.size() > 0) sizes += system.dashpots.cwiseAbs();
       if (system.gyroscopic.size() > 0) sizes += std::abs(reference_speed_) * system.gyroscopic.cwiseAbs();
       clear_rounding(sizes, shapes, damping);
-      if (separate_rigid(count_rigid(natural->values, run_time), shapes, damping))
-        clear_rounding(sizes, shapes, damping);
+      if (separate_rigid(rigid, run_time, shapes, damping)) clear_rounding(sizes, shapes, damping);
     }
   } else {
     damping.setZero();
@@ -223,6 +242,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled
     stiffness.noalias() = shapes.transpose() * (odd * shapes);
     clear_rounding(odd.cwiseAbs(), shapes, stiffness);
   }
+  clear_rigid(rigid, even, shapes, natural->values);
   Parts parts(n);
   join_entries(damping, parts);
   join_entries(stiffness, parts);

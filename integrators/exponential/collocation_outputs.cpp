@@ -20,7 +20,8 @@ constexpr double kMostTurn = FastModes::kMostTurn;
 constexpr double kTurnOfPower = 3.0, kPartsOfPower = 2.0;
 /// The largest distance of neighbouring nodes, as a fraction of the step.
 constexpr double kLongestPart = 0.24;
-constexpr double kMostBreakpoints = 4096.0;
+/// Limits the memory for them.
+constexpr double kMostBreakpoints = 262144.0;
 
 }  // namespace
 

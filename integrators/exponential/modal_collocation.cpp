@@ -148,7 +148,8 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   }
   if (coarse > 1.0 && !forces_.stays_apart()) return redo_with(h * std::max(0.1, by_resolution(coarse)));
   accept(from, h, to);
-  if (const double most = outputs_.longest(from, to); h > most) return redo_with(most);
+  const double longest = outputs_.longest(from, to);
+  if (h > longest) return redo_with(longest);
   solved_end_ = to.t;
   judge(from, to, h, report);
   if (report.error > 1.0) return report;
@@ -158,6 +159,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   if (coarse > 0.0 && !is_far) report.proposal = std::min(report.proposal, on_grid(h * by_resolution(coarse)));
   // A step shortened by a change of contact does not limit the next step.
   if (h < wanted) report.proposal = std::max(report.proposal, wanted);
+  report.proposal = std::min(report.proposal, on_grid(longest));
   return report;
 }
 
