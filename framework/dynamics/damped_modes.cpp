@@ -99,8 +99,9 @@ bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen
   return true;
 }
 
-/// Sets the squares of the frequencies of those of the first `count` shapes to 0 on which the stiffness acts by rounding
-/// of its entries only: over a run of T seconds a square of rounding kappa moves a free body by kappa T^2/6 of its way.
+/// Sets the squares of the frequencies of those of the first `count` shapes to 0 on which the stiffness acts by
+/// rounding of its entries only: over a run of T seconds a square of rounding kappa moves a free body by kappa T^2/6 of
+/// its way.
 void clear_rigid(Index count, const SparseMatrix& stiffness, const Eigen::MatrixXd& shapes, Vector& squares) {
   constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
   const SparseMatrix sizes = stiffness.cwiseAbs();
@@ -271,6 +272,8 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled
     block.scale = largest.sqrt();
     if (!solve(k, c, block)) {
       for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];
+      // In coordinates of this scale the two vectors of a free motion are not almost parallel.
+      if (b == 1) block.scale = k(0, 0) > 0.0 ? std::sqrt(k(0, 0)) : block.scale[0];
       if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
         throw InputError("integrator.type: the modes of this structure do not form a basis");
     }

@@ -1,5 +1,7 @@
 // Outputs and peaks of exponential on coupled modes, compared with the closed form of piecewise.
+#include <array>
 #include <cmath>
+#include <string>
 
 #include <butee/record/history.hpp>
 #include <gtest/gtest.h>
@@ -55,6 +57,33 @@ displacement = [{ nodes = "b", dof = "u", value = 0.013 }]
 [integrator]
 end_time = 0.2
 )";
+
+/// The fast modes of a thin piece of a shaft hardly move: neither they nor rounding in them limit the steps.
+TEST(CollocationOutputs, DoNotShortenStepsForModesThatRest) {
+  std::string shaft =
+      "schema = 1\n[material.s]\nyoung_modulus = 2.1e11\nshear_modulus = 8.1e10\ndensity = 7800.0\n[section.c]\n"
+      "shape = \"circle\"\nradius = 0.02\n";
+  const std::array<const char*, 3> names = {"a", "b", "c"}, lengths = {"0.6", "0.003", "0.5"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    shaft +=
+        "[[element]]\ntype = \"beam\"\ntheory = \"timoshenko\"\nmotion = \"lateral\"\nmaterial = "
+        "\"s\"\nsection = \"c\"\nname = \"" +
+        std::string(names[i]) + "\"\nlength = " + lengths[i] + "\nelements = 1\n";
+    if (i > 0) shaft += "start_node = \"" + std::string(names[i - 1]) + ":last\"\n";
+  }
+  for (const char* node : {"a:first", "c:last"})
+    shaft += "[[element]]\ntype = \"bearing\"\nnode = \"" + std::string(node) +
+             "\"\nstiffness = [[1e6, 0.0], [0.0, 8e5]]\ndamping = [[500.0, 0.0], [0.0, 500.0]]\n";
+  shaft +=
+      "[[element]]\ntype = \"disc\"\nnode = \"a:last\"\nmass = 8.0\ndiametral_inertia = 0.03\npolar_inertia = 0.055\n"
+      "[initial]\nvelocity = [{ nodes = \"a:last\", dof = \"uy\", value = 0.1 }]\n[integrator]\ntolerance = "
+      "1e-4\nend_time = 0.5\n[[output.probe]]\nlabel = \"mid\"\nnode = \"a:last\"\nquantities = [\"uy\"]\n";
+  SceneRun run(shaft, {"integrator.type=exponential"}), other(shaft, {"integrator.type=rodas4"});
+  for (SceneRun* one : {&run, &other}) ASSERT_TRUE(one->run().completed) << one->simulation().report().message;
+  EXPECT_LT(run.simulation().report().steps + run.simulation().report().rejected, 30);
+  const Vector &got = run.simulation().state().x, &wanted = other.simulation().state().x;
+  EXPECT_LT((got - wanted).lpNorm<Eigen::Infinity>(), 1e-3 * wanted.lpNorm<Eigen::Infinity>());
+}
 
 /// Steps are longer than the periods of the light mass and of the loads.
 TEST(CollocationOutputs, GiveValuesAndPeaksOfFastMotion) {

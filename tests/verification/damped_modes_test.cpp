@@ -235,9 +235,9 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
 
 INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight, kIndefinite));
 
-/// Dashpots between parts do not act on rigid motion: only its double eigenvalue, moved apart by kNudge,
-/// conditions the basis, not a block of all modes joined to it by rounding.
-TEST(DampedModes, KeepRigidMotionApartAndRefuseTolerancesBelowItsRounding) {
+/// Dashpots between parts do not act on rigid motion. In coordinates of its own scale it conditions no basis, and a
+/// block of all modes is not joined to it by rounding.
+TEST(DampedModes, KeepRigidMotionApart) {
   std::string chain = "schema = 1\n";
   for (int i = 0; i < 4; ++i) {
     chain += "[[element]]\ntype = \"mass\"\nname = \"m" + std::to_string(i) +
@@ -249,17 +249,36 @@ TEST(DampedModes, KeepRigidMotionApartAndRefuseTolerancesBelowItsRounding) {
   }
   chain += "[initial]\nvelocity = [{ nodes = \"m0\", value = 1.0 }]\n[integrator]\nend_time = 1.0\n";
   SceneRun run(chain);
+  EXPECT_LT(DampedModes(run.dynamics(), 1.0).condition(), 100.0);
+  SceneRun by_modes(chain, {"integrator.type=exponential", "integrator.tolerance=1e-10"}),
+      by_series(chain, {"integrator.type=exact"});
+  for (SceneRun* one : {&by_modes, &by_series}) ASSERT_TRUE(one->run().completed);
+  const time::State &got = by_modes.simulation().state(), &wanted = by_series.simulation().state();
+  EXPECT_LT((got.x - wanted.x).norm(), 1e-10 * wanted.x.norm());
+  EXPECT_LT((got.v - wanted.v).norm(), 1e-10 * wanted.v.norm());
+}
+
+/// A critically damped mass has one eigenvector; its eigenvalues, moved apart by kNudge, condition the basis.
+TEST(DampedModes, RefuseTolerancesBelowTheRoundingOfCriticalDamping) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
+      "\"b\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = \"c\"\nmass = 1.0\n"
+      "[[element]]\ntype = \"spring\"\nnode = \"a\"\nstiffness = 100.0\ndamping = 20.0\n"
+      "[[element]]\ntype = \"spring\"\nnode = \"b\"\nstiffness = 300.0\ndamping = 2.0\n"
+      "[[element]]\ntype = \"spring\"\nnodes = [\"b\", \"c\"]\nstiffness = 200.0\n"
+      "[initial]\nvelocity = [{ nodes = \"a\", value = 1.0 }]\n[integrator]\nend_time = 1.0\n";
+  SceneRun run(scene);
   const double condition = DampedModes(run.dynamics(), 1.0).condition();
   EXPECT_GT(condition, 0.5 / std::sqrt(DampedModes::kNudge));
   EXPECT_LT(condition, 4.0 / std::sqrt(DampedModes::kNudge));
-  EXPECT_NO_THROW(SceneRun(chain, {"integrator.type=exponential", "integrator.tolerance=2e-8"}));
+  EXPECT_NO_THROW(SceneRun(scene, {"integrator.type=exponential", "integrator.tolerance=2e-8"}));
   try {
-    SceneRun(chain, {"integrator.type=exponential", "integrator.tolerance=1e-10"});
+    SceneRun(scene, {"integrator.type=exponential", "integrator.tolerance=1e-10"});
     FAIL() << "was taken";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("rounding exceeds the error bound"), std::string::npos) << error.what();
   }
-  SceneRun chosen(chain, {"integrator.tolerance=1e-10"});
+  SceneRun chosen(scene, {"integrator.tolerance=1e-10"});
   EXPECT_NE(chosen.integrator().choice().find("rodas4"), std::string::npos) << chosen.integrator().choice();
 }
 
@@ -316,6 +335,28 @@ TEST(DampedModes, MoveTheCentreOfMassOfAFreeRotorAsAFreeMass) {
                speed = amplitude / (all * omega) * std::sin(omega * end);
   EXPECT_NEAR(weights.dot(state.x) / all, way, 1e-7 * amplitude / (all * omega * omega));
   EXPECT_NEAR(weights.dot(state.v) / all, speed, 1e-7 * amplitude / (all * omega));
+}
+
+/// A free rotor that is struck at its end: rounding in K and in the modes neither holds its centre of mass back, which
+/// would grow with t^3, nor joins its translation to its other motion.
+TEST(DampedModes, CarryAStruckFreeRotorAtConstantSpeed) {
+  const std::string scene =
+      "schema = 1\n[rotation]\nspeed = 1000.0\n[material.s]\nyoung_modulus = 2.1e11\nshear_modulus = 8.1e10\ndensity = "
+      "7800.0\n[section.c]\nshape = \"circle\"\nradius = 0.02\n[[element]]\ntype = \"beam\"\ntheory = "
+      "\"timoshenko\"\nname = \"b\"\nmotion = \"lateral\"\nmaterial = \"s\"\nsection = \"c\"\nlength = "
+      "1.0\nelements = 6\n[[element]]\ntype = \"disc\"\nnode = \"b:3\"\nmass = 8.0\ndiametral_inertia = "
+      "0.03\npolar_inertia = 0.055\n[initial]\nvelocity = [{ nodes = \"b:0\", dof = \"uy\", value = 0.1 }]\n"
+      "[integrator]\ntype = \"exponential\"\ntolerance = 1e-8\nend_time = 3.0\n";
+  SceneRun run(scene);
+  VectorXd along_y = VectorXd::Zero(run.dynamics().size());
+  for (const char* node : {"b:0", "b:1", "b:2", "b:3", "b:4", "b:5", "b:6"}) along_y[run.dof(node)] = 1.0;
+  const VectorXd weights = run.dynamics().system().mass * along_y / along_y.dot(run.dynamics().system().mass * along_y);
+  const double speed = weights.dot(run.simulation().state().v);
+  EXPECT_GT(speed, 0.001);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  EXPECT_NEAR(weights.dot(run.simulation().state().x), 3.0 * speed, 3e-10 * speed);
+  EXPECT_NEAR(weights.dot(run.simulation().state().v), speed, 3e-10 * speed);
+  EXPECT_LT(run.simulation().report().steps, 20);
 }
 
 /// Angles below and above the limit of the vectorised functions.
