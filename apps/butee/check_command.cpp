@@ -74,6 +74,7 @@ int check_command(const CheckArguments& arguments) {
                      : frequency_range(system, dynamics::StopState::closed);
   find_critical_steps(session, system, facts);
   facts.mechanics = check::mechanics_of(system, session.integrator.options.end_time);
+  facts.instability = check::fastest_growth(session.model, system, session.integrator.options.end_time);
   facts.cost = check::estimate(session, reading_seconds);
   const auto advice = check::advise(session, system, facts);
 

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <random>
 
+#include <butee/core/text.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -79,6 +80,26 @@ std::vector<std::string> random_load(double mean) {
     values += (i > 0 ? ", " : "") + std::to_string(i < 2000 ? value(random) : 900.0);
   }
   return {"load=[{type=\"table\",node=\"string:middle\",times=[" + times + "],values=[" + values + "]}]"};
+}
+
+/// A mass on a bearing with cross terms: m s^2 + c s + k = +-i q. Undamped, it grows at the rate ((|k + i q| -
+/// k)/2m)^(1/2).
+TEST(CheckAdvice, WarnsOfModesThatGrow) {
+  const TemporaryFolder folder;
+  const auto scene = [&](const std::string& damping, const std::string& end) {
+    folder.write(
+        "bearing.toml",
+        "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"d\"\nmass = 1.0\ndiametral_inertia = 0.01\npolar_inertia = "
+        "0.02\n[[element]]\ntype = \"bearing\"\nnode = \"d\"\nstiffness = [[1e4, 1e3], [-1e3, 1e4]]\ndamping = [[" +
+            damping + ", 0.0], [0.0, " + damping +
+            "]]\n[integrator]\ntype = \"auto\"\ntolerance = 1e-4\nend_time = " + end + "\n");
+    return folder.file("bearing.toml");
+  };
+  const double k = 1e4, q = 1e3, rate = std::sqrt(0.5 * (std::hypot(k, q) - k));
+  const std::string text = advice(check(scene("0.0", "2.0")), "unstable");
+  EXPECT_NE(text.find("by a factor of e every " + to_short_text(1.0 / rate) + " s"), std::string::npos) << text;
+  EXPECT_EQ(advice(check(scene("20.0", "2.0")), "unstable"), "");
+  EXPECT_EQ(advice(check(scene("0.0", "0.1")), "unstable"), "");  // too slow for this run
 }
 
 TEST(CheckAdvice, TakesWhatLastsOfALoadForItsStaticPart) {

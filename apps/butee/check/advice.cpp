@@ -31,6 +31,7 @@ class Adviser {
 
   std::vector<Advice> all() {
     if (!facts_.cost.failure.empty()) add("trial", facts_.cost.failure);
+    judge_stability();
     judge_step();
     judge_laws();
     judge_pull();
@@ -44,6 +45,17 @@ class Adviser {
 
  private:
   void add(const char* about, std::string words) { advice_.push_back({about, std::move(words)}); }
+
+  void judge_stability() {
+    if (!facts_.instability) return;
+    const auto& [rate, frequency, speed] = *facts_.instability;
+    add("unstable", "without contact the motion grows: a mode of " + to_short_text(frequency) + " rad/s" +
+                        (speed != 0.0 ? " at the speed of rotation " + to_short_text(speed) + " rad/s" : "") +
+                        " grows by a factor of e every " + to_short_text(1.0 / rate) +
+                        " s. Cross terms of bearings, damping that turns with a shaft or negative damping feed it; "
+                        "`butee modes --speed " +
+                        to_short_text(speed) + "` shows the modes that grow");
+  }
 
   void judge_step() {
     const scene::IntegratorChoice& choice = session_.integrator;

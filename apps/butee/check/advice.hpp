@@ -8,6 +8,7 @@
 
 #include "../session.hpp"
 #include "estimate.hpp"
+#include "instability.hpp"
 #include "mechanics.hpp"
 #include "survey.hpp"
 
@@ -25,6 +26,7 @@ struct Facts {
   /// Critical steps of three methods; that of the scene's own method is empty if it is stable at any step.
   std::optional<time::CriticalSteps> of_runge_kutta, of_central_differences, of_method;
   Mechanics mechanics;
+  std::optional<Instability> instability;
   Survey survey;
   Estimate cost;
 };
