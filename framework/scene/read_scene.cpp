@@ -95,14 +95,22 @@ Scene read_scene(config::Document document, plugin::Catalogue catalogue, Output 
           std::move(*draft.integrator), std::move(request),   std::move(warnings)};
 }
 
+namespace {
+
+/// The command that performs the study of this file; "" if it is no study.
+std::string command_for_study(const config::Table& root) {
+  if (root.find("element") != nullptr) return "";
+  if (root.find("scene") != nullptr) return "study";
+  return root.find("study") != nullptr ? "compare" : "";
+}
+
+}  // namespace
+
 Scene load_scene(const std::string& path, const std::vector<std::string>& overrides,
                  const std::vector<std::string>& plugins) {
   config::Document document = config::load_toml(path);
-  const config::Table& root = *document.root.table();
-  if (root.find("element") == nullptr && (root.find("scene") != nullptr || root.find("scenes") != nullptr))
-    throw InputError(path +
-                     ": is not a scene but a study of scenes; `butee study` performs those with `scene`, `butee "
-                     "compare` those with `scenes`");
+  if (const std::string command = command_for_study(*document.root.table()); !command.empty())
+    throw InputError(path + ": is not a scene but a study of scenes, which `butee " + command + "` performs");
   for (const std::string& assignment : overrides) config::apply_override(document, assignment);
   return read_scene(std::move(document), plugin::Catalogue::with_plugins(plugins));
 }

@@ -47,6 +47,11 @@ TEST(BadUsage, OfFiles) {
   folder.write("empty.toml", "");
   expect_refusal({"run", "nowhere.toml"}, folder, {"nowhere.toml: cannot be read"});
   expect_refusal({"run", "."}, folder, {".: is a folder; name the TOML file in it"});
+  folder.write("compared.toml", "schema = 1\n[study]\nscenes = [\"a.toml\"]\n");
+  folder.write("varied.toml", "schema = 1\nscene = \"a.toml\"\n[[vary]]\nkey = \"load[0].value\"\nvalues = [1.0]\n");
+  expect_refusal({"run", "compared.toml"}, folder, {"compared.toml: is not a scene", "`butee compare`"});
+  expect_refusal({"check", "compared.toml"}, folder, {"compared.toml: is not a scene", "`butee compare`"});
+  expect_refusal({"run", "varied.toml"}, folder, {"varied.toml: is not a scene", "`butee study`"});
   expect_refusal(
       {"run", "empty.toml"}, folder,
       {"empty.toml:1: schema: missing", "empty.toml:1: element: missing", "empty.toml:1: integrator: missing"});
