@@ -16,6 +16,7 @@ constexpr auto kBetweenLines = 10s;
 }  // namespace
 
 std::string time_span(double time) {
+  if (time < 9.5) return formatted("%.2g s", time);
   if (time < 99.5) return formatted("%.0f s", time);
   return time < 5940.0 ? formatted("%.0f min", time / 60.0) : formatted("%.1f h", time / 3600.0);
 }
