@@ -80,7 +80,7 @@ Index count_rigid(const Vector& squares, double run_time) {
 /// Turns the first `count` shapes, those of rigid motion, and the damping with them, such that motions on which no
 /// damping and no gyroscopic moment acts are shapes of their own: the common motion of two bodies joined by a dashpot,
 /// the translation of a free rotor. They have no basis of eigenvectors, and would leave none to shapes that they share.
-/// What is left of damping on them is rounding of the shapes. It would join them to all other modes, and is set to 0 if
+/// Rounding of the shapes leaves some damping on them, which would join them to all other modes; it is set to 0 if
 /// it does not act within `run_time` seconds. False if nothing couples the shapes.
 bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping) {
   constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon(), kStill = 1e-10;

@@ -72,8 +72,8 @@ std::vector<Slope> slopes(Scene scene, const std::vector<Method>& methods, std::
   for (const Method& method : methods) {
     if (!method.is_controlled) continue;
     Slope slope{scene.name, method.name, {}, {}, 0.0, false};
-    for (int decade = 2; decade <= 10; ++decade) {
-      scene.tolerance = std::pow(10.0, -decade);
+    for (int half_decades = 4; half_decades <= 20; ++half_decades) {
+      scene.tolerance = std::pow(10.0, -0.5 * half_decades);
       try {
         test::SceneRun run(scene.toml + integrator(scene, method, reference));
         Follower follower(run.dynamics().size(), reference.instants());
