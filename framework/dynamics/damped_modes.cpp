@@ -13,6 +13,7 @@
 #include "butee/dynamics/dynamics.hpp"
 #include "butee/dynamics/kernel/modal_motion.hpp"
 #include "butee/linalg/dense_pairs.hpp"
+#include "butee/linalg/extended.hpp"
 #include "butee/linalg/general_pairs.hpp"
 
 namespace butee::dynamics {
@@ -99,16 +100,39 @@ bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen
   return true;
 }
 
-/// Sets the squares of the frequencies of those of the first `count` shapes to 0 on which the stiffness acts by
-/// rounding of its entries only: over a run of T seconds a square of rounding kappa moves a free body by kappa T^2/6 of
-/// its way.
-void clear_rigid(Index count, const SparseMatrix& stiffness, const Eigen::MatrixXd& shapes, Vector& squares) {
-  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
-  const SparseMatrix sizes = stiffness.cwiseAbs();
-  for (Index i = 0; i < count; ++i) {
-    const Vector shape = shapes.col(i).cwiseAbs();
-    if (std::abs(squares[i]) <= kRounding * shape.dot(sizes * shape)) squares[i] = 0.0;
-  }
+/// The number of modes whose omega^2 the rounding of the eigenvalues beside the highest one leaves with less than nine
+/// digits; `squares` ascend.
+Index count_soft(const Vector& squares) {
+  constexpr double kSoft = 1e-6;
+  return std::upper_bound(squares.begin(), squares.end(), kSoft * squares[squares.size() - 1]) - squares.begin();
+}
+
+/// S^T K S of the first `count` shapes S, those of rigid and soft motion, to rounding of the entries of K. The
+/// eigenvalues and shapes alone have the rounding of the highest eigenvalue, which would turn shapes of similar
+/// frequency into one another, and move a free body by kappa t^2/6 of its way if kappa is the error of omega^2. Entries
+/// that are rounding of K, or turn no shape by more than kMixed, are 0.
+Eigen::MatrixXd soft_stiffness(Index count, const SparseMatrix& stiffness, const Eigen::MatrixXd& shapes) {
+  constexpr double kMixed = 1e-9;
+  const linalg::ExtendedColumns soft = shapes.leftCols(count).cast<long double>();
+  linalg::ExtendedColumns forces = linalg::ExtendedColumns::Zero(shapes.rows(), count);
+  for (Index column = 0; column < stiffness.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry)
+      forces.row(entry.row()) += static_cast<long double>(entry.value()) * soft.row(column);
+  const linalg::ExtendedColumns extended = soft.transpose() * forces;
+  Eigen::MatrixXd product = extended.cast<double>();
+  const Eigen::MatrixXd sizes = shapes.leftCols(count).cwiseAbs();
+  const SparseMatrix all = stiffness.cwiseAbs();
+  const Eigen::MatrixXd of_all = all * sizes;
+  const Eigen::MatrixXd rounding = std::numeric_limits<double>::epsilon() * (sizes.transpose() * of_all);
+  const Vector squares = product.diagonal();
+  for (Index i = 0; i < count; ++i)
+    for (Index j = 0; j < count; ++j) {
+      double& value = product(i, j);
+      if (i == j ? value < 0.0 && value > -rounding(i, i)
+                 : std::abs(value) <= std::max(rounding(i, j), kMixed * std::abs(squares[i] - squares[j])))
+        value = 0.0;
+    }
+  return product;
 }
 
 /// A matrix whose rows combine the rows of another one. Blocks of few modes leave most of it empty.
@@ -243,14 +267,15 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled
     stiffness.noalias() = shapes.transpose() * (odd * shapes);
     clear_rounding(odd.cwiseAbs(), shapes, stiffness);
   }
-  clear_rigid(rigid, even, shapes, natural->values);
+  const Index soft = std::max(rigid, count_soft(natural->values));
+  stiffness.topLeftCorner(soft, soft) += soft_stiffness(soft, even, shapes);
   Parts parts(n);
   join_entries(damping, parts);
   join_entries(stiffness, parts);
-  // Values below 0 are rounding of rigid motion, or those of a structure that is unstable without damping and bearings.
+  // Values below 0 are rounding, or those of a structure that is unstable without damping and bearings.
   const double rounding = kRoundingOfSquares * std::abs(natural->values[n - 1]);
-  stiffness.diagonal() +=
-      (natural->values.array() < 0.0 && natural->values.array() > -rounding).select(0.0, natural->values);
+  const auto squares = natural->values.tail(n - soft).array();
+  stiffness.diagonal().tail(n - soft) += (squares < 0.0 && squares > -rounding).select(0.0, squares).matrix();
 
   std::vector<Block> blocks;
   std::vector<std::pair<std::size_t, Index>> kept;  ///< block and its damped mode
@@ -270,10 +295,14 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled
       }
     const Eigen::ArrayXd largest = k.diagonal().array().abs().max(1.0 / (run_time * run_time));
     block.scale = largest.sqrt();
+    // In coordinates of its own scale the two vectors of a slow or free motion are not almost parallel.
+    const auto use_own_scale = [&] {
+      if (b == 1 && c(0, 0) * c(0, 0) <= k(0, 0) && k(0, 0) > 0.0) block.scale[0] = std::sqrt(k(0, 0));
+    };
+    use_own_scale();
     if (!solve(k, c, block)) {
       for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];
-      // In coordinates of this scale the two vectors of a free motion are not almost parallel.
-      if (b == 1) block.scale = k(0, 0) > 0.0 ? std::sqrt(k(0, 0)) : block.scale[0];
+      use_own_scale();
       if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
         throw InputError("integrator.type: the modes of this structure do not form a basis");
     }
