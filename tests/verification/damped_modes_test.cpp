@@ -359,6 +359,34 @@ TEST(DampedModes, CarryAStruckFreeRotorAtConstantSpeed) {
   EXPECT_LT(run.simulation().report().steps, 20);
 }
 
+/// A shaft that hangs in springs 1e-12 times as stiff as itself swings as a rigid body, its ends in phase: M times the
+/// acceleration of its centre of mass is the sum of the springs' forces. Rounding of the eigenvalues beside the highest
+/// one, 1e10 rad2/s2, was as large as the square of this frequency.
+TEST(DampedModes, SwingAStiffShaftInSoftSprings) {
+  const double stiffness = 1e-5, end = 600.0;
+  const std::string bearing = "[[element]]\ntype = \"bearing\"\nstiffness = [[" + to_text(stiffness) +
+                              ", 0.0], [0.0, " + to_text(4.0 * stiffness) + "]]\nnode = ";
+  std::string scene =
+      "schema = 1\n[rotation]\nspeed = 1000.0\n[material.s]\nyoung_modulus = 2.1e11\nshear_modulus = 8.1e10\ndensity = "
+      "7800.0\n[section.c]\nshape = \"circle\"\nradius = 0.02\n[[element]]\ntype = \"beam\"\ntheory = "
+      "\"timoshenko\"\nname = \"b\"\nmotion = \"lateral\"\nmaterial = \"s\"\nsection = \"c\"\nlength = "
+      "1.0\nelements = 6\n[[element]]\ntype = \"disc\"\nnode = \"b:3\"\nmass = 8.0\ndiametral_inertia = "
+      "0.03\npolar_inertia = 0.055\n" +
+      bearing + "\"b:0\"\n" + bearing + "\"b:6\"\n[initial]\nvelocity = [";
+  for (int node = 0; node <= 6; ++node)
+    scene += "{ nodes = \"b:" + std::to_string(node) + "\", dof = \"uy\", value = 0.1 }, ";
+  scene.resize(scene.size() - 2);
+  scene += "]\n[integrator]\ntype = \"exponential\"\ntolerance = 1e-3\nend_time = " + to_text(end) + "\n";
+  SceneRun run(scene);
+  VectorXd along_y = VectorXd::Zero(run.dynamics().size());
+  for (int node = 0; node <= 6; ++node) along_y[run.dof("b:" + std::to_string(node))] = 1.0;
+  const double mass = along_y.dot(run.dynamics().system().mass * along_y), omega = std::sqrt(2.0 * stiffness / mass),
+               speed = 0.1;
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  const double got = run.simulation().state().x[run.dof("b:3")], wanted = speed / omega * std::sin(omega * end);
+  EXPECT_NEAR(got, wanted, 1e-3 * wanted);
+}
+
 /// Angles below and above the limit of the vectorised functions.
 TEST(DampedModes, TurnByComplexExponentials) {
   SceneRun run(kShaft);
