@@ -17,10 +17,37 @@ using LongComplexMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dyna
 /// Damping couples modes if an off-diagonal entry exceeds this fraction of the largest entry.
 /// Rounding of proportional damping, which is given in doubles, stays below.
 constexpr long double kUncoupled = 1e-14L;
-/// Squared frequencies below this fraction of the largest are rounding errors: the motion is rigid.
-constexpr long double kRigid = 1e-17L;
+/// A squared frequency phi^T K phi below this fraction of |phi|^T |K| |phi| is rounding of the entries of K, which are
+/// doubles: the motion is rigid.
+constexpr long double kRigid = 16.0L * std::numeric_limits<double>::epsilon();
 /// Largest condition number of the eigenvector matrix; a larger one loses six digits or more.
 constexpr long double kParallel = 1e6L;
+/// Modes below this fraction of the largest squared frequency are found once more, among themselves.
+constexpr long double kSoft = 1e-6L;
+
+/// Removes the rounding of the largest squared frequencies from the lowest ones: K restricted to the slow modes, the
+/// first columns of `shapes`, has eigenvalues with rounding of the largest of these only. Beside a stop of 1e11 N/m on
+/// 1e-8 kg a spring of 22 N/m would be lost.
+bool refine_slow(const LongMatrix& stiffness, const LongMatrix& mass, LongMatrix& shapes, LongVector& squares) {
+  for (Index before = squares.size(), count = 0; before > 1; before = count) {
+    const long double largest = squares.head(before).cwiseAbs().maxCoeff();
+    count = (squares.head(before).array().abs() < kSoft * largest).count();
+    if (count == 0) return true;
+    const LongMatrix slow = shapes.leftCols(count);
+    const LongMatrix their_mass = slow.transpose() * mass * slow;
+    if (count == 1) {
+      squares[0] = (slow.transpose() * stiffness * slow)(0, 0) / their_mass(0, 0);
+      return true;
+    }
+    const auto pairs = linalg::extended_pairs(slow.transpose() * stiffness * slow, their_mass);
+    if (!pairs) return false;
+    shapes.leftCols(count) = slow * pairs->vectors;
+    squares.head(count) = pairs->values;
+    if (count == before) return true;
+  }
+  return true;
+}
+
 LongMatrix closed_stiffness(const SmallSystem& system, const std::vector<bool>& closed, bool of_damping) {
   LongMatrix sum = of_damping ? system.damping : system.stiffness;
   for (std::size_t i = 0; i < closed.size(); ++i) {
@@ -60,13 +87,17 @@ ContactStateFlow::ContactStateFlow(const SmallSystem& system, const std::vector<
     squares[0] = stiffness(0, 0) / system.mass(0, 0);
   } else {
     const auto pairs = linalg::extended_pairs(stiffness, system.mass);
-    if (!pairs) throw RunError("piecewise: the modes of a contact state could not be computed; take exact or rodas4");
-    shapes = pairs->vectors;
-    squares = pairs->values;
+    if (pairs) {
+      shapes = pairs->vectors;
+      squares = pairs->values;
+    }
+    if (!pairs || !refine_slow(stiffness, system.mass, shapes, squares))
+      throw RunError("piecewise: the modes of a contact state could not be computed; take exact or rodas4");
   }
-  const long double largest = squares.cwiseAbs().maxCoeff();
-  for (Index i = 0; i < n_; ++i)
-    if (std::abs(squares[i]) <= kRigid * static_cast<long double>(n_) * largest) squares[i] = 0.0L;
+  for (Index i = 0; i < n_; ++i) {
+    const LongVector sizes = shapes.col(i).cwiseAbs();
+    if (std::abs(squares[i]) <= kRigid * sizes.dot(stiffness.cwiseAbs() * sizes)) squares[i] = 0.0L;
+  }
   if (squares.minCoeff() < 0.0L)
     throw RunError(
         "piecewise: the structure is not stable without its loads (a negative stiffness); take exact or rodas4");

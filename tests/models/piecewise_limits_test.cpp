@@ -217,6 +217,24 @@ TEST(Piecewise, ChangesFromOneStopToAnotherAtOnePlace) {
   EXPECT_LT(expect_impacts_of_exact(scene, 400, 1e-8), 100000);
 }
 
+/// A body swings on a spring against a far lighter one that a stop holds: omega^2 = 44 1/s2 beside 3.7e18 1/s2 of the
+/// light one on the stop, whose rounding in extended precision is 0.4 1/s2.
+TEST(Piecewise, KeepsASoftSpringBesideAHardStop) {
+  const double mass = 0.5, stiffness = 22.0, speed = 1.0, end = 0.4;
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"light\"\nmass = 2.7e-8\n[[element]]\ntype = \"mass\"\nname = "
+      "\"body\"\nmass = 0.5\n[[element]]\ntype = \"spring\"\nnodes = [\"light\", \"body\"]\nstiffness = 22.0\n"
+      "[[contact]]\ntype = \"stop\"\nnodes = \"light\"\ngap = 0.0\nstiffness = 1e11\nsides = \"positive\"\nlaw = "
+      "\"linear\"\n[initial]\nvelocity = [{ nodes = \"body\", value = 1.0 }]\n[integrator]\ntype = "
+      "\"piecewise\"\nend_time = 0.4\n";
+  SceneRun run(scene);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  const double omega = std::sqrt(stiffness / mass);
+  const time::State& state = run.simulation().state();
+  EXPECT_NEAR(state.x[run.dof("body")], speed / omega * std::sin(omega * end), 1e-8);
+  EXPECT_NEAR(state.v[run.dof("body")], speed * std::cos(omega * end), 1e-8);
+}
+
 /// A run with other step ends (other outputs), and one that resumes in the middle.
 TEST(Piecewise, GoesOnFromASnapshotToTheSameBits) {
   const std::string scene = one_mass(50.0);
