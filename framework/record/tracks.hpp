@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -30,15 +29,12 @@ class BUTEE_EXPORT Tracks {
   void visit(const time::AcceptedStep& step, Look look) {
     kind_ = step.motion.interpolation();
     for (std::size_t i = 0; i < size(); ++i) from_[i] = at(step.from, i);
-    const std::span<const double> all = step.motion.breakpoints(detail_);
-    for (std::size_t first = 0; first < all.size(); first += kAtOnce) {
-      const std::span<const double> breakpoints = all.subspan(first, std::min(kAtOnce, all.size() - first));
-      sample(step, breakpoints);
-      for (std::size_t k = 0; k < breakpoints.size(); ++k) {
-        load(k, breakpoints[k]);
-        look();
-        std::swap(from_, to_);
-      }
+    const std::span<const double> breakpoints = step.motion.breakpoints(detail_);
+    if (!breakpoints.empty()) sample(step, breakpoints);
+    for (std::size_t k = 0; k < breakpoints.size(); ++k) {
+      load(k, breakpoints[k]);
+      look();
+      std::swap(from_, to_);
     }
     for (std::size_t i = 0; i < size(); ++i) to_[i] = at(step.to, i);
     look();
@@ -47,9 +43,6 @@ class BUTEE_EXPORT Tracks {
   const Point& to(std::size_t track) const { return to_[track]; }
 
  private:
-  /// The number of breakpoints that are evaluated at once, which limits the memory for them.
-  static constexpr std::size_t kAtOnce = 1024;
-
   void sample(const time::AcceptedStep& step, std::span<const double> breakpoints);
   void load(std::size_t breakpoint, double t);
 

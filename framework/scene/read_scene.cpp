@@ -60,6 +60,13 @@ class LeftOut {
   config::Diagnostics& diagnostics_;
 };
 
+/// The command that performs the study of this file; "" if it is no study.
+std::string command_for_study(const config::Table& root) {
+  if (root.find("element") != nullptr) return "";
+  if (root.find("scene") != nullptr) return "study";
+  return root.find("study") != nullptr ? "compare" : "";
+}
+
 }  // namespace
 
 Draft read_draft(const config::Document& document, const plugin::Catalogue& catalogue, config::Diagnostics& diagnostics,
@@ -94,17 +101,6 @@ Scene read_scene(config::Document document, plugin::Catalogue catalogue, Output 
   return {std::move(document),          std::move(catalogue), std::move(draft.model),
           std::move(*draft.integrator), std::move(request),   std::move(warnings)};
 }
-
-namespace {
-
-/// The command that performs the study of this file; "" if it is no study.
-std::string command_for_study(const config::Table& root) {
-  if (root.find("element") != nullptr) return "";
-  if (root.find("scene") != nullptr) return "study";
-  return root.find("study") != nullptr ? "compare" : "";
-}
-
-}  // namespace
 
 Scene load_scene(const std::string& path, const std::vector<std::string>& overrides,
                  const std::vector<std::string>& plugins) {

@@ -20,8 +20,11 @@ constexpr double kMostTurn = FastModes::kMostTurn;
 constexpr double kTurnOfPower = 3.0, kPartsOfPower = 2.0;
 /// The largest distance of neighbouring nodes, as a fraction of the step.
 constexpr double kLongestPart = 0.24;
-/// Limits the memory for them.
-constexpr double kMostBreakpoints = 262144.0;
+/// The largest number of breakpoints in a step. They are as dense as the fastest motion of the whole step requires;
+/// shorter steps need fewer once it has decayed.
+constexpr double kMostBreakpoints = 4096.0;
+/// The factor by which the next step may be longer than this one, at most, as far as fast motion is known.
+constexpr double kMostGrowth = 8.0;
 
 }  // namespace
 
@@ -250,7 +253,7 @@ double CollocationOutputs::find_fastest(const State& from, const State& to, doub
 }
 
 double CollocationOutputs::longest(const State& from, const State& to) const {
-  const double turns = kMostBreakpoints * kMostTurn, slow = turns / (to.t - from.t);
+  const double turns = kMostBreakpoints * kMostTurn, slow = turns / (kMostGrowth * (to.t - from.t));
   if (std::max(fast_.highest(), loads_.highest_frequency()) <= slow) return std::numeric_limits<double>::infinity();
   return turns / std::max(loads_.highest_frequency(), find_fastest(from, to, slow, time::Detail::accelerations));
 }

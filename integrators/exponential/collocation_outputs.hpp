@@ -79,7 +79,7 @@ class CollocationOutputs final : public time::Interpolant {
   /// angle from one breakpoint to the next; for time::Detail::power equal parts.
   std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail detail) override;
   /// The longest step, s, whose number of breakpoints, with accelerations, stays within its limit,
-  /// if the fastest motion is as fast as in this step.
+  /// if the fastest motion is as fast as in this step. For the next step, too.
   double longest(const time::State& from, const time::State& to) const;
 
   /// A polynomial of degree 6 has few extremes in a step: 16 instants and the search of dips between them detect its

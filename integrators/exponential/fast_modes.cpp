@@ -18,7 +18,7 @@ constexpr double kOfX = 2.0, kOfV = 0.4, kOfA = 0.035, kSpeedOfV = 5.0, kSpeedOf
 
 /// Motion of a mode that moves no DOF by more than this part of its scale is rounding; its acceleration may still be
 /// large.
-constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double kResting = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Lower bounds of the scales at all instants of a step: those at its start, but at least a thousandth of those at its
 /// end. In the first steps scales grow by orders of magnitude.
@@ -71,7 +71,7 @@ double FastModes::find(const State& from, const State& to, double slow, const Ei
     return slow;
   }
   const Scales scale = scales(from, to);
-  const Eigen::ArrayXd rounding = kRounding / tolerance_ * scale.x;
+  const Eigen::ArrayXd rounding = kResting / tolerance_ * scale.x;
   // Sums over the modes that are left out, for each DOF.
   Eigen::ArrayXd x = Eigen::ArrayXd::Zero(scale.x.size()), v = x, a = x;
   for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k) {

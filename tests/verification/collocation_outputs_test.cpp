@@ -1,5 +1,4 @@
 // Outputs and peaks of exponential on coupled modes, compared with the closed form of piecewise.
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -58,31 +57,58 @@ displacement = [{ nodes = "b", dof = "u", value = 0.013 }]
 end_time = 0.2
 )";
 
-/// The fast modes of a thin piece of a shaft hardly move: neither they nor rounding in them limit the steps.
+/// A light mass behind dashpots, pushed by a slow ramp: its mode decays at 1.6e7 1/s and rests on the ramp, where its
+/// acceleration is rounding. Resolving that took 0.05 s a step; steps beyond the limit of breakpoints were tried in
+/// vain.
 TEST(CollocationOutputs, DoNotShortenStepsForModesThatRest) {
-  std::string shaft =
-      "schema = 1\n[material.s]\nyoung_modulus = 2.1e11\nshear_modulus = 8.1e10\ndensity = 7800.0\n[section.c]\n"
-      "shape = \"circle\"\nradius = 0.02\n";
-  const std::array<const char*, 3> names = {"a", "b", "c"}, lengths = {"0.6", "0.003", "0.5"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    shaft +=
-        "[[element]]\ntype = \"beam\"\ntheory = \"timoshenko\"\nmotion = \"lateral\"\nmaterial = "
-        "\"s\"\nsection = \"c\"\nname = \"" +
-        std::string(names[i]) + "\"\nlength = " + lengths[i] + "\nelements = 1\n";
-    if (i > 0) shaft += "start_node = \"" + std::string(names[i - 1]) + ":last\"\n";
-  }
-  for (const char* node : {"a:first", "c:last"})
-    shaft += "[[element]]\ntype = \"bearing\"\nnode = \"" + std::string(node) +
-             "\"\nstiffness = [[1e6, 0.0], [0.0, 8e5]]\ndamping = [[500.0, 0.0], [0.0, 500.0]]\n";
-  shaft +=
-      "[[element]]\ntype = \"disc\"\nnode = \"a:last\"\nmass = 8.0\ndiametral_inertia = 0.03\npolar_inertia = 0.055\n"
-      "[initial]\nvelocity = [{ nodes = \"a:last\", dof = \"uy\", value = 0.1 }]\n[integrator]\ntolerance = "
-      "1e-4\nend_time = 0.5\n[[output.probe]]\nlabel = \"mid\"\nnode = \"a:last\"\nquantities = [\"uy\"]\n";
-  SceneRun run(shaft, {"integrator.type=exponential"}), other(shaft, {"integrator.type=rodas4"});
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "body"
+mass = 0.4
+[[element]]
+type = "spring"
+node = "body"
+stiffness = 0.6
+damping = 0.05
+[[element]]
+type = "mass"
+name = "part"
+mass = 3.5e-4
+[[element]]
+type = "spring"
+nodes = ["body", "part"]
+stiffness = 0.0
+damping = 0.7
+[[element]]
+type = "mass"
+name = "light"
+mass = 4.5e-7
+[[element]]
+type = "spring"
+nodes = ["part", "light"]
+stiffness = 0.0
+damping = 7.3
+[[load]]
+node = "light"
+type = "ramp"
+from = 1.0
+to = -1.0
+start = 100.0
+end = 190.0
+[initial]
+velocity = [{ nodes = "body", value = 1.0 }]
+[integrator]
+tolerance = 1e-6
+end_time = 102.0
+)";
+  SceneRun run(scene, {"integrator.type=exponential"}), other(scene, {"integrator.type=rodas4"});
   for (SceneRun* one : {&run, &other}) ASSERT_TRUE(one->run().completed) << one->simulation().report().message;
-  EXPECT_LT(run.simulation().report().steps + run.simulation().report().rejected, 30);
+  EXPECT_LT(run.simulation().report().steps, 100);
+  EXPECT_LT(run.simulation().report().rejected, 5);
   const Vector &got = run.simulation().state().x, &wanted = other.simulation().state().x;
-  EXPECT_LT((got - wanted).lpNorm<Eigen::Infinity>(), 1e-3 * wanted.lpNorm<Eigen::Infinity>());
+  EXPECT_LT((got - wanted).lpNorm<Eigen::Infinity>(), 1e-5 * wanted.lpNorm<Eigen::Infinity>());
 }
 
 /// Steps are longer than the periods of the light mass and of the loads.
