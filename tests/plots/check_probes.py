@@ -1,6 +1,7 @@
 """Checks /probes of a fields.h5 against a history.csv: check_probes.py FIELDS.H5 HISTORY.CSV whole|part|growing
 
-part: the rows that both hold are compared; growing: as well, and a try that meets the writer's is repeated."""
+part: the rows that both hold are compared; growing: as well, and a try that meets the writer's, or comes before its
+first flush, is repeated."""
 import sys
 import time
 
@@ -14,7 +15,8 @@ for tries_left in range(200 if sys.argv[3] == "growing" else 1)[::-1]:
         with h5py.File(sys.argv[1], "r") as h5:
             columns = {name: dataset[:] for name, dataset in h5["probes"].items()}
             units = {name: dataset.attrs["unit"].decode() for name, dataset in h5["probes"].items()}
-        if sys.argv[3] != "growing" or len({len(values) for values in columns.values()}) == 1:
+        lengths = {len(values) for values in columns.values()}
+        if sys.argv[3] != "growing" or (len(lengths) == 1 and lengths != {0}):
             break
     except OSError:
         if tries_left == 0:
