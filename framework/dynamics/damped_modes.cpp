@@ -7,13 +7,12 @@
 #include <numeric>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include "butee/core/error.hpp"
 #include "butee/dynamics/dynamics.hpp"
 #include "butee/dynamics/kernel/modal_motion.hpp"
+#include "butee/dynamics/slow_modes.hpp"
 #include "butee/linalg/dense_pairs.hpp"
-#include "butee/linalg/extended.hpp"
 #include "butee/linalg/general_pairs.hpp"
 
 namespace butee::dynamics {
@@ -68,71 +67,6 @@ void clear_rounding(const SparseMatrix& sizes, const Eigen::MatrixXd& shapes, Ei
   const Eigen::MatrixXd shape_sizes = shapes.cwiseAbs(), forces = sizes * shape_sizes;
   const Eigen::MatrixXd bound = kRounding * (shape_sizes.transpose() * forces);
   product = (product.cwiseAbs().array() > bound.array()).select(product, 0.0);
-}
-
-/// The number of modes that do not oscillate within a run of `run_time` seconds or whose frequency is rounding;
-/// `squares` are those of all frequencies, ascending, rad2/s2.
-Index count_rigid(const Vector& squares, double run_time) {
-  constexpr double kStill = 1e-12, kRounding = 64.0 * std::numeric_limits<double>::epsilon();
-  const double most = std::max(kStill / (run_time * run_time), kRounding * squares[squares.size() - 1]);
-  return std::upper_bound(squares.begin(), squares.end(), most) - squares.begin();
-}
-
-/// Turns the first `count` shapes, those of rigid motion, and the damping with them, such that motions on which no
-/// damping and no gyroscopic moment acts are shapes of their own: the common motion of two bodies joined by a dashpot,
-/// the translation of a free rotor. They have no basis of eigenvectors, and would leave none to shapes that they share.
-/// Rounding of the shapes leaves some damping on them, which would join them to all other modes; it is set to 0 if
-/// it does not act within `run_time` seconds. False if nothing couples the shapes.
-bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping) {
-  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon(), kStill = 1e-10;
-  if (count < 2 || damping.leftCols(count).isZero(0.0)) return false;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(damping.leftCols(count), Eigen::ComputeThinV);
-  const Eigen::MatrixXd& turn = parts.matrixV();
-  shapes.leftCols(count) *= turn;
-  damping.leftCols(count) *= turn;
-  damping.topRows(count) = turn.transpose() * damping.topRows(count).eval();
-  const double least = std::min(kRounding * damping.norm(), kStill / run_time);
-  for (Index i = 0; i < count; ++i)
-    if (parts.singularValues()[i] <= least) {
-      damping.col(i).setZero();
-      damping.row(i).setZero();
-    }
-  return true;
-}
-
-/// The number of modes whose omega^2 the rounding of the eigenvalues beside the highest one leaves with less than nine
-/// digits; `squares` ascend.
-Index count_soft(const Vector& squares) {
-  constexpr double kSoft = 1e-6;
-  return std::upper_bound(squares.begin(), squares.end(), kSoft * squares[squares.size() - 1]) - squares.begin();
-}
-
-/// S^T K S of the first `count` shapes S, those of rigid and soft motion, to rounding of the entries of K. The
-/// eigenvalues and shapes alone have the rounding of the highest eigenvalue, which would turn shapes of similar
-/// frequency into one another, and move a free body by kappa t^2/6 of its way if kappa is the error of omega^2. Entries
-/// that are rounding of K, or turn no shape by more than kMixed, are 0.
-Eigen::MatrixXd soft_stiffness(Index count, const SparseMatrix& stiffness, const Eigen::MatrixXd& shapes) {
-  constexpr double kMixed = 1e-9;
-  const linalg::ExtendedColumns soft = shapes.leftCols(count).cast<long double>();
-  linalg::ExtendedColumns forces = linalg::ExtendedColumns::Zero(shapes.rows(), count);
-  for (Index column = 0; column < stiffness.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry)
-      forces.row(entry.row()) += static_cast<long double>(entry.value()) * soft.row(column);
-  const linalg::ExtendedColumns extended = soft.transpose() * forces;
-  Eigen::MatrixXd product = extended.cast<double>();
-  const Eigen::MatrixXd sizes = shapes.leftCols(count).cwiseAbs();
-  const SparseMatrix all = stiffness.cwiseAbs();
-  const Eigen::MatrixXd of_all = all * sizes;
-  const Eigen::MatrixXd rounding = std::numeric_limits<double>::epsilon() * (sizes.transpose() * of_all);
-  const Vector squares = product.diagonal();
-  for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < count; ++j) {
-      double& value = product(i, j);
-      if (i == j ? value < 0.0 && value > -rounding(i, i)
-                 : std::abs(value) <= std::max(rounding(i, j), kMixed * std::abs(squares[i] - squares[j])))
-        value = 0.0;
-    }
-  return product;
 }
 
 /// A matrix whose rows combine the rows of another one. Blocks of few modes leave most of it empty.

@@ -4,6 +4,7 @@
 
 #include "butee/config/override.hpp"
 #include "butee/config/toml.hpp"
+#include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/scene/read_model.hpp"
 #include "butee/scene/read_output.hpp"

@@ -1,0 +1,65 @@
+#include "butee/dynamics/slow_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/SVD>
+
+#include "butee/linalg/extended.hpp"
+
+namespace butee::dynamics {
+
+Index count_rigid(const Vector& squares, double run_time) {
+  constexpr double kStill = 1e-12, kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const double most = std::max(kStill / (run_time * run_time), kRounding * squares[squares.size() - 1]);
+  return std::upper_bound(squares.begin(), squares.end(), most) - squares.begin();
+}
+
+bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping) {
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon(), kStill = 1e-10;
+  if (count < 2 || damping.leftCols(count).isZero(0.0)) return false;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(damping.leftCols(count), Eigen::ComputeThinV);
+  const Eigen::MatrixXd& turn = parts.matrixV();
+  shapes.leftCols(count) *= turn;
+  damping.leftCols(count) *= turn;
+  damping.topRows(count) = turn.transpose() * damping.topRows(count).eval();
+  const double least = std::min(kRounding * damping.norm(), kStill / run_time);
+  for (Index i = 0; i < count; ++i)
+    if (parts.singularValues()[i] <= least) {
+      damping.col(i).setZero();
+      damping.row(i).setZero();
+    }
+  return true;
+}
+
+Index count_soft(const Vector& squares) {
+  constexpr double kSoft = 1e-6;
+  return std::upper_bound(squares.begin(), squares.end(), kSoft * squares[squares.size() - 1]) - squares.begin();
+}
+
+Eigen::MatrixXd soft_stiffness(Index count, const SparseMatrix& stiffness, const Eigen::MatrixXd& shapes) {
+  constexpr double kMixed = 1e-9;
+  const linalg::ExtendedColumns soft = shapes.leftCols(count).cast<long double>();
+  linalg::ExtendedColumns forces = linalg::ExtendedColumns::Zero(shapes.rows(), count);
+  for (Index column = 0; column < stiffness.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(stiffness, column); entry; ++entry)
+      forces.row(entry.row()) += static_cast<long double>(entry.value()) * soft.row(column);
+  const linalg::ExtendedColumns extended = soft.transpose() * forces;
+  Eigen::MatrixXd product = extended.cast<double>();
+  const Eigen::MatrixXd sizes = shapes.leftCols(count).cwiseAbs();
+  const SparseMatrix all = stiffness.cwiseAbs();
+  const Eigen::MatrixXd of_all = all * sizes;
+  const Eigen::MatrixXd rounding = std::numeric_limits<double>::epsilon() * (sizes.transpose() * of_all);
+  const Vector squares = product.diagonal();
+  for (Index i = 0; i < count; ++i)
+    for (Index j = 0; j < count; ++j) {
+      double& value = product(i, j);
+      if (i == j ? value < 0.0 && value > -rounding(i, i)
+                 : std::abs(value) <= std::max(rounding(i, j), kMixed * std::abs(squares[i] - squares[j])))
+        value = 0.0;
+    }
+  return product;
+}
+
+}  // namespace butee::dynamics
