@@ -129,17 +129,21 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
   for (Index i = 0; i < w0_.size(); ++i) {
     const double side = v0_[i] > 0.0 ? 1.0 : -1.0;
     if (!(side * v0_[i] > 0.0 && side * v1_[i] < 0.0)) continue;
-    if (!contact_->play_of(i).has_side(side)) continue;
-    const double gap = contact_->play_of(i).gap, w0 = side * w0_[i], w1 = side * w1_[i];
+    const model::FreePlay& play = contact_->play_of(i);
+    const double gap = play.gap, w0 = side * w0_[i], w1 = side * w1_[i];
     const double size = std::max({gap, std::abs(w0), std::abs(w1)});
     const auto depth_beyond = [&](double border) {
       if (w0 >= border || w1 >= border) return 0.0;
       return peak(h, w0, side * v0_[i], side * a0_[i], w1, side * v1_[i]) - border;
     };
+    const auto has_impulse = [&](double depth) {
+      return depth > kRounding * size &&
+             closed_[i] * depth * h * impulse_rate(i, scale_v) > kNegligibleImpulse * tolerance_;
+    };
+    if (play.has_side(-side) && has_impulse(depth_beyond(-gap))) return true;
+    if (!play.has_side(side)) continue;
     const double depth = depth_beyond(gap);
-    if (depth > tolerance_ * size) return true;
-    if (depth > kRounding * size && closed_[i] * depth * h * impulse_rate(i, scale_v) > kNegligibleImpulse * tolerance_)
-      return true;
+    if (depth > tolerance_ * size || has_impulse(depth)) return true;
     // Beyond the middle the force pulls away from it, however small the depth.
     if (is_noticeable(i, jumps_[i], h, scale_v) && depth_beyond(0.0) > kRounding * size) return true;
   }

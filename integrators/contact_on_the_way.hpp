@@ -29,10 +29,11 @@ class ContactOnTheWay {
   /// The largest rate of change of the force of a stop that closed or opened in the step, N/s, as jump(), 1/s^2. The
   /// estimate vanishes at some places of the change in the step where the error does not.
   double kink(const time::State& from, const time::State& to, ConstVectorRef scale_v);
-  /// True if a stop is open at both ends of the step and was closed in between, or passed such a
-  /// jump and returned, according to the cubic through displacements and speeds at both ends.
-  /// Penetrations below the tolerance times displacement or gap are ignored if their impulse, at
-  /// most k depth h, is less than kNegligibleImpulse times tolerance times m S_v.
+  /// True if a stop is open at both ends of the step and was closed in between, or closed and was
+  /// open in between, or passed such a jump and returned, according to the cubic through
+  /// displacements and speeds at both ends. Penetrations below the tolerance times displacement or
+  /// gap are ignored if their impulse, at most k depth h, is less than kNegligibleImpulse times
+  /// tolerance times m S_v; so are openings of any depth.
   bool was_missed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
 
  private:

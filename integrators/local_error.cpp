@@ -44,12 +44,6 @@ constexpr double kReversal = 2.0;
 /// displacements: they are rounding, and so are errors below kStillError times these. A control of them would follow
 /// vibrations of rounding at the highest frequency.
 constexpr double kStill = 1e-10, kStillError = 1e-12;
-/// Errors below this part of the motion of the whole structure, in the norm of the diagonal of M, are rounding.
-constexpr double kRoundingOfMotion = 1e-14;
-/// Errors of a step below this part of the motion, or of what its forces cause in the step, are rounding.
-constexpr double kRoundingOfStep = 1e-15;
-/// In steps below this part of 1/rate_ errors of that size are rounding, not the growth at a limit of stability.
-constexpr double kShort = 0.1;
 /// If a stop closes or opens in a step, the error falls with this power of h.
 constexpr double kKinkOrder = 2.0;
 /// A contact begins or ends with a step if its penetration there is below this fraction of that at
@@ -70,8 +64,6 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       discontinuities_(dynamics.load_discontinuities()),
       whole_(orders.share * std::pow(goal.tolerance, orders.estimate / orders.method)),
       most_stiff_(kMostStiff * goal.tolerance),
-      rounding_(kRoundingOfMotion / goal.tolerance),
-      root_mass_(dynamics.system().mass.diagonal().cwiseSqrt()),
       as_a_whole_(goal.as_a_whole || dynamics.size() > kLargest),
       scale_x_(dynamics.size()),
       scale_v_(dynamics.size()),
@@ -81,6 +73,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   first_step_ = rates.open > 0.0 ? 0.1 / rates.open : 1e-6 * std::min(1.0, goal.run_time);
   omega_ = rates.closed;
   rate_ = fastest_ = rates.any();
+  if (!as_a_whole_) rounding_.emplace(dynamics, goal.tolerance, rate_);
   for (const model::FreeLoad& load : system.loads)
     if (const auto harmonic = load.in_time->harmonic(); harmonic && harmonic->angular_frequency > 0.0) {
       first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
@@ -128,30 +121,14 @@ void LocalErrorControl::start(time::State& state) {
   scales_.raise(state.v, state.memory.segment(kScales + n, n));
 }
 
-void LocalErrorControl::raise_above_rounding(double t, double h, double smooth) {
-  const double x = root_mass_.cwiseProduct(scale_x_).norm(), v = root_mass_.cwiseProduct(scale_v_).norm();
-  double of_x = rounding_ * x, of_v = rounding_ * v;
-  if (h * rate_ < kShort) {
-    work_.setZero();
-    for (const model::FreeLoad& load : dynamics_.system().loads) {
-      const double value = std::abs(load.in_time->value(t));
-      for (std::size_t i = 0; i < load.dofs.size(); ++i) work_[load.dofs[i]] += std::abs(load.weights[i]) * value;
-    }
-    const double of_loads = h * work_.cwiseQuotient(root_mass_).norm();
-    of_x = std::max(of_x, kRoundingOfStep / smooth * (x + h * of_loads));
-    of_v = std::max(of_v, kRoundingOfStep / smooth * (v + h * rate_ * rate_ * x + of_loads));
-  }
-  scale_x_ = scale_x_.cwiseMax(of_x * root_mass_.cwiseInverse());
-  scale_v_ = scale_v_.cwiseMax(of_v * root_mass_.cwiseInverse());
-}
-
 double LocalErrorControl::smooth_error(double h) const {
   if (as_a_whole_) return whole_;
   const double smooth = std::pow(account_.rate() * h / orders_.constant, power_);
   return h * rate_ > kStiff ? std::min(smooth, most_stiff_) : smooth;
 }
 
-double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const {
+double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v,
+                                         const Vector& scale_x, const Vector& scale_v) {
   double largest = 0.0;
   const auto look = [&largest](ConstVectorRef error, const Vector& scale, double factor) {
     for (Index i = 0; i < error.size(); ++i)
@@ -161,17 +138,18 @@ double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, Const
         if (std::isnan(largest)) return;
       }
   };
-  look(error_x, scale_x_, 1.0);
-  if (!std::isnan(largest)) look(error_v, scale_v_, 1.0);
-  if (!std::isnan(largest)) look(error_v, scale_x_, kOfVelocity * h);
+  look(error_x, scale_x, 1.0);
+  if (!std::isnan(largest)) look(error_v, scale_v, 1.0);
+  if (!std::isnan(largest)) look(error_v, scale_x, kOfVelocity * h);
   return largest;
 }
 
-double LocalErrorControl::unseen_start(const time::State& from, const time::State& to, double h) {
+double LocalErrorControl::unseen_start(const time::State& from, const time::State& to, double h,
+                                       const Vector& scale_x) {
   work_ = (h * h) * from.a - 6.0 * (to.x - from.x) + h * (4.0 * from.v + 2.0 * to.v);
   double largest = 0.0;
   for (Index i = 0; i < work_.size(); ++i)
-    if (scale_x_[i] > 0.0) largest = std::max(largest, kOfAcceleration * std::abs(work_[i]) / scale_x_[i]);
+    if (scale_x[i] > 0.0) largest = std::max(largest, kOfAcceleration * std::abs(work_[i]) / scale_x[i]);
   return largest;
 }
 
@@ -221,18 +199,10 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   to.memory.segment(kNormX, 2) = from.memory.segment(kNormX, 2);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
-  judge_by_scales(from, to, h, error_x, error_v, report, bends_within);
-  if (as_a_whole_ || report.error <= 1.0 || report.status != time::StepStatus::ok) return;
-  raise_above_rounding(from.t, h, smooth_error(h));
-  judge_by_scales(from, to, h, error_x, error_v, report, bends_within);
-}
-
-void LocalErrorControl::judge_by_scales(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
-                                        ConstVectorRef error_v, time::StepReport& report, bool bends_within) {
   const double smooth = smooth_error(h);
-  const double earned = account_.rate() * h, balance = from.memory[kAccount] + earned;
-  double epsilon =
-      as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth) : relative_error(h, error_x, error_v);
+  const double balance = from.memory[kAccount] + account_.rate() * h;
+  double epsilon = as_a_whole_ ? whole_error(from, to, h, error_x, error_v, smooth)
+                               : relative_error(h, error_x, error_v, scale_x_, scale_v_);
   if (rests(to, error_x, error_v)) {
     to.memory[kOld] = kSmallest;
     to.memory[kAccount] = balance;
@@ -250,25 +220,18 @@ void LocalErrorControl::judge_by_scales(const time::State& from, time::State& to
     scales_.raise(work_, scale_v_);
     work_ = (kFromRest / fastest_) * scale_v_;
     scales_.raise(work_, scale_x_);
-    epsilon = relative_error(h, error_x, error_v);
+    epsilon = relative_error(h, error_x, error_v, scale_x_, scale_v_);
   }
-  const bool has_changed =
-      bends_within || contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) || slip_reverses(from, to);
-  double r = epsilon / smooth, charge = 0.0;
-  if (as_a_whole_) {
-    if (has_changed) r *= orders_.contact_change;
-  } else if (has_changed) {
-    charge = std::max(orders_.contact_change * epsilon, kOfJump * h * contact_.jump(from, to, h, scale_v_));
-    if (orders_.kink > 0.0) charge = std::max(charge, orders_.kink * h * h * contact_.kink(from, to, scale_v_));
-    r = charge / (ErrorAccount::kSpend * balance);
-  } else if (r > 1.0) {
-    charge = orders_.constant * std::pow(epsilon, 1.0 / power_);
-    r = std::min(r, charge / (kSpendOnSmooth * balance));
-  }
-  if (!as_a_whole_ && !orders_.is_linear_part_exact) {
-    // The departure grows with h^2.
-    const double unseen = unseen_start(from, to, h);
-    if (unseen > kMostUnseen) r = std::max(r, std::pow(unseen / kMostUnseen, 0.5 * power_ * orders_.method));
+  const Change change = change_of_contact(from, to, h, bends_within);
+  double charge = 0.0;
+  double r = error_ratio(from, to, h, epsilon, change, scale_x_, charge);
+  if (rounding_ && r > 1.0) {
+    level_x_ = scale_x_;
+    level_v_ = scale_v_;
+    const double bound = change.has_changed ? ErrorAccount::kSpend * balance / orders_.contact_change : smooth;
+    rounding_->raise(from, to, h, bound, level_x_, level_v_);
+    epsilon = relative_error(h, error_x, error_v, level_x_, level_v_);
+    r = error_ratio(from, to, h, epsilon, change, level_x_, charge);
   }
   to.memory[kOld] = std::max(epsilon / smooth, kSmallest);
   to.memory[kAccount] = balance - charge;
@@ -276,17 +239,48 @@ void LocalErrorControl::judge_by_scales(const time::State& from, time::State& to
     report.status = time::StepStatus::not_finite;
     return;
   }
-  const bool is_unstable = r <= 1.0 && has_changed && h * omega_ > orders_.stability;
+  const bool is_unstable = r <= 1.0 && change.has_changed && h * omega_ > orders_.stability;
   if (r <= 1.0 && (is_unstable || contact_.was_missed(from, to, h, scale_v_))) {
     report.error = kMissed;
     report.proposal = steps_ == Steps::any ? 0.5 * h : grid_step(h, kMissed, orders_.estimate);
     return;
   }
   report.error = r;
-  const double order = has_changed && r > 1.0 ? kKinkOrder : power_ * orders_.method;
-  const double next = has_changed && r <= 1.0 ? to.memory[kOld] : r;
+  const double order = change.has_changed && r > 1.0 ? kKinkOrder : power_ * orders_.method;
+  const double next = change.has_changed && r <= 1.0 ? to.memory[kOld] : r;
   report.proposal = steps_ == Steps::any ? any_step(h, next, from.memory[kOld], order) : grid_step(h, next, order);
   report.proposal = std::min(report.proposal, longest_);
+}
+
+LocalErrorControl::Change LocalErrorControl::change_of_contact(const time::State& from, const time::State& to, double h,
+                                                               bool bends_within) {
+  Change change;
+  change.has_changed =
+      bends_within || contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) || slip_reverses(from, to);
+  if (as_a_whole_ || !change.has_changed) return change;
+  change.least = kOfJump * h * contact_.jump(from, to, h, scale_v_);
+  if (orders_.kink > 0.0)
+    change.least = std::max(change.least, orders_.kink * h * h * contact_.kink(from, to, scale_v_));
+  return change;
+}
+
+double LocalErrorControl::error_ratio(const time::State& from, const time::State& to, double h, double epsilon,
+                                      const Change& change, const Vector& scale_x, double& charge) {
+  const double smooth = smooth_error(h), balance = from.memory[kAccount] + account_.rate() * h;
+  double r = epsilon / smooth;
+  charge = 0.0;
+  if (as_a_whole_) return change.has_changed ? orders_.contact_change * r : r;
+  if (change.has_changed) {
+    charge = std::max(orders_.contact_change * epsilon, change.least);
+    r = charge / (ErrorAccount::kSpend * balance);
+  } else if (r > 1.0) {
+    charge = orders_.constant * std::pow(epsilon, 1.0 / power_);
+    r = std::min(r, charge / (kSpendOnSmooth * balance));
+  }
+  if (orders_.is_linear_part_exact) return r;
+  // The departure grows with h^2.
+  const double unseen = unseen_start(from, to, h, scale_x);
+  return unseen > kMostUnseen ? std::max(r, std::pow(unseen / kMostUnseen, 0.5 * power_ * orders_.method)) : r;
 }
 
 double LocalErrorControl::any_step(double h, double r, double old, double order) const {

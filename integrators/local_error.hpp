@@ -1,11 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "butee/time/integrator.hpp"
 #include "integrators/contact_on_the_way.hpp"
 #include "integrators/error_account.hpp"
+#include "integrators/rounding_level.hpp"
 
 namespace butee::integrators {
 
@@ -113,20 +115,24 @@ class LocalErrorControl {
   /// True if the slip of a contact with smooth friction reverses within a small part of the step, so that the friction
   /// jumps in it.
   bool slip_reverses(const time::State& from, const time::State& to) const;
-  /// judge() with the scales scale_x_ and scale_v_.
-  void judge_by_scales(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
-                       ConstVectorRef error_v, time::StepReport& report, bool bends_within);
-  /// Raises scale_x_ and scale_v_ of components that move by rounding only: of the whole motion, or of forces that
-  /// balance one another. Errors of that size are then within the tolerance, and below `smooth`.
-  void raise_above_rounding(double t, double h, double smooth);
+  /// A change of contact within a step, and its least charge to the account, whatever the estimate.
+  struct Change {
+    bool has_changed = false;
+    double least = 0.0;
+  };
+  Change change_of_contact(const time::State& from, const time::State& to, double h, bool bends_within);
+  /// The error of a step over the one it may have, for an estimate epsilon, and the charge to the account.
+  double error_ratio(const time::State& from, const time::State& to, double h, double epsilon, const Change& change,
+                     const Vector& scale_x, double& charge);
   /// The largest error, relative to the scales, of a step of length h without a change of contact.
   double smooth_error(double h) const;
   /// The errors of velocities count also as errors of displacements in outputs within the step.
-  double relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v) const;
+  static double relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v, const Vector& scale_x,
+                               const Vector& scale_v);
   /// The departure in the middle from the cubic through the ends that the acceleration at the start indicates, relative
   /// to the displacement scales. If it is not small, the step is longer than a motion that begins with it, of which the
   /// estimates of L-stable methods show nothing.
-  double unseen_start(const time::State& from, const time::State& to, double h);
+  double unseen_start(const time::State& from, const time::State& to, double h, const Vector& scale_x);
   /// True if is_still() and the errors of the step are rounding, too.
   bool rests(const time::State& to, ConstVectorRef error_x, ConstVectorRef error_v);
   double norm(ConstVectorRef y);
@@ -141,6 +147,7 @@ class LocalErrorControl {
   Proposed controller_;
   ContactOnTheWay contact_;
   ErrorAccount account_;
+  std::optional<RoundingLevel> rounding_;  ///< none for structures measured as a whole
   Orders orders_;
   double power_;       ///< q/(p + 1)
   double first_step_;  ///< s
@@ -155,10 +162,9 @@ class LocalErrorControl {
   std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s
   double whole_;                         ///< bound of epsilon for structures measured as a whole
   double most_stiff_;                    ///< bound of epsilon for steps far longer than the fastest motion
-  double rounding_;                      ///< rounding of the motion as a whole over the tolerance
-  Vector root_mass_;                     ///< of the diagonal of M, kg^(1/2) or kg^(1/2) m
   bool as_a_whole_;
   Vector scale_x_, scale_v_, work_;
+  Vector level_x_, level_v_;  ///< the scales, at least those of rounding
 };
 
 }  // namespace butee::integrators

@@ -57,6 +57,26 @@ TEST(ContactOnTheWay, WeighsTheImpulseOfASmallPenetration) {
   EXPECT_TRUE(is_missed("20.0"));
 }
 
+TEST(ContactOnTheWay, IsALossOfContactThatBothEndsOfAStepAreFreeOf) {
+  // A stop on the negative side of 0 is open while x = sin t - 0.9 is positive.
+  const auto is_missed = [](const char* stiffness, double from, double to) {
+    SceneRun run(mass_at_a_stop("negative", "type = \"exact\"\ntime_step = 1.0\n"),
+                 {std::string("contact[0].stiffness=") + stiffness, "contact[0].gap=0.0"});
+    integrators::ContactOnTheWay contact(run.dynamics(), 1e-3);
+    const auto lowered = [](double t) {
+      time::State state = at(t);
+      state.x.array() -= 0.9;
+      return state;
+    };
+    return contact.was_missed(lowered(from), lowered(to), to - from, kSpeed);
+  };
+  // By 0.1 m at most, in a step of 1.1 s.
+  EXPECT_TRUE(is_missed("1e-2", 1.0, 2.1));
+  EXPECT_FALSE(is_missed("1e-4", 1.0, 2.1));
+  EXPECT_FALSE(is_missed("1e-2", 1.0 + std::numbers::pi, 2.1 + std::numbers::pi));
+  EXPECT_FALSE(is_missed("1e-2", 1.2, 1.9));
+}
+
 bool changed(integrators::ContactOnTheWay& contact, double from, double to) {
   return contact.changed(at(from), at(to), to - from, kSpeed);
 }

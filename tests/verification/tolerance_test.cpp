@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include <butee/core/text.hpp>
@@ -122,6 +123,27 @@ TEST_P(Tolerance, IgnoresDisplacementsThatAreRounding) {
     EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
     const Vector& x = run.simulation().state().x;
     EXPECT_LT(std::abs(x[run.dof("b:middle")]), 1e-11 * x.lpNorm<Eigen::Infinity>());
+  }
+}
+
+/// The rounding of a body that travels far is not that of another one that strikes a stop slowly: x = G - V (t - t_out)
+/// after half a period pi/omega of contact.
+TEST_P(Tolerance, HoldsForASlowImpactBesideALongJourney) {
+  constexpr double kGap = 1e-3, kSpeed = 5e-3, kStiffness = 1e11;
+  const double duration = std::numbers::pi / std::sqrt(kStiffness);
+  for (const double tolerance : {1e-6, 1e-8}) {
+    if (tolerance < 1e-6 && GetParam().ends_with("_adaptive")) continue;
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = "
+        "\"mass\"\nname = \"far\"\nmass = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = "
+        "0.001\nstiffness = 1e11\nlaw = \"linear\"\n[initial]\nvelocity = [{nodes = \"m\", value = 0.005}, {nodes "
+        "= \"far\", value = 5.0}]\n[integrator]\ntype = \"" +
+        GetParam() + "\"\nend_time = 0.3\ntolerance = " + to_text(tolerance) + "\n");
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    const time::State& state = run.simulation().state();
+    EXPECT_NEAR(state.v[run.dof("m")], -kSpeed, 10.0 * tolerance * kSpeed) << tolerance;
+    EXPECT_NEAR(state.x[run.dof("m")], kGap - kSpeed * (0.3 - kGap / kSpeed - duration), 10.0 * tolerance * kGap)
+        << tolerance;
   }
 }
 

@@ -64,7 +64,7 @@ class Watchdog {
 };
 
 /// Work limit of runs for slopes; large enough for them to complete.
-constexpr std::int64_t kSlopeWork = 200000;
+constexpr std::int64_t kSlopeWork = 5000000;
 
 struct Options {
   bool full = false, no_long_runs = false, verbose = false;

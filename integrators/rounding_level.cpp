@@ -1,0 +1,96 @@
+#include "integrators/rounding_level.hpp"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace butee::integrators {
+namespace {
+
+/// Errors below this part of the motion of the whole structure, in the norm of the diagonal of M, are rounding.
+constexpr double kRoundingOfMotion = 1e-14;
+/// Errors of a step below this part of a component, or of what the forces on it cause in the step, are rounding.
+constexpr double kRoundingOfStep = 1e-15;
+/// In steps below this part of 1/rate errors of that size are rounding, not the growth at a limit of stability.
+constexpr double kShort = 0.1;
+
+/// sums_i += factor sum_j |A_ij| y_j
+void add_magnitudes(const SparseMatrix& matrix, double factor, ConstVectorRef y, Vector& sums) {
+  if (factor == 0.0) return;
+  for (Index j = 0; j < matrix.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
+      sums[entry.row()] += factor * std::abs(entry.value()) * y[j];
+}
+
+}  // namespace
+
+RoundingLevel::RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate)
+    : dynamics_(dynamics),
+      of_motion_(kRoundingOfMotion / tolerance),
+      rate_(rate),
+      is_lumped_(dynamics.system().mass.nonZeros() == dynamics.size()),
+      root_mass_(dynamics.system().mass.diagonal().cwiseSqrt()),
+      stop_stiffness_(dynamics.stops().closed_stiffness()),
+      w0_(Vector::Zero(stop_stiffness_.size())),
+      w1_(w0_) {}
+
+void RoundingLevel::raise(const time::State& from, const time::State& to, double h, double bound, Vector& scale_x,
+                          Vector& scale_v) {
+  const double of_x = of_motion_ * root_mass_.cwiseProduct(scale_x).norm(),
+               of_v = of_motion_ * root_mass_.cwiseProduct(scale_v).norm();
+  if (h * rate_ < kShort) {
+    sum_forces(from, to);
+    // force_ := the accelerations; a mass matrix that couples DOFs spreads their rounding.
+    if (is_lumped_)
+      force_ = force_.cwiseQuotient(root_mass_.cwiseAbs2());
+    else
+      force_ = root_mass_.cwiseInverse() * force_.cwiseQuotient(root_mass_).norm();
+    const double part = kRoundingOfStep / bound;
+    scale_x = scale_x.cwiseMax(part * (scale_x + h * scale_v + (h * h) * force_));
+    scale_v = scale_v.cwiseMax(part * (scale_v + h * force_));
+  }
+  scale_x = scale_x.cwiseMax(of_x * root_mass_.cwiseInverse());
+  scale_v = scale_v.cwiseMax(of_v * root_mass_.cwiseInverse());
+}
+
+void RoundingLevel::sum_forces(const time::State& from, const time::State& to) {
+  const model::System& system = dynamics_.system();
+  x_ = from.x.cwiseAbs().cwiseMax(to.x.cwiseAbs());
+  v_ = from.v.cwiseAbs().cwiseMax(to.v.cwiseAbs());
+  force_ = system.damping.mass_proportional * root_mass_.cwiseAbs2().cwiseProduct(v_);
+  add_magnitudes(system.stiffness, 1.0, x_, force_);
+  add_magnitudes(system.stiffness, system.damping.stiffness_proportional, v_, force_);
+  add_magnitudes(system.dashpots, 1.0, v_, force_);
+  for (const model::FreeLoad& load : system.loads) {
+    const double value = std::max(std::abs(load.in_time->value(from.t)), std::abs(load.in_time->value(to.t)));
+    for (std::size_t i = 0; i < load.dofs.size(); ++i) force_[load.dofs[i]] += std::abs(load.weights[i]) * value;
+  }
+  add_contacts(from, to);
+}
+
+void RoundingLevel::add_contacts(const time::State& from, const time::State& to) {
+  const auto add = [&](double stiffness, std::span<const Index> dofs) {
+    double size = 0.0;
+    for (const Index dof : dofs)
+      if (dof >= 0) size += x_[dof];
+    for (const Index dof : dofs)
+      if (dof >= 0) force_[dof] += stiffness * size;
+  };
+  const dynamics::ElasticStops& stops = dynamics_.stops();
+  stops.displacement(from.x, w0_);
+  stops.displacement(to.x, w1_);
+  for (Index i = 0; i < stops.size(); ++i) {
+    const model::FreePlay& play = stops.play_of(i);
+    if (play.closed_side(w0_[i]) != 0.0 || play.closed_side(w1_[i]) != 0.0)
+      add(stop_stiffness_[i], std::array{stops.dof_a(i), stops.dof_b(i)});
+  }
+  const dynamics::Obstacles* const obstacles = dynamics_.obstacles();
+  if (obstacles == nullptr) return;
+  for (Index i = 0; i < obstacles->size(); ++i) {
+    if (!obstacles->phase(i).touches()) continue;
+    const auto& ends = obstacles->ends_of(i);
+    add(obstacles->closed_stiffness(i), std::array{ends.a[0], ends.a[1], ends.b[0], ends.b[1]});
+  }
+}
+
+}  // namespace butee::integrators
