@@ -69,6 +69,10 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
   to.v.resize(from.v.size());
   to.a.resize(from.a.size());
   to.memory.resize(from.memory.size());
+#ifndef NDEBUG
+  // Tests then find a method that reads what it has not written.
+  for (Vector* unset : {&to.x, &to.v, &to.a, &to.memory}) unset->setConstant(std::numeric_limits<double>::quiet_NaN());
+#endif
   to.t = step.t_end;
   if (events_) {
     to.contact = from.contact;

@@ -148,10 +148,11 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   }
   if (coarse > 1.0 && !forces_.stays_apart()) return redo_with(h * std::max(0.1, by_resolution(coarse)));
   accept(from, h, to);
+  judge(from, to, h, report);
+  // This needs the scales of `to`, which judge() finds.
   const double longest = outputs_.longest(from, to);
   if (h > longest) return redo_with(longest);
   solved_end_ = to.t;
-  judge(from, to, h, report);
   if (report.error > 1.0) return report;
   const double inner = control_.is_still(to) ? 0.0 : forces_.inner_error(from, to) / (kInner * tolerance_);
   if (inner > 1.0) return redo_with(h * std::max(0.1, by_inner(inner)));
