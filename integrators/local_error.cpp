@@ -302,7 +302,7 @@ config::Parameter LocalErrorControl::parameter(double fallback, double smallest)
   return config::number("tolerance", "1",
                         "largest relative error of a displacement, rotation or velocity, see `butee help methods`")
       .at_least(smallest)
-      .at_most(0.1)
+      .at_most(kLargestTolerance)
       .or_else(fallback)
       .sweep(1e-1, std::max(smallest, 1e-9));
 }

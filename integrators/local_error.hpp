@@ -95,6 +95,7 @@ class LocalErrorControl {
 
   /// The smallest tolerance of methods of order 2; below it they need too many steps to be useful.
   static constexpr double kSecondOrder = 1e-6;
+  static constexpr double kLargestTolerance = 0.1;
   /// The tolerance parameter of all methods with this control. Tolerances below `smallest` are
   /// refused.
   static config::Parameter parameter(double fallback, double smallest);

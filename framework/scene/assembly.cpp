@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
@@ -12,15 +13,21 @@
 namespace butee::scene {
 namespace {
 
-/// The message of a method that rejects the scene, "integrator.type: ...", with the line of the
-/// key.
+/// The message of a method that rejects the scene, "integrator.KEY: ...", with the line of the key and its value, if it
+/// is a number.
 std::string located(const config::Document& document, const std::string& message) {
+  const std::string_view before = "integrator.";
   const config::Table* root = document.root.table();
   const config::Value* integrator = root != nullptr ? root->find("integrator") : nullptr;
-  if (!message.starts_with("integrator.type: ") || integrator == nullptr || integrator->table() == nullptr)
+  const std::size_t colon = message.find(": ");
+  if (!message.starts_with(before) || colon == std::string::npos || integrator == nullptr ||
+      integrator->table() == nullptr)
     return message;
-  const config::Value* type = integrator->table()->find("type");
-  return describe(document, type != nullptr ? type->at : integrator->at) + ": " + message;
+  const config::Value* value = integrator->table()->find(message.substr(before.size(), colon - before.size()));
+  if (value == nullptr) return describe(document, integrator->at) + ": " + message;
+  const double* number = std::get_if<double>(&value->data);
+  return describe(document, value->at) + ": " + message.substr(0, colon) +
+         (number != nullptr ? " = " + to_short_text(*number) : "") + message.substr(colon);
 }
 
 model::System assemble_changed(const model::Model& model, const std::function<void(model::System&)>& change) {

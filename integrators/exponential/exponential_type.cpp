@@ -43,12 +43,17 @@ std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics,
   if (is_coupled(dynamics.system())) {
     auto integrator =
         std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time}, options.most_coupled);
-    if (const double smallest = integrator->smallest_tolerance(); options.tolerance < smallest)
-      throw ToleranceBelowRounding(
-          "integrator.tolerance: must be at least " + to_short_text(smallest) +
-          " for exponential here: below it rounding exceeds the error bound, since some modes are almost parallel, as "
-          "for free or critically damped motion with dashpots, or far faster than others");
-    return integrator;
+    const double smallest = integrator->smallest_tolerance();
+    if (options.tolerance >= smallest) return integrator;
+    const std::string cause =
+        ", since some modes are almost parallel, as for free or critically damped motion with dashpots, or far faster "
+        "than others";
+    throw ToleranceBelowRounding(
+        smallest > LocalErrorControl::kLargestTolerance
+            ? "integrator.type: exponential cannot run this scene: rounding exceeds the error bound of any tolerance" +
+                  cause
+            : "integrator.tolerance: must be at least " + to_short_text(smallest) +
+                  " for exponential here: below it rounding exceeds the error bound" + cause);
   }
   if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
   auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
