@@ -20,9 +20,9 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// M a + C v + K x = F(t) + F_c(x) for a scene.
 class Equations {
  public:
-  explicit Equations(const Session& session) : scene_(session.shared()), assembly_(*scene_) {}
+  explicit Equations(const Session& session) : scene_(session.shared()), assembled_(scene_->model) {}
 
-  const model::System& system() const { return assembly_.system; }
+  const model::System& system() const { return assembled_.system; }
 
   SparseMatrix damping(double t) const {
     const model::Damping& given = system().damping;
@@ -44,25 +44,25 @@ class Equations {
   }
 
   Vector external_force(double t) {
-    return alone([&](Vector& force) { assembly_.dynamics.external_force(t, force); });
+    return alone([&](Vector& force) { assembled_.dynamics.external_force(t, force); });
   }
 
   Vector contact_force(double t, const Array& x, const Array& v) {
     const auto at = checked(x, "x"), moving = checked(v, "v");
     return alone([&](Vector& force) {
-      assembly_.dynamics.add_contact_force(at, force);
-      assembly_.dynamics.add_obstacle_force(t, at, moving, force);
+      assembled_.dynamics.add_contact_force(at, force);
+      assembled_.dynamics.add_obstacle_force(t, at, moving, force);
     });
   }
 
   Vector acceleration(double t, const Array& x, const Array& v) {
     const auto at = checked(x, "x"), moving = checked(v, "v");
-    return alone([&](Vector& a) { assembly_.dynamics.acceleration(t, at, moving, a); });
+    return alone([&](Vector& a) { assembled_.dynamics.acceleration(t, at, moving, a); });
   }
 
   std::vector<std::string> dofs() const {
     std::vector<std::string> names;
-    for (Index i = 0; i < system().size(); ++i) names.push_back(assembly_.dynamics.dof_name(i));
+    for (Index i = 0; i < system().size(); ++i) names.push_back(assembled_.dynamics.dof_name(i));
     return names;
   }
 
@@ -86,7 +86,7 @@ class Equations {
   }
 
   std::shared_ptr<scene::Scene> scene_;
-  scene::Assembly assembly_;
+  scene::AssembledEquations assembled_;
   std::mutex mutex_;
 };
 

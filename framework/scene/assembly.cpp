@@ -72,9 +72,11 @@ std::unique_ptr<time::Integrator> make_integrator(Scene& scene, dynamics::Dynami
   return made;
 }
 
+AssembledEquations::AssembledEquations(const model::Model& model, const std::function<void(model::System&)>& change)
+    : system(assemble_changed(model, change)), dynamics(system) {}
+
 Assembly::Assembly(Scene& scene, const std::function<void(model::System&)>& change)
-    : system(assemble_changed(scene.model, change)),
-      dynamics(system),
+    : AssembledEquations(scene.model, change),
       integrator(make_integrator(scene, dynamics)),
       simulation(dynamics, *integrator, scene.integrator.options) {}
 

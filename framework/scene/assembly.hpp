@@ -7,15 +7,21 @@
 
 namespace butee::scene {
 
-/// An assembled scene with its method and a simulation without observers.
-struct BUTEE_EXPORT Assembly {
-  /// `change` may alter the system, such as its initial values, before it is used. Throws
-  /// InputError if the scene cannot be run, and RunError if its module violates its declaration.
-  /// `scene` must outlive this object.
-  explicit Assembly(Scene& scene, const std::function<void(model::System&)>& change = {});
+/// The equations of motion of a model, which need no method.
+struct BUTEE_EXPORT AssembledEquations {
+  /// `change` may alter the system, such as its initial values, before it is used. `model` must outlive this object.
+  explicit AssembledEquations(const model::Model& model, const std::function<void(model::System&)>& change = {});
 
   model::System system;
   dynamics::Dynamics dynamics;
+};
+
+/// An assembled scene with its method and a simulation without observers.
+struct BUTEE_EXPORT Assembly : AssembledEquations {
+  /// Throws InputError if the scene cannot be run, and RunError if its module violates its
+  /// declaration. `scene` must outlive this object.
+  explicit Assembly(Scene& scene, const std::function<void(model::System&)>& change = {});
+
   std::unique_ptr<time::Integrator> integrator;
   time::Simulation simulation;
 };
