@@ -67,6 +67,7 @@ bool is_small(const std::vector<Index>& dofs, Index all) {
 }  // namespace
 
 bool ActivePart::can_take(dynamics::Dynamics& dynamics, double tolerance) {
+  if (dynamics.size() <= LocalErrorControl::kLargest) return false;
   if (dynamics.system().damping.is_modal() || dynamics.obstacles() != nullptr) return false;
   return is_small(within(distances_of(dynamics, tolerance), kFirstRadius), dynamics.size());
 }
@@ -92,6 +93,8 @@ ActivePart::Part ActivePart::make_part(std::size_t place) const {
     part.method = make_(dynamics(), goal_);
     return part;
   }
+  part.places.assign(static_cast<std::size_t>(dynamics().size()), -1);
+  for (std::size_t i = 0; i < dofs.size(); ++i) part.places[static_cast<std::size_t>(dofs[i])] = static_cast<Index>(i);
   part.dofs = std::move(dofs);
   part.system = std::make_unique<model::System>(model::part_of(dynamics().system(), part.dofs));
   part.dynamics = std::make_unique<dynamics::Dynamics>(*part.system);
@@ -140,6 +143,7 @@ time::StepReport ActivePart::do_step(const time::State& from, const time::Step& 
     Part& part = at(place);
     time::StepReport report = part.is_whole() ? part.method->step(from, step, to) : step_on(part, from, step, to);
     to.memory[place_of_part()] = static_cast<double>(place);
+    output_.accept(part);
     const bool stands = report.status == time::StepStatus::ok && controller()->decide(step.h, report).accept;
     report.inner_rejected += redone;
     if (part.is_whole() || !stands || !has_come_near(part)) return report;
@@ -166,6 +170,37 @@ time::StepReport ActivePart::step_on(Part& part, const time::State& from, const 
   to.memory = from.memory;
   extend_memory(part, part.to.memory, to.memory);
   return report;
+}
+
+std::span<const double> ActivePart::Output::breakpoints(const time::State& from, const time::State& to,
+                                                        time::Detail detail) {
+  if (part_->is_whole()) return part_->method->dense_output(from, to).breakpoints(detail);
+  return holds(from, to) ? of_method().breakpoints(detail) : std::span<const double>();
+}
+
+void ActivePart::Output::interpolate(const time::State& from, const time::State& to, double t,
+                                     std::span<const Index> dofs, time::Interpolated out) {
+  if (part_->is_whole()) return part_->method->dense_output(from, to).interpolate(t, dofs, out);
+  if (!holds(from, to)) return Interpolant::interpolate(from, to, t, dofs, out);
+  dofs_.clear();
+  entries_.clear();
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    if (const Index place = part_->places[static_cast<std::size_t>(dofs[i])]; place >= 0) {
+      dofs_.push_back(place);
+      entries_.push_back(i);
+    }
+  const auto room = [this](std::span<double> wanted, std::vector<double>& values) {
+    values.resize(wanted.empty() ? 0 : dofs_.size());
+    return std::span(values);
+  };
+  of_method().interpolate(t, dofs_, {room(out.x, x_), room(out.v, v_), room(out.a, a_)});
+  const auto spread = [this](const std::vector<double>& values, std::span<double> wanted) {
+    std::ranges::fill(wanted, 0.0);
+    for (std::size_t i = 0; i < values.size(); ++i) wanted[entries_[i]] = values[i];
+  };
+  spread(x_, out.x);
+  spread(v_, out.v);
+  spread(a_, out.a);
 }
 
 void ActivePart::restrict_memory(const Part& part, const Vector& whole, Vector& to) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -21,13 +22,13 @@ namespace butee::integrators {
 /// waves that the border of a part reflects; as a rule it is a small fraction of the tolerance.
 ///
 /// The method determines steps, interpolation and the contents of the state. It must use
-/// LocalErrorControl's memory and interpolate from two states alone. Checked in
+/// LocalErrorControl's memory. Checked in
 /// tests/models/active_part_test.cpp against the same method on the whole.
 class ActivePart final : public time::Integrator {
  public:
   using Make = std::unique_ptr<time::Integrator> (*)(dynamics::Dynamics& dynamics, const Goal& goal);
 
-  /// True if the first part contains at most half of the DOFs.
+  /// True if the errors of the structure are measured as a whole, and the first part contains at most half of its DOFs.
   static bool can_take(dynamics::Dynamics& dynamics, double tolerance);
 
   /// Requires can_take().
@@ -40,6 +41,7 @@ class ActivePart final : public time::Integrator {
   /// One part; if it is the whole structure, only `method` is used.
   struct Part {
     std::vector<Index> dofs{};
+    std::vector<Index> places{};  ///< the place of each DOF of the structure among `dofs`; -1: none
     std::unique_ptr<model::System> system{};
     std::unique_ptr<dynamics::Dynamics> dynamics{};
     std::unique_ptr<time::Integrator> method{};
@@ -48,6 +50,30 @@ class ActivePart final : public time::Integrator {
     time::State from{}, to{};
 
     bool is_whole() const { return dofs.empty(); }
+  };
+
+  /// The motion of the method within the last step, zero outside the part.
+  class Output final : public time::Interpolant {
+   public:
+    /// `part` must stay valid until the next call.
+    void accept(Part& part) { part_ = &part; }
+    time::Interpolation interpolation() const override {
+      return part_ != nullptr ? of_method().interpolation() : time::Interpolation::quintic;
+    }
+    std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail detail) override;
+    void interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                     time::Interpolated out) override;
+
+   private:
+    time::DenseOutput of_method() const { return part_->method->dense_output(part_->from, part_->to); }
+    bool holds(const time::State& from, const time::State& to) const {
+      return part_->is_whole() || (part_->from.t == from.t && part_->to.t == to.t);
+    }
+
+    Part* part_ = nullptr;
+    std::vector<Index> dofs_;
+    std::vector<std::size_t> entries_;
+    std::vector<double> x_, v_, a_;
   };
 
   /// The memory of a state is the method's memory for the whole structure, followed by the index of
@@ -60,6 +86,7 @@ class ActivePart final : public time::Integrator {
 
   void do_start(time::State& state) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
+  time::Interpolant& interpolant() override { return output_; }
   /// A step on one part; `from` and `to` are states of the whole structure.
   time::StepReport step_on(Part& part, const time::State& from, const time::Step& step, time::State& to);
   /// True if the motion in the outer quarter of part.to exceeds its bound.
@@ -72,7 +99,8 @@ class ActivePart final : public time::Integrator {
   Goal goal_;
   Make make_;
   std::vector<Index> distances_;
-  std::vector<Part> parts_;  ///< those needed so far
+  std::deque<Part> parts_;  ///< those needed so far; output_ refers to one of them
+  Output output_;
 };
 
 }  // namespace butee::integrators

@@ -35,9 +35,8 @@ constexpr double kOfJump = 0.1;
 constexpr double kOfAcceleration = 1.0 / 32.0, kMostUnseen = 0.05;
 /// The displacement within a step, interpolated with a velocity of 1/h at one end: the maximum of s^2 (1 - s).
 constexpr double kOfVelocity = 4.0 / 27.0;
-/// A step in which the fastest motion passes more than this phase angle, rad, is stiff: the error of the solution falls
-/// no faster than the estimate there (order reduction), which may reach kMostStiff tolerances.
-constexpr double kStiff = 6.0, kMostStiff = 0.5;
+/// The estimate of a stiff step may reach this fraction of the tolerance.
+constexpr double kMostStiff = 0.5;
 /// Friction jumps in a step that changes the slip by more than this multiple of the slip speed of a smooth law.
 constexpr double kReversal = 2.0;
 /// A structure rests, for example in a static position, as long as its velocities are below kStill times rate_ and the

@@ -81,6 +81,9 @@ class LocalErrorControl {
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
              time::StepReport& report, bool bends_within = false);
 
+  /// True if the fastest motion passes more than kStiff rad in a step of this length and errors are measured as a
+  /// whole, so that it need not be resolved.
+  bool is_long(double h) const { return as_a_whole_ && h * rate_ > kStiff; }
   /// True if nothing has moved up to this state but by rounding.
   bool is_still(const time::State& state);
 
@@ -93,6 +96,9 @@ class LocalErrorControl {
     return state.memory.segment(kScales + state.x.size(), state.x.size());
   }
 
+  /// A step in which the fastest motion passes more than this phase angle, rad, is stiff: the error of the solution
+  /// falls no faster than the estimate there (order reduction).
+  static constexpr double kStiff = 6.0;
   /// The smallest tolerance of methods of order 2; below it they need too many steps to be useful.
   static constexpr double kSecondOrder = 1e-6;
   static constexpr double kLargestTolerance = 0.1;

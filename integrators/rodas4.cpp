@@ -15,7 +15,51 @@ namespace {
 /// kConstant and kKink are measured in tests/conformance/error_constant_test.cpp.
 constexpr double kConstant = 0.57, kContactChange = 10.0, kKink = 0.032;
 
+/// One component of the dense output within a step.
+struct Cubic {
+  double rise, d, e, begin;
+
+  Cubic(double from, double to, const Rodas4Output::Stages& stages, Index dof)
+      : rise(to - from), d(0.0), e(0.0), begin(from) {
+    for (std::size_t j = 0; j < kFirst.size(); ++j) {
+      d += kFirst[j] * stages[j][dof];
+      e += kSecond[j] * stages[j][dof];
+    }
+  }
+  double value(double s) const { return begin + s * (rise + (1.0 - s) * (d + s * e)); }
+  double slope(double s) const { return rise + (1.0 - 2.0 * s) * d + s * (2.0 - 3.0 * s) * e; }
+};
+
 }  // namespace
+
+void Rodas4Output::accept(double begin, double end, bool is_long, const Stages& p, const Stages& q) {
+  begin_ = begin;
+  end_ = end;
+  is_long_ = is_long;
+  p_ = &p;
+  q_ = &q;
+  for (std::size_t i = 0; i < breakpoints_.size(); ++i)
+    breakpoints_[i] = begin + (end - begin) * static_cast<double>(i + 1) / (breakpoints_.size() + 1.0);
+}
+
+std::span<const double> Rodas4Output::breakpoints(const time::State& from, const time::State& to, time::Detail) {
+  if (!is_long_ || !holds(from, to)) return {};
+  return breakpoints_;
+}
+
+void Rodas4Output::interpolate(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
+                               time::Interpolated out) {
+  if (!is_long_ || !holds(from, to)) return quintic_.interpolate(from, to, t, dofs, out);
+  const double h = end_ - begin_, s = (t - begin_) / h;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const Index dof = dofs[i];
+    if (!out.x.empty()) out.x[i] = Cubic(from.x[dof], to.x[dof], *p_, dof).value(s);
+    if (out.v.empty() && out.a.empty()) continue;
+    const Cubic v(from.v[dof], to.v[dof], *q_, dof);
+    if (!out.v.empty()) out.v[i] = v.value(s);
+    if (!out.a.empty()) out.a[i] = v.slope(s) / h;
+  }
+}
 
 Rodas4::Rodas4(dynamics::Dynamics& dynamics, const Goal& goal)
     : Integrator(dynamics),
@@ -92,6 +136,7 @@ time::StepReport Rodas4::do_step(const time::State& from, const time::Step& step
   control_.judge(from, to, h, p_.back(), q_.back(), report);
   if (report.error <= 1.0 && report.status == time::StepStatus::ok)
     dynamics().acceleration(step.t_end, to.x, to.v, to.a);
+  output_.accept(from.t, to.t, control_.is_long(h), p_, q_);
   return report;
 }
 

@@ -31,4 +31,11 @@ inline constexpr double kC[6][5] = {
     {7.496443313947807777, -10.24680431470373384, -33.99990352828958488, 11.70890893183920854},
     {8.083246796335244742, -7.981132988143881751, -31.52159432979249904, 16.31930543131752491, -6.058818238971781155}};
 
+/// Dense output of order 3 at y(t + s h) = (1 - s) y + s (y_1 + (1 - s) (d + s e)), d = sum_j kFirst_j u_j and e the
+/// same with kSecond; as published in the program RODAS.
+inline constexpr std::array<double, 5> kFirst = {10.12623508344586, -7.487995877610167, -34.80091861555747,
+                                                 -7.992771707568823, 1.025137723295662};
+inline constexpr std::array<double, 5> kSecond = {-0.6762803392806898, 6.087714651680015, 16.43084320892478,
+                                                  24.76722511418386, -6.594389125716872};
+
 }  // namespace butee::integrators::rodas4_coefficients
