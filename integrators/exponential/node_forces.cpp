@@ -45,7 +45,8 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
       borders_(dynamics.stops()),
       errors_(dynamics, dofs_),
       active_(modes),
-      scales_(dynamics.system()) {
+      scales_(dynamics.system()),
+      discontinuities_(dynamics.load_discontinuities()) {
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
   const Index p = modes.count();
   free_ = nodes_ = polynomial_ = missed_ = Lanes::Zero(2 * p, Lanes::ColsAtCompileTime);
@@ -57,7 +58,19 @@ double NodeForces::unresolved(const State& from, const double* z, const ModalLoa
   const Index p = modes_.count();
   const Eigen::Map<const Eigen::ArrayXd> re(z, p), im(z + p, p);
   const Eigen::ArrayXd amplitude = dofs_.reach() * (re.square() + im.square()).sqrt(), turn = modes_.speed() * h;
-  for (Index k = 0; k < p; ++k) sum += amplitude[k] * StepNodes::missed_part(turn[k]);
+  // A mode that follows its force does not turn: |dz/dt|/|lambda| is its distance from the place where it would rest.
+  // Where a load or its slope jumps, the forces of the step before are not those of this one.
+  Eigen::VectorXd rate = Eigen::Map<const Eigen::MatrixXd>(z + 2 * p, 2 * p, kCount).rowwise().sum();
+  loads.add_turning(from.t, rate);
+  rate.head(p).array() += modes_.decay() * re - modes_.turn() * im;
+  rate.tail(p).array() += modes_.decay() * im + modes_.turn() * re;
+  const bool jumps = std::binary_search(discontinuities_.begin(), discontinuities_.end(), from.t);
+  for (Index k = 0; k < p; ++k) {
+    const double speed = modes_.speed()[k], turning = jumps || speed == 0.0
+                                                          ? amplitude[k]
+                                                          : dofs_.reach()[k] * std::hypot(rate[k], rate[p + k]) / speed;
+    sum += std::min(amplitude[k], turning) * StepNodes::missed_part(turn[k]);
+  }
   scale = std::max(scale, (amplitude * turn.min(1.0)).maxCoeff());
   const auto scales = LocalErrorControl::scales_x(from);
   for (const Index dof : dofs_.all()) scale = std::max(scale, scales[dof]);

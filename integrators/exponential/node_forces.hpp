@@ -113,6 +113,7 @@ class NodeForces {
   SweepAcceleration acceleration_;
   Eigen::VectorXd end_, error_;
   ComponentScales scales_;
+  std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s, ascending
   Vector scale_x_, scale_v_, work_;
 };
 

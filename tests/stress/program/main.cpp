@@ -64,7 +64,7 @@ class Watchdog {
 };
 
 /// Work limit of runs for slopes; large enough for them to complete.
-constexpr std::int64_t kSlopeWork = 5000000;
+constexpr std::int64_t kSlopeWork = 2000000;
 
 struct Options {
   bool full = false, no_long_runs = false, verbose = false;
@@ -86,7 +86,7 @@ int run_suite(Options options) {
         std::find(options.methods.begin(), options.methods.end(), method.name) != options.methods.end())
       chosen.push_back(method);
 
-  Watchdog watchdog(600);
+  Watchdog watchdog(options.slopes > 0 ? 3600 : 600);
   Tally corners, random;
   const auto note = [&](const Scene& scene, const Method& method, const Outcome& outcome) {
     watchdog.note(scene.name + ", " + method.name);
@@ -125,10 +125,13 @@ int run_suite(Options options) {
       fitted += slope.is_fitted() ? 1 : 0;
       if (slope.is_kept()) continue;
       ++below;
-      rows += "| " + slope.scene + " | `" + slope.method + "` | " + butee::to_short_text(slope.value) + " |";
+      std::string row = "| " + slope.scene + " | `" + slope.method + "` | " + butee::to_short_text(slope.value) + " |";
       for (std::size_t k = 0; k < slope.errors.size(); ++k)
-        rows += " " + butee::to_short_text(slope.tolerances[k]) + ": " + butee::to_short_text(slope.errors[k]);
-      rows += " |\n";
+        row += " " + butee::to_short_text(slope.tolerances[k]) + ": " + butee::to_short_text(slope.errors[k]);
+      row += " |\n";
+      std::printf("%s", row.c_str());
+      std::fflush(stdout);
+      rows += row;
     }
   }
   if (options.slopes > 0)
