@@ -65,8 +65,13 @@ void SceneReader::read_modal_damping(const Value& given) {
     ratios.push_back(*config::as_number(given));
   else
     for (const Value& ratio : *given.array()) ratios.push_back(*config::as_number(ratio));
-  if (std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return ratio > 1.0; }))
-    diagnostics_.warning("damping.modal", given.at, "is more than critical damping; 2 % are written 0.02");
+  const auto over = std::find_if(ratios.begin(), ratios.end(), [](double ratio) { return ratio > 1.0; });
+  if (over != ratios.end())
+    diagnostics_.warning("damping.modal", given.at,
+                         (given.array() == nullptr ? std::string()
+                                                   : "the ratio " + to_short_text(*over) + " of mode " +
+                                                         std::to_string(over - ratios.begin() + 1) + " ") +
+                             "is more than critical damping; 2 % are written 0.02");
 
   const auto all = static_cast<std::size_t>(dofs_->free_count());
   if (given.array() == nullptr) {

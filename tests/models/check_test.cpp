@@ -108,6 +108,8 @@ TEST(Check, SaysWhichModesAreDamped) {
                              "0.01 at 5.8902"});
   EXPECT_EQ(list.output.find("C is"), std::string::npos);
   expect_holds(check("beam1", {"--set", "damping={modal=2}"}).errors, {"more than critical", "2 % are written 0.02"});
+  expect_holds(check("beam1", {"--set", "damping={modal=[0.02, 1.5]}"}).errors,
+               {"the ratio 1.5 of mode 2 is more than"});
   expect_holds(check("beam1", {"--set", "damping={}"}).output, {"damping: C is zero"});
 }
 
