@@ -63,8 +63,9 @@ void ContactDofs::take(Index dof, double stiffness, const dynamics::DampedModes&
 }
 
 void ContactDofs::limit_clearance(const model::ContactLaw* law, double distance, double most) {
-  clearance_ =
-      std::min(clearance_, law != nullptr && law->is_silent_while_open() ? std::max(0.0, distance) / most : 0.0);
+  const bool is_silent = law != nullptr && law->is_silent_while_open();
+  acts_apart_ = acts_apart_ || !is_silent;
+  clearance_ = std::min(clearance_, is_silent ? std::max(0.0, distance) / most : 0.0);
 }
 
 void ContactDofs::find_inverse_mass(Index dof, const dynamics::DampedModes& modes) {

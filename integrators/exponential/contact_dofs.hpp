@@ -27,13 +27,15 @@ class ContactDofs {
   double highest_frequency() const { return highest_frequency_; }
   /// True if a contact has dissipation or friction.
   bool need_velocity() const { return need_velocity_; }
+  /// True if a contact exerts a force while open.
+  bool acts_apart() const { return acts_apart_; }
   /// While all displacements of contacts are smaller than this, m, no contact acts; 0 if there is no such bound.
   double clearance() const { return clearance_; }
 
  private:
   void take(Index dof, double stiffness, const dynamics::DampedModes& modes);
-  /// Lowers the clearance to that of a contact with this distance at rest, m, where the displacement of the contact is
-  /// `most` times the largest one of a DOF at most.
+  /// Takes the law into account, and lowers the clearance to that of a contact with this distance at rest, m, where the
+  /// displacement of the contact is `most` times the largest one of a DOF at most.
   void limit_clearance(const model::ContactLaw* law, double distance, double most);
   void find_inverse_mass(Index dof, const dynamics::DampedModes& modes);
 
@@ -42,7 +44,7 @@ class ContactDofs {
   Vector inverse_mass_, stiffness_;
   double highest_frequency_ = 0.0;
   double clearance_ = std::numeric_limits<double>::infinity();
-  bool need_velocity_ = false;
+  bool need_velocity_ = false, acts_apart_ = false;
 };
 
 /// The DOFs of contacts that may act in a step and of other forces at its nodes, and their motion from the modes.

@@ -59,14 +59,15 @@ double NodeForces::unresolved(const State& from, const double* z, const ModalLoa
   const Eigen::Map<const Eigen::ArrayXd> re(z, p), im(z + p, p);
   const Eigen::ArrayXd amplitude = dofs_.reach() * (re.square() + im.square()).sqrt(), turn = modes_.speed() * h;
   // A mode that follows its force does not turn: |dz/dt|/|lambda| is its distance from the place where it would rest.
-  // Where a load or its slope jumps, the forces of the step before are not those of this one.
+  // Where a load or its slope jumps, the forces of the step before are not those of this one, and a force that bends
+  // while a stop is open moves light masses on the way between the nodes.
   Eigen::VectorXd rate = Eigen::Map<const Eigen::MatrixXd>(z + 2 * p, 2 * p, kCount).rowwise().sum();
   loads.add_turning(from.t, rate);
   rate.head(p).array() += modes_.decay() * re - modes_.turn() * im;
   rate.tail(p).array() += modes_.decay() * im + modes_.turn() * re;
-  const bool jumps = std::binary_search(discontinuities_.begin(), discontinuities_.end(), from.t);
+  const bool turns = dofs_.acts_apart() || std::binary_search(discontinuities_.begin(), discontinuities_.end(), from.t);
   for (Index k = 0; k < p; ++k) {
-    const double speed = modes_.speed()[k], turning = jumps || speed == 0.0
+    const double speed = modes_.speed()[k], turning = turns || speed == 0.0
                                                           ? amplitude[k]
                                                           : dofs_.reach()[k] * std::hypot(rate[k], rate[p + k]) / speed;
     sum += std::min(amplitude[k], turning) * StepNodes::missed_part(turn[k]);
