@@ -202,7 +202,7 @@ DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled
     clear_rounding(odd.cwiseAbs(), shapes, stiffness);
   }
   const Index soft = std::max(rigid, count_soft(natural->values));
-  stiffness.topLeftCorner(soft, soft) += soft_stiffness(soft, even, shapes);
+  stiffness.topLeftCorner(soft, soft) += soft_stiffness(soft, run_time, even, shapes);
   Parts parts(n);
   join_entries(damping, parts);
   join_entries(stiffness, parts);

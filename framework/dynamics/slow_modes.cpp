@@ -9,22 +9,29 @@
 #include "butee/linalg/extended.hpp"
 
 namespace butee::dynamics {
+namespace {
+
+/// A mode with (omega T)^2 below this does not oscillate within a run of T seconds. In coordinates of its own scale a
+/// motion of speed v would be one of amplitude v/omega, of which x keeps too few digits.
+constexpr double kStill = 1e-12;
+
+}  // namespace
 
 Index count_rigid(const Vector& squares, double run_time) {
-  constexpr double kStill = 1e-12, kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
   const double most = std::max(kStill / (run_time * run_time), kRounding * squares[squares.size() - 1]);
   return std::upper_bound(squares.begin(), squares.end(), most) - squares.begin();
 }
 
 bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping) {
-  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon(), kStill = 1e-10;
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon(), kUndamped = 1e-10;
   if (count < 2 || damping.leftCols(count).isZero(0.0)) return false;
   const Eigen::JacobiSVD<Eigen::MatrixXd> parts(damping.leftCols(count), Eigen::ComputeThinV);
   const Eigen::MatrixXd& turn = parts.matrixV();
   shapes.leftCols(count) *= turn;
   damping.leftCols(count) *= turn;
   damping.topRows(count) = turn.transpose() * damping.topRows(count).eval();
-  const double least = std::min(kRounding * damping.norm(), kStill / run_time);
+  const double least = std::min(kRounding * damping.norm(), kUndamped / run_time);
   for (Index i = 0; i < count; ++i)
     if (parts.singularValues()[i] <= least) {
       damping.col(i).setZero();
@@ -38,7 +45,8 @@ Index count_soft(const Vector& squares) {
   return std::upper_bound(squares.begin(), squares.end(), kSoft * squares[squares.size() - 1]) - squares.begin();
 }
 
-Eigen::MatrixXd soft_stiffness(Index count, const SparseMatrix& stiffness, const Eigen::MatrixXd& shapes) {
+Eigen::MatrixXd soft_stiffness(Index count, double run_time, const SparseMatrix& stiffness,
+                               const Eigen::MatrixXd& shapes) {
   constexpr double kMixed = 1e-9;
   const linalg::ExtendedColumns soft = shapes.leftCols(count).cast<long double>();
   linalg::ExtendedColumns forces = linalg::ExtendedColumns::Zero(shapes.rows(), count);
@@ -52,10 +60,11 @@ Eigen::MatrixXd soft_stiffness(Index count, const SparseMatrix& stiffness, const
   const Eigen::MatrixXd of_all = all * sizes;
   const Eigen::MatrixXd rounding = std::numeric_limits<double>::epsilon() * (sizes.transpose() * of_all);
   const Vector squares = product.diagonal();
+  const double still = kStill / (run_time * run_time);
   for (Index i = 0; i < count; ++i)
     for (Index j = 0; j < count; ++j) {
       double& value = product(i, j);
-      if (i == j ? value < 0.0 && value > -rounding(i, i)
+      if (i == j ? std::abs(value) <= still || (value < 0.0 && value > -rounding(i, i))
                  : std::abs(value) <= std::max(rounding(i, j), kMixed * std::abs(squares[i] - squares[j])))
         value = 0.0;
     }
