@@ -309,6 +309,27 @@ TEST(DampedModes, FollowFreeBodiesJoinedByAWeakDashpot) {
   }
 }
 
+/// Two free bodies whose rigid mode has omega^2 = 3e-28: rounding, which is no oscillation. The centre of mass moves
+/// by X = F/(m W^2) (cos phi - cos(W t + phi) - W t sin phi); it was wrong by a fifth of its way.
+TEST(DampedModes, DriveTheCentreOfMassOfBodiesWhoseRigidFrequencyIsRounding) {
+  constexpr double kForce = 100.0, kTurn = 140.0, kPhase = 1.3, kEnd = 0.02;
+  for (const double first : {1.0, 1.0123309709857433, 1.7}) {
+    for (const double second : {0.5311249678147054, 0.6, 3.1}) {
+      SceneRun run("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = " + to_text(first) +
+                   "\n[[element]]\ntype = \"mass\"\nname = \"b\"\nmass = " + to_text(second) +
+                   "\n[[element]]\ntype = \"spring\"\nnodes = [\"a\", \"b\"]\nstiffness = 35913.98\ndamping = "
+                   "0.0167\n[[load]]\nnode = \"a\"\ntype = \"harmonic\"\namplitude = 100.0\nangular_frequency = "
+                   "140.0\nphase = 1.3\n[integrator]\ntype = \"exponential\"\ntolerance = 1e-6\nend_time = 0.02\n");
+      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+      const time::State& end = run.simulation().state();
+      const double mass = first + second, centre = (first * end.x[run.dof("a")] + second * end.x[run.dof("b")]) / mass,
+                   wanted = kForce / (mass * kTurn * kTurn) *
+                            (std::cos(kPhase) - std::cos(kTurn * kEnd + kPhase) - kTurn * kEnd * std::sin(kPhase));
+      EXPECT_NEAR(centre, wanted, 1e-7 * std::abs(wanted)) << first << ' ' << second;
+    }
+  }
+}
+
 /// A free rotor under a harmonic force at its end: its centre of mass moves as a free mass, whatever gyroscopic moments
 /// do.
 TEST(DampedModes, MoveTheCentreOfMassOfAFreeRotorAsAFreeMass) {
