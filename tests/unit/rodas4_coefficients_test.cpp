@@ -2,6 +2,7 @@
 // table IV.7.1) for the coefficients of rodas4, transformed back from the form used in the code.
 #include "integrators/rodas4_coefficients.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -62,6 +63,49 @@ TEST(Rodas4Coefficients, TakeLoadsWhereTheirStagesStand) {
   for (int i = 0; i < 6; ++i) {
     EXPECT_NEAR(times[i], kTimes[static_cast<std::size_t>(i)], kRounding) << i;
     EXPECT_NEAR(rates[i], kRates[static_cast<std::size_t>(i)], kRounding) << i;
+  }
+}
+
+/// The dense output of y' = z y + g(t) at s in a step h = 1 from y = `start`.
+double dense_output(double z, double start, double (*g)(double), double slope, double s) {
+  std::array<double, 6> u{};
+  double y = start;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    double sum = 0.0;
+    y = start;
+    for (std::size_t j = 0; j < i; ++j) {
+      y += kA[i][j] * u[j];
+      sum += kC[i][j] * u[j];
+    }
+    u[i] = (z * y + g(kTimes[i]) + sum + kRates[i] * slope) / (1.0 / kGamma - z);
+  }
+  const double end = y + u.back();
+  double d = 0.0, e = 0.0;
+  for (std::size_t j = 0; j < kFirst.size(); ++j) {
+    d += kFirst[j] * u[j];
+    e += kSecond[j] * u[j];
+  }
+  return (1.0 - s) * start + s * (end + (1.0 - s) * (d + s * e));
+}
+
+/// Published digits: the conditions hold to 1e-9.
+TEST(Rodas4Coefficients, DenseOutputHasOrderThree) {
+  for (const double s : {0.2, 0.5, 0.9}) {
+    EXPECT_NEAR(dense_output(
+                    0.0, 0.0, [](double) { return 1.0; }, 0.0, s),
+                s, 1e-9);
+    EXPECT_NEAR(dense_output(
+                    0.0, 0.0, [](double t) { return 2.0 * t; }, 2.0, s),
+                s * s, 1e-9);
+    EXPECT_NEAR(dense_output(
+                    0.0, 0.0, [](double t) { return 3.0 * t * t; }, 0.0, s),
+                s * s * s, 1e-9);
+    const auto error = [s](double z) {
+      return std::abs(dense_output(
+                          z, 1.0, [](double) { return 0.0; }, 0.0, s) -
+                      std::exp(s * z));
+    };
+    for (const double z : {0.08, 0.04, 0.02}) EXPECT_LT(error(z), 0.1 * std::pow(z, 4.0)) << s << ' ' << z;
   }
 }
 
