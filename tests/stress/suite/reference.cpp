@@ -301,8 +301,10 @@ Index Reference::place_bands() {
   time::Simulation& simulation = run_->simulation();
   for (Index row = 0; row < promise_->rows(); ++row) {
     const double t = instants_[static_cast<std::size_t>(row)];
+    // A body near rest at its stop has margins of any length.
     const double margin =
-        time_margin(watch_->changes, watch_->ends(), promise_->scales(), row, t, promise_->allowed(row));
+        std::min(time_margin(watch_->changes, watch_->ends(), promise_->scales(), row, t, promise_->allowed(row)),
+                 instants_.back());
     if (margin == 0.0) continue;
     const auto after = std::upper_bound(instants_.begin(), instants_.end(), t - margin);
     const Index from = std::max<Index>(0, after - instants_.begin() - 1);
