@@ -86,7 +86,12 @@ std::vector<BadScene> bad_contact_scenes() {
       {"negative restitution",
        {{"regularization = 7.0e7",
          "regularization = 7.0e7\ndamping = { type = \"hunt_crossley\", restitution = -0.5, impact_speed = 1.0 } #!"}},
-       {"contact[0].damping.restitution = -0.5: must be > 0"}},
+       {"contact[0].damping.restitution = -0.5: must be >= 1e-09"}},
+      {"a restitution beyond jankowski's formula",
+       {{stop,
+         "type = \"stop\"\nnodes = \"rotor\"\ngap = 0.01\nlaw = \"hertz\"\nstiffness = 1.0e6\n"
+         "damping = { type = \"jankowski\", restitution = 1e-4, mass = 1.0 } #!"}},
+       {"contact[0].damping.restitution = 1e-04: is too small for jankowski's formula; at least 0.001 is allowed"}},
       {"restitution without what it needs",
        {{"regularization = 7.0e7",
          "regularization = 7.0e7\ndamping = { type = \"hunt_crossley\", restitution = 0.5 } #!"}},

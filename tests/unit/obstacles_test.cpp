@@ -210,6 +210,7 @@ TEST(ContactTables, InvertTheRestitution) {
   EXPECT_NEAR(scene::hunt_crossley_product(0.95), 0.0789266053, 1e-9);
   EXPECT_NEAR(scene::jankowski_ratio(0.65), 0.3728356653, 1e-9);
   EXPECT_NEAR(scene::jankowski_restitution(0.1753730097), 0.7989438, 1e-6);
+  EXPECT_NEAR(scene::jankowski_restitution(0.0), 1.0, 1e-9);
 }
 
 }  // namespace
