@@ -13,8 +13,8 @@
 namespace butee::record {
 namespace {
 
-[[noreturn]] void fail(const std::string& path) {
-  throw RunError(path + ": cannot be written: " + std::strerror(errno));
+[[noreturn]] void fail(const std::string& path, const char* what = "written") {
+  throw RunError(path + ": cannot be " + what + ": " + std::strerror(errno));
 }
 
 /// A rename is permanent only after its folder has been synchronised to the device; errors of file
@@ -30,7 +30,7 @@ void sync_folder_of(const std::string& path) {
 }  // namespace
 
 File::File(const std::string& path, int flags) : descriptor_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-  if (descriptor_ < 0) fail(path);
+  if (descriptor_ < 0) fail(path, (flags & O_ACCMODE) == O_RDONLY ? "read" : "written");
 }
 
 File::~File() {
@@ -63,6 +63,13 @@ void write_whole(const std::string& path, std::span<const std::byte> bytes) {
     std::remove(draft.c_str());
     throw;
   }
+  sync_folder_of(path);
+}
+
+void put_in_place(const std::string& draft, const std::string& path) {
+  File file(draft, O_WRONLY);
+  if (fsync(file.descriptor()) != 0 || !file.close()) fail(draft);
+  if (std::rename(draft.c_str(), path.c_str()) != 0) fail(path);
   sync_folder_of(path);
 }
 

@@ -32,4 +32,7 @@ class BUTEE_EXPORT File {
 /// after a crash. Throws RunError and then leaves the earlier file unchanged.
 BUTEE_EXPORT void write_whole(const std::string& path, std::span<const std::byte> bytes);
 
+/// Renames a complete file, so that after a crash either name holds all of it. Throws RunError.
+BUTEE_EXPORT void put_in_place(const std::string& draft, const std::string& path);
+
 }  // namespace butee::record

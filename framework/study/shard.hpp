@@ -8,7 +8,6 @@ namespace butee::study {
 /// `count`.
 struct Shard {
   std::int64_t index = 0, count = 1;
-  bool owns(std::int64_t chain) const { return chain % count == index; }
 };
 
 }  // namespace butee::study

@@ -1,6 +1,7 @@
 #include "butee/study/store.hpp"
 
 #include <algorithm>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -86,14 +87,18 @@ std::string Store::result() const {
   return file(kResult + format_.extension());
 }
 
+bool Store::is_row_file(const std::string& name) {
+  const fs::path path = name;
+  return (path.stem() == kResult || begins_with(name, kRows)) && name != kStudyFile && path.extension() != ".part";
+}
+
 std::vector<std::string> Store::row_files(const std::string& folder) const {
   std::vector<std::string> files;
   for (const std::string& name : entries_of(folder)) {
     const fs::path path = fs::path(folder) / name;
-    const bool is_row_file = begins_with(name, kRows);
-    if (path.extension() == format_.extension() && is_row_file) files.push_back(path.string());
-    if (path.extension() != format_.extension() && (is_row_file || path.stem() == kResult) && name != kStudyFile &&
-        path.extension() != ".part")
+    if (!is_row_file(name)) continue;
+    if (path.extension() == format_.extension() && begins_with(name, kRows)) files.push_back(path.string());
+    if (path.extension() != format_.extension())
       throw InputError(folder + ": the existing study has its rows in " + name + ", but the requested format is " +
                        format_.extension() + "; use the --format of the existing study, or --fresh");
   }
@@ -158,6 +163,8 @@ void Store::look() {
 }
 
 std::unique_ptr<RowSource> Store::open_rows(const std::string& path) const {
+  // A lack of rights or of descriptors does not damage rows.
+  record::File(path, O_RDONLY);
   try {
     return format_.open(path, layout_);
   } catch (const RunError& error) {

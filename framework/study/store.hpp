@@ -103,14 +103,19 @@ class BUTEE_EXPORT Store final : public Rows {
  private:
   struct Found;
 
+  /// True for the name of a file of rows, of a finished study or of one that goes on.
+  static bool is_row_file(const std::string& name);
   std::vector<std::string> row_files(const std::string& folder) const;
   /// The row files of this folder and of its shards.
   std::vector<std::string> all_row_files() const;
   /// The location of the row of each run, if it exists.
-  Found find_rows(const std::vector<std::string>& files) const;
+  Found find_rows() const;
+  /// Calls `look` with blocks of whole rows in the order of the runs.
+  void visit_in_order(const Found& found, const std::function<void(std::span<const std::byte> rows)>& look) const;
   /// Removes shards and sweep files.
   void remove_parts() const;
-  /// Opens a row file of this study; one that cannot be read counts as empty, with a warning.
+  /// Opens a row file of this study; a damaged one counts as empty, with a warning. Throws RunError if it cannot be
+  /// opened.
   std::unique_ptr<RowSource> open_rows(const std::string& path) const;
   void check_identity(const std::string& folder) const;
   void read_done();

@@ -3,6 +3,7 @@
 
 #include "butee/config/toml.hpp"
 #include "butee/core/error.hpp"
+#include "butee/record/file.hpp"
 #include "butee/study/store.hpp"
 
 namespace butee::study {
@@ -11,8 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Number of bytes of rows written at once.
-constexpr std::size_t kBlock = std::size_t{1} << 20U;
+/// Number of bytes of rows that are put in order at once.
+constexpr std::size_t kGathered = std::size_t{1} << 26U;
 
 }  // namespace
 
@@ -21,28 +22,62 @@ struct Store::Found {
     std::int32_t file = -1;
     std::int64_t index = 0;
   };
+  std::vector<std::string> files;
   std::vector<Place> places;  ///< by run
-  std::vector<std::unique_ptr<RowSource>> sources;
 };
 
-Store::Found Store::find_rows(const std::vector<std::string>& files) const {
+Store::Found Store::find_rows() const {
   Found found;
+  found.files = all_row_files();
   found.places.resize(static_cast<std::size_t>(study_.plan.run_count()));
   std::vector<std::byte> bytes(layout_.row_bytes());
   const std::size_t run_column = layout_.find(kRunColumn);
-  for (const std::string& path : files) {
-    found.sources.push_back(open_rows(path));
-    RowSource* source = found.sources.back().get();
+  for (std::size_t file = 0; file < found.files.size(); ++file) {
+    const auto source = open_rows(found.files[file]);
     for (std::int64_t i = 0; source != nullptr && i < source->size(); ++i) {
       if (!source->read(i, bytes)) continue;
       const std::int64_t run = Row(layout_, bytes).integer(run_column);
       if (run < 0 || run >= std::ssize(found.places))
-        throw RunError(path + ": contains a row that belongs to no run of this study");
+        throw RunError(found.files[file] + ": contains a row that belongs to no run of this study");
       Found::Place& place = found.places[static_cast<std::size_t>(run)];
-      if (place.file < 0) place = {static_cast<std::int32_t>(found.sources.size() - 1), i};
+      if (place.file < 0) place = {static_cast<std::int32_t>(file), i};
     }
   }
   return found;
+}
+
+void Store::visit_in_order(const Found& found, const std::function<void(std::span<const std::byte> rows)>& look) const {
+  struct Wanted {
+    Found::Place place;
+    std::size_t slot;
+  };
+  const std::size_t row_bytes = layout_.row_bytes(), most = std::max<std::size_t>(1, kGathered / row_bytes);
+  std::vector<std::byte> rows;
+  std::vector<Wanted> wanted;
+  const auto gather = [&] {
+    rows.resize(wanted.size() * row_bytes);
+    std::sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) {
+      return std::pair(a.place.file, a.place.index) < std::pair(b.place.file, b.place.index);
+    });
+    // One file at a time is open: a study may have more of them than a process may open.
+    std::unique_ptr<RowSource> source;
+    std::int32_t open = -1;
+    for (const Wanted& one : wanted) {
+      const std::string& path = found.files[static_cast<std::size_t>(one.place.file)];
+      if (open != one.place.file) source = format_.open(path, layout_);
+      open = one.place.file;
+      if (!source->read(one.place.index, std::span(rows).subspan(one.slot * row_bytes, row_bytes)))
+        throw RunError(path + ": a row that was there cannot be read any more");
+    }
+    look(rows);
+    wanted.clear();
+  };
+  for (const Found::Place& place : found.places) {
+    if (place.file < 0) continue;
+    wanted.push_back({place, wanted.size()});
+    if (wanted.size() == most) gather();
+  }
+  if (!wanted.empty()) gather();
 }
 
 bool Store::merge(std::int64_t& missing) {
@@ -52,31 +87,20 @@ bool Store::merge(std::int64_t& missing) {
     sink_.reset();
   }
   if (is_complete_) return true;
-  const std::vector<std::string> files = all_row_files();
-  Found found = find_rows(files);
-  const auto& places = found.places;
-  std::vector<std::byte> bytes(layout_.row_bytes());
-  for (std::size_t run = 0; run < places.size(); ++run)
-    if (places[run].file < 0) {
-      missing = static_cast<std::int64_t>(run);
-      return false;
-    }
+  const Found found = find_rows();
+  const auto absent =
+      std::find_if(found.places.begin(), found.places.end(), [](const Found::Place& place) { return place.file < 0; });
+  if (absent != found.places.end()) {
+    missing = absent - found.places.begin();
+    return false;
+  }
   const std::string draft = result() + ".part";
   const auto sink = format_.create(draft, layout_, study_.title);
-  std::vector<std::byte> block;
-  for (const Found::Place& place : places) {
-    found.sources[static_cast<std::size_t>(place.file)]->read(place.index, bytes);
-    block.insert(block.end(), bytes.begin(), bytes.end());
-    if (block.size() < kBlock) continue;
-    sink->append(block);
-    block.clear();
-  }
-  if (!block.empty()) sink->append(block);
+  visit_in_order(found, [&](std::span<const std::byte> rows) { sink->append(rows); });
   sink->close();
-  fs::rename(draft, result());
-  found.sources.clear();
+  record::put_in_place(draft, result());
   std::error_code error;
-  for (const std::string& path : files) fs::remove(path, error);
+  for (const std::string& path : found.files) fs::remove(path, error);
   remove_parts();
   is_complete_ = true;
   return true;
@@ -90,10 +114,9 @@ void Store::visit(const std::function<void(const Row&)>& look) const {
       if (source->read(i, bytes)) look(Row(layout_, bytes));
     return;
   }
-  const Found found = find_rows(all_row_files());
-  for (const Found::Place& place : found.places)
-    if (place.file >= 0 && found.sources[static_cast<std::size_t>(place.file)]->read(place.index, bytes))
-      look(Row(layout_, bytes));
+  visit_in_order(find_rows(), [&](std::span<const std::byte> rows) {
+    for (; !rows.empty(); rows = rows.subspan(layout_.row_bytes())) look(Row(layout_, rows.first(layout_.row_bytes())));
+  });
 }
 
 Study Store::read(const std::string& folder) {
@@ -109,9 +132,7 @@ Study Store::read(const std::string& folder) {
 std::string Store::extension_in(const std::string& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path path = entry.path();
-    if ((path.stem() == "study" || path.filename().string().starts_with("rows-")) && path.extension() != ".toml" &&
-        path.extension() != ".part")
-      return path.extension().string();
+    if (is_row_file(path.filename().string())) return path.extension().string();
   }
   if (const std::string shard = study_in(folder); !shard.empty() && shard != folder) return extension_in(shard);
   throw InputError(folder + ": holds no rows yet");

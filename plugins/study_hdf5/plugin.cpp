@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 
 #include <butee/core/bytes.hpp>
 #include <butee/core/error.hpp>
@@ -132,7 +133,8 @@ class Source final : public study::RowSource {
     // If the writer was killed, the file is still marked as being written.
     hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
     if (id < 0) id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-    if (id < 0) return;  // The writer was killed before the file held a row.
+    std::error_code error;
+    if (id < 0 && std::filesystem::file_size(path, error) == 0) return;  // The writer was killed at its start.
     file_ = Handle(id, H5Fclose, "open " + path);
     if (H5Lexists(file_, kRows, H5P_DEFAULT) <= 0) return;
     set_ = Handle(H5Dopen2(file_, kRows, H5P_DEFAULT), H5Dclose, "read " + path);
