@@ -29,7 +29,6 @@ constexpr double kSameFrequency = 1e-12;
 constexpr double kStepsUntilEnd = 1000.0;
 
 const std::vector<std::string> kPlans = {"grid", "list", "sobol", "latin"};
-constexpr double kMostPeriods = 1e9;
 /// All integers below are exact as a double.
 constexpr double kLargestInteger = 9e15;
 
@@ -175,11 +174,11 @@ std::vector<Parameter> study_parameters() {
           config::integer("seed", "the seed of plan sobol (digital shift) or latin").at_least(0).optional(),
           config::integer("settle", "the number of periods before results count")
               .at_least(0)
-              .at_most(kMostPeriods)
+              .at_most(Study::kMostPeriods)
               .or_else(std::int64_t{0}),
           config::integer("periods", "the number of periods that count; default: to end_time of the scene")
               .at_least(1)
-              .at_most(kMostPeriods)
+              .at_most(Study::kMostPeriods)
               .optional(),
           config::number("period", "s", "the period for settle, periods and sections; default: that of the loads")
               .above(0)

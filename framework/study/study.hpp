@@ -16,6 +16,8 @@ struct Study {
   config::Document scene;       ///< with the overrides that apply to every run
   plugin::Catalogue catalogue;  ///< its methods are loaded when the first point needs them
   Plan plan;
+  static constexpr double kMostPeriods = 1e9;  ///< settled or collected
+
   std::int64_t settle = 0;                ///< periods before results are collected
   std::optional<std::int64_t> periods{};  ///< number of periods collected; up to the scene's end_time if absent
   std::optional<double> period{};         ///< s; that of the loads if absent

@@ -40,6 +40,19 @@ void set_end(scene::Scene& scene, double end) {
   scene.integrator.parameters.set("end_time", config::Value(end), true);
 }
 
+/// Whole numbers of periods are floor(periods (1 + kRoundingOfPeriods)).
+constexpr double kRoundingOfPeriods = 1e-12;
+
+/// The periods that count, up to the end of the scene.
+double whole_periods(const Counted& counted) {
+  const double periods = (counted.end - counted.begin) / counted.period * (1.0 + kRoundingOfPeriods);
+  if (!(periods <= Study::kMostPeriods))
+    throw InputError("study.period: " + to_short_text(counted.period) + " s is too short: the run would have " +
+                     to_short_text(periods) + " periods, but at most " + to_short_text(Study::kMostPeriods) +
+                     " are counted");
+  return periods;
+}
+
 /// The part of a run over which results are collected, and the end of the run.
 Counted counted_of(const Study& study, const scene::Scene& scene) {
   Counted counted;
@@ -61,8 +74,7 @@ Counted counted_of(const Study& study, const scene::Scene& scene) {
   if (study.periods)
     counted.periods = *study.periods;
   else if (counted.period > 0.0)
-    counted.periods =
-        static_cast<std::int64_t>(std::floor((counted.end - counted.begin) / counted.period * (1.0 + 1e-12)));
+    counted.periods = static_cast<std::int64_t>(std::floor(whole_periods(counted)));
   return counted;
 }
 
