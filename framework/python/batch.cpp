@@ -1,6 +1,9 @@
 #include "butee/python/batch.hpp"
 
 #include <algorithm>
+#include <system_error>
+
+#include "butee/core/error.hpp"
 
 namespace butee::python {
 namespace {
@@ -43,10 +46,21 @@ Batch::Batch(const Session& session, std::vector<std::string> keys, std::vector<
       points_(std::move(points)),
       thread_count_(std::min(threads, points_.size())),
       handed_at_(std::chrono::steady_clock::now()) {
-  for (std::size_t i = 0; i < thread_count_; ++i) threads_.emplace_back([this] { work(); });
+  try {
+    for (std::size_t i = 0; i < thread_count_; ++i) threads_.emplace_back([this] { work(); });
+  } catch (const std::system_error& error) {
+    const std::size_t started = threads_.size();
+    stop();
+    throw RunError(std::to_string(thread_count_) + " threads cannot be started, only " + std::to_string(started) +
+                   ": " + error.what() + "; use fewer");
+  }
 }
 
 Batch::~Batch() {
+  stop();
+}
+
+void Batch::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;

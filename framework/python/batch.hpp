@@ -42,6 +42,7 @@ class Batch {
   std::optional<Done> next(std::chrono::milliseconds patience);
 
  private:
+  void stop();  ///< ends and joins the threads
   void work();
   Done done_of(std::size_t point, plugin::Catalogue& catalogue);
   bool is_full() const;

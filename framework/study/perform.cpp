@@ -4,8 +4,10 @@
 #include <condition_variable>
 #include <exception>
 #include <sched.h>
+#include <system_error>
 #include <thread>
 
+#include "butee/core/error.hpp"
 #include "butee/core/log.hpp"
 
 namespace butee::study {
@@ -33,7 +35,16 @@ class Pool {
     const log::WithoutWarnings quiet;
     std::vector<std::jthread> threads;
     running_ = count;
-    for (int i = 0; i < count; ++i) threads.emplace_back([this] { work(); });
+    try {
+      for (int i = 0; i < count; ++i) threads.emplace_back([this] { work(); });
+    } catch (const std::system_error& error) {
+      const std::size_t started = threads.size();
+      goes_on_ = false;
+      threads.clear();
+      rows_.flush();
+      throw RunError(std::to_string(count) + " threads cannot be started, only " + std::to_string(started) + ": " +
+                     error.what() + "; use fewer");
+    }
     wait();
     threads.clear();
     if (error_) std::rethrow_exception(error_);
