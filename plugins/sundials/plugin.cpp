@@ -21,6 +21,21 @@ double length_of(dynamics::Dynamics& dynamics) {
   return length > 0.0 ? length : 1e-3;
 }
 
+/// The highest order of SUNDIALS 6 (its user guides: CVODE 2.1, ARKODE 2.7).
+std::int64_t highest_order(plugins::Family family) {
+  switch (family) {
+    case plugins::Family::cvode_bdf:
+      return 5;
+    case plugins::Family::cvode_adams:
+      return 12;
+    case plugins::Family::arkode_erk:
+      return 8;
+    case plugins::Family::arkode_dirk:
+      return 5;
+  }
+  throw LogicError("no such family of SUNDIALS");
+}
+
 time::IntegratorType type_of(std::string name, std::string summary, plugins::Family family) {
   return {
       .name = std::move(name),
@@ -36,7 +51,7 @@ time::IntegratorType type_of(std::string name, std::string summary, plugins::Fam
                          .or_else(0.0),
                      config::integer("order", "the order, the highest of cvode; 0: the solver's choice")
                          .at_least(0)
-                         .at_most(12)
+                         .at_most(highest_order(family))
                          .or_else(std::int64_t{0})},
       .finds_first_step = true,
       .restarts_exactly = false,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace butee::plugins {
 namespace {
@@ -55,19 +56,20 @@ double SundialsIntegrator::first_step(const time::State&) const {
 void SundialsIntegrator::create(const time::State& from) {
   if (is_cvode()) {
     memory_ = CVodeCreate(family_ == Family::cvode_bdf ? CV_BDF : CV_ADAMS, context_);
+    if (memory_ == nullptr) throw std::runtime_error("SUNDIALS: CVodeCreate failed");
     check(CVodeInit(memory_, right_side, from.t, y_), "CVodeInit");
-    CVodeSetErrHandlerFn(memory_, ignore_message, nullptr);
-    CVodeSetUserData(memory_, this);
-    CVodeSStolerances(memory_, tolerance_, absolute_tolerance_);
-    if (order_ > 0) CVodeSetMaxOrd(memory_, order_);
+    check(CVodeSetErrHandlerFn(memory_, ignore_message, nullptr), "CVodeSetErrHandlerFn");
+    check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
+    check(CVodeSStolerances(memory_, tolerance_, absolute_tolerance_), "CVodeSStolerances");
+    if (order_ > 0) check(CVodeSetMaxOrd(memory_, order_), "CVodeSetMaxOrd");
   } else {
     const bool is_explicit = family_ == Family::arkode_erk;
     memory_ =
         ARKStepCreate(is_explicit ? right_side : nullptr, is_explicit ? nullptr : right_side, from.t, y_, context_);
     if (memory_ == nullptr) throw std::runtime_error("SUNDIALS: ARKStepCreate failed");
-    ARKStepSetErrHandlerFn(memory_, ignore_message, nullptr);
-    ARKStepSetUserData(memory_, this);
-    ARKStepSStolerances(memory_, tolerance_, absolute_tolerance_);
+    check(ARKStepSetErrHandlerFn(memory_, ignore_message, nullptr), "ARKStepSetErrHandlerFn");
+    check(ARKStepSetUserData(memory_, this), "ARKStepSetUserData");
+    check(ARKStepSStolerances(memory_, tolerance_, absolute_tolerance_), "ARKStepSStolerances");
     if (order_ > 0) check(ARKStepSetOrder(memory_, order_), "ARKStepSetOrder");
   }
   if (family_ != Family::arkode_erk) attach_linear_solver();
@@ -105,13 +107,17 @@ time::StepReport SundialsIntegrator::do_step(const time::State& from, const time
   double t = from.t;
   int flag = 0;
   if (is_cvode()) {
-    CVodeSetStopTime(memory_, step.t_end);
+    check(CVodeSetStopTime(memory_, step.t_end), "CVodeSetStopTime");
     flag = CVode(memory_, step.t_end, y_, &t, CV_ONE_STEP);
     if (flag >= 0) flag = std::min(0, CVodeGetDky(memory_, t, 1, derivative_));
   } else {
-    ARKStepSetStopTime(memory_, step.t_end);
+    check(ARKStepSetStopTime(memory_, step.t_end), "ARKStepSetStopTime");
     flag = ARKStepEvolve(memory_, step.t_end, y_, &t, ARK_ONE_STEP);
     if (flag >= 0) flag = std::min(0, ARKStepGetDky(memory_, t, 1, derivative_));
+  }
+  if (thrown_) {
+    last_.t = kNone;
+    std::rethrow_exception(std::exchange(thrown_, nullptr));
   }
   if (flag < 0 || !(t > from.t)) {
     report.status = time::StepStatus::not_finite;
@@ -139,12 +145,25 @@ int SundialsIntegrator::evaluate(double t, const double* y, double* rate) {
   return std::isfinite(a.sum()) ? 0 : 1;
 }
 
+template <class Function>
+int SundialsIntegrator::guarded(Function call) noexcept {
+  constexpr int kUnrecoverable = -1;
+  try {
+    return call();
+  } catch (...) {
+    thrown_ = std::current_exception();
+    return kUnrecoverable;
+  }
+}
+
 int SundialsIntegrator::right_side(realtype t, N_Vector y, N_Vector rate, void* self) {
-  return static_cast<SundialsIntegrator*>(self)->evaluate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
+  SundialsIntegrator& method = *static_cast<SundialsIntegrator*>(self);
+  return method.guarded([&] { return method.evaluate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rate)); });
 }
 
 int SundialsIntegrator::solve_linear(SUNLinearSolver solver, SUNMatrix, N_Vector z, N_Vector r, realtype) {
-  return static_cast<SundialsIntegrator*>(solver->content)->solve(N_VGetArrayPointer(z), N_VGetArrayPointer(r));
+  SundialsIntegrator& method = *static_cast<SundialsIntegrator*>(solver->content);
+  return method.guarded([&] { return method.solve(N_VGetArrayPointer(z), N_VGetArrayPointer(r)); });
 }
 
 int SundialsIntegrator::solve(double* z, const double* r) {

@@ -2,6 +2,7 @@
 
 #include <arkode/arkode_arkstep.h>
 #include <cvode/cvode.h>
+#include <exception>
 #include <memory>
 #include <nvector/nvector_serial.h>
 #include <string>
@@ -52,6 +53,9 @@ class SundialsIntegrator final : public time::Integrator {
   /// work_ := (K + K_t) y
   void tangent_force(ConstVectorRef y);
 
+  /// The result of `call`. An exception is kept for do_step(), since it must not pass through the C code of SUNDIALS.
+  template <class Function>
+  int guarded(Function call) noexcept;
   static int right_side(realtype t, N_Vector y, N_Vector rate, void* self);
   static int solve_linear(SUNLinearSolver solver, SUNMatrix, N_Vector z, N_Vector r, realtype);
 
@@ -59,6 +63,7 @@ class SundialsIntegrator final : public time::Integrator {
   Family family_;
   double tolerance_, absolute_tolerance_;
   int order_;
+  std::exception_ptr thrown_;  ///< by a call from SUNDIALS
   SUNContext context_ = nullptr;
   void* memory_ = nullptr;
   N_Vector y_ = nullptr, derivative_ = nullptr;

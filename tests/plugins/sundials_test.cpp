@@ -47,6 +47,15 @@ TEST_P(Sundials, AgreesWithAnotherMethodInRingsWithFriction) {
   EXPECT_LT((x - reference).norm(), 1e-3 * reference.norm());
 }
 
+TEST_P(Sundials, RefusesOrdersThatTheSolverLacks) {
+  const bool has_six = GetParam() == "cvode_adams" || GetParam() == "arkode_erk";
+  const std::vector<std::string> six = {"integrator.type=" + GetParam(), "integrator.order=6"};
+  if (has_six)
+    EXPECT_NO_THROW(SceneRun(mass_on_spring("40.0", ""), six));
+  else
+    EXPECT_THROW(SceneRun(mass_on_spring("40.0", ""), six), InputError);
+}
+
 /// Implicit methods need the slopes of forces.
 TEST_P(Sundials, RefusesInfiniteSlopesWhereItTakesSlopes) {
   const std::string toml = mass_on_spring("40.0",
