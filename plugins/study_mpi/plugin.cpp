@@ -19,11 +19,13 @@ class World final : public study::Team {
       throw RunError("MPI cannot be started");
     if (provided < MPI_THREAD_SERIALIZED)
       throw RunError("this MPI does not let several threads call it (MPI_THREAD_SERIALIZED); take --shard I/N");
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
     void* memory = nullptr;
     check(MPI_Win_allocate(rank_ == 0 ? sizeof(std::int64_t) : 0, sizeof(std::int64_t), MPI_INFO_NULL, MPI_COMM_WORLD,
                            static_cast<void*>(&memory), &window_));
+    MPI_Win_set_errhandler(window_, MPI_ERRORS_RETURN);
     check(MPI_Win_lock_all(MPI_MODE_NOCHECK, window_));
     if (rank_ == 0) {
       *static_cast<std::int64_t*>(memory) = 0;
@@ -39,6 +41,7 @@ class World final : public study::Team {
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   int agree(int status) override {
+    const std::lock_guard guard(mutex_);
     int largest = status;
     check(MPI_Allreduce(&status, &largest, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD));
     return largest;
