@@ -158,10 +158,13 @@ class Comparison {
       try {
         row = run(scene, sweep, value, result);
       } catch (const InputError& error) {
-        if (value == sweep.values.front()) throw;
-        // The value is below the smallest one of the method for this scene.
+        const bool is_first = value == sweep.values.front();
+        // A method that the study names should suit its scenes; of all installed ones some do not.
+        if (is_first && !study_.sweeps.empty()) throw;
         log::info(result.scene + ": " + sweep.method + ", " + sweep.knob + " = " + to_short_text(value) + ": " +
                   error.what());
+        // Later values are below the smallest one of the method for this scene.
+        if (is_first) result.rows.push_back(refused(result.scene, sweep, value, error.what()));
         return;
       }
       if (row.outcome == "interrupted") return;
@@ -171,6 +174,16 @@ class Comparison {
       result.rows.push_back(std::move(row));
       if (fine) return;
     }
+  }
+
+  static Row refused(const std::string& scene, const Sweep& sweep, double value, const std::string& reason) {
+    Row row;
+    row.scene = scene;
+    row.method = sweep.method;
+    row.knob = sweep.knob;
+    row.value = value;
+    row.outcome = "refused: " + reason;
+    return row;
   }
 
   Row run(Prepared& scene, const Sweep& sweep, double value, const SceneResult& result) {

@@ -73,8 +73,8 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
   std::ifstream file(path);
   if (!file) throw InputError("study.reference = \"" + path + "\": cannot be read");
   std::string line;
-  while (std::getline(file, line) && line.starts_with('#')) {
-  }
+  std::size_t number = 1;
+  while (std::getline(file, line) && line.starts_with('#')) ++number;
   const std::vector<std::string> header = split_csv(line);
   const auto place = [&](const std::string& name) {
     const auto found = std::find(header.begin(), header.end(), name);
@@ -83,15 +83,16 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
   };
   const std::size_t t = place("t"), value = place(column);
   std::vector<double> values;
-  for (std::size_t number = 2; values.size() < question.times.size() && std::getline(file, line); ++number) {
+  while (values.size() < question.times.size() && std::getline(file, line)) {
+    ++number;
     const auto cells = split_csv(line);
-    try {
-      const double at = question.times[values.size()];
-      if (std::abs(std::stod(cells.at(t)) - at) <= kSameRow * question.times.back())
-        values.push_back(std::stod(cells.at(value)));
-    } catch (const std::exception&) {
-      throw InputError(path + ": row " + std::to_string(number) + " is not a row of numbers");
-    }
+    const auto number_in = [&](std::size_t i) {
+      const auto read = i < cells.size() ? number_of(cells[i]) : std::nullopt;
+      if (!read) throw InputError(path + ":" + std::to_string(number) + ": is not a row of numbers");
+      return *read;
+    };
+    const double at = question.times[values.size()];
+    if (std::abs(number_in(t) - at) <= kSameRow * question.times.back()) values.push_back(number_in(value));
   }
   if (values.size() < question.times.size())
     throw InputError(path + ": has no row at t = " + to_short_text(question.times[values.size()]) +

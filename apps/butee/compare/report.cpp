@@ -142,10 +142,10 @@ std::vector<Row> read_csv(const std::string& path) {
       row.scene = cells[1];
       row.method = cells[2];
       row.knob = cells[3];
-      row.value = std::stod(cells[4]);
+      row.value = number_of(cells[4]).value();
       row.outcome = cells[5];
-      if (row.completed()) row.error = {std::stod(cells[6]), std::stod(cells[7])};
-      row.seconds = std::stod(cells[8]);
+      if (row.completed()) row.error = {number_of(cells[6]).value(), number_of(cells[7]).value()};
+      row.seconds = number_of(cells[8]).value();
       const std::array<std::int64_t*, 7> counts = {&row.steps,
                                                    &row.rejected,
                                                    &row.newton,

@@ -41,7 +41,7 @@ std::string markdown(const Study& study, const std::vector<SceneResult>& results
 /// The fastest run with an error up to `target`, or nullptr.
 const Row* fastest(const std::vector<Row>& rows, double target);
 
-/// As fastest_to, but nullptr also if the target is within the uncertainty of the reference.
+/// As fastest(), but nullptr also if the target is within the uncertainty of the reference.
 const Row* fastest_beyond_doubt(const SceneResult& result, double target);
 
 /// Draws error against time as work-precision-<scene>.png and .svg in `folder` by gnuplot. Returns false if
