@@ -71,7 +71,7 @@ class Adviser {
               "; take a smaller step or an implicit method");
     if (!type.fixed_step || h == 0.0) return;
     const double contact = facts_.mechanics.shortest_contact;
-    if (!system_.stops.empty() && h * kStepsInContact > contact)
+    if (contact > 0.0 && h * kStepsInContact > contact)
       add("contact-step", "time_step = " + to_short_text(h) + " s: an impact can be as short as " +
                               to_short_text(contact) + " s, which makes " + to_short_text(contact / h) +
                               " steps; take " + to_short_text(contact / (2.5 * kStepsInContact)) +
@@ -150,8 +150,7 @@ class Adviser {
   void judge_output() {
     const auto interval = session_.output.interval;
     const double contact = facts_.mechanics.shortest_contact;
-    if (!interval || session_.output.impacts || system_.stops.empty() || *interval * run::kRowsInContact <= contact)
-      return;
+    if (!interval || session_.output.impacts || contact == 0.0 || *interval * run::kRowsInContact <= contact) return;
     add("output-interval", "a row every " + to_short_text(*interval) + " s, and an impact can be as short as " +
                                to_short_text(contact) +
                                " s: history.csv will not resolve the impact. Take interval = " +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include <butee/core/text.hpp>
 
@@ -63,8 +64,12 @@ class Placer {
       if (const NodeId root = nodes_.canonical(node); root != node) ties_.push_back({root, node, true});
     for (const SpringPlace& spring : survey.springs)
       if (spring.b >= 0) ties_.push_back({spring.a, spring.b, false});
-    for (const model::StopGroup& group : model.stops)
-      for (std::size_t i = 0; i < group.b.size(); ++i) ties_.push_back({group.a[i], group.b[i], false});
+    const auto tie_ends = [&](const auto& groups) {
+      for (const auto& group : groups)
+        for (std::size_t i = 0; i < group.b.size(); ++i) ties_.push_back({group.a[i], group.b[i], false});
+    };
+    tie_ends(model.stops);
+    tie_ends(model.obstacles);
   }
 
   bool is_taken(int row, double begin, double end) const {
@@ -120,13 +125,15 @@ void add_supports(const model::Model& model, const Placer& placer, Layout& layou
   for (const auto& [node, mark] : marks) layout.supports.push_back(mark);
 }
 
+/// `laws` are those of [[contact]], of use here if each is one group of stops.
 void add_stops(const model::Model& model, const Placer& placer, const std::vector<std::string>& laws, Layout& layout) {
+  const bool names_laws = laws.size() == model.stops.size() && model.obstacles.empty();
   for (std::size_t g = 0; g < model.stops.size(); ++g) {
     const model::StopGroup& group = model.stops[g];
     const bool turns = is_rotation(group.dof);
     layout.stop_labels.push_back("gap " + to_short_text(group.play.gap) + (turns ? " rad, " : " m, ") +
                                  to_short_text(group.law->closed_stiffness()) + (turns ? " N m/rad" : " N/m") +
-                                 (g < laws.size() ? ", " + laws[g] : ""));
+                                 (names_laws ? ", " + laws[g] : ""));
     for (std::size_t i = 0; i < group.a.size(); ++i) {
       StopMark mark;
       mark.at = placer.of(group.a[i]);
@@ -135,6 +142,29 @@ void add_stops(const model::Model& model, const Placer& placer, const std::vecto
       mark.negative = group.play.has_negative();
       mark.gap = group.play.gap;
       mark.group = static_cast<int>(g);
+      layout.stops.push_back(mark);
+    }
+  }
+}
+
+/// Stops with dissipation, rings and planes; of their directions the first is drawn.
+void add_obstacles(const model::Model& model, const Placer& placer, Layout& layout) {
+  for (const model::ObstacleGroup& group : model.obstacles) {
+    if (group.shape == nullptr || group.law == nullptr) continue;
+    const bool turns = is_rotation(group.directions.front());
+    const double gap = -group.shape->at({0.0, 0.0}).penetration, beyond = 2.0 * std::abs(gap) + 1.0;
+    StopMark mark;
+    mark.gap = gap;
+    mark.positive = group.shape->at({beyond, 0.0}).penetration > 0.0;
+    mark.negative = group.shape->at({-beyond, 0.0}).penetration > 0.0;
+    mark.group = static_cast<int>(layout.stop_labels.size());
+    layout.stop_labels.push_back((group.kind == "stop" ? "" : group.kind + ", ") + "gap " + to_short_text(gap) +
+                                 (turns ? " rad, " : " m, ") + to_short_text(group.law->closed_stiffness()) +
+                                 (turns ? " N m/rad" : " N/m") +
+                                 (group.damping.kind == model::ImpactDamping::Kind::none ? "" : ", with dissipation"));
+    for (std::size_t i = 0; i < group.a.size(); ++i) {
+      mark.at = placer.of(group.a[i]);
+      if (!group.b.empty()) mark.other = placer.of(group.b[i]);
       layout.stops.push_back(mark);
     }
   }
@@ -163,7 +193,7 @@ void add_loads(const model::Model& model, const Placer& placer, Layout& layout) 
 std::string describe(const model::TimeFunction& function, double weight, const char* unit) {
   if (const auto harmonic = function.harmonic())
     return to_short_text(weight * harmonic->amplitude) + " " + unit + " at " +
-           to_short_text(harmonic->angular_frequency / 6.283185307179586) + " Hz";
+           to_short_text(harmonic->angular_frequency / (2.0 * std::numbers::pi)) + " Hz";
   double largest = std::abs(function.value(0.0));
   const std::vector<double> instants = function.discontinuities();
   for (const double t : instants) largest = std::max(largest, std::abs(function.value(t)));
@@ -192,6 +222,7 @@ Layout layout_of(const model::Model& model, const Survey& survey, const std::vec
   }
   add_supports(model, placer, layout);
   add_stops(model, placer, laws, layout);
+  add_obstacles(model, placer, layout);
   add_loads(model, placer, layout);
   for (const SpringPlace& spring : survey.springs)
     layout.springs.push_back(

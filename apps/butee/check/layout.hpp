@@ -70,7 +70,7 @@ struct Layout {
   int rows = 0;
 };
 
-/// `laws`: names of the contact laws, one for each group of stops.
+/// `laws`: names of the contact laws, one for each [[contact]].
 Layout layout_of(const model::Model& model, const Survey& survey, const std::vector<std::string>& laws);
 
 /// The time function of a load, times `weight`, as short text: "300 N at 1 Hz".

@@ -1,6 +1,7 @@
 #include "mechanics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,27 +28,63 @@ bool is_regular(const SparseMatrix& matrix, Factor& factor) {
   return (factor.vectorD().array() > kSingular * diagonal.array()).all();
 }
 
-/// One stop of a group: where it acts and whether a displacement closes it.
-struct Stop {
-  const model::FreeStops& group;
-  std::size_t i;
-
-  double at(const Vector& x) const {
-    return (group.a[i] >= 0 ? x[group.a[i]] : 0.0) - (group.b[i] >= 0 ? x[group.b[i]] : 0.0);
+/// One stop, ring or plane: where it acts, and whether a displacement closes it.
+class Stop {
+ public:
+  Stop(const model::FreeStops& group, std::size_t i)
+      : law_(group.law), play_(&group.play), a_{group.a[i], kGround}, b_{group.b[i], kGround} {}
+  Stop(const model::ObstacleGroup& group, const model::FreeObstacles::Ends& ends)
+      : law_(group.law.get()), shape_(group.shape.get()), a_{ends.a[0], ends.a[1]}, b_{ends.b[0], ends.b[1]} {
+    const model::ContactShape::Form form = shape_->form();
+    is_round_ = form.kind == model::ContactShape::Form::Kind::circle;
+    if (form.kind == model::ContactShape::Form::Kind::line) direction_ = form.place;
   }
+
+  double stiffness() const { return law_->closed_stiffness(); }
+  double gap() const { return play_ != nullptr ? play_->gap : -shape_->at({0.0, 0.0}).penetration; }
+  /// The displacement towards it, or of any direction in a ring.
+  double size_of(const Vector& x) const {
+    return is_round_ ? displacement(x).norm() : std::abs(direction_.dot(displacement(x)));
+  }
+  bool is_shut(const Vector& x) const {
+    const Eigen::Vector2d d = displacement(x);
+    return (play_ != nullptr ? play_->penetration(d[0]) : shape_->at(d).penetration) > 0.0;
+  }
+  /// A unit force on it, in the first direction of a ring.
   Vector unit(Index size) const {
     Vector s = Vector::Zero(size);
-    if (group.a[i] >= 0) s[group.a[i]] += 1.0;
-    if (group.b[i] >= 0) s[group.b[i]] -= 1.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (a_[k] >= 0) s[a_[k]] += direction_[static_cast<Index>(k)];
+      if (b_[k] >= 0) s[b_[k]] -= direction_[static_cast<Index>(k)];
+    }
     return s;
   }
-  bool is_shut(double w) const { return group.play.penetration(w) > 0.0; }
+
+ private:
+  static constexpr Index kGround = model::FreeStops::kGround;
+
+  Eigen::Vector2d displacement(const Vector& x) const {
+    Eigen::Vector2d d = {0.0, 0.0};
+    for (std::size_t k = 0; k < 2; ++k)
+      d[static_cast<Index>(k)] = (a_[k] >= 0 ? x[a_[k]] : 0.0) - (b_[k] >= 0 ? x[b_[k]] : 0.0);
+    return d;
+  }
+
+  const model::ContactLaw* law_;
+  const model::FreePlay* play_ = nullptr;       ///< of an elastic stop
+  const model::ContactShape* shape_ = nullptr;  ///< of any other
+  std::array<Index, 2> a_, b_;
+  Eigen::Vector2d direction_ = {1.0, 0.0};
+  bool is_round_ = false;
 };
 
 std::vector<Stop> stops_of(const model::System& system) {
   std::vector<Stop> stops;
   for (const model::FreeStops& group : system.stops)
-    for (std::size_t i = 0; i < group.size(); ++i) stops.push_back({group, i});
+    for (std::size_t i = 0; i < group.size(); ++i) stops.emplace_back(group, i);
+  for (const model::FreeObstacles& obstacles : system.obstacles)
+    if (obstacles.group->shape != nullptr && obstacles.group->law != nullptr)
+      for (const model::FreeObstacles::Ends& ends : obstacles.ends) stops.emplace_back(*obstacles.group, ends);
   return stops;
 }
 
@@ -100,13 +137,12 @@ void add_statics(const model::System& system, const Factor& stiffness, const std
   for (const model::FreeLoad& load : system.loads) {
     const Vector moved = stiffness.solve(pattern(load, system.size()));
     const double size = amplitude(*load.in_time, end_time);
-    for (std::size_t i = 0; i < stops.size(); ++i)
-      largest[static_cast<Index>(i)] += size * std::abs(stops[i].at(moved));
+    for (std::size_t i = 0; i < stops.size(); ++i) largest[static_cast<Index>(i)] += size * stops[i].size_of(moved);
     constant += lasting_part(*load.in_time, end_time) * moved;
   }
   result.static_deflection = largest.maxCoeff();
   result.closed_by_constants =
-      std::count_if(stops.begin(), stops.end(), [&](const Stop& stop) { return stop.is_shut(stop.at(constant)); });
+      std::count_if(stops.begin(), stops.end(), [&](const Stop& stop) { return stop.is_shut(constant); });
 }
 
 }  // namespace
@@ -122,7 +158,7 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
   for (std::size_t i = 0; i < stops.size(); i += stride) {
     const Stop& stop = stops[i];
     const Vector unit = stop.unit(system.size());
-    const double k = stop.group.law->closed_stiffness();
+    const double k = stop.stiffness();
     if (has_mass)
       result.shortest_contact =
           std::min(result.shortest_contact, std::numbers::pi / std::sqrt(k * unit.dot(Vector(mass.solve(unit)))));
@@ -134,8 +170,8 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
     ++result.sampled;
   }
   for (const Stop& stop : stops) {
-    result.smallest_gap = std::min(result.smallest_gap, stop.group.play.gap);
-    result.closed_at_start += stop.is_shut(stop.at(system.initial_displacement)) ? 1 : 0;
+    result.smallest_gap = std::min(result.smallest_gap, stop.gap());
+    result.closed_at_start += stop.is_shut(system.initial_displacement) ? 1 : 0;
   }
   if (held) add_statics(system, stiffness, stops, end_time, result);
   return result;

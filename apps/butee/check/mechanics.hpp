@@ -6,7 +6,7 @@
 
 namespace butee::app::check {
 
-/// Static estimates of loads, structure and stops, from a few solutions with K and M.
+/// Static estimates of loads, structure and stops, rings and planes among them, from a few solutions with K and M.
 struct Mechanics {
   /// Stiffness of a closed stop over that of the structure at the stop, 1/(s^T K^-1 s): smallest and largest
   /// ratio; empty if the structure has a rigid motion.

@@ -135,19 +135,27 @@ class Drawing {
 
   void draw_stops(Svg& svg) {
     for (const model::StopGroup& group : model_.stops)
-      for (std::size_t i = 0; i < group.a.size(); ++i) {
-        const auto [x, y] = at(group.a[i]);
-        if (!group.b.empty()) {
-          const auto [u, v] = at(group.b[i]);
-          svg.line(x, y, u, v, kStop, 1.4);
-          continue;
-        }
-        for (const double side : {-1.0, 1.0}) {
-          if (!group.play.has_side(-side)) continue;  // The picture's y axis points down.
-          const double tip = y + side * 8.0;
-          svg.polygon({{x, tip}, {x - 5.0, tip + side * 8.0}, {x + 5.0, tip + side * 8.0}}, kStop);
-        }
+      draw_group(svg, group, group.play.has_both(), group.play.has_positive());
+    // Rings and planes surround their node or lie to one side of it; both are drawn as stops on two sides.
+    for (const model::ObstacleGroup& group : model_.obstacles)
+      if (group.shape != nullptr) draw_group(svg, group, true, true);
+  }
+
+  template <class Group>
+  void draw_group(Svg& svg, const Group& group, bool has_both, bool has_positive) {
+    for (std::size_t i = 0; i < group.a.size(); ++i) {
+      const auto [x, y] = at(group.a[i]);
+      if (!group.b.empty()) {
+        const auto [u, v] = at(group.b[i]);
+        svg.line(x, y, u, v, kStop, 1.4);
+        continue;
       }
+      for (const double side : {-1.0, 1.0}) {
+        if (!has_both && has_positive != (side < 0.0)) continue;  // The picture's y axis points down.
+        const double tip = y + side * 8.0;
+        svg.polygon({{x, tip}, {x - 5.0, tip + side * 8.0}, {x + 5.0, tip + side * 8.0}}, kStop);
+      }
+    }
   }
 
   void draw_loads(Svg& svg) {
