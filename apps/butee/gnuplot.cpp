@@ -1,21 +1,26 @@
 #include "gnuplot.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
 
 namespace butee::app::gnuplot {
 namespace {
 
-/// Terminal settings for a picture of 800 x 480 points, independent of the format's definition of a point.
-std::string terminal(const std::string& format) {
-  if (format == "png") return "pngcairo size 1600,960 font 'sans,10.5' fontscale 2 linewidth 2 pointscale 2";
-  if (format == "svg") return "svg size 800,480 font 'sans,14' background 'white' standalone";
-  if (format == "pdf") return "pdfcairo size 16cm,9.6cm font 'sans,6.4' fontscale 1 linewidth 1.2 pointscale 0.6";
+/// Terminal settings for a picture 800 points wide, independent of the format's definition of a point.
+std::string terminal(const std::string& format, double shape) {
+  const auto size = [&](double width) { return to_short_text(width) + "," + to_short_text(std::round(width * shape)); };
+  if (format == "png") return "pngcairo size " + size(1600) + " font 'sans,10.5' fontscale 2 linewidth 2 pointscale 2";
+  if (format == "svg") return "svg size " + size(800) + " font 'sans,14' background 'white' standalone";
+  if (format == "pdf")
+    return "pdfcairo size 16cm," + to_short_text(16 * shape) +
+           "cm font 'sans,6.4' fontscale 1 linewidth 1.2 pointscale 0.6";
   throw LogicError("no such format of pictures");
 }
 
@@ -73,10 +78,11 @@ std::string legend_below(const std::vector<std::string>& entries) {
   return out.str();
 }
 
-std::string draw_into(const std::vector<std::string>& formats, const std::string& name, const std::string& plot) {
+std::string draw_into(const std::vector<std::string>& formats, const std::string& name, const std::string& plot,
+                      double shape) {
   std::string text;
   for (const std::string& format : formats) {
-    text += "set terminal " + terminal(format) + "\nset output " + quoted(name + "." + format) + "\n";
+    text += "set terminal " + terminal(format, shape) + "\nset output " + quoted(name + "." + format) + "\n";
     text += plot + "\n";
   }
   return text + "set output\n";

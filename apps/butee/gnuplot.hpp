@@ -27,8 +27,13 @@ std::string style();
 /// gnuplot commands for a legend with these entries below the picture, in as many rows as needed.
 std::string legend_below(const std::vector<std::string>& entries);
 
-/// Commands that draw `plot` (lines of a script) in each format, as `<name>.<format>` beside the script.
-std::string draw_into(const std::vector<std::string>& formats, const std::string& name, const std::string& plot);
+/// Height over width of most pictures.
+inline constexpr double kFlat = 0.6;
+
+/// Commands that draw `plot` (lines of a script) in each format, as `<name>.<format>` beside the script; `shape` is
+/// height over width.
+std::string draw_into(const std::vector<std::string>& formats, const std::string& name, const std::string& plot,
+                      double shape = kFlat);
 
 /// Writes `<folder>/<name>.gp`. Throws RunError on failure.
 void write_script(const std::string& folder, const std::string& name, const std::string& text);

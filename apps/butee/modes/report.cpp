@@ -1,10 +1,11 @@
 #include "report.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <butee/core/format.hpp>
 #include <butee/core/text.hpp>
+
+#include "../gnuplot.hpp"
 
 namespace butee::app::modes {
 namespace {
@@ -143,17 +144,11 @@ bool draw(const Analysis& analysis, const model::Model& model, const model::Syst
             " w lp lw 1.6 pt 7 ps 0.3 lc rgb '#1f77b4' notitle";
   }
   folder.write("modes.dat", data);
-  const std::string height = std::to_string(160 + 70 * scales.size());
-  std::string script = "set xlabel 'coordinate / m'\nset border 1\nset xtics nomirror out\nset ytics scale 0 (" +
-                       labels + ")\nset yrange [" + formatted("-%zu", scales.size()) + "+0.3:0.7]\n";
-  for (const auto& [terminal, suffix] :
-       {std::pair{"pngcairo size 1000," + height + " font 'sans,13'", std::string("png")},
-        std::pair{"svg size 800," + height + " font 'sans,13'", std::string("svg")}})
-    script += "set terminal " + terminal + "\nset output 'modes." + suffix + "'\n" + plot + "\n";
-  folder.write("modes.gp", script + "set output\n");
-  std::string path;
-  for (const char c : folder.path()) path += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return std::system(("cd -- '" + path + "' && gnuplot modes.gp > /dev/null 2>&1").c_str()) == 0;
+  const double shape = 0.16 + 0.07 * static_cast<double>(scales.size());
+  const std::string script = "set xlabel 'coordinate / m'\nset border 1\nset xtics nomirror out\nset ytics scale 0 (" +
+                             labels + ")\nset yrange [" + formatted("-%zu", scales.size()) + "+0.3:0.7]\n";
+  folder.write("modes.gp", script + gnuplot::draw_into({"png", "svg"}, "modes", plot, shape));
+  return gnuplot::is_installed() && gnuplot::run_script(folder.path(), "modes").empty();
 }
 
 }  // namespace butee::app::modes

@@ -1,11 +1,12 @@
 #include "whirl_report.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include <butee/core/format.hpp>
 #include <butee/core/text.hpp>
+
+#include "../gnuplot.hpp"
 
 namespace butee::app::modes {
 namespace {
@@ -148,17 +149,13 @@ bool draw(const Campbell& diagram, const record::ResultFolder& folder) {
       line + " w l lc rgb '#808080' title 'order " + to_short_text(diagram.order) + "'" +
       (diagram.critical.empty() ? ""
                                 : ", 'campbell.dat' index 2 w p pt 4 ps 1.2 lc rgb 'black' title 'critical speeds'");
-  std::string script =
+  constexpr double kShape = 0.7;
+  const std::string script =
       "set xlabel 'speed of rotation / (rad/s)'\nset ylabel 'angular frequency / (rad/s)'\n"
       "set key left top\nset grid lc rgb '#e0e0e0'\nset yrange [0:]\n" +
       formatted("set xrange [%.9g:%.9g]\n", diagram.speeds.front(), diagram.speeds.back());
-  for (const auto& [terminal, suffix] : {std::pair{"pngcairo size 1000,700 font 'sans,13'", std::string("png")},
-                                         std::pair{"svg size 800,560 font 'sans,13'", std::string("svg")}})
-    script += "set terminal " + std::string(terminal) + "\nset output 'campbell." + suffix + "'\n" + plot + "\n";
-  folder.write("campbell.gp", script + "set output\n");
-  std::string path;
-  for (const char c : folder.path()) path += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return std::system(("cd -- '" + path + "' && gnuplot campbell.gp > /dev/null 2>&1").c_str()) == 0;
+  folder.write("campbell.gp", script + gnuplot::draw_into({"png", "svg"}, "campbell", plot, kShape));
+  return gnuplot::is_installed() && gnuplot::run_script(folder.path(), "campbell").empty();
 }
 
 }  // namespace butee::app::modes

@@ -1,6 +1,7 @@
 #include "analysis.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <butee/linalg/general_pairs.hpp>
 
@@ -17,7 +18,6 @@ constexpr double kFirstDrawn = 1e-2, kLastDrawn = 1e2;
 /// Imaginary parts below this fraction of |lambda| are rounding: merging eigenvalues are accurate only to the
 /// square root of the machine precision.
 constexpr double kReal = 1e-7;
-constexpr double kPi = 3.141592653589793;
 
 /// NaN if the eigenvalue computation failed.
 Eigen::Vector3cd eigenvalues_of(const Eigen::Matrix3d& map) {
@@ -66,7 +66,7 @@ Properties properties_of(const Eigen::Matrix3d& map, double h_omega, double rati
   const double turn = std::arg(*principal), loss = -std::log(std::abs(*principal));
   properties.damping = loss / std::hypot(turn, loss) - ratio;
   const double true_turn = h_omega * std::sqrt(1.0 - ratio * ratio);
-  if (true_turn < kPi) properties.period_error = true_turn / turn - 1.0;
+  if (true_turn < std::numbers::pi) properties.period_error = true_turn / turn - 1.0;
   return properties;
 }
 

@@ -3,12 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
 
 #include <butee/core/text.hpp>
 #include <nlohmann/json.hpp>
+
+#include "../gnuplot.hpp"
 
 namespace butee::app::stability {
 namespace {
@@ -41,27 +41,13 @@ Json to_json(const Limit& limit) {
   return json;
 }
 
-std::string quoted(const std::string& path) {
-  std::string text = "'";
-  for (const char c : path) text += c == '\'' ? std::string("''") : std::string(1, c);
-  return text + "'";
-}
-
-bool run_gnuplot(const std::string& script) {
-  std::string command = "gnuplot '";
-  for (const char c : script) command += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return std::system((command + "' > /dev/null 2>&1").c_str()) == 0;
-}
+/// Height over width of three curves above each other, and of a map.
+constexpr double kTall = 1.1, kNearlySquare = 0.8;
 
 /// Writes the same picture as PNG and as SVG.
-bool plot(const std::string& base, const std::string& commands) {
-  std::ofstream script(base + ".gp");
-  for (const auto& [terminal, suffix] : {std::pair{"pngcairo size 1100,1200 font 'sans,12'", ".png"},
-                                         std::pair{"svg size 900,980 font 'sans,12'", ".svg"}})
-    script << "set terminal " << terminal << "\nset output " << quoted(base + suffix) << "\n" << commands << "\n";
-  script << "set output\n";
-  script.close();
-  return script.good() && run_gnuplot(base + ".gp");
+bool plot(const std::string& folder, const std::string& name, const std::string& commands, double shape) {
+  gnuplot::write_script(folder, name, gnuplot::draw_into({"png", "svg"}, name, commands, shape));
+  return gnuplot::is_installed() && gnuplot::run_script(folder, name).empty();
 }
 
 std::string curve_plot(const std::vector<Analysis>& all, const std::string& data, double ratio) {
@@ -79,7 +65,7 @@ std::string curve_plot(const std::vector<Analysis>& all, const std::string& data
     if (i == 1) commands += "unset title\n";
     commands += "plot ";
     for (std::size_t k = 0; k < all.size(); ++k)
-      commands += std::string(k > 0 ? ", " : "") + quoted(data) + " using (strcol(1) eq '" + all[k].method +
+      commands += std::string(k > 0 ? ", " : "") + gnuplot::quoted(data) + " using (strcol(1) eq '" + all[k].method +
                   "' && $2 == " + to_text(ratio) + " ? $3 : 1/0):" + std::to_string(i + 4) +
                   " every ::1 with lines lw 1.6 title '" + all[k].method + "'";
     commands += "\n";
@@ -104,8 +90,8 @@ std::string stop_plot(const Analysis& one, const std::string& data) {
          "'k_c / k'\nset xrange [*:*] noextend\nset yrange [*:*] noextend\nset cblabel 'spectral radius'\nset cbrange "
          "[0:2]\nset palette defined (0 '#2166ac', 0.99 "
          "'#d1e5f0', 1.01 '#fddbc7', 2 '#b2182b')\nset title '" +
-         one.method + " with a closed stop' noenhanced\nset grid\nunset key\nplot " + quoted(data) + " using 3:2:($3/" +
-         x + "):($3*" + x + "):($2/" + y + "):($2*" + y +
+         one.method + " with a closed stop' noenhanced\nset grid\nunset key\nplot " + gnuplot::quoted(data) +
+         " using 3:2:($3/" + x + "):($3*" + x + "):($2/" + y + "):($2*" + y +
          "):4 every ::1 with boxxyerror fillstyle solid noborder lc palette\n";
 }
 
@@ -199,14 +185,13 @@ bool draw(const std::vector<Analysis>& all, const Request& request, const std::s
   for (const Analysis& one : all)
     if (one.has_map()) drawn.push_back(one);
   if (drawn.empty()) return true;
-  std::string commands;
   bool good = true;
   for (const double ratio : request.ratios) {
-    const std::string name = ratio > 0.0 ? "-" + to_short_text(ratio) : "";
-    good = plot(folder + "/stability" + name, curve_plot(drawn, folder + "/stability.csv", ratio)) && good;
+    const std::string name = "stability" + (ratio > 0.0 ? "-" + to_short_text(ratio) : "");
+    good = plot(folder, name, curve_plot(drawn, "stability.csv", ratio), kTall) && good;
   }
   if (drawn.size() == 1 && !request.stop_ratios.empty())
-    good = plot(folder + "/stops", stop_plot(drawn.front(), folder + "/stops.csv")) && good;
+    good = plot(folder, "stops", stop_plot(drawn.front(), "stops.csv"), kNearlySquare) && good;
   return good;
 }
 
