@@ -67,18 +67,6 @@ std::string method_of(const scene::Scene& session, const FollowedRun& run) {
   return run.choice.empty() ? session.integrator.name : run.choice.substr(0, run.choice.find_first_of(" :"));
 }
 
-/// Methods without truncation error.
-bool is_closed_form(const std::string& method) {
-  return method == "exact" || method == "piecewise";
-}
-
-double tolerance_of(const scene::Scene& session, const std::string& method) {
-  const config::Parameters& parameters = session.integrator.parameters;
-  return session.integrator.options.limits.keeps_tolerance && !is_closed_form(method) && parameters.has("tolerance")
-             ? parameters.number("tolerance")
-             : 0.0;
-}
-
 double peak_of(const FollowedRun& run) {
   double peak = 0.0;
   for (const auto& history : run.histories.values)
@@ -147,7 +135,8 @@ class Judgement {
 
  private:
   void run_again() {
-    other_ = run_other_family(session_, method_, tolerance_of(session_, method_), run_.size, run_.work);
+    other_ = run_other_family(session_, method_, tolerance_of(session_.integrator, method_).value_or(0.0), run_.size,
+                              run_.work);
     if (other_)
       again_ = follow_or_throw(other_->again, kRounding * peak_of(run_), {});
     else
@@ -160,11 +149,11 @@ class Judgement {
   static double disturbance(double noise) { return std::clamp(kAboveNoise * noise, kSmallest, kLargest); }
 
   record::Growth growth() {
-    const double own_size = disturbance(tolerance_of(session_, method_));
+    const double own_size = disturbance(tolerance_of(session_.integrator, method_).value_or(0.0));
     const double other_size = other_ ? disturbance(other_->noise) : own_size;
     // Prefer the smaller disturbance; if both are equal, the cheaper run.
     const bool by_other =
-        other_ && !is_closed_form(method_) && (other_size < own_size || other_->run.work <= run_.work);
+        other_ && scene::has_truncation(method_) && (other_size < own_size || other_->run.work <= run_.work);
     scene::Scene& by = by_other ? other_->session : session_;
     const FollowedRun& run = by_other ? other_->run : run_;
     const double size = by_other ? other_size : own_size;

@@ -57,7 +57,7 @@ class BUTEE_EXPORT ModelBuilder {
   /// Appends to a list of tables: "element", "support", "contact", "load".
   ModelBuilder& add(const std::string& list, const Keys& keys);
 
-  /// For Structure::from_document() and plugin::build_scene().
+  /// For Structure::from_document() and scene::read_scene().
   const Document& document() const { return document_; }
   /// The model as the text of a scene file for the program.
   std::string toml() const;

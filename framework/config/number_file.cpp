@@ -35,14 +35,6 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::optional<double> number_in(std::string_view field) {
-  if (field.size() > 1 && field.front() == '+' && field[1] != '-') field.remove_prefix(1);
-  double value = 0.0;
-  const auto read = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (read.ec != std::errc() || read.ptr != field.data() + field.size()) return std::nullopt;
-  return value;
-}
-
 /// Iterates over the lines of a text that contain numbers or names.
 class Lines {
  public:
@@ -161,7 +153,7 @@ class NumberFile {
  private:
   bool begins_with_number() const {
     Fields fields(lines_.line, separator_);
-    return fields.next() && number_in(fields.field).has_value();
+    return fields.next() && number_of(fields.field).has_value();
   }
 
   void find_names() {
@@ -199,7 +191,7 @@ class NumberFile {
   }
 
   double number_at(std::size_t place, std::string_view field) const {
-    const auto number = number_in(field);
+    const auto number = number_of(field);
     const std::string where = "column " + std::to_string(place + 1) + ": ";
     if (!number)
       refuse(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,9 @@ BUTEE_EXPORT std::string to_short_text(double value);
 /// The text without control characters, which a terminal would interpret: a line break is kept if
 /// `with_lines`, all others become "?".
 BUTEE_EXPORT std::string printable(std::string_view text, bool with_lines = false);
+
+/// The number that all of the text is, in decimal notation whatever the locale; a plus sign may precede it.
+BUTEE_EXPORT std::optional<double> number_of(std::string_view text);
 
 /// True for a non-empty text of [A-Za-z0-9_-] only.
 BUTEE_EXPORT bool is_plain_name(std::string_view text);

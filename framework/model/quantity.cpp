@@ -4,6 +4,7 @@
 #include <array>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 
 namespace butee::model {
 namespace {
@@ -139,7 +140,10 @@ Source source_of(Quantity quantity) {
 
 Quantity quantity_of(const std::string& name) {
   const auto* const found = std::find_if(kAll.begin(), kAll.end(), [&](const auto& one) { return one.name == name; });
-  require(found != kAll.end(), "no such quantity");
+  if (found == kAll.end()) {
+    const std::vector<std::string> known = probe_quantities();
+    throw InputError("there is no quantity \"" + name + "\"" + suggestion(name, known) + "; known: " + join(known));
+  }
   return static_cast<Quantity>(found - kAll.begin());
 }
 

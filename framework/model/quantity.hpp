@@ -102,7 +102,7 @@ BUTEE_EXPORT const char* unit_of(Quantity quantity);
 /// A one-line description.
 BUTEE_EXPORT const char* summary_of(Quantity quantity);
 
-/// The quantity of a name in field_quantities() or probe_quantities().
+/// The quantity of a name in field_quantities() or probe_quantities(); throws InputError for other names.
 BUTEE_EXPORT Quantity quantity_of(const std::string& name);
 /// Names of quantities that fields can hold.
 BUTEE_EXPORT std::vector<std::string> field_quantities();

@@ -31,13 +31,6 @@ double largest_pull(const dynamics::ElasticStops& contact) {
   return largest;
 }
 
-/// The tolerance of a method that has one.
-std::optional<double> tolerance_of(const scene::IntegratorChoice& choice) {
-  if (!choice.options.limits.keeps_tolerance || choice.name == "exact" || !choice.parameters.has("tolerance"))
-    return std::nullopt;
-  return choice.parameters.number("tolerance");
-}
-
 }  // namespace
 
 Run::Run(scene::Scene& scene, bool with_progress) : Run(scene, with_progress, Clock::now()) {}
@@ -95,7 +88,8 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
   }
   if (output.impacts) simulation.add(impacts_.emplace(assembly_.dynamics));
   if (assembly_.dynamics.obstacles() != nullptr) simulation.add(contacts_.emplace(assembly_.dynamics));
-  if (contacts_ && tolerance_of(scene_.integrator)) simulation.add(slips_.emplace(assembly_.dynamics));
+  if (contacts_ && tolerance_of(scene_.integrator, scene_.integrator.name))
+    simulation.add(slips_.emplace(assembly_.dynamics));
   if (with_progress_) simulation.add(progress_.emplace(assembly_.dynamics, end_time));
   if (folder != nullptr && !output.fields.formats.empty()) add_fields(*folder);
   states_.emplace(output.states, assembly_.dynamics.size());
@@ -169,7 +163,7 @@ void Run::summarize() {
 
 void Run::look_at_slips() {
   if (!slips_) return;
-  const std::string complaint = slips_->complaint(*tolerance_of(scene_.integrator));
+  const std::string complaint = slips_->complaint(*tolerance_of(scene_.integrator, scene_.integrator.name));
   if (!complaint.empty()) summary_.report.warnings.push_back(complaint);
 }
 

@@ -208,6 +208,16 @@ std::string set_aside_keys(config::Document& document, const plugin::Catalogue& 
   return line;
 }
 
+bool has_truncation(const std::string& method) {
+  return method != "exact" && method != "piecewise";
+}
+
+std::optional<double> tolerance_of(const IntegratorChoice& choice, const std::string& method) {
+  if (!choice.options.limits.keeps_tolerance || !has_truncation(method) || !choice.parameters.has("tolerance"))
+    return std::nullopt;
+  return choice.parameters.number("tolerance");
+}
+
 std::optional<IntegratorChoice> read_integrator(const Value& root, const plugin::Catalogue& catalogue,
                                                 Diagnostics& diagnostics) {
   const Value* integrator = root.table()->find("integrator");

@@ -22,6 +22,11 @@ BUTEE_EXPORT std::optional<IntegratorChoice> read_integrator(const config::Value
                                                              const plugin::Catalogue& catalogue,
                                                              config::Diagnostics& diagnostics);
 
+/// True unless the method (canonical name) follows the motion without truncation error, so that no tolerance applies.
+BUTEE_EXPORT bool has_truncation(const std::string& method);
+/// The tolerance that `method`, the chosen one or that which `auto` took, keeps; nothing if it has none.
+BUTEE_EXPORT std::optional<double> tolerance_of(const IntegratorChoice& choice, const std::string& method);
+
 /// The parameters of a method: those of all methods, and its own.
 std::vector<config::Parameter> parameters_of(const plugin::IntegratorEntry& entry);
 

@@ -15,12 +15,6 @@ constexpr double kAboveNoise = 1e4, kSmallest = 1e-8, kLargest = 1e-3;
 /// Below this fraction of its initial size a difference is lost in rounding.
 constexpr double kLost = 1e-6;
 
-double tolerance_of(const scene::Scene& scene) {
-  const config::Parameters& parameters = scene.integrator.parameters;
-  return scene.integrator.options.limits.keeps_tolerance && parameters.has("tolerance") ? parameters.number("tolerance")
-                                                                                        : 0.0;
-}
-
 class Size {
  public:
   Size(const SparseMatrix& mass, double omega) : mass_(mass), omega_(omega) {}
@@ -61,7 +55,10 @@ std::optional<double> lyapunov_exponent(scene::Scene& scene, dynamics::Dynamics&
   const double omega = 2.0 * std::numbers::pi / counted.period;
   const Size size(mass, omega);
   Vector x = start.x, v = start.v;
-  const double wanted = std::clamp(kAboveNoise * tolerance_of(scene), kSmallest, kLargest) * size.of(x, v);
+  const double wanted =
+      std::clamp(kAboveNoise * scene::tolerance_of(scene.integrator, scene.integrator.name).value_or(0.0), kSmallest,
+                 kLargest) *
+      size.of(x, v);
   if (!(wanted > 0.0)) return std::nullopt;
   Vector dx = Vector::Zero(x.size()), dv = dx;
   for (Index i = 0; i < dv.size(); ++i) dv[i] = 1.0 / std::sqrt(mass.coeff(i, i));

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <span>
 
+#include <butee/core/text.hpp>
+
 namespace butee::plugins::hdf5 {
 namespace {
 
@@ -104,10 +106,8 @@ XdmfFile::XdmfFile(const std::string& folder, const model::FieldLayout& layout)
 
 void XdmfFile::add(std::size_t record, std::size_t records, double t) {
   const std::string nodes = std::to_string(nodes_);
-  std::array<char, 40> time{};
-  std::snprintf(time.data(), time.size(), "%.17g", t);
   std::string text = "  <Grid Name=\"scene\"><Time Value=\"";
-  text += time.data();
+  text += to_text(t);
   text += "\"/>" + mesh_;
   std::array<std::string, 6> components;  ///< ux, uy, uz, rx, ry, rz
   for (const model::Field& field : layout_.fields) {
