@@ -187,6 +187,8 @@ bool Simulation::advance() {
       result = integrator_.step(state_, step, next_);
     } catch (const std::bad_alloc&) {
       throw;
+    } catch (const LogicError&) {
+      throw;
     } catch (const std::exception& error) {
       fail(step, error.what());
       return false;
