@@ -101,7 +101,8 @@ class DampedModesBudget {
   }
   /// The largest number of coupled modes whose damped modes it covers.
   Index most_coupled() const {
-    return std::clamp(static_cast<Index>(std::cbrt(most_ / kOfCoupled)), kQuick, kMostCoupled);
+    return static_cast<Index>(
+        std::clamp(std::cbrt(most_ / kOfCoupled), static_cast<double>(kQuick), static_cast<double>(kMostCoupled)));
   }
 
  private:

@@ -73,14 +73,6 @@ void Obstacles::follow(ConstVectorRef phases) {
   }
 }
 
-void Obstacles::write_phases(VectorRef phases) const {
-  for (Index i = 0; i < size(); ++i) {
-    const ContactPhase& phase = phases_[static_cast<std::size_t>(i)];
-    phases.segment(kStateSize * i, kStateSize) << static_cast<double>(phase.normal), static_cast<double>(phase.slip),
-        phase.anchor, phase.angle;
-  }
-}
-
 Obstacles::Coordinates Obstacles::gather(Index i, ConstVectorRef y) const {
   const model::FreeObstacles::Ends& ends = *at(i).ends;
   Coordinates value = Coordinates::Zero();

@@ -92,8 +92,6 @@ class BUTEE_EXPORT Obstacles {
   /// Sets the phases of all contacts, kStateSize numbers each.
   void follow(ConstVectorRef phases);
   void follow_live() { is_live_ = true; }
-  /// Writes the present phases in the layout of State::contact.
-  void write_phases(VectorRef phases) const;
   ContactPhase phase(Index i) const { return phases_[static_cast<std::size_t>(i)]; }
   void set_phase(Index i, const ContactPhase& phase) { phases_[static_cast<std::size_t>(i)] = phase; }
   bool is_live() const { return is_live_; }
@@ -113,9 +111,7 @@ class BUTEE_EXPORT Obstacles {
   Eigen::Vector3d memory(Index i, const ContactPhase& phase, double t, ConstVectorRef x, ConstVectorRef v) const;
   /// phase_at(), with slip and stretch from `memory` if the contact touched then and touches now.
   ContactPhase phase_after(Index i, const Eigen::Vector3d& memory, double t, ConstVectorRef x, ConstVectorRef v) const;
-  /// The switching functions of the phase of contact i, positive within it, and the phases they
-  /// lead to. They are 0 where their sign is rounding. `held` is the tangential force that holds a
-  /// rigid stick, N; `a` is read only if switches_by_acceleration(i). Returns their number.
+  /// A switching function of a phase, positive within it, and the phase it leads to.
   struct Switch {
     double value;
     ContactPhase to;
@@ -124,6 +120,9 @@ class BUTEE_EXPORT Obstacles {
   struct Rounding {
     double displacement = 0.0, velocity = 0.0;
   };
+  /// The switching functions of the phase of contact i. They are 0 where their sign is rounding. `held` is the
+  /// tangential force that holds a rigid stick, N; `a` is read only if switches_by_acceleration(i). Returns their
+  /// number.
   std::size_t switches(Index i, double t, ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double held,
                        const Rounding& rounding, std::array<Switch, kMostSwitches>& out) const;
   /// True if the slip of contact i ends at a motion that depends on accelerations: a stick spring with

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "butee/core/error.hpp"
 
 namespace butee::model {
 namespace {
 
-constexpr double kQuarter = 1.5707963267948966;
+constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 /// amplitude cos(angular_frequency t + phase)
 class Wave final : public TimeFunction {

@@ -37,7 +37,7 @@ class BUTEE_EXPORT Catalogue {
   /// Adds types of this process, all or none of them; `origin` names their source in messages.
   void add(ModuleTypes found, const std::string& origin);
 
-  /// The skipped modules, each with the reason: "FILE: is left out: ...".
+  /// The skipped modules, each with the reason: "FILE: is ignored: ...".
   const std::vector<std::string>& left_out() const { return left_out_; }
 
   const model::ModelTypes& types() const { return types_; }

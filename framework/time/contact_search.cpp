@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace butee::time {
 namespace {
@@ -20,7 +21,7 @@ int samples_of_loads(const model::System& system, double h) {
   double turns = 0.0;
   for (const model::FreeLoad& load : system.loads)
     if (const auto harmonic = load.in_time->harmonic())
-      turns = std::max(turns, std::abs(harmonic->angular_frequency) * h / 6.283);
+      turns = std::max(turns, std::abs(harmonic->angular_frequency) * h / (2.0 * std::numbers::pi));
   return static_cast<int>(std::min(kPerTurn * turns, kMost));
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "butee/core/text.hpp"
 #include "butee/dynamics/frequencies.hpp"
@@ -32,7 +33,6 @@ constexpr double kGoldenRatio = 0.6180339887498949;
 constexpr double kCoarse = 0.08;
 /// The error of one step at which a hundred steps are still accurate.
 constexpr double kFine = 1e-4;
-constexpr double kPi = 3.141592653589793;
 /// A distance from a stop at a check, as a fraction of the gap, at which contact between two checks
 /// is assumed.
 constexpr double kNear = 0.1;
@@ -242,9 +242,9 @@ std::vector<std::string> GrowthWatch::warnings() const {
                   " s are too long for this motion; the error of a single step was up to " +
                   to_short_text(coarseness_) + " of the largest displacement" + advice);
   if (misses_impacts)
-    all.push_back(prefix + "an impact at the stiffest stop lasts " + to_short_text(kPi / contact_frequency_) +
-                  " s or less, so that steps of " + to_short_text(longest_step_) + " s do not resolve its force" +
-                  advice);
+    all.push_back(prefix + "an impact at the stiffest stop lasts " +
+                  to_short_text(std::numbers::pi / contact_frequency_) + " s or less, so that steps of " +
+                  to_short_text(longest_step_) + " s do not resolve its force" + advice);
   return all;
 }
 
