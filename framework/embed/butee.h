@@ -65,18 +65,21 @@ BUTEE_C_EXPORT int butee_size(const butee_structure* structure, int64_t* size);
 BUTEE_C_EXPORT int butee_dof(const butee_structure* structure, const char* selector, int kind, int64_t* dof);
 
 /*
- * Seconds. butee_advance_step() takes one step of the method's own length, not beyond `limit`. After BUTEE_RUN_FAILED the
- * state is that of the last good step; other forces, another motion or butee_restore() give a way to go on.
+ * Seconds. butee_advance_step() takes one step of the method's own length, not beyond `limit`. After BUTEE_RUN_FAILED
+ * the state is that of the last good step; other forces, another motion or butee_restore() give a way to go on.
  */
 BUTEE_C_EXPORT int butee_time(const butee_structure* structure, double* t);
 BUTEE_C_EXPORT int butee_advance_to(butee_structure* structure, double t);
 BUTEE_C_EXPORT int butee_advance_step(butee_structure* structure, double limit, double* t);
 
-/* Displacement, velocity and acceleration of one degree of freedom; null for those not needed. */
+/*
+ * Displacement (m, or rad), velocity and acceleration (per s, per s^2) of one degree of freedom; null for those not
+ * needed.
+ */
 BUTEE_C_EXPORT int butee_motion(const butee_structure* structure, int64_t dof, double* u, double* v, double* a);
 /* The same of all, `size` numbers each. */
 BUTEE_C_EXPORT int butee_all_motion(const butee_structure* structure, int64_t size, double* u, double* v, double* a);
-/* Takes other displacements and velocities, `size` numbers each; the method starts anew from them. */
+/* Takes other displacements (m, rad) and velocities, `size` numbers each; the method starts anew from them. */
 BUTEE_C_EXPORT int butee_set_motion(butee_structure* structure, int64_t size, const double* u, const double* v);
 
 /*
@@ -85,7 +88,10 @@ BUTEE_C_EXPORT int butee_set_motion(butee_structure* structure, int64_t size, co
  */
 BUTEE_C_EXPORT int butee_set_force(butee_structure* structure, int64_t dof, double value);
 BUTEE_C_EXPORT int butee_set_force_line(butee_structure* structure, int64_t dof, double from, double to, double until);
-/* The force of the stops on a degree of freedom, N. */
+/*
+ * The force (N, or N m) of all contacts on a degree of freedom: stops, rings and planes with friction, but not where
+ * one sticks rigidly.
+ */
 BUTEE_C_EXPORT int butee_contact_force(const butee_structure* structure, int64_t dof, double* force);
 
 /*
@@ -97,7 +103,8 @@ BUTEE_C_EXPORT int butee_quantity(const butee_structure* structure, const char* 
 
 /*
  * The largest |value| of a quantity of a node ("u", "v", "a", "theta", "uz", "rx_v", "contact_force", ...) over the
- * whole motion. To be followed before the first step; `node` is a selector that names one.
+ * whole motion, in the quantity's unit (m, rad, N; per s, per s^2). To be followed before the first step; `node` is a
+ * selector that names one.
  */
 BUTEE_C_EXPORT int butee_follow_peak(butee_structure* structure, const char* node, const char* quantity);
 BUTEE_C_EXPORT int butee_peak(const butee_structure* structure, const char* node, const char* quantity, double* peak);

@@ -274,13 +274,10 @@ double Structure::contact_force(Index dof) const {
 }
 
 double Structure::quantity(const std::string& name, const std::string& node, const std::string& element) const {
-  const auto known = model::probe_quantities();
-  if (std::find(known.begin(), known.end(), name) == known.end())
-    throw InputError("there is no quantity \"" + name + "\"" + suggestion(name, known) + "; known: " + join(known));
+  const model::Quantity quantity = model::quantity_of(name);
   const auto nodes = parts_->select(node, DofKind::u);
   if (nodes.size() != 1)
     throw InputError(node + ": names " + std::to_string(nodes.size()) + " nodes; exactly one is required");
-  const model::Quantity quantity = model::quantity_of(name);
   const std::string problem =
       model::why_not(quantity, parts_->scene.model, parts_->assembly->system.dofs, nodes.front().node, element);
   if (!problem.empty()) throw InputError(node + ": " + problem);

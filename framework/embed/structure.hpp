@@ -102,8 +102,8 @@ class BUTEE_EXPORT Structure {
     std::uint64_t origin = 0;  ///< identifies its scene, options and observers
   };
   Snapshot snapshot() const;
-  /// Returns to a snapshot of this structure, or of one with the same scene, options and number of
-  /// observers; otherwise throws LogicError and changes nothing.
+  /// Returns to a snapshot of this structure, or of one with the same scene and options, observers of the same types
+  /// and the same followed peaks; otherwise throws LogicError and changes nothing.
   void restore(const Snapshot& snapshot);
 
   /// Adds an observer of every step; only before the first step. `observer` must outlive the
@@ -115,8 +115,10 @@ class BUTEE_EXPORT Structure {
   void follow_peaks(const std::string& selector, const std::vector<model::Quantity>& quantities);
   /// The peaks by node and quantity, "string:17.u".
   std::map<std::string, double> peaks() const;
-  /// The peak at one recorded node; throws InputError for other nodes.
+  /// The peak at one recorded node, in the unit of the quantity (m, rad, per s, per s^2, N or N m); throws InputError
+  /// for other nodes.
   double peak(const std::string& node, model::Quantity quantity) const;
+  /// J
   record::Energy energy() const;
   /// The method's name, the counts of work done, and the result so far.
   const std::string& method() const;
