@@ -8,8 +8,10 @@
 #include "butee/core/text.hpp"
 #include "integrators/active_part.hpp"
 #include "integrators/dormand_prince.hpp"
+#include "integrators/exact.hpp"
 #include "integrators/exponential/exponential.hpp"
 #include "integrators/exponential/varying_forces.hpp"
+#include "integrators/extrapolation.hpp"
 #include "integrators/fastest_rates.hpp"
 #include "integrators/methods.hpp"
 #include "integrators/piecewise.hpp"
@@ -129,10 +131,13 @@ class DampedModesBudget {
 bool suits_collocation(dynamics::Dynamics& dynamics) {
   const model::System& system = dynamics.system();
   const bool is_coupled = !system.is_symmetric || !system.obstacles.empty() ||
-                          (system.size() > 1 && system.dashpots.size() > 0) ||
+                          (system.size() > 1 && system.dashpots.size() > 0) || system.rotation != nullptr ||
                           std::any_of(system.loads.begin(), system.loads.end(), VaryingForces::contains);
-  // If the speed of turning parts varies, all their DOFs take part in its sweeps, and rodas4 may be faster.
-  if (!is_coupled || system.rotation != nullptr) return false;
+  if (!is_coupled) return false;
+  // If the speed of turning parts varies, all their DOFs take part in the sweeps of each step; rodas4 is faster if
+  // damping leaves its steps to the slow modes (apps/models/rotor.toml: 1.4 times).
+  if (system.rotation != nullptr)
+    if (const FastestRates rates = fastest_rates(dynamics); rates.damping > rates.open) return false;
   for (Index i = 0; i < dynamics.stop_count(); ++i)
     if (!dynamics.stops().law_of(i).is_silent_while_open()) return false;
   for (const model::FreeObstacles& obstacles : system.obstacles)
@@ -143,6 +148,49 @@ bool suits_collocation(dynamics::Dynamics& dynamics) {
     return load.in_time->harmonic() || load.in_time->is_piecewise_parabolic() || VaryingForces::contains(load);
   });
 }
+
+/// A method that follows every frequency by steps of high order, for tolerances at which others need many more steps.
+/// exact takes 2 to 3 rad of the fastest mode a step, extrapolation8 less and the less the tighter the tolerance.
+/// Times in s for each radian and DOF, to a factor of three, from the pipes and beams of plugins/auto/README.md. A
+/// structure whose fastest DOFs are at rest may be cheaper by rodas4, so that only runs of seconds are taken.
+class HighOrder {
+ public:
+  HighOrder(dynamics::Dynamics& dynamics, Goal goal)
+      : dynamics_(dynamics),
+        goal_(goal),
+        work_(static_cast<double>(dynamics.size()) * fastest_rates(dynamics).any() * goal.run_time) {}
+
+  bool is_wanted() const { return goal_.tolerance <= kTightest; }
+
+  /// Null if it would take long, or refuses the scene.
+  std::unique_ptr<time::Integrator> exact() const {
+    if (kOfExact * work_ > kMost || !has_simple_laws()) return nullptr;
+    try {
+      return std::make_unique<Exact>(dynamics_, Exact::kOrder, Exact::kSeriesTolerance);
+    } catch (const InputError&) {
+      return nullptr;
+    }
+  }
+  std::unique_ptr<time::Integrator> extrapolation8() const {
+    return kOfExtrapolation * work_ > kMost ? nullptr : std::make_unique<Extrapolation>(dynamics_, goal_);
+  }
+
+ private:
+  /// Chosen: at 1e-7 rodas4 and exact take about as long where the fastest modes hardly move.
+  static constexpr double kTightest = 1e-7;
+  static constexpr double kOfExact = 2e-7, kOfExtrapolation = 1e-6, kMost = 3.0;
+
+  /// Series of curved laws are short near the ends of a contact.
+  bool has_simple_laws() const {
+    for (Index i = 0; i < dynamics_.stop_count(); ++i)
+      if (!dynamics_.stops().law_of(i).is_silent_while_open()) return false;
+    return true;
+  }
+
+  dynamics::Dynamics& dynamics_;
+  Goal goal_;
+  double work_;
+};
 
 std::unique_ptr<time::Integrator> make_rodas4(dynamics::Dynamics& dynamics, const Goal& goal) {
   return std::make_unique<Rodas4>(dynamics, goal);
@@ -217,12 +265,24 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
                               reason);
     if (integrator == nullptr) choice = {Choice::Method::rodas4, reason};
   }
+  const HighOrder high(dynamics, {tolerance, end_time});
+  if (high.is_wanted() && (choice.method == Choice::Method::rodas4 || choice.method == Choice::Method::dopri5)) {
+    if ((integrator = high.exact()) != nullptr)
+      choice.method = Choice::Method::exact;
+    else if (choice.method == Choice::Method::rodas4 && (integrator = high.extrapolation8()) != nullptr)
+      choice.method = Choice::Method::extrapolation8;
+    if (integrator != nullptr) choice.why += "; steps of high order suit the tolerance";
+  }
   std::string what;
   if (choice.method == Choice::Method::exponential) {
     what = "exponential" + with;
   } else if (choice.method == Choice::Method::piecewise) {
     what = "piecewise";
     integrator = std::make_unique<Piecewise>(dynamics, end_time);
+  } else if (choice.method == Choice::Method::exact) {
+    what = "exact";
+  } else if (choice.method == Choice::Method::extrapolation8) {
+    what = "extrapolation8" + with;
   } else if (choice.method == Choice::Method::dopri5) {
     what = "dopri5" + with;
     integrator = std::make_unique<DormandPrince>(dynamics, Goal{tolerance, end_time});

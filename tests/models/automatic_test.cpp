@@ -94,6 +94,39 @@ TEST(Automatic, TakesPiecewiseForFewDofsWithLinearStops) {
   EXPECT_TRUE(chosen.simulation().state().x == named.simulation().state().x);
 }
 
+/// Below the tolerances of exponential, and where it refuses a scene.
+TEST(Automatic, TakesMethodsOfHighOrderForTightTolerances) {
+  const auto choice = [](const std::string& more, const std::string& integrator) {
+    return SceneRun(beam(6, more, integrator)).integrator().choice();
+  };
+  const std::string tight = "tolerance = 1e-9\nend_time = ";
+  EXPECT_EQ(choice(kStops, tight + "0.05\n").rfind("exact: the tolerance is below", 0), 0U);
+  EXPECT_EQ(choice(kStops, tight + "1e4\n").rfind("rodas4 with tolerance 1e-09: the tolerance is below", 0), 0U);
+  EXPECT_EQ(choice(kStops, "tolerance = 1e-8\nend_time = 0.05\n").rfind("exponential", 0), 0U);
+  const std::string curved = kStops + "law = \"hertz\"\n";
+  EXPECT_EQ(choice(curved, tight + "0.05\n").rfind("extrapolation8 with tolerance 1e-09", 0), 0U);
+}
+
+/// A shaft that runs up in a ring. Strong damping of its fast modes leaves rodas4 long steps.
+TEST(Automatic, TakesExponentialForRunUpsUnlessFastModesAreDamped) {
+  const auto choice = [](const std::string& damping) {
+    return SceneRun(
+               "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7900\n[section.c]\nshape = "
+               "\"circle\"\nradius = "
+               "0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"c\"\nmotion = "
+               "\"lateral\"\ntheory = \"rayleigh\"\n"
+               "length = 2.0\nelements = 4\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = [\"uy\", \"uz\"]\n"
+               "[rotation]\nspeed = {type = \"ramp\", from = 0.0, to = 100.0, end = 1.0}\n[[load]]\ntype = "
+               "\"unbalance\"\nnode = \"b:2\"\nmoment = 1e-3\n[[contact]]\ntype = \"ring\"\nnodes = \"b:2\"\ngap = "
+               "1e-3\nstiffness = 1e6\n[damping]\nstiffness_proportional = " +
+               damping + "\n[integrator]\nend_time = 1.0\n")
+        .integrator()
+        .choice();
+  };
+  EXPECT_EQ(choice("1e-7").rfind("exponential", 0), 0U) << choice("1e-7");
+  EXPECT_EQ(choice("1e-3").rfind("rodas4", 0), 0U) << choice("1e-3");
+}
+
 TEST(Automatic, IsTheMethodThatItTook) {
   for (const std::string& more : {kStops, kStops + kDashpot}) {
     SceneRun chosen(beam(6, more)), named(beam(6, more, "end_time = 0.05\ntype = \"exponential\"\n"));
