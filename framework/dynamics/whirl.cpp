@@ -182,8 +182,14 @@ std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
   std::stable_sort(places.begin(), places.end(),
                    [&](Index a, Index b) { return std::abs(pairs.values[a]) < std::abs(pairs.values[b]); });
   places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
+  const double rigid = kRigid * frequencies_[n - 1];
+  // Rigid motion has two eigenvalues 0, which rounding separates; some leave 0 if the structure turns.
+  Index rigid_left = 2 * (frequencies_.array() < rigid).count();
   std::vector<WhirlMode> modes;
-  for (const Index i : places) modes.push_back(finished(pairs.values[i], shapes_ * pairs.vectors.col(i).head(n)));
+  for (const Index i : places) {
+    const bool is_rigid = std::abs(pairs.values[i]) < rigid && rigid_left-- > 0;
+    modes.push_back(finished(is_rigid ? Complex(0.0) : pairs.values[i], shapes_ * pairs.vectors.col(i).head(n)));
+  }
   sort(modes);
   return modes;
 }

@@ -133,6 +133,25 @@ TEST_F(ModesCommand, DampedModesAtRestOfAnyScene) {
   EXPECT_EQ(run({"chain.toml", "--speed", "10"}).status, 2);
 }
 
+/// A free beam in space has six rigid motions, twelve eigenvalues 0, and no warning of their rounding.
+TEST_F(ModesCommand, DampedModesOfAFreeBeamBeginWithItsRigidMotions) {
+  folder_.write("free.toml",
+                "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7800\npoisson_ratio = 0.3\n[section.c]\n"
+                "shape = \"circle\"\nradius = 0.01\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\n"
+                "section = \"c\"\nmotion = \"spatial\"\nlength = 1.0\nelements = 8\n[integrator]\nend_time = 1.0\n");
+  const Outcome outcome = run({"free.toml", "--speed", "0", "-n", "16"});
+  EXPECT_EQ(outcome.errors, "");
+  const Json found = json({"free.toml", "--speed", "0", "-n", "16"});
+  const double bending = std::pow(4.730040744862704, 2) * std::sqrt(2e11 / 7800.0) * 0.01 / 2.0;
+  // Of each pair that rounding makes complex one is listed.
+  std::vector<double> elastic;
+  for (const Json& mode : found["modes"])
+    if (const double omega = mode["angular_frequency"].get<double>(); omega > 0.0) elastic.push_back(omega);
+  ASSERT_GE(elastic.size(), 4U);
+  EXPECT_LE(elastic.size(), 10U);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(elastic[i] / bending, 1.0, 2e-4);
+}
+
 TEST_F(ModesCommand, OscillatorWithOpenAndClosedStops) {
   const Json open = json({model_path("oscillator")});
   ASSERT_EQ(open["modes"].size(), 1U);
