@@ -101,7 +101,8 @@ std::string overflowing_load(dynamics::Dynamics& dynamics, double t) {
   for (Index i = 0; i < force.size(); ++i)
     if (!(std::abs(force[i]) < kHuge))
       return "the load on " + dynamics.dof_name(i) + " is " + to_short_text(force[i]) +
-             " N at t = " + to_short_text(t) + " s, which is too large to integrate; check [[load]]";
+             (is_rotation(dynamics.system().dofs.free()[static_cast<std::size_t>(i)].kind) ? " N m" : " N") +
+             " at t = " + to_short_text(t) + " s, which is too large to integrate; check [[load]]";
   return {};
 }
 

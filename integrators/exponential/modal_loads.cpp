@@ -19,8 +19,8 @@ ModalLoads::ModalLoads(const dynamics::DampedModes& modes, const model::System& 
       others_.push_back({load.in_time, std::move(shape)});
     else if (!VaryingForces::contains(load))
       throw InputError(
-          "integrator.type: a load is neither harmonic nor made of straight lines or parabolas in time, which this "
-          "method needs");
+          "integrator.type: a load (or the force of a moving [base], whose displacement is the double integral of its "
+          "acceleration) is neither harmonic nor made of straight lines or parabolas in time, which this method needs");
   }
   polynomial_.setZero(2 * modes.count(), StepNodes::kCount);
   const Index p = modes.count();
