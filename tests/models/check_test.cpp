@@ -63,6 +63,58 @@ end_time = 1.0
   EXPECT_EQ(checked.errors.substr(place + mark.size()), run.errors);
 }
 
+/// A mass on 100 N/m with three contacts, of which two are no elastic stops.
+TEST(Check, KnowsStopsWithDissipationAndPlanes) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 100.0
+[[element]]
+type = "spring"
+node = "m"
+dof = "uz"
+stiffness = 100.0
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 0.03
+stiffness = 300.0
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 0.01
+stiffness = 400.0
+sides = "negative"
+damping = { type = "kelvin_voigt", coefficient = 1.0 }
+[[contact]]
+type = "plane"
+nodes = "m"
+gap = 0.02
+normal = [0.0, 1.0]
+stiffness = 900.0
+[[load]]
+type = "constant"
+node = "m"
+value = -5.0
+[integrator]
+type = "rodas4"
+end_time = 1.0
+)");
+  const Outcome outcome = run_program({"check", "scene.toml"}, folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  expect_holds(outcome.output,
+               {"gap 0.03 m, 300 N/m", "gap 0.01 m, 400 N/m, with dissipation", "plane, gap 0.02 m, 900 N/m",
+                "3 ... 9 times that of the structure", "about 0.10472 s or longer",
+                "static displacement at a stop under", "is 0.05 m; the smallest gap is 0.01 m"});
+  expect_holds(outcome.errors, {"2 stops have a gap below the static deflection"});
+}
+
 TEST(Check, FindsTheFrequenciesOfTheOscillator) {
   // sqrt(1e9/100) and sqrt(1.1e10/100) rad/s.
   const Outcome outcome = check("oscillator");

@@ -94,6 +94,20 @@ TEST(Compare, LeavesTheScenesOwnToleranceToItsOwnMethod) {
   EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.0625")), runge_kutta_error(0.0625, 2), 1e-12);
 }
 
+/// Of all installed methods many refuse a contact with dissipation.
+TEST(Compare, ListsTheMethodsThatRefuseAScene) {
+  const TemporaryFolder folder;
+  folder.write("swing.toml",
+               kSwing + std::string("[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 0.5\nstiffness = "
+                                    "1e4\ndamping = {type = \"hunt_crossley\", factor = 0.1}\n"));
+  const Outcome outcome = run_program({"compare", "swing.toml", "-o", "result"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string report = read_file(folder.file("result/report.md"));
+  for (const char* part :
+       {"| bathe | ", "refused: swing.toml: integrator.type: bathe cannot treat contacts", "| dopri5 | "})
+    EXPECT_NE(report.find(part), std::string::npos) << part << "\nin\n" << report;
+}
+
 TEST(Compare, KeepsWhatAnEarlierCallHasDone) {
   const TemporaryFolder folder;
   folder.write("swing.toml", kSwing);
@@ -186,7 +200,8 @@ TEST(Trust, KnowsAnOrderlySceneFromAChaoticOne) {
   const Outcome orderly = run_program(
       {"run", model_path("beam1"), "--set", "integrator.time_step=1e-4", "--trust", "-o", "out"}, folder.path());
   ASSERT_EQ(orderly.status, 0) << orderly.errors;
-  EXPECT_NE(orderly.output.find("to the end, within the 0.01 demanded (trust_accuracy)"), std::string::npos) << orderly.output;
+  EXPECT_NE(orderly.output.find("to the end, within the 0.01 demanded (trust_accuracy)"), std::string::npos)
+      << orderly.output;
   EXPECT_EQ(orderly.output.find("grow like e^"), std::string::npos) << orderly.output;
   // `exact` would take ten times as long as all other runs.
   EXPECT_NE(orderly.output.find("compared with a run by exponential"), std::string::npos) << orderly.output;
