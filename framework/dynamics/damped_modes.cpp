@@ -11,8 +11,7 @@
 #include "butee/core/error.hpp"
 #include "butee/dynamics/dynamics.hpp"
 #include "butee/dynamics/kernel/modal_motion.hpp"
-#include "butee/dynamics/slow_modes.hpp"
-#include "butee/linalg/dense_pairs.hpp"
+#include "butee/dynamics/natural_matrices.hpp"
 #include "butee/linalg/general_pairs.hpp"
 
 namespace butee::dynamics {
@@ -23,8 +22,6 @@ using Complex = std::complex<double>;
 /// Entries below this fraction of the geometric mean of the largest in their row and column are
 /// rounding.
 constexpr double kUncoupled = 1e-12;
-/// Squares of frequencies between 0 and minus this fraction of the highest are rounding.
-constexpr double kRoundingOfSquares = 1e-11;
 /// |V| |V^-1| of a set of vectors above which it is not accepted as a basis.
 constexpr double kDefective = 1e6, kHopeless = 1e8;
 
@@ -58,15 +55,6 @@ void join_entries(const Eigen::MatrixXd& matrix, Parts& parts) {
   for (Index j = 0; j < matrix.cols(); ++j)
     for (Index i = 0; i < matrix.rows(); ++i)
       if (i != j && std::abs(matrix(i, j)) > kUncoupled * std::sqrt(rows[i] * columns[j])) parts.join(i, j);
-}
-
-/// Sets the entries of S^T A S that are rounding of its products to 0, for example those of rigid
-/// motion, on which dashpots between parts do not act. `sizes` holds |A|.
-void clear_rounding(const SparseMatrix& sizes, const Eigen::MatrixXd& shapes, Eigen::MatrixXd& product) {
-  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
-  const Eigen::MatrixXd shape_sizes = shapes.cwiseAbs(), forces = sizes * shape_sizes;
-  const Eigen::MatrixXd bound = kRounding * (shape_sizes.transpose() * forces);
-  product = (product.cwiseAbs().array() > bound.array()).select(product, 0.0);
 }
 
 /// A matrix whose rows combine the rows of another one. Blocks of few modes leave most of it empty.
@@ -162,118 +150,91 @@ bool DampedModes::solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
 
 DampedModes::DampedModes(Dynamics& dynamics, double run_time, Index most_coupled) {
   const model::System& system = dynamics.system();
-  const Index n = system.size();
-  if (n > kMost)
-    throw InputError("integrator.type: " + std::to_string(n) +
+  if (system.size() > kMost)
+    throw InputError("integrator.type: " + std::to_string(system.size()) +
                      " DOFs whose damping, turning parts or contacts require all modes are more than " +
                      std::to_string(kMost));
-  SparseMatrix elastic = system.stiffness;
   if (system.rotation != nullptr) {
     dynamics.set_time(0.5 * run_time);
     reference_speed_ = system.rotation->speed(0.5 * run_time);
-    if (system.circulatory.size() > 0) elastic += reference_speed_ * system.circulatory;
   }
-  SparseMatrix transposed = elastic.transpose();
-  SparseMatrix even = 0.5 * (elastic + transposed);
-  auto natural = linalg::dense_pairs(even, system.mass);
-  if (!natural) throw InputError("integrator.type: the modes could not be computed");
-  Eigen::MatrixXd& shapes = natural->vectors;
+  const NaturalMatrices natural = natural_matrices(dynamics, reference_speed_, run_time);
+  const std::vector<Block> blocks = blocks_of(natural, run_time, most_coupled);
+  for (const Block& block : blocks) {
+    condition_ = std::max(condition_, block.vectors.norm() * block.inverse.norm());
+    rounding_ = std::max(rounding_, run_time * block.error);
+  }
+  set_modes(blocks, natural.shapes, system.mass);
+}
 
-  const Index rigid = count_rigid(natural->values, run_time);
-  Eigen::MatrixXd damping(n, n), stiffness = Eigen::MatrixXd::Zero(n, n);
-  if (dynamics.has_damping() || system.rotation != nullptr) {
-    Eigen::MatrixXd forces(n, n);
-    for (Index j = 0; j < n; ++j) dynamics.damping_force(shapes.col(j), forces.col(j));
-    damping.noalias() = shapes.transpose() * forces;
-    if (system.dashpots.size() > 0 || system.rotation != nullptr) {
-      SparseMatrix sizes = system.damping.mass_proportional * system.mass.cwiseAbs();
-      sizes += system.damping.stiffness_proportional * system.stiffness.cwiseAbs();
-      if (system.dashpots.size() > 0) sizes += system.dashpots.cwiseAbs();
-      if (system.gyroscopic.size() > 0) sizes += std::abs(reference_speed_) * system.gyroscopic.cwiseAbs();
-      clear_rounding(sizes, shapes, damping);
-      if (separate_rigid(rigid, run_time, shapes, damping)) clear_rounding(sizes, shapes, damping);
-    }
-  } else {
-    damping.setZero();
-  }
-  if (!system.stiffness_is_symmetric || system.circulatory.size() > 0) {
-    SparseMatrix odd = 0.5 * (elastic - transposed);
-    stiffness.noalias() = shapes.transpose() * (odd * shapes);
-    clear_rounding(odd.cwiseAbs(), shapes, stiffness);
-  }
-  const Index soft = std::max(rigid, count_soft(natural->values));
-  stiffness.topLeftCorner(soft, soft) += soft_stiffness(soft, run_time, even, shapes);
-  Parts parts(n);
-  join_entries(damping, parts);
-  join_entries(stiffness, parts);
-  // Values below 0 are rounding, or those of a structure that is unstable without damping and bearings.
-  const double rounding = kRoundingOfSquares * std::abs(natural->values[n - 1]);
-  const auto squares = natural->values.tail(n - soft).array();
-  stiffness.diagonal().tail(n - soft) += (squares < 0.0 && squares > -rounding).select(0.0, squares).matrix();
-
+std::vector<DampedModes::Block> DampedModes::blocks_of(const NaturalMatrices& natural, double run_time,
+                                                       Index most_coupled) {
+  Parts parts(natural.shapes.cols());
+  join_entries(natural.damping, parts);
+  join_entries(natural.stiffness, parts);
   std::vector<Block> blocks;
-  std::vector<std::pair<std::size_t, Index>> kept;  ///< block and its damped mode
   for (std::vector<Index>& modes : parts.lists()) {
     if (static_cast<Index>(modes.size()) > most_coupled)
       throw InputError("integrator.type: " + std::to_string(modes.size()) +
                        " modes are coupled, and computing their damped modes takes too long for this run");
     Block& block = blocks.emplace_back();
     block.modes = std::move(modes);
-    const auto b = static_cast<Index>(block.modes.size());
-    Eigen::MatrixXd k(b, b), c(b, b);
-    block.scale.resize(b);
-    for (Index i = 0; i < b; ++i)
-      for (Index j = 0; j < b; ++j) {
-        k(i, j) = stiffness(block.modes[static_cast<std::size_t>(i)], block.modes[static_cast<std::size_t>(j)]);
-        c(i, j) = damping(block.modes[static_cast<std::size_t>(i)], block.modes[static_cast<std::size_t>(j)]);
-      }
-    const Eigen::ArrayXd largest = k.diagonal().array().abs().max(1.0 / (run_time * run_time));
-    block.scale = largest.sqrt();
-    // In coordinates of its own scale the two vectors of a slow or free motion are not almost parallel.
-    const auto use_own_scale = [&] {
-      if (b == 1 && c(0, 0) * c(0, 0) <= k(0, 0) && k(0, 0) > 0.0) block.scale[0] = std::sqrt(k(0, 0));
-    };
-    use_own_scale();
-    if (!solve(k, c, block)) {
-      for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];
-      use_own_scale();
-      if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
-        throw InputError("integrator.type: the modes of this structure do not form a basis");
-    }
-    condition_ = std::max(condition_, block.vectors.norm() * block.inverse.norm());
-    rounding_ = std::max(rounding_, run_time * block.error);
-    for (Index i = 0; i < 2 * b; ++i)
-      if (block.values[i].imag() >= 0.0) kept.emplace_back(blocks.size() - 1, i);
+    find_basis(natural, run_time, block);
   }
-  const auto value_of = [&](const std::pair<std::size_t, Index>& mode) {
-    return blocks[mode.first].values[mode.second];
-  };
-  std::stable_sort(kept.begin(), kept.end(),
-                   [&](const auto& a, const auto& b) { return std::abs(value_of(a)) < std::abs(value_of(b)); });
+  return blocks;
+}
 
+void DampedModes::find_basis(const NaturalMatrices& natural, double run_time, Block& block) {
+  const auto b = static_cast<Index>(block.modes.size());
+  Eigen::MatrixXd k = natural.stiffness(block.modes, block.modes);
+  const Eigen::MatrixXd c = natural.damping(block.modes, block.modes);
+  k.diagonal() += natural.squares(block.modes);
+  const Eigen::ArrayXd largest = k.diagonal().array().abs().max(1.0 / (run_time * run_time));
+  block.scale = largest.sqrt();
+  // In coordinates of its own scale the two vectors of a slow or free motion are not almost parallel.
+  const auto use_own_scale = [&] {
+    if (b == 1 && c(0, 0) * c(0, 0) <= k(0, 0) && k(0, 0) > 0.0) block.scale[0] = std::sqrt(k(0, 0));
+  };
+  use_own_scale();
+  if (solve(k, c, block)) return;
+  for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];
+  use_own_scale();
+  if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
+    throw InputError("integrator.type: the modes of this structure do not form a basis");
+}
+
+void DampedModes::set_modes(const std::vector<Block>& blocks, const Eigen::MatrixXd& shapes, const SparseMatrix& mass) {
+  std::vector<std::pair<const Block*, Index>> kept;  ///< a block and its damped mode, one of each pair
+  for (const Block& block : blocks)
+    for (Index i = 0; i < block.values.size(); ++i)
+      if (block.values[i].imag() >= 0.0) kept.emplace_back(&block, i);
+  std::stable_sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.first->values[a.second]) < std::abs(b.first->values[b.second]);
+  });
   const auto p = static_cast<Index>(kept.size());
+  const Index n = shapes.rows();
   decay_.resize(p);
   turn_.resize(p);
   kinetic_.resize(p);
   Coefficients of_x, of_v, from_q, from_v;
   for (Index m = 0; m < p; ++m) {
-    const Block& block = blocks[kept[static_cast<std::size_t>(m)].first];
-    const Index k = kept[static_cast<std::size_t>(m)].second, b = block.scale.size();
-    const Complex lambda = block.values[k];
+    const auto& [block, k] = kept[static_cast<std::size_t>(m)];
+    const Index b = block->scale.size();
+    const Complex lambda = block->values[k];
     decay_[m] = lambda.real();
     turn_[m] = lambda.imag();
     const double weight = lambda.imag() > 0.0 ? 2.0 : 1.0;
-    kinetic_[m] = 0.5 * weight * weight * block.vectors.col(k).tail(b).squaredNorm();
+    kinetic_[m] = 0.5 * weight * weight * block->vectors.col(k).tail(b).squaredNorm();
     for (Index i = 0; i < b; ++i) {
-      const Index mode = block.modes[static_cast<std::size_t>(i)];
-      of_x.add(m, p + m, mode, std::conj(weight / block.scale[i] * block.vectors(i, k)));
-      of_v.add(m, p + m, mode, std::conj(weight * block.vectors(b + i, k)));
-      from_q.add(m, p + m, mode, block.scale[i] * block.inverse(k, i));
-      from_v.add(m, p + m, mode, block.inverse(k, b + i));
+      const Index mode = block->modes[static_cast<std::size_t>(i)];
+      of_x.add(m, p + m, mode, std::conj(weight / block->scale[i] * block->vectors(i, k)));
+      of_v.add(m, p + m, mode, std::conj(weight * block->vectors(b + i, k)));
+      from_q.add(m, p + m, mode, block->scale[i] * block->inverse(k, i));
+      from_v.add(m, p + m, mode, block->inverse(k, b + i));
     }
   }
   speed_ = (decay_.square() + turn_.square()).sqrt();
-  const Eigen::MatrixXd by_dof = shapes.transpose(), by_force = (system.mass * shapes).transpose();
+  const Eigen::MatrixXd by_dof = shapes.transpose(), by_force = (mass * shapes).transpose();
   natural_ = {shapes, of_x.matrix(2 * p, n), of_v.matrix(2 * p, n), from_v.matrix(2 * p, n), parts_of(shapes)};
   displacement_ = product(natural_.displacement, by_dof);
   velocity_ = product(natural_.velocity, by_dof);

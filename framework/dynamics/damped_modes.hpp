@@ -10,6 +10,7 @@
 namespace butee::dynamics {
 
 class Dynamics;
+struct NaturalMatrices;
 
 /// The damped modes of any linear system M a + C v + K x = f(t), with any damping, turning parts or
 /// cross terms:
@@ -77,13 +78,16 @@ class BUTEE_EXPORT DampedModes {
   /// Natural modes that are coupled, and their part of the eigenvector basis.
   struct Block {
     std::vector<Index> modes;  ///< natural modes
-    std::vector<Index> kept;   ///< indices of the damped modes, one of each pair
     Eigen::ArrayXd scale;      ///< s_i, 1/s, of the coordinates (s q, q')
     Eigen::VectorXcd values;
     Eigen::MatrixXcd vectors, inverse;
     double error = 0.0;  ///< |V Lambda V^-1 - A| in the largest entry, 1/s
   };
+  static std::vector<Block> blocks_of(const NaturalMatrices& natural, double run_time, Index most_coupled);
+  /// Finds the basis of the block's modes, if necessary with slightly separated frequencies.
+  static void find_basis(const NaturalMatrices& natural, double run_time, Block& block);
   static bool solve(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& damping, Block& block);
+  void set_modes(const std::vector<Block>& blocks, const Eigen::MatrixXd& shapes, const SparseMatrix& mass);
 
   Eigen::ArrayXd decay_, turn_, speed_, kinetic_;
   Eigen::MatrixXd displacement_, velocity_, input_, from_x_, from_v_;
