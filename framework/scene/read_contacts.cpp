@@ -38,12 +38,6 @@ class StopShape final : public ContactShape {
   FreePlay play_;
 };
 
-/// The keys that name the nodes of a contact.
-std::vector<config::Parameter> end_parameters() {
-  return {config::texts("nodes", "the nodes that meet the obstacle").optional(),
-          config::texts("between", "two selectors: contacts on u_a - u_b, pair by pair").optional()};
-}
-
 /// The gap is required unless the entry has another key for it.
 std::vector<config::Parameter> gap_parameters(const config::Table& entry) {
   const config::Parameter gap = number("gap", "m", "the free play on each side").at_least(0);
@@ -57,132 +51,203 @@ std::vector<std::string> stop_dof_names() {
   return {"u", "w", "theta", "ux", "uy", "uz", "rx", "ry", "rz"};
 }
 
+/// The keys of every contact: where it is, and its frame.
+std::vector<config::Parameter> general_contact_parameters() {
+  return {config::texts("nodes", "the nodes that meet the obstacle").optional(),
+          config::texts("between", "two selectors: contacts on u_a - u_b, pair by pair").optional(),
+          config::table("friction", "Coulomb friction").optional(),
+          text("frame", "for a contact with ground under [base]: it moves with the base, or stays in space")
+              .one_of({"base", "space"})
+              .or_else("base"),
+          number("radius", "m", "the radius of the turning body at the contact").at_least(0).optional()};
+}
+
 }  // namespace
+
+/// The kind of a contact and the types that it uses; without a name if the entry has none that is known.
+struct SceneReader::ContactKind {
+  std::string name, law_name;
+  const LawType* law = nullptr;        ///< null for a friction support, or an unknown law
+  const ContactType* shape = nullptr;  ///< null for stops and friction supports
+
+  bool is_support() const { return name == kFriction; }
+  bool is_stop() const { return name.empty() || name == kStop; }
+
+  std::vector<config::Parameter> parameters(const config::Table& entry) const {
+    std::vector<config::Parameter> all = general_contact_parameters();
+    const auto add = [&](const std::vector<config::Parameter>& more) {
+      all.insert(all.end(), more.begin(), more.end());
+    };
+    if (!is_support()) {
+      add(gap_parameters(entry));
+      add({config::table("damping", "dissipation of the closed contact").optional()});
+    } else {
+      add({number("normal_force", "N", "the force that presses the support").above(0)});
+    }
+    if (is_stop())
+      add({text("sides", "the sides that have a stop").one_of({"both", "positive", "negative"}).or_else("both")});
+    if (shape == nullptr)
+      add({text("dof", "the displacement or rotation it acts on").one_of(stop_dof_names()).or_else("u")});
+    if (shape != nullptr) {
+      add(shape->parameters);
+      add({config::texts("dofs", "the two displacements of its plane")
+               .of_length(2)
+               .or_else(config::Array{Value(std::string("uy")), Value(std::string("uz"))})});
+    }
+    if (law != nullptr) add(law->parameters);
+    return all;
+  }
+
+  /// Keys that are no error: read already, or possibly of a law that is not known.
+  std::vector<std::string> ignored(const ModelTypes& types) const {
+    std::vector<std::string> keys = {"type"};
+    if (is_support()) return keys;
+    keys.emplace_back("law");
+    if (law == nullptr)
+      for (const LawType& any : types.laws)
+        for (const std::string& key : names_of(any.parameters)) keys.push_back(key);
+    return keys;
+  }
+};
+
+/// What an entry says about its contacts apart from laws and shapes.
+struct SceneReader::ContactParts {
+  std::vector<DofKind> directions;
+  std::vector<NodeId> a, b;
+  std::vector<double> gaps;  ///< m, one for each contact or one for all
+  ImpactDamping damping;
+  Friction friction;
+
+  /// Gives `group` the nodes of gap i.
+  template <class Group>
+  void place(std::size_t i, Group& group) const {
+    const bool all = gaps.size() == 1;
+    group.a = all ? a : std::vector{a[i]};
+    if (!b.empty()) group.b = all ? b : std::vector{b[i]};
+  }
+};
 
 void SceneReader::read_contacts() {
   for (const auto& [entry, path] : entries("contact")) read_contact(*entry, path);
 }
 
 void SceneReader::read_contact(const Value& entry, const std::string& path) {
-  std::vector<std::string> kinds = type_names(types_.contacts);
-  kinds.insert(kinds.begin(), kStop);
-  kinds.emplace_back(kFriction);
-  const auto kind = type_of(entry, path, "type", kinds);
+  const ContactKind kind = contact_kind(entry, path);
   if (entry.table() == nullptr) return;
-  const bool is_support = kind == kFriction;
-  const bool is_stop = !kind || *kind == kStop;
-  const auto law_name = is_support ? std::nullopt : type_of(entry, path, "law", type_names(types_.laws), "linear");
-  const LawType* law = law_name ? find_type(types_.laws, *law_name) : nullptr;
-  const ContactType* shape = kind ? find_type(types_.contacts, *kind) : nullptr;
-
-  std::vector<config::Parameter> declared = end_parameters();
-  const auto declare = [&](const std::vector<config::Parameter>& more) {
-    declared.insert(declared.end(), more.begin(), more.end());
-  };
-  declare({config::table("friction", "Coulomb friction").optional()});
-  std::vector<std::string> ignored = {"type"};
-  if (!is_support) {
-    declare(gap_parameters(*entry.table()));
-    declare({config::table("damping", "dissipation of the closed contact").optional()});
-    ignored.emplace_back("law");
-  }
-  if (is_stop)
-    declare({text("sides", "the sides that have a stop").one_of({"both", "positive", "negative"}).or_else("both")});
-  declare({text("frame", "for a contact with ground under [base]: it moves with the base, or stays in space")
-               .one_of({"base", "space"})
-               .or_else("base")});
-  if (is_stop || is_support)
-    declare({text("dof", "the displacement or rotation it acts on").one_of(stop_dof_names()).or_else("u")});
-  if (is_support) declare({number("normal_force", "N", "the force that presses the support").above(0)});
-  if (shape != nullptr) {
-    declare(shape->parameters);
-    declare({config::texts("dofs", "the two displacements of its plane")
-                 .of_length(2)
-                 .or_else(config::Array{Value(std::string("uy")), Value(std::string("uz"))})});
-  }
-  declare({number("radius", "m", "the radius of the turning body at the contact").at_least(0).optional()});
-  if (law != nullptr) {
-    declare(law->parameters);
-  } else if (!is_support) {
-    for (const LawType& any : types_.laws)
-      for (const std::string& name : names_of(any.parameters)) ignored.push_back(name);
-  }
-  const auto p = read_table(entry, path, declared, ignored);
-  if (!p || !kind) return;
+  const auto p = read_table(entry, path, kind.parameters(*entry.table()), kind.ignored(types_));
+  if (!p || kind.name.empty()) return;
   if (p->has("nodes") == p->has("between")) {
     diagnostics_.error(path, entry.at,
                        p->has("nodes") ? "has both nodes and between; give one of them"
                                        : "give nodes (stops to ground) or between (stops between two bodies)");
     return;
   }
-  ContactTables tables{*p, path, law_name.value_or(""), diagnostics_};
-  const auto damping = tables.damping(law);
-  const auto friction = tables.friction();
-  std::vector<DofKind> directions;
-  if (shape != nullptr) {
-    for (const std::string& name : p->texts("dofs")) {
-      const auto dof = dof_named(name);
-      if (dof && !is_rotation(*dof)) directions.push_back(*dof);
-    }
-    if (directions.size() != 2 || directions[0] == directions[1])
-      return p->complain(diagnostics_, "dofs", "must name two of the displacements ux, uy and uz");
-  } else {
-    directions = {*dof_named(p->text("dof"))};
-  }
-  std::vector<NodeId> a, b;
-  if (!read_ends(*p, directions, a, b)) return;
-  const auto gaps = is_support ? std::optional(std::vector<double>{0.0}) : read_gaps(*p, a.size());
-  if (!gaps || !damping || !friction) return;
-  if (is_support && friction->rule == Friction::Rule::none)
-    return diagnostics_.error(path + ".friction", entry.at, "missing; a friction support requires it");
-  if (is_stop && friction->rule != Friction::Rule::none)
-    return p->complain(diagnostics_, "friction",
-                       "is not possible on a stop, which has no slip direction; use type = \"plane\"");
-  if (!check_radius(*p, friction->rule != Friction::Rule::none, a, b)) return;
+  const auto parts = contact_parts(*p, kind, path, entry);
+  if (parts && add_contacts(*p, kind, *parts)) read_frame(*p);
+}
 
-  const auto ends_of = [&](auto& group, std::size_t i) {
-    const bool all = gaps->size() == 1;
-    group.a = all ? a : std::vector{a[i]};
-    if (!b.empty()) group.b = all ? b : std::vector{b[i]};
-  };
-  const Sides sides = is_stop ? sides_of(p->text("sides")) : Sides::both;
-  for (std::size_t i = 0; i < gaps->size(); ++i) {
-    auto made_law = law != nullptr ? law->make(*p, diagnostics_) : nullptr;
-    if (!is_support && made_law == nullptr) return;
-    const bool dissipates = made_law != nullptr && made_law->rate_dependence() != ContactLaw::RateDependence::none;
-    if (dissipates && damping->kind != ImpactDamping::Kind::none)
-      return p->complain(diagnostics_, "damping",
-                         "conflicts with law = \"" + *law_name + "\", which has its own dissipation");
-    if (is_stop && !dissipates && damping->kind == ImpactDamping::Kind::none) {
+SceneReader::ContactKind SceneReader::contact_kind(const Value& entry, const std::string& path) {
+  std::vector<std::string> names = type_names(types_.contacts);
+  names.insert(names.begin(), kStop);
+  names.emplace_back(kFriction);
+  ContactKind kind;
+  kind.name = type_of(entry, path, "type", names).value_or("");
+  if (entry.table() == nullptr || kind.is_support()) return kind;
+  kind.law_name = type_of(entry, path, "law", type_names(types_.laws), "linear").value_or("");
+  if (!kind.law_name.empty()) kind.law = find_type(types_.laws, kind.law_name);
+  if (!kind.is_stop()) kind.shape = find_type(types_.contacts, kind.name);
+  return kind;
+}
+
+std::optional<std::vector<DofKind>> SceneReader::contact_directions(const Parameters& p, const ContactKind& kind) {
+  if (kind.shape == nullptr) return std::vector{*dof_named(p.text("dof"))};
+  std::vector<DofKind> directions;
+  for (const std::string& name : p.texts("dofs")) {
+    const auto dof = dof_named(name);
+    if (dof && !is_rotation(*dof)) directions.push_back(*dof);
+  }
+  if (directions.size() == 2 && directions[0] != directions[1]) return directions;
+  p.complain(diagnostics_, "dofs", "must name two of the displacements ux, uy and uz");
+  return std::nullopt;
+}
+
+std::optional<SceneReader::ContactParts> SceneReader::contact_parts(const Parameters& p, const ContactKind& kind,
+                                                                    const std::string& path, const Value& entry) {
+  ContactTables tables{p, path, kind.law_name, diagnostics_};
+  const auto damping = tables.damping(kind.law);
+  const auto friction = tables.friction();
+  const auto directions = contact_directions(p, kind);
+  ContactParts parts;
+  if (!directions || !read_ends(p, *directions, parts.a, parts.b)) return std::nullopt;
+  const auto gaps = kind.is_support() ? std::optional(std::vector<double>{0.0}) : read_gaps(p, parts.a.size());
+  if (!gaps || !damping || !friction) return std::nullopt;
+  const bool rubs = friction->rule != Friction::Rule::none;
+  if (kind.is_support() && !rubs) {
+    diagnostics_.error(path + ".friction", entry.at, "missing; a friction support requires it");
+    return std::nullopt;
+  }
+  if (kind.is_stop() && rubs) {
+    p.complain(diagnostics_, "friction",
+               "is not possible on a stop, which has no slip direction; use type = \"plane\"");
+    return std::nullopt;
+  }
+  if (!check_radius(p, rubs, parts.a, parts.b)) return std::nullopt;
+  parts.directions = *directions;
+  parts.gaps = *gaps;
+  parts.damping = *damping;
+  parts.friction = *friction;
+  return parts;
+}
+
+bool SceneReader::add_contacts(const Parameters& p, const ContactKind& kind, const ContactParts& parts) {
+  const Sides sides = kind.is_stop() ? sides_of(p.text("sides")) : Sides::both;
+  const bool is_damped = parts.damping.kind != ImpactDamping::Kind::none;
+  for (std::size_t i = 0; i < parts.gaps.size(); ++i) {
+    auto law = kind.law != nullptr ? kind.law->make(p, diagnostics_) : nullptr;
+    if (!kind.is_support() && law == nullptr) return false;
+    const bool dissipates = law != nullptr && law->rate_dependence() != ContactLaw::RateDependence::none;
+    if (dissipates && is_damped) {
+      p.complain(diagnostics_, "damping",
+                 "conflicts with law = \"" + kind.law_name + "\", which has its own dissipation");
+      return false;
+    }
+    if (kind.is_stop() && !dissipates && !is_damped) {
       StopGroup group;
-      group.law = std::move(made_law);
-      group.play = {(*gaps)[i], sides};
-      group.dof = directions.front();
-      ends_of(group, i);
+      group.law = std::move(law);
+      group.play = {parts.gaps[i], sides};
+      group.dof = parts.directions.front();
+      parts.place(i, group);
       model_.stops.push_back(std::move(group));
       continue;
     }
     // Without a gap the normal of a pair of stops would change its sign within contact; each is then a contact of its
     // own.
-    const bool is_split = is_stop && sides == Sides::both && (*gaps)[i] == 0.0;
-    for (const Sides side : is_split ? std::vector{Sides::positive, Sides::negative} : std::vector{sides}) {
-      ObstacleGroup group;
-      group.kind = *kind;
-      group.law = made_law != nullptr ? std::move(made_law) : is_support ? nullptr : law->make(*p, diagnostics_);
-      if (is_stop) group.shape = std::make_unique<StopShape>(FreePlay{(*gaps)[i], side});
-      if (shape != nullptr && (group.shape = shape->make(*p, (*gaps)[i], diagnostics_)) == nullptr) return;
-      if (group.shape != nullptr && !check_stick(*p, friction->rule, group.shape->form())) return;
-      if (is_support) group.normal_force = p->number("normal_force");
-      group.directions = directions;
-      group.damping = *damping;
-      if (dissipates) group.damping.kind = ImpactDamping::Kind::law;
-      group.friction = *friction;
-      if (p->has("radius")) group.radius = p->number("radius");
-      ends_of(group, i);
-      model_.obstacles.push_back(std::move(group));
-    }
+    const bool is_split = kind.is_stop() && sides == Sides::both && parts.gaps[i] == 0.0;
+    for (const Sides side : is_split ? std::vector{Sides::positive, Sides::negative} : std::vector{sides})
+      if (!add_obstacle(p, kind, parts, i, side)) return false;
   }
-  read_frame(*p);
+  return true;
+}
+
+bool SceneReader::add_obstacle(const Parameters& p, const ContactKind& kind, const ContactParts& parts, std::size_t i,
+                               Sides side) {
+  ObstacleGroup group;
+  group.kind = kind.name;
+  if (kind.law != nullptr) group.law = kind.law->make(p, diagnostics_);
+  if (kind.is_stop()) group.shape = std::make_unique<StopShape>(FreePlay{parts.gaps[i], side});
+  if (kind.shape != nullptr && (group.shape = kind.shape->make(p, parts.gaps[i], diagnostics_)) == nullptr)
+    return false;
+  if (group.shape != nullptr && !check_stick(p, parts.friction.rule, group.shape->form())) return false;
+  if (kind.is_support()) group.normal_force = p.number("normal_force");
+  group.directions = parts.directions;
+  group.damping = parts.damping;
+  if (group.law != nullptr && group.law->rate_dependence() != ContactLaw::RateDependence::none)
+    group.damping.kind = ImpactDamping::Kind::law;
+  group.friction = parts.friction;
+  if (p.has("radius")) group.radius = p.number("radius");
+  parts.place(i, group);
+  model_.obstacles.push_back(std::move(group));
+  return true;
 }
 
 bool SceneReader::check_stick(const Parameters& p, Friction::Rule rule, const ContactShape::Form& form) {

@@ -50,7 +50,18 @@ class SceneReader {
   void read_frame(const config::Parameters& parameters);
   void read_supports();
   void read_contacts();
+  struct ContactKind;
+  struct ContactParts;
   void read_contact(const config::Value& entry, const std::string& path);
+  ContactKind contact_kind(const config::Value& entry, const std::string& path);
+  /// Nothing after an error, as contact_parts().
+  std::optional<std::vector<DofKind>> contact_directions(const config::Parameters& parameters, const ContactKind& kind);
+  std::optional<ContactParts> contact_parts(const config::Parameters& parameters, const ContactKind& kind,
+                                            const std::string& path, const config::Value& entry);
+  /// False after an error, as add_obstacle().
+  bool add_contacts(const config::Parameters& parameters, const ContactKind& kind, const ContactParts& parts);
+  bool add_obstacle(const config::Parameters& parameters, const ContactKind& kind, const ContactParts& parts,
+                    std::size_t gap, Sides side);
   /// The gap of each contact, or one for all.
   std::optional<std::vector<double>> read_gaps(const config::Parameters& parameters, std::size_t count);
   /// False after reporting that an obstacle of this form does not support friction with this kind
