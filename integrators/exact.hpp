@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "butee/time/integrator.hpp"
 #include "integrators/taylor_path.hpp"
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <complex>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "butee/model/system.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -13,7 +12,7 @@ namespace butee::plugin {
 
 /// A method that a scene may name, and the location of its code.
 struct IntegratorEntry {
-  time::IntegratorType declaration;  ///< from the manifest; without a factory
+  time::IntegratorType declaration;  ///< from the manifest, with its factory once its module is loaded
   std::string module;                ///< the shared object's path
 };
 

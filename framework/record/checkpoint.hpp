@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "butee/core/target.hpp"
 #include "butee/linalg/counters.hpp"

@@ -9,6 +9,7 @@
 #include "butee/core/bytes.hpp"
 #include "butee/core/error.hpp"
 #include "butee/record/file.hpp"
+#include "butee/record/summary.hpp"
 
 namespace butee::record {
 
@@ -109,7 +110,7 @@ void ResultFolder::check_is_ours() const {
 }
 
 bool ResultFolder::is_complete() const {
-  return read("summary.json").find("\"status\": \"completed\"") != std::string::npos;
+  return is_completed(read("summary.json"));
 }
 
 void ResultFolder::prepare(const std::string& model_text) const {

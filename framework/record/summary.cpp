@@ -73,4 +73,9 @@ std::string to_json(const Summary& summary) {
   return json.dump(2) + "\n";
 }
 
+bool is_completed(const std::string& json) {
+  const Json summary = Json::parse(json, nullptr, false);
+  return summary.is_object() && summary.contains("status") && summary["status"] == "completed";
+}
+
 }  // namespace butee::record

@@ -28,5 +28,7 @@ struct Summary {
 
 /// The summary as JSON; a number that is not finite becomes null.
 BUTEE_EXPORT std::string to_json(const Summary& summary);
+/// True if this is the text of a completed run's summary.
+bool is_completed(const std::string& json);
 
 }  // namespace butee::record
