@@ -11,6 +11,10 @@ using dynamics::ContactPhase;
 using dynamics::Obstacles;
 
 constexpr int kBisections = 60;
+/// Instants are located to this part of t, some units of rounding.
+constexpr double kFinest = 1e-15;
+/// The part of a step over which a difference gives the rate of a switching function.
+constexpr double kDifference = 1e-3;
 /// Relative decrease towards the lowest sample of a dip that rounding does not cause.
 constexpr double kRounding = 1e-9;
 
@@ -127,7 +131,7 @@ ContactSearch::Event ContactSearch::refine(const DenseOutput& motion, Event even
   };
   // The Illinois variant of the false position method, which keeps a bracket; bisection if it
   // converges too slowly.
-  const double precision = 1e-15 * std::abs(motion.to().t);
+  const double precision = kFinest * std::abs(motion.to().t);
   double end = event.t, at_end = value, at_begin = at(begin);
   if (at_begin < 0.0) at_begin = 0.0;
   double width = end - begin;
@@ -160,7 +164,7 @@ ContactSearch::Event ContactSearch::refine(const DenseOutput& motion, Event even
 }
 
 ContactSearch::Miss ContactSearch::miss(const Event& event, double h, const State& to) {
-  const double ahead = 1e-3 * h;
+  const double ahead = kDifference * h;
   switches_.take(to, now_);
   const double at_end = switches_.value(event.contact, event.which, now_);
   switches_.look_ahead(to, -ahead, work_);

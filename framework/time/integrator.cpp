@@ -86,9 +86,10 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
 }
 
 void Integrator::end_at_event(const State& from, const Step& step, State& to, StepReport& report) {
-  constexpr int kMostTrials = 6, kMostRefuted = 3;
-  // kNear: the largest error of the dense output near a change, as a part of the step that ends there (chosen).
-  constexpr double kLeast = 1e-10, kSame = 1e-6, kSpacings = 4.0, kNear = 1e-2;
+  constexpr int kMostTrials = 6, kMostCorrections = 3, kMostRefuted = 3;
+  // As parts of the step that ends at a change (chosen): kNear, the largest error of the dense output there; kFar, a
+  // correction beyond which the linear estimate of the miss is of no use.
+  constexpr double kLeast = 1e-10, kSame = 1e-6, kSpacings = 4.0, kNear = 1e-2, kFar = 0.1;
   // Tolerances refer to the length that was asked for: changes of two contacts almost at the same instant leave a step
   // too short to be a measure.
   const double spacing = std::nextafter(from.t, std::numeric_limits<double>::infinity()) - from.t,
@@ -114,10 +115,10 @@ void Integrator::end_at_event(const State& from, const Step& step, State& to, St
     double end = std::min(std::max(event->t, earliest), to.t);
     if (!redo(end)) return;
     bool is_at_end = false;
-    for (int k = 0; k < 3 && to.t == end && is_accepted(); ++k) {
+    for (int k = 0; k < kMostCorrections && to.t == end && is_accepted(); ++k) {
       const auto [miss, falls] = events_->search().miss(*event, to.t - from.t, to);
       is_at_end = falls && std::abs(miss) <= good;
-      if (is_at_end || std::abs(miss) <= good || std::abs(miss) > 0.1 * (to.t - from.t)) break;
+      if (is_at_end || std::abs(miss) <= good || std::abs(miss) > kFar * (to.t - from.t)) break;
       const double t_end = to.t - miss;
       if (!(t_end >= earliest && t_end <= step.t_end) || t_end == to.t) break;
       end = t_end;

@@ -115,6 +115,39 @@ end_time = 1.0
   expect_holds(outcome.errors, {"2 stops have a gap below the static deflection"});
 }
 
+/// Bearing with cross terms: K = (100, 60; -60, 100), so that u of the ring is K^-1 (5, 0).
+TEST(Check, TakesStiffnessThatIsNotSymmetricAsItIs) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "bearing"
+node = "m"
+stiffness = [[100.0, 60.0], [-60.0, 100.0]]
+damping = [[10.0, 0.0], [0.0, 10.0]]
+[[contact]]
+type = "ring"
+nodes = "m"
+gap = 0.01
+stiffness = 272.0
+[[load]]
+type = "harmonic"
+node = "m"
+amplitude = 5.0
+angular_frequency = 3.0
+[integrator]
+type = "rodas4"
+end_time = 1.0
+)");
+  const Outcome outcome = run_program({"check", "scene.toml"}, folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  // 5/sqrt(100^2 + 60^2), and 272 times 100/(100^2 + 60^2).
+  expect_holds(outcome.output, {"0.0428746 m; the smallest gap is 0.01 m", "of a closed stop: 2 times"});
+}
+
 TEST(Check, FindsTheFrequenciesOfTheOscillator) {
   // sqrt(1e9/100) and sqrt(1.1e10/100) rad/s.
   const Outcome outcome = check("oscillator");

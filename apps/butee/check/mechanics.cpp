@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include <Eigen/SparseCholesky>
+#include <butee/linalg/general_factor.hpp>
 
 namespace butee::app::check {
 namespace {
@@ -27,6 +28,31 @@ bool is_regular(const SparseMatrix& matrix, Factor& factor) {
   const Vector diagonal = factor.permutationP() * Vector(matrix.diagonal());
   return (factor.vectorD().array() > kSingular * diagonal.array()).all();
 }
+
+/// K^-1, if the structure has no rigid motion.
+class Compliance {
+ public:
+  explicit Compliance(const model::System& system) {
+    if (system.stiffness_is_symmetric) {
+      exists_ = is_regular(system.stiffness, symmetric_);
+    } else {
+      general_.emplace(system.stiffness, counters_);
+      exists_ = general_->factorize(system.stiffness);
+    }
+  }
+  bool exists() const { return exists_; }
+  Vector times(Vector force) {
+    if (!general_) return symmetric_.solve(force);
+    general_->solve(force);
+    return force;
+  }
+
+ private:
+  Factor symmetric_;
+  linalg::Counters counters_;
+  std::optional<linalg::GeneralFactor> general_;
+  bool exists_ = false;
+};
 
 /// One stop, ring or plane: where it acts, and whether a displacement closes it.
 class Stop {
@@ -129,13 +155,13 @@ double lasting_part(const model::TimeFunction& function, double end_time) {
   return std::copysign(std::max(0.0, std::abs(mean) - std::sqrt(std::max(0.0, variance))), mean);
 }
 
-void add_statics(const model::System& system, const Factor& stiffness, const std::vector<Stop>& stops, double end_time,
+void add_statics(const model::System& system, Compliance& compliance, const std::vector<Stop>& stops, double end_time,
                  Mechanics& result) {
   if (system.loads.empty() || stops.empty()) return;
   Vector largest = Vector::Zero(static_cast<Index>(stops.size()));
   Vector constant = Vector::Zero(system.size());
   for (const model::FreeLoad& load : system.loads) {
-    const Vector moved = stiffness.solve(pattern(load, system.size()));
+    const Vector moved = compliance.times(pattern(load, system.size()));
     const double size = amplitude(*load.in_time, end_time);
     for (std::size_t i = 0; i < stops.size(); ++i) largest[static_cast<Index>(i)] += size * stops[i].size_of(moved);
     constant += lasting_part(*load.in_time, end_time) * moved;
@@ -151,8 +177,9 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
   Mechanics result;
   const std::vector<Stop> stops = stops_of(system);
   if (stops.empty()) return result;
-  Factor mass, stiffness;
-  const bool has_mass = is_regular(system.mass, mass), held = is_regular(system.stiffness, stiffness);
+  Factor mass;
+  const bool has_mass = is_regular(system.mass, mass);
+  Compliance compliance(system);
   result.shortest_contact = result.smallest_gap = std::numeric_limits<double>::infinity();
   const auto stride = std::max<std::size_t>(1, stops.size() / kMostSamples);
   for (std::size_t i = 0; i < stops.size(); i += stride) {
@@ -162,8 +189,8 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
     if (has_mass)
       result.shortest_contact =
           std::min(result.shortest_contact, std::numbers::pi / std::sqrt(k * unit.dot(Vector(mass.solve(unit)))));
-    if (held) {
-      const double ratio = k * unit.dot(Vector(stiffness.solve(unit)));
+    if (compliance.exists()) {
+      const double ratio = k * unit.dot(compliance.times(unit));
       result.least_ratio = std::min(result.least_ratio.value_or(ratio), ratio);
       result.largest_ratio = std::max(result.largest_ratio.value_or(ratio), ratio);
     }
@@ -173,7 +200,7 @@ Mechanics mechanics_of(const model::System& system, double end_time) {
     result.smallest_gap = std::min(result.smallest_gap, stop.gap());
     result.closed_at_start += stop.is_shut(system.initial_displacement) ? 1 : 0;
   }
-  if (held) add_statics(system, stiffness, stops, end_time, result);
+  if (compliance.exists()) add_statics(system, compliance, stops, end_time, result);
   return result;
 }
 
