@@ -4,10 +4,37 @@
 
 #include "butee/config/file_reference.hpp"
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 
 namespace butee::run {
 
+namespace {
+
+/// A number in a CSV file, bytes.
+constexpr double kBytesOfNumber = 12.0;
+
+void check_size(const scene::Scene& scene, const std::string& folder) {
+  const model::OutputRequest& output = scene.output;
+  if (!output.interval) return;
+  double columns = 1.0;
+  for (const model::ProbeRequest& probe : output.probes) columns += static_cast<double>(probe.quantities.size());
+  const double rows = scene.integrator.options.end_time / *output.interval, bytes = kBytesOfNumber * rows * columns;
+  std::filesystem::path place = std::filesystem::absolute(folder);
+  while (!std::filesystem::exists(place) && place.has_relative_path()) place = place.parent_path();
+  std::error_code error;
+  const std::filesystem::space_info disk = std::filesystem::space(place, error);
+  // No such numbers: a file system that holds no files.
+  if (error || disk.capacity == 0 || bytes < static_cast<double>(disk.available)) return;
+  throw InputError("output.interval = " + to_text(*output.interval) + ": history.csv would have " +
+                   to_short_text(rows) + " rows, about " + to_short_text(1e-9 * bytes) + " GB, but " +
+                   to_short_text(1e-9 * static_cast<double>(disk.available)) + " GB are free in " + place.string() +
+                   "; take a larger interval or fewer probes");
+}
+
+}  // namespace
+
 void check_start(const scene::Scene& scene, const record::ResultFolder& folder) {
+  check_size(scene, folder.path());
   const config::Value* initial = scene.document.root.table()->find("initial");
   const config::Value* from = initial != nullptr ? initial->table()->find("from") : nullptr;
   if (from == nullptr) return;

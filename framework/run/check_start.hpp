@@ -5,8 +5,8 @@
 
 namespace butee::run {
 
-/// Throws InputError for a run that would overwrite the results it starts from ([initial] from),
-/// and for one that starts later than t = 0 and requests trust, which is available only for runs
+/// Throws InputError for a run whose results exceed the free space, that would overwrite the results it starts from
+/// ([initial] from), and for one that starts later than t = 0 and requests trust, which is available only for runs
 /// from t = 0.
 BUTEE_EXPORT void check_start(const scene::Scene& scene, const record::ResultFolder& folder);
 

@@ -21,6 +21,9 @@ using Clock = std::chrono::steady_clock;
 /// closed.
 constexpr double kMoreThanPull = 1.1;
 
+/// More rows would make a run deaf to interruptions for longer than a tenth of a second.
+constexpr double kMostRowsInStep = 65536.0;
+
 /// Instants closer than a step by this part of it are a step apart.
 constexpr double kRoundingOfStep = 1e-6;
 
@@ -76,6 +79,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
   };
   if (folder != nullptr && output.csv) open(writer_, "history.csv", record::HistoryRecorder::columns(output));
   time::Simulation& simulation = assembly_.simulation;
+  if (output.interval) simulation.limit_steps(kMostRowsInStep * *output.interval);
   history_.emplace(output, end_time, assembly_.dynamics, writer_ ? &*writer_ : nullptr);
   if (other_history_ != nullptr) history_->also_to(*other_history_);
   simulation.add(*history_);

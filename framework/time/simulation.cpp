@@ -175,7 +175,8 @@ bool Simulation::advance() {
   for (int rejections = 0; rejections <= kMostRejections; ++rejections) {
     Step step = propose();
     if (rejections == 0) integrator_.settle(state_, step.h);
-    if (const double longest = controller_ != nullptr ? integrator_.longest_step(state_) : step.h; step.h > longest)
+    if (const double longest = controller_ != nullptr ? std::min(longest_, integrator_.longest_step(state_)) : step.h;
+        step.h > longest)
       step = {longest, state_.t + longest, step.single};
     if (!(step.t_end > state_.t)) {
       fail(step, "the step is below the rounding of t; it moves fastest in " + fastest_dof(dynamics_, state_) +

@@ -96,6 +96,10 @@ class BUTEE_EXPORT Simulation {
   /// contact_memory() for that motion, or empty. To be called before start().
   void begin_with(ConstVectorRef x, ConstVectorRef v, ConstVectorRef contact_memory);
 
+  /// Steps that a method chooses become no longer than this, s, so that observers that write much in each leave room
+  /// for interruptions. To be called before start().
+  void limit_steps(double longest) { longest_ = longest; }
+
   /// Completes the initial state (a_0, and the method's memory). Every other function calls it if
   /// necessary.
   void start();
@@ -161,10 +165,11 @@ class BUTEE_EXPORT Simulation {
   RunReport report_;
   std::vector<double> discontinuities_;  ///< instants of load discontinuities, at which steps end
   double next_h_;
-  double origin_ = 0.0;        ///< s, from which steps of fixed length are counted
-  std::int64_t accepted_ = 0;  ///< number of steps of fixed length
-  double stall_t_ = 0.0;       ///< s, time of the last check of progress
-  bool watched_ = false;       ///< an observer watches every step
+  double origin_ = 0.0;                                       ///< s, from which steps of fixed length are counted
+  std::int64_t accepted_ = 0;                                 ///< number of steps of fixed length
+  double stall_t_ = 0.0;                                      ///< s, time of the last check of progress
+  double longest_ = std::numeric_limits<double>::infinity();  ///< s, of a step that the method chooses
+  bool watched_ = false;                                      ///< an observer watches every step
   bool started_ = false, over_ = false;
 };
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 
 #include <butee/dynamics/frequencies.hpp>
 #include <gtest/gtest.h>
@@ -146,6 +147,34 @@ end_time = 1.0
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   // 5/sqrt(100^2 + 60^2), and 272 times 100/(100^2 + 60^2).
   expect_holds(outcome.output, {"0.0428746 m; the smallest gap is 0.01 m", "of a closed stop: 2 times"});
+}
+
+/// One step of piecewise would hold 9e8 rows; the trial ends after a second. Without the limit of steps it writes 100
+/// GB.
+TEST(Check, EndsItsTrialAmongCountlessRows) {
+  const auto probe = [](const std::string& label) {
+    return "[[output.probe]]\nlabel = \"" + label +
+           "\"\nnode = \"m\"\nquantities = [\"u\", \"v\", \"a\", \"contact_force\", \"spring_force\"]\n";
+  };
+  const TemporaryFolder folder;
+  folder.write(
+      "scene.toml",
+      std::string(
+          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\n") +
+          "node = \"m\"\nstiffness = 100.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 2.0\nstiffness = "
+          "1e4\n[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n[integrator]\nend_time = 0.9\n[output]\n"
+          "interval = 1e-9\n" +
+          probe("a") + probe("b") + probe("c"));
+  const Outcome outcome = run_program({"check", "scene.toml"}, folder.path());
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  expect_holds(outcome.output, {"results    9e+08 rows"});
+  // At least 100 GB, which few disks of test machines have left.
+  if (static_cast<double>(std::filesystem::space(folder.path()).available) > 100e9) return;
+  expect_holds(outcome.errors, {"the results need about", "GB are free in this folder"});
+  const Outcome run = run_program({"run", "scene.toml"}, folder.path());
+  EXPECT_EQ(run.status, 2);
+  expect_holds(run.errors, {"output.interval = 1e-09: history.csv would have 9e+08 rows", "GB are free in"});
+  EXPECT_FALSE(std::filesystem::exists(folder.file("scene-results")));
 }
 
 TEST(Check, FindsTheFrequenciesOfTheOscillator) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <set>
+#include <system_error>
 
 #include <butee/core/text.hpp>
 #include <butee/run/run.hpp>
@@ -37,6 +39,7 @@ class Adviser {
     judge_pull();
     judge_gaps();
     judge_output();
+    judge_size();
     judge_mesh();
     judge_names("material");
     judge_names("section");
@@ -156,6 +159,16 @@ class Adviser {
                                " s: history.csv will not resolve the impact. Take interval = " +
                                to_short_text(contact / (2.5 * run::kRowsInContact)) +
                                " or less, or [output] impacts = true, which lists every impact with its peak force");
+  }
+
+  void judge_size() {
+    std::error_code error;
+    const std::filesystem::space_info disk = std::filesystem::space(".", error);
+    if (error || disk.capacity == 0 || !facts_.cost.bytes || *facts_.cost.bytes < static_cast<double>(disk.available))
+      return;
+    add("size", "the results need about " + to_short_text(1e-9 * *facts_.cost.bytes) + " GB, but " +
+                    to_short_text(1e-9 * static_cast<double>(disk.available)) +
+                    " GB are free in this folder; take a larger [output] interval, or fewer probes");
   }
 
   /// The length of a bending wave of angular frequency w is 2 pi (E I/(rho A w^2))^(1/4).
