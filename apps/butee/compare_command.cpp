@@ -143,6 +143,12 @@ class Comparison {
         log::warning(result.scene + ": " + scene.question.columns[i] +
                      " is zero throughout the reference: there is no relative error of it, and a run that differs "
                      "has an infinite one");
+    if (!reference.is_usable()) {
+      log::warning(result.scene +
+                   ": two computations of the reference differ from the start on, so that no error can be "
+                   "measured; compare other columns ([study] quantity), or give a reference as a file");
+      return result;
+    }
     reference_text_ = text_of(reference);
     for (const Sweep& sweep : scene.sweeps) run_sweep(scene, sweep, result);
     return result;

@@ -16,6 +16,9 @@ struct Reference {
   double horizon = 0.0;      ///< s; two computations diverge beyond it
   bool parted = false;       ///< true: the two computations diverge before the end
   double uncertainty = 0.0;  ///< relative rms of their difference up to the horizon, in the worst column; 0 for a file
+
+  /// False if the two computations differ from the start on.
+  bool is_usable() const { return !parted || values.front().size() > 1; }
 };
 
 /// Computes the reference twice by the method `exact` at different orders; if `exact` refuses the scene,

@@ -73,9 +73,15 @@ void write_fastest(std::ostream& out, const Study& study, const SceneResult& res
           << " | | | | |\n";
       continue;
     }
+    // auto, or the method that it took, has the same errors.
+    const auto is_alike = [&](const std::string& method) {
+      return std::any_of(result.rows.begin(), result.rows.end(), [&](const Row& row) {
+        return row.method == method && row.completed() && row.error.rms == best->error.rms;
+      });
+    };
     std::vector<Row> others;
     for (const Row& row : result.rows)
-      if (row.method != best->method) others.push_back(row);
+      if (!is_alike(row.method)) others.push_back(row);
     const Row* next = fastest(others, target);
     out << best->method << " | " << setting_of(*best) << " | " << number(best->error.rms) << " | "
         << duration(best->seconds) << " | "
@@ -168,37 +174,6 @@ bool is_drawn(const Row& row) {
   return row.completed() && row.error.rms < 2.0 && row.error.rms > 0.0;
 }
 
-}  // namespace
-
-const Row* fastest(const std::vector<Row>& rows, double target) {
-  const Row* best = nullptr;
-  for (const Row& row : rows)
-    if (row.completed() && row.error.rms <= target && (best == nullptr || row.seconds < best->seconds)) best = &row;
-  return best;
-}
-
-const Row* fastest_beyond_doubt(const SceneResult& result, double target) {
-  return is_beyond_doubt(result, target) ? fastest(result.rows, target) : nullptr;
-}
-
-std::string markdown(const Study& study, const std::vector<SceneResult>& results, const std::string& command) {
-  std::ostringstream out;
-  out << "# " << (study.title.empty() ? "Run time against error" : study.title) << "\n\nMade by `" << command
-      << "`. Errors are relative to a reference over all output times; times are set-up and integration of one run\n"
-         "on one machine, the fastest of several, without files.\n";
-  for (const SceneResult& result : results) {
-    out << "\n## " << (result.title.empty() ? result.scene : result.title) << "\n\n`" << result.scene << "`, "
-        << result.column << ", to t = " << number(result.end_time, 4) << " s. ";
-    write_reference(out, result);
-    write_fastest(out, study, result);
-    out << "\n![error against time](work-precision-" << result.scene << ".svg)\n";
-    write_runs(out, result);
-  }
-  return out.str();
-}
-
-namespace {
-
 /// Number of methods that get a colour in the picture; the others are grey.
 constexpr std::size_t kTold = 10;
 /// The error at which methods are ranked by time.
@@ -225,10 +200,38 @@ std::vector<std::string> ranked_methods(const SceneResult& result) {
 
 }  // namespace
 
+const Row* fastest(const std::vector<Row>& rows, double target) {
+  const Row* best = nullptr;
+  for (const Row& row : rows)
+    if (row.completed() && row.error.rms <= target && (best == nullptr || row.seconds < best->seconds)) best = &row;
+  return best;
+}
+
+const Row* fastest_beyond_doubt(const SceneResult& result, double target) {
+  return is_beyond_doubt(result, target) ? fastest(result.rows, target) : nullptr;
+}
+
+std::string markdown(const Study& study, const std::vector<SceneResult>& results, const std::string& command) {
+  std::ostringstream out;
+  out << "# " << (study.title.empty() ? "Run time against error" : study.title) << "\n\nMade by `" << command
+      << "`. Errors are relative to a reference over all output times; times are set-up and integration of one run\n"
+         "on one machine, the fastest of several, without files.\n";
+  for (const SceneResult& result : results) {
+    out << "\n## " << (result.title.empty() ? result.scene : result.title) << "\n\n`" << result.scene << "`, "
+        << result.column << ", to t = " << number(result.end_time, 4) << " s. ";
+    write_reference(out, result);
+    if (result.rows.empty()) continue;
+    write_fastest(out, study, result);
+    if (!ranked_methods(result).empty()) out << "\n![error against time](work-precision-" << result.scene << ".svg)\n";
+    write_runs(out, result);
+  }
+  return out.str();
+}
+
 bool draw(const SceneResult& result, const std::string& folder) {
   const std::string name = "work-precision-" + result.scene;
   const std::vector<std::string> drawn = ranked_methods(result);
-  if (drawn.empty()) return false;
+  if (drawn.empty()) return true;
   std::string script = "# error against time, a block for each method\n$runs << EOD\n";
   double least = 1.0;
   for (const std::string& method : drawn) {
