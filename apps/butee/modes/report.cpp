@@ -34,15 +34,25 @@ std::vector<const model::NodeGroup*> groups_of(const model::NodeTable& nodes) {
   return groups;
 }
 
-/// Scale factor of each drawn mode, which makes its largest |u| equal to 1; 0 if it has no u.
-std::vector<double> scales_of(const Analysis& analysis, const model::Model& model, const model::DofTable& dofs) {
-  std::vector<double> scales(analysis.modes.size());
-  for (NodeId node = 0; node < model.nodes.size(); ++node)
-    if (const Index row = dofs.index({node, DofKind::u}); row >= 0)
-      for (std::size_t i = 0; i < scales.size(); ++i)
-        scales[i] = std::max(scales[i], std::abs(analysis.shapes(row, static_cast<Index>(i))));
-  for (double& scale : scales) scale = scale > 0.0 ? 1.0 / scale : 0.0;
-  return scales;
+/// The displacement of a mode that is drawn, the largest one, and the factor that makes it 1.
+struct Drawn {
+  DofKind kind = DofKind::u;
+  double scale = 0.0;
+};
+
+std::vector<Drawn> drawn_of(const Analysis& analysis, const model::Model& model, const model::DofTable& dofs) {
+  std::vector<Drawn> drawn(analysis.modes.size());
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    double largest = 0.0;
+    for (const DofKind kind : {DofKind::u, DofKind::uz, DofKind::ux})
+      for (NodeId node = 0; node < model.nodes.size(); ++node) {
+        const Index row = dofs.index({node, kind});
+        const double size = row >= 0 ? std::abs(analysis.shapes(row, static_cast<Index>(i))) : 0.0;
+        if (size > largest) drawn[i] = {kind, 1.0 / size};
+        largest = std::max(largest, size);
+      }
+  }
+  return drawn;
 }
 
 }  // namespace
@@ -125,28 +135,30 @@ std::string shapes_csv(const Analysis& analysis, const model::Model& model, cons
 
 bool draw(const Analysis& analysis, const model::Model& model, const model::System& system,
           const record::ResultFolder& folder) {
-  const std::vector<double> scales = scales_of(analysis, model, system.dofs);
+  const std::vector<Drawn> drawn = drawn_of(analysis, model, system.dofs);
   std::string data, labels, plot;
-  for (std::size_t i = 0; i < scales.size(); ++i) {
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
     for (const model::NodeGroup* group : groups_of(model.nodes)) {
       for (NodeId k = 0; k < group->size(); ++k) {
-        const Index row = system.dofs.index({group->first + k, DofKind::u});
+        const Index row = system.dofs.index({group->first + k, drawn[i].kind});
         const double u = row >= 0 ? analysis.shapes(row, static_cast<Index>(i)) : 0.0;
         data += exact(group->lone() ? 0.0 : group->coordinates[static_cast<std::size_t>(k)]) + " " +
-                exact(0.4 * scales[i] * u - static_cast<double>(i)) + "\n";
+                exact(0.4 * drawn[i].scale * u - static_cast<double>(i)) + "\n";
       }
       data += "\n";
     }
     data += "\n";
     const std::string place = std::to_string(i);
-    labels += (i > 0 ? ", " : "") + formatted("'%zu: %.4g Hz' -%zu", i + 1, analysis.modes[i].frequency, i);
+    labels += (i > 0 ? ", " : "") +
+              formatted("'%zu: %.4g Hz%s' -%zu", i + 1, analysis.modes[i].frequency,
+                        drawn[i].kind == DofKind::u ? "" : (", " + std::string(name_of(drawn[i].kind))).c_str(), i);
     plot += (i > 0 ? ", " : "plot ") + ("-" + place + " w l lc rgb '#c8c8c8' notitle, 'modes.dat' index " + place) +
             " w lp lw 1.6 pt 7 ps 0.3 lc rgb '#1f77b4' notitle";
   }
   folder.write("modes.dat", data);
-  const double shape = 0.16 + 0.07 * static_cast<double>(scales.size());
+  const double shape = 0.16 + 0.07 * static_cast<double>(drawn.size());
   const std::string script = "set xlabel 'coordinate / m'\nset border 1\nset xtics nomirror out\nset ytics scale 0 (" +
-                             labels + ")\nset yrange [" + formatted("-%zu", scales.size()) + "+0.3:0.7]\n";
+                             labels + ")\nset yrange [" + formatted("-%zu", drawn.size()) + "+0.3:0.7]\n";
   folder.write("modes.gp", script + gnuplot::draw_into({"png", "svg"}, "modes", plot, shape));
   return gnuplot::is_installed() && gnuplot::run_script(folder.path(), "modes").empty();
 }

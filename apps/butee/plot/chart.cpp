@@ -16,6 +16,8 @@ constexpr std::size_t kTitleWidth = 80;
 /// Levels above this multiple of the largest value are left out of the picture; they would flatten the
 /// curves.
 constexpr double kFarAway = 4.0;
+/// Orbits flatter than this are drawn with different scales on their axes.
+constexpr double kThin = 0.2;
 constexpr const char* kMarkStyle = "dt 2 lw 1 lc rgb '#555555'";
 
 constexpr double kMargin = 0.05;      ///< margin of an axis beyond its data, as a fraction of their range
@@ -109,7 +111,7 @@ Picture Chart::picture() const {
   set += "set xlabel " + gnuplot::quoted(x_scale.axis(x_name)) + "\n";
   set += "set ylabel " + gnuplot::quoted(y_scale.axis(y_name)) + "\n";
   set += "set title \"" + folded_title(title) + "\" noenhanced\n";
-  if (in_plane) set += "set size ratio -1\n";
+  if (in_plane && std::min(x_size, y_size) > kThin * both) set += "set size ratio -1\n";
   const bool path = !curves.empty() && curves.front().path;
   set += "set xrange " + x.range(x_begin, x_end, path ? kMargin : 0.0, x_scale) + "\n";
   if (log_y)
