@@ -42,7 +42,7 @@ model::ElementType mass_type() {
            config::text("node", "the node of the mass; default: one is created with the element's name").optional()},
           [](const Parameters& p, config::Diagnostics& diagnostics) -> model::ElementType::Nodes {
             if (p.number("mass") == 0.0 && p.number("rotary_inertia") == 0.0)
-              p.complain(diagnostics, "mass", "and rotary_inertia are both zero; give one of them");
+              p.complain(diagnostics, "mass", "must be > 0 (kg) where rotary_inertia is 0; give one of them");
             if (p.has("node")) return std::nullopt;
             return std::vector<double>{};
           },

@@ -142,7 +142,8 @@ Command add_run_command(CLI::App& program) {
                      ->check(CLI::Range(1, 1000000))
                      ->type_name("N");
   auto* model = app->get_option("model")->required(false);
-  app->add_option("--resume", arguments->resume, "continue the run in DIR from its newest checkpoint")
+  app->add_option("--resume", arguments->resume,
+                  "continue the run in DIR, instead of a model, from its newest checkpoint")
       ->type_name("DIR")
       ->excludes(model)
       ->excludes(app->get_option("--set"))

@@ -42,8 +42,11 @@ class Reader {
   Reader(const config::Document& document, Diagnostics& diagnostics)
       : document_(document), diagnostics_(diagnostics), root_(*document.root.table()) {}
 
-  /// A comparison of methods gets one kind of message, not one for each of its keys.
-  void refuse_comparison() {
+  /// A scene or a comparison of methods gets one kind of message, not one for each of its keys.
+  void refuse_others() {
+    if (const Value* element = root_.find("element"); element != nullptr && root_.find("scene") == nullptr)
+      diagnostics_.error("element", element->at,
+                         "belongs to a scene, which `butee run` computes; a study has scene = \"FILE\" and [[vary]]");
     const Value* table = root_.find("study");
     for (const char* of_compare : {"scenes", "method", "targets"})
       if (table != nullptr && table->table() != nullptr && table->table()->find(of_compare) != nullptr)
@@ -248,7 +251,7 @@ namespace {
 Study study_of(const config::Document& document, const config::Document* known_scene, const StudyOptions& options) {
   Diagnostics diagnostics(document);
   Reader reader(document, diagnostics);
-  reader.refuse_comparison();
+  reader.refuse_others();
   reader.check_root();
   const auto p = reader.settings();
   diagnostics.throw_if_any();

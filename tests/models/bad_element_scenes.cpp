@@ -95,7 +95,7 @@ std::vector<BadScene> bad_element_scenes() {
        {"element[0].start_node = \"string:last\": must be a node of another element"}},
       {"mass of nothing",
        {{"mass = 100.0", "mass = 0 #!"}},
-       {"element[1].mass = 0: and rotary_inertia are both zero; give one of them"}},
+       {"element[1].mass = 0: must be > 0 (kg) where rotary_inertia is 0; give one of them"}},
       {"negative stiffness",
        {{"stiffness = 1.0e9", "stiffness = -1.0e9 #!"}},
        {"element[2].stiffness = -1e+09: must be >= 0 (N/m)"}},
