@@ -6,6 +6,7 @@
 
 #include "support/program.hpp"
 #include "support/scene_run.hpp"
+#include "support/small_scenes.hpp"
 
 namespace butee::test::check_test {
 namespace {
@@ -67,16 +68,7 @@ end_time = 1.0
 /// A mass on 100 N/m with three contacts, of which two are no elastic stops.
 TEST(Check, KnowsStopsWithDissipationAndPlanes) {
   const TemporaryFolder folder;
-  folder.write("scene.toml", R"(schema = 1
-[[element]]
-type = "mass"
-name = "m"
-mass = 1.0
-[[element]]
-type = "spring"
-node = "m"
-stiffness = 100.0
-[[element]]
+  folder.write("scene.toml", mass_on_spring("100.0", R"([[element]]
 type = "spring"
 node = "m"
 dof = "uz"
@@ -103,10 +95,7 @@ stiffness = 900.0
 type = "constant"
 node = "m"
 value = -5.0
-[integrator]
-type = "rodas4"
-end_time = 1.0
-)");
+)"));
   const Outcome outcome = run_program({"check", "scene.toml"}, folder.path());
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   expect_holds(outcome.output,
@@ -157,21 +146,26 @@ TEST(Check, EndsItsTrialAmongCountlessRows) {
            "\"\nnode = \"m\"\nquantities = [\"u\", \"v\", \"a\", \"contact_force\", \"spring_force\"]\n";
   };
   const TemporaryFolder folder;
-  folder.write(
-      "scene.toml",
-      std::string(
-          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\n") +
-          "node = \"m\"\nstiffness = 100.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 2.0\nstiffness = "
-          "1e4\n[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n[integrator]\nend_time = 0.9\n[output]\n"
-          "interval = 1e-9\n" +
-          probe("a") + probe("b") + probe("c"));
-  const Outcome outcome = run_program({"check", "scene.toml"}, folder.path());
+  folder.write("scene.toml",
+               mass_on_spring("100.0",
+                              "[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 2.0\nstiffness = 1e4\n"
+                              "[initial]\nvelocity = [{nodes = \"m\", value = 1.0}]\n[output]\ninterval = "
+                              "1e-9\n" +
+                                  probe("a") + probe("b") + probe("c")));
+  const std::vector<std::string> set = {"scene.toml", "--set", "integrator.type=auto", "--set",
+                                        "integrator.end_time=0.9"};
+  const auto program = [&](const std::string& command) {
+    std::vector<std::string> arguments = {command};
+    arguments.insert(arguments.end(), set.begin(), set.end());
+    return run_program(arguments, folder.path());
+  };
+  const Outcome outcome = program("check");
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
   expect_holds(outcome.output, {"results    9e+08 rows"});
   // At least 100 GB, which few disks of test machines have left.
   if (static_cast<double>(std::filesystem::space(folder.path()).available) > 100e9) return;
   expect_holds(outcome.errors, {"the results need about", "GB are free in this folder"});
-  const Outcome run = run_program({"run", "scene.toml"}, folder.path());
+  const Outcome run = program("run");
   EXPECT_EQ(run.status, 2);
   expect_holds(run.errors, {"output.interval = 1e-09: history.csv would have 9e+08 rows", "GB are free in"});
   EXPECT_FALSE(std::filesystem::exists(folder.file("scene-results")));
