@@ -110,7 +110,7 @@ struct SceneReader::ContactKind {
   }
 };
 
-/// What an entry says about its contacts apart from laws and shapes.
+/// The nodes, gaps, dissipation and friction of an entry; its laws and shapes are made for each gap.
 struct SceneReader::ContactParts {
   std::vector<DofKind> directions;
   std::vector<NodeId> a, b;

@@ -94,7 +94,7 @@ TEST(Compare, LeavesTheScenesOwnToleranceToItsOwnMethod) {
   EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.0625")), runge_kutta_error(0.0625, 2), 1e-12);
 }
 
-/// Of all installed methods many refuse a contact with dissipation.
+/// Many of the installed methods refuse a contact with dissipation.
 TEST(Compare, ListsTheMethodsThatRefuseAScene) {
   const TemporaryFolder folder;
   folder.write("swing.toml",

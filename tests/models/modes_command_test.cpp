@@ -143,7 +143,7 @@ TEST_F(ModesCommand, DampedModesOfAFreeBeamBeginWithItsRigidMotions) {
   EXPECT_EQ(outcome.errors, "");
   const Json found = json({"free.toml", "--speed", "0", "-n", "16"});
   const double bending = std::pow(4.730040744862704, 2) * std::sqrt(2e11 / 7800.0) * 0.01 / 2.0;
-  // Of each pair that rounding makes complex one is listed.
+  // If rounding makes a pair of eigenvalues complex, only one of them is listed.
   std::vector<double> elastic;
   for (const Json& mode : found["modes"])
     if (const double omega = mode["angular_frequency"].get<double>(); omega > 0.0) elastic.push_back(omega);
