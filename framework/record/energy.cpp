@@ -153,10 +153,9 @@ bool EnergyRecorder::uses_gauss(const time::AcceptedStep& step) const {
 }
 
 const std::vector<double>& EnergyRecorder::ends_of_pieces(const time::AcceptedStep& step) {
-  const bool at_any_instant = uses_gauss(step);
-  const auto found = step.motion.breakpoints(at_any_instant ? time::Detail::power : time::Detail::velocities);
+  const auto found = step.motion.breakpoints(uses_gauss(step) ? time::Detail::power : time::Detail::velocities);
   ends_.assign(found.begin(), found.end());
-  if (!at_any_instant) return ends_;
+  if (!uses_gauss(step) && step.motion.interpolation() == time::Interpolation::cubic) return ends_;
   const auto middle = static_cast<std::ptrdiff_t>(ends_.size());
   for (const double t : due_)
     if (t > step.from.t && t < step.to.t && !std::binary_search(found.begin(), found.end(), t)) ends_.push_back(t);

@@ -31,15 +31,16 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 /// Unless the method provides them (DenseOutput::energies), they are integrated by Simpson's rule
 /// from breakpoint to breakpoint of every accepted step, with the midpoint from the method's own
 /// interpolant: fourth order, so that the balance shows the method's error and not the quadrature
-/// error. Gauss' rule with five points is used with obstacles, whose forces may jump, and with
-/// Interpolation::near_quintic; its pieces also end at the instants of rows. With
+/// error. Pieces also end at the instants of rows. Gauss' rule with five points is used with
+/// obstacles, whose forces may jump, and with Interpolation::near_quintic. With
 /// Interpolation::other pieces may be long; they are halved until Gauss' rule gives the same work
 /// and dissipation over the whole and over both halves. The balance error is (change + dissipated -
 /// work) / largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
-  /// `dynamics` must outlive this object. A `writer` gets a row at the start, at each of `times` or
-  /// the first end or breakpoint of a step after it, and at the last step.
+  /// `dynamics` must outlive this object. A `writer` gets a row at the start, at each of `times` and at the last step;
+  /// with Interpolation::cubic and with DenseOutput::energies a row is at the first end or breakpoint of a step at or
+  /// after its instant.
   explicit EnergyRecorder(dynamics::Dynamics& dynamics, CsvWriter* writer = nullptr,
                           std::optional<OutputTimes> times = std::nullopt);
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scene_run.hpp"
+#include "support/small_scenes.hpp"
 
 namespace butee::test::dissipated_energy_test {
 namespace {
@@ -53,6 +54,36 @@ TEST(Dissipated, EnergyBesideRigidMotionDoesNotDependOnTheRows) {
       const auto [energy, error] = dissipated(scene, "exponential", interval);
       EXPECT_NEAR(energy / truth, 1.0, 1e-6) << k << " " << interval;
       EXPECT_NEAR(error, 0.0, 1e-6) << k << " " << interval;
+    }
+  }
+}
+
+/// Collects the rows of energies.
+class Rows final : public model::FieldWriter {
+ public:
+  void append(double /*t*/, std::span<const double> /*values*/) override {}
+  void append_row(std::span<const double> values) override { all.emplace_back(values.begin(), values.end()); }
+  void finish() override {}
+
+  std::vector<std::vector<double>> all;
+};
+
+/// x = cos(2 t) has strain energy 2 cos^2(2 t), whatever the length of the steps.
+TEST(Energies, AreThoseAtTheOutputsWithinLongSteps) {
+  for (const std::string method : {"exponential", "exact", "piecewise", "extrapolation8"}) {
+    SceneRun run(mass_on_spring("4.0", "[initial]\ndisplacement = [{ nodes = \"m\", value = 1.0 }]\n"),
+                 {"integrator.type=" + method, "integrator.end_time=3.0"});
+    Rows rows;
+    record::EnergyRecorder energy(run.dynamics(), nullptr, record::OutputTimes(0.01, 0, 3.0));
+    energy.also_to(rows);
+    run.simulation().add(energy);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    EXPECT_LT(run.simulation().report().steps, 200) << method << ": steps are not longer than outputs";
+    ASSERT_EQ(rows.all.size(), 301U) << method;
+    for (std::size_t i = 0; i < rows.all.size(); ++i) {
+      const double t = 0.01 * static_cast<double>(i), cosine = std::cos(2.0 * t);
+      EXPECT_NEAR(rows.all[i][0], t, 1e-12) << method;
+      EXPECT_NEAR(rows.all[i][2], 2.0 * cosine * cosine, 1e-3) << method << " at " << t;
     }
   }
 }
