@@ -2,6 +2,7 @@
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
+#include <butee/core/text.hpp>
 #include <butee/plugin/catalogue.hpp>
 
 #include "commands.hpp"
@@ -50,11 +51,11 @@ Command add_plot_command(CLI::App& program) {
   app->add_option("folder", request.folders, "result folders of `butee run`, or one of `butee study`")
       ->required()
       ->type_name("DIR");
-  app->add_option("--kind", request.kinds, "kinds of pictures; default: all that the results allow")
+  app->add_option("--kind", request.kinds,
+                  "kinds of pictures, or quantities of probes over time; default: all that the results allow")
       ->delimiter(',')
-      ->check(CLI::IsMember(plot::kind_names()))
       ->allow_extra_args(false)
-      ->type_name("KIND,...");
+      ->type_name("KIND,...:{" + join(plot::kind_names(), ",") + "}");
   app->add_option("--format", request.formats, "png (default), svg, pdf; script: for gnuplot elsewhere")
       ->delimiter(',')
       ->check(CLI::IsMember(plot::picture_formats()))

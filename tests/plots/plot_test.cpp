@@ -88,7 +88,7 @@ TEST_F(Plot, DrawsWhatTheResultsAllow) {
   }
   EXPECT_EQ(outcome.output, expected);
   const std::string displacement = script("displacement");
-  expect_in(displacement, "set ylabel 'displacement / mm'");
+  expect_in(displacement, "set ylabel 'displacement / mm' noenhanced");
   expect_in(displacement, "set xlabel 'time / s'");
   expect_in(displacement, "\n     20 with lines dt 2");  // the gap, in mm
   expect_in(displacement, "-20 with lines dt 2");
@@ -146,7 +146,8 @@ TEST_F(Plot, RefusesWhatIsNotThere) {
   };
   refused({"nowhere"}, "nowhere: is not a folder; name the result folder");
   refused({"."}, "model.toml is missing");
-  refused({"swing-results", "--kind", "shap"}, "--kind");
+  refused({"swing-results", "--kind", "shap"}, "--kind shap: there is no such kind (did you mean \"shape\"?)");
+  refused({"swing-results", "--format=script", "--kind=M"}, "lacks a probe of M: [[output.probe]]");
   refused({"swing-results", "--format", "gif"}, "--format");
   refused({"swing-results", "--format=script", "--probe", "bal"}, "did you mean \"ball\"");
   refused({"swing-results", "--format=script", "--from=5"}, "no rows between --from and --to");

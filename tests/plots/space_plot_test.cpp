@@ -290,7 +290,28 @@ TEST(SpaceFields, HoldAllDisplacementsAndRotations) {
   EXPECT_LT(joined.find("/fields/u<"), joined.find("/fields/uz"));
   const Outcome plot = run_program({"plot", "frame-results", "--format", "script", "--kind", "frame"}, folder.path());
   ASSERT_EQ(plot.status, 0) << plot.errors;
-  EXPECT_TRUE(holds(read_file(folder.file("frame-results/plots/frame.gp")), "splot $rest"));
+  EXPECT_TRUE(holds(read_file(folder.file("frame-results/plots/frame.gp")), "plot $rest"));
+  // The load bends the leg, which points along y, along x.
+  ASSERT_EQ(run_program({"plot", "frame-results", "--format", "script", "--kind", "shape"}, folder.path()).status, 0);
+  EXPECT_TRUE(holds(read_file(folder.file("frame-results/plots/shape-leg.gp")), "'displacement ux / mm'"));
+}
+
+/// Quantities without a kind of picture of their own are drawn under their names, velocities only if asked for.
+TEST(SpacePlot, ShowsEveryQuantityOfTheProbes) {
+  const TemporaryFolder folder;
+  const std::string probe =
+      "[[output.probe]]\nlabel = \"base_1\"\nnode = \"leg:first\"\nquantities = [\"N\", "
+      "\"reaction_ux\", \"ux_v\"]\n";
+  folder.write("frame.toml", std::string(kFrame) + probe);
+  ASSERT_EQ(run_program({"run", "frame.toml", "-q", "--set", "output.formats=[\"csv\"]"}, folder.path()).status, 0);
+  ASSERT_EQ(run_program({"plot", "frame-results", "--format", "script"}, folder.path()).status, 0);
+  const std::string force = read_file(folder.file("frame-results/plots/N.gp"));
+  EXPECT_TRUE(holds(force, "set ylabel 'normal force of a beam (N) / N' noenhanced")) << force;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("frame-results/plots/reaction_ux.gp")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("frame-results/plots/ux_v.gp")));
+  const Outcome asked = run_program({"plot", "frame-results", "--format", "script", "--kind", "ux_v"}, folder.path());
+  EXPECT_EQ(asked.status, 0) << asked.errors;
+  EXPECT_TRUE(holds(read_file(folder.file("frame-results/plots/ux_v.gp")), "set ylabel 'ux_v / "));
 }
 
 /// The lowest mode of the bent arm is a rotation about its leg: ux and rx of its end, scaled to the modal

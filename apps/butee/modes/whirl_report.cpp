@@ -142,18 +142,21 @@ bool draw(const Campbell& diagram, const record::ResultFolder& folder) {
   for (const dynamics::CriticalSpeed& critical : diagram.critical)
     data += formatted("%.9g %.9g\n", critical.speed, diagram.order * std::abs(critical.speed));
   folder.write("campbell.dat", data);
-  const std::string line = formatted("%.9g*abs(x)", diagram.order);
-  const std::string plot =
+  const std::string line = formatted("%.9g*abs(x)", diagram.order), order = "order " + to_short_text(diagram.order);
+  std::vector<std::string> entries = {"forward", "backward", order};
+  std::string plot =
       "plot 'campbell.dat' index 0 w p pt 7 ps 0.4 lc rgb '#1f77b4' title 'forward', "
       "'campbell.dat' index 1 w p pt 6 ps 0.4 lc rgb '#d62728' title 'backward', " +
-      line + " w l lc rgb '#808080' title 'order " + to_short_text(diagram.order) + "'" +
-      (diagram.critical.empty() ? ""
-                                : ", 'campbell.dat' index 2 w p pt 4 ps 1.2 lc rgb 'black' title 'critical speeds'");
+      line + " w l lc rgb '#808080' title " + gnuplot::quoted(order);
+  if (!diagram.critical.empty()) {
+    entries.emplace_back("critical speeds");
+    plot += ", 'campbell.dat' index 2 w p pt 4 ps 1.2 lc rgb 'black' title 'critical speeds'";
+  }
   constexpr double kShape = 0.7;
   const std::string script =
-      "set xlabel 'speed of rotation / (rad/s)'\nset ylabel 'angular frequency / (rad/s)'\n"
-      "set key left top\nset grid lc rgb '#e0e0e0'\nset yrange [0:]\n" +
-      formatted("set xrange [%.9g:%.9g]\n", diagram.speeds.front(), diagram.speeds.back());
+      gnuplot::style() + "set xlabel 'speed of rotation / (rad/s)'\nset ylabel 'angular frequency / (rad/s)'\n" +
+      gnuplot::legend_below(entries) +
+      formatted("set yrange [0:]\nset xrange [%.9g:%.9g]\n", diagram.speeds.front(), diagram.speeds.back());
   folder.write("campbell.gp", script + gnuplot::draw_into({"png", "svg"}, "campbell", plot, kShape));
   return gnuplot::is_installed() && gnuplot::run_script(folder.path(), "campbell").empty();
 }

@@ -108,8 +108,8 @@ Picture Chart::picture() const {
   picture.name = name;
   picture.data = data_of(curves, x_scale, y_scale);
   std::string& set = picture.set;
-  set += "set xlabel " + gnuplot::quoted(x_scale.axis(x_name)) + "\n";
-  set += "set ylabel " + gnuplot::quoted(y_scale.axis(y_name)) + "\n";
+  set += "set xlabel " + gnuplot::quoted(x_scale.axis(x_name)) + " noenhanced\n";
+  set += "set ylabel " + gnuplot::quoted(y_scale.axis(y_name)) + " noenhanced\n";
   set += "set title \"" + folded_title(title) + "\" noenhanced\n";
   if (in_plane && std::min(x_size, y_size) > kThin * both) set += "set size ratio -1\n";
   const bool path = !curves.empty() && curves.front().path;

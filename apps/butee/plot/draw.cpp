@@ -4,13 +4,10 @@
 #include <filesystem>
 
 #include <butee/core/error.hpp>
-#include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
 
 #include "../gnuplot.hpp"
-#include "contact_pictures.hpp"
-#include "frame.hpp"
-#include "shape.hpp"
+#include "kinds.hpp"
 
 namespace butee::app::plot {
 namespace {
@@ -29,30 +26,20 @@ std::vector<Result> read_results(const Request& request, const plugin::Catalogue
   return results;
 }
 
-void check_probes(const Request& request, const std::vector<Result>& results) {
-  std::vector<std::string> known;
+/// All labels of the results' probes, in order.
+std::vector<std::string> labels_of(const std::vector<Result>& results) {
+  std::vector<std::string> labels;
   for (const Result& result : results)
     for (const Probe& probe : result.probes)
-      if (std::find(known.begin(), known.end(), probe.label) == known.end()) known.push_back(probe.label);
-  for (const std::string& label : request.probes)
+      if (std::find(labels.begin(), labels.end(), probe.label) == labels.end()) labels.push_back(probe.label);
+  return labels;
+}
+
+void check_probes(const std::vector<std::string>& labels, const std::vector<std::string>& known) {
+  for (const std::string& label : labels)
     if (std::find(known.begin(), known.end(), label) == known.end())
       throw InputError("--probe " + label + ": there is no such probe" + suggestion(label, known) +
                        "; known: " + join(known));
-}
-
-std::vector<Picture> shapes(Kind kind, const Result& result, const plugin::Catalogue& catalogue, Window window,
-                            bool several, bool asked_for) {
-  if (result.field_format.empty()) return {};
-  const auto* format = model::find_type(catalogue.types().formats, result.field_format);
-  if (format == nullptr) {
-    const std::string reason = result.folder + ": its fields are in the format " + result.field_format +
-                               ", whose module is not installed (hdf5: install libhdf5-dev and build butee again)";
-    if (asked_for) throw InputError(reason);
-    log::warning(reason);
-    return {};
-  }
-  if (kind == Kind::frame) return frame_pictures(result, *format->open(result.folder), window, several);
-  return shape_pictures(result, *format->open(result.folder), window, several);
 }
 
 std::string folder_of(const Request& request) {
@@ -61,6 +48,12 @@ std::string folder_of(const Request& request) {
 }
 
 }  // namespace
+
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  for (const Kind& kind : named_kinds()) names.push_back(kind.name);
+  return names;
+}
 
 std::vector<std::string> picture_formats() {
   auto all = gnuplot::formats();
@@ -76,28 +69,19 @@ void require_gnuplot(const std::vector<std::string>& formats) {
 
 std::vector<std::string> draw(const Request& request, const plugin::Catalogue& catalogue) {
   require_gnuplot(request.formats);
-  const std::vector<Result> results = read_results(request, catalogue);
-  check_probes(request, results);
   const bool chosen = !request.kinds.empty();
+  std::vector<Kind> kinds;
+  for (const std::string& name : request.kinds) kinds.push_back(kind_of(name));
+  const std::vector<Result> results = read_results(request, catalogue);
+  const std::vector<std::string> labels = labels_of(results);
+  check_probes(request.probes, labels);
+  if (!chosen) kinds = default_kinds(results);
+  const Drawing drawing{results, request.probes.empty() ? labels : request.probes, request.window, chosen, catalogue};
   std::vector<Picture> all;
-  for (const std::string& name : chosen ? request.kinds : kind_names()) {
-    const Kind kind = kind_of(name);
-    std::vector<Picture> found;
-    if (kind == Kind::shape || kind == Kind::frame) {
-      for (const Result& result : results)
-        if (chosen || results.size() == 1)
-          for (Picture& picture : shapes(kind, result, catalogue, request.window, results.size() > 1, chosen))
-            found.push_back(std::move(picture));
-    } else if (kind == Kind::contact_map || kind == Kind::wear) {
-      for (const Result& result : results)
-        for (Picture& picture : kind == Kind::wear ? wear_picture(result, results.size() > 1)
-                                                   : contact_map(result, request.window, results.size() > 1))
-          found.push_back(std::move(picture));
-    } else {
-      found = pictures(kind, results, request.probes);
-    }
+  for (const Kind& kind : kinds) {
+    std::vector<Picture> found = kind.draw(drawing);
     if (found.empty() && chosen)
-      throw InputError("--kind " + name + ": " + join(request.folders) + " lacks " + requirement_of(kind));
+      throw InputError("--kind " + kind.name + ": " + join(request.folders) + " lacks " + kind.needs);
     for (Picture& picture : found) all.push_back(std::move(picture));
   }
   if (all.empty()) throw InputError(join(request.folders) + ": there is nothing to draw");

@@ -1,17 +1,20 @@
 #pragma once
 
-#include "pictures.hpp"
+#include "result.hpp"
 
 namespace butee::app::plot {
 
 struct Request {
   std::vector<std::string> folders;  ///< result folders
-  std::vector<std::string> kinds;    ///< empty: all that the data allow
+  std::vector<std::string> kinds;    ///< kind_names() or quantities of probes; empty: all that the data allow
   std::vector<std::string> formats = {"png"};
   std::vector<std::string> probes;  ///< labels; empty: all
   Window window;
   std::string output;  ///< a folder; empty: "plots" in the result folder, or in the current folder for several results
 };
+
+/// The names of the kinds that have names of their own; quantities of probes are kinds, too.
+std::vector<std::string> kind_names();
 
 /// Formats of pictures, and "script" for the gnuplot script alone.
 std::vector<std::string> picture_formats();

@@ -2,6 +2,8 @@
 
 #include <functional>
 
+#include <butee/plugin/catalogue.hpp>
+
 #include "chart.hpp"
 #include "result.hpp"
 
@@ -11,6 +13,9 @@ namespace butee::app::plot {
 struct Drawing {
   const std::vector<Result>& results;
   std::vector<std::string> labels;  ///< labels of the probes
+  Window window;
+  bool asked_for;  ///< the kind was named; otherwise all kinds that the results allow are drawn
+  const plugin::Catalogue& catalogue;
   bool several() const { return results.size() > 1; }
 };
 

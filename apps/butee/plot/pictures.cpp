@@ -14,12 +14,9 @@
 namespace butee::app::plot {
 namespace {
 
-constexpr std::array<const char*, 18> kNames = {
-    "displacement", "force",  "step",     "energy", "phase",  "spectrum",      "shape",       "moment", "shear",
-    "stress",       "spring", "reaction", "orbit",  "run-up", "full-spectrum", "contact-map", "wear",   "frame"};
-
-std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
-                             const std::string& y_name, const std::string& y_unit, bool with_gaps) {
+/// A probe's quantity over time, with the gaps of its stops as lines.
+std::vector<Chart> with_gaps(const Drawing& drawing, const std::string& name, const std::string& quantity,
+                             const std::string& y_name, const std::string& y_unit, bool gaps) {
   return grouped(drawing, name, false, [&](const Item& item, std::size_t place, Chart& chart) {
     const auto* values = item.result->column(item.label, quantity);
     if (values == nullptr || values->empty()) return false;
@@ -28,7 +25,7 @@ std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, co
     chart.y_name = axis_name(drawing, item, y_name);
     chart.y_unit = y_unit;
     chart.curves.push_back({curve_name(drawing, item), item.result->history.times(), *values, place});
-    if (!with_gaps) return true;
+    if (!gaps) return true;
     for (const Mark& mark : gap_marks(item)) {
       const auto same = [&](const Mark& other) { return other.at == mark.at; };
       if (std::none_of(chart.levels.begin(), chart.levels.end(), same)) chart.levels.push_back(mark);
@@ -37,15 +34,29 @@ std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, co
   });
 }
 
-/// The displacements u; where no probe has one, those along the other axes or the rotations.
+Curve path(const std::string& title, const std::vector<Motion::Point>& points, std::size_t colour) {
+  Curve curve{title, {}, {}, colour};
+  curve.path = true;
+  for (const Motion::Point& point : points) {
+    curve.x.push_back(point.u);
+    curve.y.push_back(point.v);
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
+                             const std::string& y_name, const std::string& y_unit) {
+  return with_gaps(drawing, name, quantity, y_name, y_unit, false);
+}
+
 std::vector<Chart> of_motion(const Drawing& drawing) {
-  auto charts = over_time(drawing, "displacement", "u", "displacement", "m", true);
+  auto charts = with_gaps(drawing, "displacement", "u", "displacement", "m", true);
   for (const char* other : {"uz", "ux"})
-    if (charts.empty())
-      charts = over_time(drawing, "displacement", other, std::string("displacement ") + other, "m", false);
+    if (charts.empty()) charts = over_time(drawing, "displacement", other, std::string("displacement ") + other, "m");
   for (const char* rotation : {"theta", "ry", "rx"})
-    if (charts.empty())
-      charts = over_time(drawing, "rotation", rotation, std::string("rotation ") + rotation, "rad", false);
+    if (charts.empty()) charts = over_time(drawing, "rotation", rotation, std::string("rotation ") + rotation, "rad");
   return charts;
 }
 
@@ -115,16 +126,6 @@ std::vector<Chart> of_energy(const Drawing& drawing) {
   return {chart};
 }
 
-Curve path(const std::string& title, const std::vector<Motion::Point>& points, std::size_t colour) {
-  Curve curve{title, {}, {}, colour};
-  curve.path = true;
-  for (const Motion::Point& point : points) {
-    curve.x.push_back(point.u);
-    curve.y.push_back(point.v);
-  }
-  return curve;
-}
-
 std::vector<Chart> of_phase(const Drawing& drawing) {
   return grouped(drawing, "phase", true, [&](const Item& item, std::size_t place, Chart& chart) {
     const auto *u = item.result->column(item.label, "u"), *v = item.result->column(item.label, "v");
@@ -177,113 +178,6 @@ std::vector<Chart> of_spectrum(const Drawing& drawing) {
   });
   for (Chart& chart : charts) chart.uprights = frequency_marks(drawing.results, *chart.x_end);
   return charts;
-}
-
-std::vector<Chart> charts(Kind kind, const Drawing& drawing) {
-  switch (kind) {
-    case Kind::displacement:
-      return of_motion(drawing);
-    case Kind::force:
-      return over_time(drawing, "force", "contact_force", "contact force", "N", false);
-    case Kind::step:
-      return of_steps(drawing);
-    case Kind::energy:
-      return of_energy(drawing);
-    case Kind::phase:
-      return of_phase(drawing);
-    case Kind::spectrum:
-      return of_spectrum(drawing);
-    case Kind::moment:
-      return over_time(drawing, "moment", "M", "bending moment", "N m", false);
-    case Kind::shear:
-      return over_time(drawing, "shear", "V", "shear force", "N", false);
-    case Kind::stress:
-      return over_time(drawing, "stress", "bending_stress", "bending stress", "Pa", false);
-    case Kind::spring:
-      return over_time(drawing, "spring", "spring_force", "spring force", "N", false);
-    case Kind::reaction:
-      return over_time(drawing, "reaction", "reaction", "reaction", "N", false);
-    case Kind::orbit:
-      return of_orbit(drawing);
-    case Kind::run_up:
-      return of_run_up(drawing);
-    case Kind::full_spectrum:
-      return of_full_spectrum(drawing);
-    case Kind::contact_map:
-    case Kind::wear:
-    case Kind::shape:
-    case Kind::frame:
-      break;
-  }
-  return {};
-}
-
-}  // namespace
-
-std::vector<std::string> kind_names() {
-  return {kNames.begin(), kNames.end()};
-}
-
-Kind kind_of(const std::string& name) {
-  const auto* const found = std::find(kNames.begin(), kNames.end(), name);
-  require(found != kNames.end(), "no such kind of picture");
-  return static_cast<Kind>(found - kNames.begin());
-}
-
-std::vector<Picture> pictures(Kind kind, const std::vector<Result>& results, const std::vector<std::string>& labels) {
-  Drawing drawing{results, labels};
-  if (labels.empty())
-    for (const Result& result : results)
-      for (const Probe& probe : result.probes)
-        if (std::find(drawing.labels.begin(), drawing.labels.end(), probe.label) == drawing.labels.end())
-          drawing.labels.push_back(probe.label);
-  std::vector<Picture> all;
-  for (const Chart& chart : charts(kind, drawing)) all.push_back(chart.picture());
-  return all;
-}
-
-std::string requirement_of(Kind kind) {
-  switch (kind) {
-    case Kind::displacement:
-      return "a probe of a displacement or rotation: [[output.probe]] with quantities = [\"u\"]";
-    case Kind::spectrum:
-      return "a probe of u: [[output.probe]] with quantities = [\"u\"]";
-    case Kind::force:
-      return "a probe of contact_force: [[output.probe]] with quantities = [\"u\", \"contact_force\"]";
-    case Kind::phase:
-      return "a probe of u and v: [[output.probe]] with quantities = [\"u\", \"v\"]";
-    case Kind::energy:
-      return "energies: run again with --set output.energy=true";
-    case Kind::shape:
-      return "the displacements of all nodes: run again with --set 'output.formats=[\"csv\", \"hdf5\"]'";
-    case Kind::moment:
-      return "a probe of M: [[output.probe]] with quantities = [\"M\"]";
-    case Kind::shear:
-      return "a probe of V: [[output.probe]] with quantities = [\"V\"]";
-    case Kind::stress:
-      return "a probe of bending_stress: [[output.probe]] with quantities = [\"bending_stress\"]";
-    case Kind::spring:
-      return "a probe of spring_force: [[output.probe]] with quantities = [\"spring_force\"]";
-    case Kind::reaction:
-      return "a probe of reaction: [[output.probe]] with quantities = [\"reaction\"]";
-    case Kind::orbit:
-    case Kind::full_spectrum:
-      return "a probe of uy and uz: [[output.probe]] with quantities = [\"uy\", \"uz\"]";
-    case Kind::run_up:
-      return "a speed of [rotation] that varies and a probe of uy and uz: [[output.probe]] with quantities = [\"uy\", "
-             "\"uz\"]";
-    case Kind::contact_map:
-      return "closings of contacts: run again with --set output.impacts=true";
-    case Kind::wear:
-      return "wear: contacts in the plane, with dissipation or friction, that touch; run again with --set "
-             "output.impacts=true";
-    case Kind::frame:
-      return "beams in space and the displacements of all nodes: run again with --set 'output.formats=[\"csv\", "
-             "\"hdf5\"]'";
-    case Kind::step:
-      break;
-  }
-  return "rows in history.csv";
 }
 
 }  // namespace butee::app::plot

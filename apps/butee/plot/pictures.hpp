@@ -1,42 +1,23 @@
 #pragma once
 
-#include "chart.hpp"
-#include "result.hpp"
+#include "drawing.hpp"
 
 namespace butee::app::plot {
 
-/// The kinds of pictures of a run.
-enum class Kind {
-  displacement,
-  force,
-  step,
-  energy,
-  phase,
-  spectrum,
-  shape,
-  moment,
-  shear,
-  stress,
-  spring,
-  reaction,
-  orbit,
-  run_up,
-  full_spectrum,
-  contact_map,
-  wear,
-  frame
-};
+/// A quantity of the probes over time, as pictures of the base name `name`. The probes of one run share a picture;
+/// several runs share a picture for each probe. Empty if no probe has the quantity.
+std::vector<Chart> over_time(const Drawing& drawing, const std::string& name, const std::string& quantity,
+                             const std::string& y_name, const std::string& y_unit);
 
-/// "displacement", ... in the order of the kinds.
-std::vector<std::string> kind_names();
-Kind kind_of(const std::string& name);
-
-/// The pictures of a kind that the results allow; empty if required data are missing. The probes of one run
-/// share a picture if it remains readable; several runs share a picture for each probe. `labels`: the probes
-/// to draw; empty: all.
-std::vector<Picture> pictures(Kind kind, const std::vector<Result>& results, const std::vector<std::string>& labels);
-
-/// The data that a kind requires of a result, and how to obtain them.
-std::string requirement_of(Kind kind);
+/// The displacements u, with gaps; where no probe has one, those along the other axes or the rotations.
+std::vector<Chart> of_motion(const Drawing& drawing);
+/// The length of steps over time.
+std::vector<Chart> of_steps(const Drawing& drawing);
+/// Energies over time: of one run its parts and the balance, of several runs the sums.
+std::vector<Chart> of_energy(const Drawing& drawing);
+/// Velocity over displacement, for each probe.
+std::vector<Chart> of_phase(const Drawing& drawing);
+/// The amplitude spectrum of u.
+std::vector<Chart> of_spectrum(const Drawing& drawing);
 
 }  // namespace butee::app::plot

@@ -100,7 +100,7 @@ Result read_result(const std::string& folder, const plugin::Catalogue& catalogue
   if (const auto energy = fs::path(folder) / "energy.csv"; fs::exists(energy))
     result.energy = read_table(energy.string(), window);
   for (const model::ProbeRequest& probe : output.probes)
-    result.probes.push_back({probe.label, gaps_of(scene.model, probe.node, DofKind::uy),
+    result.probes.push_back({probe.label, probe.quantities, gaps_of(scene.model, probe.node, DofKind::uy),
                              gaps_of(scene.model, probe.node, DofKind::uz), walls_of(scene.model, probe.node)});
   find_contact_places(scene.model, result);
   result.frequencies = frequencies_of(document);

@@ -19,6 +19,7 @@ struct Wall {
 /// A probe of a run, with the data that pictures need.
 struct Probe {
   std::string label;
+  std::vector<model::Quantity> quantities;
   std::vector<double> gaps;      ///< m: u at contact with stops to ground; ascending, negative on the negative side
   std::vector<double> gaps_z{};  ///< m: the same for w
   std::vector<Wall> walls{};

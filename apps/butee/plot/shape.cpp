@@ -1,6 +1,7 @@
 #include "shape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -19,6 +20,16 @@ std::optional<std::size_t> field_of(const model::FieldLayout& layout, const std:
   return std::nullopt;
 }
 
+/// The direction of a line, a unit vector.
+std::array<double, 3> direction_of(const model::FieldLayout& layout, const model::FieldLine& line) {
+  std::array<double, 3> along = layout.positions[static_cast<std::size_t>(line.nodes.back())];
+  const auto& start = layout.positions[static_cast<std::size_t>(line.nodes.front())];
+  for (std::size_t axis = 0; axis < 3; ++axis) along[axis] -= start[axis];
+  const double length = std::hypot(along[0], along[1], along[2]);
+  for (double& part : along) part /= length > 0.0 ? length : 1.0;
+  return along;
+}
+
 /// Evenly spaced records of the window.
 std::vector<std::size_t> records_in(const std::vector<double>& times, Window window) {
   std::vector<std::size_t> all;
@@ -28,6 +39,36 @@ std::vector<std::size_t> records_in(const std::vector<double>& times, Window win
   if (stride <= 1) return all;
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < all.size(); i += stride) chosen.push_back(all[i]);
+  return chosen;
+}
+
+/// For each line, the field that is drawn: u, unless the line points along u or another displacement across it is much
+/// larger.
+std::vector<std::optional<std::size_t>> drawn_fields(model::FieldReader& fields,
+                                                     const std::vector<std::size_t>& records) {
+  constexpr double kMuchLarger = 3.0, kAcross = 0.8;  // the latter: largest cosine to the line
+  const model::FieldLayout& layout = fields.layout();
+  std::vector<std::optional<std::size_t>> chosen(layout.lines.size());
+  std::vector<double> sizes(layout.lines.size()), values(layout.nodes.size());
+  for (const DofKind kind : {DofKind::uy, DofKind::uz, DofKind::ux}) {
+    const auto is_kind = [kind](const model::Field& field) { return dof_named(field.name) == kind; };
+    const auto found = std::find_if(layout.fields.begin(), layout.fields.end(), is_kind);
+    if (found == layout.fields.end()) continue;
+    const auto field = static_cast<std::size_t>(found - layout.fields.begin());
+    std::vector<double> largest(layout.lines.size());
+    for (const std::size_t record : records) {
+      fields.read(record, field, values);
+      for (std::size_t i = 0; i < largest.size(); ++i)
+        for (const Index node : layout.lines[i].nodes)
+          largest[i] = std::max(largest[i], std::abs(values[static_cast<std::size_t>(node)]));
+    }
+    for (std::size_t i = 0; i < largest.size(); ++i) {
+      const double along = direction_of(layout, layout.lines[i])[static_cast<std::size_t>(axis_of(kind))];
+      if (std::abs(along) > kAcross || (chosen[i] && largest[i] <= kMuchLarger * sizes[i])) continue;
+      chosen[i] = field;
+      sizes[i] = largest[i];
+    }
+  }
   return chosen;
 }
 
@@ -113,7 +154,7 @@ std::string rounded(double value) {
   return short_number(value, 5);
 }
 
-Picture picture_of(const Map& map, const std::string& title, const std::string& name) {
+Picture picture_of(const Map& map, const std::string& quantity, const std::string& title, const std::string& name) {
   double largest = 0.0;
   for (const auto& row : map.u) largest = std::max(largest, largest_of(row));
   const Scale time = scale_for(map.times.back(), "s"), place = scale_for(largest_of(map.places), "m"),
@@ -141,7 +182,7 @@ Picture picture_of(const Map& map, const std::string& title, const std::string& 
   std::string heading = folded_title(title);
   picture.set = "set title \"" + heading + "\" noenhanced\nset xlabel " + gnuplot::quoted(time.axis("time")) +
                 "\nset ylabel " + gnuplot::quoted(place.axis("place along the beam")) + "\nset cblabel " +
-                gnuplot::quoted(u.axis("displacement")) + "\n";
+                gnuplot::quoted(u.axis(quantity)) + "\n";
   picture.set += "set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 '#b2182b')\n";
   const double limit = largest > 0.0 ? largest * u.factor : 1.0;
   picture.set += "set cbrange [" + rounded(-limit) + ":" + rounded(limit) +
@@ -163,32 +204,45 @@ std::vector<Picture> shape_pictures(const Result& result, model::FieldReader& fi
   const model::FieldLayout& layout = fields.layout();
   const auto u = field_of(layout, "u"), state = field_of(layout, "stop_state");
   const auto records = records_in(fields.times(), window);
-  if (!u || records.size() < 2) return {};
-  std::vector<std::pair<const model::FieldLine*, Sampler>> lines;
-  for (const model::FieldLine& line : layout.lines)
-    if (line.nodes.size() >= kFewestNodes) lines.emplace_back(&line, Sampler(layout, line));
+  if (records.size() < 2) return {};
+  struct Drawn {
+    const model::FieldLine* line;
+    std::size_t field;
+    Sampler sampler;
+  };
+  std::vector<Drawn> lines;
+  const auto chosen = drawn_fields(fields, records);
+  for (std::size_t i = 0; i < layout.lines.size(); ++i)
+    if (const model::FieldLine& line = layout.lines[i]; line.nodes.size() >= kFewestNodes && chosen[i])
+      lines.push_back({&line, *chosen[i], Sampler(layout, line)});
   std::vector<double> values(layout.nodes.size());
-  for (const std::size_t record : records) {
-    fields.read(record, *u, values);
-    for (auto& [line, sampler] : lines) sampler.take(fields.times()[record], values);
+  for (std::size_t field = 0; field < layout.fields.size(); ++field) {
+    if (std::none_of(lines.begin(), lines.end(), [&](const Drawn& drawn) { return drawn.field == field; })) continue;
+    for (const std::size_t record : records) {
+      fields.read(record, field, values);
+      for (Drawn& drawn : lines)
+        if (drawn.field == field) drawn.sampler.take(fields.times()[record], values);
+    }
   }
   if (state) {
     for (std::size_t record = records.front(); record <= records.back(); ++record) {
       fields.read(record, *state, values);
       const double t = fields.times()[record], before = fields.times()[record - (record > records.front() ? 1 : 0)];
-      for (auto& [line, sampler] : lines) sampler.follow(t, before, values);
+      for (Drawn& drawn : lines) drawn.sampler.follow(t, before, values);
     }
-    for (auto& [line, sampler] : lines) sampler.end(fields.times()[records.back()]);
+    for (Drawn& drawn : lines) drawn.sampler.end(fields.times()[records.back()]);
   }
   std::vector<Picture> pictures;
-  for (const auto& [line, sampler] : lines) {
+  for (const Drawn& drawn : lines) {
     std::string name = "shape", title = result.title.empty() ? result.label : result.title;
     if (several) name += "-" + result.label;
     if (lines.size() > 1) {
-      name += "-" + line->name;
-      title = line->name + ": " + title;
+      name += "-" + drawn.line->name;
+      title = drawn.line->name + ": " + title;
     }
-    pictures.push_back(picture_of(sampler.map, title, name));
+    const bool is_u = u && drawn.field == *u;
+    pictures.push_back(picture_of(
+        drawn.sampler.map, is_u ? "displacement" : "displacement " + layout.fields[drawn.field].name, title, name));
   }
   return pictures;
 }
