@@ -16,14 +16,15 @@ ContactError::ContactError(const model::System& system, const dynamics::ModalSys
                            const std::vector<ContactForce>& contacts, const DisplacementBounds& bounds,
                            const ContactScales& scales, const ContactIteration& iteration,
                            const ResidualErrors& residual)
-    : goal_(goal),
+    : modal_(modal),
+      goal_(goal),
       contacts_(contacts),
       bounds_(bounds),
       scales_(scales),
       iteration_(iteration),
       residual_(residual),
       accounts_(account_goal(goal, lowest_frequency(modal)), static_cast<Index>(contacts.size())),
-      modes_(system, modal, contacts, bounds.gaps(), account_goal(goal, lowest_frequency(modal))) {}
+      modes_(system, modal, contacts, bounds.gaps(), account_goal(goal, lowest_frequency(modal)), residual.jumps()) {}
 
 void ContactError::start(double t, double* memory) const {
   accounts_.start(t, memory);
@@ -91,6 +92,19 @@ double ContactError::of_touched(dynamics::ContactPropagator& flow, Index stop, d
     }
   }
   return error * (displacement / scale.displacement);
+}
+
+// The phases of the modes are assumed independent. A stop at rest has the speed that the jump itself causes; only
+// beyond that the scales of other components mean anything. Constants: plugins/exponential/THEORY.md, section 8.1.
+double ContactError::of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed) {
+  constexpr double kMoving = 0.25, kElsewhere = 0.1;
+  const auto shape = modal_.stop_shapes().of(stop).array();
+  const double jump = 2.0 * residual_.force(stop).largest();
+  const Eigen::ArrayXd hidden = jump * iteration_.influence().hidden_by_jump(flow, stop);
+  double error = (shape * hidden).matrix().norm() / speed;
+  if (jump * flow.h() * shape.matrix().squaredNorm() < kMoving * speed)
+    error = std::max(error, kElsewhere * modes_.largest(hidden));
+  return error / (kUnresolved * goal_.outputs);
 }
 
 }  // namespace butee::integrators

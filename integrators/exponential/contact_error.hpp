@@ -35,16 +35,14 @@ class ContactError {
   /// The error of the step with its forces, m; `displacement` is the largest displacement of all
   /// stops, m.
   double of_step(dynamics::ContactPropagator& flow, const TriedStep& step, double displacement);
-  /// Indicator 6, relative to the error bound of the speed: the residual force of a stop jumps in
-  /// the step.
-  double of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed) const {
-    const double hidden = 2.0 * residual_.force(stop).largest() * iteration_.influence().hidden_by_jump(flow, stop);
-    return hidden / (kUnresolved * goal_.outputs * flow.h() * speed);
-  }
+  /// Indicator 6, relative to the error bound of velocities: the residual force of a stop, whose speed scale is
+  /// `speed`, jumps in the step.
+  double of_jump(const dynamics::ContactPropagator& flow, Index stop, double speed);
 
  private:
   double of_touched(dynamics::ContactPropagator& flow, Index stop, double t_end, double quartic, double displacement);
 
+  const dynamics::ModalSystem& modal_;
   const StepGoal& goal_;
   const std::vector<ContactForce>& contacts_;
   const DisplacementBounds& bounds_;

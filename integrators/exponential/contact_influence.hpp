@@ -31,12 +31,10 @@ class ContactInfluence {
   double stiff(dynamics::ContactPropagator& flow, Index stop) const {
     return stiffness_[static_cast<std::size_t>(stop)] * of(flow, stop).coupling[1][0];
   }
-  /// h times the speed error of a stop due to the projection of a force with a jump of 1 N, m/N;
-  /// the phases of the modes are assumed independent.
-  double hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop) const {
-    const auto shape = modal_.stop_shapes().of(stop).array();
-    const auto parts = shape.square() * (flow.h() * rates_).unaryExpr([](double x) { return unresolved_jump(x); });
-    return flow.h() * flow.h() * parts.matrix().norm();
+  /// The speed errors of the modes due to the projection of a force with a jump of 1 N at a stop, s/kg^(1/2).
+  Eigen::ArrayXd hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop) const {
+    return flow.h() * modal_.stop_shapes().of(stop).array() *
+           (flow.h() * rates_).unaryExpr([](double x) { return unresolved_jump(x); });
   }
   const ContactNewton& newton(Index stop) const { return newton_[static_cast<std::size_t>(stop)]; }
 

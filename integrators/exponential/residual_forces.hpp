@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -21,6 +22,11 @@ class ResidualErrors {
 
   /// True if a law has a residual force.
   bool any() const { return any_; }
+  /// True if the residual force of a stop jumps in the middle of its gap.
+  bool jumps() const {
+    return std::any_of(forces_.begin(), forces_.end(),
+                       [](const ResidualForce& force) { return force.jumps() && force.largest() > 0.0; });
+  }
   const ResidualForce& force(Index stop) const { return forces_[static_cast<std::size_t>(stop)]; }
   /// Computes shares(), the scale of each stop as a fraction of the largest.
   void find_shares();

@@ -8,13 +8,15 @@ namespace butee::integrators {
 using Eigen::ArrayXd;
 
 UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal,
-                                 const std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal)
+                                 const std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal,
+                                 bool jumps)
     : modal_(modal),
       contacts_(contacts),
       gaps_(gaps),
       scales_(system),
       account_(goal),
       is_possible_(modal.size() > 1 && !contacts.empty()),
+      needs_speeds_(is_possible_ && jumps),
       squares_(modal.frequencies().square()),
       closed_(ArrayXd::Zero(modal.stop_count())) {
   if (is_possible_) speeds_ = now_ = Vector::Zero(modal.shapes().rows());
@@ -37,7 +39,25 @@ void UnresolvedModes::begin(double t, const double* memory, const ModalState& st
     closed_[j] = gaps_.is_spring(j) ? 1.0 : gaps_.closed_side(j, state.w[j]);
     any_ = any_ || (was_closed && closed_[j] != 0.0);
   }
+  if (any_ || needs_speeds_) raise_speeds(state);
   if (any_) find_rates(t, state, memory + 1 + speeds_.size());
+}
+
+void UnresolvedModes::raise_speeds(const ModalState& state) {
+  modal_.to_physical(state.v.data(), now_);
+  scales_.raise(now_, speeds_);
+}
+
+double UnresolvedModes::largest(const ArrayXd& modal_speeds) const {
+  constexpr double kLeastOfKind = 0.02;
+  Vector of_kind(speeds_.size());
+  scales_.largest_of_kind(speeds_, of_kind);
+  const ArrayXd squares = modal_speeds.square();
+  double largest = 0.0;
+  for (Index d = 0; d < speeds_.size(); ++d)
+    if (const double scale = std::max(speeds_[d], kLeastOfKind * of_kind[d]); scale > 0.0)
+      largest = std::max(largest, (modal_.shape_rows().col(d).array().square() * squares).sum() / (scale * scale));
+  return std::sqrt(largest);
 }
 
 void UnresolvedModes::save(double* memory) const {
@@ -57,8 +77,6 @@ double UnresolvedModes::error(double h) const {
 }
 
 void UnresolvedModes::find_rates(double t, const ModalState& state, const double* was_closed) {
-  modal_.to_physical(state.v.data(), now_);
-  scales_.raise(now_, speeds_);
   acceleration_ = -squares_ * state.q - 2.0 * modal_.decay() * state.v;
   modal_.add_load(t, acceleration_);
   rise_.setZero(modal_.size());

@@ -27,9 +27,9 @@ inline double unreceived_part(double square) {
 /// state. Checked in tests/models/exponential_long_runs_test.cpp.
 class UnresolvedModes {
  public:
-  /// All must outlive it.
+  /// All must outlive it. `jumps`: largest() is needed.
   UnresolvedModes(const model::System& system, const dynamics::ModalSystem& modal,
-                  const std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal);
+                  const std::vector<ContactForce>& contacts, const ContactGaps& gaps, const Goal& goal, bool jumps);
 
   Index memory_size() const { return is_possible_ ? 1 + speeds_.size() + closed_.size() : 0; }
   /// Fills the entries of a state at the start of a run.
@@ -37,6 +37,10 @@ class UnresolvedModes {
   /// Begins a macro step with the state at t.
   void begin(double t, const double* memory, const ModalState& state);
   void save(double* memory) const;
+
+  /// The largest velocity of a component by the given speeds of the modes, in independent phases, relative to its
+  /// largest velocity so far, or to kLeastOfKind of the largest of its kind; 0 before anything moves.
+  double largest(const Eigen::ArrayXd& modal_speeds) const;
 
   /// A stop stays closed.
   bool any() const { return any_; }
@@ -49,6 +53,7 @@ class UnresolvedModes {
   }
 
  private:
+  void raise_speeds(const ModalState& state);
   void find_rates(double t, const ModalState& state, const double* was_closed);
 
   const dynamics::ModalSystem& modal_;
@@ -57,6 +62,7 @@ class UnresolvedModes {
   ComponentScales scales_;
   ErrorAccount account_;
   bool is_possible_;        ///< the modes turn at different rates
+  bool needs_speeds_;       ///< in every macro step
   Eigen::ArrayXd squares_;  ///< omega^2
   bool any_ = false;
   double spent_ = 0.0;

@@ -144,6 +144,7 @@ TEST(Stress, ScenesThatExponentialGotWrongOnce) {
       "wide 51490",      // loads with higher frequencies than slow modes
       "wide 7547",       // hundreds of impacts whose errors add up
       "wide 79508",      // the same between hard stops
+      "wide 1040143",    // a residual force that jumps beside undamped modes faster than the step
       "random 400848",   // a residual force that jumps in a step divided for outputs
       "rubbing 70914",   // friction that reverses within a step
       "rubbing 817804",  // a friction support that reverses beside a stop on the same DOF
