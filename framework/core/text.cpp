@@ -64,10 +64,10 @@ std::string to_text(double value) {
   return text;
 }
 
-std::string to_short_text(double value) {
+std::string to_short_text(double value, int digits) {
   std::array<char, 40> buffer{};
   const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 6).ptr;
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits).ptr;
   return {buffer.data(), end};
 }
 

@@ -21,8 +21,8 @@ BUTEE_EXPORT std::string join(const std::vector<std::string>& parts, std::string
 /// The shortest decimal that reads back as the same double, always a TOML float: "1.0", "2.5e-06".
 BUTEE_EXPORT std::string to_text(double value);
 
-/// `value` with 6 significant digits, for messages.
-BUTEE_EXPORT std::string to_short_text(double value);
+/// `value` with some significant digits, for messages.
+BUTEE_EXPORT std::string to_short_text(double value, int digits = 6);
 
 /// The text without control characters, which a terminal would interpret: a line break is kept if
 /// `with_lines`, all others become "?".

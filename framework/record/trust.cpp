@@ -111,11 +111,28 @@ Trust::Statistic bracket(const std::string& name, const std::vector<double>& val
   return {name, value, std::max(0.0, value - margin), value + margin, false};
 }
 
+namespace {
+
+/// "0.001144851235 +- 3.5e-11", "23 in all runs"; an interval that zero cuts off: "1e-9, between 0 and 3e-9".
+std::string interval_of(const Trust::Statistic& s) {
+  const std::string range = ", between " + to_short_text(s.least) + " and " + to_short_text(s.greatest);
+  if (s.is_count) return to_short_text(s.value) + (s.least < s.greatest ? range : "") + " in all runs";
+  const double margin = s.greatest - s.value;
+  if (!(margin > 0.0) || !std::isfinite(margin) || !(s.least > 0.0)) return to_short_text(s.value) + range;
+  // As many digits as have meaning, two of them uncertain; the margin covers the rounding of both numbers.
+  constexpr double kOfRounding = 1.1;
+  const int digits = static_cast<int>(std::ceil(std::log10(s.value / margin))) + 2;
+  return to_short_text(s.value, std::clamp(digits, 6, 15)) + " +- " + to_short_text(kOfRounding * margin, 2);
+}
+
+}  // namespace
+
 std::string describe(const Trust& trust) {
   std::vector<std::string> beside;
   if (!trust.other.empty()) beside.push_back("a run by " + trust.other);
   if (!trust.tightened.empty()) beside.push_back("one with " + trust.tightened);
-  std::string text = "  trust: compared with " + join(beside, " and ") + ", the error of the probes' displacements and rotations is ";
+  std::string text = "  trust: compared with " + (beside.empty() ? "no other run" : join(beside, " and ")) +
+                     ", the error of the probes' displacements and rotations is ";
   const std::string accuracy = to_short_text(trust.accuracy) + " of the peak";
   if (trust.to_the_end)
     text += "at most " + to_short_text(trust.bound) + " of the peak to the end, within the " +
@@ -127,14 +144,13 @@ std::string describe(const Trust& trust) {
   text += trust.chaotic
               ? "\n  trust: small differences grow like e^(" + to_short_text(trust.growth_rate) + " t)" +
                     (trust.growth_until < trust.end ? " up to t = " + to_short_text(trust.growth_until) + " s" : "") +
-                    ", by " + to_short_text(trust.amplification) +
-                    " in all: beyond the horizon the motion cannot be predicted; reliable results:"
+                    ", by " + to_short_text(trust.amplification) + " in all" +
+                    (trust.to_the_end ? "" : ": beyond the horizon the motion cannot be predicted") +
+                    "; reliable results:"
               : "\n  trust: small differences grew at most " + to_short_text(trust.amplification) +
                     " times; reliable results:";
   text += "\n";
-  for (const Trust::Statistic& s : trust.statistics)
-    text += "  trust: " + s.name + " = " + to_short_text(s.value) + ", between " + to_short_text(s.least) + " and " +
-            to_short_text(s.greatest) + (s.is_count ? " in all runs\n" : "\n");
+  for (const Trust::Statistic& s : trust.statistics) text += "  trust: " + s.name + " = " + interval_of(s) + "\n";
   return text;
 }
 

@@ -24,6 +24,21 @@ TEST(Judgement, IsRelativeToThePeakOfEachProbe) {
   EXPECT_NEAR(record::judge(runs, 0.01).end_bound, 10.0 * 1e-3, 1e-9);
 }
 
+/// Intervals show what they exclude: the printed margin covers the rounding of both numbers.
+TEST(Judgement, IsPrintedWithTheDigitsThatItHas) {
+  record::Trust trust;
+  trust.statistics = {{"peak of u", 0.00114485123456, 0.00114485120312, 0.00114485126600},
+                      {"rms of v", 1.25, 1.0, 1.5},
+                      {"force", 1e-9, 0.0, 3e-9},
+                      {"impacts", 23.0, 23.0, 23.0, true},
+                      {"closings", 23.0, 22.0, 25.0, true}};
+  const std::string text = record::describe(trust);
+  for (const char* line :
+       {"peak of u = 0.001144851235 +- 3.5e-11\n", "rms of v = 1.25 +- 0.28\n", "force = 1e-09, between 0 and 3e-09\n",
+        "impacts = 23 in all runs\n", "closings = 23, between 22 and 25 in all runs\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
 /// A chaotic rotation beside a displacement at rest, and an impact with dissipation: both are seen, by all numbers.
 TEST(Judgement, SeesRotationsAndDissipativeStops) {
   const std::string scene =

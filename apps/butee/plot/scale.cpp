@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include <butee/core/text.hpp>
 
 namespace butee::app::plot {
 namespace {
@@ -36,9 +37,7 @@ double largest_of(std::span<const double> values) {
 }
 
 std::string short_number(double value, int digits) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return text.data();
+  return to_short_text(value, digits);
 }
 
 }  // namespace butee::app::plot
