@@ -82,6 +82,14 @@ Number fitting(Number number, const Parsed& from, const std::string& key, Places
   return number;
 }
 
+/// toml11 reads numbers by the global locale of the program that uses this library, which may have a decimal comma.
+double float_of(const Parsed& from) {
+  const auto where = from.location();
+  std::string text = where.line_str().substr(where.column() - 1, where.region());
+  std::erase(text, '_');
+  return number_of(text).value_or(from.as_floating());
+}
+
 Table convert_table(const Parsed& from, Source& source) {
   struct Placed {
     std::ptrdiff_t offset;
@@ -104,7 +112,7 @@ Value convert(const Parsed& from, const std::string& key, Source& source) {
     case toml::value_t::integer:
       return {fitting(std::int64_t{from.as_integer()}, from, key, source.places), at};
     case toml::value_t::floating:
-      return {fitting(double{from.as_floating()}, from, key, source.places), at};
+      return {fitting(float_of(from), from, key, source.places), at};
     case toml::value_t::string:
       return {std::string(from.as_string().str), at};
     case toml::value_t::array: {
@@ -186,6 +194,7 @@ Document load_toml(const std::string& path) {
     // Devices and pipes may be endless.
     if (text.size() > kLargestText) throw InputError(path + too_large());
   }
+  if (file.bad()) throw InputError(path + ": cannot be read to its end");
   return parse_toml(text, path);
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <locale>
 
 #include <butee/config/override.hpp>
 #include <butee/config/parameters.hpp>
@@ -245,6 +246,23 @@ TEST(Text, ClosestNameIsNearOrNothing) {
   EXPECT_EQ(closest_name("", known), "");
   EXPECT_EQ(suggestion("newmark_adaptiv", known), " (did you mean \"newmark_adaptive\"?)");
   EXPECT_EQ(suggestion("zzz", known), "");
+}
+
+/// A host program may have set a locale whose numbers have decimal commas and groups of three.
+TEST(Toml, ReadsNumbersTheSameInEveryLocale) {
+  struct German final : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+  };
+  const std::string text = "a = 1.5\nb = [7850.0, -2.5e-3]\nc = 1_000.25\nd = { e = +0.125 }\nf = 21_000\n";
+  const Document plain = parse_toml(text, "x.toml");
+  const std::locale before = std::locale::global(std::locale(std::locale(), new German));
+  const Document german = parse_toml(text, "x.toml");
+  std::locale::global(before);
+  EXPECT_TRUE(same(german.root, plain.root));
+  EXPECT_EQ(config::as_number(*german.root.table()->find("a")), 1.5);
+  EXPECT_EQ(config::as_number(*german.root.table()->find("c")), 1000.25);
 }
 
 }  // namespace
