@@ -99,9 +99,7 @@ int whirl_command(const ModesArguments& arguments) {
                      std::to_string(kMostCampbellSteps));
   const bool writes = arguments.plot || !arguments.folder.empty();
   const record::ResultFolder folder(folder_of(arguments));
-  if (writes) folder.check();
-  if (writes && std::filesystem::exists(folder.file("history.csv")))
-    throw InputError(folder.path() + ": holds the results of a run; choose another folder with -o");
+  if (writes) folder.check_holds_no_run();
   const auto diagram =
       modes::campbell(whirl, session.model.title, from, to, static_cast<Index>(steps), arguments.order, count);
   if (arguments.json)
@@ -147,9 +145,7 @@ int modes_command(const ModesArguments& arguments) {
   const auto closed = dynamics::closed_stops(session.model, arguments.closed);
   const bool writes = arguments.plot || !arguments.folder.empty();
   const record::ResultFolder folder(folder_of(arguments));
-  if (writes) folder.check();
-  if (writes && std::filesystem::exists(folder.file("history.csv")))
-    throw InputError(folder.path() + ": holds the results of a run; choose another folder with -o");
+  if (writes) folder.check_holds_no_run();
   const Index count = arguments.count > 0 ? arguments.count : std::min(kDefaultCount, system.size());
   const modes::Analysis analysis = dynamics::analyse_modes(session.model, system, closed, count);
   if (arguments.json)

@@ -44,7 +44,7 @@ int stability_command(const StabilityArguments& arguments) {
   const record::ResultFolder folder(!arguments.folder.empty()
                                         ? arguments.folder
                                         : (arguments.method.empty() ? "stability" : methods.front() + "-stability"));
-  folder.check();
+  folder.check_holds_no_run();
   std::vector<Analysis> all;
   for (const std::string& method : methods) all.push_back(analyse(catalogue, method, arguments.request));
   const record::FolderLock lock = folder.lock();

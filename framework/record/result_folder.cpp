@@ -92,6 +92,14 @@ void ResultFolder::check() const {
   FolderLock::check(path_);
 }
 
+void ResultFolder::check_holds_no_run() const {
+  check();
+  std::error_code error;
+  for (const char* name : kOurFiles)
+    if (fs::exists(file(name), error))
+      throw InputError(path_ + ": holds the results of a run (" + name + "); choose another folder with -o");
+}
+
 FolderLock ResultFolder::lock() const {
   std::error_code error;
   fs::create_directories(path_, error);

@@ -18,6 +18,9 @@ class BUTEE_EXPORT ResultFolder {
   /// there. Writes nothing.
   void check() const;
 
+  /// For results other than those of a run: throws as check() does, and if the folder holds the results of a run.
+  void check_holds_no_run() const;
+
   /// Creates the folder and locks it for writing, until the lock is destroyed. Throws as check()
   /// does, and RunError.
   [[nodiscard]] FolderLock lock() const;

@@ -47,6 +47,19 @@ std::vector<std::string> shards_in(const std::string& folder) {
   return shards;
 }
 
+/// A file that a study leaves if it is killed before study.toml is in its place.
+bool is_draft(const std::string& name) {
+  return name == record::FolderLock::kName || name == std::string(kStudyFile) + ".part";
+}
+
+/// A shard of a study, also one that was killed at its start; not any other folder of such a name.
+bool is_shard(const std::string& folder, const std::string& name) {
+  const std::string path = (fs::path(folder) / name).string();
+  if (!begins_with(name, kShard) || !fs::is_directory(path)) return false;
+  const auto entries = entries_of(path);
+  return Store::is_study_folder(path) || std::all_of(entries.begin(), entries.end(), is_draft);
+}
+
 /// The tables of a study, with absolute paths of point files.
 config::Value with_absolute_files(const config::Document& document) {
   config::Value root = document.root;
@@ -111,7 +124,7 @@ void Store::refuse_foreign(const std::string& folder) {
     throw InputError(folder + ": is a file, not a folder for results; choose another with -o");
   if (is_study_folder(folder)) return;
   for (const std::string& name : entries_of(folder))
-    if (name != record::FolderLock::kName && name != std::string(kStudyFile) + ".part" && !begins_with(name, kShard))
+    if (!is_draft(name) && !is_shard(folder, name))
       throw InputError(folder + ": is not empty and holds no study of butee (it has " + name +
                        "), so it is not touched; choose another folder with -o");
 }
@@ -119,7 +132,7 @@ void Store::refuse_foreign(const std::string& folder) {
 void Store::clear() const {
   std::error_code error;
   for (const std::string& name : entries_of(folder_))
-    if (begins_with(name, kRows) || begins_with(name, kSweep) || begins_with(name, kShard) ||
+    if (begins_with(name, kRows) || begins_with(name, kSweep) || is_shard(folder_, name) ||
         begins_with(name, std::string(kResult) + "."))
       fs::remove_all(fs::path(folder_) / name, error);
 }

@@ -114,6 +114,23 @@ TEST(ManyShards, AreMergedWithFewOpenFiles) {
   }
 }
 
+/// --fresh removes the study's own shards, not folders of other programs with such names.
+TEST(ManyShards, OfAnotherProgramAreNotTouched) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", kScene);
+  folder.write("study.toml", kStudy);
+  fs::create_directories(folder.file("data/shard-1"));
+  folder.write("data/shard-1/train.bin", "precious");
+  EXPECT_EQ(shell(folder, program("study study.toml -q --format csv -o data --fresh")), 2);
+  EXPECT_NE(read_file(folder.file("out")).find("holds no study of butee (it has shard-1)"), std::string::npos)
+      << read_file(folder.file("out"));
+  ASSERT_EQ(shell(folder, program("study study.toml -q --format csv -o mine --shard 1/2")), 0);
+  fs::copy(folder.file("data/shard-1"), folder.file("mine/shard-1"));
+  shell(folder, program("study study.toml -q --format csv -o mine --fresh"));
+  EXPECT_FALSE(fs::exists(folder.file("mine/shard-1-of-2")) && fs::exists(folder.file("mine/study.csv")));
+  EXPECT_EQ(read_file(folder.file("mine/shard-1/train.bin")), "precious");
+}
+
 TEST(StudyRuns, OfCountlessPeriodsAreRefused) {
   const TemporaryFolder folder;
   folder.write("scene.toml", kScene);

@@ -127,5 +127,27 @@ TEST_F(TwoRuns, ALockAloneMakesNoFolderForeign) {
   expect_whole(1.0);
 }
 
+/// Results of a run, fields or a checkpoint alone included, are not replaced by those of other commands.
+TEST_F(TwoRuns, OtherCommandsDoNotReplaceTheResultsOfARun) {
+  folder_.write("scene.toml",
+                std::string(kScene) + "[[output.probe]]\nlabel = \"a\"\nnode = \"a\"\nquantities = [\"u\"]\n");
+  for (const char* kept : {"history.csv", "checkpoint.bin"}) {
+    ASSERT_EQ(run_program(run_to("0.01"), folder_.path()).status, 0);
+    if (kept != std::string("history.csv"))
+      for (const char* name : {"history.csv", "energy.csv", "summary.json"})
+        fs::rename(folder_.file(std::string("both/") + name), folder_.file("both/checkpoint.bin"));
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"stability", "rk4"}, {"modes", "scene.toml"}, {"compare", "scene.toml"}}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"-q", "-o", "both"});
+      const Outcome outcome = run_program(words, folder_.path());
+      EXPECT_EQ(outcome.status, 2) << command.front();
+      EXPECT_NE(outcome.errors.find("both: holds the results of a run (" + std::string(kept)), std::string::npos)
+          << outcome.errors;
+    }
+    EXPECT_TRUE(fs::exists(folder_.file(std::string("both/") + kept)));
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::two_runs_test
