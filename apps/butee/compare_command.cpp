@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <cinttypes>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -18,6 +16,7 @@
 
 #include "commands.hpp"
 #include "compare/report.hpp"
+#include "interruption.hpp"
 
 namespace butee::app {
 namespace {
@@ -28,10 +27,6 @@ using namespace compare;
 constexpr double kFineEnough = 0.3;
 /// Assumed ratio of a run's time to that of the run before it; runs expected to exceed the time limit are skipped.
 constexpr double kGrowth = 2.0;
-
-extern "C" void note_interruption(int) {
-  interrupted = 1;
-}
 
 /// The reference as an input of a row: its origin, and the bits of its values.
 std::string text_of(const Reference& reference) {
@@ -54,15 +49,6 @@ std::vector<std::string> names_of(const std::vector<std::string>& files) {
   return names;
 }
 
-/// FNV-1a hash of the inputs of a row.
-std::string fingerprint_of(const std::string& text) {
-  std::uint64_t hash = 1469598103934665603U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
-  std::array<char, 20> hex{};
-  std::snprintf(hex.data(), hex.size(), "%016" PRIx64, hash);
-  return hex.data();
-}
-
 struct CompareArguments {
   ModelArguments model;  ///< a model or a study
   std::string folder;    ///< empty: "<stem>-compare"
@@ -77,25 +63,26 @@ class Comparison {
   }
 
   int perform() {
+    const record::ResultFolder folder(folder_);
+    folder.check_holds_no_run();
     std::vector<Prepared> scenes;
     const std::vector<std::string> names = names_of(study_.scenes);
     for (std::size_t i = 0; i < study_.scenes.size(); ++i) {
       scenes.push_back(prepare(i));
       scenes.back().name = names[i];
     }
-    const record::ResultFolder folder(folder_);
     const record::FolderLock lock = folder.lock();
     const std::string runs = folder.file("runs.csv");
     if (!arguments_.fresh) kept_ = read_csv(runs);
     folder.prepare("# the scenes of a comparison are named in report.md\n");
-    std::signal(SIGINT, note_interruption);
+    watch_for_interruption();
     std::vector<SceneResult> results;
     for (Prepared& scene : scenes) {
-      if (interrupted != 0) break;
+      if (interruption() != nullptr) break;
       results.push_back(compare_scene(scene));
       write(results);
     }
-    if (interrupted == 0) return kDone;
+    if (interruption() == nullptr) return kDone;
     log::warning("interrupted; completed runs are in " + folder_ + "; the same command continues from there");
     return kFailed;
   }
@@ -159,7 +146,7 @@ class Comparison {
     const double floor = std::max(finest, result.reference.uncertainty);
     double last_seconds = 0.0;
     for (const double value : sweep.values) {
-      if (interrupted != 0 || last_seconds * kGrowth > study_.time_limit) return;
+      if (interruption() != nullptr || last_seconds * kGrowth > study_.time_limit) return;
       Row row;
       try {
         row = run(scene, sweep, value, result);
@@ -200,9 +187,9 @@ class Comparison {
     row.method = sweep.method;
     row.knob = sweep.knob;
     row.value = value;
-    row.fingerprint = fingerprint_of(BUTEE_VERSION + target() + compiled_for() +
-                                     config::write_toml(config::with_files_found_from(document, ".")) + result.column +
-                                     reference_text_);
+    row.fingerprint = config::checksum_text(BUTEE_VERSION + target() + compiled_for() +
+                                            config::write_toml(config::with_files_found_from(document, ".")) +
+                                            result.column + reference_text_);
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Row& other) {
       return other.fingerprint == row.fingerprint && other.scene == row.scene;
     });

@@ -9,8 +9,9 @@
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
 #include <butee/dynamics/modal_system.hpp>
+#include <butee/study/table.hpp>
 
-#include "../csv.hpp"
+#include "../interruption.hpp"
 
 namespace butee::app::compare {
 namespace {
@@ -41,7 +42,7 @@ Values compute(const config::Document& scene, const plugin::Catalogue& catalogue
   config::Document document = with_method(scene, type, sweep, 0.0);
   scene::Scene session = scene::read_scene(std::move(document), own);
   Answer answer = run_once(session, question, kTimeLimit, perturbation);
-  if (interrupted != 0) throw RunError("interrupted during the reference; earlier comparisons are kept");
+  if (interruption() != nullptr) throw RunError("interrupted during the reference; earlier comparisons are kept");
   if (!answer.completed)
     throw RunError("the reference by " + method + " failed: " + answer.message +
                    "; give one as a file ([study] reference) or another horizon (end_time)");
@@ -75,7 +76,9 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
   std::string line;
   std::size_t number = 1;
   while (std::getline(file, line) && line.starts_with('#')) ++number;
-  const std::vector<std::string> header = split_csv(line);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
+  const std::vector<std::string> header = study::cells_of(line);
   const auto place = [&](const std::string& name) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) throw InputError(path + ": there is no column \"" + name + "\"; it has " + join(header));
@@ -85,7 +88,7 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
   std::vector<double> values;
   while (values.size() < question.times.size() && std::getline(file, line)) {
     ++number;
-    const auto cells = split_csv(line);
+    const auto cells = study::cells_of(line);
     const auto number_in = [&](std::size_t i) {
       const auto read = i < cells.size() ? number_of(cells[i]) : std::nullopt;
       if (!read) throw InputError(path + ":" + std::to_string(number) + ": is not a row of numbers");

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include <butee/core/text.hpp>
+#include <butee/study/table.hpp>
 
-#include "../csv.hpp"
 #include "../gnuplot.hpp"
 
 namespace butee::app::compare {
@@ -140,7 +140,7 @@ std::vector<Row> read_csv(const std::string& path) {
   std::getline(file, line);
   if (line != csv_header()) return rows;
   while (std::getline(file, line)) {
-    const auto cells = split_csv(line);
+    const auto cells = study::cells_of(line);
     if (cells.size() != kColumns) continue;
     try {
       Row row;

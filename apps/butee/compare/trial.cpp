@@ -8,12 +8,10 @@
 #include <butee/core/text.hpp>
 #include <butee/scene/assembly.hpp>
 
+#include "../interruption.hpp"
 #include "../perturb.hpp"
 
 namespace butee::app::compare {
-
-volatile std::sig_atomic_t interrupted = 0;
-
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -112,13 +110,13 @@ Answer run_once(scene::Scene& session, const Question& question, double time_lim
   Sampler sampler(question, dynamics);
   simulation.add(sampler);
   bool goes_on = true;
-  while (goes_on && interrupted == 0 && seconds_since(begin) < time_limit)
+  while (goes_on && interruption() == nullptr && seconds_since(begin) < time_limit)
     for (int i = 0; i < kStepsUnwatched && goes_on; ++i) goes_on = simulation.advance();
   answer.seconds = seconds_since(begin);
   answer.report = simulation.report();
   answer.completed = answer.report.completed;
   answer.message = answer.report.message;
-  if (goes_on && !answer.completed) answer.message = interrupted != 0 ? "interrupted" : "too slow";
+  if (goes_on && !answer.completed) answer.message = interruption() != nullptr ? "interrupted" : "too slow";
   answer.counters = dynamics.counters();
   answer.values = std::move(sampler.values);
   return answer;
@@ -127,7 +125,7 @@ Answer run_once(scene::Scene& session, const Question& question, double time_lim
 Answer measure(scene::Scene& session, const Question& question, double time_limit) {
   Answer best = run_once(session, question, time_limit);
   double sum = best.seconds;
-  for (int i = 1; best.completed && i < kMostRuns && interrupted == 0; ++i) {
+  for (int i = 1; best.completed && i < kMostRuns && interruption() == nullptr; ++i) {
     if (sum > kReliable && (i >= kFewestRuns || sum > time_limit)) break;
     Answer next = run_once(session, question, time_limit);
     sum += next.seconds;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <csignal>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +9,6 @@
 #include "../session.hpp"
 
 namespace butee::app::compare {
-
-/// Set by Ctrl-C; the current run ends at the next step.
-extern volatile std::sig_atomic_t interrupted;
 
 /// The compared quantities and instants.
 struct Question {

@@ -6,7 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../csv.hpp"
+#include <butee/study/table.hpp>
+
 #include "../gnuplot.hpp"
 
 namespace butee::app::plot {
@@ -28,9 +29,9 @@ class Rows {
   explicit Rows(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::string line;
-    if (std::getline(file, line)) names_ = split_csv(line);
+    if (std::getline(file, line)) names_ = study::cells_of(line);
     while (std::getline(file, line) && !file.eof())
-      if (auto cells = split_csv(line); cells.size() == names_.size()) rows_.push_back(std::move(cells));
+      if (auto cells = study::cells_of(line); cells.size() == names_.size()) rows_.push_back(std::move(cells));
   }
   std::size_t size() const { return rows_.size(); }
   const std::string& text(std::size_t row, const char* name) const {

@@ -5,8 +5,7 @@
 #include <sstream>
 
 #include <butee/core/error.hpp>
-
-#include "../csv.hpp"
+#include <butee/study/table.hpp>
 
 namespace butee::app::plot {
 namespace {
@@ -38,7 +37,7 @@ Table read_table(const std::string& path, Window window) {
   std::string line;
   Table table;
   if (!file || !std::getline(file, line)) throw InputError(path + ": cannot be read, or is empty");
-  table.names = split_csv(line);
+  table.names = study::cells_of(line);
   if (table.names.empty() || table.names.front() != "t") throw InputError(path + ": its first column is not t");
   table.columns.resize(table.names.size());
   std::vector<double> row(table.names.size());
