@@ -98,7 +98,7 @@ std::string column_complaint(const Value& value) {
   if (value.text() != nullptr) return value.text()->empty() ? "must not be empty" : "";
   const auto* place = std::get_if<std::int64_t>(&value.data);
   if (place == nullptr) return std::string("must be an integer or a string, not ") + value.kind();
-  return *place >= 1 && *place <= 1000000 ? "" : "must be >= 1; columns are counted from 1";
+  return *place >= 1 && *place <= 1000000 ? "" : "must be 1 to 1000000; columns are counted from 1";
 }
 
 bool is_tables(const Value& value) {

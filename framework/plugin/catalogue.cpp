@@ -117,12 +117,6 @@ void Catalogue::add_module(const std::string& given_path, bool is_in_folder) {
 }
 
 void Catalogue::add(ModuleTypes found, const std::string& path) {
-  for (const IntegratorType& type : found.integrators) {
-    std::vector<std::string> names = type.aliases;
-    names.push_back(type.name);
-    for (const std::string& name : names)
-      if (const IntegratorEntry* taken = find(name)) refuse("integrator", name, taken->module, path);
-  }
   // All or nothing: a copy receives the types, and is kept only if none is refused.
   Catalogue next = *this;
   next.add_types("law", std::move(found.laws), &ModuleTypes::laws, path, next.types_.laws);
@@ -130,7 +124,13 @@ void Catalogue::add(ModuleTypes found, const std::string& path) {
   next.add_types("load", std::move(found.loads), &ModuleTypes::loads, path, next.types_.loads);
   next.add_types("element", std::move(found.elements), &ModuleTypes::elements, path, next.types_.elements);
   next.add_types("format", std::move(found.formats), &ModuleTypes::formats, path, next.types_.formats);
-  for (IntegratorType& type : found.integrators) next.integrators_.push_back({std::move(type), path});
+  for (IntegratorType& type : found.integrators) {
+    std::vector<std::string> names = type.aliases;
+    names.push_back(type.name);
+    for (const std::string& name : names)
+      if (const IntegratorEntry* taken = next.find(name)) refuse("integrator", name, taken->module, path);
+    next.integrators_.push_back({std::move(type), path});
+  }
   *this = std::move(next);
 }
 

@@ -95,7 +95,8 @@ void CsvWriter::sync() {
 
 void CsvWriter::go_back(std::uint64_t position) {
   flush();
-  require(position <= position_, "a position that the file has reached");
+  if (position > position_)
+    throw RunError(path_ + ": has lost rows that belong to the checkpoint; run the scene again");
   const auto size = static_cast<off_t>(position);
   if (ftruncate(file_.descriptor(), size) != 0 || lseek(file_.descriptor(), size, SEEK_SET) != size) fail();
   flushed_ = position_ = position;

@@ -15,16 +15,21 @@ constexpr double kBytesOfNumber = 12.0;
 
 void check_size(const scene::Scene& scene, const std::string& folder) {
   const model::OutputRequest& output = scene.output;
-  if (!output.interval) return;
+  if (!output.interval || !output.csv) return;
   double columns = 1.0;
   for (const model::ProbeRequest& probe : output.probes) columns += static_cast<double>(probe.quantities.size());
-  const double rows = scene.integrator.options.end_time / *output.interval, bytes = kBytesOfNumber * rows * columns;
-  std::filesystem::path place = std::filesystem::absolute(folder);
-  while (!std::filesystem::exists(place) && place.has_relative_path()) place = place.parent_path();
+  const double begin = scene.model.initial_motion ? scene.model.initial_motion->time : 0.0;
+  const double rows = (scene.integrator.options.end_time - begin) / *output.interval,
+               bytes = kBytesOfNumber * rows * columns;
   std::error_code error;
+  std::filesystem::path place = std::filesystem::absolute(folder, error);
+  // The file of an earlier run is replaced, or continued.
+  const auto present = std::filesystem::file_size(place / "history.csv", error);
+  const double written = error ? 0.0 : static_cast<double>(present);
+  while (!std::filesystem::exists(place, error) && place.has_relative_path()) place = place.parent_path();
   const std::filesystem::space_info disk = std::filesystem::space(place, error);
   // No such numbers: a file system that holds no files.
-  if (error || disk.capacity == 0 || bytes < static_cast<double>(disk.available)) return;
+  if (error || disk.capacity == 0 || bytes < static_cast<double>(disk.available) + written) return;
   throw InputError("output.interval = " + to_text(*output.interval) + ": history.csv would have " +
                    to_short_text(rows) + " rows, about " + to_short_text(1e-9 * bytes) + " GB, but " +
                    to_short_text(1e-9 * static_cast<double>(disk.available)) + " GB are free in " + place.string() +

@@ -28,8 +28,13 @@ class Answering {
     const log::WithoutWarnings quiet;
     stream_.respond(csv_header(layout_));
     std::vector<std::jthread> threads;
-    for (int i = 0; i < threads_; ++i) threads.emplace_back([this] { work(); });
-    read();
+    try {
+      for (int i = 0; i < threads_; ++i) threads.emplace_back([this] { work(); });
+      read();
+    } catch (...) {
+      end();  // The threads wait for points, and are joined.
+      throw;
+    }
     threads.clear();
     if (error_) std::rethrow_exception(error_);
     return failed_;
@@ -52,6 +57,9 @@ class Answering {
       waiting_.push_back({number++, line});
       changed_.notify_all();
     }
+    end();
+  }
+  void end() {
     const std::lock_guard guard(mutex_);
     is_over_ = true;
     changed_.notify_all();

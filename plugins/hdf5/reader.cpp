@@ -34,12 +34,22 @@ FieldFileReader::FieldFileReader(const std::string& folder) {
   const auto positions = read_numbers(file_, "/nodes/position");
   for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
     layout_.positions.push_back({positions[i], positions[i + 1], positions[i + 2]});
+  if (layout_.coordinates.size() != layout_.nodes.size() || layout_.positions.size() != layout_.nodes.size())
+    throw RunError(path + ": /nodes is damaged: its data sets differ in size");
   const auto names = read_texts(file_, "/lines/name");
   const auto begins = read_numbers(file_, "/lines/begin"), members = read_numbers(file_, "/lines/node");
+  const auto is_in = [](double place, std::size_t size) { return place >= 0.0 && place < static_cast<double>(size); };
+  const auto check_lines = [&path](bool is_right) {
+    if (!is_right) throw RunError(path + ": /lines is damaged: it does not fit its nodes");
+  };
+  check_lines(begins.size() == names.size() + 1);
   for (std::size_t i = 0; i < names.size(); ++i) {
     layout_.lines.push_back({names[i], {}});
-    for (auto k = static_cast<std::size_t>(begins.at(i)); k < static_cast<std::size_t>(begins.at(i + 1)); ++k)
-      layout_.lines.back().nodes.push_back(static_cast<Index>(members.at(k)));
+    check_lines(is_in(begins[i], members.size() + 1) && is_in(begins[i + 1], members.size() + 1));
+    for (auto k = static_cast<std::size_t>(begins[i]); k < static_cast<std::size_t>(begins[i + 1]); ++k) {
+      check_lines(is_in(members[k], layout_.nodes.size()));
+      layout_.lines.back().nodes.push_back(static_cast<Index>(members[k]));
+    }
   }
   times_ = read_numbers(file_, "/time");
   for (const std::string& name : names_in(file_, "/fields")) {

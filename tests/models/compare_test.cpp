@@ -157,7 +157,9 @@ TEST(Compare, TakesAReferenceFromAFile) {
   std::string other = "t,ball.u\n";
   for (int row = 0; row <= 4; ++row)
     other += std::to_string(0.125 * row) + "," + std::to_string(std::cos(1.25 * row)) + "\n";
-  folder.write("given.csv", other);
+  // A spreadsheet's file: byte order mark, carriage returns.
+  for (std::size_t i = 0; (i = other.find('\n', i)) != std::string::npos; i += 2) other.replace(i, 1, "\r\n");
+  folder.write("given.csv", "\xEF\xBB\xBF" + other);
   ASSERT_EQ(run_program({"compare", "study.toml", "-o", "out"}, folder.path()).status, 0);
   EXPECT_LT(error_in(rows_of(read_file(folder.file("out/runs.csv"))).at("exact,,0")), 1e-6);
   folder.write("given.csv", "t,ball.u\n0.0,1.0\n");
