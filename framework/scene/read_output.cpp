@@ -95,7 +95,7 @@ class OutputReader {
     else
       request.interval = p->has("interval") ? p->number("interval") : (end_time_ - begin_) / kDefaultIntervals;
     read_states(*p, request);
-    if (complete_ && request.interval && end_time_ / *request.interval > kMostRows)
+    if (complete_ && request.interval && (end_time_ - begin_) / *request.interval > kMostRows)
       p->complain(diagnostics_, "interval",
                   "gives more than 1e9 rows until end_time = " + to_text(end_time_) + " s; make it larger");
     if (p->has("checkpoint")) request.checkpoint = p->integer("checkpoint");
@@ -106,7 +106,7 @@ class OutputReader {
     const FormatRequest formats = read_formats(*p, formats_, diagnostics_);
     request.csv = formats.csv;
     request.fields = read_fields(*p, formats.fields, complete_ ? &model_ : nullptr, diagnostics_);
-    if (complete_ && request.fields.interval && end_time_ / *request.fields.interval > kMostRows)
+    if (complete_ && request.fields.interval && (end_time_ - begin_) / *request.fields.interval > kMostRows)
       diagnostics_.error("output.fields.interval", p->value("fields"),
                          "gives more than 1e9 records until end_time = " + to_text(end_time_) + " s; make it larger");
     return request;

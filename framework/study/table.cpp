@@ -65,8 +65,11 @@ void Row::set_integer(std::size_t column, std::int64_t value) {
 
 void Row::set_text(std::size_t column, const std::string& text) {
   const std::size_t room = layout_->columns()[column].length;
+  std::size_t size = std::min(room, text.size());
+  // Text in UTF-8 is cut between characters, before a byte that begins one.
+  while (size > 0 && size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;
   std::memset(bytes_.data() + layout_->offset(column), 0, room);
-  std::memcpy(bytes_.data() + layout_->offset(column), text.data(), std::min(room, text.size()));
+  std::memcpy(bytes_.data() + layout_->offset(column), text.data(), size);
 }
 
 double Row::number(std::size_t column, std::size_t entry) const {

@@ -230,6 +230,8 @@ TEST(StudyRows, GoToCsvAndBack) {
   const study::Row back = study::from_csv(layout, line);
   EXPECT_TRUE(std::equal(row.bytes().begin(), row.bytes().end(), back.bytes().begin(), back.bytes().end())) << line;
   EXPECT_EQ(back.text(2), "a,\"b\" is too");
+  row.set_text(2, "gapin \xC2\xB5m: \xC2\xB5");  // 12 bytes end within the second sign for micro
+  EXPECT_EQ(row.text(2), "gapin \xC2\xB5m: ");
   EXPECT_THROW((void)study::from_csv(layout, "1,2,3"), std::exception);
   EXPECT_THROW((void)study::from_csv(layout, "1,2,x,4,t"), std::exception);
 }

@@ -1,5 +1,7 @@
 #include "streamed_points.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
@@ -31,7 +33,9 @@ class Lines {
         if (interruption() != nullptr) return false;
       char part[4096];
       const ssize_t got = read(file_, part, sizeof(part));
-      if (got <= 0) break;
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) throw InputError("--points: cannot be read: " + std::string(std::strerror(errno)));
+      if (got == 0) break;
       text_.append(part, static_cast<std::size_t>(got));
     }
     if (end == std::string::npos && text_.empty()) return false;
