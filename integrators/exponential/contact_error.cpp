@@ -100,10 +100,11 @@ double ContactError::of_jump(const dynamics::ContactPropagator& flow, Index stop
   constexpr double kMoving = 0.25, kElsewhere = 0.1;
   const auto shape = modal_.stop_shapes().of(stop).array();
   const double jump = 2.0 * residual_.force(stop).largest();
-  const Eigen::ArrayXd hidden = jump * iteration_.influence().hidden_by_jump(flow, stop);
-  double error = (shape * hidden).matrix().norm() / speed;
+  iteration_.influence().hidden_by_jump(flow, stop, hidden_);
+  hidden_ *= jump;
+  double error = (shape * hidden_).matrix().norm() / speed;
   if (jump * flow.h() * shape.matrix().squaredNorm() < kMoving * speed)
-    error = std::max(error, kElsewhere * modes_.largest(hidden));
+    error = std::max(error, kElsewhere * modes_.largest(hidden_));
   return error / (kUnresolved * goal_.outputs);
 }
 

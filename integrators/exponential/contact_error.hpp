@@ -51,6 +51,7 @@ class ContactError {
   const ResidualErrors& residual_;
   ChangeAccounts accounts_;
   UnresolvedModes modes_;
+  Eigen::ArrayXd hidden_;  ///< speeds of the modes that a jump would cause and the projection hides
   std::vector<std::pair<Index, double>>
       changes_;  ///< stops that change or stay closed in the step, and their speed errors
 };

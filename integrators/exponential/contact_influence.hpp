@@ -32,9 +32,9 @@ class ContactInfluence {
     return stiffness_[static_cast<std::size_t>(stop)] * of(flow, stop).coupling[1][0];
   }
   /// The speed errors of the modes due to the projection of a force with a jump of 1 N at a stop, s/kg^(1/2).
-  Eigen::ArrayXd hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop) const {
-    return flow.h() * modal_.stop_shapes().of(stop).array() *
-           (flow.h() * rates_).unaryExpr([](double x) { return unresolved_jump(x); });
+  void hidden_by_jump(const dynamics::ContactPropagator& flow, Index stop, Eigen::ArrayXd& speeds) const {
+    speeds = flow.h() * modal_.stop_shapes().of(stop).array() *
+             (flow.h() * rates_).unaryExpr([](double x) { return unresolved_jump(x); });
   }
   const ContactNewton& newton(Index stop) const { return newton_[static_cast<std::size_t>(stop)]; }
 

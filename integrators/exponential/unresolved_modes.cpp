@@ -19,7 +19,7 @@ UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::Mo
       needs_speeds_(is_possible_ && jumps),
       squares_(modal.frequencies().square()),
       closed_(ArrayXd::Zero(modal.stop_count())) {
-  if (is_possible_) speeds_ = now_ = Vector::Zero(modal.shapes().rows());
+  if (is_possible_) speeds_ = now_ = of_kind_ = Vector::Zero(modal.shapes().rows());
 }
 
 void UnresolvedModes::start(double t, double* memory) const {
@@ -48,15 +48,13 @@ void UnresolvedModes::raise_speeds(const ModalState& state) {
   scales_.raise(now_, speeds_);
 }
 
-double UnresolvedModes::largest(const ArrayXd& modal_speeds) const {
+double UnresolvedModes::largest(const ArrayXd& modal_speeds) {
   constexpr double kLeastOfKind = 0.02;
-  Vector of_kind(speeds_.size());
-  scales_.largest_of_kind(speeds_, of_kind);
-  const ArrayXd squares = modal_speeds.square();
+  scales_.largest_of_kind(speeds_, of_kind_);
   double largest = 0.0;
   for (Index d = 0; d < speeds_.size(); ++d)
-    if (const double scale = std::max(speeds_[d], kLeastOfKind * of_kind[d]); scale > 0.0)
-      largest = std::max(largest, (modal_.shape_rows().col(d).array().square() * squares).sum() / (scale * scale));
+    if (const double scale = std::max(speeds_[d], kLeastOfKind * of_kind_[d]); scale > 0.0)
+      largest = std::max(largest, (modal_.shape_rows().col(d).array() * modal_speeds).square().sum() / (scale * scale));
   return std::sqrt(largest);
 }
 

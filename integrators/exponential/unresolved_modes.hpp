@@ -40,7 +40,7 @@ class UnresolvedModes {
 
   /// The largest velocity of a component by the given speeds of the modes, in independent phases, relative to its
   /// largest velocity so far, or to kLeastOfKind of the largest of its kind; 0 before anything moves.
-  double largest(const Eigen::ArrayXd& modal_speeds) const;
+  double largest(const Eigen::ArrayXd& modal_speeds);
 
   /// A stop stays closed.
   bool any() const { return any_; }
@@ -67,6 +67,7 @@ class UnresolvedModes {
   bool any_ = false;
   double spent_ = 0.0;
   Vector speeds_, now_;    ///< largest velocity of each DOF so far, the present one
+  Vector of_kind_;         ///< the largest of these velocities for the kind of each DOF
   Eigen::ArrayXd closed_;  ///< the side on which each stop was closed at the start of the macro step; 0: open
   Eigen::ArrayXd rates_;   ///< error of each mode per second if it does not feel the stops at all, 1/s
   Eigen::ArrayXd acceleration_, rise_;
