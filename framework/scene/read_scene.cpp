@@ -23,7 +23,6 @@ class LeftOut {
     if (catalogue_.left_out().empty()) return;
     const model::ModelTypes& types = catalogue_.types();
     look_at_entries(root, "element", "type", types.elements);
-    look_at_entries(root, "contact", "type", types.contacts);
     look_at_entries(root, "contact", "law", types.laws);
     look_at_entries(root, "load", "type", types.loads);
     const config::Value* integrator = root.find("integrator");
