@@ -98,8 +98,8 @@ void write_script(const std::string& folder, const std::string& name, const std:
 
 std::string run_script(const std::string& folder, const std::string& name) {
   const std::string messages = folder + "/" + name + ".log";
-  const std::string command = "CDPATH= cd -- " + shell_word(folder) + " && gnuplot " + shell_word(name + ".gp") + " > " +
-                              shell_word(name + ".log") + " 2>&1 </dev/null";
+  const std::string command = "CDPATH= cd -- " + shell_word(folder) + " && gnuplot " + shell_word(name + ".gp") +
+                              " > " + shell_word(name + ".log") + " 2>&1 </dev/null";
   const bool ok = std::system(command.c_str()) == 0;
   std::ostringstream text;
   text << std::ifstream(messages).rdbuf();

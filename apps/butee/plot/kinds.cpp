@@ -84,7 +84,8 @@ Kind kind_over_time(const std::string& name, Quantity quantity, const std::strin
 /// "torque about the beam's own axis x (T)"
 Kind kind_over_time(Quantity quantity) {
   const std::string name = model::name_of(quantity), summary = model::summary_of(quantity);
-  const bool is_rate = model::order_of(quantity) > 0;  // whose summaries refer to the line above
+  const bool is_rate =
+      model::order_of(quantity) > 0;  // The summary of a rate refers to that of the quantity before it.
   const std::string text = is_rate ? name : summary.substr(0, summary.find_first_of(",;:")) + " (" + name + ")";
   return kind_over_time(name, quantity, text);
 }
