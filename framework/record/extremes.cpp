@@ -7,6 +7,8 @@ namespace {
 constexpr double kShortest = 1e-9;
 /// The largest number of halvings of a polynomial.
 constexpr int kMostSplits = 40;
+/// Rounding of the coefficients after some dozens of halvings, relative to the largest.
+constexpr double kRoundingOfHalves = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// A polynomial on [0, 1] by its Bernstein coefficients: the first and the last are the values at
 /// the ends, and the smallest and the largest bound it.
@@ -171,6 +173,14 @@ double StepPath::rounding(std::size_t order, const Point& from, const Point& to)
   return std::numeric_limits<double>::epsilon() * kFactor[order] * (order == 1 ? by_x : (by_x + speed) / h);
 }
 
+double StepPath::good_of(std::size_t order, const Range& range, double bound) const {
+  double size = range.size();
+  if (order > 0 || borders_.empty()) return kGood * size;
+  for (const double border : borders_)
+    size = std::min({size, std::abs(range.greatest - border), std::abs(range.least - border)});
+  return std::max(kGood * size, kRoundingOfHalves * bound);
+}
+
 void StepPath::search(std::size_t order, const Point& from, const Point& to, Range& range) const {
   int samples = 0;
   halve(order, from, to, samples, range);
@@ -179,9 +189,9 @@ void StepPath::search(std::size_t order, const Point& from, const Point& to, Ran
 void StepPath::halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const {
   const double h = to.t - from.t, middle = from.t + 0.5 * h;
   if (!(middle > from.t && middle < to.t)) return;
-  const double rounded = rounding(order, from, to), good = std::max(kGood * range.size(), rounded),
-               departs = departure(order, from, to);
+  const double rounded = rounding(order, from, to), departs = departure(order, from, to);
   const auto [least, greatest] = enclose(order, from, to, departs);
+  const double good = std::max(good_of(order, range, std::max(std::abs(least), std::abs(greatest))), rounded);
   Range target = range;
   target.greatest -= margin_of(order, range);
   target.least += margin_of(order, range);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "butee/core/bytes.hpp"
@@ -41,12 +42,12 @@ struct Range {
 /// Interpolation::near_quintic extremes of v are searched wherever the quintic comes within kMargin
 /// of the largest so far. All values are those of the dense output itself. The hull of the
 /// Bernstein coefficients shows whether any value in between exceeds a range by more than kGood of
-/// it. If so, halves are examined: halves of the polynomial, or of the interval while the dense
-/// output departs from the polynomial by more than that. The search in an interval stops after
-/// kMostSamples, which is too few only if a step spans hundreds of periods. In very short steps the
-/// polynomial's derivatives are differences of rounded displacements; values between the ends then
-/// count only if they exceed the range by more than rounding. Checked in
-/// tests/verification/peaks_test.cpp.
+/// it, or by more than kGood of its distance from a border: at a stop that is stiff the penetration
+/// is a small part of the displacement. If so, halves are examined: halves of the polynomial, or of the interval while
+/// the dense output departs from the polynomial by more than that. The search in an interval stops after kMostSamples,
+/// which is too few only if a step spans hundreds of periods. In very short steps the polynomial's derivatives are
+/// differences of rounded displacements; values between the ends then count only if they exceed the range by more than
+/// rounding. Checked in tests/verification/peaks_test.cpp.
 class BUTEE_EXPORT StepPath {
  public:
   /// The error bound of an extreme, relative to the largest |value|.
@@ -56,10 +57,11 @@ class BUTEE_EXPORT StepPath {
   /// Interpolation::near_quintic, relative to the largest |value|.
   static constexpr double kMargin = 0.005;
 
-  /// Index b < 0: DOF a alone, and 0 if a is negative too. `kind`: of the step's integrator. `step`
-  /// must outlive this object.
-  StepPath(const time::AcceptedStep& step, time::Interpolation kind, Index a, Index b)
-      : step_(step), kind_(kind), dofs_{a, b} {}
+  /// Index b < 0: DOF a alone, and 0 if a is negative too. `kind`: of the step's integrator.
+  /// `borders`: displacements at which a stop closes. `step` and `borders` must outlive this object.
+  StepPath(const time::AcceptedStep& step, time::Interpolation kind, Index a, Index b,
+           std::span<const double> borders = {})
+      : step_(step), kind_(kind), dofs_{a, b}, borders_(borders) {}
 
   static Point point(const time::State& state, Index a, Index b) {
     Point point{state.t, {0.0, 0.0, 0.0}};
@@ -89,6 +91,8 @@ class BUTEE_EXPORT StepPath {
   double margin_of(std::size_t order, const Range& range) const {
     return kind_ == time::Interpolation::near_quintic && order == 1 ? kMargin * range.size() : 0.0;
   }
+  /// The error that an extreme of derivative `order` may have, if bounds of its size are known.
+  double good_of(std::size_t order, const Range& range, double bound) const;
   /// Bounds of the polynomials between their ends, by the inner Bernstein coefficients: those of
   /// the quintic, and of the cubic that is used instead if accelerations bend at an end.
   std::pair<double, double> bounds_within(std::size_t order, const Point& from, const Point& to) const {
@@ -121,6 +125,7 @@ class BUTEE_EXPORT StepPath {
   const time::AcceptedStep& step_;
   time::Interpolation kind_;
   std::array<Index, 2> dofs_;
+  std::span<const double> borders_;
 };
 
 }  // namespace butee::record

@@ -57,6 +57,7 @@ std::vector<Peaks::Stop> Peaks::stops_on(model::Quantity quantity, model::NodeId
     // The speed resolves penetrations that are small beside the displacement.
     tracks_.add(a, b, 1);
     stops.push_back({i, follow(a, b, 0), sign});
+    tracks_.resolve(stops.back().track, contact.play_of(i));
   }
   return stops;
 }

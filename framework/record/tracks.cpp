@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace butee::record {
 namespace {
@@ -25,9 +26,15 @@ std::size_t Tracks::add(Index a, Index b, std::size_t order) {
   pairs_.emplace_back(a, b);
   const std::size_t place_a = place(a), place_b = place(b);
   places_.emplace_back(place_a, place_b);
+  borders_.emplace_back();
   from_.emplace_back();
   to_.emplace_back();
   return pairs_.size() - 1;
+}
+
+void Tracks::resolve(std::size_t track, const model::FreePlay& play) {
+  for (const double border : {play.lower(), play.upper()})
+    if (std::isfinite(border)) borders_[track].push_back(border);
 }
 
 void Tracks::sample(const time::AcceptedStep& step, std::span<const double> breakpoints) {

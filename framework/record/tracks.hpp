@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "butee/model/free_play.hpp"
 #include "butee/record/extremes.hpp"
 
 namespace butee::record {
@@ -14,13 +15,15 @@ class BUTEE_EXPORT Tracks {
   /// Returns the index of the displacement u_a - u_b; a negative DOF is fixed. `order`: the highest
   /// derivative whose extremes are wanted. To be called before the first step.
   std::size_t add(Index a, Index b, std::size_t order);
+  /// Has extremes of a displacement found to a small part of their distance from the ends of a stop's free play.
+  void resolve(std::size_t track, const model::FreePlay& play);
   std::size_t size() const { return pairs_.size(); }
 
   Point at(const time::State& state, std::size_t track) const {
     return StepPath::point(state, pairs_[track].first, pairs_[track].second);
   }
   StepPath path(const time::AcceptedStep& step, std::size_t track) const {
-    return {step, kind_, pairs_[track].first, pairs_[track].second};
+    return {step, kind_, pairs_[track].first, pairs_[track].second, borders_[track]};
   }
 
   /// Calls `look()` for every piece of the step between two neighbouring breakpoints; from() and
@@ -48,6 +51,7 @@ class BUTEE_EXPORT Tracks {
 
   std::vector<std::pair<Index, Index>> pairs_;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< their indices in dofs_
+  std::vector<std::vector<double>> borders_;                 ///< by track: displacements at which stops close
   std::vector<Point> from_, to_;
   time::Detail detail_ = time::Detail::displacements;
   time::Interpolation kind_ = time::Interpolation::cubic;  ///< of the last visited step

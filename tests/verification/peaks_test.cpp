@@ -113,6 +113,29 @@ std::map<std::string, double> embedded_peaks(const std::string& scene, double en
   return structure.peaks();
 }
 
+/// 1 kg, 1e-3 N/m and 3.5 m/s against stops of 1e12 N/m at 100 m: the penetration of 1.5 um is 1.5e-8 of the
+/// displacement. Without the spring's work in contact the force is sqrt(1e12 N/m 1 kg) times the speed of impact, 1.5
+/// m/s.
+TEST(PeaksAtStiffStops, AreThoseOfThePenetration) {
+  const double spring = 1e-3, stop = 1e12, gap = 100.0, v = 3.5;
+  const double b = 2.0 * spring * gap, c = spring * gap * gap - v * v, a = stop + spring;
+  const double truth = stop * (-2.0 * c) / (b + std::sqrt(b * b - 4.0 * a * c));
+  for (const char* method : {"piecewise", "exact", "rodas4"}) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+        "\"ball\"\nstiffness = 1e-3\n[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 100.0\nstiffness = "
+        "1e12\n[initial]\nvelocity = [{ nodes = \"ball\", value = 3.5 }]\n[integrator]\nend_time = 200.0\n" +
+            kProbe,
+        {std::string("integrator.type=") + method});
+    record::Peaks peaks(
+        {{"ball", run.model().nodes.select("ball").nodes.front(), {model::Quantity::contact_force}, ""}},
+        run.dynamics());
+    run.simulation().add(peaks);
+    ASSERT_TRUE(run.run().completed) << method;
+    EXPECT_NEAR(peaks.largest().at("ball.contact_force"), truth, 2e-5 * truth) << method;
+  }
+}
+
 class PeaksOf : public testing::TestWithParam<MethodCase> {
  protected:
   /// Runs the scene with the program, and compares all outputs of a peak.

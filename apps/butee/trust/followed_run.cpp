@@ -14,11 +14,11 @@
 #include <butee/record/impacts.hpp>
 #include <butee/record/output_times.hpp>
 #include <butee/record/probes.hpp>
+#include <butee/record/tracks.hpp>
 #include <butee/scene/assembly.hpp>
 
 #include "../interruption.hpp"
 #include "../perturb.hpp"
-#include "turning_points.hpp"
 
 namespace butee::app::trust {
 namespace {
@@ -137,43 +137,56 @@ class Follower final : public time::Observer {
   std::size_t next_row_ = 0, next_state_ = 0;
 };
 
-/// The paths of the probes' displacements, followed by those of the stops.
-std::vector<TurningPoints::Path> paths_of(const std::vector<Followed>& followed, dynamics::Dynamics& dynamics) {
-  std::vector<TurningPoints::Path> paths;
-  for (const Followed& one : followed) paths.push_back({dynamics.system().dofs.index({one.node, one.kind}), -1});
-  const dynamics::ElasticStops& contact = dynamics.stops();
-  for (Index i = 0; i < contact.size(); ++i) paths.push_back({contact.dof_a(i), contact.dof_b(i)});
-  return paths;
-}
+/// The smallest and the largest displacement of each probe, followed by those of the stops.
+class Displacements final : public time::Observer {
+ public:
+  Displacements(const std::vector<Followed>& followed, dynamics::Dynamics& dynamics) {
+    for (const Followed& one : followed) add(dynamics.system().dofs.index({one.node, one.kind}), -1);
+    const dynamics::ElasticStops& stops = dynamics.stops();
+    for (Index i = 0; i < stops.size(); ++i) {
+      add(stops.dof_a(i), stops.dof_b(i));
+      all_.resolve(tracks_.back(), stops.play_of(i));
+    }
+  }
 
-/// An upper estimate of the highest frequency with all stops closed, from the largest k/m of a DOF, rad/s.
-double highest_frequency(dynamics::Dynamics& dynamics) {
-  Vector stiffness = dynamics.system().stiffness.diagonal();
-  const dynamics::ElasticStops& contact = dynamics.stops();
-  const Vector closed = contact.closed_stiffness();
-  for (Index i = 0; i < contact.size(); ++i)
-    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
-      if (dof >= 0) stiffness[dof] += closed[i];
-  const double square = stiffness.cwiseQuotient(dynamics.system().mass.diagonal()).maxCoeff();
-  return std::isfinite(square) ? std::sqrt(std::max(0.0, square)) : 0.0;
-}
+  void start(const time::State& state) override {
+    for (std::size_t i = 0; i < ranges_.size(); ++i) ranges_[i].take(state.t, all_.at(state, i).of[0]);
+  }
+  void step(const time::AcceptedStep& step) override {
+    all_.visit(step, [&] {
+      for (std::size_t i = 0; i < ranges_.size(); ++i)
+        all_.path(step, i).extend(0, all_.from(i), all_.to(i), ranges_[i]);
+    });
+  }
+  const record::Range& range(std::size_t i) const { return ranges_[tracks_[i]]; }
 
-void sum_up(const std::vector<Followed>& followed, dynamics::Dynamics& dynamics,
-            const std::vector<TurningPoints::Path>& paths, const record::ContactRecorder* contacts, FollowedRun& run) {
+ private:
+  void add(Index a, Index b) {
+    tracks_.push_back(all_.add(a, b, 1));
+    ranges_.resize(all_.size());
+  }
+
+  record::Tracks all_;
+  std::vector<std::size_t> tracks_;
+  std::vector<record::Range> ranges_;  ///< by track
+};
+
+void sum_up(const std::vector<Followed>& followed, dynamics::Dynamics& dynamics, const Displacements& displacements,
+            const record::ContactRecorder* contacts, FollowedRun& run) {
   for (std::size_t i = 0; i < followed.size(); ++i) {
     double squares = 0.0;
     for (const double u : run.histories.values[i]) squares += u * u;
     const std::string name = followed[i].label + "." + model::name_of(followed[i].quantity);
     run.numbers.push_back(
         {"rms of " + name, std::sqrt(squares / static_cast<double>(run.histories.times.size())), false});
-    run.numbers.push_back({"peak of " + name, std::max(paths[i].greatest, -paths[i].least), false});
+    run.numbers.push_back({"peak of " + name, displacements.range(i).size(), false});
   }
   if (dynamics.stop_count() == 0 && contacts == nullptr) return;
   const Vector closed = dynamics.stops().closed_stiffness();
   double largest = 0.0, largest_beyond = 0.0;  // without and with rounding of the penetration
   for (Index i = 0; i < dynamics.stop_count(); ++i) {
-    const auto& path = paths[followed.size() + static_cast<std::size_t>(i)];
-    for (const double w : {path.least, path.greatest}) {
+    const record::Range& range = displacements.range(followed.size() + static_cast<std::size_t>(i));
+    for (const double w : {range.least, range.greatest}) {
       const double force = std::abs(dynamics.stops().force_of(i, w));
       largest = std::max(largest, force);
       largest_beyond = std::max(largest_beyond, force + kRoundingOfPaths * closed[i] * std::abs(w));
@@ -217,12 +230,12 @@ FollowedRun follow(scene::Scene& session, double disturbance, double most, Wante
   run.choice = assembly.integrator->choice();
   const std::vector<Followed> followed = followed_by_probes(session, dynamics.system());
   Follower follower(session, followed, dynamics, run, wanted.states);
-  TurningPoints turning(paths_of(followed, dynamics), highest_frequency(dynamics));
+  Displacements displacements(followed, dynamics);
   record::ImpactRecorder impacts(dynamics);
   std::optional<record::ContactRecorder> contacts;
   if (wanted.numbers && dynamics.obstacles() != nullptr) assembly.simulation.add(contacts.emplace(dynamics));
   assembly.simulation.add(follower);
-  if (wanted.numbers) assembly.simulation.add(turning);
+  if (wanted.numbers) assembly.simulation.add(displacements);
   if (wanted.impacts && dynamics.stop_count() > 0) assembly.simulation.add(impacts);
   const auto work = [&] {
     const linalg::Counters& counters = dynamics.counters();
@@ -237,7 +250,7 @@ FollowedRun follow(scene::Scene& session, double disturbance, double most, Wante
   run.message = report.message.empty() ? "it takes too long" : report.message;
   run.work = work();
   if (!run.completed) return run;
-  if (wanted.numbers) sum_up(followed, dynamics, turning.paths(), contacts ? &*contacts : nullptr, run);
+  if (wanted.numbers) sum_up(followed, dynamics, displacements, contacts ? &*contacts : nullptr, run);
   if (wanted.impacts && (dynamics.stop_count() > 0 || contacts))
     run.numbers.push_back(
         {"impacts",
