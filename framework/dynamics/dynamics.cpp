@@ -43,7 +43,9 @@ Dynamics::Dynamics(const model::System& system)
       parts_(std::make_unique<Parts>(system)),
       counters_(&parts_->counters),
       stops_(&parts_->stops),
-      obstacles_(parts_->obstacles.get()) {}
+      obstacles_(parts_->obstacles.get()) {
+  if (parts_->sticks) parts_->sticks->check_supports(mass_solver());
+}
 
 Dynamics::~Dynamics() = default;
 
@@ -189,6 +191,15 @@ void Dynamics::contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std:
     forces.force -= forces.friction * tangent.head<2>();
     forces.torque -= forces.friction * tangent[2];
   }
+}
+
+void Dynamics::add_held_contact_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef force) {
+  add_contact_force(x, force);
+  if (obstacles_ == nullptr) return;
+  std::vector<ContactForces> all;
+  contact_forces(t, x, v, all);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    obstacles_->scatter(static_cast<Index>(i), {all[i].force[0], all[i].force[1], all[i].torque}, force);
 }
 
 EffectiveSolver& Dynamics::effective() {

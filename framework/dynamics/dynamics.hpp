@@ -44,6 +44,9 @@ class BUTEE_EXPORT Dynamics {
   /// The forces of every contact of obstacles() at a motion, including those that hold rigid
   /// sticks.
   void contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std::vector<ContactForces>& all);
+  /// force += the forces of all contacts at a motion, including those that hold rigid sticks, N or
+  /// N m.
+  void add_held_contact_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRef force);
   /// a += M^-1 T^T times the forces that hold the contacts that stick rigidly now, if any. Without t, `a` is a
   /// derivative of the acceleration.
   void hold_sticks(std::optional<double> t, VectorRef a);

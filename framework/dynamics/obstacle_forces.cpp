@@ -115,7 +115,7 @@ double Obstacles::friction_force(Index i, double t, const Kinematics& now, const
                                  double normal) const {
   const model::ObstacleGroup& group = *at(i).group;
   const Friction& friction = group.friction;
-  if (friction.rule == Friction::Rule::none || (group.shape != nullptr && !phase.touches())) return 0.0;
+  if (!rubs_ || friction.rule == Friction::Rule::none || (group.shape != nullptr && !phase.touches())) return 0.0;
   // Without memory a stick spring is unstressed.
   if (is_live_ && friction.rule == Friction::Rule::spring && phase.slip == SlipPhase::stick) return 0.0;
   const double limit = friction.coefficient * normal;
@@ -148,7 +148,8 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
     double force = 0.0, friction_rate = 0.0;
     const double surface_acceleration = this->surface_acceleration(i, t);
     const bool is_unstressed = is_live_ && friction.rule == Friction::Rule::spring && phase.slip == SlipPhase::stick;
-    if (friction.rule != Friction::Rule::none && (group.shape == nullptr || phase.touches()) && !is_unstressed) {
+    if (rubs_ && friction.rule != Friction::Rule::none && (group.shape == nullptr || phase.touches()) &&
+        !is_unstressed) {
       force = friction_force(i, t, now, phase, normal.force);
       Eigen::RowVector2d slip_by_d = -lever * bend * now.rate * u.transpose();
       if (contact.has_round_spring) slip_by_d -= lever * bend * along * n.transpose();

@@ -111,13 +111,12 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
     const bool has_closed = set.touches() && !phase.touches() && now.rate > 0.0;
     const NormalPhase normal_phase = has_closed ? set.normal : phase.normal;
     const double depth = has_closed ? 0.0 : now.approach.penetration;
-    const double limit = at(i).group->shape == nullptr
-                             ? friction.static_coefficient * at(i).group->normal_force
-                             : friction.static_coefficient * normal(at(i), normal_phase, depth, now.rate).force;
+    const Normal pressing = normal(at(i), normal_phase, depth, now.rate);
+    const double limit = friction.static_coefficient * pressing.force;
     if (limit > 0.0) {
       if (friction.stick_damping * std::abs(now.slip) <= limit) phase.slip = SlipPhase::stick;
     } else if ((has_closed || phase.touches()) && now.rate > 0.0) {
-      const double growth = friction.static_coefficient * at(i).group->law->closed_stiffness() * now.rate;
+      const double growth = friction.static_coefficient * pressing.by_penetration * now.rate;
       if (friction.stick_damping == 0.0 && friction.stick_stiffness * std::abs(now.slip) <= growth)
         phase.slip = SlipPhase::stick;
     }

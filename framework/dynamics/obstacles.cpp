@@ -65,6 +65,7 @@ Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
 
 void Obstacles::follow(ConstVectorRef phases) {
   is_live_ = false;
+  rubs_ = true;
   require(phases.size() == kStateSize * size(), "the phases of every contact");
   for (Index i = 0; i < size(); ++i) {
     const auto entry = phases.segment(kStateSize * i, kStateSize);

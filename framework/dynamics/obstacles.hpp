@@ -90,7 +90,9 @@ class BUTEE_EXPORT Obstacles {
 
   /// Sets the phases of all contacts, kStateSize numbers each.
   void follow(ConstVectorRef phases);
-  void follow_live() { is_live_ = true; }
+  void follow_live() { is_live_ = rubs_ = true; }
+  /// The same without the forces of friction, for a static position.
+  void follow_live_without_friction() { is_live_ = true, rubs_ = false; }
   ContactPhase phase(Index i) const { return phases_[static_cast<std::size_t>(i)]; }
   void set_phase(Index i, const ContactPhase& phase) { phases_[static_cast<std::size_t>(i)] = phase; }
   bool is_live() const { return is_live_; }
@@ -260,7 +262,7 @@ class BUTEE_EXPORT Obstacles {
   std::vector<ContactPhase> phases_;
   std::vector<Tangent> tangents_;
   std::vector<Index> dofs_;
-  bool is_live_ = true, has_rigid_friction_ = false;
+  bool is_live_ = true, rubs_ = true, has_rigid_friction_ = false;
 };
 
 }  // namespace butee::dynamics

@@ -48,7 +48,7 @@ class Equilibrium {
         rest_(Vector::Zero(dynamics.size())),
         t_(t),
         w_(dynamics.stop_count()) {
-    if (dynamics.obstacles() != nullptr) dynamics.obstacles()->follow_live();
+    if (dynamics.obstacles() != nullptr) dynamics.obstacles()->follow_live_without_friction();
     dynamics.external_force(t, load_);
     const model::System& system = dynamics.system();
     if (system.model == nullptr || system.model->bases.empty()) return;
@@ -59,6 +59,12 @@ class Equilibrium {
     dynamics.inertia_force(motion_with_base(*system.model, system.dofs, 2, t), elastic_);
     load_ -= elastic_;
   }
+
+  ~Equilibrium() {
+    if (dynamics_.obstacles() != nullptr) dynamics_.obstacles()->follow_live();
+  }
+  Equilibrium(const Equilibrium&) = delete;
+  Equilibrium& operator=(const Equilibrium&) = delete;
 
   /// r := F + F_c(x) - K x; returns |r| over |F| + |F_c| + |K x|, or 0 without any force.
   double residual(const Vector& x, Vector& r) {

@@ -89,8 +89,7 @@ BUTEE_C_EXPORT int butee_set_motion(butee_structure* structure, int64_t size, co
 BUTEE_C_EXPORT int butee_set_force(butee_structure* structure, int64_t dof, double value);
 BUTEE_C_EXPORT int butee_set_force_line(butee_structure* structure, int64_t dof, double from, double to, double until);
 /*
- * The force (N, or N m) of all contacts on a degree of freedom: stops, rings and planes with friction, but not where
- * one sticks rigidly.
+ * The force (N, or N m) of all contacts on a degree of freedom: stops, rings, planes and friction.
  */
 BUTEE_C_EXPORT int butee_contact_force(const butee_structure* structure, int64_t dof, double* force);
 

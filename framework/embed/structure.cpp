@@ -268,8 +268,7 @@ double Structure::contact_force(Index dof) const {
   check_dof(dof, size());
   Vector force = Vector::Zero(size());
   const time::State& now = state();
-  parts_->assembly->dynamics.add_contact_force(now.x, force);
-  parts_->assembly->dynamics.add_obstacle_force(now.t, now.x, now.v, force);
+  parts_->assembly->dynamics.add_held_contact_force(now.t, now.x, now.v, force);
   return force[dof];
 }
 

@@ -32,7 +32,9 @@ struct StructureOptions {
 ///
 /// Each structure has its own state and shares nothing with others, so that several may live in one
 /// process and on several threads, each used by one thread at a time. The scene's [integrator]
-/// gives the method and tolerance; its end_time is not used. Between two calls of advance_to()
+/// gives the method and tolerance. Its end_time is the duration for which they are chosen: errors of
+/// the steps are kept small enough to meet the tolerance after it; the structure may go on beyond.
+/// Between two calls of advance_to()
 /// forces are linear in time, so that a partitioned iteration is of second order in its windows.
 /// Bad input throws InputError, a failed step RunError with the diagnosis. Checked in tests/embed
 /// against the same system solved as one.
@@ -89,7 +91,7 @@ class BUTEE_EXPORT Structure {
   /// continued beyond.
   void set_force(Index dof, double from, double to, double until);
   double force(Index dof) const;
-  /// The force of all contacts on a DOF, N, without the forces that hold rigid sticks.
+  /// The force of all contacts on a DOF, N or N m.
   double contact_force(Index dof) const;
   /// A quantity of [[output.probe]] ("M", "reaction", ...) at the present instant; `node` names one
   /// node, `element` the beam or spring if there are several. Throws InputError if the quantity

@@ -49,10 +49,7 @@ class Equations {
 
   Vector contact_force(double t, const Array& x, const Array& v) {
     const auto at = checked(x, "x"), moving = checked(v, "v");
-    return alone([&](Vector& force) {
-      assembled_.dynamics.add_contact_force(at, force);
-      assembled_.dynamics.add_obstacle_force(t, at, moving, force);
-    });
+    return alone([&](Vector& force) { assembled_.dynamics.add_held_contact_force(t, at, moving, force); });
   }
 
   Vector acceleration(double t, const Array& x, const Array& v) {

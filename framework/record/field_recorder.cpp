@@ -146,6 +146,9 @@ void FieldRecorder::find_contacts(const std::vector<model::NodeId>& nodes) {
            {dynamics_.obstacles()->ends_of(one.contact).a, dynamics_.obstacles()->ends_of(one.contact).b})
         for (const Index dof : side) sample(dof);
   }
+  // The forces of rigid sticks follow from the motion of the whole structure.
+  if (dynamics_.obstacles() != nullptr && dynamics_.obstacles()->has_rigid_friction())
+    for (Index dof = 0; dof < dynamics_.size(); ++dof) sample(dof);
   needs_v_ = true;
   all_x_ = all_v_ = Vector::Zero(dynamics_.size());
   force_.resize(nodes.size());
@@ -157,6 +160,7 @@ void FieldRecorder::evaluate_contacts(double t, const time::Interpolated& sample
     all_x_[dofs_[k]] = samples.x[k];
     all_v_[dofs_[k]] = samples.v[k];
   }
+  if (dynamics_.obstacles() != nullptr) dynamics_.contact_forces(t, all_x_, all_v_, forces_);
   dynamics::ElasticStops& stops = dynamics_.stops();
   const auto of = [this](Index dof) { return dof < 0 ? 0.0 : all_x_[dof]; };
   for (std::size_t node = 0; node < contacts_.size(); ++node) {
@@ -167,7 +171,7 @@ void FieldRecorder::evaluate_contacts(double t, const time::Interpolated& sample
       if (const double side = stops.play_of(stop).closed_side(w); side != 0.0) state = sign * side;
     }
     for (const ContactsOn::Obstacle& one : contacts_[node].obstacles) {
-      const dynamics::ContactForces now = dynamics_.obstacles()->forces(one.contact, t, all_x_, all_v_);
+      const dynamics::ContactForces& now = forces_[static_cast<std::size_t>(one.contact)];
       force += one.of(now);
       if (!(now.penetration > 0.0) || one.place == ContactsOn::Obstacle::kMoment) continue;
       const dynamics::Obstacles::Motion motion = dynamics_.obstacles()->motion(one.contact, all_x_, all_v_);

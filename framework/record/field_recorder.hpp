@@ -68,6 +68,7 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
   std::vector<KeptStop> stops_;
   std::vector<ContactsOn> contacts_;  ///< of each recorded node; empty if stops_ are all that is needed
   Vector all_x_, all_v_;              ///< motion of the DOFs of contacts_
+  std::vector<dynamics::ContactForces> forces_;
   std::vector<double> x_, v_, a_, force_, state_, record_;
   bool needs_v_ = false, needs_a_ = false, needs_stops_ = false;
   bool finished_ = false;

@@ -3,8 +3,10 @@
 #include <numbers>
 #include <tuple>
 
+#include <butee/core/error.hpp>
 #include <butee/record/contact_recorder.hpp>
 #include <butee/record/energy.hpp>
+#include <butee/record/probes.hpp>
 #include <butee/record/slip_watch.hpp>
 #include <gtest/gtest.h>
 
@@ -38,6 +40,20 @@ class Turns final : public time::Observer {
  private:
   double last_ = 0.0, before_ = 0.0;
   int count_ = 0;
+};
+
+/// Values of probes at an instant.
+class Sampled final : public time::Observer {
+ public:
+  Sampled(record::Probes& probes, double t) : values(probes.columns().size()), probes_(probes), t_(t) {}
+  void step(const time::AcceptedStep& step) override {
+    if (step.from.t < t_ && t_ <= step.to.t) probes_.evaluate(step, t_, values);
+  }
+  std::vector<double> values;
+
+ private:
+  record::Probes& probes_;
+  double t_;
 };
 
 class FrictionMethods : public testing::TestWithParam<const char*> {};
@@ -356,6 +372,53 @@ std::string pile(const std::string& belt, const std::string& load) {
          "surface_speed = " +
          belt + " }\n[[load]]\nnode = \"a\"\n" + load +
          "[integrator]\ntype = \"dopri5\"\ntolerance = 1e-9\nend_time = 0.2\n";
+}
+
+/// A contact that closes with slip sticks if the limit grows faster than the spring is stressed: mu_s K (1 + a v_n) v_n
+/// against k_t v_t. The instant of closing is known to rounding, which must not decide.
+TEST(StickSpring, TakesHoldAtClosingWhateverRoundingSays) {
+  constexpr double kAcross = 0.0095, kTowards = 0.0104, kStiffness = 1e4, kFactor = 100.0;
+  for (const double gap : {0.77e-3, 1.0e-3, 1.3e-3})
+    for (const char* method : {"dopri5", "exponential", "rodas4", "extrapolation8", "exact"}) {
+      SceneRun run(
+          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"bearing\"\n"
+          "node = \"a\"\nstiffness = [[10.0, 0.0], [0.0, 10.0]]\n[[contact]]\ntype = \"plane\"\nnodes = \"a\"\n"
+          "law = \"linear\"\nstiffness = 1e4\nnormal = [1.0, 0.0]\ndamping = { type = \"hunt_crossley\", factor = "
+          "100.0 }\nfriction = { coefficient = 0.4, static_coefficient = 0.5, stick_stiffness = 1e4 }\ngap = " +
+              std::to_string(gap) +
+              "\n[initial]\nvelocity = [{ nodes = \"a\", dof = \"uy\", value = 0.0104 }, { nodes = \"a\", dof = "
+              "\"uz\", value = 0.0095 }]\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-7\nend_time = 0.14\n",
+          {std::string("integrator.type=") + method});
+      // Free motion with 10 rad^2/s^2 up to the gap; then friction over normal force, both linear in time at first.
+      const double w = std::sqrt(10.0), closing = std::asin(gap * w / kTowards) / w, soon = closing + 1e-5;
+      const double v_n = kTowards * std::cos(w * closing), v_t = kAcross * std::cos(w * closing);
+      record::Probes probe({{"a",
+                             run.model().nodes.select("a").nodes.front(),
+                             {model::Quantity::contact_normal, model::Quantity::contact_friction},
+                             ""}},
+                           run.dynamics());
+      Sampled sampled(probe, soon);
+      run.simulation().add(sampled);
+      ASSERT_TRUE(run.run().completed) << method << run.simulation().report().message;
+      const double ratio = kStiffness * v_t / (kStiffness * v_n * (1.0 + kFactor * v_n));
+      EXPECT_NEAR(std::abs(sampled.values[1]) / sampled.values[0], ratio, 2e-3 * ratio) << method << " " << gap;
+    }
+}
+
+/// The forces of rigid sticks that hold the same motion are not determined.
+TEST(RigidFriction, RefusesSupportsThatHoldTheSameMotion) {
+  const std::string again =
+      "[[contact]]\ntype = \"friction\"\nnodes = \"block\"\nnormal_force = 5.0\nfriction = { coefficient = 0.3, ";
+  const std::string rigid = "coefficient = 0.3, stick = \"rigid\"";
+  try {
+    SceneRun run(block(1.0, 100.0, rigid, 0.01, again + "stick = \"rigid\" }\n"));
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("combine supports that hold the same motion"), std::string::npos)
+        << error.what();
+  }
+  SceneRun run(block(1.0, 100.0, rigid, 0.01, again + "stick_stiffness = 1e6 }\n"));
+  EXPECT_TRUE(run.run().completed);
 }
 
 /// Without the contact that gives way first, the others hold.

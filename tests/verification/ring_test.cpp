@@ -335,6 +335,20 @@ TEST_P(RingMethods, ARotorAndItsStatorWhirlTogether) {
   }
 }
 
+/// k y + k_c (y - gap) = m g at the bottom of the ring; the surface that rubs does not count.
+TEST(StaticPosition, HasContactAndNoFriction) {
+  SceneRun run("schema = 1\n" + body("rotor", 1.0, 0.04, 0.1) +
+               "[rotation]\nspeed = 3.0\n[[contact]]\ntype = \"ring\"\nnodes = \"rotor\"\ngap = 1.05\nstiffness = "
+               "10.0\nradius = 0.2\nfriction = { coefficient = 0.3, slip_speed = 1e-3 }\n[gravity]\nacceleration = "
+               "[0.0, -9.81, 0.0]\nstatic = true\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-9\nend_time = 0.1\n");
+  const Complex r = position(run, "rotor");
+  EXPECT_NEAR(r.real(), -(9.81 + 10.0 * 1.05) / 10.04, 1e-12);
+  EXPECT_NEAR(r.imag(), 0.0, 1e-12);
+  // From there friction moves it across.
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_GT(std::abs(position(run, "rotor").imag()), 1e-4);
+}
+
 INSTANTIATE_TEST_SUITE_P(Adaptive, RingMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
                                          "integrator.type=rodas4", "integrator.type=exact",
