@@ -264,8 +264,15 @@ Beam::Turning Beam::turning() const {
 
 std::string Beam::turning_problem() const {
   const double a = section_.second_moment, b = section_.second_moment_y;
-  if (std::abs(a - b) <= 1e-9 * std::max(a, b)) return "";
-  return "its second moments of area about y and z differ, so that its stiffness would change as it turns";
+  const auto differ = [](double p, double q) { return std::abs(p - q) > 1e-9 * std::max(p, q); };
+  if (differ(a, b))
+    return "its second moments of area about y and z differ, so that its stiffness would change as it turns";
+  const auto shear = [&](const model::ShearFactor& factor) {
+    return shear_ratio(options_, material_, material_.young_modulus * a, section_.area, factor, 1.0);
+  };
+  if (differ(shear(section_.shear_factor_y), shear(section_.shear_factor_z)))
+    return "its shear factors along y and z differ, so that its stiffness would change as it turns";
+  return "";
 }
 
 }  // namespace butee::elements

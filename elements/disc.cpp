@@ -39,7 +39,7 @@ void Disc::assemble(model::MatrixSink& sink) const {
   model::ElementMatrices matrices(2);
   matrices.mass.diagonal().setConstant(diametral_inertia_);
   if (sink.turns()) {
-    // In (ry, rz): the moment about z has the term + I_p Omega ry', that about y - I_p Omega rz'.
+    // On the left of the equations of motion in (ry, rz): + I_p Omega rz' about y, - I_p Omega ry' about z.
     matrices.gyroscopic = Eigen::MatrixXd::Zero(2, 2);
     matrices.gyroscopic(0, 1) = polar_inertia_;
     matrices.gyroscopic(1, 0) = -polar_inertia_;

@@ -13,7 +13,7 @@ namespace butee::elements {
 /// filled in. Throws InputError ":17: what is wrong there" with the line.
 ///
 /// Stricter than Eigen's MarketIO, which omits the other triangle and reads an invalid number as
-/// zero: every line is checked, an entry must not occur twice, and the number of entries must be
+/// zero: every line is checked, an entry other than 0 must not occur twice, and the number of entries must be
 /// that of the header. Checked in tests/unit/matrix_market_test.cpp.
 SparseMatrix read_matrix_market(std::string_view text);
 

@@ -24,14 +24,16 @@ std::unique_ptr<model::Element> make_spring(const Parameters& p, model::ElementC
   } else {
     const auto ends = context.nodes(p, "nodes");
     if (!ends) return nullptr;
-    const std::size_t half = ends->size() / 2;
-    if (p.texts("nodes").size() != 2 || ends->size() % 2 != 0) {
+    const std::vector<std::string> names = p.texts("nodes");
+    if (names.size() == 2) {
+      a = context.select(names[0]).nodes;
+      b = context.select(names[1]).nodes;
+    }
+    if (a.empty() || a.size() != b.size()) {
       p.complain(context.diagnostics(), "nodes",
                  "must name two nodes, such as [\"rotor:4\", \"casing:4\"], or two ranges of equal length");
       return nullptr;
     }
-    a.assign(ends->begin(), ends->begin() + static_cast<std::ptrdiff_t>(half));
-    b.assign(ends->begin() + static_cast<std::ptrdiff_t>(half), ends->end());
   }
   return std::make_unique<Spring>(std::move(a), std::move(b), kind, p.number("stiffness"), p.number("damping"),
                                   p.flag("rotating"));

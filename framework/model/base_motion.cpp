@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "butee/model/model.hpp"
+#include "butee/model/turning_matrices.hpp"
 
 namespace butee::model {
 namespace {
@@ -79,7 +80,46 @@ class Sum final : public MatrixSink {
   std::array<std::vector<Term>, 3> terms_;
 };
 
+/// Looks for terms that depend on the speed of rotation in the columns of moved displacements.
+class TurningSupports final : public MatrixSink {
+ public:
+  TurningSupports(const Model& model, const DofTable& dofs) : model_(model), dofs_(dofs) {}
+
+  void add(std::span<const NodalDof> dofs, const ElementMatrices& matrices) override {
+    const Eigen::MatrixXd damping = rotating_damping_of(matrices, model_.rotating_damping);
+    const Eigen::MatrixXd circulatory = circulatory_of(dofs, damping);
+    for (std::size_t j = 0; j < dofs.size(); ++j) {
+      const auto column = static_cast<Index>(j);
+      const bool has_terms = !damping.col(column).isZero(0.0) || !circulatory.col(column).isZero(0.0) ||
+                             (matrices.gyroscopic.size() > 0 && !matrices.gyroscopic.col(column).isZero(0.0));
+      if (has_terms && moves_with_base(model_, dofs_, dofs[j])) found = dofs[j].node;
+    }
+  }
+  bool turns() const override { return true; }
+
+  std::optional<NodeId> found;
+
+ private:
+  const Model& model_;
+  const DofTable& dofs_;
+};
+
 }  // namespace
+
+bool moves_with_base(const Model& model, const DofTable& dofs, NodalDof dof) {
+  return dofs.exists(dof) && dofs.is_fixed(dof) && !is_rotation(dof.kind) &&
+         std::any_of(model.bases.begin(), model.bases.end(), [&](const BaseMotion& base) {
+           return base.direction[axis_of(dof.kind)] != 0.0 &&
+                  (base.nodes.empty() || holds(model.nodes, base.nodes, dof.node));
+         });
+}
+
+std::optional<NodeId> turning_support(const Model& model, const DofTable& dofs) {
+  TurningSupports supports(model, dofs);
+  for (std::size_t i = 0; i < model.turns.size(); ++i)
+    if (model.turns[i]) model.elements[i]->assemble(supports);
+  return supports.found;
+}
 
 std::vector<BaseShare> base_shares(const Model& model, const DofTable& dofs, NodalDof dof, int order, bool absolute) {
   std::vector<BaseShare> shares;

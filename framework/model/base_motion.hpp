@@ -56,6 +56,13 @@ struct PrescribedForces {
   std::vector<NodalValue> mass, damping, stiffness;
 };
 
+/// True for a fixed displacement that a base moves.
+BUTEE_EXPORT bool moves_with_base(const Model& model, const DofTable& dofs, NodalDof dof);
+
+/// A node with a fixed displacement that moves with a base, where a part that turns has gyroscopic or rotating-damping
+/// terms of that displacement: prescribed_forces() lacks these.
+BUTEE_EXPORT std::optional<NodeId> turning_support(const Model& model, const DofTable& dofs);
+
 BUTEE_EXPORT PrescribedForces prescribed_forces(const Model& model, const DofTable& dofs,
                                                 const Eigen::Vector3d& direction, const std::vector<NodeId>& nodes);
 

@@ -11,10 +11,11 @@ namespace {
 /// Differences between a(i, j) and a(j, i) up to this fraction of them are rounding.
 constexpr double kAsymmetry = 1e-12;
 
-bool is_symmetric(const Eigen::MatrixXd& matrix) {
+/// a(i, j) = sign a(j, i)
+bool is_symmetric(const Eigen::MatrixXd& matrix, double sign = 1.0) {
   for (Index j = 0; j < matrix.cols(); ++j)
-    for (Index i = 0; i < j; ++i) {
-      const double a = matrix(i, j), b = matrix(j, i);
+    for (Index i = 0; i <= j; ++i) {
+      const double a = matrix(i, j), b = sign * matrix(j, i);
       if (a != b && !(std::abs(a - b) <= kAsymmetry * (std::abs(a) + std::abs(b)))) return false;
     }
   return true;
@@ -47,7 +48,10 @@ void MatrixCollector::visit(std::span<const NodalDof> dofs, Visit entry) const {
 void MatrixCollector::check(std::span<const NodalDof> dofs, const ElementMatrices& matrices) const {
   const auto n = static_cast<Index>(dofs.size());
   if (n == 0) throw InputError("an element adds matrices without DOFs");
-  for (const Eigen::MatrixXd* matrix : {&matrices.mass, &matrices.stiffness, &matrices.damping})
+  std::vector<const Eigen::MatrixXd*> given = {&matrices.mass, &matrices.stiffness, &matrices.damping};
+  for (const Eigen::MatrixXd* matrix : {&matrices.gyroscopic, &matrices.rotating_damping})
+    if (matrix->size() > 0) given.push_back(matrix);
+  for (const Eigen::MatrixXd* matrix : given)
     if (matrix->rows() != n || matrix->cols() != n)
       throw InputError("an element on " + dofs_.name(dofs.front()) + " adds a matrix of " +
                        std::to_string(matrix->rows()) + " x " + std::to_string(matrix->cols()) + " for " +
@@ -68,6 +72,9 @@ void MatrixCollector::add(std::span<const NodalDof> dofs, const ElementMatrices&
     throw InputError("the mass matrix of an element on " + dofs_.name(dofs.front()) + " is not symmetric");
   stiffness_is_symmetric_ = stiffness_is_symmetric_ && is_symmetric(matrices.stiffness);
   damping_is_symmetric_ = damping_is_symmetric_ && is_symmetric(matrices.damping);
+  if (matrices.gyroscopic.size() > 0 && !is_symmetric(matrices.gyroscopic, -1.0))
+    throw InputError("the gyroscopic matrix of an element on " + dofs_.name(dofs.front()) +
+                     " is not skew-symmetric: gyroscopic moments do no work");
   if (turns_) return add_turning(dofs, matrices);
   visit(dofs, [&](int row, int column, Index p, Index q) {
     add_entry(row, column, matrices.mass(p, q), matrices.stiffness(p, q), matrices.damping(p, q));

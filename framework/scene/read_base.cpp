@@ -162,33 +162,25 @@ bool SceneReader::can_be_still(const Value& given) {
   if (model_.damping.is_modal())
     return refuse("modal damping requires motion relative to one base and cannot be combined with " + where +
                   "; give mass_proportional and stiffness_proportional");
-  const auto moves = [&](NodeId node) {
-    const NodalDof dof{node, DofKind::u};
-    if (!dofs_->exists(dof) || !dofs_->is_fixed(dof)) return false;
-    for (const BaseMotion& base : model_.bases) {
-      const auto same = [&](NodeId one) { return model_.nodes.canonical(one) == model_.nodes.canonical(node); };
-      if (base.direction[1] != 0.0 && (base.nodes.empty() || std::any_of(base.nodes.begin(), base.nodes.end(), same)))
-        return true;
-    }
-    return false;
-  };
-  for (const StopGroup& group : model_.stops)
+  const auto check_pairs = [&](const auto& group, const std::vector<DofKind>& along) {
+    if (group.b.empty()) return true;
     for (const auto* side : {&group.a, &group.b})
       for (const NodeId node : *side)
-        if (!group.b.empty() && moves(node))
-          return refuse("moves " + model_.nodes.name(node) + ", a body of a stop between two bodies; with " + where +
-                        ", both bodies of a stop need a free u");
-  for (std::size_t i = 0; i < model_.elements.size(); ++i) {
-    if (model_.bases.front().nodes.empty() || i >= model_.turns.size() || !model_.turns[i]) continue;
-    DofTable claims(model_.nodes);
-    model_.elements[i]->claim(claims);
-    for (const BaseMotion& base : model_.bases)
-      for (const NodeId node : base.nodes)
-        for (const DofKind kind : kAllDofKinds)
-          if (claims.exists({node, kind}))
-            return refuse("moves " + model_.nodes.name(node) +
-                          ", a node of a part that turns; move the far node of a bearing or spring between two nodes");
-  }
+        for (const DofKind kind : along)
+          if (moves_with_base(model_, *dofs_, {node, kind}))
+            return refuse("moves " + model_.nodes.name(node) + ", a body of a contact between two bodies; with " +
+                          where + ", both bodies need a free " + name_of(kind) +
+                          ": hold the moved one by a stiff spring instead of a support");
+    return true;
+  };
+  for (const StopGroup& group : model_.stops)
+    if (!check_pairs(group, {group.dof})) return false;
+  for (const ObstacleGroup& group : model_.obstacles)
+    if (!check_pairs(group, group.directions)) return false;
+  if (const auto node = turning_support(model_, *dofs_))
+    return refuse("moves " + model_.nodes.name(*node) +
+                  ", where a part that turns is supported and has gyroscopic effects or rotating damping; move the "
+                  "far node of a bearing or spring between two nodes");
   return true;
 }
 

@@ -9,6 +9,23 @@ std::vector<BadScene> bad_contact_scenes() {
   const std::string nodes = "nodes = \"rotor\"\ngap";
   const auto between = [&](const std::string& selectors) { return Edit{nodes, "between = " + selectors + " #!\ngap"}; };
   return {
+      {"supports of a shaft with gyroscopic effects that move, beside stops in space",
+       {{"length = 4.0", "length = 4.0\nmotion = \"lateral\"\ntheory = \"rayleigh\""},
+        {"regularization = 7.0e7", "regularization = 7.0e7\nframe = \"space\""},
+        {"fix = [\"u\"]",
+         "fix = [\"uy\", \"uz\"]\n[rotation]\nspeed = 100.0\n[base] #!\ndisplacement = { direction = [0, 1, 0], type = "
+         "\"harmonic\", amplitude = 0.01, angular_frequency = 5.0 }"}},
+       {"where a part that turns is supported and has gyroscopic effects"}},
+      {"a stop between bodies of which a base moves one across its direction",
+       {{"nodes = \"rotor\"\ngap", "between = [\"string:2\", \"rotor\"]\ndof = \"uz\"\ngap"},
+        {"length = 4.0", "length = 4.0\nmotion = \"lateral\""},
+        {"node = \"rotor\"\nstiffness = 1.0e9", "node = \"rotor\"\ndof = \"uz\"\nstiffness = 1.0e9"},
+        {"fix = [\"u\"]",
+         "fix = [\"uy\", \"uz\"]\n[[support]]\nnodes = \"rotor\"\nfix = [\"uy\", \"uz\"]\n[[base]] #!\nnodes = "
+         "\"rotor\"\ndisplacement = { direction = [0, 0, 1], type = \"harmonic\", amplitude = 0.01, "
+         "angular_frequency = 5.0 }"},
+        {"[initial]\ndisplacement = [{ nodes = \"rotor\", dof = \"u\", value = 0.001 }]", ""}},
+       {"moves rotor, a body of a contact between two bodies", "both bodies need a free uz"}},
       {"negative gap", {{"gap = 0.01", "gap = -0.01 #!"}}, {"contact[0].gap = -0.01: must be >= 0 (m)"}},
       {"gap missing",
        {{"[[contact]]", "[[contact]] #!"}, {"gap = 0.01\n", ""}},
