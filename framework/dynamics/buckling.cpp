@@ -28,9 +28,18 @@ double critical_preload_factor(model::Model& model, double up_to) {
     before.push_back(element->preload());
     if (!before.back().empty()) element->set_preload(std::vector<double>(before.back().size(), 0.0));
   }
-  const SparseMatrix elastic = symmetric_stiffness(model);
-  for (std::size_t i = 0; i < before.size(); ++i)
-    if (!before[i].empty()) model.elements[i]->set_preload(before[i]);
+  const auto restore = [&] {
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (!before[i].empty()) model.elements[i]->set_preload(before[i]);
+  };
+  SparseMatrix elastic;
+  try {
+    elastic = symmetric_stiffness(model);
+  } catch (...) {
+    restore();
+    throw;
+  }
+  restore();
 
   const SparseMatrix geometric = whole - elastic;
   Eigen::SimplicialLDLT<SparseMatrix> factor;

@@ -27,11 +27,25 @@ constexpr double kRigid = 1e-7;
 constexpr double kOverdamped = 1e-6;
 /// Modes with this damping ratio or more have no critical speed.
 constexpr double kNoResonance = 0.99;
-/// Relative tolerance of speeds.
-constexpr double kSameSpeed = 1e-13;
+/// Relative tolerance of speeds, and of those at which stability changes.
+constexpr double kSameSpeed = 1e-13, kSameBorder = 1e-10;
+/// Growth rates below these fractions of |lambda| and of the highest frequency are rounding.
+constexpr double kGrows = 1e-9, kGrowsOfHighest = 1e-14;
 /// Crossings closer to each other than this, relative to the speed, belong to one mode or several
 /// equal ones.
 constexpr double kOneCrossing = 1e-8;
+
+/// A shift that allows rigid motion, rad/s: a thousandth of the lowest frequency of a DOF alone, above the rounding of
+/// the highest. DOFs without stiffness do not count.
+double shift_of(const model::System& system) {
+  constexpr double kPart = 1e-3, kAboveRounding = 1e-7;
+  const Vector squares = system.stiffness.diagonal().cwiseAbs().cwiseQuotient(system.mass.diagonal());
+  double lowest = squares.maxCoeff();
+  if (!(lowest > 0.0)) return 1.0;
+  for (const double square : squares)
+    if (square > 0.0) lowest = std::min(lowest, square);
+  return std::max(kPart * std::sqrt(lowest), kAboveRounding * std::sqrt(squares.maxCoeff()));
+}
 
 /// y = (A - sigma)^-1 x of the first-order form of the pencil in (x, v).
 class ShiftInverted {
@@ -44,6 +58,7 @@ class ShiftInverted {
       throw RunError("the modes could not be computed: the matrices are singular to rounding");
   }
 
+  double shift() const { return shift_; }
   Index rows() const { return 2 * mass_.rows(); }
   Index cols() const { return rows(); }
   void perform_op(const double* in, double* out) const {
@@ -198,10 +213,7 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
   const Index n = size();
   SparseMatrix damping = damping_ + speed * or_zero(system_.gyroscopic, n);
   const SparseMatrix stiffness = system_.stiffness + speed * or_zero(system_.circulatory, n);
-  // A small shift, a thousandth of a frequency estimated from the diagonals, allows rigid motion.
-  const double shift =
-      1e-3 * std::sqrt(system_.stiffness.diagonal().cwiseAbs().minCoeff() / system_.mass.diagonal().maxCoeff());
-  ShiftInverted operation(system_.mass, std::move(damping), stiffness, shift);
+  ShiftInverted operation(system_.mass, std::move(damping), stiffness, shift_of(system_));
   const Index wanted = std::min(2 * count + 4, 2 * n - 2);
   Spectra::GenEigsSolver<ShiftInverted> solver(operation, wanted, std::min(2 * wanted + 20, 2 * n));
   solver.init();
@@ -209,7 +221,7 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
     throw RunError("the whirling modes could not be computed: Arnoldi's method did not converge");
   std::vector<WhirlMode> modes;
   for (Index i = 0; i < solver.eigenvalues().size(); ++i) {
-    const Complex lambda = shift + 1.0 / solver.eigenvalues()[i];
+    const Complex lambda = operation.shift() + 1.0 / solver.eigenvalues()[i];
     if (lambda.imag() >= 0.0) modes.push_back(finished(lambda, solver.eigenvectors().col(i).head(n)));
   }
   std::stable_sort(modes.begin(), modes.end(),
@@ -237,7 +249,8 @@ Index Whirl::modes_below(double speed, double order, Index count) const {
 std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index steps, double order,
                                                   Index count) const {
   struct Crossing {
-    CriticalSpeed at;
+    double speed;
+    std::vector<double> directions;  ///< of the modes near the line, the closest first
     Index change;
   };
   std::vector<Crossing> crossings;
@@ -255,14 +268,17 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
       self(self, between, b);
       return;
     }
-    const auto near = modes(b.speed, is_dense() ? 2 * size() : count);
-    const auto closest = std::min_element(near.begin(), near.end(), [&](const auto& p, const auto& q) {
+    auto near = modes(b.speed, is_dense() ? 2 * size() : count);
+    std::stable_sort(near.begin(), near.end(), [&](const auto& p, const auto& q) {
       return std::abs(p.frequency() - order * b.speed) < std::abs(q.frequency() - order * b.speed);
     });
     // A nearly critically damped mode has no resonance, whether its frequency crosses the speed or
     // its oscillation ends.
-    if (closest->damping_ratio() > kNoResonance) return;
-    crossings.push_back({{middle, closest->direction}, b.below - a.below});
+    if (near.front().damping_ratio() > kNoResonance) return;
+    Crossing crossing{middle, {}, b.below - a.below};
+    for (const WhirlMode& mode : near)
+      if (mode.damping_ratio() <= kNoResonance) crossing.directions.push_back(mode.direction);
+    crossings.push_back(std::move(crossing));
   };
   End before = end_at(from);
   for (Index i = 1; i <= steps; ++i) {
@@ -274,11 +290,52 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
   // crossings counts.
   std::vector<CriticalSpeed> found;
   for (std::size_t i = 0; i < crossings.size();) {
-    const CriticalSpeed first = crossings[i].at;
+    const Crossing& first = crossings[i];
     Index net = 0;
-    for (; i < crossings.size() && crossings[i].at.speed - first.speed <= kOneCrossing * std::abs(first.speed); ++i)
+    for (; i < crossings.size() && crossings[i].speed - first.speed <= kOneCrossing * std::abs(first.speed); ++i)
       net += crossings[i].change;
-    for (Index k = 0; k < std::abs(net); ++k) found.push_back(first);
+    const auto passed = std::min(static_cast<std::size_t>(std::abs(net)), first.directions.size());
+    for (std::size_t k = 0; k < passed; ++k) found.push_back({first.speed, first.directions[k]});
+  }
+  return found;
+}
+
+bool Whirl::grows(const WhirlMode& mode) const {
+  const double highest = is_dense() ? frequencies_[size() - 1] : 0.0;
+  return mode.lambda.real() > kGrows * std::abs(mode.lambda) + kGrowsOfHighest * highest;
+}
+
+std::vector<StabilityBorder> Whirl::stability_borders(double from, double to, Index steps, Index count) const {
+  struct End {
+    double speed;
+    std::vector<WhirlMode> growing;  ///< the slowest growth first
+  };
+  const auto end_at = [&](double speed) {
+    End end{speed, {}};
+    for (WhirlMode& mode : modes(speed, count))
+      if (grows(mode)) end.growing.push_back(std::move(mode));
+    std::stable_sort(end.growing.begin(), end.growing.end(),
+                     [](const auto& p, const auto& q) { return p.lambda.real() < q.lambda.real(); });
+    return end;
+  };
+  std::vector<StabilityBorder> found;
+  const auto search = [&](auto& self, const End& a, const End& b) -> void {
+    if (a.growing.size() == b.growing.size()) return;
+    const double middle = 0.5 * (a.speed + b.speed);
+    if (b.speed - a.speed > kSameBorder * std::abs(b.speed) && middle > a.speed && middle < b.speed) {
+      const End between = end_at(middle);
+      self(self, a, between);
+      self(self, between, b);
+      return;
+    }
+    const bool begins = b.growing.size() > a.growing.size();
+    found.push_back({middle, begins, (begins ? b : a).growing.front()});
+  };
+  End before = end_at(from);
+  for (Index i = 1; i <= steps; ++i) {
+    End next = end_at(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
+    search(search, before, next);
+    before = std::move(next);
   }
   return found;
 }

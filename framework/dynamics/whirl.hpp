@@ -27,6 +27,13 @@ struct CriticalSpeed {
   double direction = 0.0;  ///< of the mode, as in WhirlMode
 };
 
+/// A speed at which a mode begins or ceases to grow.
+struct StabilityBorder {
+  double speed = 0.0;  ///< rad/s
+  bool begins = true;  ///< it grows above the speed
+  WhirlMode mode;      ///< on the side where it grows
+};
+
 /// The eigenvalue problem (lambda^2 M + lambda (C + Omega G) + K + Omega W) x = 0 of a model at any speed Omega.
 ///
 /// Up to kDense free DOFs all modes are found densely, in the modes of M and K at rest, which keeps
@@ -54,6 +61,12 @@ class BUTEE_EXPORT Whirl {
   /// the frequency of a mode equals order times the speed, found on a grid of `steps` intervals and
   /// by bisection. `count` modes are examined.
   std::vector<CriticalSpeed> critical_speeds(double from, double to, Index steps, double order, Index count) const;
+
+  /// The speeds in [from, to], rad/s, ascending, at which a mode begins or ceases to grow, on a grid of `steps`
+  /// intervals and by bisection. `count` modes are examined.
+  std::vector<StabilityBorder> stability_borders(double from, double to, Index steps, Index count) const;
+  /// True if the mode grows by more than rounding.
+  bool grows(const WhirlMode& mode) const;
 
  private:
   std::vector<WhirlMode> dense_modes(double speed, Index count) const;

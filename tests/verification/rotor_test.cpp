@@ -158,15 +158,36 @@ TEST(PinnedShaft, ConvergesWithOrder4ToTheRayleighBeam) {
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 4.0, 0.1);
 }
 
-/// Above Whirl::kDense DOFs Arnoldi's method finds the same modes.
+/// Above Whirl::kDense DOFs Arnoldi's method finds the same modes, also beside a body that nothing holds.
 TEST(PinnedShaft, HasTheSameModesByArnoldi) {
-  SceneRun run(steel("rayleigh", 120, 1.0, 0.05, "young_modulus = 2.1e11\ndensity = 7800.0") +
-               "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
-  const dynamics::Whirl whirl(run.model());
-  ASSERT_FALSE(whirl.is_dense());
-  // Sums over 120 elements in double precision; the exact frequencies have 10 printed digits.
-  expect_all(frequencies(whirl.modes(30000 * kRpm, 6)),
-             {200.0937730, 206.2244586, 793.2233760, 817.3032401, 1758.8707928, 1811.4673400}, 2 * pi, 1e-7);
+  for (const char* beside : {"", "[[element]]\ntype = \"mass\"\nname = \"free\"\nmass = 1.0\n"}) {
+    SceneRun run(steel("rayleigh", 120, 1.0, 0.05, "young_modulus = 2.1e11\ndensity = 7800.0") + beside +
+                 "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
+    const dynamics::Whirl whirl(run.model());
+    ASSERT_FALSE(whirl.is_dense());
+    auto modes = whirl.modes(30000 * kRpm, *beside == '\0' ? 6 : 8);
+    std::erase_if(modes, [](const auto& mode) { return mode.frequency() < 1e-3; });
+    // Sums over 120 elements in double precision; the exact frequencies have 10 printed digits.
+    expect_all(frequencies(modes), {200.0937730, 206.2244586, 793.2233760, 817.3032401, 1758.8707928, 1811.4673400},
+               2 * pi, 1e-7);
+  }
+}
+
+/// On isotropic supports a forward and a backward mode pass the speed of rotation together.
+TEST(PinnedShaft, IsMetByBothSensesOfWhirlAtOneCriticalSpeed) {
+  SceneRun run(steel("euler", 8, 0.6, 0.01, "young_modulus = 2.1e11\ndensity = 7.85") +
+               disc(":middle", 5.0, 0.01, 0.02) +
+               "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n[damping]\n"
+               "mass_proportional = 5.0\nrotating_stiffness_proportional = 1e-4\n" +
+               turning(1.0));
+  for (const Index steps : {9, 30}) {
+    const auto critical = dynamics::Whirl(run.model()).critical_speeds(0.0, 300.0, steps, 1.0, 10);
+    ASSERT_EQ(critical.size(), 2U) << steps;
+    EXPECT_NEAR(critical[0].direction + critical[1].direction, 0.0, 1e-6) << steps;
+    EXPECT_NEAR(std::abs(critical[0].direction), 1.0, 1e-6) << steps;
+    // 48 E I/(m l^3) of a massless shaft.
+    EXPECT_NEAR(critical[0].speed, std::sqrt(48.0 * 2.1e11 * pi * 1e-8 / 4.0 / (5.0 * 0.216)), 1e-3 * 270.0);
+  }
 }
 
 /// An overhung disc on a massless cantilever: (K11 - m w^2)(K22 - I_d w^2 + I_p W w) = K12^2; one element is
@@ -218,6 +239,11 @@ end_time = 1.0
   EXPECT_LT(std::abs(growth(threshold)), 1e-12 * 100.0);
   EXPECT_GT(growth(1.001 * threshold), 0.0);
   EXPECT_LT(growth(0.999 * threshold), 0.0);
+  const auto borders = whirl.stability_borders(0.0, 400.0, 7, 4);
+  ASSERT_EQ(borders.size(), 1U);
+  EXPECT_NEAR(borders[0].speed, threshold, 1e-7 * threshold);
+  EXPECT_TRUE(borders[0].begins);
+  EXPECT_GT(borders[0].mode.direction, 0.9);
   // The drive supplies energy: the balance includes its work.
   record::EnergyRecorder energy(run.dynamics());
   run.simulation().add(energy);

@@ -1,5 +1,6 @@
 #include "whirl_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,7 @@
 #include <butee/core/text.hpp>
 
 #include "../gnuplot.hpp"
+#include "../plot/chart.hpp"
 
 namespace butee::app::modes {
 namespace {
@@ -53,12 +55,16 @@ WhirlAnalysis whirl_at(const dynamics::Whirl& whirl, const std::string& title, d
 
 Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double from, double to, Index steps,
                   double order, Index count) {
-  Campbell diagram{title, order, {}, {}, {}};
+  Campbell diagram{title, order, {}, {}, {}, {}, false};
   for (Index i = 0; i <= steps; ++i) {
     diagram.speeds.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
     diagram.modes.push_back(whirl.modes(diagram.speeds.back(), count));
   }
   diagram.critical = whirl.critical_speeds(from, to, steps, order, count);
+  diagram.borders = whirl.stability_borders(from, to, steps, count);
+  const auto& first = diagram.modes.front();
+  diagram.grows_at_first =
+      std::any_of(first.begin(), first.end(), [&](const dynamics::WhirlMode& mode) { return whirl.grows(mode); });
   return diagram;
 }
 
@@ -88,6 +94,13 @@ void print(const Campbell& diagram) {
                 std::abs(critical.direction) < kPlanar      ? "planar"
                 : critical.direction * critical.speed > 0.0 ? "forward"
                                                             : "backward");
+  std::printf("\n  stability without contact\n\n");
+  if (diagram.grows_at_first) std::printf("  unstable at %s rad/s\n", to_short_text(diagram.speeds.front()).c_str());
+  for (const dynamics::StabilityBorder& border : diagram.borders)
+    std::printf("  %14s rad/s  %16s rev/min  a mode of %s rad/s (%s) %s\n", formatted("%.10g", border.speed).c_str(),
+                rpm(border.speed).c_str(), to_short_text(border.mode.frequency()).c_str(),
+                sense_of(border.mode, border.speed), border.begins ? "begins to grow" : "ceases to grow");
+  if (!diagram.grows_at_first && diagram.borders.empty()) std::printf("  stable at all these speeds\n");
 }
 
 Json to_json(const WhirlAnalysis& analysis) {
@@ -107,6 +120,10 @@ Json to_json(const Campbell& diagram) {
   json["critical_speeds"] = Json::array();
   for (const dynamics::CriticalSpeed& critical : diagram.critical)
     json["critical_speeds"].push_back({{"speed", critical.speed}, {"direction", critical.direction}});
+  json["stability_borders"] = Json::array();
+  for (const dynamics::StabilityBorder& border : diagram.borders)
+    json["stability_borders"].push_back(
+        {{"speed", border.speed}, {"begins", border.begins}, {"angular_frequency", border.mode.frequency()}});
   json["speeds"] = Json::array();
   for (std::size_t i = 0; i < diagram.speeds.size(); ++i) {
     Json row;
@@ -153,10 +170,23 @@ bool draw(const Campbell& diagram, const record::ResultFolder& folder) {
     plot += ", 'campbell.dat' index 2 w p pt 4 ps 1.2 lc rgb 'black' title 'critical speeds'";
   }
   constexpr double kShape = 0.7;
+  // Modes far above the line of the order would flatten the crossings.
+  const double fastest = std::max(std::abs(diagram.speeds.front()), std::abs(diagram.speeds.back()));
+  double lowest = 0.0;
+  for (const dynamics::WhirlMode& mode : diagram.modes.back())
+    if (mode.frequency() > 0.0 && (lowest == 0.0 || mode.frequency() < lowest)) lowest = mode.frequency();
+  const double top = std::max(1.5 * diagram.order * fastest, 1.2 * lowest);
+  std::string borders;
+  for (const dynamics::StabilityBorder& border : diagram.borders)
+    borders += formatted("set arrow from %.9g, graph 0 to %.9g, graph 1 nohead dt 2 lc rgb '#d62728'\n", border.speed,
+                         border.speed) +
+               formatted("set label '%s' at %.9g, graph 0.97 right rotate font ',8' tc rgb '#d62728' offset -0.6,0\n",
+                         border.begins ? "growth begins" : "growth ends", border.speed);
   const std::string script =
-      gnuplot::style() + "set xlabel 'speed of rotation / (rad/s)'\nset ylabel 'angular frequency / (rad/s)'\n" +
+      gnuplot::style() + "set title \"" + plot::folded_title(diagram.title) + "\" noenhanced\n" + borders +
+      "set xlabel 'speed of rotation / (rad/s)'\nset ylabel 'angular frequency / (rad/s)'\n" +
       gnuplot::legend_below(entries) +
-      formatted("set yrange [0:]\nset xrange [%.9g:%.9g]\n", diagram.speeds.front(), diagram.speeds.back());
+      formatted("set yrange [0:%.9g]\nset xrange [%.9g:%.9g]\n", top, diagram.speeds.front(), diagram.speeds.back());
   folder.write("campbell.gp", script + gnuplot::draw_into({"png", "svg"}, "campbell", plot, kShape));
   return gnuplot::is_installed() && gnuplot::run_script(folder.path(), "campbell").empty();
 }

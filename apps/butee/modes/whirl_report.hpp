@@ -26,6 +26,8 @@ struct Campbell {
   std::vector<double> speeds;  ///< rad/s
   std::vector<std::vector<dynamics::WhirlMode>> modes;
   std::vector<dynamics::CriticalSpeed> critical;
+  std::vector<dynamics::StabilityBorder> borders;
+  bool grows_at_first = false;  ///< a mode grows at the first speed
 };
 
 /// Oscillating modes at a speed, rad/s.
