@@ -129,6 +129,12 @@ class Pool {
     std::int64_t i = 0;
     if (is_sweep)
       if (const std::int64_t kept = rows_.kept(index, motion); kept >= 0) i = (kept - chain.first) * chain.step + 1;
+    // After a power failure the motion may be on disk and the rows before it not.
+    for (std::int64_t before = 0; before < i; ++before)
+      if (!rows_.is_done(chain.at(before))) {
+        i = 0;
+        motion = {};
+      }
     auto kept_at = std::chrono::steady_clock::now();
     for (; i < chain.length && goes_on_; ++i) {
       const std::int64_t run = chain.at(i);

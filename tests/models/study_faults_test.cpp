@@ -116,6 +116,39 @@ std::string rows_in(const std::string& folder) {
   return "";
 }
 
+/// After a power failure the motion of a sweep may be on disk and its last rows not.
+TEST(KilledSweep, ComputesLostRowsAgain) {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", kScene);
+  folder.write("study.toml", sweep_of(40, 8000, "follow = \"up\"\n"));
+  const Names arguments = {"study", "study.toml", "-q", "--format", "csv", "-o"};
+  const auto with = [&](const char* name) {
+    Names all = arguments;
+    all.emplace_back(name);
+    return all;
+  };
+  ASSERT_EQ(run_program(with("whole"), folder.path()).status, 0);
+  const Names expected = rows_without_cost(folder.file("study.toml"), folder.file("whole"), "csv");
+  Process process(with("broken"), folder.path());
+  const auto sweep_file = [&] {
+    std::error_code none_yet;
+    for (const auto& entry : fs::directory_iterator(folder.file("broken"), none_yet))
+      if (entry.path().filename().string().rfind("sweep-", 0) == 0) return entry.path().string();
+    return std::string();
+  };
+  bool has_ended = false;
+  for (int i = 0; i < 6000 && !has_ended && sweep_file().empty(); ++i) has_ended = process.ends_within(10ms);
+  ASSERT_FALSE(has_ended) << "before its motion was saved";
+  process.send(SIGKILL);
+  process.wait();
+  const std::string file = rows_in(folder.file("broken")), rows = read_file(file);
+  const auto last = rows.rfind('\n', rows.size() - 2);
+  ASSERT_NE(last, std::string::npos);
+  std::ofstream(file, std::ios::binary) << rows.substr(0, last + 1);
+  ASSERT_EQ(run_program(with("broken"), folder.path()).status, 0);
+  EXPECT_EQ(rows_without_cost(folder.file("study.toml"), folder.file("broken"), "csv"), expected);
+}
+
 /// The file of rows of a study that was killed once others could read rows of it: it holds some rows, not all.
 std::string interrupted(const TemporaryFolder& folder, const std::string& format) {
   folder.write("scene.toml", kScene);

@@ -364,6 +364,26 @@ schema = 1
 scene = "scene.toml"
 [[vary]]
 key = "contact[0].gap"
+values = [0.9, 1.0]
+[[vary]]
+key = "load[0].angular_frequency"
+from = 1.0
+to = 1.4
+count = 3
+[study]
+follow = true
+settle = 3
+periods = 4
+collect = ["peak m.u"]
+)");
+  perform("sweeps", {"--format", "csv", "--plot", "--plot-format", "svg"});
+  for (const char* name : {"map-peak-m.u-up.svg", "map-peak-m.u-down.svg"})
+    EXPECT_NE(read_file(folder_.file(std::string("sweeps/plots/") + name)).find("</svg>"), std::string::npos) << name;
+  folder_.write("study.toml", R"(
+schema = 1
+scene = "scene.toml"
+[[vary]]
+key = "contact[0].gap"
 from = 0.5
 to = 1.5
 [study]

@@ -97,7 +97,8 @@ class Drawing {
       const bool is_section = study_.items[i].kind == Item::Kind::section;
       if (is_random && !is_section) pictures.push_back(histogram(i));
       if (is_numeric && axes() == 1 && !is_random) pictures.push_back(over_axis(i, is_section));
-      if (is_numeric && axes() == 2 && kind == study::PlanKind::grid && !is_section) pictures.push_back(map(i));
+      if (is_numeric && axes() == 2 && kind == study::PlanKind::grid && !is_section)
+        for (const int direction : directions()) pictures.push_back(map(i, direction));
       if (is_section && study_.items[i].quantity == model::Quantity::u)
         if (const auto v = speed_of(study_.items[i])) pictures.push_back(poincare(i, *v));
     }
@@ -132,7 +133,7 @@ class Drawing {
 
   /// The axis label of an item: "peak rotor.u / mm".
   std::string label(std::size_t item, const Scale& scale) const {
-    return gnuplot::quoted(scale.axis(study_.items[item].text));
+    return gnuplot::quoted(scale.axis(study_.items[item].text)) + " noenhanced";
   }
 
   void begin(Picture& picture, const std::string& name) const {
@@ -156,8 +157,7 @@ class Drawing {
     const Scale scale = scale_of(item);
     std::map<int, std::string> blocks;
     store_.visit([&](const Row& row) {
-      const int direction =
-          study_.plan.follow() == Follow::no ? 0 : static_cast<int>(row.integer(layout_.find(study::kDirectionColumn)));
+      const int direction = direction_of(row);
       for (std::size_t k = 0; k < column(item).length; ++k)
         blocks[direction] +=
             number(row.number(first_axis_)) + " " + number(row.number(first_item_ + item, k) * scale.factor) + "\n";
@@ -186,16 +186,38 @@ class Drawing {
     return picture;
   }
 
-  /// A cell around every run, in its colour.
-  Picture map(std::size_t item) const {
+  /// Of the sweeps, +1 up and -1 down; 0 without sweeps.
+  std::vector<int> directions() const {
+    switch (study_.plan.follow()) {
+      case Follow::no:
+        return {0};
+      case Follow::up:
+        return {1};
+      case Follow::down:
+        return {-1};
+      default:
+        return {1, -1};
+    }
+  }
+
+  int direction_of(const Row& row) const {
+    return study_.plan.follow() == Follow::no ? 0
+                                              : static_cast<int>(row.integer(layout_.find(study::kDirectionColumn)));
+  }
+
+  /// A cell around every run of a direction, in its colour.
+  Picture map(std::size_t item, int direction) const {
     Picture picture;
-    begin(picture, "map-" + study_.items[item].text);
+    const bool has_both = directions().size() > 1;
+    const std::string sweep = direction > 0 ? "up" : "down";
+    begin(picture, "map-" + study_.items[item].text + (has_both ? "-" + sweep : ""));
+    if (has_both)
+      picture.set = "set title \"" + plot::folded_title(title() + ", sweep " + sweep) + "\" noenhanced\nunset key\n";
     const Scale scale = scale_of(item);
     const Cells columns(study_.plan.axes()[0]), lines(study_.plan.axes()[1]);
-    std::int64_t count = 0;
     picture.data = "$map << EOD\n";
     store_.visit([&](const Row& row) {
-      if (count++ >= study_.plan.point_count()) return;  // The downward sweep is not drawn.
+      if (direction_of(row) != direction) return;
       const double x = row.number(first_axis_), y = row.number(first_axis_ + 1);
       const double value = row.number(first_item_ + item) * scale.factor;
       if (!std::isfinite(value)) return;
