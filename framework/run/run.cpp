@@ -50,7 +50,7 @@ record::Summary Run::perform(const record::ResultFolder* folder, const record::C
     integrate();
   });
   // Also for a run that ended early: computed results are kept.
-  if (folder != nullptr) guarded([&] { write_files(*folder); });
+  if (folder != nullptr) write_files(*folder);
   summarize();
   return std::move(summary_);
 }
@@ -211,20 +211,32 @@ void Run::look_at_rows() {
 }
 
 void Run::write_files(const record::ResultFolder& folder) {
-  if (fields_) fields_->finish();
-  if (writer_) writer_->close();
-  if (energy_writer_) energy_writer_->close();
-  if (summary_.report.completed)
-    states_->write(folder.file(model::SavedMotions::kFile), assembly_.system, assembly_.simulation.state());
-  if (contacts_) {
+  // One file that cannot be written leaves the others whole.
+  guarded([&] {
+    if (writer_) writer_->close();
+  });
+  guarded([&] {
+    if (energy_writer_) energy_writer_->close();
+  });
+  guarded([&] {
+    if (!impacts_) return;
+    record::CsvWriter writer(folder.file("impacts.csv"), record::ImpactRecorder::columns());
+    for (const record::Impact& impact : impacts()) writer.line(record::ImpactRecorder::csv_line(impact));
+    writer.close();
+  });
+  guarded([&] {
+    if (!contacts_) return;
     record::CsvWriter writer(folder.file("wear.csv"), record::ContactRecorder::wear_columns());
     for (const record::ContactWear& wear : contacts_->wear()) writer.line(contacts_->wear_line(wear));
     writer.close();
-  }
-  if (!impacts_) return;
-  record::CsvWriter writer(folder.file("impacts.csv"), record::ImpactRecorder::columns());
-  for (const record::Impact& impact : impacts()) writer.line(record::ImpactRecorder::csv_line(impact));
-  writer.close();
+  });
+  guarded([&] {
+    if (fields_) fields_->finish();
+  });
+  guarded([&] {
+    if (assembly_.simulation.report().completed)
+      states_->write(folder.file(model::SavedMotions::kFile), assembly_.system, assembly_.simulation.state());
+  });
 }
 
 }  // namespace butee::run
