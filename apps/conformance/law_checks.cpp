@@ -24,11 +24,12 @@ std::unique_ptr<model::ContactLaw> make_law(const Subject& subject) {
   return law;
 }
 
-/// Penetrations from 1 nm to 6.1 m in absolute value, of both signs (closed and open).
+/// Penetrations from 1 nm to 6.1 m in absolute value, of both signs (closed and open). None is a round number: laws
+/// have corners there, with two slopes.
 std::vector<double> penetrations() {
   std::vector<double> g;
   for (int decade = -9; decade <= 0; ++decade)
-    for (const double digit : {1.0, 2.7, 6.1})
+    for (const double digit : {1.0313, 2.7189, 6.0917})
       for (const double sign : {1.0, -1.0}) g.push_back(sign * digit * std::pow(10.0, decade));
   return g;
 }

@@ -59,7 +59,13 @@ std::string text_complaint(const Parameter& parameter, const Value& value) {
   if (parameter.choices.empty() ||
       std::find(parameter.choices.begin(), parameter.choices.end(), *text) != parameter.choices.end())
     return "";
-  return "must be one of " + quoted_choices(parameter) + suggestion(*text, parameter.choices);
+  // A long list hides the suggestion.
+  constexpr std::size_t kMost = 20, kShown = 8;
+  if (parameter.choices.size() <= kMost)
+    return "must be one of " + quoted_choices(parameter) + suggestion(*text, parameter.choices);
+  const std::vector<std::string> first(parameter.choices.begin(), parameter.choices.begin() + kShown);
+  return "must be one of \"" + join(first, "\", \"") + "\" and " + std::to_string(parameter.choices.size() - kShown) +
+         " more (`butee help` lists them)" + suggestion(*text, parameter.choices);
 }
 
 template <class Complaint>

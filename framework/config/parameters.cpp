@@ -102,7 +102,8 @@ std::optional<Parameters> read_parameters(const Value& value, const std::string&
   parameters.place(path, value.at);
   const std::string prefix = path.empty() ? "" : path + ".";
   std::vector<std::string> known = names_of(declared);
-  known.insert(known.end(), ignored.begin(), ignored.end());
+  for (const std::string& key : ignored)
+    if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
 
   for (const auto& [key, item] : table->entries)
     if (std::find(known.begin(), known.end(), key) == known.end())

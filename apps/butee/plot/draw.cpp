@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
 #include <butee/core/text.hpp>
 
 #include "../gnuplot.hpp"
@@ -78,12 +79,15 @@ std::vector<std::string> draw(const Request& request, const plugin::Catalogue& c
   if (!chosen) kinds = default_kinds(results);
   const Drawing drawing{results, request.probes.empty() ? labels : request.probes, request.window, chosen, catalogue};
   std::vector<Picture> all;
+  std::vector<std::string> missing;
   for (const Kind& kind : kinds) {
     std::vector<Picture> found = kind.draw(drawing);
     if (found.empty() && chosen)
-      throw InputError("--kind " + kind.name + ": " + join(request.folders) + " lacks " + kind.needs);
+      missing.push_back("--kind " + kind.name + ": " + join(request.folders) + " lacks " + kind.needs);
     for (Picture& picture : found) all.push_back(std::move(picture));
   }
+  if (all.empty() && !missing.empty()) throw InputError(join(missing, "\n"));
+  for (const std::string& one : missing) log::warning(one);
   if (all.empty()) throw InputError(join(request.folders) + ": there is nothing to draw");
 
   std::vector<std::string> drawn_formats = request.formats, made;

@@ -117,7 +117,9 @@ const std::vector<Kind>& named_kinds() {
                      return wear_picture(result, drawing.several());
                    })});
     all.push_back({"shape", kFieldsNeeded, of_all_nodes(shape_pictures)});
-    all.push_back({"frame", std::string("beams in space and ") + kFieldsNeeded, of_all_nodes(frame_pictures)});
+    all.push_back({"frame",
+                   std::string("beams that do not all lie along x (--kind shape draws those) or ") + kFieldsNeeded,
+                   of_all_nodes(frame_pictures)});
     return all;
   }();
   return kinds;
