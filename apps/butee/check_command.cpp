@@ -4,6 +4,7 @@
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
 #include <butee/core/terminal.hpp>
+#include <butee/dynamics/modal_dashpots.hpp>
 
 #include "check/picture.hpp"
 #include "check/report.hpp"
@@ -65,7 +66,7 @@ int check_command(const CheckArguments& arguments) {
     throw InputError("--picture " + arguments.picture + ": the picture is SVG; give a name that ends with .svg");
   scene::Scene session = open_session(arguments.model);
   const double reading_seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-  const model::System system = assemble(session.model);
+  const model::System system = dynamics::assemble_to_run(session.model);
   check::Facts facts;
   facts.survey = check::survey_of(session.model);
   facts.open = frequency_range(system, dynamics::StopState::open);

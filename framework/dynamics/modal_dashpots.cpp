@@ -18,8 +18,9 @@ SparseMatrix with_all_places(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-void make_modal_damping_explicit(const model::Model& model, model::System& system) {
-  if (!system.damping.is_modal() || system.is_symmetric) return;
+model::System assemble_to_run(const model::Model& model) {
+  model::System system = assemble(model);
+  if (!system.damping.is_modal() || system.is_symmetric) return system;
   if (system.size() > kMostModalDashpots)
     throw InputError(
         "damping.modal: if shafts turn or bearings have cross terms, systems of more than " +
@@ -36,6 +37,7 @@ void make_modal_damping_explicit(const model::Model& model, model::System& syste
     if (matrix->size() > 0) *matrix = with_all_places(Eigen::MatrixXd(*matrix));
   system.damping.every_mode = 0.0;
   system.damping.lowest_modes.clear();
+  return system;
 }
 
 }  // namespace butee::dynamics

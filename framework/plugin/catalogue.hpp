@@ -42,6 +42,8 @@ class BUTEE_EXPORT Catalogue {
   const model::ModelTypes& types() const { return types_; }
   const std::vector<IntegratorEntry>& integrators() const { return integrators_; }
 
+  /// The paths of all modules, in alphabetical order.
+  const std::set<std::string>& modules() const { return known_; }
   /// The module of a law, load or element; "" for those of the library.
   std::string module_of(const std::string& kind, const std::string& name) const;
 

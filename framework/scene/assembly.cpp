@@ -31,8 +31,7 @@ std::string located(const config::Document& document, const std::string& message
 }
 
 model::System assemble_changed(const model::Model& model, const std::function<void(model::System&)>& change) {
-  model::System system = assemble(model);
-  dynamics::make_modal_damping_explicit(model, system);
+  model::System system = dynamics::assemble_to_run(model);
   if (change) change(system);
   if (model.starts_static) {
     dynamics::Dynamics dynamics(system);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "butee/dynamics/modal_dashpots.hpp"
 #include "butee/scene/assembly.hpp"
 #include "butee/study/study.hpp"
 
@@ -28,7 +29,7 @@ class Bench {
 
  private:
   struct Parts {
-    explicit Parts(const scene::Scene& scene) : system(assemble(scene.model)), dynamics(system) {}
+    explicit Parts(const scene::Scene& scene) : system(dynamics::assemble_to_run(scene.model)), dynamics(system) {}
     model::System system;
     dynamics::Dynamics dynamics;
   };

@@ -21,16 +21,14 @@ std::string values_of_files(const Plan& plan) {
   return text;
 }
 
-/// The library and the modules of methods.
+/// The library and all modules that a scene may use.
 std::string checksum_of_build(const plugin::Catalogue& catalogue) {
   std::string all;
   const auto add = [&](const std::string& file) {
     if (!file.empty() && fs::exists(file)) all += config::checksum_text(config::read_text(file));
   };
   add(plugin::library_file());
-  std::string last;
-  for (const plugin::IntegratorEntry& entry : catalogue.integrators())
-    if (entry.module != last) add(last = entry.module);
+  for (const std::string& module : catalogue.modules()) add(module);
   return config::checksum_text(all);
 }
 

@@ -47,8 +47,8 @@ class Pool {
     }
     wait();
     threads.clear();
-    if (error_) std::rethrow_exception(error_);
     rows_.flush();
+    if (error_) std::rethrow_exception(error_);
     return goes_on_;
   }
 
@@ -78,6 +78,7 @@ class Pool {
       }
       const Progress now = progress_of_all();
       lock.unlock();
+      rows_.flush();
       if (options_.report) options_.report(now);
       if (options_.goes_on && !options_.goes_on()) goes_on_ = false;
       lock.lock();

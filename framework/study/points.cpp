@@ -44,7 +44,8 @@ PointTable read_points(const std::string& text) {
 }
 
 config::Value value_of(const std::string& cell) {
-  return config::parse_toml_value(cell).value_or(config::Value(cell));
+  const std::string text = trimmed(cell);
+  return config::parse_toml_value(text).value_or(config::Value(text));
 }
 
 }  // namespace butee::study

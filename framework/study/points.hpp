@@ -18,7 +18,7 @@ struct PointTable {
 /// file's name, if a line has a different number of cells than the first.
 BUTEE_EXPORT PointTable read_points(const std::string& text);
 
-/// A cell interpreted as by `--set`: a value in TOML syntax, or else a text.
+/// A cell without blanks around it, interpreted as by `--set`: a value in TOML syntax, or else a text.
 BUTEE_EXPORT config::Value value_of(const std::string& cell);
 
 }  // namespace butee::study

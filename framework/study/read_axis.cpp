@@ -35,6 +35,9 @@ class AxisReader {
     }
     if (!p.has("file"))
       if (p.has("column")) p.complain(diagnostics_, "column", "belongs to file, which is not given");
+    if (values != nullptr || p.has("file"))
+      for (const char* key : {"count", "spacing"})
+        if (p.given(key)) p.complain(diagnostics_, key, "belongs to from and to, which are not given");
     if (values != nullptr) return read_values(*values, path, std::move(axis));
     if (p.has("file")) return read_file(p, std::move(axis));
     return read_range(p, kind, std::move(axis));

@@ -25,7 +25,7 @@ class SteadyWatch final : public time::Observer {
   bool has_news() const { return is_open_ && repeats_ > 0; }
   void close() { is_open_ = false; }
   /// The first number of periods, not before `t`, from which the motion continues as from `settle`;
-  /// at most `settle`.
+  /// at most `settle`. Also after close().
   std::int64_t next_alike(double t, std::int64_t settle) const;
 
  private:

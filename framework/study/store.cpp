@@ -187,35 +187,16 @@ std::unique_ptr<RowSource> Store::open_rows(const std::string& path) const {
 }
 
 void Store::read_done() {
-  std::vector<std::string> files;
-  if (is_complete_) {
-    files = {result()};
-  } else {
-    files = row_files(folder_);
-    for (const std::string& name : files) {
+  if (!is_complete_)
+    for (const std::string& name : row_files(folder_)) {
       const int session = std::atoi(fs::path(name).filename().c_str() + std::string(kRows).size());
       next_session_ = std::max(next_session_, session + 1);
     }
-    for (const std::string& shard : shards_in(folder_)) {
-      check_identity(shard);
-      const auto more = row_files(shard);
-      files.insert(files.end(), more.begin(), more.end());
-    }
-  }
-  std::vector<std::byte> bytes(layout_.row_bytes());
-  const std::size_t run_column = layout_.find(kRunColumn);
-  for (const std::string& path : files) {
-    const auto source = is_complete_ ? format_.open(path, layout_) : open_rows(path);
-    for (std::int64_t i = 0; source != nullptr && i < source->size(); ++i) {
-      if (!source->read(i, bytes)) continue;
-      const std::int64_t run = Row(layout_, bytes).integer(run_column);
-      if (run < 0 || run >= std::ssize(done_))
-        throw RunError(path + ": contains a row that belongs to no run of this study");
-      if (done_[static_cast<std::size_t>(run)]) continue;
-      done_[static_cast<std::size_t>(run)] = true;
-      ++done_count_;
-    }
-  }
+  visit_files(is_complete_ ? std::vector{result()} : all_row_files(), [&](std::size_t, std::int64_t, std::int64_t run) {
+    if (done_[static_cast<std::size_t>(run)]) return;
+    done_[static_cast<std::size_t>(run)] = true;
+    ++done_count_;
+  });
   if (is_complete_ && done_count_ != std::ssize(done_))
     throw RunError(result() + ": does not hold all rows; use --fresh to start again");
 }

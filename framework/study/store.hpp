@@ -108,6 +108,9 @@ class BUTEE_EXPORT Store final : public Rows {
   std::vector<std::string> row_files(const std::string& folder) const;
   /// The row files of this folder and of its shards.
   std::vector<std::string> all_row_files() const;
+  /// Calls `look` for the rows of the files.
+  void visit_files(const std::vector<std::string>& files,
+                   const std::function<void(std::size_t file, std::int64_t index, std::int64_t run)>& look) const;
   /// The location of the row of each run, if it exists.
   Found find_rows() const;
   /// Calls `look` with blocks of whole rows in the order of the runs.

@@ -30,20 +30,27 @@ Store::Found Store::find_rows() const {
   Found found;
   found.files = all_row_files();
   found.places.resize(static_cast<std::size_t>(study_.plan.run_count()));
+  visit_files(found.files, [&](std::size_t file, std::int64_t i, std::int64_t run) {
+    Found::Place& place = found.places[static_cast<std::size_t>(run)];
+    if (place.file < 0) place = {static_cast<std::int32_t>(file), i};
+  });
+  return found;
+}
+
+void Store::visit_files(const std::vector<std::string>& files,
+                        const std::function<void(std::size_t file, std::int64_t index, std::int64_t run)>& look) const {
   std::vector<std::byte> bytes(layout_.row_bytes());
   const std::size_t run_column = layout_.find(kRunColumn);
-  for (std::size_t file = 0; file < found.files.size(); ++file) {
-    const auto source = open_rows(found.files[file]);
+  for (std::size_t file = 0; file < files.size(); ++file) {
+    const auto source = is_complete_ ? format_.open(files[file], layout_) : open_rows(files[file]);
     for (std::int64_t i = 0; source != nullptr && i < source->size(); ++i) {
       if (!source->read(i, bytes)) continue;
       const std::int64_t run = Row(layout_, bytes).integer(run_column);
-      if (run < 0 || run >= std::ssize(found.places))
-        throw RunError(found.files[file] + ": contains a row that belongs to no run of this study");
-      Found::Place& place = found.places[static_cast<std::size_t>(run)];
-      if (place.file < 0) place = {static_cast<std::int32_t>(file), i};
+      if (run < 0 || run >= study_.plan.run_count())
+        throw RunError(files[file] + ": contains a row that belongs to no run of this study");
+      look(file, i, run);
     }
   }
-  return found;
 }
 
 void Store::visit_in_order(const Found& found, const std::function<void(std::span<const std::byte> rows)>& look) const {

@@ -1,12 +1,12 @@
 #include "butee/study/table.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "butee/core/error.hpp"
+#include "butee/core/text.hpp"
 #include "butee/record/csv_writer.hpp"
 
 namespace butee::study {
@@ -145,9 +145,9 @@ Row from_csv(const Layout& layout, const std::string& line) {
   Row row(layout);
   auto cell = cells.begin();
   const auto read = [&](auto& value) {
-    const auto end = cell->data() + cell->size();
-    if (const auto result = std::from_chars(cell->data(), end, value); result.ec != std::errc() || result.ptr != end)
-      throw RunError("\"" + *cell + "\" is not a number");
+    const auto number = whole_number<std::remove_reference_t<decltype(value)>>(*cell);
+    if (!number) throw RunError("\"" + *cell + "\" is not a number");
+    value = *number;
   };
   for (std::size_t i = 0; i < layout.columns().size(); ++i) {
     const Column& column = layout.columns()[i];

@@ -196,9 +196,11 @@ bool Worker::integrate(std::unique_ptr<scene::Scene> owned, const std::vector<co
     if (counted.begin > 0.0) {
       simulation.set_end_time(counted.begin);
       if (!run()) return false;
-      if (watch && watch->has_news()) {
+      const bool is_steady = watch && watch->has_news();
+      // The periods that count are all computed, whenever the motion becomes steady.
+      if (watch) watch->close();
+      if (is_steady) {
         settle = watch->next_alike(simulation.state().t, study_.settle);
-        watch->close();
         simulation.set_end_time(std::max(simulation.state().t, static_cast<double>(settle) * counted.period));
         if (!run()) return false;
       }

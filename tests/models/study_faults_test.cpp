@@ -262,6 +262,8 @@ TEST(BadStudies, AreRefusedWithKeyAndRemedy) {
   expect_bad(study_of("[[vary]]\nkey = \"contact[1].gap\"\nvalues = [1.0]\n", kCollect), "there is no contact[1]");
   expect_bad(study_of("[[vary]]\nkey = \"contact[0].gap\"\nvalues = []\n", kCollect), "vary[0].values");
   expect_bad(study_of("[[vary]]\nkey = \"contact[0].gap\"\n", kCollect), "give its values in one way");
+  expect_bad(study_of("[[vary]]\nkey = \"contact[0].gap\"\nvalues = [1.0]\ncount = 5\n", kCollect),
+             "vary[0].count = 5: belongs to from and to");
   expect_bad(study_of("[[vary]]\nkey = \"contact[0].gap\"\nfrom = 1.0\nto = 1.0\ncount = 3\n", kCollect),
              "the range is empty");
   expect_bad(study_of("[[vary]]\nkey = \"contact[0].gap\"\nfrom = 1.0\nto = 2.0\n", kCollect), "vary[0].count");

@@ -176,6 +176,15 @@ tolerance = 1.0e-7
   EXPECT_EQ(perform("12000.0", "steady = 1e-5")[1][0], 601.0);
 }
 
+/// Ten periods are too few for 1e-6, the forty after them are not.
+TEST(StudyResults, CountAllPeriodsOfAMotionThatBecomesSteadyAmongThem) {
+  const std::vector<std::string> items = {"rms m.u", "mean m.u", "end m.u", "section m.u", "frequency m.u"};
+  const auto plain = results_of(kOscillator, "settle = 10\nperiods = 40", items);
+  const auto watched = results_of(kOscillator, "settle = 10\nperiods = 40\nsteady = 1e-6", items);
+  EXPECT_EQ(watched, plain);
+  EXPECT_NEAR(watched[0][0], 2.0 / std::hypot(5.0, 0.8) / std::numbers::sqrt2, 1e-3);
+}
+
 /// A load that begins after the motion has repeated itself: (10 N)/(9 N/m) beside the oscillation.
 TEST(StudyResults, DoNotCallAMotionSteadyBeforeALaterLoad) {
   const std::string ramp = "[[load]]\ntype = \"ramp\"\nnode = \"m\"\nto = 10.0\nstart = 250.0\nend = 260.0\n";

@@ -25,7 +25,8 @@ prints the number of runs, their duration and the size of the rows.
   plan    = "grid"                 # grid: all combinations, the last key the fastest; list: values one by one;
                                    # sobol, latin: `count` points spread over the ranges, with a `seed`
   follow  = false                  # true: sweeps along the last key, up and down, in which each run starts from the
-                                   # final motion of the one before, stick and slip of contacts included; "up", "down"
+                                   # final motion of the one before, stick and slip of contacts included; each sweep
+                                   # begins with the scene's own start; "up", "down": one of them
   settle  = 1440                   # periods before results count
   periods = 60                     # periods that count; default: to end_time of the scene
   steady  = 1.0e-5                 # settling ends early if the motion repeats after 1 to 16 periods within this relative

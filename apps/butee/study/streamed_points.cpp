@@ -92,13 +92,21 @@ int answer_points(const StreamedPoints& request) {
     line = first;
     return true;
   };
+  std::int64_t answered = -1;  // The first line holds the names.
   const auto respond = [&](const std::string& line) {
+    ++answered;
     out << line << '\n' << std::flush;
     if (!out) throw RunError("--results " + request.results + ": cannot be written");
   };
-  study::answer(study, layout, request.threads > 0 ? request.threads : study::processor_count(),
-                {next_point, respond, [] { return interruption() == nullptr; }});
-  if (interruption() == nullptr) return kDone;
+  const std::int64_t failed =
+      study::answer(study, layout, request.threads > 0 ? request.threads : study::processor_count(),
+                    {next_point, respond, [] { return interruption() == nullptr; }});
+  if (interruption() == nullptr) {
+    if (failed > 0)
+      log::warning(std::to_string(failed) + " of " + std::to_string(answered) +
+                   " points have no results; their rows give the reasons");
+    return failed == 0 || failed < answered ? kDone : kFailed;
+  }
   log::error(std::string("interrupted by ") + interruption() + "; " +
              (request.results == "-" ? "standard output" : request.results) + " holds the rows of finished points");
   return kFailed;
