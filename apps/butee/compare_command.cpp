@@ -11,6 +11,7 @@
 #include <butee/core/target.hpp>
 #include <butee/core/text.hpp>
 #include <butee/dynamics/frequencies.hpp>
+#include <butee/plugin/module.hpp>
 #include <butee/record/result_folder.hpp>
 #include <butee/version.hpp>
 
@@ -187,11 +188,11 @@ class Comparison {
     row.method = sweep.method;
     row.knob = sweep.knob;
     row.value = value;
-    row.fingerprint = config::checksum_text(BUTEE_VERSION + target() + compiled_for() +
-                                            config::write_toml(config::with_files_found_from(document, ".")) +
-                                            result.column + reference_text_);
+    row.fingerprint = config::checksum_text(
+        BUTEE_VERSION + target() + compiled_for() + build_of(*scene.session.catalogue.find(sweep.method)) +
+        config::write_toml(config::with_files_found_from(document, ".")) + result.column + reference_text_);
     const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Row& other) {
-      return other.fingerprint == row.fingerprint && other.scene == row.scene;
+      return other.fingerprint == row.fingerprint && other.scene == row.scene && other.outcome != "too slow";
     });
     if (known != kept_.end()) return *known;
     scene::Scene session = scene::read_scene(std::move(document), scene.session.catalogue);
@@ -214,6 +215,14 @@ class Comparison {
     return row;
   }
 
+  /// The checksums of the library and of a method's module.
+  static std::string build_of(const plugin::IntegratorEntry& entry) {
+    std::string all;
+    for (const std::string& file : {plugin::library_file(), entry.module})
+      if (!file.empty() && std::filesystem::exists(file)) all += config::checksum_text(config::read_text(file));
+    return all;
+  }
+
   static std::string describe(const Row& row) {
     std::string text = row.scene + ": " + row.method;
     if (!row.knob.empty()) text += ", " + row.knob + " = " + to_short_text(row.value);
@@ -227,9 +236,17 @@ class Comparison {
     std::string csv = csv_header() + "\n";
     for (const SceneResult& result : results)
       for (const Row& row : result.rows) csv += csv_line(row) + "\n";
+    // Rows of an earlier call that this one has not reached are kept for the next.
+    const auto is_new = [&](const Row& row) {
+      return std::any_of(results.begin(), results.end(), [&](const SceneResult& result) {
+        return std::any_of(result.rows.begin(), result.rows.end(), [&](const Row& other) {
+          return other.scene == row.scene && other.method == row.method && other.knob == row.knob &&
+                 other.value == row.value;
+        });
+      });
+    };
     for (const Row& row : kept_)
-      if (std::none_of(results.begin(), results.end(), [&](const auto& result) { return result.scene == row.scene; }))
-        csv += csv_line(row) + "\n";
+      if (!is_new(row)) csv += csv_line(row) + "\n";
     folder.write("runs.csv", csv);
     bool drawn = true;
     for (const SceneResult& result : results) drawn = draw(result, folder_) && drawn;

@@ -75,12 +75,14 @@ Checkpoint to_checkpoint(std::span<const std::byte> bytes) {
   ByteReader outer(bytes);
   if (outer.take<std::uint64_t>() != kMark) throw RunError("is not a checkpoint of butee");
   if (const auto format = outer.take<std::uint32_t>(); format != kFormat)
-    throw RunError("is of format " + std::to_string(format) + "; this butee reads " + std::to_string(kFormat));
+    throw InputError("is of format " + std::to_string(format) + "; this butee reads " + std::to_string(kFormat) +
+                     "; resume with the version that wrote it, or run the model again");
   std::string version;
   outer.take(version);
   if (version != BUTEE_VERSION)
-    throw RunError("was written by butee " + version +
-                   "; this is " BUTEE_VERSION ", whose results may differ in the last digits");
+    throw InputError("was written by butee " + version +
+                     "; this is " BUTEE_VERSION
+                     ", whose results may differ in the last digits; resume with that version, or run the model again");
   const auto sum = outer.take<std::uint64_t>();
   std::vector<std::byte> content;
   outer.take(content);
@@ -119,7 +121,12 @@ std::optional<Checkpoint> CheckpointFolder::read(const std::string& name) const 
     return std::nullopt;
   };
   try {
-    Checkpoint checkpoint = to_checkpoint(std::as_bytes(std::span(text)));
+    Checkpoint checkpoint;
+    try {
+      checkpoint = to_checkpoint(std::as_bytes(std::span(text)));
+    } catch (const InputError& refusal) {
+      throw InputError(path + ": " + refusal.what());
+    }
     if (checkpoint.model != folder_.checksum_of("model.toml"))
       throw InputError(folder_.file("model.toml") + ": is not the model that " + path +
                        " was written for; put it back as it was, or run the model again");

@@ -113,7 +113,7 @@ void SampledPeaks::look(const time::AcceptedStep& step, double t) {
     const bool is_top = has_two_before && last.value >= before.value && last.value >= sample.value && last.value > 0.0;
     if (is_top && last.value > kNearPeak * largest_[i]) {
       const Sampled top = local_maximum(before, last, sample, [&](double instant) {
-        probes_->evaluate(step, instant, values_);
+        probes_->evaluate(step, instant, values_, view_);
         return std::abs(values_[i]);
       });
       largest_[i] = std::max(largest_[i], top.value);

@@ -92,6 +92,7 @@ void GrowthWatch::save(ByteWriter& to) const {
 
 void GrowthWatch::restore(ByteReader& from) {
   prepare();
+  sound_energy_ = 0.0;
   for (std::int64_t* count : {&count_, &next_look_}) from.take(*count);
   for (double* number :
        {&last_time_, &last_energy_, &excess_, &begin_time_, &begin_energy_, &start_time_, &start_energy_,

@@ -97,6 +97,14 @@ void SundialsIntegrator::begin(const time::State& from) {
     check(ARKStepReset(memory_, from.t, y_), "ARKStepReset");
 }
 
+void SundialsIntegrator::do_start(time::State&) {
+  last_.t = kNone;
+}
+
+void SundialsIntegrator::do_jump(time::State&, ConstVectorRef) {
+  last_.t = kNone;
+}
+
 time::StepReport SundialsIntegrator::do_step(const time::State& from, const time::Step& step, time::State& to) {
   time::StepReport report;
   const bool continues = memory_ != nullptr && last_.t == from.t && last_.x == from.x && last_.v == from.v;

@@ -39,6 +39,9 @@ class SundialsIntegrator final : public time::Integrator {
     time::StepDecision decide(double, const time::StepReport& report) const override;
   };
 
+  /// The accelerations may have changed: the solver starts afresh.
+  void do_start(time::State& state) override;
+  void do_jump(time::State& state, ConstVectorRef jump) override;
   time::StepReport do_step(const time::State& from, const time::Step& step, time::State& to) override;
 
   bool is_cvode() const { return family_ == Family::cvode_bdf || family_ == Family::cvode_adams; }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include <butee/core/text.hpp>
+#include <butee/version.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -174,6 +175,24 @@ TEST_F(Checkpointed, ASignalEndsARunAfterItsStep) {
     EXPECT_TRUE(fs::exists(folder_.file("broken/checkpoint.bin")));
     EXPECT_TRUE(fs::exists(folder_.file("broken/impacts.csv")));
   }
+}
+
+/// The results of another version are kept as they are.
+TEST_F(Checkpointed, AnotherVersionIsRefused) {
+  interrupt(SIGINT);
+  const std::string version = BUTEE_VERSION, history = read_file(folder_.file("broken/history.csv"));
+  for (const char* name : {"broken/checkpoint.bin", "broken/checkpoint-before.bin"}) {
+    std::string text = read_file(folder_.file(name));
+    const auto place = text.find(version);
+    ASSERT_NE(place, std::string::npos);
+    folder_.write(name, text.replace(place, version.size(), std::string(version.size(), '9')));
+  }
+  const Outcome outcome = run({"run", "--resume", "broken", "-q"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("resume with that version, or run the model again"), std::string::npos)
+      << outcome.errors;
+  EXPECT_TRUE(fs::exists(folder_.file("broken/checkpoint.bin")));
+  EXPECT_EQ(read_file(folder_.file("broken/history.csv")), history);
 }
 
 /// A run of a hundred seconds was interrupted; its end time was then changed by hand. Resuming is refused,

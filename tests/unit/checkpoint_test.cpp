@@ -124,7 +124,7 @@ TEST_F(Checkpoints, NoDamagePasses) {
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::vector<std::byte> damaged = whole;
     damaged[i] ^= std::byte{0x10};
-    EXPECT_THROW(record::to_checkpoint(damaged), RunError) << i;
+    EXPECT_ANY_THROW(record::to_checkpoint(damaged)) << i;  // InputError if it looks like another version
     EXPECT_THROW(record::to_checkpoint(std::span(whole).first(i)), RunError) << i;
   }
 }

@@ -56,7 +56,10 @@ Sweep read_sweep(const Value& table, const std::string& path, const plugin::Cata
   const auto p = read_parameters(
       table, path,
       {config::text("type", "the method").one_of(catalogue.integrator_names()),
-       config::text("sweep", "the key that takes the values; default: a single run as the scene is written").optional(),
+       config::text(
+           "sweep",
+           "the key that takes the values; default: that of the method; \"none\": a single run as the scene is written")
+           .optional(),
        config::numbers("values", "", "its values, from coarse to fine").above(0).optional(),
        config::table("with", "further keys of [integrator] for this method").optional()},
       diagnostics);
@@ -189,10 +192,11 @@ config::Document with_method(const config::Document& scene, const time::Integrat
   Table integrator;
   integrator["type"] = Value(type.name);
   if (const Value* found = of_scene("end_time")) integrator["end_time"] = *found;
-  if (!type.finds_first_step) {
-    const Value* found = of_scene("time_step");
-    integrator["time_step"] = found != nullptr ? *found : Value(kFirstStep);
-  }
+  const Value* step = of_scene("time_step");
+  if (step != nullptr && (is_own || !type.finds_first_step))
+    integrator["time_step"] = *step;
+  else if (!type.finds_first_step)
+    integrator["time_step"] = Value(kFirstStep);
   for (const Parameter& parameter : type.parameters) {
     if (const Value* found = of_scene(parameter.name))
       integrator[parameter.name] = *found;
