@@ -1,7 +1,6 @@
 #include "elements/dof_rows.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
@@ -15,10 +14,8 @@ namespace {
 constexpr NodeId kMostNodes = 5'000'000;
 
 std::optional<NodeId> number_in(std::string_view text) {
-  NodeId number = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || number < 0) return std::nullopt;
-  return number;
+  const auto number = whole_number<NodeId>(text);
+  return number.value_or(-1) < 0 ? std::nullopt : number;
 }
 
 }  // namespace

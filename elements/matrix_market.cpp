@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -58,15 +57,14 @@ class Reader {
     std::string_view text = field();
     const std::string_view whole = text;
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-    Number value{};
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto value = whole_number<Number>(text);
     if (whole.empty()) refuse("lacks " + what);
-    if (read.ec != std::errc() || read.ptr != text.data() + text.size())
+    if (!value)
       refuse(what + ": \"" + printable(whole.substr(0, kLongestShown)) + "\" is not " +
              (std::is_integral_v<Number> ? "an integer" : "a number"));
     if constexpr (!std::is_integral_v<Number>)
-      if (!std::isfinite(value)) refuse(what + " is not finite");
-    return value;
+      if (!std::isfinite(*value)) refuse(what + " is not finite");
+    return *value;
   }
   void end_line() {
     if (const auto more = field(); !more.empty())

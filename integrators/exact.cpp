@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "butee/config/diagnostics.hpp"
+#include "integrators/fastest_rates.hpp"
 #include "integrators/methods.hpp"
 
 namespace butee::integrators {
@@ -20,19 +21,8 @@ constexpr const char* kTolerance = "tolerance";
 
 /// 1/omega of the stiffest DOF with its stops closed, s; 1 s where nothing has a stiffness.
 double natural_time(dynamics::Dynamics& dynamics) {
-  Vector stiffness = dynamics.system().stiffness.diagonal();
-  const dynamics::ElasticStops& contact = dynamics.stops();
-  const Vector closed = contact.closed_stiffness();
-  for (Index i = 0; i < contact.size(); ++i)
-    for (const Index dof : {contact.dof_a(i), contact.dof_b(i)})
-      if (dof >= 0) stiffness[dof] += closed[i];
-  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
-    for (Index i = 0; i < obstacles->size(); ++i)
-      for (const auto& ends : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
-        for (const Index dof : {ends[0], ends[1]})
-          if (dof >= 0) stiffness[dof] += obstacles->closed_stiffness(i);
-  const double square = stiffness.cwiseQuotient(dynamics.system().mass.diagonal()).maxCoeff();
-  return square > 0.0 && std::isfinite(square) ? 1.0 / std::sqrt(square) : 1.0;
+  const double rate = fastest_rates(dynamics).closed;
+  return rate > 0.0 ? 1.0 / rate : 1.0;
 }
 
 }  // namespace

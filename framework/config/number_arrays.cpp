@@ -1,10 +1,10 @@
 #include "butee/config/number_arrays.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "butee/config/toml_limits.hpp"
+#include "butee/core/text.hpp"
 
 namespace butee::config {
 namespace {
@@ -131,10 +131,8 @@ std::string NumberArrays::take_out(const std::string& text) {
 
 Array* NumberArrays::find(const std::string& text) {
   if (text.size() < 2 || text.front() != kMark) return nullptr;
-  std::size_t place = 0;
-  const auto read = std::from_chars(text.data() + 1, text.data() + text.size(), place);
-  const bool is_one = read.ec == std::errc() && read.ptr == text.data() + text.size() && place < taken_.size();
-  return is_one ? &taken_[place] : nullptr;
+  const auto place = whole_number<std::size_t>(std::string_view(text).substr(1));
+  return place && *place < taken_.size() ? &taken_[*place] : nullptr;
 }
 
 }  // namespace butee::config

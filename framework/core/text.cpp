@@ -86,10 +86,7 @@ std::string printable(std::string_view text, bool with_lines) {
 
 std::optional<double> number_of(std::string_view text) {
   if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0.0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
-  return value;
+  return whole_number<double>(text);
 }
 
 bool is_plain_name(std::string_view text) {

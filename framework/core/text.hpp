@@ -1,5 +1,6 @@
 #pragma once
 
+#include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,7 +29,15 @@ BUTEE_EXPORT std::string to_short_text(double value, int digits = 6);
 /// `with_lines`, all others become "?".
 BUTEE_EXPORT std::string printable(std::string_view text, bool with_lines = false);
 
-/// The number that all of the text is, in decimal notation whatever the locale; a plus sign may precede it.
+/// The number that all of the text is, in decimal notation whatever the locale.
+template <class Number>
+std::optional<Number> whole_number(std::string_view text) {
+  Number number{};
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+/// The same; a plus sign may precede it.
 BUTEE_EXPORT std::optional<double> number_of(std::string_view text);
 
 /// True for a non-empty text of [A-Za-z0-9_-] only.

@@ -1,7 +1,6 @@
 #include "butee/model/element_choice.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "butee/core/text.hpp"
@@ -20,9 +19,8 @@ std::optional<PartName> parse(const std::string& text) {
   const auto colon = text.find(':');
   PartName name{text.substr(0, colon)};
   if (colon == std::string::npos) return name;
-  const char *begin = text.data() + colon + 1, *end = text.data() + text.size();
-  const auto parsed = std::from_chars(begin, end, name.part);
-  if (parsed.ec != std::errc() || parsed.ptr != end || name.part < 0) return std::nullopt;
+  name.part = whole_number<Index>(std::string_view(text).substr(colon + 1)).value_or(-1);
+  if (name.part < 0) return std::nullopt;
   return name;
 }
 

@@ -1,7 +1,6 @@
 #include "butee/model/nodes.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -14,14 +13,6 @@ namespace {
 
 /// A coordinate selects a node within this fraction of the beam's length.
 constexpr double kCoordinateTolerance = 1e-9;
-
-template <class Number>
-std::optional<Number> parse(std::string_view text) {
-  Number number{};
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 Selection range(const NodeGroup& group, NodeId begin, NodeId end) {
   Selection selection;
@@ -42,7 +33,7 @@ std::string forms(const NodeGroup& group) {
 }
 
 Selection select_at(const NodeGroup& group, std::string_view text) {
-  const auto wanted = parse<double>(text);
+  const auto wanted = whole_number<double>(text);
   if (!wanted || !std::isfinite(*wanted))
     return refuse(group.name + "@" + std::string(text) + " is not a coordinate in m");
   const auto& x = group.coordinates;
@@ -72,8 +63,8 @@ Selection select_by_index(const NodeGroup& group, std::string_view text) {
     return range(group, size / 2, size / 2 + 1);
   }
   const auto dots = text.find("..");
-  const auto begin = parse<NodeId>(text.substr(0, dots));
-  const auto end = dots == std::string_view::npos ? begin : parse<NodeId>(text.substr(dots + 2));
+  const auto begin = whole_number<NodeId>(text.substr(0, dots));
+  const auto end = dots == std::string_view::npos ? begin : whole_number<NodeId>(text.substr(dots + 2));
   if (!begin || !end)
     return refuse('"' + std::string(text) + "\" is not a part of a beam" +
                   suggestion(text, {"all", "first", "last", "middle"}) + "; write " + forms(group));

@@ -65,7 +65,7 @@ bool TurningUnbalance::vanishes() const {
 std::optional<Harmonic> TurningUnbalance::harmonic() const {
   if (!rotation_.is_constant()) return std::nullopt;
   const double speed = rotation_.speed(0.0);
-  return Harmonic{moment_ * speed * speed, speed, phase_};
+  return Harmonic{moment_ * speed * speed, std::abs(speed), speed < 0.0 ? -phase_ : phase_};
 }
 
 bool TurningUnbalance::taylor(double t, double h, std::span<double> coefficients) const {

@@ -11,31 +11,22 @@ namespace {
 
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
-/// amplitude cos(angular_frequency t + phase)
-class Wave final : public TimeFunction {
- public:
-  explicit Wave(const Harmonic& wave) : wave_(wave) {}
-  double value(double t) const override {
-    return wave_.amplitude * std::cos(wave_.angular_frequency * t + wave_.phase);
-  }
-  bool vanishes() const override { return wave_.amplitude == 0.0; }
-  bool taylor(double t, double h, std::span<double> coefficients) const override {
-    const double angle = wave_.angular_frequency * t + wave_.phase;
-    const std::array<double, 4> derivatives = {std::cos(angle), -std::sin(angle), -std::cos(angle), std::sin(angle)};
-    double factor = wave_.amplitude;
-    for (std::size_t k = 0; k < coefficients.size(); ++k) {
-      coefficients[k] = factor * derivatives[k % 4];
-      factor *= wave_.angular_frequency * h / static_cast<double>(k + 1);
-    }
-    return true;
-  }
-  std::optional<Harmonic> harmonic() const override { return wave_; }
-
- private:
-  Harmonic wave_;
-};
-
 }  // namespace
+
+double Wave::value(double t) const {
+  return wave_.amplitude * std::cos(wave_.angular_frequency * t + wave_.phase);
+}
+
+bool Wave::taylor(double t, double h, std::span<double> coefficients) const {
+  const double angle = wave_.angular_frequency * t + wave_.phase, cosine = std::cos(angle), sine = std::sin(angle);
+  const std::array<double, 4> derivatives = {cosine, -sine, -cosine, sine};
+  double factor = wave_.amplitude;
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    coefficients[k] = factor * derivatives[k % 4];
+    factor *= wave_.angular_frequency * h / static_cast<double>(k + 1);
+  }
+  return true;
+}
 
 const PiecewisePolynomial::Piece& PiecewisePolynomial::piece_at(double t) const {
   const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), t,

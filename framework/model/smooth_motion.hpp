@@ -9,6 +9,19 @@
 
 namespace butee::model {
 
+/// amplitude cos(angular_frequency t + phase)
+class BUTEE_EXPORT Wave final : public TimeFunction {
+ public:
+  explicit Wave(const Harmonic& wave) : wave_(wave) {}
+  double value(double t) const override;
+  bool vanishes() const override { return wave_.amplitude == 0.0; }
+  bool taylor(double t, double h, std::span<double> coefficients) const override;
+  std::optional<Harmonic> harmonic() const override { return wave_; }
+
+ private:
+  Harmonic wave_;
+};
+
 /// A piecewise polynomial in time. Piece i, of degree kDegree or less in t - start, is valid from
 /// its start to the next start; the first piece is also valid before its start.
 class BUTEE_EXPORT PiecewisePolynomial final : public TimeFunction {

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "butee/config/number_file.hpp"
+#include "butee/model/smooth_motion.hpp"
 #include "butee/model/types.hpp"
 
 namespace butee::model {
@@ -12,30 +12,6 @@ using config::Diagnostics;
 using config::number;
 using config::numbers;
 using config::Parameters;
-
-/// amplitude cos(angular_frequency t + phase)
-class HarmonicLoad final : public TimeFunction {
- public:
-  HarmonicLoad(double amplitude, double angular_frequency, double phase)
-      : amplitude_(amplitude), angular_frequency_(angular_frequency), phase_(phase) {}
-
-  double value(double t) const override { return amplitude_ * std::cos(angular_frequency_ * t + phase_); }
-  bool taylor(double t, double h, std::span<double> coefficients) const override {
-    const double angle = angular_frequency_ * t + phase_, cosine = std::cos(angle), sine = std::sin(angle);
-    const std::array<double, 4> derivative = {cosine, -sine, -cosine, sine};
-    double factor = amplitude_;
-    for (std::size_t k = 0; k < coefficients.size(); ++k) {
-      coefficients[k] = factor * derivative[k % 4];
-      factor *= angular_frequency_ * h / static_cast<double>(k + 1);
-    }
-    return true;
-  }
-  std::optional<Harmonic> harmonic() const override { return Harmonic{amplitude_, angular_frequency_, phase_}; }
-  bool vanishes() const override { return amplitude_ == 0.0; }
-
- private:
-  double amplitude_, angular_frequency_, phase_;
-};
 
 /// Piecewise linear through (times, values), constant before the first and after the last.
 class PiecewiseLinear final : public TimeFunction {
@@ -77,8 +53,8 @@ LoadType harmonic() {
            number("angular_frequency", "rad/s", "the angular frequency").at_least(0),
            number("phase", "rad", "the phase at t = 0").or_else(0.0)},
           [](const Parameters& p, Diagnostics&) -> std::unique_ptr<TimeFunction> {
-            return std::make_unique<HarmonicLoad>(p.number("amplitude"), p.number("angular_frequency"),
-                                                  p.number("phase"));
+            return std::make_unique<Wave>(
+                Harmonic{p.number("amplitude"), p.number("angular_frequency"), p.number("phase")});
           }};
 }
 
@@ -90,7 +66,7 @@ LoadType unbalance() {
            number("phase", "rad", "the phase at t = 0").or_else(0.0)},
           [](const Parameters& p, Diagnostics&) -> std::unique_ptr<TimeFunction> {
             const double speed = p.number("speed");
-            return std::make_unique<HarmonicLoad>(p.number("moment") * speed * speed, speed, p.number("phase"));
+            return std::make_unique<Wave>(Harmonic{p.number("moment") * speed * speed, speed, p.number("phase")});
           }};
 }
 
