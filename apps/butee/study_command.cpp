@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 
@@ -39,15 +38,15 @@ struct StudyArguments {
 
 study::Shard shard_of(const std::string& text) {
   if (text.empty()) return {};
-  study::Shard shard;
-  std::int64_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, number);
-  const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-  const auto second = has_slash ? std::from_chars(first.ptr + 1, end, shard.count) : first;
-  if (!has_slash || second.ec != std::errc() || second.ptr != end || number < 1 || number > shard.count)
+  const auto slash = text.find('/');
+  const auto number = whole_number<std::int64_t>(std::string_view(text).substr(0, slash));
+  const auto count =
+      slash == std::string::npos ? std::nullopt : whole_number<std::int64_t>(std::string_view(text).substr(slash + 1));
+  if (!number || !count || *number < 1 || *number > *count)
     throw InputError("--shard " + text + ": write I/N, such as 2/8 for the second of eight parts");
-  shard.index = number - 1;
+  study::Shard shard;
+  shard.index = *number - 1;
+  shard.count = *count;
   return shard;
 }
 

@@ -54,6 +54,8 @@ TEST(CheckAdvice, FindsLikelyMistakesThatTheSoundSceneHasNot) {
       {"contact-step", "an impact can be as short as", {"integrator.time_step=5e-3", "integrator.type=newmark"}},
       {"load-step", "in the shortest period of a load", {"integrator.time_step=0.1", "integrator.type=newmark"}},
       {"mesh", "a bending wave", {"load[0].angular_frequency=2000.0"}},
+      {"units", "has longitudinal waves of 0.1", {"material.steel.young_modulus=210.0"}},
+      {"units", "has longitudinal waves of 1", {"material.steel.density=7.85"}},
       {"unused", "[material.copper] is not used by any element", {"material.copper={young_modulus=1e11,density=8e3}"}},
       {"unused", "[section.rod] is not used by any element", {"section.rod={shape=\"circle\",radius=0.1}"}},
       {"start", "closed at the start", {"initial={displacement=[{nodes=\"string:5\",dof=\"u\",value=0.02}]}"}},

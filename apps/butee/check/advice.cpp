@@ -8,6 +8,7 @@
 #include <set>
 #include <system_error>
 
+#include <butee/config/parameters.hpp>
 #include <butee/core/text.hpp>
 #include <butee/run/run.hpp>
 
@@ -41,6 +42,7 @@ class Adviser {
     judge_output();
     judge_size();
     judge_mesh();
+    judge_units();
     judge_names("material");
     judge_names("section");
     return std::move(advice_);
@@ -191,6 +193,27 @@ class Adviser {
             " is " + to_short_text(worst->length) + " m long, and a bending wave at the fastest load's frequency " +
             to_short_text(worst->length * fewest) + " m, " + to_short_text(fewest) + " elements; take elements of " +
             to_short_text(worst->length * fewest / kElementsInWave) + " m or less");
+  }
+
+  /// Young's modulus and density in different units give waves far from those of any structural material.
+  void judge_units() {
+    constexpr double kSlowest = 50.0, kFastest = 2e4;
+    const config::Value* materials = session_.document.root.table()->find("material");
+    if (materials == nullptr || materials->table() == nullptr) return;
+    for (const auto& [name, value] : materials->table()->entries) {
+      const auto number = [&](const char* key) {
+        const config::Value* given = value.table() != nullptr ? value.table()->find(key) : nullptr;
+        return given != nullptr ? config::as_number(*given).value_or(0.0) : 0.0;
+      };
+      const double modulus = number("young_modulus"), density = number("density");
+      if (!(modulus > 0.0) || !(density > 0.0)) continue;
+      const double speed = std::sqrt(modulus / density);
+      if (speed >= kSlowest && speed <= kFastest) continue;
+      add("units", config::describe(session_.document, value.at) + ": [material." + name +
+                       "] has longitudinal waves of " + to_short_text(speed) +
+                       " m/s (those of steel have 5100, of rubber 50 or more); is young_modulus = " +
+                       to_short_text(modulus) + " in Pa and density = " + to_short_text(density) + " in kg/m3?");
+    }
   }
 
   /// Warns of each [material.X] or [section.X] that no element uses.

@@ -208,12 +208,13 @@ std::optional<double> pull_displacement(const model::System& system) {
   Vector force = Vector::Zero(system.size());
   for (const auto& stops : system.stops)
     for (std::size_t i = 0; i < stops.size(); ++i) {
-      if (stops.a[i] >= 0) force[stops.a[i]] += stops.law->asymptotic_force();
-      if (stops.b[i] >= 0) force[stops.b[i]] -= stops.law->asymptotic_force();
+      const double pull = (stops.play.has_positive() ? 1.0 : -1.0) * stops.law->asymptotic_force();
+      if (stops.a[i] >= 0) force[stops.a[i]] += pull;
+      if (stops.b[i] >= 0) force[stops.b[i]] -= pull;
     }
-  const Factor factor(system.stiffness);
-  if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0.0) return std::nullopt;
-  return factor.solve(force).lpNorm<Eigen::Infinity>();
+  Compliance compliance(system);
+  if (!compliance.exists()) return std::nullopt;
+  return compliance.times(force).lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace butee::app::check

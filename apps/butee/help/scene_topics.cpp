@@ -200,7 +200,8 @@ std::string damping_text(const plugin::Catalogue&) {
   mass_proportional        1/s, C = mass_proportional M + ... (Rayleigh)
   stiffness_proportional   s,   ... + stiffness_proportional K; K holds the springs, never the stops
   modal                    0.02: this ratio of critical damping in every mode with open stops;
-                           [0.02, 0.01]: in the lowest modes, none in the others
+                           [0.02, 0.01]: in the lowest modes, none in the others. With turning parts and cross terms
+                           of bearings the modes are those at rest, of the symmetric part of K
   rotating_stiffness_proportional   s, damping that rotates with rotating parts (butee help space)
 
 Rayleigh damping gives a mode of angular frequency w the ratio (mass_proportional/w + stiffness_proportional w)/2.
@@ -267,7 +268,7 @@ A spring force is that on the node (negative if a spring to ground is stretched 
 damping included; a reaction is the force of the support. Accelerations in them satisfy the equation of motion, so
 that every node is in balance; each row costs one solution with the mass matrix. bending_stress and von_mises need the
 outer fibre of the section (`outer_fibre` of the shape "general"): bending_stress = M c/I at distance c from the neutral axis,
-on the side of -u, tension positive, and von_mises = |bending_stress|, since the shear stress of V is zero there. On the neutral
+on the side of -u, tension positive, and von_mises = |bending_stress| + |N|/A, since the shear stress of V is zero there. On the neutral
 axis it is 1.5 V/A in a rectangle, 4/3 V/A in a circle and up to 2 V/A in a tube, sqrt(3) times that as von Mises stress: more than at
 the outer fibre only within about a section height of a zero of M. A reaction is that on one node: a support of several
 nodes needs a probe for each.
