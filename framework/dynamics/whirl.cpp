@@ -28,7 +28,7 @@ constexpr double kOverdamped = 1e-6;
 /// Modes with this damping ratio or more have no critical speed.
 constexpr double kNoResonance = 0.99;
 /// Relative tolerance of speeds, and of those at which stability changes.
-constexpr double kSameSpeed = 1e-13, kSameBorder = 1e-10;
+constexpr double kSameSpeed = 1e-13, kSameBorder = 1e-8;
 /// Growth rates below these fractions of |lambda| and of the highest frequency are rounding.
 constexpr double kGrows = 1e-9, kGrowsOfHighest = 1e-14;
 /// Crossings closer to each other than this, relative to the speed, belong to one mode or several
@@ -305,15 +305,17 @@ bool Whirl::grows(const WhirlMode& mode) const {
   return mode.lambda.real() > kGrows * std::abs(mode.lambda) + kGrowsOfHighest * highest;
 }
 
-std::vector<StabilityBorder> Whirl::stability_borders(double from, double to, Index steps, Index count) const {
+std::vector<StabilityBorder> Whirl::stability_borders(const std::vector<double>& speeds,
+                                                      const std::vector<std::vector<WhirlMode>>& at,
+                                                      Index count) const {
   struct End {
     double speed;
     std::vector<WhirlMode> growing;  ///< the slowest growth first
   };
-  const auto end_at = [&](double speed) {
+  const auto end_of = [&](double speed, const std::vector<WhirlMode>& all) {
     End end{speed, {}};
-    for (WhirlMode& mode : modes(speed, count))
-      if (grows(mode)) end.growing.push_back(std::move(mode));
+    for (const WhirlMode& mode : all)
+      if (grows(mode)) end.growing.push_back(mode);
     std::stable_sort(end.growing.begin(), end.growing.end(),
                      [](const auto& p, const auto& q) { return p.lambda.real() < q.lambda.real(); });
     return end;
@@ -323,7 +325,7 @@ std::vector<StabilityBorder> Whirl::stability_borders(double from, double to, In
     if (a.growing.size() == b.growing.size()) return;
     const double middle = 0.5 * (a.speed + b.speed);
     if (b.speed - a.speed > kSameBorder * std::abs(b.speed) && middle > a.speed && middle < b.speed) {
-      const End between = end_at(middle);
+      const End between = end_of(middle, modes(middle, count));
       self(self, a, between);
       self(self, between, b);
       return;
@@ -331,12 +333,8 @@ std::vector<StabilityBorder> Whirl::stability_borders(double from, double to, In
     const bool begins = b.growing.size() > a.growing.size();
     found.push_back({middle, begins, (begins ? b : a).growing.front()});
   };
-  End before = end_at(from);
-  for (Index i = 1; i <= steps; ++i) {
-    End next = end_at(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
-    search(search, before, next);
-    before = std::move(next);
-  }
+  for (std::size_t i = 1; i < speeds.size(); ++i)
+    search(search, end_of(speeds[i - 1], at[i - 1]), end_of(speeds[i], at[i]));
   return found;
 }
 

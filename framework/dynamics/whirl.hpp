@@ -62,9 +62,10 @@ class BUTEE_EXPORT Whirl {
   /// by bisection. `count` modes are examined.
   std::vector<CriticalSpeed> critical_speeds(double from, double to, Index steps, double order, Index count) const;
 
-  /// The speeds in [from, to], rad/s, ascending, at which a mode begins or ceases to grow, on a grid of `steps`
-  /// intervals and by bisection. `count` modes are examined.
-  std::vector<StabilityBorder> stability_borders(double from, double to, Index steps, Index count) const;
+  /// The speeds, rad/s, ascending, at which a mode begins or ceases to grow, to 1e-8: between neighbours of `speeds`
+  /// (ascending), whose first `count` modes are `at`, by bisection.
+  std::vector<StabilityBorder> stability_borders(const std::vector<double>& speeds,
+                                                 const std::vector<std::vector<WhirlMode>>& at, Index count) const;
   /// True if the mode grows by more than rounding.
   bool grows(const WhirlMode& mode) const;
 

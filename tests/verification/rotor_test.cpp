@@ -239,7 +239,7 @@ end_time = 1.0
   EXPECT_LT(std::abs(growth(threshold)), 1e-12 * 100.0);
   EXPECT_GT(growth(1.001 * threshold), 0.0);
   EXPECT_LT(growth(0.999 * threshold), 0.0);
-  const auto borders = whirl.stability_borders(0.0, 400.0, 7, 4);
+  const auto borders = whirl.stability_borders({0.0, 400.0}, {whirl.modes(0.0, 4), whirl.modes(400.0, 4)}, 4);
   ASSERT_EQ(borders.size(), 1U);
   EXPECT_NEAR(borders[0].speed, threshold, 1e-7 * threshold);
   EXPECT_TRUE(borders[0].begins);

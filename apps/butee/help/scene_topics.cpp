@@ -118,8 +118,8 @@ von_mises is that of the outer fibre, with N and T: in space of round sections; 
 u. All include the element's own inertia, gyroscopic moments, weight and base motion.
 
 `butee modes SCENE --speed OMEGA` prints the damped modes at a speed of rotation (rad/s), of shafts their whirl; 0
-serves for scenes without shafts. `--campbell FROM TO N` prints the critical speeds, with -o and --plot the Campbell
-diagram. `butee plot` draws orbits (uz over uy, in the rings and
+serves for scenes without shafts. `--campbell FROM TO N` prints the critical speeds and those at which modes begin or
+cease to grow, with -o and --plot the Campbell diagram. `butee plot` draws orbits (uz over uy, in the rings and
 between the stops of the node), run-up (the radius over the speed), full-spectrum (forward and backward whirl), frame
 (the deformed structure in space), contact-map (closed contacts over time and length) and wear (the powers of wear.csv
 over the length). If shafts turn or bearings have cross terms, the matrices are not symmetric. exponential, rodas4,

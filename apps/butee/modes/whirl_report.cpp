@@ -61,7 +61,7 @@ Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double
     diagram.modes.push_back(whirl.modes(diagram.speeds.back(), count));
   }
   diagram.critical = whirl.critical_speeds(from, to, steps, order, count);
-  diagram.borders = whirl.stability_borders(from, to, steps, count);
+  diagram.borders = whirl.stability_borders(diagram.speeds, diagram.modes, count);
   const auto& first = diagram.modes.front();
   diagram.grows_at_first =
       std::any_of(first.begin(), first.end(), [&](const dynamics::WhirlMode& mode) { return whirl.grows(mode); });
@@ -97,7 +97,7 @@ void print(const Campbell& diagram) {
   std::printf("\n  stability without contact\n\n");
   if (diagram.grows_at_first) std::printf("  unstable at %s rad/s\n", to_short_text(diagram.speeds.front()).c_str());
   for (const dynamics::StabilityBorder& border : diagram.borders)
-    std::printf("  %14s rad/s  %16s rev/min  a mode of %s rad/s (%s) %s\n", formatted("%.10g", border.speed).c_str(),
+    std::printf("  %14s rad/s  %16s rev/min  a mode of %s rad/s (%s) %s\n", formatted("%.8g", border.speed).c_str(),
                 rpm(border.speed).c_str(), to_short_text(border.mode.frequency()).c_str(),
                 sense_of(border.mode, border.speed), border.begins ? "begins to grow" : "ceases to grow");
   if (!diagram.grows_at_first && diagram.borders.empty()) std::printf("  stable at all these speeds\n");
