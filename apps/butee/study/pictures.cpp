@@ -186,7 +186,7 @@ class Drawing {
     return picture;
   }
 
-  /// Of the sweeps, +1 up and -1 down; 0 without sweeps.
+  /// The directions of the sweeps: +1 is up and -1 down; 0 alone without sweeps.
   std::vector<int> directions() const {
     switch (study_.plan.follow()) {
       case Follow::no:
