@@ -82,7 +82,7 @@ void ObstacleSeries::add(Index k, ConstVectorRef x, ConstVectorRef v, VectorRef 
     contact.d.z[at] = d[1];
     contact.v.y[at] = speed[0];
     contact.v.z[at] = speed[1];
-    contact.turning[at] = obstacles_.arm_of(contact.index) * speed[2];
+    contact.turning[at] = speed[2];
     add(contact, k, force);
   }
 }
@@ -222,8 +222,7 @@ void ObstacleSeries::add(Contact& contact, Index k, VectorRef force) {
   contact.friction[at] = rub(contact, k);
   const bool has_shape = obstacles_.group_of(contact.index).shape != nullptr;
   dynamics::Obstacles::Coordinates value(-product(contact.friction, contact.tangent.y, k),
-                                         -product(contact.friction, contact.tangent.z, k),
-                                         -obstacles_.arm_of(contact.index) * contact.friction[at]);
+                                         -product(contact.friction, contact.tangent.z, k), -contact.friction[at]);
   if (has_shape) {
     value[0] -= product(contact.pressing, contact.normal.y, k);
     value[1] -= product(contact.pressing, contact.normal.z, k);

@@ -187,9 +187,7 @@ void Dynamics::contact_forces(double t, ConstVectorRef x, ConstVectorRef v, std:
   for (std::size_t k = 0; k < sticks.size(); ++k) {
     ContactForces& forces = all[static_cast<std::size_t>(sticks[k])];
     forces.friction = -held[static_cast<Index>(k)];
-    const Obstacles::Coordinates tangent = obstacles_->tangent_of(sticks[k]);
-    forces.force -= forces.friction * tangent.head<2>();
-    forces.torque -= forces.friction * tangent[2];
+    forces.force -= forces.friction * obstacles_->tangent_of(sticks[k]).head<2>();
   }
 }
 
@@ -198,8 +196,7 @@ void Dynamics::add_held_contact_force(double t, ConstVectorRef x, ConstVectorRef
   if (obstacles_ == nullptr) return;
   std::vector<ContactForces> all;
   contact_forces(t, x, v, all);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    obstacles_->scatter(static_cast<Index>(i), {all[i].force[0], all[i].force[1], all[i].torque}, force);
+  for (std::size_t i = 0; i < all.size(); ++i) obstacles_->scatter(static_cast<Index>(i), all[i].along_all(), force);
 }
 
 EffectiveSolver& Dynamics::effective() {

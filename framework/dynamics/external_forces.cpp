@@ -90,7 +90,7 @@ const model::Rotation* ExternalForces::varying_rotation() const {
   const model::Rotation* const rotation = system_.model->rotation.get();
   if (rotation == nullptr || rotation->is_constant()) return nullptr;
   const bool rubs = std::any_of(system_.obstacles.begin(), system_.obstacles.end(),
-                                [](const model::FreeObstacles& obstacles) { return obstacles.group->radius != 0.0; });
+                                [](const model::FreeObstacles& obstacles) { return obstacles.group->turning != 0.0; });
   return rubs ? rotation : nullptr;
 }
 

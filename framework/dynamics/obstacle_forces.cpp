@@ -104,8 +104,8 @@ double Obstacles::angle_of(Index i, const Kinematics& now) const {
 
 double Obstacles::path(Index i, double t, const Kinematics& now, double angle) const {
   const Contact& contact = at(i);
-  double path = contact.arm * now.motion.rotation - contact.group->friction.surface_speed * t;
-  if (contact.radius != 0.0 && rotation_ != nullptr) path += contact.radius * rotation_->angle(t);
+  double path = now.motion.rolled - contact.group->friction.surface_speed * t;
+  if (rotation_ != nullptr) path += contact.group->turning * rotation_->angle(t);
   if (contact.form.kind != ContactShape::Form::Kind::circle) return path + now.tangent.dot(now.motion.d);
   const double turned = std::remainder(angle_of(i, now) - angle, 2.0 * std::numbers::pi);
   return path + contact.form.sense * contact.form.distance * turned;
@@ -144,7 +144,7 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
     Eigen::RowVector2d normal_by_v = normal.by_rate * n.transpose();
     if (group.shape == nullptr) normal_by_d = normal_by_v = Eigen::RowVector2d::Zero();
     Eigen::RowVector2d friction_by_d(0.0, 0.0), friction_by_v(0.0, 0.0);
-    double friction_by_angle = 0.0, friction_by_turning = 0.0;
+    double friction_by_rolled = 0.0, friction_by_rolling = 0.0;
     double force = 0.0, friction_rate = 0.0;
     const double surface_acceleration = this->surface_acceleration(i, t);
     const bool is_unstressed = is_live_ && friction.rule == Friction::Rule::spring && phase.slip == SlipPhase::stick;
@@ -156,15 +156,15 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
       if (friction.rule == Friction::Rule::spring && phase.slip == SlipPhase::stick) {
         friction_by_d = friction.stick_stiffness * lever * u.transpose() + friction.stick_damping * slip_by_d;
         friction_by_v = friction.stick_damping * lever * u.transpose();
-        friction_by_angle = friction.stick_stiffness * contact.arm;
-        friction_by_turning = friction.stick_damping * contact.arm;
+        friction_by_rolled = friction.stick_stiffness;
+        friction_by_rolling = friction.stick_damping;
         friction_rate = friction.stick_stiffness * now.surface + friction.stick_damping * surface_acceleration;
       } else if (!(friction.rule == Friction::Rule::rigid && phase.slip == SlipPhase::stick)) {
         const Slide slide = this->slide(friction, phase.slip, now.slip);
         const double mu = friction.coefficient;
         friction_by_d = mu * slide.share * normal_by_d + mu * normal.force * slide.slope * slip_by_d;
         friction_by_v = mu * slide.share * normal_by_v + mu * normal.force * slide.slope * lever * u.transpose();
-        friction_by_turning = mu * normal.force * slide.slope * contact.arm;
+        friction_by_rolling = mu * normal.force * slide.slope;
         friction_rate = mu * normal.force * slide.slope * surface_acceleration;
       }
     }
@@ -172,19 +172,18 @@ const std::vector<Obstacles::Tangent>& Obstacles::tangents(double t, ConstVector
     if (group.shape != nullptr)
       stiffness += normal.force * bend * u * u.transpose() - force * lever * bend * n * u.transpose();
     if (contact.has_round_spring) stiffness -= force * lever * bend * u * n.transpose();
-    const auto whole = [&](const Eigen::Matrix2d& plane, const Eigen::RowVector2d& friction_by, double by_rotation) {
+    const auto whole = [&](const Eigen::Matrix2d& plane, const Eigen::RowVector2d& friction_by, double by_rolling) {
       Block block;
-      block << plane, by_rotation * lever * u, contact.arm * friction_by, contact.arm * by_rotation;
+      block << plane, by_rolling * lever * u, friction_by, by_rolling;
       if (group.directions.size() == 1) {
         block.row(1).setZero();
         block.col(1).setZero();
       }
       return block;
     };
-    Tangent tangent{
-        i, whole(stiffness, friction_by_d, friction_by_angle),
-        whole(n * normal_by_v + lever * u * friction_by_v, friction_by_v, friction_by_turning),
-        -friction_rate * Coordinates(lever * u[0], group.directions.size() == 1 ? 0.0 : lever * u[1], contact.arm)};
+    Tangent tangent{i, whole(stiffness, friction_by_d, friction_by_rolled),
+                    whole(n * normal_by_v + lever * u * friction_by_v, friction_by_v, friction_by_rolling),
+                    -friction_rate * Coordinates(lever * u[0], group.directions.size() == 1 ? 0.0 : lever * u[1], 1.0)};
     if (!tangent.stiffness.isZero(0.0) || !tangent.damping.isZero(0.0)) tangents_.push_back(tangent);
   }
   return tangents_;

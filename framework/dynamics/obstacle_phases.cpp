@@ -20,6 +20,9 @@ bool stops_rubbing(const model::ObstacleGroup& group) {
 /// The uncertainty of a sum of few terms relative to the sum of their magnitudes.
 constexpr double kRoundingOfTerms = 8.0 * std::numeric_limits<double>::epsilon();
 
+/// A contact is released below this damping factor, and pressed again above twice of it.
+constexpr double kNoFactor = 1e-9;
+
 /// The magnitudes of the terms of a penetration, summed, m.
 double terms_of_penetration(const model::ContactShape::Form& form, const Eigen::Vector2d& d) {
   const Eigen::Vector2d sizes = d.cwiseAbs(), place = form.place.cwiseAbs();
@@ -140,7 +143,7 @@ double Obstacles::excess_of_slip(Index i, double t, const Kinematics& now, const
     normal += pressing.by_rate * (now.approach.normal.dot(acceleration.head<2>()) + bend * along * along);
     double slip = now.lever * (now.tangent.dot(acceleration.head<2>()) - bend * now.rate * along);
     if (at(i).has_round_spring) slip -= now.lever * bend * along * now.rate;
-    slip += at(i).arm * acceleration[2] + surface_acceleration(i, t);
+    slip += acceleration[2] + surface_acceleration(i, t);
     tension += friction.stick_damping * slip;
   }
   return (sense * tension - friction.coefficient * normal) / friction.stick_stiffness;
@@ -183,10 +186,11 @@ void Obstacles::add_normal_switches(const Contact& contact, const ContactPhase& 
   const auto add_share = [&](double sign, NormalPhase in, NormalPhase to) {
     list.add(sign * pressing_share(contact, in, g, rate), kRoundingOfTerms, to);
   };
-  // The factor of the elastic force by Hunt and Crossley.
+  // The factor of the elastic force by Hunt and Crossley. Where it tends to 0 during a rebound, errors of the motion
+  // change its sign.
   const auto add_factor = [&](double sign, NormalPhase to) {
     const double change = group.damping.coefficient * rate;
-    list.add(sign * (1.0 + change),
+    list.add(sign * (1.0 + change) + (sign > 0.0 ? -kNoFactor : 2.0 * kNoFactor),
              group.damping.coefficient * uncertainty.velocity + kRoundingOfTerms * (1.0 + std::abs(change)), to);
   };
   if (phase.normal != NormalPhase::apart) list.add(g, uncertainty.displacement, NormalPhase::apart);
@@ -229,8 +233,8 @@ void Obstacles::add_slip_switches(Index i, const ContactPhase& phase, double t, 
                                   double held, const Rounding& uncertainty, SwitchList& list) const {
   const Contact& contact = at(i);
   const Friction& friction = contact.group->friction;
-  const double of_slip = now.lever * uncertainty.velocity +
-                         kRoundingOfTerms * (std::abs(contact.arm * now.motion.rotation_speed) + std::abs(now.surface));
+  const double of_slip =
+      now.lever * uncertainty.velocity + kRoundingOfTerms * (std::abs(now.motion.rolling) + std::abs(now.surface));
   const auto add_slip = [&](double sign, double border, SlipPhase to) {
     list.add(sign * (now.slip - border), of_slip + kRoundingOfTerms * std::abs(border), phase.normal, to, 0.0);
   };

@@ -41,9 +41,7 @@ Obstacles::Obstacles(const model::System& system, linalg::Counters& counters)
       rotation_(system.model != nullptr ? system.model->rotation.get() : nullptr) {
   for (const model::FreeObstacles& free : system.obstacles)
     for (std::size_t i = 0; i < free.ends.size(); ++i) {
-      const double radius = free.group->sense_about_x() * free.group->radius;
-      Contact contact{
-          free.group, &free.ends[i], &free.names[i], {}, 0.0, radius, free.ends[i].a[2] >= 0 ? radius : 0.0};
+      Contact contact{free.group, &free.ends[i], &free.names[i], {}, 0.0};
       if (free.group->shape != nullptr) {
         contact.form = free.group->shape->form();
         contact.reach = reach_of(contact.form);
@@ -78,8 +76,8 @@ Obstacles::Coordinates Obstacles::gather(Index i, ConstVectorRef y) const {
   const model::FreeObstacles::Ends& ends = *at(i).ends;
   Coordinates value = Coordinates::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    if (ends.a[k] >= 0) value[static_cast<Index>(k)] += y[ends.a[k]];
-    if (ends.b[k] >= 0) value[static_cast<Index>(k)] -= y[ends.b[k]];
+    if (ends.a[k] >= 0) value[static_cast<Index>(k)] += weight(i, k) * y[ends.a[k]];
+    if (ends.b[k] >= 0) value[static_cast<Index>(k)] += weight(i, 3 + k) * y[ends.b[k]];
   }
   return value;
 }
@@ -87,8 +85,8 @@ Obstacles::Coordinates Obstacles::gather(Index i, ConstVectorRef y) const {
 void Obstacles::scatter(Index i, const Coordinates& value, VectorRef force) const {
   const model::FreeObstacles::Ends& ends = *at(i).ends;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (ends.a[k] >= 0) force[ends.a[k]] += value[static_cast<Index>(k)];
-    if (ends.b[k] >= 0) force[ends.b[k]] -= value[static_cast<Index>(k)];
+    if (ends.a[k] >= 0) force[ends.a[k]] += weight(i, k) * value[static_cast<Index>(k)];
+    if (ends.b[k] >= 0) force[ends.b[k]] += weight(i, 3 + k) * value[static_cast<Index>(k)];
   }
 }
 
@@ -139,9 +137,9 @@ Obstacles::Kinematics Obstacles::kinematics(Index i, double t, ConstVectorRef x,
   }
   if (group.friction.rule == Friction::Rule::none) return now;
   now.surface = -group.friction.surface_speed;
-  if (contact.radius != 0.0 && rotation_ != nullptr) now.surface += contact.radius * rotation_->speed(t);
+  if (rotation_ != nullptr) now.surface += group.turning * rotation_->speed(t);
   now.lever = std::min(kMostLever, lever_of(contact, now.motion.d));
-  now.slip = now.lever * now.tangent.dot(now.motion.v) + contact.arm * now.motion.rotation_speed + now.surface;
+  now.slip = now.lever * now.tangent.dot(now.motion.v) + now.motion.rolling + now.surface;
   return now;
 }
 
@@ -160,7 +158,6 @@ ContactForces Obstacles::forces(Index i, double t, ConstVectorRef x, ConstVector
   result.normal = normal.force;
   result.friction = friction_force(i, t, now, phase, normal.force);
   result.force = -result.friction * now.lever * now.tangent;
-  result.torque = -result.friction * contact.arm;
   if (group.shape != nullptr) {
     result.force -= result.normal * now.approach.normal;
     result.stored = group.law->energy(now.approach.penetration) - contact.rest_energy;
@@ -179,7 +176,7 @@ void Obstacles::add_force(double t, ConstVectorRef x, ConstVectorRef v, VectorRe
   for (Index i = 0; i < size(); ++i) {
     if (is_idle(i, x)) continue;
     const ContactForces now = forces(i, t, x, v);
-    if (now.normal != 0.0 || now.friction != 0.0) scatter(i, {now.force[0], now.force[1], now.torque}, force);
+    if (now.normal != 0.0 || now.friction != 0.0) scatter(i, now.along_all(), force);
   }
 }
 
@@ -205,11 +202,11 @@ Obstacles::Coordinates Obstacles::tangent_of(Index i) const {
   const Contact& contact = at(i);
   const Eigen::Vector2d along =
       contact.group->shape == nullptr ? Eigen::Vector2d(1.0, 0.0) : tangent_to(contact.form.place);
-  return {along[0], along[1], contact.arm};
+  return {along[0], along[1], 1.0};
 }
 
 double Obstacles::surface_acceleration(Index i, double t) const {
-  return rotation_ != nullptr ? at(i).radius * rotation_->acceleration(t) : 0.0;
+  return rotation_ != nullptr ? group_of(i).turning * rotation_->acceleration(t) : 0.0;
 }
 
 double Obstacles::closed_stiffness(Index i) const {

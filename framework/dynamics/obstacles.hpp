@@ -50,7 +50,9 @@ struct ContactForces {
   double surface = 0.0;                ///< the part of w that is not motion of the nodes, m/s
   double stored = 0.0;                 ///< J, elastic energy in the normal law and a stick spring
   Eigen::Vector2d force = {0.0, 0.0};  ///< on node a along its directions, N
-  double torque = 0.0;                 ///< of friction on node a about x, N m
+
+  /// The forces along Obstacles::Coordinates.
+  Eigen::Vector3d along_all() const { return {force[0], force[1], -friction}; }
 };
 
 /// The contacts of a system that have two directions, dissipation or friction, one after the other.
@@ -62,8 +64,8 @@ struct ContactForces {
 /// tests/unit/obstacles_test.cpp.
 class BUTEE_EXPORT Obstacles {
  public:
-  /// The coordinates of a contact: its two directions and the rotation of node a on which friction
-  /// acts.
+  /// The coordinates of a contact, m: its two directions, and the slip by the rotations rx of its nodes, arm_a rx_a -
+  /// arm_b rx_b.
   using Coordinates = Eigen::Vector3d;
   using Block = Eigen::Matrix3d;
   /// Entries of State::contact for each contact.
@@ -132,10 +134,10 @@ class BUTEE_EXPORT Obstacles {
   /// The same phase with the arc of a stick spring measured from the present angle of the arm, so
   /// that the contact may go around the ring any number of times.
   ContactPhase rebased(Index i, const ContactPhase& phase, ConstVectorRef x) const;
-  /// d_i and its velocity, and those of the rotation on which friction acts.
+  /// d_i and its velocity, and the slip by rotations with its rate.
   struct Motion {
     Eigen::Vector2d d, v;
-    double rotation, rotation_speed;
+    double rolled, rolling;
   };
   Motion motion(Index i, ConstVectorRef x, ConstVectorRef v) const;
   /// True if a contact is apart at x by more than rounding; false for shapes other than lines and
@@ -158,13 +160,12 @@ class BUTEE_EXPORT Obstacles {
   /// Contacts that stick rigidly now; each has a constraint T v = b(t), with the row T along its
   /// tangent t.
   std::vector<Index> rigid_sticks() const;
-  /// The slip speed of a line or a friction support per unit velocity: its tangent, and the arm of
-  /// the rotation, m.
+  /// The slip speed of a line or a friction support per unit velocity of the coordinates.
   Coordinates tangent_of(Index i) const;
   /// db/dt, m/s2
   double surface_acceleration(Index i, double t) const;
-  /// The arm of the rotation on which friction acts, m; 0 if there is none.
-  double arm_of(Index i) const { return at(i).arm; }
+  /// True if friction acts on a free rotation.
+  bool twists(Index i) const { return ends_of(i).a[2] >= 0 || ends_of(i).b[2] >= 0; }
   /// force += value T^T
   void scatter(Index i, const Coordinates& value, VectorRef force) const;
   Coordinates gather(Index i, ConstVectorRef y) const;
@@ -175,9 +176,10 @@ class BUTEE_EXPORT Obstacles {
     for (std::size_t p = 0; p < 6; ++p)
       for (std::size_t q = 0; q < 6; ++q) {
         const Index i = p < 3 ? ends.a[p] : ends.b[p - 3], j = q < 3 ? ends.a[q] : ends.b[q - 3];
-        const double sign = (p < 3) == (q < 3) ? 1.0 : -1.0;
-        const double value = sign * block(static_cast<Index>(p % 3), static_cast<Index>(q % 3));
-        if (i >= 0 && j >= 0 && value != 0.0) entry(i, j, value);
+        if (i < 0 || j < 0) continue;
+        const double value =
+            weight(contact, p) * block(static_cast<Index>(p % 3), static_cast<Index>(q % 3)) * weight(contact, q);
+        if (value != 0.0) entry(i, j, value);
       }
   }
   /// The largest stiffness of a closed contact, N/m, along its first direction.
@@ -190,8 +192,6 @@ class BUTEE_EXPORT Obstacles {
     const std::string* name;
     model::ContactShape::Form form;
     double rest_energy;             ///< of the law at d = 0, J
-    double radius;                  ///< m, negative if the order of the directions is opposite to rotation about x
-    double arm;                     ///< m, `radius` if friction acts on a free rotation, else 0
     double reach = 0.0;             ///< m: Form::distance with a margin for rounding, for is_apart()
     bool is_silent_apart = false;   ///< no force acts while apart
     bool has_round_spring = false;  ///< a ring whose friction has a stick spring
@@ -214,6 +214,11 @@ class BUTEE_EXPORT Obstacles {
 
   class SwitchList;
 
+  /// Of DOF p, 0 to 2 of node a and 3 to 5 of node b, in the coordinate p % 3.
+  double weight(Index contact, std::size_t p) const {
+    const double of_a = p % 3 < 2 ? 1.0 : group_of(contact).arm_a, of_b = p % 3 < 2 ? 1.0 : group_of(contact).arm_b;
+    return p < 3 ? of_a : -of_b;
+  }
   const Contact& at(Index i) const { return contacts_[static_cast<std::size_t>(i)]; }
   Kinematics kinematics(Index i, double t, ConstVectorRef x, ConstVectorRef v) const;
   Normal normal(const Contact& contact, ContactPhase::Normal phase, double g, double rate) const;

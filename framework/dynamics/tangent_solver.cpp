@@ -33,7 +33,7 @@ bool TangentSolver::set(double velocity_factor, double displacement_factor, Cons
   const auto count = static_cast<Index>(contacts_.size());
   width_ = 2;
   for (const Index contact : contacts_)
-    if (obstacles_->arm_of(contact) != 0.0) width_ = 3;
+    if (obstacles_->twists(contact)) width_ = 3;
   motion_.setZero(obstacles_->system_size(), width_ * count);
   for (Index j = 0; j < count; ++j)
     for (Index k = 0; k < width_; ++k) {

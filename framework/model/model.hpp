@@ -40,6 +40,7 @@ struct Load {
 struct InitialMotion {
   Vector displacement, velocity;  ///< m or rad, m/s or rad/s
   double time = 0.0;              ///< s, at which the run starts
+  Vector contact = {};            ///< state of the contacts (time::contact_memory), or empty
 };
 
 /// Rayleigh damping, C = mass_proportional M + stiffness_proportional K, or modal damping, C = M

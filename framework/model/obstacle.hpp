@@ -74,11 +74,12 @@ struct Friction {
 ///
 /// The force on node a (against ground, or against node b: d = d_a - d_b) is
 ///
-///     F = -F_n n - F_t t,    F_t = mu F_n s(w),    w = t . d' + radius (Omega + rx') - surface_speed
+///     F = -F_n n - F_t t,    F_t = mu F_n s(w),
+///     w = t . d' + arm_a rx_a' - arm_b rx_b' + turning Omega - surface_speed
 ///
 /// with the normal n and the tangent t = (-n_2, n_1) of the shape. A friction support has no shape:
-/// F_n is `normal_force` and t is its one direction. If node a has the rotation rx, friction exerts
-/// the torque -radius F_t on it.
+/// F_n is `normal_force` and t is its one direction. Nodes that have the rotation rx get the torques
+/// -arm_a F_t and arm_b F_t.
 struct ObstacleGroup {
   std::string kind;                     ///< kind name in the scene, "ring"
   std::unique_ptr<ContactLaw> law;      ///< null if there is no shape
@@ -87,21 +88,15 @@ struct ObstacleGroup {
   std::vector<DofKind> directions;      ///< one or two displacements
   ImpactDamping damping;
   Friction friction;
-  double radius = 0.0;  ///< m, of the body at the contact point; 0 if it does not turn
+  /// m: from the bodies' centres to the contact point along n; negative against the order of the
+  /// directions. The displacement of the centres against each other is that at the gap.
+  double arm_a = 0.0, arm_b = 0.0;
+  double turning = 0.0;  ///< m: slip speed over the speed of [rotation]; of the arms of the bodies that turn
   std::vector<NodeId> a;
   std::vector<NodeId> b;  ///< empty: against ground; else as long as `a`
 
-  /// -1 if the directions are (uz, uy), whose orientation is opposite to a rotation about x; else
-  /// 1.
-  double sense_about_x() const {
-    return directions.size() == 2 && directions[0] == DofKind::uz && directions[1] == DofKind::uy ? -1.0 : 1.0;
-  }
-  /// Whether friction exerts a torque on node a about x.
-  bool twists() const {
-    if (radius == 0.0 || friction.rule == Friction::Rule::none) return false;
-    return std::all_of(directions.begin(), directions.end(),
-                       [](DofKind along) { return along == DofKind::uy || along == DofKind::uz; });
-  }
+  /// Whether friction exerts torques about x.
+  bool twists() const { return friction.rule != Friction::Rule::none && (arm_a != 0.0 || arm_b != 0.0); }
 };
 
 }  // namespace butee::model

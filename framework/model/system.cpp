@@ -69,7 +69,10 @@ FreeObstacles reduce(const ObstacleGroup& group, const DofTable& dofs, const Nod
       ++skipped;
       continue;
     }
-    if (group.twists()) ends.a[2] = std::max(dofs.index({group.a[i], DofKind::rx}), FreeStops::kGround);
+    if (group.twists()) {
+      ends.a[2] = std::max(dofs.index({group.a[i], DofKind::rx}), FreeStops::kGround);
+      if (!group.b.empty()) ends.b[2] = std::max(dofs.index({group.b[i], DofKind::rx}), FreeStops::kGround);
+    }
     free.ends.push_back(ends);
     free.names.push_back(nodes.name(group.a[i]) + (group.b.empty() ? "" : "|" + nodes.name(group.b[i])));
   }
@@ -118,6 +121,7 @@ void set_start(const Model& model, System& system) {
           "an initial motion of every free DOF");
   system.initial_displacement = initial_vector(start.displacement, model.initial_displacement, system.dofs);
   system.initial_velocity = initial_vector(start.velocity, model.initial_velocity, system.dofs);
+  system.initial_contact = start.contact;
   system.initial_time = start.time;
   // The given motion is relative to the base.
   system.initial_displacement += motion_with_base(model, system.dofs, 0, system.initial_time);
@@ -125,6 +129,15 @@ void set_start(const Model& model, System& system) {
 }
 
 }  // namespace
+
+std::vector<std::string> contact_names(const Model& model, const DofTable& dofs) {
+  std::vector<std::string> names;
+  Index skipped = 0;
+  for (const ObstacleGroup& group : model.obstacles)
+    for (const std::string& name : reduce(group, dofs, model.nodes, skipped).names)
+      names.push_back(group.kind + " " + name);
+  return names;
+}
 
 DofTable number_dofs(const Model& model) {
   DofTable dofs(model.nodes);

@@ -22,8 +22,8 @@ struct FreeStops {
 
 /// Obstacles of one group on free DOFs.
 struct FreeObstacles {
-  /// Free DOFs of a contact along its directions, or FreeStops::kGround. The third of `a` is the
-  /// rotation rx of a node on which friction acts at a radius.
+  /// Free DOFs of a contact along its directions, or FreeStops::kGround. The third is the rotation rx of a node on
+  /// which friction acts with an arm.
   struct Ends {
     std::array<Index, 3> a, b;
   };
@@ -70,6 +70,7 @@ struct System {
   std::vector<FreeStops> stops;
   std::vector<FreeObstacles> obstacles;
   Vector initial_displacement, initial_velocity;
+  Vector initial_contact;        ///< state of the contacts (time::contact_memory), or empty
   double initial_time = 0.0;     ///< s
   const Model* model = nullptr;  ///< the model it was assembled from; null for a part of a system
   Index skipped_stops = 0;       ///< stops whose ends are all fixed
@@ -83,6 +84,9 @@ enum class TurningParts { included, apart };
 /// Assembles the model. Throws InputError naming the node if a free DOF has no mass, a loaded DOF
 /// is fixed or absent, or nothing is free to move.
 BUTEE_EXPORT System assemble(const Model& model, TurningParts turning = TurningParts::included);
+
+/// The contacts of `obstacles` in their order, "ring disc", as an assembly of the model has them.
+BUTEE_EXPORT std::vector<std::string> contact_names(const Model& model, const DofTable& dofs);
 
 /// Takes the stops, loads and initial motion of another model with the same nodes, elements and
 /// supports; M, K and D are kept. If they act on other DOFs or with other weights, returns false

@@ -52,8 +52,9 @@ ContactsOn contacts_on(const model::Model& model, const model::DofTable& dofs, m
       if (is_here(group.a, i)) found.obstacles.push_back({number, k, 1.0});
       if (is_here(group.b, i)) found.obstacles.push_back({number, k, -1.0});
     }
-    if (dof.kind == DofKind::rx && group.twists() && is_here(group.a, i))
-      found.obstacles.push_back({number, ContactsOn::Obstacle::kMoment, group.sense_about_x() * group.radius});
+    if (dof.kind != DofKind::rx || !group.twists()) return;
+    if (is_here(group.a, i)) found.obstacles.push_back({number, ContactsOn::Obstacle::kMoment, group.arm_a});
+    if (is_here(group.b, i)) found.obstacles.push_back({number, ContactsOn::Obstacle::kMoment, -group.arm_b});
   });
   return found;
 }

@@ -159,6 +159,12 @@ void ElementForces::evaluate_contacts(double t, ConstVectorRef x, ConstVectorRef
 }
 
 double ElementForces::sum_of_states(const Sum& of) const {
+  if (of.states.empty()) return 0.0;
+  const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
+  const auto is_closed = [&](Index i, const dynamics::ContactForces& now) {
+    if (obstacles.group_of(i).shape == nullptr) return true;
+    return obstacles.is_live() ? now.penetration >= 0.0 : obstacles.phase(i).touches();
+  };
   double sum = 0.0;
   for (const Index i : of.states) {
     const dynamics::ContactForces& now = contacts_[static_cast<std::size_t>(i)];
@@ -170,7 +176,7 @@ double ElementForces::sum_of_states(const Sum& of) const {
         sum += now.friction;
         break;
       case model::Quantity::contact_slip:
-        sum += now.slip_speed;
+        if (is_closed(i, now)) sum += now.slip_speed;
         break;
       default:
         sum += std::abs(now.normal * now.slip_speed);

@@ -43,12 +43,14 @@ void take_impact(Impact& impact, ByteReader& from) {
 
 void ImpactList::append(std::vector<Impact>& all, const Impact& impact) {
   const double end = impact.t_out.value_or(impact.t_in);
+  // What begins outwards is the rest of the contact before, whose force vanished for a moment by rounding.
+  const bool is_rest = impact.impact_speed <= 0.0;
   for (auto last = all.rbegin(); last != all.rend(); ++last) {
     if (!last->t_out) continue;
     const double away = impact.t_in - *last->t_out;
-    if (away > kNotAway * end) break;
+    if (!is_rest && away > kNotAway * end) break;
     if (last->contact != impact.contact) continue;
-    if (away > kNotAway * std::max(*last->t_out - last->t_in, end - impact.t_in)) continue;
+    if (away > (is_rest ? 1.0 : kNotAway) * std::max(*last->t_out - last->t_in, end - impact.t_in)) break;
     last->t_out = impact.t_out;
     last->peak_force = std::max(last->peak_force, impact.peak_force);
     last->impulse += impact.impulse;

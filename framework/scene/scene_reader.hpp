@@ -67,9 +67,8 @@ class SceneReader {
   /// False after reporting that an obstacle of this form does not support friction with this kind
   /// of stick.
   bool check_stick(const config::Parameters& p, Friction::Rule rule, const ContactShape::Form& form);
-  /// False after reporting that friction on a turning part lacks its radius.
-  bool check_radius(const config::Parameters& parameters, bool has_friction, const std::vector<NodeId>& a,
-                    const std::vector<NodeId>& b);
+  /// Sets the radius of friction and which of the bodies turn; false after reporting a mistake.
+  bool read_radius(const config::Parameters& parameters, ContactParts& parts);
   bool read_ends(const config::Parameters& parameters, const std::vector<DofKind>& directions, std::vector<NodeId>& a,
                  std::vector<NodeId>& b);
   bool read_pairs(const config::Parameters& parameters, const std::vector<DofKind>& directions, std::vector<NodeId>& a,

@@ -90,10 +90,7 @@ void ContactOnset::add_errors(const End& end, Vector& errors) {
     for (const auto& side : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
       for (const Index dof : side)
         if (dof >= 0) dofs_.push_back(dof);
-    const auto force = [&](double t) {
-      const dynamics::ContactForces at = obstacles->forces(i, t, x_, end.v);
-      obstacles->scatter(i, {at.force[0], at.force[1], at.torque}, force_);
-    };
+    const auto force = [&](double t) { obstacles->scatter(i, obstacles->forces(i, t, x_, end.v).along_all(), force_); };
     add(end, dofs_, force, errors);
   }
 }

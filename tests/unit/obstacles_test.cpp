@@ -159,6 +159,52 @@ TEST(Obstacles, TwistANodeThatTurns) {
   }
 }
 
+/// Two bodies of which one turns get opposite torques about the point where they touch, in either order and inside as
+/// well as outside of each other.
+TEST(Obstacles, TwistBothBodiesOfAPair) {
+  std::string bodies = "schema = 1\n";
+  for (const char* name : {"a", "b"})
+    bodies +=
+        "[[element]]\ntype = \"disc\"\nname = \"" + std::string(name) +
+        "\"\nmass = 2.0\ndiametral_inertia = 0.1\npolar_inertia = 0.2\n[[element]]\ntype = \"spring\"\nnode = \"" +
+        name + "\"\ndof = \"rx\"\nstiffness = 50.0\n";
+  for (const bool is_first : {true, false})
+    for (const bool is_inside : {true, false}) {
+      const double gap = is_inside ? 0.1 : 0.7;
+      SceneRun run(bodies + "[rotation]\nspeed = 5.0\nparts = [\"" + (is_first ? "a" : "b") +
+                   "\"]\n[[contact]]\ntype = \"ring\"\nbetween = [\"a\", \"b\"]\ngap = " + std::to_string(gap) +
+                   (is_inside ? "" : "\nside = \"outside\"") +
+                   "\nradius = 0.3\nstiffness = 1e9\nfriction = { coefficient = 0.3, slip_speed = 0.9 }\n"
+                   "[integrator]\ntype = \"dopri5\"\nend_time = 1.0\n");
+      dynamics::Obstacles& obstacles = *run.dynamics().obstacles();
+      obstacles.follow_live();
+      Vector x = Vector::Zero(run.system().size()), v = x;
+      const double distance = gap * (is_inside ? 1.0 + 1e-9 : 1.0 - 1e-9), angle = 0.7;
+      x[run.dof("a", DofKind::uy)] = distance * std::cos(angle);
+      x[run.dof("a", DofKind::uz)] = distance * std::sin(angle);
+      v[run.dof("a", DofKind::rx)] = 1.7;
+      v[run.dof("b", DofKind::rx)] = -0.4;
+      v[run.dof("b", DofKind::uz)] = 0.3;
+      const dynamics::ContactForces now = obstacles.forces(0, 0.0, x, v);
+      Vector force = Vector::Zero(x.size());
+      obstacles.scatter(0, now.along_all(), force);
+      const auto of = [&](const char* node, DofKind kind) { return force[run.dof(node, kind)]; };
+      // The point of contact, seen from b's centre, and the velocities of both bodies there.
+      const double inner = 0.3,
+                   from_b = is_first ? (is_inside ? distance + inner : distance - inner) : (is_inside ? -inner : inner);
+      const Eigen::Vector2d n(std::cos(angle), std::sin(angle)), t(-n[1], n[0]);
+      const double spin_a = 1.7 + (is_first ? 5.0 : 0.0), spin_b = -0.4 + (is_first ? 0.0 : 5.0);
+      const double slip = (from_b - distance) * spin_a - (0.3 * t[1] + from_b * spin_b), sense = is_inside ? 1.0 : -1.0;
+      EXPECT_NEAR(now.slip_speed, sense * slip, 1e-8) << is_first << is_inside;
+      EXPECT_GT(std::abs(now.friction), 0.01);
+      const double of_a = -sense * now.friction;  // along t
+      EXPECT_NEAR(of("a", DofKind::rx), (from_b - distance) * of_a, 1e-8) << is_first << is_inside;
+      EXPECT_NEAR(of("b", DofKind::rx), -from_b * of_a, 1e-8) << is_first << is_inside;
+      // About b's centre the moments of all forces cancel.
+      EXPECT_NEAR(of("a", DofKind::rx) + of("b", DofKind::rx) + distance * of_a, 0.0, 1e-8);
+    }
+}
+
 TEST(TangentSolver, SolvesAsAFullFactorizationDoes) {
   for (const std::string& contacts : all_contacts()) {
     SceneRun run(bodies(contacts));

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <butee/core/error.hpp>
+#include <butee/core/text.hpp>
 #include <butee/record/contact_recorder.hpp>
 #include <butee/record/history.hpp>
 #include <gtest/gtest.h>
@@ -229,6 +230,26 @@ TEST_P(PairOfStops, IsOneContactForAllMethodsAndNamesItsSides) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gaps, PairOfStops, testing::Values(0.0, 1e-3));
+
+/// During the rebound the force tends to 0 long before the contact ends, and its sign is rounding.
+TEST_P(ImpactMethods, StrongDissipationIsOneImpact) {
+  for (int i = 0; i < 8; ++i) {
+    const double speed = 1e-3 * std::pow(3.7, i);
+    const std::string law =
+        "gap = 0.01\nstiffness = 1e6\ndamping = { type = \"hunt_crossley\", restitution = 0.02, "
+        "impact_speed = " +
+        std::to_string(speed) + " }\n";
+    EXPECT_NEAR(bounce(2.0, speed, law, 0.02 / speed + 1.0, GetParam()).restitution, 0.02, 1e-6) << speed;
+  }
+  for (const double e : {0.02, 0.05}) {
+    const std::string dashpot =
+        "gap = 0.37\nstiffness = 1e6\ndamping = { type = \"kelvin_voigt\", mass = 2.0, "
+        "restitution = " +
+        to_text(e);
+    for (const std::string end : {" }\n", ", pull = true }\n"})
+      EXPECT_NEAR(bounce(2.0, 0.9388293143109239, dashpot + end, 1.0, GetParam()).restitution, e, 1e-6 * e) << e << end;
+  }
+}
 
 INSTANTIATE_TEST_SUITE_P(Adaptive, ImpactMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8"));

@@ -139,8 +139,8 @@ std::string contact_text(const plugin::Catalogue& catalogue) {
   law        default "linear"; the laws and their parameters are below
   damping    dissipation while closed, a table (below)
   friction   Coulomb friction along the tangent, a table (below); not on a stop
-  radius     m, of the body at the contact (of the first one with `between`): adds radius x speed of [rotation] to the
-             slip speed
+  radius     m, of the body at the contact (with `between` of the one that turns, of the first if both or none do): its
+             rotation about x, that of [rotation] included, adds to the slip speed; only for contacts along uy and uz
 
 stop: dof (default "u"; any of ux ... rz) and sides ("both" by default, "positive" or "negative"). With the
 penetration g (negative while open) and one side s: g = s u - gap, F = -s K_c(g) g. Both sides: the nearer one.
@@ -157,7 +157,8 @@ damping = { type = ... }, with the rate of penetration g':
 A law from a module may have its own dissipation (butee plugins); damping is then refused.
 friction = { coefficient, ... }: the force is mu F_n against the slip speed w = t . v + radius (Omega + rx_v) - surface_speed, and
 twists a node that has rx by -radius mu F_n, with the tangent t = (-normal_z, normal_y), in a ring the sense of
-rotation from y to z (outside a ring from z to y); one of
+rotation from y to z (outside a ring from z to y). With `between` the other node, whose arm is radius + gap (radius -
+gap outside a ring), counts likewise, in the opposite sense. One of
   slip_speed       m/s: regularised, smoothing = "sqrt" (default), "tanh" or "clip"; slides slowly instead of sticking
   stick_stiffness  N/m: a stick spring with memory (in a ring at the radius of its gap: friction_force is the force there,
                    and gap/r of it acts on a node at the distance r); also stick_damping (N s/m), static_coefficient
