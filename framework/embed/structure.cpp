@@ -107,7 +107,7 @@ NodalForce& Structure::Parts::force_on(Index dof) {
   if (found != forces.end()) return *found->second;
   throw InputError(
       (dof >= 0 && dof < assembly->system.size() ? assembly->dynamics.dof_name(dof) : "DOF " + std::to_string(dof)) +
-      ": it was not declared for forces; name its node in StructureOptions::forced");
+      ": it was not declared for forces; name its node in `forced` when the structure is made");
 }
 
 Structure::Structure(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}

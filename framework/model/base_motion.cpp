@@ -142,6 +142,10 @@ std::vector<BaseShare> base_shares(const Model& model, const DofTable& dofs, Nod
   return shares;
 }
 
+bool moves_apart(const std::vector<BaseMotion>& bases) {
+  return std::any_of(bases.begin(), bases.end(), [](const BaseMotion& base) { return !base.nodes.empty(); });
+}
+
 Vector motion_with_base(const Model& model, const DofTable& dofs, int order, double t) {
   Vector motion = Vector::Zero(dofs.free_count());
   if (model.bases.empty() || model.base_frame != BaseFrame::still) return motion;

@@ -29,6 +29,9 @@ struct BaseMotion {
 /// of freedom f.
 enum class BaseFrame { moving, still };
 
+/// True if supports move one by one, so that u is the displacement in space.
+bool moves_apart(const std::vector<BaseMotion>& bases);
+
 /// The contribution of a base motion to an output: factor times displacement, velocity or
 /// acceleration.
 struct BaseShare {

@@ -12,7 +12,7 @@ namespace butee::model {
 namespace {
 
 constexpr std::uint64_t kStatesMark = 0x0A747473'65747562U;  // "butestt\n"
-constexpr std::uint32_t kStatesFormat = 1;
+constexpr std::uint32_t kStatesFormat = 2;
 constexpr double kSamePlace = 1e-9;  ///< of a beam's length
 
 bool is_same_place(const std::vector<double>& a, const std::vector<double>& b) {
@@ -77,11 +77,16 @@ std::vector<std::byte> to_bytes(const SavedMotions& saved) {
     inner.put(dof.node);
     inner.put(code_of(dof.kind));
   }
+  inner.put(saved.in_space);
+  inner.put(saved.has_base);
+  inner.put(static_cast<std::uint64_t>(saved.contacts.size()));
+  for (const std::string& name : saved.contacts) inner.put(name);
   inner.put(static_cast<std::uint64_t>(saved.motions.size()));
   for (const SavedMotion& motion : saved.motions) {
     inner.put(motion.t);
     inner.put(motion.x);
     inner.put(motion.v);
+    inner.put(motion.contact);
   }
   ByteWriter outer(bytes);
   outer.put(kStatesMark);
@@ -112,11 +117,16 @@ SavedMotions to_saved_motions(std::span<const std::byte> bytes) {
     inner.take(dof.node);
     dof.kind = kind_of_code(inner.take<std::uint8_t>());
   }
+  inner.take(saved.in_space);
+  inner.take(saved.has_base);
+  saved.contacts.resize(inner.count(sizeof(std::uint64_t)));
+  for (std::string& name : saved.contacts) inner.take(name);
   saved.motions.resize(inner.count(sizeof(double)));
   for (SavedMotion& motion : saved.motions) {
     inner.take(motion.t);
     inner.take(motion.x);
     inner.take(motion.v);
+    inner.take(motion.contact);
     if (motion.x.size() != std::ssize(saved.free) || motion.v.size() != std::ssize(saved.free))
       throw RunError("is damaged: a motion and its structure have different numbers of DOFs");
   }

@@ -9,10 +9,11 @@
 
 namespace butee::model {
 
-/// The motion of all free DOFs at one instant, relative to the base.
+/// The motion of all free DOFs at one instant, relative to a common base.
 struct SavedMotion {
   double t = 0.0;  ///< s
   Vector x, v;     ///< m or rad, m/s or rad/s
+  Vector contact;  ///< state of the contacts (time::contact_memory), or empty
 };
 
 /// Motions that a run saves as starting points for other runs, with data that identify the
@@ -35,7 +36,10 @@ struct BUTEE_EXPORT SavedMotions {
 
   std::vector<Group> groups;
   std::vector<NodalDof> free;
-  std::vector<SavedMotion> motions;  ///< ascending in time; the last is the end of the run
+  bool in_space = false;              ///< the supports moved one by one, so that the motion is that in space
+  bool has_base = false;              ///< a base moved
+  std::vector<std::string> contacts;  ///< contact_names() of that run
+  std::vector<SavedMotion> motions;   ///< ascending in time; the last is the end of the run
 };
 
 /// Converts to bytes with a mark, a format version and a checksum.

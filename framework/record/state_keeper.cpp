@@ -9,25 +9,36 @@
 
 #include "butee/core/error.hpp"
 #include "butee/record/file.hpp"
+#include "butee/time/contact_events.hpp"
 
 namespace butee::record {
 
-StateKeeper::StateKeeper(std::vector<double> times, Index size)
-    : times_(std::move(times)), all_(times_.empty() ? 0 : static_cast<std::size_t>(size)) {
+StateKeeper::StateKeeper(std::vector<double> times, dynamics::Dynamics& dynamics)
+    : dynamics_(dynamics),
+      times_(std::move(times)),
+      all_(times_.empty() ? 0 : static_cast<std::size_t>(dynamics.size())) {
   std::iota(all_.begin(), all_.end(), Index{0});
+}
+
+model::SavedMotion StateKeeper::motion_at(const time::State& state) const {
+  return {state.t, state.x, state.v, time::contact_memory(dynamics_, state)};
 }
 
 void StateKeeper::start(const time::State& state) {
   kept_.clear();
-  if (!times_.empty() && times_.front() == state.t) kept_.push_back({state.t, state.x, state.v});
+  if (!times_.empty() && times_.front() == state.t) kept_.push_back(motion_at(state));
 }
 
 void StateKeeper::step(const time::AcceptedStep& step) {
   for (; kept_.size() < times_.size() && times_[kept_.size()] <= step.to.t;) {
-    model::SavedMotion motion{times_[kept_.size()], step.to.x, step.to.v};
-    if (motion.t < step.to.t)
-      step.motion.interpolate(motion.t, all_, {{motion.x.data(), all_.size()}, {motion.v.data(), all_.size()}, {}});
-    kept_.push_back(std::move(motion));
+    const double t = times_[kept_.size()];
+    time::State state = t < step.to.t ? step.from : step.to;
+    if (t < step.to.t) {
+      // Contacts change at the ends of steps only.
+      step.motion.interpolate(t, all_, {{state.x.data(), all_.size()}, {state.v.data(), all_.size()}, {}});
+      state.t = t;
+    }
+    kept_.push_back(motion_at(state));
   }
 }
 
@@ -42,6 +53,7 @@ void StateKeeper::save(ByteWriter& to) const {
     to.put(motion.t);
     to.put(motion.x);
     to.put(motion.v);
+    to.put(motion.contact);
   }
 }
 
@@ -51,14 +63,19 @@ void StateKeeper::restore(ByteReader& from) {
     from.take(motion.t);
     from.take(motion.x);
     from.take(motion.v);
+    from.take(motion.contact);
   }
 }
 
-void StateKeeper::write(const std::string& path, const model::System& system, const time::State& last) const {
+void StateKeeper::write(const std::string& path, const time::State& last) const {
+  const model::System& system = dynamics_.system();
   require(system.model != nullptr, "states of an assembled model");
   model::SavedMotions saved(system.model->nodes, system.dofs);
+  saved.in_space = model::moves_apart(system.model->bases);
+  saved.has_base = !system.model->bases.empty();
+  saved.contacts = model::contact_names(*system.model, system.dofs);
   saved.motions = kept_;
-  if (saved.motions.empty() || saved.motions.back().t < last.t) saved.motions.push_back({last.t, last.x, last.v});
+  if (saved.motions.empty() || saved.motions.back().t < last.t) saved.motions.push_back(motion_at(last));
   // Other scenes start from motion relative to the base.
   for (model::SavedMotion& motion : saved.motions) {
     motion.x -= motion_with_base(*system.model, system.dofs, 0, motion.t);

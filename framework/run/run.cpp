@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <limits>
 #include <new>
 #include <numbers>
 
@@ -11,6 +10,7 @@
 #include "butee/core/text.hpp"
 #include "butee/dynamics/frequencies.hpp"
 #include "butee/record/field_layout.hpp"
+#include "butee/run/load_steps.hpp"
 
 namespace butee::run {
 namespace {
@@ -23,9 +23,6 @@ constexpr double kMoreThanPull = 1.1;
 
 /// More rows would make a run deaf to interruptions for longer than a tenth of a second.
 constexpr double kMostRowsInStep = 65536.0;
-
-/// Instants closer than a step by this part of it are a step apart.
-constexpr double kRoundingOfStep = 1e-6;
 
 /// The largest residual force of an open stop, N; nonzero for the arctan law.
 double largest_pull(const dynamics::ElasticStops& contact) {
@@ -96,7 +93,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
     simulation.add(slips_.emplace(assembly_.dynamics));
   if (with_progress_) simulation.add(progress_.emplace(assembly_.dynamics, end_time));
   if (folder != nullptr && !output.fields.formats.empty()) add_fields(*folder);
-  states_.emplace(output.states, assembly_.dynamics.size());
+  states_.emplace(output.states, assembly_.dynamics);
   if (!output.states.empty()) simulation.add(*states_);
   if (folder != nullptr && output.checkpoint > 0)
     simulation.add(checkpointer_.emplace(scene_, assembly_, *folder, *writer_));
@@ -162,6 +159,7 @@ void Run::summarize() {
   if (energy_) summary_.followed = {energy_->work(), energy_->dissipated(), energy_->balance_error()};
   look_at_slips();
   look_at_loads();
+  look_at_stability();
   look_at_rows();
 }
 
@@ -174,23 +172,21 @@ void Run::look_at_slips() {
 void Run::look_at_loads() {
   if (assembly_.integrator->controller() != nullptr) return;
   const auto& options = scene_.integrator.options;
-  double shortest = options.time_step * (1.0 - kRoundingOfStep);
-  std::string place;
-  for (const model::FreeLoad& load : assembly_.system.loads) {
-    double last = -std::numeric_limits<double>::infinity();
-    for (const double t : load.in_time->discontinuities()) {
-      if (t > last && last >= 0.0 && last < options.end_time && t - last < shortest) {
-        shortest = t - last;
-        place = assembly_.dynamics.dof_name(load.dofs.front());
-      }
-      last = t;
-    }
-  }
-  if (place.empty()) return;
-  summary_.report.warnings.push_back("the load on " + place + " changes within " + to_short_text(shortest) +
-                                     " s, and steps of " + to_short_text(options.time_step) +
-                                     " s see it only at their own instants. Take time_step = " +
-                                     to_short_text(shortest) + " or a method with error control");
+  const std::string complaint = complaint_of_loads(assembly_.system, options.time_step, options.end_time);
+  if (!complaint.empty()) summary_.report.warnings.push_back(complaint);
+}
+
+void Run::look_at_stability() {
+  // Of larger systems the eigenvalues may take longer than the run.
+  constexpr Index kSmall = 100;
+  if (assembly_.integrator->controller() != nullptr || assembly_.dynamics.size() > kSmall || !summary_.report.completed)
+    return;
+  const auto& [h, end_time, of_type] = scene_.integrator.options;
+  time::MethodLimits limits = of_type;
+  limits.stability = std::min(limits.stability, assembly_.integrator->traits().stability_limit);
+  const auto critical = time::critical_steps(assembly_.dynamics, limits);
+  if (critical && h > critical->closed)
+    summary_.report.warnings.push_back(time::describe_remedy(assembly_.dynamics, limits, h));
 }
 
 void Run::look_at_rows() {
@@ -235,7 +231,7 @@ void Run::write_files(const record::ResultFolder& folder) {
   });
   guarded([&] {
     if (assembly_.simulation.report().completed)
-      states_->write(folder.file(model::SavedMotions::kFile), assembly_.system, assembly_.simulation.state());
+      states_->write(folder.file(model::SavedMotions::kFile), assembly_.simulation.state());
   });
 }
 

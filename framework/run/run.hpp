@@ -66,6 +66,8 @@ class BUTEE_EXPORT Run {
   void look_at_slips();
   /// Warns of loads that change faster than fixed steps.
   void look_at_loads();
+  /// Warns if fixed steps of a small system were longer than the critical one.
+  void look_at_stability();
   /// Warns if a force was requested and rows are too far apart to show it.
   void look_at_rows();
   void write_files(const record::ResultFolder& folder);

@@ -6,6 +6,7 @@
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/model/saved_motion.hpp"
+#include "butee/model/system.hpp"
 #include "butee/scene/scene_reader.hpp"
 
 namespace butee::scene {
@@ -87,6 +88,13 @@ void SceneReader::read_initial_motion(const Parameters& p) {
   const std::string difference = saved.difference_from(model_.nodes, *dofs_);
   if (!difference.empty()) return complain("from", "is a run of another structure: " + difference);
   if (saved.motions.empty()) return complain("from", "contains no motion");
+  if (saved.has_base && !model_.bases.empty() && saved.in_space != moves_apart(model_.bases))
+    return complain("from",
+                    saved.in_space
+                        ? "is a run whose supports move one by one, so that its motion is that in space; here it is "
+                          "relative to a common [base]"
+                        : "is a run whose motion is relative to a common [base]; here supports move one by one, "
+                          "and the motion is that in space");
   const SavedMotion* motion = p.has("at") ? find_motion(saved, p.number("at")) : &saved.motions.back();
   if (motion == nullptr)
     return complain("at", "is not an instant saved by that run; saved: " + times_of(saved) + " s. Add it to [output] " +
@@ -95,12 +103,13 @@ void SceneReader::read_initial_motion(const Parameters& p) {
     return complain("from",
                     "conflicts with [gravity] static, which starts at rest in the static position; give one of "
                     "the two");
-  if (std::any_of(model_.obstacles.begin(), model_.obstacles.end(),
-                  [](const auto& group) { return group.friction.has_memory(); }))
-    diagnostics_.warning("initial.from", p.value("from").at,
-                         "the saved motion does not contain the state of friction with stick; it starts without a "
-                         "friction force");
   model_.initial_motion = InitialMotion{motion->x, motion->v, p.flag("keep_time") ? motion->t : 0.0};
+  if (saved.contacts == contact_names(model_, *dofs_))
+    model_.initial_motion->contact = motion->contact;
+  else if (std::any_of(model_.obstacles.begin(), model_.obstacles.end(),
+                       [](const auto& group) { return group.friction.has_memory(); }))
+    diagnostics_.warning("initial.from", p.value("from").at,
+                         "is a run with other contacts; friction with stick starts here without a force");
 }
 
 void SceneReader::read_initial_list(const Value& given, const std::string& key) {

@@ -30,8 +30,10 @@ class Size {
 /// A run that is set to given motions and continued for given durations.
 class Piece {
  public:
-  Piece(scene::Scene& scene, dynamics::Dynamics& dynamics)
-      : integrator_(make_integrator(scene, dynamics)), simulation_(dynamics, *integrator_, scene.integrator.options) {}
+  Piece(scene::Scene& scene, dynamics::Dynamics& dynamics, const Motion& start)
+      : integrator_(make_integrator(scene, dynamics)), simulation_(dynamics, *integrator_, scene.integrator.options) {
+    simulation_.begin_with(start.x, start.v, start.contact);
+  }
   bool go(const Vector& x, const Vector& v, double until, const std::function<bool()>& goes_on) {
     simulation_.set_motion(x, v);
     simulation_.set_end_time(until);
@@ -50,7 +52,7 @@ std::optional<double> lyapunov_exponent(scene::Scene& scene, dynamics::Dynamics&
                                         const Counted& counted, const std::function<bool()>& goes_on) {
   // Time restarts at the start of the collected motion, which is a whole number of periods of the
   // loads later.
-  Piece run(scene, dynamics), disturbed(scene, dynamics);
+  Piece run(scene, dynamics, start), disturbed(scene, dynamics, start);
   const SparseMatrix& mass = dynamics.system().mass;
   const double omega = 2.0 * std::numbers::pi / counted.period;
   const Size size(mass, omega);

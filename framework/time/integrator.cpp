@@ -54,6 +54,10 @@ void Integrator::pass_discontinuity(State& state, bool jumps) {
   do_jump(state, jump);
 }
 
+void Integrator::go_back(const State& state) {
+  if (events_) events_->follow(state);
+}
+
 void Integrator::settle(State& state, double h) {
   if (events_) events_->settle(state, h, traits().event_precision);
 }

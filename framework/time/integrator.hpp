@@ -65,6 +65,9 @@ class BUTEE_EXPORT Integrator {
   /// gap. `jumps`: the acceleration of the state is that before a jump of the loads.
   void pass_discontinuity(State& state, bool jumps);
 
+  /// Takes the phases of contacts from a state that was completed before.
+  void go_back(const State& state);
+
   /// Switches contacts whose phase is over at a state to the next phase; the acceleration follows.
   /// `h` is the length of the coming step. A state must be settled before a step from it.
   void settle(State& state, double h);

@@ -49,6 +49,7 @@ Simulation::Simulation(dynamics::Dynamics& dynamics, Integrator& integrator, Sim
       traits_(integrator.traits()),
       controller_(integrator.controller()),
       options_{options.time_step, options.end_time, narrowed(options.limits, integrator)},
+      contact_memory_(dynamics.system().initial_contact),
       growth_(dynamics, options_.limits, integrator),
       next_h_(options_.time_step) {
   require(options_.time_step >= 0.0 && options_.end_time > 0.0,

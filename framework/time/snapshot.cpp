@@ -27,6 +27,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   const Index n = dynamics_.size();
   require(snapshot.state.x.size() == n && snapshot.state.v.size() == n && snapshot.state.a.size() == n,
           "a snapshot of a system of this size");
+  start();
   ByteReader reader(snapshot.watchers);
   growth_.restore(reader);
   for (Observer* observer : observers_) observer->restore(reader);
@@ -37,7 +38,7 @@ void Simulation::restore(const Snapshot& snapshot) {
   accepted_ = snapshot.accepted;
   report_ = snapshot.report;
   over_ = snapshot.over;
-  started_ = true;
+  integrator_.go_back(state_);
 }
 
 void write_snapshot(const Snapshot& snapshot, ByteWriter& to) {

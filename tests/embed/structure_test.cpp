@@ -189,6 +189,36 @@ TEST(Structure, GoesBackToASnapshotBitForBit) {
   }
 }
 
+/// A body pressed against a dissipative stop that a stick spring and the stop hold: a snapshot taken while both touch
+/// goes on alike, with the same forces, in the structure itself and in a new one.
+TEST(Structure, ContinuesContactsFromASnapshot) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 2.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 100.0\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.001\nstiffness = 1e4\ndamping = "
+      "{ type = \"hunt_crossley\", factor = 5.0 }\n[[contact]]\ntype = \"friction\"\nnodes = \"m\"\nnormal_force = "
+      "20.0\nfriction = { coefficient = 0.5, stick_stiffness = 1e4, stick_damping = 5.0 }\n[[load]]\ntype = "
+      "\"harmonic\"\nnode = \"m\"\namplitude = 60.0\nangular_frequency = 20.0\nphase = 1.57\n[integrator]\ntolerance = "
+      "1e-7\ntype = \"";
+  for (const std::string method : {"auto", "rodas4", "dopri5", "extrapolation8", "exact", "exponential"}) {
+    Structure body = Structure::from_toml(scene + method + "\"\n", with_plugins());
+    const Index dof = body.dof("m");
+    body.advance_to(0.04);
+    const double force = body.contact_force(dof), friction = body.quantity("friction_force", "m");
+    EXPECT_GT(std::abs(force), 1.0) << method;
+    const Structure::Snapshot before = body.snapshot();
+    body.advance_to(0.5);
+    const Vector end = body.state().x;
+    Structure other = Structure::from_toml(scene + method + "\"\n", with_plugins());
+    for (Structure* one : {&body, &other}) {
+      one->restore(before);
+      EXPECT_EQ(one->contact_force(dof), force) << method;
+      EXPECT_EQ(one->quantity("friction_force", "m"), friction) << method;
+      one->advance_to(0.5);
+      EXPECT_EQ(one->state().x, end) << method;
+    }
+  }
+}
+
 TEST(Structure, TakesAnotherMotion) {
   Structure mass = Structure::from_toml(oscillator(kExact), with_plugins());
   const Index dof = mass.dof("m");

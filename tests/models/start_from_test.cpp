@@ -126,6 +126,38 @@ TEST_F(StartFrom, MethodsOfAToleranceGoOnWithinIt) {
   }
 }
 
+/// A mass on a support that holds it by a stick spring against a constant force of 3 N; the limit is 5 N.
+std::string held(const std::string& node, const std::string& rest) {
+  return "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"mass\"\nname = "
+         "\"other\"\nmass = 1.0\n[[contact]]\ntype = \"friction\"\nnodes = \"" +
+         node +
+         "\"\ndof = \"u\"\nnormal_force = 10.0\nfriction = { coefficient = 0.5, stick_stiffness = 1e4, stick_damping = "
+         "20.0 }\n[[load]]\ntype = \"constant\"\nnode = \"m\"\nvalue = 3.0\n[integrator]\ntype = "
+         "\"dopri5\"\ntolerance = 1e-9\n" +
+         rest + "[output]\nprobe = [{ label = \"mid\", node = \"m\", quantities = [\"u\"] }]\ninterval = 0.01\n";
+}
+
+TEST_F(StartFrom, SticksOnAsTheRunBeforeDid) {
+  completes("whole", held("m", "end_time = 0.2\n"));
+  completes("first", held("m", "end_time = 0.1\n") + "states = [0.055]\n");
+  const auto whole = history("whole").column("mid.u");
+  EXPECT_NEAR(whole.back(), 3.0 / 1e4, 1.5e-4);  // held by the spring, still swinging
+  for (const std::string at : {"", "at = 0.055\n"}) {
+    std::filesystem::remove_all(folder_.file("second-results"));
+    completes("second", held("m", "end_time = 0.2\n" + kGoOn + at));
+    const auto table = history("second");
+    const auto t = table.column("t"), u = table.column("mid.u");
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      const double row = t[i] / 0.01;
+      if (std::abs(row - std::round(row)) > 1e-6) continue;
+      EXPECT_NEAR(u[i], whole[static_cast<std::size_t>(std::lround(row))], 1e-9) << at << t[i];
+    }
+  }
+  const Outcome outcome = run("elsewhere", held("other", "end_time = 0.2\n" + kGoOn));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(holds(outcome.errors, "is a run with other contacts")) << outcome.errors;
+}
+
 TEST_F(StartFrom, TimeBeginsAnewUnlessItIsKept) {
   completes("first", scene(method("rk4", "0.2")));
   completes("second", scene(method("rk4", "0.1") + "[initial]\nfrom = \"first-results\"\n"));
@@ -202,6 +234,11 @@ TEST_F(StartFrom, TakesMotionFromAnotherFrame) {
           EXPECT_NEAR(rest.column(column)[i], whole.column(column)[i + 20], column == "mid.u" ? 1e-11 : 1e-8)
               << first << " " << second << " " << column << " " << i;
     }
+  std::string apart = in("base", "0.4", kGoOn);
+  apart.replace(apart.find("[base]"), 6, "[[base]]\nnodes = \"string:first\"");
+  apart.replace(apart.find("frame = \"base\""), 14, "");
+  std::filesystem::remove_all(folder_.file("second-results"));
+  refused(apart, "is a run whose motion is relative to a common [base]");
 }
 
 TEST_F(StartFrom, ModelTomlFindsTheFolderAndNoticesAChange) {
