@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <ctime>
 #include <fstream>
 
@@ -5,6 +6,7 @@
 #include <butee/core/log.hpp>
 #include <butee/core/terminal.hpp>
 #include <butee/dynamics/modal_dashpots.hpp>
+#include <butee/scene/assembly.hpp>
 
 #include "check/picture.hpp"
 #include "check/report.hpp"
@@ -40,7 +42,7 @@ void write_picture(const model::Model& model, const check::Survey& survey, const
   if (!file) throw RunError(path + ": cannot be written");
 }
 
-void find_critical_steps(const scene::Scene& session, const model::System& system, check::Facts& facts) {
+void find_critical_steps(scene::Scene& session, const model::System& system, check::Facts& facts) {
   dynamics::Dynamics dynamics(system);
   const auto steps = [&](const std::string& method) -> std::optional<time::CriticalSteps> {
     const plugin::IntegratorEntry* entry = session.catalogue.find(method);
@@ -51,7 +53,15 @@ void find_critical_steps(const scene::Scene& session, const model::System& syste
   };
   facts.of_runge_kutta = steps("rk4");
   facts.of_central_differences = steps("central_differences");
-  facts.of_method = steps(session.integrator.name);
+  time::MethodLimits limits = session.integrator.options.limits;
+  if (session.catalogue.find(session.integrator.name)->declaration.fixed_step) {
+    try {
+      // The limit of some methods depends on their parameters.
+      limits.stability = std::min(limits.stability, make_integrator(session, dynamics)->traits().stability_limit);
+    } catch (const InputError&) {  // The trial reports the refusal.
+    }
+  }
+  facts.of_method = time::critical_steps(dynamics, limits, facts.open, facts.closed);
 }
 
 int check_command(const CheckArguments& arguments) {

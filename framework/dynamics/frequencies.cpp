@@ -105,29 +105,30 @@ std::optional<Modes> dense_modes(const SparseMatrix& stiffness, const SparseMatr
   return modes_of({pairs->values.head(count), pairs->vectors.leftCols(count)}, pairs->values.maxCoeff());
 }
 
-/// Adds the stiffness of closed obstacles: along the normal of a plane, along both axes of a ring,
-/// and for a friction support its stick spring.
-void add_obstacles(const model::System& system, SparseMatrix& stiffness) {
-  using Kind = model::ContactShape::Form::Kind;
+/// Adds S^T block(group) S for each obstacle.
+template <class Block>
+void add_obstacles(const model::System& system, const Block& block_of, SparseMatrix& sum) {
   for (const model::FreeObstacles& obstacles : system.obstacles) {
-    const model::ObstacleGroup& group = *obstacles.group;
-    Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
-    if (group.shape == nullptr) {
-      block(0, 0) = group.friction.stick_stiffness;
-    } else {
-      const model::ContactShape::Form form = group.shape->form();
-      block =
-          form.kind == Kind::line ? Eigen::Matrix2d(form.place * form.place.transpose()) : Eigen::Matrix2d::Identity();
-      block *= group.law->closed_stiffness();
-    }
+    const Eigen::Matrix2d block = block_of(*obstacles.group);
     for (const auto& ends : obstacles.ends)
       for (std::size_t p = 0; p < 4; ++p)
         for (std::size_t q = 0; q < 4; ++q) {
           const Index i = p < 2 ? ends.a[p] : ends.b[p - 2], j = q < 2 ? ends.a[q] : ends.b[q - 2];
           const double value = block(static_cast<Index>(p % 2), static_cast<Index>(q % 2));
-          if (i >= 0 && j >= 0 && value != 0.0) stiffness.coeffRef(i, j) += (p < 2) == (q < 2) ? value : -value;
+          if (i >= 0 && j >= 0 && value != 0.0) sum.coeffRef(i, j) += (p < 2) == (q < 2) ? value : -value;
         }
   }
+}
+
+/// `normal` along the normal of a plane and along both axes of a ring; `tangential` along the tangent of a plane, along
+/// both axes of a ring and along a friction support.
+Eigen::Matrix2d block_along(const model::ObstacleGroup& group, double normal, double tangential) {
+  if (group.shape == nullptr) return Eigen::Vector2d(tangential, 0.0).asDiagonal();
+  const model::ContactShape::Form form = group.shape->form();
+  if (form.kind != model::ContactShape::Form::Kind::line)
+    return std::max(normal, tangential) * Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d n = form.place, t(-n[1], n[0]);
+  return normal * n * n.transpose() + tangential * t * t.transpose();
 }
 
 }  // namespace
@@ -151,6 +152,34 @@ double contact_frequency(const model::System& system, const ElasticStops& contac
   return std::sqrt(square);
 }
 
+SparseMatrix damping_of_contacts(const model::System& system) {
+  SparseMatrix damping(system.size(), system.size());
+  add_obstacles(
+      system,
+      [](const model::ObstacleGroup& group) {
+        const bool has_dashpot = group.damping.kind == model::ImpactDamping::Kind::kelvin_voigt;
+        return block_along(group, has_dashpot ? group.damping.coefficient : 0.0, group.friction.stick_damping);
+      },
+      damping);
+  return damping;
+}
+
+std::optional<double> fastest_decay(const SparseMatrix& damping, const SparseMatrix& mass) {
+  // C has the rank of the contacts, too small for Lanczos; a few percent suffice.
+  constexpr int kIterations = 50;
+  const Inverse inverse(mass);
+  if (!inverse.is_regular()) return std::nullopt;
+  Vector force = damping.diagonal(), phi(force.size());
+  double fastest = 0.0;
+  for (int i = 0; i < kIterations && force.norm() > 0.0; ++i) {
+    inverse.apply(force.data(), phi.data());
+    phi /= phi.norm();
+    force = damping * phi;
+    fastest = std::max(fastest, phi.dot(force) / phi.dot(mass * phi));
+  }
+  return fastest;
+}
+
 SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) {
   SparseMatrix stiffness = system.stiffness;
   if (stops == StopState::open) return stiffness;
@@ -165,7 +194,13 @@ SparseMatrix stiffness_with_stops(const model::System& system, StopState stops) 
     stiffness.coeffRef(a, b) -= closed[i];
     stiffness.coeffRef(b, a) -= closed[i];
   }
-  add_obstacles(system, stiffness);
+  add_obstacles(
+      system,
+      [](const model::ObstacleGroup& group) {
+        return group.shape == nullptr ? block_along(group, 0.0, group.friction.stick_stiffness)
+                                      : block_along(group, group.law->closed_stiffness(), 0.0);
+      },
+      stiffness);
   return stiffness;
 }
 

@@ -47,4 +47,11 @@ BUTEE_EXPORT double contact_frequency(const model::System& system, const Elastic
 /// K, or K + S^T k_c S with all stops closed.
 BUTEE_EXPORT SparseMatrix stiffness_with_stops(const model::System& system, StopState stops);
 
+/// The dashpots of closed contacts (Kelvin-Voigt) and of those that stick, N s/m, rings along both axes; dissipation
+/// that depends on the penetration or the normal force is left out.
+BUTEE_EXPORT SparseMatrix damping_of_contacts(const model::System& system);
+
+/// The largest lambda of C phi = lambda M phi, 1/s, by iteration from below; nothing if M is singular.
+BUTEE_EXPORT std::optional<double> fastest_decay(const SparseMatrix& damping, const SparseMatrix& mass);
+
 }  // namespace butee::dynamics

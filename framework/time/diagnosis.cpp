@@ -48,8 +48,9 @@ double rate_of_pair(const MethodLimits& limits, double one, double other) {
   return rate_of_mode(limits, std::sqrt(std::abs(one * other)), std::abs(one) + std::abs(other));
 }
 
+/// `contacts`: damping of closed contacts, N s/m, or empty.
 std::optional<double> dense_rate(dynamics::Dynamics& dynamics, const MethodLimits& limits,
-                                 const SparseMatrix& stiffness) {
+                                 const SparseMatrix& stiffness, const SparseMatrix& contacts) {
   const Index n = dynamics.size();
   Eigen::MatrixXd damping(n, n);
   Vector column(n);
@@ -57,6 +58,7 @@ std::optional<double> dense_rate(dynamics::Dynamics& dynamics, const MethodLimit
     dynamics.damping_force(Vector::Unit(n, i), column);
     damping.col(i) = column;
   }
+  if (contacts.nonZeros() > 0) damping += contacts;
   const Eigen::LLT<Eigen::MatrixXd> mass{Eigen::MatrixXd(dynamics.system().mass)};
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   motion.topRightCorner(n, n).setIdentity();
@@ -84,10 +86,17 @@ std::optional<double> critical_rate(dynamics::Dynamics& dynamics, const MethodLi
                                     std::optional<dynamics::FrequencyRange> range) {
   const model::System& system = dynamics.system();
   const bool has_others = system.dashpots.size() > 0 || system.damping.is_modal();
-  if (dynamics.has_damping() && dynamics.size() <= kDense)
-    return dense_rate(dynamics, limits, dynamics::stiffness_with_stops(system, stops));
+  SparseMatrix contacts;
+  if (stops == dynamics::StopState::closed) contacts = dynamics::damping_of_contacts(system);
+  if ((dynamics.has_damping() || contacts.nonZeros() > 0) && dynamics.size() <= kDense)
+    return dense_rate(dynamics, limits, dynamics::stiffness_with_stops(system, stops), contacts);
   if (!range) range = dynamics::frequency_range(system, stops);
   if (!range) return std::nullopt;
+  if (contacts.nonZeros() > 0) {
+    const auto fastest = dynamics::fastest_decay(contacts, system.mass);
+    if (!fastest) return std::nullopt;
+    return std::max(rate(limits, range->highest, 0.0), rate_of_mode(limits, 0.0, *fastest));
+  }
   if (has_others) return rate(limits, range->highest, 0.0);
   const double m = system.damping.mass_proportional, k = system.damping.stiffness_proportional;
   // The damping of the highest mode is taken at its frequency with open stops; for closed stops
@@ -144,15 +153,16 @@ std::optional<CriticalSteps> critical_steps(dynamics::Dynamics& dynamics, const 
 }
 
 std::string describe_remedy(dynamics::Dynamics& dynamics, const MethodLimits& limits, double h) {
-  const bool has_stops = dynamics.stop_count() > 0;
+  const bool has_stops = dynamics.stop_count() > 0 || dynamics.obstacles() != nullptr;
   const auto critical = critical_steps(dynamics, limits);
   if (critical && h > critical->closed) {
     std::string text = "h = " + to_short_text(h) + " s is " + to_short_text(h / critical->closed) +
                        " times the critical step of " + limits.name + ", " + to_short_text(critical->closed) + " s" +
                        (dynamics.has_damping() ? " (a safe bound, as there is damping)" : "");
     if (has_stops)
-      text +=
-          " with all stops closed (" + to_short_text(critical->open) + " s with all open), the limit of its stability";
+      text += " with all stops closed" +
+              (std::isfinite(critical->open) ? " (" + to_short_text(critical->open) + " s with all open)" : "") +
+              ", the limit of its stability";
     else
       text += ", the limit of its stability";
     return text + ": take a time_step of " + to_short_text(kSafe * critical->closed) +

@@ -53,6 +53,10 @@ TEST(CheckAdvice, FindsLikelyMistakesThatTheSoundSceneHasNot) {
       {"output-interval", "a row every 0.1 s", {"output={interval=0.1}"}},
       {"contact-step", "an impact can be as short as", {"integrator.time_step=5e-3", "integrator.type=newmark"}},
       {"load-step", "in the shortest period of a load", {"integrator.time_step=0.1", "integrator.type=newmark"}},
+      {"load-pulse",
+       "changes within 5e-05 s",
+       {"load=[{type=\"table\",node=\"string:5\",times=[0.0,0.1,0.10005,0.2],values=[0.0,0.0,9.0,0.0]}]",
+        "integrator.time_step=1e-4", "integrator.type=newmark"}},
       {"mesh", "a bending wave", {"load[0].angular_frequency=2000.0"}},
       {"units", "has longitudinal waves of 0.1", {"material.steel.young_modulus=210.0"}},
       {"units", "has longitudinal waves of 1", {"material.steel.density=7.85"}},
@@ -102,6 +106,28 @@ TEST(CheckAdvice, WarnsOfModesThatGrow) {
   EXPECT_NE(text.find("by a factor of e every " + to_short_text(1.0 / rate) + " s"), std::string::npos) << text;
   EXPECT_EQ(advice(check(scene("20.0", "2.0")), "unstable"), "");
   EXPECT_EQ(advice(check(scene("0.0", "0.1")), "unstable"), "");  // too slow for this run
+}
+
+/// The dashpot of a closed stop limits the step of explicit methods: h c/m <= 2.785 for Runge-Kutta.
+TEST(CheckAdvice, CountsTheDashpotsOfStops) {
+  const TemporaryFolder folder;
+  const auto scene = [&](const std::string& step) {
+    folder.write(
+        "stop.toml",
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"b\"\nmass = 2.0\n[[contact]]\ntype = \"stop\"\nnodes = "
+        "\"b\"\ngap = 0.01\nsides = \"positive\"\nstiffness = 1e6\ndamping = { type = \"kelvin_voigt\", "
+        "coefficient = 1e5 }\n[[load]]\ntype = \"constant\"\nnode = \"b\"\nvalue = 500.0\n[integrator]\ntype = "
+        "\"rk4\"\nend_time = 0.1\ntime_step = " +
+            step + "\n");
+    return folder.file("stop.toml");
+  };
+  const std::string text = advice(check(scene("2.5e-4")), "critical-step");
+  EXPECT_NE(text.find("5.57"), std::string::npos) << text;
+  const Outcome run = run_program({"run", scene("2.5e-4"), "-o", folder.file("results")}, folder.path());
+  EXPECT_NE(run.errors.find("times the critical step of rk4"), std::string::npos) << run.errors;
+  EXPECT_EQ(advice(check(scene("5e-5")), "critical-step"), "");
+  const Outcome safe = run_program({"run", scene("5e-5"), "-o", folder.file("results")}, folder.path());
+  EXPECT_EQ(safe.errors.find("critical step"), std::string::npos) << safe.errors;
 }
 
 TEST(CheckAdvice, TakesWhatLastsOfALoadForItsStaticPart) {

@@ -1,15 +1,18 @@
 #include "advice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 #include <system_error>
 
 #include <butee/config/parameters.hpp>
 #include <butee/core/text.hpp>
+#include <butee/run/load_steps.hpp>
 #include <butee/run/run.hpp>
 
 namespace butee::app::check {
@@ -42,6 +45,7 @@ class Adviser {
     judge_output();
     judge_size();
     judge_mesh();
+    judge_joints();
     judge_units();
     judge_names("material");
     judge_names("section");
@@ -84,6 +88,8 @@ class Adviser {
     if (const double period = shortest_period(); h * kStepsInPeriod > period)
       add("load-step", "time_step = " + to_short_text(h) + " s makes only " + to_short_text(period / h) +
                            " steps in the shortest period of a load, " + to_short_text(period) + " s");
+    if (std::string complaint = run::complaint_of_loads(system_, h, choice.options.end_time); !complaint.empty())
+      add("load-pulse", std::move(complaint));
   }
 
   bool has_damping() const {
@@ -193,6 +199,28 @@ class Adviser {
             " is " + to_short_text(worst->length) + " m long, and a bending wave at the fastest load's frequency " +
             to_short_text(worst->length * fewest) + " m, " + to_short_text(fewest) + " elements; take elements of " +
             to_short_text(worst->length * fewest / kElementsInWave) + " m or less");
+  }
+
+  /// Beams that are placed in space and share a node have it at one place.
+  void judge_joints() {
+    constexpr double kApart = 1e-6;  // of a beam's length
+    const model::NodeTable& nodes = session_.model.nodes;
+    std::map<model::NodeId, std::pair<model::NodeId, std::array<double, 3>>> places;
+    for (const std::string& name : nodes.group_names()) {
+      const model::NodeGroup& group = *nodes.find(name);
+      const bool is_placed = group.origin != std::array{0.0, 0.0, 0.0} || group.direction != std::array{1.0, 0.0, 0.0};
+      for (model::NodeId i = 0; is_placed && !group.lone() && i < group.size(); ++i) {
+        const double along = group.coordinates[static_cast<std::size_t>(i)];
+        std::array<double, 3> place = group.origin;
+        for (std::size_t k = 0; k < 3; ++k) place[k] += along * group.direction[k];
+        const auto& [first, there] =
+            places.try_emplace(nodes.canonical(group.first + i), group.first + i, place).first->second;
+        const double apart = std::hypot(place[0] - there[0], place[1] - there[1], place[2] - there[2]);
+        if (apart > kApart * (group.coordinates.back() - group.coordinates.front()))
+          add("joint", nodes.name(first) + " and " + nodes.name(group.first + i) + " are one node, but " +
+                           to_short_text(apart) + " m apart by the points of their beams");
+      }
+    }
   }
 
   /// Young's modulus and density in different units give waves far from those of any structural material.
