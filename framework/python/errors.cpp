@@ -27,6 +27,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const InputError& error) {
     raise("InputError", py::make_tuple(error.what(), mistakes_of(error)));
   } catch (const RunError& error) {
+    if (PyErr_CheckSignals() != 0) return;  // Ctrl-C ended the run.
     raise("RunError", py::make_tuple(error.what()));
   } catch (const LogicError& error) {
     PyErr_SetString(PyExc_ValueError, error.what());

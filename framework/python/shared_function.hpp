@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <pybind11/pybind11.h>
@@ -20,20 +21,29 @@ inline std::shared_ptr<pybind11::function> shared_function(const pybind11::funct
           [](pybind11::function* held) { with_interpreter([held] { delete held; }); }};
 }
 
-/// function(first, parameters...), called from any thread. Throws RunError if that is not a number.
+/// function(first, parameters...), called from any thread. Throws RunError if that is not a number, or NaN.
 inline double call_with(const pybind11::function& function, double first, const std::vector<double>& parameters) {
   return with_interpreter([&] {
     pybind11::tuple arguments(parameters.size() + 1);
     arguments[0] = first;
     for (std::size_t i = 0; i < parameters.size(); ++i) arguments[i + 1] = parameters[i];
-    const pybind11::object result = function(*arguments);
+    pybind11::object result;
     try {
-      return result.cast<double>();
-    } catch (const pybind11::cast_error&) {
-      const auto name = pybind11::str(pybind11::getattr(function, "__name__", function));
-      throw RunError("the Python function " + std::string(name) + " returned " + std::string(pybind11::repr(result)) +
-                     " at " + to_short_text(first) + ", not a number");
+      result = function(*arguments);
+    } catch (const pybind11::error_already_set& error) {
+      // Ctrl-C within the function ends the run, and is raised where the run was called.
+      if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
+      throw;
     }
+    double value = std::nan("");
+    try {
+      value = result.cast<double>();
+    } catch (const pybind11::cast_error&) {
+    }
+    if (!std::isnan(value)) return value;
+    const auto name = pybind11::str(pybind11::getattr(function, "__name__", function));
+    throw RunError("the Python function " + std::string(name) + " returned " + std::string(pybind11::repr(result)) +
+                   " at " + to_short_text(first) + ", not a number");
   });
 }
 

@@ -17,8 +17,9 @@ class Equations:
     """M a + C v + K x = F(t) + F_c(x, v) on the n free degrees of freedom of a scene, for other solvers.
 
     Vectors are arrays of shape (n,), displacements in m or rad, forces in N or N m, in the order of ``dofs``. C = c_m M + c_k K +
-    dashpots, or modal damping and dashpots. If shafts turn at a varying speed, C and K depend on time. If the scene has a
-    moving base, the motion is relative to the base.
+    dashpots, or modal damping and dashpots. If shafts turn at a varying speed, C and K depend on time. Under a moving
+    ``[base]`` the motion is relative to it; with ``frame = "space"``, and if ``[[base]]`` moves nodes, it is the motion in space.
+    Friction with stick has no memory here: ``contact_force`` is that of sliding.
 
     >>> equations = scene.equations()
     >>> equations.dofs

@@ -14,7 +14,7 @@ def law(name: str, *, tangent: Optional[Callable[..., float]] = None,
     """Registers a function of the penetration as a contact law of stops. Scenes created later can use ``law = "name"`` in ``contact``.
 
     The function receives the penetration g in m (negative while the stop is open) and its parameters, and returns the restoring
-    force in N; it must be 0 at g = 0. Its other arguments are keys of the contact and must be numbers; those without a default
+    force in N; it must be 0 at g = 0, and is also called from 1e-9 to 0.01 m and at -1 m. Its other arguments are keys of the contact and must be numbers; those without a default
     are required. ``tangent`` and ``energy`` are functions of the same arguments: dF/dg in N/m and the integral of F from 0 to g
     in J. If they are absent, the force is differentiated by finite differences and integrated by Gauss' rule over intervals that
     shrink towards 0, with a few hundred calls for each value of the energy.

@@ -143,7 +143,10 @@ class Structure:
         return self._core.snapshot()
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Restores a snapshot of this structure, or of another one with the same scene and ``forced``, bit for bit."""
+        """Restores a snapshot of this structure, or of another one with the same scene and ``forced``, bit for bit.
+
+        The methods of SUNDIALS keep a history of their own, which a snapshot lacks: they go on to their tolerance.
+        """
         self._core.restore(snapshot)
 
     @property
