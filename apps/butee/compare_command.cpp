@@ -155,8 +155,7 @@ class Comparison {
         const bool is_first = value == sweep.values.front();
         // A method that the study names should suit its scenes; of all installed ones some do not.
         if (is_first && !study_.sweeps.empty()) throw;
-        log::info(result.scene + ": " + sweep.method + ", " + sweep.knob + " = " + to_short_text(value) + ": " +
-                  error.what());
+        log::info(name_of(result.scene, sweep.method, sweep.knob, value) + ": " + error.what());
         // Later values are below the smallest one of the method for this scene.
         if (is_first) result.rows.push_back(refused(result.scene, sweep, value, error.what()));
         return;
@@ -166,7 +165,12 @@ class Comparison {
       last_seconds = row.outcome == "too slow" ? study_.time_limit : row.seconds;
       const bool fine = row.completed() && row.error.rms <= floor;
       result.rows.push_back(std::move(row));
-      if (fine) return;
+      if (!fine) continue;
+      if (const auto skipped = sweep.values.end() - std::find(sweep.values.begin(), sweep.values.end(), value) - 1;
+          skipped > 0)
+        log::info(result.scene + ": " + sweep.method + ": " + std::to_string(skipped) +
+                  " finer values are not run, as this error is below what the targets need");
+      return;
     }
   }
 
@@ -223,12 +227,15 @@ class Comparison {
     return all;
   }
 
+  static std::string name_of(const std::string& scene, const std::string& method, const std::string& knob,
+                             double value) {
+    return scene + ": " + method + (knob.empty() ? "" : ", " + knob + " = " + to_short_text(value));
+  }
+
   static std::string describe(const Row& row) {
-    std::string text = row.scene + ": " + row.method;
-    if (!row.knob.empty()) text += ", " + row.knob + " = " + to_short_text(row.value);
-    text += ": ";
-    if (!row.completed()) return text + row.outcome;
-    return text + "error " + to_short_text(row.error.rms) + ", " + to_short_text(row.seconds * 1e3) + " ms";
+    const std::string name = name_of(row.scene, row.method, row.knob, row.value) + ": ";
+    if (!row.completed()) return name + row.outcome;
+    return name + "error " + to_short_text(row.error.rms) + ", " + to_short_text(row.seconds * 1e3) + " ms";
   }
 
   void write(const std::vector<SceneResult>& results) {

@@ -187,8 +187,11 @@ void SceneReader::check_dofs() {
       if (!claims.exists(dof)) continue;
       diagnostics_.error(element_places_[i].first, element_places_[i].second,
                          "the free " + dofs_->name(dof) +
-                             " has no mass, so its motion is undetermined: give the node a mass" +
-                             (is_rotation(dof.kind) ? " with rotary_inertia" : "") + ", or fix it with a [[support]]");
+                             " has no mass, so its motion is undetermined: give the node a " +
+                             (dof.kind == DofKind::rx ? "disc with polar_inertia"
+                              : is_rotation(dof.kind) ? "mass with rotary_inertia"
+                                                      : "mass") +
+                             ", or fix it with a [[support]]");
       break;
     }
   }

@@ -49,11 +49,13 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
   };
   for (const Item& item : items)
     if ((item.kind == Kind::max || item.kind == Kind::min) && !is_followed(item))
-      throw InputError("\"" + item.text + "\": refers to another frame than the solution; use peak");
+      throw InputError("study.collect: \"" + item.text +
+                       "\": max and min take displacements and contact forces in the frame of the solution; take peak, "
+                       "the largest |value|");
 
   for (const Item& item : items)
     if (item.kind == Kind::wear && dynamics.obstacles() == nullptr)
-      throw InputError("\"wear\": no contact of the scene has friction; add friction, or remove it");
+      throw InputError("study.collect: \"wear\": no contact of the scene has friction; add friction, or remove it");
 
   if (const auto chosen =
           chosen_by([&](const Item& i) { return i.kind == Kind::peak && is_followed(i) && !is_of_obstacle(i); });

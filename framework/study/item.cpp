@@ -113,15 +113,14 @@ model::ProbeRequest probe_of(const Item& item, const scene::Scene& scene) {
   if (!is_label) {
     const model::Selection selection = scene.model.nodes.select(item.probe);
     if (selection.nodes.size() != 1)
-      throw InputError("\"" + item.text + "\": \"" + item.probe + "\" is neither the label of a probe" +
+      throw InputError("study.collect: \"" + item.text + "\": \"" + item.probe + "\" is neither the label of a probe" +
                        suggestion(item.probe, labels) + " nor one node" +
                        (selection.nodes.empty() ? "" : ", but " + std::to_string(selection.nodes.size())) +
                        "; probes: " + join(labels) + "; nodes: " + join(scene.model.nodes.group_names()));
     probe.node = selection.nodes.front();
   }
   const std::string problem = why_not(item.quantity, scene.model, number_dofs(scene.model), probe.node, probe.element);
-  if (!problem.empty())
-    throw InputError("\"" + item.text + "\": " + name_of(item.quantity) + std::string(" ") + problem);
+  if (!problem.empty()) throw InputError("study.collect: \"" + item.text + "\": " + problem);
   return probe;
 }
 

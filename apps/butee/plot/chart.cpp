@@ -12,7 +12,8 @@
 namespace butee::app::plot {
 namespace {
 
-constexpr std::size_t kTitleWidth = 80;
+/// Characters that fit beside the picture.
+constexpr std::size_t kLabelWidth = 50;
 /// Levels above this multiple of the largest value are left out of the picture; they would flatten the
 /// curves.
 constexpr double kFarAway = 4.0;
@@ -66,20 +67,20 @@ std::string data_of(const std::vector<Curve>& curves, const Scale& x, const Scal
 
 }  // namespace
 
-std::string folded_title(std::string title) {
+std::string folded_title(std::string title, std::size_t width) {
   std::replace(title.begin(), title.end(), '"', '\'');
   std::replace(title.begin(), title.end(), '\\', '/');
   std::replace(title.begin(), title.end(), '`',
                '\'');  // gnuplot runs text between backquotes as a command, even within double quotes.
   std::replace_if(
       title.begin(), title.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
-  if (title.size() <= kTitleWidth) return title;
+  if (title.size() <= width) return title;
   std::size_t best = std::string::npos;
-  for (std::size_t i = title.find(' '); i != std::string::npos && i <= kTitleWidth; i = title.find(' ', i + 1))
+  for (std::size_t i = title.find(' '); i != std::string::npos && i <= width; i = title.find(' ', i + 1))
     if (best == std::string::npos || title[i - 1] == ',' || title[best - 1] != ',') best = i;
-  if (best == std::string::npos) return title.substr(0, kTitleWidth);
+  if (best == std::string::npos) return title.substr(0, width);
   std::string rest = title.substr(best + 1);
-  if (rest.size() > kTitleWidth) rest = rest.substr(0, rest.rfind(' ', kTitleWidth)) + " ...";
+  if (rest.size() > width) rest = rest.substr(0, rest.rfind(' ', width)) + " ...";
   return title.substr(0, best) + "\\n" + rest;
 }
 
@@ -109,7 +110,10 @@ Picture Chart::picture() const {
   picture.data = data_of(curves, x_scale, y_scale);
   std::string& set = picture.set;
   set += "set xlabel " + gnuplot::quoted(x_scale.axis(x_name)) + " noenhanced\n";
-  set += "set ylabel " + gnuplot::quoted(y_scale.axis(y_name)) + " noenhanced\n";
+  const std::string label = y_scale.axis(y_name);
+  set += "set ylabel " +
+         (label.size() > kLabelWidth ? "\"" + folded_title(label, kLabelWidth) + "\"" : gnuplot::quoted(label)) +
+         " noenhanced\n";
   set += "set title \"" + folded_title(title) + "\" noenhanced\n";
   if (in_plane && std::min(x_size, y_size) > kThin * both) set += "set size ratio -1\n";
   const bool path = !curves.empty() && curves.front().path;

@@ -51,8 +51,10 @@ struct Chart {
   Picture picture() const;
 };
 
-/// A title in one or two lines, each no longer than the picture's width, escaped for double quotes of
-/// gnuplot.
-std::string folded_title(std::string title);
+/// Characters that fit above the picture.
+inline constexpr std::size_t kTitleWidth = 80;
+
+/// A title in one or two lines, each no longer than `width` characters, escaped for double quotes of gnuplot.
+std::string folded_title(std::string title, std::size_t width = kTitleWidth);
 
 }  // namespace butee::app::plot

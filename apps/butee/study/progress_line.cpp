@@ -29,7 +29,7 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::report(const study::Progress& progress) {
-  if (!is_wanted_) return;
+  if (!is_wanted_ || progress.total == 0) return;
   const auto now = Clock::now();
   if (!is_terminal_ && now - drawn_ < kBetweenLines) return;
   drawn_ = now;
