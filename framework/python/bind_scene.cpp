@@ -70,7 +70,10 @@ std::shared_ptr<Outcome> run(const Session& session, py::object progress, bool p
     outcome = perform(*scene, {progress_bar, folder, resume}, watch);
   }
   watch.rethrow();
-  if (!outcome->completed && PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (take_interrupt()) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw py::error_already_set();
+  }
   return outcome;
 }
 

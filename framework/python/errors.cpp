@@ -1,6 +1,7 @@
 #include "butee/config/scene_error.hpp"
 #include "butee/core/error.hpp"
 #include "butee/python/bindings.hpp"
+#include "butee/python/watch.hpp"
 
 namespace py = pybind11;
 
@@ -27,7 +28,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const InputError& error) {
     raise("InputError", py::make_tuple(error.what(), mistakes_of(error)));
   } catch (const RunError& error) {
-    if (PyErr_CheckSignals() != 0) return;  // Ctrl-C ended the run.
+    if (take_interrupt()) return PyErr_SetNone(PyExc_KeyboardInterrupt);
     raise("RunError", py::make_tuple(error.what()));
   } catch (const LogicError& error) {
     PyErr_SetString(PyExc_ValueError, error.what());

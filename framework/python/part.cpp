@@ -18,7 +18,10 @@ Part::Part(const Session& session, std::vector<std::string> forced)
 
 Part::Locked Part::use() {
   std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock.owns_lock()) throw RunError("the structure is in use, by another thread or by the run that calls this function; each thread needs its own structure");
+  if (!lock.owns_lock())
+    throw RunError(
+        "the structure is in use, by another thread or by the run that calls this function; each thread needs its own "
+        "structure");
   return {structure_, std::move(lock)};
 }
 

@@ -12,6 +12,7 @@
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
 #include "butee/python/interpreter_lock.hpp"
+#include "butee/python/watch.hpp"
 
 namespace butee::python {
 
@@ -32,7 +33,7 @@ inline double call_with(const pybind11::function& function, double first, const 
       result = function(*arguments);
     } catch (const pybind11::error_already_set& error) {
       // Ctrl-C within the function ends the run, and is raised where the run was called.
-      if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
+      if (error.matches(PyExc_KeyboardInterrupt)) keep_interrupt();
       throw;
     }
     double value = std::nan("");

@@ -1,6 +1,7 @@
 #include "butee/python/watch.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "butee/python/interpreter_lock.hpp"
 
@@ -18,7 +19,17 @@ constexpr auto kBetweenCalls = 50ms;
 constexpr int kMostStride = 256;
 constexpr auto kQuick = 1ms, kSlow = 5ms;
 
+std::atomic<bool> is_interrupted = false;
+
 }  // namespace
+
+void keep_interrupt() {
+  is_interrupted = true;
+}
+
+bool take_interrupt() {
+  return is_interrupted.exchange(false);
+}
 
 const char* PythonWatch::look(double t) {
   if (--until_look_ > 0) return nullptr;

@@ -8,6 +8,11 @@
 
 namespace butee::python {
 
+/// Keeps in mind that Ctrl-C was pressed within a function in Python that C++ called.
+void keep_interrupt();
+/// True, once, if it was.
+bool take_interrupt();
+
 /// Checks for Ctrl-C and calls `progress(t)` from time to time, while a run continues without the
 /// interpreter's lock.
 class PythonWatch final : public Watch {

@@ -26,6 +26,26 @@ std::vector<BadScene> bad_contact_scenes() {
          "angular_frequency = 5.0 }"},
         {"[initial]\ndisplacement = [{ nodes = \"rotor\", dof = \"u\", value = 0.001 }]", ""}},
        {"moves rotor, a body of a contact between two bodies", "both bodies need a free uz"}},
+      {"friction of a turning shaft across its circumference",
+       {{"length = 4.0", "length = 4.0\nmotion = \"spatial\""},
+        {"density = ", "poisson_ratio = 0.3\ndensity = "},
+        {"nodes = \"rotor\"\ngap = 0.01\nsides = \"both\"",
+         "nodes = \"string:2\"\ndofs = [\"ux\", \"uy\"]\nnormal = [0.0, 1.0]\nfriction = { coefficient = 0.3, "
+         "slip_speed = 0.1 } "
+         "#!\ngap = 0.01"},
+        {"type = \"stop\"", "type = \"plane\""},
+        {"fix = [\"u\"]", "fix = [\"ux\", \"uy\", \"uz\", \"rx\"]\n[rotation]\nspeed = 100.0"}},
+       {"string:2 turns about x, so that its surface slides across the directions of this contact"}},
+      {"a radius of friction along x",
+       {{"length = 4.0", "length = 4.0\nmotion = \"spatial\""},
+        {"density = ", "poisson_ratio = 0.3\ndensity = "},
+        {"nodes = \"rotor\"\ngap = 0.01\nsides = \"both\"",
+         "nodes = \"string:2\"\ndofs = [\"ux\", \"uy\"]\nnormal = [0.0, 1.0]\nfriction = { coefficient = 0.3, "
+         "slip_speed = 0.1 "
+         "}\nradius = 0.1 #!\ngap = 0.01"},
+        {"type = \"stop\"", "type = \"plane\""},
+        {"fix = [\"u\"]", "fix = [\"ux\", \"uy\", \"uz\", \"rx\"]"}},
+       {"contact[0].radius = 0.1: is the arm of friction about x, which needs contacts along uy and uz; remove it"}},
       {"negative gap", {{"gap = 0.01", "gap = -0.01 #!"}}, {"contact[0].gap = -0.01: must be >= 0 (m)"}},
       {"gap missing",
        {{"[[contact]]", "[[contact]] #!"}, {"gap = 0.01\n", ""}},

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import butee
+from conftest import ROTOR
 
 #: A run that takes longer than any test.
 LONG = """
@@ -69,6 +70,42 @@ def test_ctrl_c_ends_a_batch_and_a_structure():
     """
     status, out = interrupted("rk4", {"time_step": 1e-6, "tolerance": None}, code)
     assert (status, out) == (0, "interrupted\nready\ninterrupted\n")
+
+
+def test_ctrl_c_within_a_load_ends_a_run_and_a_structure():
+    code = """
+        @butee.load("slow")
+        def slow(t):
+            until = time.monotonic() + 0.01
+            while time.monotonic() < until:
+                pass
+            return 1.0
+
+        import time
+        scene = butee.Scene({**ROTOR, "load": [{"node": "rotor", "type": "slow"}], "output": {"interval": 1.0},
+                             "integrator": {"type": "rk4", "time_step": 1e-6, "end_time": 1e4}})
+        part = scene.structure()
+        for call in (lambda: scene.run(), lambda: part.advance_to(1e4)):
+            try:
+                print("ready", flush=True)
+                call()
+            except KeyboardInterrupt:
+                print("interrupted")
+                import os, signal, threading
+                threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """
+    assert interrupted("rk4", {"time_step": 1e-6, "tolerance": None}, code) == (0, "interrupted\nready\ninterrupted\n")
+
+
+def test_nan_from_a_law_names_the_function():
+    @butee.law("lost")
+    def lost(g, stiffness):
+        return float("nan") if 2e-6 < g < 9e-6 else stiffness * max(g, 0.0)
+
+    scene = butee.Scene({**ROTOR, "contact": [{"type": "stop", "nodes": "rotor", "gap": 1e-5, "law": "lost", "stiffness": 1e9}]})
+    with pytest.raises(butee.RunError, match="the Python function lost returned nan at"):
+        scene.run()
 
 
 def test_progress_is_called_and_may_raise(rotor):
