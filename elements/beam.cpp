@@ -258,11 +258,12 @@ std::vector<double> Beam::preload() const {
 }
 
 Beam::Turning Beam::turning() const {
-  const bool is_along_x = options_.axes.col(0) == Eigen::Vector3d::UnitX();
+  const bool is_along_x = options_.axes.col(0).cwiseAbs() == Eigen::Vector3d::UnitX();
   return options_.motion != Motion::planar && is_along_x ? Turning::possible : Turning::never;
 }
 
 std::string Beam::turning_problem() const {
+  if (options_.axes(0, 0) < 0.0) return "its points run against x; give them in the order of x";
   const double a = section_.second_moment, b = section_.second_moment_y;
   const auto differ = [](double p, double q) { return std::abs(p - q) > 1e-9 * std::max(p, q); };
   if (differ(a, b))

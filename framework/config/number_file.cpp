@@ -153,7 +153,12 @@ class NumberFile {
  private:
   bool begins_with_number() const {
     Fields fields(lines_.line, separator_);
-    return fields.next() && number_of(fields.field).has_value();
+    if (!fields.next()) return false;
+    const std::size_t first = fields.field.find_first_not_of(" \t\"");
+    // A number that cannot be read, such as 1e400, is no name.
+    return number_of(fields.field).has_value() ||
+           (first != std::string_view::npos &&
+            std::string_view("0123456789+-.").find(fields.field[first]) != std::string_view::npos);
   }
 
   void find_names() {

@@ -169,7 +169,10 @@ std::optional<double> fastest_decay(const SparseMatrix& damping, const SparseMat
   constexpr int kIterations = 50;
   const Inverse inverse(mass);
   if (!inverse.is_regular()) return std::nullopt;
-  Vector force = damping.diagonal(), phi(force.size());
+  // A start that is orthogonal to no mode.
+  Vector phi(mass.rows());
+  for (Index i = 0; i < phi.size(); ++i) phi[i] = 1.0 + std::sin(1.7 * static_cast<double>(i * i));
+  Vector force = damping * phi;
   double fastest = 0.0;
   for (int i = 0; i < kIterations && force.norm() > 0.0; ++i) {
     inverse.apply(force.data(), phi.data());

@@ -168,6 +168,8 @@ WhirlMode Whirl::finished(Complex lambda, Eigen::VectorXcd shape) const {
   };
   Orbits of = orbits(DofKind::uy, DofKind::uz, 1.0);
   if (const Orbits tilt = orbits(DofKind::rz, DofKind::ry, -1.0); of.inertia < kOnlyTilts * tilt.inertia) of = tilt;
+  // Torsion and motion along the shaft have no orbit but rounding.
+  if (of.inertia < kOnlyTilts * orbits(DofKind::rx, DofKind::ux, 1.0).inertia) return mode;
   if (of.square > 0.0 && lambda.imag() > 0.0) mode.direction = of.area / of.square;
   if (std::abs(mode.direction) < kFlat) mode.direction = 0.0;
   mode.is_mixed = std::min(of.most, -of.least) > 1e-3 * std::max(of.most, -of.least);

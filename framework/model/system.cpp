@@ -65,13 +65,14 @@ FreeObstacles reduce(const ObstacleGroup& group, const DofTable& dofs, const Nod
       if (!group.b.empty()) ends.b[k] = std::max(dofs.index({group.b[i], group.directions[k]}), FreeStops::kGround);
       moves = moves || ends.a[k] >= 0 || ends.b[k] >= 0;
     }
-    if (!moves) {
-      ++skipped;
-      continue;
-    }
     if (group.twists()) {
       ends.a[2] = std::max(dofs.index({group.a[i], DofKind::rx}), FreeStops::kGround);
       if (!group.b.empty()) ends.b[2] = std::max(dofs.index({group.b[i], DofKind::rx}), FreeStops::kGround);
+      moves = moves || ends.a[2] >= 0 || ends.b[2] >= 0;
+    }
+    if (!moves) {
+      ++skipped;
+      continue;
     }
     free.ends.push_back(ends);
     free.names.push_back(nodes.name(group.a[i]) + (group.b.empty() ? "" : "|" + nodes.name(group.b[i])));
@@ -134,8 +135,12 @@ std::vector<std::string> contact_names(const Model& model, const DofTable& dofs)
   std::vector<std::string> names;
   Index skipped = 0;
   for (const ObstacleGroup& group : model.obstacles)
-    for (const std::string& name : reduce(group, dofs, model.nodes, skipped).names)
+    for (const std::string& name : reduce(group, dofs, model.nodes, skipped).names) {
       names.push_back(group.kind + " " + name);
+      for (const DofKind along : group.directions)
+        names.back().append(1, ' ').append(std::to_string(static_cast<int>(along)));
+      names.back().append(1, ' ').append(std::to_string(static_cast<int>(group.friction.rule)));
+    }
   return names;
 }
 

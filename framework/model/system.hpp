@@ -85,7 +85,8 @@ enum class TurningParts { included, apart };
 /// is fixed or absent, or nothing is free to move.
 BUTEE_EXPORT System assemble(const Model& model, TurningParts turning = TurningParts::included);
 
-/// The contacts of `obstacles` in their order, "ring disc", as an assembly of the model has them.
+/// The contacts of `obstacles` in their order, "ring disc 1 2 5", with the numbers of the directions and of the rule of
+/// friction, as an assembly of the model has them.
 BUTEE_EXPORT std::vector<std::string> contact_names(const Model& model, const DofTable& dofs);
 
 /// Takes the stops, loads and initial motion of another model with the same nodes, elements and

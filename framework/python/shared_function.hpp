@@ -33,8 +33,9 @@ inline double call_with(const pybind11::function& function, double first, const 
       result = function(*arguments);
     } catch (const pybind11::error_already_set& error) {
       // Ctrl-C within the function ends the run, and is raised where the run was called.
-      if (error.matches(PyExc_KeyboardInterrupt)) keep_interrupt();
-      throw;
+      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+      keep_interrupt();
+      throw RunError("interrupted");
     }
     double value = std::nan("");
     try {

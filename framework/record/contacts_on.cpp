@@ -29,7 +29,11 @@ void for_stops(const model::Model& model, const model::DofTable& dofs, const Vis
 
 template <class Visit>
 void for_obstacles(const model::Model& model, const model::DofTable& dofs, const Visit& visit) {
-  const auto along = [](const model::ObstacleGroup& group) -> const std::vector<DofKind>& { return group.directions; };
+  const auto along = [](const model::ObstacleGroup& group) {
+    std::vector<DofKind> kinds = group.directions;
+    if (group.twists()) kinds.push_back(DofKind::rx);
+    return kinds;
+  };
   for_assembled(model.obstacles, dofs, along, visit);
 }
 

@@ -319,9 +319,11 @@ bool SceneReader::read_radius(const Parameters& p, ContactParts& parts) {
     return false;
   };
   std::array<Index, 2> turn{};
+  Index lone = 0;  // masses without a rotation, which may represent shafts that turn
   std::string one;
   for (const auto* ends : {&parts.a, &parts.b})
     for (const NodeId node : *ends) {
+      if (ends == &parts.a && !dofs_->exists({node, DofKind::rx})) ++lone;
       if (!turns(node)) continue;
       ++turn[ends == &parts.a ? 0 : 1];
       one = model_.nodes.name(node);
@@ -341,12 +343,13 @@ bool SceneReader::read_radius(const Parameters& p, ContactParts& parts) {
   parts.radius = p.number("radius");
   if (!about_x && parts.radius != 0.0)
     return complain("radius", "is the arm of friction about x, which needs contacts along uy and uz; remove it");
-  // A lone mass with a radius may represent a shaft that turns.
-  parts.a_turns = turn[0] > 0 || (turn[1] == 0 && !dofs_->exists({parts.a.front(), DofKind::rx}));
+  if (turn[0] == 0 && turn[1] == 0 && model_.rotation != nullptr) turn[0] = lone;
+  parts.a_turns = turn[0] > 0;
   parts.b_turns = turn[1] > 0;
   const auto some = [](Index count, const std::vector<NodeId>& of) { return count > 0 && count < std::ssize(of); };
-  if (parts.radius != 0.0 && !parts.b.empty() && (some(turn[0], parts.a) || some(turn[1], parts.b)))
-    return complain("between", "some of these nodes turn and others do not; give them in separate [[contact]] tables");
+  if (parts.radius != 0.0 && (some(turn[0], parts.a) || some(turn[1], parts.b)))
+    return complain(parts.b.empty() ? "nodes" : "between",
+                    "some of these nodes turn and others do not; give them in separate [[contact]] tables");
   return true;
 }
 

@@ -17,14 +17,39 @@ void SceneReader::read_rotation() {
       if (model_.elements[i]->turning() == Turning::always)
         diagnostics_.error(element_places_[i].first, element_places_[i].second,
                            "has rotating damping, but nothing turns: give [rotation] with a speed");
+    if (diagnostics_.error_count() > 0) return;
+    for (const auto& [entry, path] : entries("element"))
+      if (entry->table() != nullptr && entry->table()->find("gyroscopic") != nullptr)
+        diagnostics_.warning(path + ".gyroscopic", entry->at,
+                             "has no effect, since nothing turns: [rotation] is not given");
     return;
   }
   const auto p = read_parameters(
-      *given, "rotation", {config::texts("parts", "the beams and discs that turn; default: all that can").optional()},
+      *given, "rotation",
+      {config::texts("parts", "the beams, discs and matrices that turn; default: all that can").optional()},
       diagnostics_, {"speed"});
   if (!p) return;
   model_.rotation = read_speed(*given);
   choose_turning(*p);
+}
+
+void SceneReader::warn_of_standing_discs() {
+  DofTable turning(model_.nodes);
+  for (std::size_t i = 0; i < model_.elements.size(); ++i)
+    if (model_.turns[i]) model_.elements[i]->claim(turning);
+  for (std::size_t i = 0; i < model_.elements.size(); ++i) {
+    if (model_.turns[i] || model_.elements[i]->turning() != Turning::possible) continue;
+    DofTable own(model_.nodes);
+    model_.elements[i]->claim(own);
+    bool is_on_turning = true;
+    for (NodeId node = 0; node < model_.nodes.size(); ++node)
+      for (const DofKind kind : kAllDofKinds)
+        if (own.exists({node, kind})) is_on_turning = is_on_turning && turning.exists({node, kind});
+    if (is_on_turning)
+      diagnostics_.warning(element_places_[i].first, element_places_[i].second,
+                           "stands still, but all its nodes are on parts that turn; if it turns with them, name it in "
+                           "rotation.parts");
+  }
 }
 
 std::unique_ptr<Rotation> SceneReader::read_speed(const Value& rotation) {
@@ -73,6 +98,7 @@ void SceneReader::choose_turning(const Parameters& p) {
                          "turns with [rotation], but " + problem +
                              (p.has("parts") ? "" : "; if it stands still, name the rotating parts in rotation.parts"));
   }
+  if (p.has("parts")) warn_of_standing_discs();
   for (const std::string& part : parts)
     if (std::find(able.begin(), able.end(), part) == able.end() && !lacks_elements_)
       p.complain(diagnostics_, "parts",

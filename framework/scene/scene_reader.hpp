@@ -34,6 +34,8 @@ class SceneReader {
   void excuse_names_of(const config::Value& entry);
   void read_rotation();
   std::unique_ptr<Rotation> read_speed(const config::Value& rotation);
+  /// Warns of discs that stand still on shafts that turn.
+  void warn_of_standing_discs();
   void choose_turning(const config::Parameters& parameters);
   void read_gravity();
   void read_base();

@@ -45,7 +45,12 @@ class Pool {
       throw RunError(std::to_string(count) + " threads cannot be started, only " + std::to_string(started) + ": " +
                      error.what() + "; use fewer");
     }
-    wait();
+    try {
+      wait();
+    } catch (...) {
+      goes_on_ = false;  // or the threads would go on with the whole study
+      throw;
+    }
     threads.clear();
     rows_.flush();
     if (error_) std::rethrow_exception(error_);

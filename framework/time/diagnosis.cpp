@@ -92,16 +92,16 @@ std::optional<double> critical_rate(dynamics::Dynamics& dynamics, const MethodLi
     return dense_rate(dynamics, limits, dynamics::stiffness_with_stops(system, stops), contacts);
   if (!range) range = dynamics::frequency_range(system, stops);
   if (!range) return std::nullopt;
-  if (contacts.nonZeros() > 0) {
-    const auto fastest = dynamics::fastest_decay(contacts, system.mass);
-    if (!fastest) return std::nullopt;
-    return std::max(rate(limits, range->highest, 0.0), rate_of_mode(limits, 0.0, *fastest));
-  }
-  if (has_others) return rate(limits, range->highest, 0.0);
   const double m = system.damping.mass_proportional, k = system.damping.stiffness_proportional;
   // The damping of the highest mode is taken at its frequency with open stops; for closed stops
-  // this is conservative.
-  return rate_of_mode(limits, range->highest, m + k * range->highest * range->highest);
+  // this is conservative. Dashpots of the structure are left out.
+  double c = has_others ? 0.0 : m + k * range->highest * range->highest;
+  if (contacts.nonZeros() > 0) {
+    const auto of_contacts = dynamics::fastest_decay(contacts, system.mass);
+    if (!of_contacts) return std::nullopt;
+    c = std::max(c, *of_contacts);
+  }
+  return rate_of_mode(limits, range->highest, c);
 }
 
 std::string overflowing_load(dynamics::Dynamics& dynamics, double t) {

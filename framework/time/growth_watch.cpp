@@ -45,11 +45,14 @@ double excess_over(double explained, double energy) {
   return explained > 0.0 ? std::log(energy / explained) : 0.0;
 }
 
-/// Friction on a moving surface supplies energy to the motion without bound.
+/// Friction on a moving surface, cross terms of bearings, damping that turns and negative damping supply energy to the
+/// motion without bound.
 bool is_driven(const dynamics::Dynamics& dynamics) {
-  for (const model::FreeObstacles& obstacles : dynamics.system().obstacles)
+  const model::System& system = dynamics.system();
+  for (const model::FreeObstacles& obstacles : system.obstacles)
     if (obstacles.group->friction.rule != model::Friction::Rule::none) return true;
-  return false;
+  const bool is_negative = system.dashpots.size() > 0 && (Vector(system.dashpots.diagonal()).array() < 0.0).any();
+  return !system.stiffness_is_symmetric || system.circulatory.size() > 0 || is_negative;
 }
 
 }  // namespace

@@ -34,6 +34,26 @@ void expect_holds(const std::string& message, const std::vector<std::string>& pa
 
 constexpr double kHighest = 10050.0;  ///< rad/s, highest frequency of row_of_masses
 
+/// Cross terms of a bearing feed a whirl at the rate ((|k + i q| - k)/2m)^(1/2) until stops limit it.
+TEST(GrowthWatch, LetsCrossTermsFeedTheMotion) {
+  const double k = 1e4, q = 3e3, rate = std::sqrt(0.5 * (std::hypot(k, q) - k));
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"d\"\nmass = 1.0\ndiametral_inertia = 0.01\npolar_inertia = "
+      "0.02\n[[element]]\ntype = \"bearing\"\nnode = \"d\"\nstiffness = [[1e4, 3e3], [-3e3, 1e4]]\n[[contact]]\ntype = "
+      "\"stop\"\nnodes = \"d\"\ndof = \"uy\"\ngap = 1.0\nstiffness = 1e6\n[initial]\ndisplacement = [{ nodes = \"d\", "
+      "dof = "
+      "\"uy\", value = 1e-6 }]\n[integrator]\nend_time = 0.9\n";
+  for (const std::string method : {"type = \"auto\"\ntolerance = 1e-5\n", "type = \"rk4\"\ntime_step = 1e-4\n"}) {
+    SceneRun run(scene + method);
+    ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+    const Vector& x = run.simulation().state().x;
+    // Half of the disturbance is in the whirl that grows.
+    EXPECT_NEAR(std::log(std::hypot(x[run.dof("d", DofKind::uy)], x[run.dof("d", DofKind::uz)]) / 0.5e-6), rate * 0.9,
+                0.1)
+        << method;
+  }
+}
+
 TEST(GrowthWatch, StopsAnUnstableRunLongBeforeItOverflows) {
   const double h = 2.9 / kHighest;  // RK4 grows by 19 % in each step
   SceneRun run(row_of_masses("type = \"rk4\"\ntime_step = " + to_text(h) + "\n"));

@@ -259,5 +259,19 @@ TEST(NoModalDamping, IsNoDamping) {
   }
 }
 
+/// A dashpot between two equal masses: c (1/m + 1/m).
+TEST(FastestDecay, IsThatOfTheRelativeMotion) {
+  SparseMatrix damping(3, 3), mass(3, 3);
+  mass.setIdentity();
+  mass.coeffRef(0, 0) = mass.coeffRef(1, 1) = 2.0;
+  for (const auto& [i, j, value] :
+       {std::tuple(0, 0, 8.0), std::tuple(1, 1, 8.0), std::tuple(0, 1, -8.0), std::tuple(1, 0, -8.0)})
+    damping.coeffRef(i, j) = value;
+  const auto fastest = dynamics::fastest_decay(damping, mass);
+  ASSERT_TRUE(fastest);
+  EXPECT_NEAR(*fastest, 8.0, 1e-9);
+  EXPECT_EQ(dynamics::fastest_decay(SparseMatrix(3, 3), mass), 0.0);
+}
+
 }  // namespace
 }  // namespace butee::test::modal_damping_test

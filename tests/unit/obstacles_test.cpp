@@ -159,6 +159,26 @@ TEST(Obstacles, TwistANodeThatTurns) {
   }
 }
 
+/// A brake on a body that only turns.
+TEST(Obstacles, TwistABodyThatIsHeldAcross) {
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"a\"\nmass = 2.0\ndiametral_inertia = 0.1\npolar_inertia = "
+      "0.2\n"
+      "[[element]]\ntype = \"spring\"\nnode = \"a\"\ndof = \"rx\"\nstiffness = 50.0\n[[support]]\nnodes = \"a\"\nfix = "
+      "[\"uy\", \"uz\", \"ry\", \"rz\"]\n[[contact]]\ntype = \"friction\"\nnodes = "
+      "\"a\"\ndof = "
+      "\"uy\"\nnormal_force = 10.0\nradius = 0.3\nfriction = { coefficient = 0.5, slip_speed = 1e-6 "
+      "}\n[integrator]\ntype = "
+      "\"dopri5\"\nend_time = 1.0\n");
+  ASSERT_EQ(run.system().size(), 1);
+  dynamics::Obstacles* const obstacles = run.dynamics().obstacles();
+  ASSERT_NE(obstacles, nullptr);
+  obstacles->follow_live();
+  Vector force = Vector::Zero(1);
+  obstacles->add_force(0.0, Vector::Zero(1), Vector::Constant(1, 2.0), force);
+  EXPECT_NEAR(force[0], -0.3 * 5.0, 1e-9);
+}
+
 /// Two bodies of which one turns get opposite torques about the point where they touch, in either order and inside as
 /// well as outside of each other.
 TEST(Obstacles, TwistBothBodiesOfAPair) {

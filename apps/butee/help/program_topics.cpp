@@ -103,8 +103,8 @@ uz, rx, ry if the scene has them), scaled so that the modal mass is 1 kg.
 std::string limits_text(const plugin::Catalogue&) {
   return R"(butee solves small motions of linear structures, in the plane or in space, whose only nonlinearity is contact. It does not have:
 
-  Structures   plates, shells, solids; shafts that turn about another axis than x, or whose section has two stiffnesses;
-               axial forces that change with the motion (a preload is a constant)
+  Structures   plates, shells, solids; shafts that turn about another axis than x, or whose section has two stiffnesses; the
+               torque of a run-up on rx; axial forces that change with the motion (a preload is a constant)
   Large motion large rotations, stress stiffening, motion after buckling
   Materials    plasticity, creep, fatigue; damping beyond Rayleigh's, modal damping, bearings and dashpots
   Contact      in three directions at once; at places that move along a beam, or between surfaces; rigid stick in a ring;
@@ -145,8 +145,8 @@ std::string trust_text(const plugin::Catalogue&) {
   return R"(`butee run --trust`, or [output] trust = true, runs the scene again: as it is, with half the step or a
 tenth of the tolerance, by a method of another family (`exact` where it can), and from disturbed states. It prints an
 error bound of the probes' displacements and rotations, the time up to which this bound is within trust_accuracy (1 %
-of the peak), the growth of small differences, whether the motion is chaotic, and bounds of rms values, peaks and
-forces. Velocities and accelerations are not judged row by row. summary.json contains the same under `trust`. It takes
+of the peak), the growth of small differences, whether the motion is chaotic, and bounds of rms values (of the
+instants at which it compares the runs), peaks and forces. Velocities and accelerations are not judged row by row. summary.json contains the same under `trust`. It takes
 ten times as long as the run or longer, since the other method is far more accurate: seconds for runs of milliseconds.
 If no method of another family can run the scene within a bound of its work, a message says so and the bound is wider.
 

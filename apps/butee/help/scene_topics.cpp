@@ -95,7 +95,7 @@ only those that an element uses. Supports, loads, springs, stops, initial values
   [rotation]
   speed      rad/s about x: a number, { type = "ramp", from = 0.0, to = 300.0, end = 10.0 } or { type = "table", ... }
   parts      the beams, discs and matrices that turn; default: all along x. They have gyroscopic moments (beams
-             with rotary inertia), and a run-up adds the moments of its acceleration.
+             with rotary inertia), and a run-up adds the moments of its acceleration about y and z (not the torque on rx).
   [[load]] type = "unbalance" without `speed` turns with [rotation]: moment (kg m), phase (rad, from y)
   [damping] rotating_stiffness_proportional (s), or rotating = true on a bearing or a spring: damping that turns with the
              shaft, which makes it unstable above a threshold
@@ -139,8 +139,9 @@ std::string contact_text(const plugin::Catalogue& catalogue) {
   law        default "linear"; the laws and their parameters are below
   damping    dissipation while closed, a table (below)
   friction   Coulomb friction along the tangent, a table (below); not on a stop
-  radius     m, of the body at the contact (with `between` of the one that turns, of the first if both or none do): its
-             rotation about x, that of [rotation] included, adds to the slip speed; only for contacts along uy and uz
+  radius     m, of the body at the contact (with `between` of the one that turns, of the first if both or none do, which
+             is taken as the inner one of a ring): its rotation about x, that of [rotation] included, adds to the slip
+             speed; only for contacts along uy and uz
 
 stop: dof (default "u"; any of ux ... rz) and sides ("both" by default, "positive" or "negative"). With the
 penetration g (negative while open) and one side s: g = s u - gap, F = -s K_c(g) g. Both sides: the nearer one.
