@@ -15,8 +15,8 @@ struct ComplexPairs {
   Eigen::MatrixXcd vectors;
 };
 
-/// All pairs of any square matrix, complex ones exactly conjugate; nothing if the iterations do not converge or an entry
-/// is not finite. Not installed.
+/// All pairs of any square matrix, complex ones exactly conjugate; nothing if the iterations do not converge or an
+/// entry is not finite. Not installed.
 BUTEE_EXPORT std::optional<ComplexPairs> general_pairs(const Eigen::MatrixXd& matrix);
 
 /// All pairs in extended precision, by the real iteration, with the inverse of the vectors.

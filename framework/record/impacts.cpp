@@ -43,7 +43,7 @@ void take_impact(Impact& impact, ByteReader& from) {
 
 void ImpactList::append(std::vector<Impact>& all, const Impact& impact) {
   const double end = impact.t_out.value_or(impact.t_in);
-  // What begins outwards is the rest of the contact before, whose force vanished for a moment by rounding.
+  // An impact that begins outwards is the rest of the one before, whose force vanished for a moment by rounding.
   const bool is_rest = impact.impact_speed <= 0.0;
   for (auto last = all.rbegin(); last != all.rend(); ++last) {
     if (!last->t_out) continue;

@@ -177,7 +177,7 @@ void Run::look_at_loads() {
 }
 
 void Run::look_at_stability() {
-  // Of larger systems the eigenvalues may take longer than the run.
+  // The eigenvalues of larger systems may take longer than the run.
   constexpr Index kSmall = 100;
   if (assembly_.integrator->controller() != nullptr || assembly_.dynamics.size() > kSmall || !summary_.report.completed)
     return;

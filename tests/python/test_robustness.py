@@ -42,6 +42,22 @@ def interrupted(method, options, code, after=0.4):
     return process.returncode, out
 
 
+def interrupted_twice(code):
+    """interrupted() for each of the two `calls` that `code` defines."""
+    loop = """
+        import os, signal, threading
+        for call in calls:
+            try:
+                print("ready", flush=True)
+                call()
+            except KeyboardInterrupt:
+                print("interrupted")
+                threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    """
+    return interrupted("rk4", {"time_step": 1e-6, "tolerance": None}, textwrap.dedent(code) + textwrap.dedent(loop))
+
+
 @pytest.mark.parametrize("method, options", [("rk4", {"time_step": 1e-6, "tolerance": None}), ("exponential", {}), ("rodas4", {"end_time": 1.0e4}),
                                              ("exact", {"tolerance": None})])
 def test_ctrl_c_ends_a_run(method, options):
@@ -58,18 +74,9 @@ def test_ctrl_c_ends_a_run(method, options):
 def test_ctrl_c_ends_a_batch_and_a_structure():
     code = """
         part = scene.structure()
-        for call in (lambda: scene.batch({"load[0].amplitude": [1e5, 2e5, 3e5]}, threads=2), lambda: part.advance_to(1e6)):
-            try:
-                print("ready", flush=True)
-                call()
-            except KeyboardInterrupt:
-                print("interrupted")
-                import os, signal, threading
-                threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        calls = (lambda: scene.batch({"load[0].amplitude": [1e5, 2e5, 3e5]}, threads=2), lambda: part.advance_to(1e6))
     """
-    status, out = interrupted("rk4", {"time_step": 1e-6, "tolerance": None}, code)
-    assert (status, out) == (0, "interrupted\nready\ninterrupted\n")
+    assert interrupted_twice(code) == (0, "interrupted\nready\ninterrupted\n")
 
 
 def test_ctrl_c_within_a_load_ends_a_run_and_a_structure():
@@ -85,17 +92,9 @@ def test_ctrl_c_within_a_load_ends_a_run_and_a_structure():
         scene = butee.Scene({**ROTOR, "load": [{"node": "rotor", "type": "slow"}], "output": {"interval": 1.0},
                              "integrator": {"type": "rk4", "time_step": 1e-6, "end_time": 1e4}})
         part = scene.structure()
-        for call in (lambda: scene.run(), lambda: part.advance_to(1e4)):
-            try:
-                print("ready", flush=True)
-                call()
-            except KeyboardInterrupt:
-                print("interrupted")
-                import os, signal, threading
-                threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        calls = (lambda: scene.run(), lambda: part.advance_to(1e4))
     """
-    assert interrupted("rk4", {"time_step": 1e-6, "tolerance": None}, code) == (0, "interrupted\nready\ninterrupted\n")
+    assert interrupted_twice(code) == (0, "interrupted\nready\ninterrupted\n")
 
 
 def test_nan_from_a_law_names_the_function():
