@@ -88,7 +88,7 @@ only those that an element uses. Supports, loads, springs, stops, initial values
              with the critical load, or a warning is given if stops hold the beam.
 
   [[element]] type = "matrices": any linear structure by Matrix Market files (symmetric, skew-symmetric or general)
-  mass, stiffness, damping, gyroscopic   M, K and, optionally, C and G (skew; the force -Omega G v if the part turns)
+  mass, stiffness, damping, gyroscopic   M, K and, optionally, C and G (skew; force -Omega G v; else it stands still)
   dofs       those of each node, ["uy", "rz"], with `nodes` (NAME:0..48 for own ones, others of the scene), row after row
              node by node; or a file with a row "NODE DOF" for each row of the matrices, NODE a number or a selector
 
