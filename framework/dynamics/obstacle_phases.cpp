@@ -20,7 +20,8 @@ bool stops_rubbing(const model::ObstacleGroup& group) {
 /// The uncertainty of a sum of few terms relative to the sum of their magnitudes.
 constexpr double kRoundingOfTerms = 8.0 * std::numeric_limits<double>::epsilon();
 
-/// A contact is released below this damping factor, and pressed again above twice of it.
+/// A contact by Hunt and Crossley is released below this factor of its elastic force, and pressed again above twice
+/// that factor.
 constexpr double kNoFactor = 1e-9;
 
 /// The magnitudes of the terms of a penetration, summed, m.

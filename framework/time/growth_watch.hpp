@@ -14,8 +14,8 @@ namespace butee::time {
 ///
 ///     E = v.M v/2 + x.K x/2 + V(stops),   d sqrt(E)/dt <= |F|/sqrt 2,   |F|^2 = F.M^-1 F
 ///
-/// holds for every true motion where damping and stops only dissipate, and others are not watched. E is checked after
-/// 16, 32
+/// holds for every true motion where damping and stops only dissipate; scenes in which friction, cross terms, damping
+/// that turns or negative damping feed the motion are not watched. E is checked after 16, 32
 /// ... 256 accepted steps and then after every 256; the bound is evaluated only if E has grown.
 /// Energy above the bound is excess. A sequence of checks whose excess adds up to a factor of 100,
 /// or an energy that much above the bound since the start, is taken for an instability (a larger
