@@ -231,11 +231,16 @@ void CollocationOutputs::interpolate_all(const State& from, const State& to, std
 void CollocationOutputs::trace(const State& from, const State& to, double t, std::span<const Index> dofs,
                                time::Interpolated out) {
   if (!holds(from, to) || !out.a.empty()) return interpolate(from, to, t, dofs, out);
-  const auto weights = StepNodes::lagrange((t - from.t) / (to.t - from.t));
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (!out.x.empty()) out.x[i] = weights.dot(traces_.displacement(dofs[i], *nodes_));
-    if (!out.v.empty()) out.v[i] = weights.dot(traces_.velocity(dofs[i], *nodes_));
+  const double h = to.t - from.t, place = (t - from.t) / h;
+  if (!out.x.empty()) {
+    const auto [values, begin_slope, end_slope] = StepNodes::hermite(place);
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      out.x[i] = values.dot(traces_.displacement(dofs[i], *nodes_)) +
+                 h * (begin_slope * from.v[dofs[i]] + end_slope * to.v[dofs[i]]);
   }
+  if (out.v.empty()) return;
+  const auto weights = StepNodes::lagrange(place);
+  for (std::size_t i = 0; i < dofs.size(); ++i) out.v[i] = weights.dot(traces_.velocity(dofs[i], *nodes_));
 }
 
 double CollocationOutputs::find_fastest(const State& from, const State& to, double slow, time::Detail detail) const {

@@ -71,7 +71,8 @@ class CollocationOutputs final : public time::Interpolant {
                    time::Interpolated out) override;
   void interpolate_all(const time::State& from, const time::State& to, std::span<const double> times,
                        std::span<const Index> dofs, time::Interpolated out) override;
-  /// x and v at an instant, by the polynomial through the nodes of the step that was accepted last.
+  /// x and v at an instant, by the polynomials through the nodes of the step that was accepted last. That of x has the
+  /// velocities of both ends: just behind a change of contact the sign of a velocity near 0 decides on the next one.
   void trace(const time::State& from, const time::State& to, double t, std::span<const Index> dofs,
              time::Interpolated out) override;
   int trace_parts(const time::State&, const time::State&) override { return kTraceParts; }

@@ -94,10 +94,53 @@ double StepNodes::inner_error(const Row& coefficients) {
 }
 
 Eigen::Matrix<double, StepNodes::kCount, 1> StepNodes::lagrange(double place) {
-  Eigen::Matrix<double, kCount, 1> powers;
-  powers[0] = 1.0;
-  for (Index r = 1; r < kCount; ++r) powers[r] = powers[r - 1] * place;
-  return with_middle() * powers;
+  // As products, whose rounding errors are small beside each weight; those of powers of `place` are not.
+  static const std::array<double, kCount> scales = [] {
+    std::array<double, kCount> of;
+    for (std::size_t j = 0; j < of.size(); ++j) {
+      double product = 1.0;
+      for (std::size_t k = 0; k < of.size(); ++k)
+        if (k != j) product *= kPlaces[j] - kPlaces[k];
+      of[j] = 1.0 / product;
+    }
+    return of;
+  }();
+  Eigen::Matrix<double, kCount, 1> weights;
+  double before = 1.0, behind = 1.0;
+  for (Index j = 0; j < kCount; ++j) {
+    weights[j] = before * scales[static_cast<std::size_t>(j)];
+    before *= place - kPlaces[static_cast<std::size_t>(j)];
+  }
+  for (Index j = kEnd; j >= 0; --j) {
+    weights[j] *= behind;
+    behind *= place - kPlaces[static_cast<std::size_t>(j)];
+  }
+  return weights;
+}
+
+StepNodes::Hermite StepNodes::hermite(double place) {
+  // The derivatives of Lagrange's polynomials at both ends, which mirror each other, as the nodes do.
+  static const Eigen::Matrix<double, kCount, 1> begin_slopes = [] {
+    Eigen::Matrix<double, kCount, 1> slopes;
+    slopes[0] = 0.0;
+    for (Index j = 1; j < kCount; ++j) {
+      const double own = kPlaces[static_cast<std::size_t>(j)];
+      double product = 1.0 / own;
+      for (Index k = 1; k < kCount; ++k)
+        if (const double other = kPlaces[static_cast<std::size_t>(k)]; k != j) product *= other / (other - own);
+      slopes[j] = product;
+      slopes[0] -= product;
+    }
+    return slopes;
+  }();
+  double begin = place * (1.0 - place), end = begin * place;
+  begin *= 1.0 - place;
+  for (Index j = 1; j < kEnd; ++j) {
+    const double node = kPlaces[static_cast<std::size_t>(j)], factor = (node - place) / node;
+    begin *= factor;
+    end *= factor;
+  }
+  return {lagrange(place) - begin * begin_slopes + end * begin_slopes.reverse(), begin, end};
 }
 
 double StepNodes::first_crossing(const Row& coefficients, double border, double last) {

@@ -40,6 +40,13 @@ struct StepNodes {
   static constexpr double kRule = 0.3174;
   /// The weights of the values at the nodes in the polynomial's value at position `place`.
   static Eigen::Matrix<double, kCount, 1> lagrange(double place);
+  /// The weights of the values at the nodes, and of the derivatives by the position at both ends, in the value at
+  /// `place` of the polynomial of degree 8 that has all of them (Hermite's at the ends).
+  struct Hermite {
+    Eigen::Matrix<double, kCount, 1> values;
+    double begin_slope, end_slope;
+  };
+  static Hermite hermite(double place);
   /// A sine of frequency |lambda| differs from the polynomial through its values at the nodes by
   /// less than kMiss w^7, w = |lambda| h; kMiss is 1/7! times the largest product of the distances
   /// from the nodes, 3e-4.

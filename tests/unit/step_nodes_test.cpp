@@ -53,5 +53,21 @@ TEST(StepNodes, EstimateNoErrorOfLowPolynomials) {
   EXPECT_LT(StepNodes::quadrature_error(values * StepNodes::legendre()), 1e-14);
 }
 
+/// Seven values and two slopes determine a polynomial of degree 8.
+TEST(StepNodes, InterpolatePolynomialsOfDegreeEightWithTheSlopesAtBothEnds) {
+  const auto f = [](double s) { return 0.5 - 3.0 * s + std::pow(s - 0.3, 5) + 7.0 * std::pow(s - 0.6, 8); };
+  const auto slope = [](double s) { return -3.0 + 5.0 * std::pow(s - 0.3, 4) + 56.0 * std::pow(s - 0.6, 7); };
+  const auto at = [&](double place) {
+    const auto [values, begin, end] = StepNodes::hermite(place);
+    double sum = begin * slope(0.0) + end * slope(1.0);
+    for (Index j = 0; j < kCount; ++j) sum += values[j] * f(StepNodes::kPlaces[static_cast<std::size_t>(j)]);
+    return sum;
+  };
+  for (const double place : {0.0, 1e-9, 0.05, 0.31, 0.5, 0.77, 0.999, 1.0}) EXPECT_NEAR(at(place), f(place), 1e-14);
+  constexpr double kNear = 1e-7;
+  EXPECT_NEAR((at(kNear) - at(0.0)) / kNear, slope(0.0), 1e-5);
+  EXPECT_NEAR((at(1.0) - at(1.0 - kNear)) / kNear, slope(1.0), 1e-5);
+}
+
 }  // namespace
 }  // namespace butee::integrators
