@@ -3,6 +3,7 @@
 #include "butee/config/number_file.hpp"
 #include "butee/scene/contact_tables.hpp"
 #include "butee/scene/scene_reader.hpp"
+#include "butee/scene/turning_parts.hpp"
 
 namespace butee::scene {
 
@@ -117,11 +118,8 @@ struct SceneReader::ContactParts {
   std::vector<double> gaps;  ///< m, one for each contact or one for all
   ImpactDamping damping;
   Friction friction;
-  double radius = 0.0;                    ///< m
-  bool a_turns = false, b_turns = false;  ///< with [rotation]
+  TurningParts turning;
 
-  /// Sets the arms of the friction of a group with a shape of this form.
-  void set_arms(const ContactShape::Form& form, ObstacleGroup& group) const;
   /// Gives `group` the nodes of gap i.
   template <class Group>
   void place(std::size_t i, Group& group) const {
@@ -130,17 +128,6 @@ struct SceneReader::ContactParts {
     if (!b.empty()) group.b = all ? b : std::vector{b[i]};
   }
 };
-
-void SceneReader::ContactParts::set_arms(const ContactShape::Form& form, ObstacleGroup& group) const {
-  if (radius == 0.0) return;
-  // t is opposite to a rotation about x if the directions are (uz, uy).
-  const double r = directions.front() == DofKind::uz && directions.size() == 2 ? -radius : radius,
-               apart = r / radius * (form.kind == ContactShape::Form::Kind::circle ? form.sense : 1.0) * form.distance;
-  const bool second_is_inside = b_turns && !a_turns;
-  group.arm_a = second_is_inside ? -(r + apart) : r;
-  group.arm_b = second_is_inside ? -r : r + apart;
-  group.turning = (a_turns ? group.arm_a : 0.0) - (b_turns ? group.arm_b : 0.0);
-}
 
 void SceneReader::read_contacts() {
   for (const auto& [entry, path] : entries("contact")) read_contact(*entry, path);
@@ -207,7 +194,11 @@ std::optional<SceneReader::ContactParts> SceneReader::contact_parts(const Parame
     return std::nullopt;
   }
   parts.directions = *directions;
-  if (rubs && !read_radius(p, parts)) return std::nullopt;
+  if (rubs) {
+    const auto turning = read_turning_parts(p, model_, *dofs_, {parts.directions, parts.a, parts.b}, diagnostics_);
+    if (!turning) return std::nullopt;
+    parts.turning = *turning;
+  }
   parts.gaps = *gaps;
   parts.damping = *damping;
   parts.friction = *friction;
@@ -259,7 +250,7 @@ bool SceneReader::add_obstacle(const Parameters& p, const ContactKind& kind, con
   if (group.law != nullptr && group.law->rate_dependence() != ContactLaw::RateDependence::none)
     group.damping.kind = ImpactDamping::Kind::law;
   group.friction = parts.friction;
-  parts.set_arms(group.shape != nullptr ? group.shape->form() : ContactShape::Form{}, group);
+  parts.turning.set_arms(group.shape != nullptr ? group.shape->form() : ContactShape::Form{}, group);
   parts.place(i, group);
   model_.obstacles.push_back(std::move(group));
   return true;
@@ -303,54 +294,6 @@ std::optional<std::vector<double>> SceneReader::read_gaps(const Parameters& p, s
     return std::nullopt;
   }
   return gaps;
-}
-
-bool SceneReader::read_radius(const Parameters& p, ContactParts& parts) {
-  DofTable turning(model_.nodes);
-  for (std::size_t i = 0; i < std::min(model_.elements.size(), model_.turns.size()); ++i)
-    if (model_.turns[i]) model_.elements[i]->claim(turning);
-  const auto turns = [&](NodeId node) {
-    return std::any_of(kAllDofKinds.begin(), kAllDofKinds.end(), [&](DofKind kind) {
-      return turning.exists({node, kind});
-    });
-  };
-  const auto complain = [&](const char* key, const std::string& words) {
-    p.complain(diagnostics_, key, words);
-    return false;
-  };
-  std::array<Index, 2> turn{};
-  Index lone = 0;  // masses without a rotation, which may represent shafts that turn
-  std::string one;
-  for (const auto* ends : {&parts.a, &parts.b})
-    for (const NodeId node : *ends) {
-      if (ends == &parts.a && !dofs_->exists({node, DofKind::rx})) ++lone;
-      if (!turns(node)) continue;
-      ++turn[ends == &parts.a ? 0 : 1];
-      one = model_.nodes.name(node);
-    }
-  const bool about_x = std::all_of(parts.directions.begin(), parts.directions.end(),
-                                   [](DofKind along) { return along == DofKind::uy || along == DofKind::uz; });
-  if (!about_x && !one.empty())
-    return complain("friction", one +
-                                    " turns about x, so that its surface slides across the directions of this contact; "
-                                    "friction on turning parts needs contacts along uy and uz");
-  if (!p.has("radius")) {
-    if (one.empty()) return true;
-    return complain("radius", "missing; " + one +
-                                  " turns, and friction needs the radius (m) at which it touches, 0 for a part that "
-                                  "stands still");
-  }
-  parts.radius = p.number("radius");
-  if (!about_x && parts.radius != 0.0)
-    return complain("radius", "is the arm of friction about x, which needs contacts along uy and uz; remove it");
-  if (turn[0] == 0 && turn[1] == 0 && model_.rotation != nullptr) turn[0] = lone;
-  parts.a_turns = turn[0] > 0;
-  parts.b_turns = turn[1] > 0;
-  const auto some = [](Index count, const std::vector<NodeId>& of) { return count > 0 && count < std::ssize(of); };
-  if (parts.radius != 0.0 && (some(turn[0], parts.a) || some(turn[1], parts.b)))
-    return complain(parts.b.empty() ? "nodes" : "between",
-                    "some of these nodes turn and others do not; give them in separate [[contact]] tables");
-  return true;
 }
 
 bool SceneReader::read_ends(const Parameters& p, const std::vector<DofKind>& directions, std::vector<NodeId>& a,

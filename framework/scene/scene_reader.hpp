@@ -69,8 +69,6 @@ class SceneReader {
   /// False after reporting that an obstacle of this form does not support friction with this kind
   /// of stick.
   bool check_stick(const config::Parameters& p, Friction::Rule rule, const ContactShape::Form& form);
-  /// Sets the radius of friction and which of the bodies turn; false after reporting a mistake.
-  bool read_radius(const config::Parameters& parameters, ContactParts& parts);
   bool read_ends(const config::Parameters& parameters, const std::vector<DofKind>& directions, std::vector<NodeId>& a,
                  std::vector<NodeId>& b);
   bool read_pairs(const config::Parameters& parameters, const std::vector<DofKind>& directions, std::vector<NodeId>& a,
