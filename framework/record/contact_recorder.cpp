@@ -15,6 +15,8 @@ namespace {
 /// A force below this fraction of the peak is not adjacent to a larger maximum, with twelve
 /// instants in a step.
 constexpr double kNear = 0.9;
+/// Forces whose relative differences are below this are constant: the maximum between them differs by less.
+constexpr double kFlat = 1e-12;
 
 /// The DOFs of these contacts.
 void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size_t>& contacts,
@@ -204,7 +206,8 @@ void ContactRecorder::take_force(const time::AcceptedStep& step, std::size_t con
   const Sampled now{t, force};
   auto& [before, last] = watch.last;
   double largest = std::max(last.value, force);
-  const bool is_top = before.t < last.t && last.value >= before.value && last.value >= force && last.value > 0.0;
+  const bool is_top = before.t < last.t && last.value >= before.value && last.value >= force &&
+                      last.value - std::min(before.value, force) > kFlat * last.value;
   if (is_top && last.value > kNear * watch.current.peak_force)
     largest = std::max(largest, local_maximum(before, last, now, [&](double instant) {
                                   return at(step, instant)[contact].normal;
