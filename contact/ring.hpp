@@ -20,11 +20,15 @@ class Ring final : public model::ContactShape {
     const double r = arm.norm();
     // At the centre every direction is normal to the circle.
     if (r == 0.0) return {-sense_ * gap_, {sense_, 0.0}, 0.0};
-    return {sense_ * (r - gap_), sense_ / r * arm, sense_ / r};
+    return {sense_ * (r - gap_), sense_ / r * arm, r < kLeaving * gap_ ? 0.0 : sense_ / r};
   }
   Form form() const override { return {Form::Kind::circle, centre_, gap_, sense_}; }
 
  private:
+  /// A body this near to the centre, in gaps, is about to leave it along the normal (time/departure.hpp): the direction
+  /// of its force does not turn.
+  static constexpr double kLeaving = 1e-90;
+
   Eigen::Vector2d centre_;
   double gap_, sense_;
 };

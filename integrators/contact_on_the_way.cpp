@@ -6,8 +6,6 @@
 namespace butee::integrators {
 namespace {
 
-/// Impulses below this fraction of the tolerance times m S_v are ignored.
-constexpr double kNegligibleImpulse = 0.1;
 /// Penetrations below this fraction of the displacement are rounding errors.
 constexpr double kRounding = 1e-13;
 

@@ -11,6 +11,9 @@ namespace butee::integrators {
 /// tests/unit/contact_on_the_way_test.cpp.
 class ContactOnTheWay {
  public:
+  /// Impulses below this fraction of the tolerance times m S_v are ignored.
+  static constexpr double kNegligibleImpulse = 0.1;
+
   /// `dynamics` must outlive it.
   ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance);
 

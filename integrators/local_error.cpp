@@ -55,6 +55,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
     : dynamics_(dynamics),
       obstacles_(dynamics.obstacles()),
       contact_(dynamics, goal.tolerance),
+      centre_(dynamics),
       account_(goal),
       orders_(orders),
       power_(orders.estimate / (orders.method + 1.0)),
@@ -62,7 +63,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
       scales_(dynamics.system()),
       discontinuities_(dynamics.load_discontinuities()),
       whole_(orders.share * std::pow(goal.tolerance, orders.estimate / orders.method)),
-      most_stiff_(kMostStiff * goal.tolerance),
+      tolerance_(goal.tolerance),
       as_a_whole_(goal.as_a_whole || dynamics.size() > kLargest),
       scale_x_(dynamics.size()),
       scale_v_(dynamics.size()),
@@ -123,7 +124,7 @@ void LocalErrorControl::start(time::State& state) {
 double LocalErrorControl::smooth_error(double h) const {
   if (as_a_whole_) return whole_;
   const double smooth = std::pow(account_.rate() * h / orders_.constant, power_);
-  return h * rate_ > kStiff ? std::min(smooth, most_stiff_) : smooth;
+  return h * rate_ > kStiff ? std::min(smooth, kMostStiff * tolerance_) : smooth;
 }
 
 double LocalErrorControl::relative_error(double h, ConstVectorRef error_x, ConstVectorRef error_v,
@@ -253,11 +254,12 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
 
 LocalErrorControl::Change LocalErrorControl::change_of_contact(const time::State& from, const time::State& to, double h,
                                                                bool bends_within) {
+  const double crossing = centre_.jump(from, to, h, scale_v_);
   Change change;
-  change.has_changed =
-      bends_within || contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) || slip_reverses(from, to);
+  change.has_changed = bends_within || contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) ||
+                       slip_reverses(from, to) || h * crossing > ContactOnTheWay::kNegligibleImpulse * smooth_error(h);
   if (as_a_whole_ || !change.has_changed) return change;
-  change.least = kOfJump * h * contact_.jump(from, to, h, scale_v_);
+  change.least = kOfJump * h * std::max(contact_.jump(from, to, h, scale_v_), crossing);
   if (orders_.kink > 0.0)
     change.least = std::max(change.least, orders_.kink * h * h * contact_.kink(from, to, scale_v_));
   return change;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "butee/time/integrator.hpp"
+#include "integrators/centre_crossing.hpp"
 #include "integrators/contact_on_the_way.hpp"
 #include "integrators/error_account.hpp"
 #include "integrators/rounding_level.hpp"
@@ -153,6 +154,7 @@ class LocalErrorControl {
   const dynamics::Obstacles* obstacles_;  ///< null if there are none
   Proposed controller_;
   ContactOnTheWay contact_;
+  CentreCrossing centre_;
   ErrorAccount account_;
   std::optional<RoundingLevel> rounding_;  ///< none for structures measured as a whole
   Orders orders_;
@@ -168,7 +170,7 @@ class LocalErrorControl {
   ComponentScales scales_;
   std::vector<double> discontinuities_;  ///< instants at which a load or its slope jumps, s
   double whole_;                         ///< bound of epsilon for structures measured as a whole
-  double most_stiff_;                    ///< bound of epsilon for steps far longer than the fastest motion
+  double tolerance_;
   bool as_a_whole_;
   Vector scale_x_, scale_v_, work_;
   Vector level_x_, level_v_;  ///< the scales, at least those of rounding

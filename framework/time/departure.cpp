@@ -1,15 +1,20 @@
 #include "butee/time/departure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "butee/dynamics/centre_pulls.hpp"
 
 namespace butee::time {
 namespace {
 
 /// The distance from the middle in gaps: too small for any effect but the sign of w.
 constexpr double kOffMiddle = 1e-100;
+/// Smaller components of a direction are not rounded up.
+constexpr double kMainPart = 0.5;
 /// The length of a step in 1/omega, short beside the periods of all loads.
 constexpr double kProbePart = 1e-6;
 /// Length of a step without any stiffness, s.
@@ -17,15 +22,36 @@ constexpr double kShortProbe = 1e-9;
 /// The largest number of steps; displacements after more of them would be below 1e-200.
 constexpr int kMostProbes = 20;
 
-/// The stops that are in the middle of their gap and have a residual force there. Allocates nothing if there are none.
-std::vector<Index> stops_in_the_middle(const dynamics::ElasticStops& stops, const Vector& x) {
-  std::vector<Index> found;
-  const auto at = [&](Index dof) { return dof >= 0 ? x[dof] : 0.0; };
+/// A contact with a residual force in the middle of its gap: a stop with two sides, or a ring.
+struct Middle {
+  std::array<Index, 2> a, b;            ///< DOFs along its directions, or kGround
+  double gap;                           ///< m
+  Eigen::Vector2d centre = {0.0, 0.0};  ///< m
+
+  Eigen::Vector2d apart(const Vector& y) const {
+    const auto at = [&](Index dof) { return dof >= 0 ? y[dof] : 0.0; };
+    return {at(a[0]) - at(b[0]), at(a[1]) - at(b[1])};
+  }
+};
+
+/// The contacts that are in the middle of their gap and have a residual force there. Allocates nothing if there are
+/// none.
+std::vector<Middle> contacts_in_the_middle(dynamics::Dynamics& dynamics, const Vector& x) {
+  constexpr Index kGround = model::FreeStops::kGround;
+  std::vector<Middle> found;
+  const auto add = [&](const Middle& middle) {
+    if (middle.apart(x) == middle.centre) found.push_back(middle);
+  };
+  const dynamics::ElasticStops& stops = dynamics.stops();
   for (Index i = 0; i < stops.size(); ++i) {
     const model::FreePlay& play = stops.play_of(i);
-    if (at(stops.dof_a(i)) == at(stops.dof_b(i)) && play.has_both() && play.gap > 0.0 &&
-        stops.law_of(i).secant(-play.gap) != 0.0)
-      found.push_back(i);
+    if (play.has_both() && play.gap > 0.0 && stops.law_of(i).secant(-play.gap) != 0.0)
+      add({{stops.dof_a(i), kGround}, {stops.dof_b(i), kGround}, play.gap});
+  }
+  if (dynamics.obstacles() == nullptr) return found;
+  for (const dynamics::CentrePull& pull : dynamics::centre_pulls(*dynamics.obstacles())) {
+    const model::FreeObstacles::Ends& ends = dynamics.obstacles()->ends_of(pull.contact);
+    add({{ends.a[0], ends.a[1]}, {ends.b[0], ends.b[1]}, pull.gap, pull.centre});
   }
   return found;
 }
@@ -35,13 +61,19 @@ double step_length(const model::System& system) {
   return square > 0.0 ? kProbePart / std::sqrt(square) : kShortProbe;
 }
 
-/// Moves a DOF of stop i until its displacement has the sign of `direction`.
-void move(const dynamics::ElasticStops& stops, Index i, double direction, VectorRef x) {
-  const bool by_a = stops.dof_a(i) >= 0;
-  double& moved = x[by_a ? stops.dof_a(i) : stops.dof_b(i)];
-  const double towards = by_a ? direction : -direction;
-  const double next = moved + towards * kOffMiddle * stops.play_of(i).gap;
-  moved = next != moved ? next : std::nextafter(moved, towards * std::numeric_limits<double>::infinity());
+/// Moves the DOFs of a contact in this direction, of length 1; by a rounding error of a displacement if that is more.
+void move(const Middle& middle, const Eigen::Vector2d& direction, VectorRef x) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    const bool by_a = middle.a[k] >= 0;
+    const double towards = (by_a ? 1.0 : -1.0) * direction[static_cast<Index>(k)];
+    if (towards == 0.0) continue;
+    double& moved = x[by_a ? middle.a[k] : middle.b[k]];
+    const double next = moved + towards * kOffMiddle * middle.gap;
+    if (next != moved || std::abs(towards) < kMainPart)
+      moved = next;
+    else
+      moved = std::nextafter(moved, towards * std::numeric_limits<double>::infinity());
+  }
 }
 
 /// Steps of the classical Runge-Kutta method.
@@ -86,26 +118,25 @@ class Probe {
 }  // namespace
 
 bool leave_middle(dynamics::Dynamics& dynamics, State& state) {
-  const dynamics::ElasticStops& stops = dynamics.stops();
-  std::vector<Index> waiting = stops_in_the_middle(stops, state.x);
+  std::vector<Middle> waiting = contacts_in_the_middle(dynamics, state.x);
   if (waiting.empty()) return false;
   const std::size_t before = waiting.size();
-  const auto leave = [&](const Vector& direction) {
-    for (const Index i : waiting)
-      if (direction[i] != 0.0) move(stops, i, direction[i] > 0.0 ? 1.0 : -1.0, state.x);
-    std::erase_if(waiting, [&](Index i) { return direction[i] != 0.0; });
+  const auto leave = [&](const Vector& by) {
+    std::erase_if(waiting, [&](const Middle& middle) {
+      const Eigen::Vector2d direction = middle.apart(by).stableNormalized();
+      if (direction.isZero(0.0)) return false;
+      move(middle, direction, state.x);
+      return true;
+    });
   };
-  Vector direction(stops.size());
-  stops.displacement(state.v, direction);
-  leave(direction);
+  leave(state.v);
   if (waiting.empty()) return true;
   Probe probe(dynamics, state);
   for (int step = 0; step < kMostProbes && !waiting.empty(); ++step) {
     const Index reached = probe.reached();
     probe.advance();
     if (!probe.x().allFinite()) break;
-    stops.displacement(probe.x(), direction);
-    leave(direction);
+    leave(probe.x() - state.x);
     if (probe.reached() <= reached) break;
   }
   return waiting.size() < before;

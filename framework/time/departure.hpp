@@ -5,7 +5,8 @@
 
 namespace butee::time {
 
-/// Moves stops that start exactly in the middle of their gap off it, by 1e-100 gaps.
+/// Moves stops that start exactly in the middle of their gap, and bodies in the centre of a ring, off it, by 1e-100
+/// gaps.
 ///
 /// A law with a residual force (arctan) pulls a stop with two sides towards the nearer one. At w = 0
 /// this force is zero, and it jumps on both sides of it: an unstable equilibrium. A motion that
@@ -16,7 +17,7 @@ namespace butee::time {
 /// millionth of 1/omega: their weights are all positive, so that a force which keeps its direction
 /// moves the stop in it. Each step reaches the next mass of a chain; what no step reaches stays where
 /// it is until a load begins (Integrator::pass_discontinuity()).
-/// Checked in tests/verification/departure_test.cpp. Returns whether a stop has been moved.
+/// Checked in tests/verification/departure_test.cpp. Returns whether a contact has been moved.
 bool leave_middle(dynamics::Dynamics& dynamics, State& state);
 
 }  // namespace butee::time

@@ -133,6 +133,29 @@ TEST(LeaveMiddle, KeepsStopsWithOneSideAndLinearLaws) {
   EXPECT_TRUE(started(run, Vector::Zero(2), Vector::Zero(2)).x.isZero(0.0));
 }
 
+/// In a ring a body leaves the centre along the force on it, by the closed form of a constant force; the residual force
+/// acts along its way.
+TEST(LeaveMiddle, LeavesTheCentreOfARingAlongTheLoad) {
+  constexpr double kAngle = 0.5, kTime = 0.4;
+  std::string rings =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[contact]]\ntype = "
+      "\"ring\"\nnodes = \"a\"\ngap = 1.0\nlaw = \"arctan\"\nregularization = 1e3\nstiffness = " +
+      to_text(kResidual * std::numbers::pi * std::numbers::pi * 1e3) + "\n";
+  for (const auto& [dof, part] : {std::pair("uy", std::cos(kAngle)), std::pair("uz", std::sin(kAngle))})
+    rings += "[[element]]\ntype = \"spring\"\nnode = \"a\"\ndof = \"" + std::string(dof) +
+             "\"\nstiffness = 1e-9\n[[load]]\ntype = \"constant\"\nnode = \"a\"\ndof = \"" + std::string(dof) +
+             "\"\nvalue = " + to_text(kLoad * part) + "\n";
+  for (const char* method : {"auto", "dopri5", "rodas4", "extrapolation8"}) {
+    SceneRun run(rings + "[integrator]\nend_time = " + to_text(kTime) + "\ntolerance = 1e-6\ntype = \"" + method +
+                 "\"\n");
+    ASSERT_TRUE(run.run().completed) << method << ": " << run.simulation().report().message;
+    const double way = 0.5 * (kLoad + kResidual) * kTime * kTime;
+    const Vector& x = run.simulation().state().x;
+    EXPECT_NEAR(x[run.dof("a", DofKind::uy)], way * std::cos(kAngle), 1e-5 * way) << method;
+    EXPECT_NEAR(x[run.dof("a", DofKind::uz)], way * std::sin(kAngle), 1e-5 * way) << method;
+  }
+}
+
 /// Both nodes have the same displacement, which is moved by a rounding error of it.
 TEST(LeaveMiddle, MovesAStopBetweenTwoDisplacedNodes) {
   SceneRun run(scene(kLoad, "between = [\"a\", \"b\"]"), {"integrator.type=rodas4"});

@@ -349,6 +349,53 @@ TEST(StaticPosition, HasContactAndNoFriction) {
   EXPECT_GT(std::abs(position(run, "rotor").imag()), 1e-4);
 }
 
+/// A body on springs that a law pulls outwards, through the centre or past it at a small distance, without a contact.
+std::string pulled(const std::string& contact, double across, const std::string& integrator) {
+  const bool is_planar = across == 0.0 && contact.find("ring") == std::string::npos;
+  std::string springs = body("m", 1.0, 40.0, 0.02);
+  if (is_planar) springs.resize(springs.rfind("[[element]]"));
+  return "schema = 1\n" + springs +
+         "[[contact]]\nnodes = \"m\"\ngap = 0.1\nlaw = \"arctan\"\nstiffness = "
+         "1e4\nregularization = 3e3\n" +
+         contact +
+         "[initial]\nvelocity = [{ nodes = \"m\", dof = \"uy\", value = 0.45 "
+         "}" +
+         (is_planar ? "" : ", { nodes = \"m\", dof = \"uz\", value = " + text(across) + " }") +
+         "]\n[integrator]\nend_time = 5.0\n" + integrator;
+}
+
+std::vector<double> path_of(const std::string& scene) {
+  std::vector<double> times;
+  for (int i = 1; i <= 100; ++i) times.push_back(0.05 * i);
+  SceneRun run(scene);
+  Sampler sampler(run.dof("m", DofKind::uy), times);
+  run.simulation().add(sampler);
+  EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+  return sampler.x;
+}
+
+/// The pull changes its direction at the centre within a small part of a step. Through the centre itself the motion is
+/// that between two stops, by `exact`, which refuses this ring.
+TEST(CentreOfARing, IsPassedWithinTheTolerance) {
+  for (const double across : {0.0, 1e-9, 1e-4, 1e-2}) {
+    const auto expected =
+        across == 0.0 ? path_of(pulled("type = \"stop\"\ndof = \"uy\"\n", 0.0, "type = \"exact\"\n"))
+                      : path_of(pulled("type = \"ring\"\n", across, "type = \"extrapolation8\"\ntolerance = 1e-11\n"));
+    for (const char* method : {"dopri5", "extrapolation8", "rodas4"})
+      for (const double tolerance : {1e-3, 1e-4, 1e-6, 1e-8}) {
+        const auto found =
+            path_of(pulled("type = \"ring\"\n", across,
+                           "type = \"" + std::string(method) + "\"\ntolerance = " + text(tolerance) + "\n"));
+        double largest = 0.0, error = 0.0;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+          largest = std::max(largest, std::abs(expected[i]));
+          error = std::max(error, std::abs(found[i] - expected[i]) / largest);
+        }
+        EXPECT_LT(error, 5.0 * tolerance) << method << " at " << tolerance << " passing at " << across;
+      }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Adaptive, RingMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
                                          "integrator.type=rodas4", "integrator.type=exact",
