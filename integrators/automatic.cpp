@@ -50,6 +50,8 @@ Cost estimate(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
 /// the limit is higher for tight tolerances (plugins/auto/README.md).
 constexpr Index kFew = 4, kFewAtTight = 6;
 constexpr double kTight = 1e-5;
+/// From this tolerance on steps of low order suffice (plugins/auto/README.md).
+constexpr double kLoose = 1e-4;
 
 /// True for few DOFs with linear stops whose contact states have modes. If damping does not couple
 /// modes, all contact states have them; otherwise those with none, one or all stops closed are
@@ -127,17 +129,23 @@ class DampedModesBudget {
   double most_;  ///< s
 };
 
+/// True if a body that the regularised friction of a support holds creeps at a rate far above that of the structure:
+/// all methods but L-stable ones then take steps of that rate (plugins/auto/README.md).
+bool creeps(const FastestRates& rates) {
+  constexpr double kCreeps = 20.0;
+  return rates.friction > kCreeps * rates.open;
+}
+
 /// True if `exponential` supports the scene with damped modes.
-bool suits_collocation(dynamics::Dynamics& dynamics) {
+bool suits_collocation(dynamics::Dynamics& dynamics, const FastestRates& rates) {
   const model::System& system = dynamics.system();
   const bool is_coupled = !system.is_symmetric || !system.obstacles.empty() ||
                           (system.size() > 1 && system.dashpots.size() > 0) || system.rotation != nullptr ||
                           std::any_of(system.loads.begin(), system.loads.end(), VaryingForces::contains);
-  if (!is_coupled) return false;
+  if (!is_coupled || creeps(rates)) return false;
   // If the speed of turning parts varies, all their DOFs take part in the sweeps of each step; rodas4 is faster if
   // damping leaves its steps to the slow modes (apps/models/rotor.toml: 1.4 times).
-  if (system.rotation != nullptr)
-    if (const FastestRates rates = fastest_rates(dynamics); rates.damping > rates.open) return false;
+  if (system.rotation != nullptr && rates.damping > rates.open) return false;
   for (Index i = 0; i < dynamics.stop_count(); ++i)
     if (!dynamics.stops().law_of(i).is_silent_while_open()) return false;
   for (const model::FreeObstacles& obstacles : system.obstacles)
@@ -192,6 +200,30 @@ class HighOrder {
   double work_;
 };
 
+/// An explicit method. Impacts move the fastest modes of a structure, so that implicit methods have to follow them as
+/// well, at a multiple of the cost per step, unless damping leaves their steps to the slow modes.
+Choice explicit_method(dynamics::Dynamics& dynamics, double tolerance, std::string why) {
+  const bool is_small = dynamics.size() <= kFew && tolerance >= kLoose;
+  return {is_small ? Choice::Method::dopri5 : Choice::Method::extrapolation8, std::move(why)};
+}
+
+/// For contacts in the plane, with dissipation or friction, that `exponential` does not treat.
+Choice choose_for_obstacles(dynamics::Dynamics& dynamics, const FastestRates& rates, double tolerance) {
+  using Method = Choice::Method;
+  if (dynamics.obstacles()->has_rigid_friction())
+    return {Method::dopri5, "contacts stick rigidly; it locates the changes, and implicit methods cannot treat them"};
+  if (dynamics::has_infinite_slope(*dynamics.obstacles()))
+    return explicit_method(dynamics, tolerance, "the slope of a contact's dissipation is infinite where it closes");
+  if (creeps(rates))
+    return {Method::rodas4, "friction supports hold bodies that creep, and its steps may exceed the time of that"};
+  const std::string contacts = "contacts act in the plane, with dissipation or friction, ";
+  if (rates.damping > rates.open)
+    return {Method::rodas4, contacts + "and damping leaves the steps of an implicit method to the slow modes"};
+  if (dynamics.size() > dynamics::ModalSystem::kAllModes)
+    return {Method::rodas4, contacts + "and most of a large structure hardly moves"};
+  return explicit_method(dynamics, tolerance, contacts + "and keep the fastest modes in motion");
+}
+
 std::unique_ptr<time::Integrator> make_rodas4(dynamics::Dynamics& dynamics, const Goal& goal) {
   return std::make_unique<Rodas4>(dynamics, goal);
 }
@@ -218,19 +250,17 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const std::string size = std::to_string(n) + (n == 1 ? " DOF" : " DOFs");
   if (suits_piecewise(dynamics, tolerance, end_time))
     return {Method::piecewise, size + " with linear stops, so that the motion between impacts is known in closed form"};
-  if (dynamics.obstacles() != nullptr && dynamics.obstacles()->has_rigid_friction())
-    return {Method::dopri5, "contacts stick rigidly; it locates the changes, and implicit methods cannot treat them"};
-  if (dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles()))
-    return {Method::dopri5, "the slope of a contact's dissipation is infinite where it closes"};
+  const FastestRates rates = fastest_rates(dynamics);
+  const bool is_singular = dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles());
+  // Collocation converges slowly where a slope is infinite.
+  if (is_singular && (n <= kFewAtTight || tolerance < kLoose)) return choose_for_obstacles(dynamics, rates, tolerance);
   const bool is_too_tight = dynamics.stop_count() > 0 && tolerance < kSmallestWithStops;
   const char* const too_tight = "the tolerance is below the smallest one of exponential with stops";
-  if (suits_collocation(dynamics) && DampedModesBudget(dynamics, tolerance, end_time).suffices()) {
+  if (suits_collocation(dynamics, rates) && DampedModesBudget(dynamics, tolerance, end_time).suffices()) {
     if (is_too_tight) return {Method::rodas4, too_tight};
     return {Method::exponential, "the linear part is exact in its damped modes, and only contacts are approximated"};
   }
-  if (dynamics.obstacles() != nullptr)
-    return {Method::rodas4,
-            "contacts act in the plane, with dissipation or friction, and it ends its steps at contact changes"};
+  if (dynamics.obstacles() != nullptr) return choose_for_obstacles(dynamics, rates, tolerance);
   if (!dynamics.system().is_symmetric)
     return {Method::rodas4, "shafts turn or bearings have cross terms, so that the matrices are not symmetric"};
   if (n > most) return {Method::rodas4, size + " are too many for all their modes"};
@@ -240,9 +270,12 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
   if (is_too_tight) return {Method::rodas4, too_tight};
-  if (has_strong_jump(dynamics, tolerance))
-    return {Method::rodas4,
-            "the force of a stop in the middle of its gap is not small against tolerance times stiffness times gap"};
+  if (has_strong_jump(dynamics, tolerance)) {
+    const char* const jumps =
+        "the force of a stop in the middle of its gap is not small against tolerance times stiffness times gap";
+    if (rates.damping > rates.open) return {Method::rodas4, jumps};
+    return explicit_method(dynamics, tolerance, jumps);
+  }
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
     if (cost.rodas4 < cost.exponential)
@@ -263,10 +296,17 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
                                .run_time = end_time,
                                .most_coupled = DampedModesBudget(dynamics, tolerance, end_time).most_coupled()},
                               reason);
-    if (integrator == nullptr) choice = {Choice::Method::rodas4, reason};
+    if (integrator == nullptr) {
+      choice.method = dynamics.obstacles() == nullptr
+                          ? Choice::Method::rodas4
+                          : choose_for_obstacles(dynamics, fastest_rates(dynamics), tolerance).method;
+      choice.why = reason;
+    }
   }
   const HighOrder high(dynamics, {tolerance, end_time});
-  if (high.is_wanted() && (choice.method == Choice::Method::rodas4 || choice.method == Choice::Method::dopri5)) {
+  const bool takes_steps = choice.method == Choice::Method::rodas4 || choice.method == Choice::Method::dopri5 ||
+                           choice.method == Choice::Method::extrapolation8;
+  if (high.is_wanted() && takes_steps) {
     if ((integrator = high.exact()) != nullptr)
       choice.method = Choice::Method::exact;
     else if (choice.method == Choice::Method::rodas4 && (integrator = high.extrapolation8()) != nullptr)
@@ -283,6 +323,7 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
     what = "exact";
   } else if (choice.method == Choice::Method::extrapolation8) {
     what = "extrapolation8" + with;
+    if (integrator == nullptr) integrator = std::make_unique<Extrapolation>(dynamics, Goal{tolerance, end_time});
   } else if (choice.method == Choice::Method::dopri5) {
     what = "dopri5" + with;
     integrator = std::make_unique<DormandPrince>(dynamics, Goal{tolerance, end_time});

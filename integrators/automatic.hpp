@@ -15,8 +15,9 @@ struct Choice {
 };
 
 /// piecewise for few DOFs with linear stops; exponential if all modes can be computed and only contacts
-/// are approximated; dopri5 and rodas4 otherwise, and rodas4 if it is expected to finish before the modes of a large
-/// system are computed. The methods of high order that tight tolerances need are tried by make_automatic().
+/// are approximated; dopri5, extrapolation8 and rodas4 otherwise, and rodas4 if it is expected to finish before the
+/// modes of a large system are computed. The methods of high order that tight tolerances need are tried by
+/// make_automatic().
 Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time);
 
 /// The chosen method with this tolerance; it carries the reason of the choice.

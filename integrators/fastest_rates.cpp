@@ -60,7 +60,8 @@ FastestRates fastest_rates(dynamics::Dynamics& dynamics) {
       for (const auto& ends : {obstacles->ends_of(i).a, obstacles->ends_of(i).b})
         for (const Index dof : {ends[0], ends[1]})
           if (dof >= 0) stiffness[dof] += obstacles->closed_stiffness(i);
-  rates.closed = std::max(std::sqrt(highest(stiffness, mass)), friction_rate(obstacles, mass));
+  rates.friction = friction_rate(obstacles, mass);
+  rates.closed = std::max(std::sqrt(highest(stiffness, mass)), rates.friction);
   return rates;
 }
 
