@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace butee::integrators {
 namespace {
@@ -34,7 +35,7 @@ double peak(double h, double w0, double v0, double a0, double w1, double v1) {
 
 ContactOnTheWay::ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance)
     : contact_(&dynamics.stops()), tolerance_(tolerance) {
-  w0_ = w1_ = v0_ = v1_ = a0_ = Vector::Zero(contact_->size());
+  w0_ = w1_ = v0_ = v1_ = a0_ = least_ = most_ = strayed_ = Vector::Zero(contact_->size());
   jumps_ = bends_ = residual_ = w0_;
   closed_ = contact_->closed_stiffness();
   mass_ = dynamics.system().mass.diagonal();
@@ -46,6 +47,29 @@ ContactOnTheWay::ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance)
     }
     if (contact_->play_of(i).has_both()) jumps_[i] = 2.0 * std::abs(contact_->law_of(i).secant(-gap)) * gap;
   }
+}
+
+void ContactOnTheWay::begin(const time::State& from) {
+  if (contact_->size() == 0) return;
+  has_strayed_ = false;
+  contact_->displacement(from.x, w0_);
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < w0_.size(); ++i) {
+    const model::FreePlay& play = contact_->play_of(i);
+    const double side = play.closed_side(w0_[i]);
+    least_[i] = side > 0.0 ? play.gap : side < 0.0 ? -kFar : play.lower();
+    most_[i] = side > 0.0 ? kFar : side < 0.0 ? -play.gap : play.upper();
+  }
+}
+
+void ContactOnTheWay::look(ConstVectorRef x) {
+  if (contact_->size() == 0) return;
+  contact_->displacement(x, w0_);
+  const auto outside = w0_.array() < least_.array() || w0_.array() > most_.array();
+  if (!outside.any()) return;
+  if (!has_strayed_) strayed_.setZero();
+  has_strayed_ = true;
+  strayed_ = outside.select(1.0, strayed_);
 }
 
 double ContactOnTheWay::impulse_rate(Index stop, ConstVectorRef scale_v) const {
@@ -74,6 +98,7 @@ double ContactOnTheWay::bend_force(Index stop, double h) const {
 
 bool ContactOnTheWay::changed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
   if (contact_->size() == 0) return false;
+  if (has_strayed_) return true;
   contact_->displacement(from.x, w0_);
   contact_->displacement(to.x, w1_);
   contact_->displacement(from.v, v0_);
@@ -109,7 +134,8 @@ double ContactOnTheWay::kink(const time::State& from, const time::State& to, Con
   contact_->displacement(to.v, v1_);
   for (Index i = 0; i < w0_.size(); ++i) {
     const model::FreePlay& play = contact_->play_of(i);
-    if (play.closed_side(w0_[i]) == play.closed_side(w1_[i])) continue;
+    const bool has_strayed = has_strayed_ && strayed_[i] != 0.0;
+    if (!has_strayed && play.closed_side(w0_[i]) == play.closed_side(w1_[i])) continue;
     largest = std::max(largest, closed_[i] * std::max(std::abs(v0_[i]), std::abs(v1_[i])) * impulse_rate(i, scale_v));
   }
   return largest;

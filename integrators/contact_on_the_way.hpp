@@ -17,7 +17,13 @@ class ContactOnTheWay {
   /// `dynamics` must outlive it.
   ContactOnTheWay(dynamics::Dynamics& dynamics, double tolerance);
 
-  /// True if a stop is open at one end of the step and closed at the other, if the step leads
+  /// Begins a step of a method that tells its stages.
+  void begin(const time::State& from);
+  /// Notes the stops that a stage meets on another side than the start of the step: the estimate is then not that of a
+  /// smooth force, even if both ends are on the same side.
+  void look(ConstVectorRef x);
+
+  /// True if a stop is open at one end of the step, or at a stage, and closed at the other, if the step leads
   /// through or towards the bend of a regularised law without resolving it, or if the force of a stop
   /// with two sides jumped from one side to the other. Such a jump occurs at the middle of the gap
   /// for laws that exert a force there, such as arctan with a lambda of a few gaps. Jumps J and
@@ -29,7 +35,8 @@ class ContactOnTheWay {
   /// scale, 1/s; 0 if there is none. An error estimate misses a jump in the middle of a step, since
   /// the errors of the stages cancel.
   double jump(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v);
-  /// The largest rate of change of the force of a stop that closed or opened in the step, N/s, as jump(), 1/s^2. The
+  /// The largest rate of change of the force of a stop that closed or opened in the step or at a stage, N/s, as jump(),
+  /// 1/s^2. The
   /// estimate vanishes at some places of the change in the step where the error does not.
   double kink(const time::State& from, const time::State& to, ConstVectorRef scale_v);
   /// True if a stop is open at both ends of the step and was closed in between, or closed and was
@@ -59,11 +66,14 @@ class ContactOnTheWay {
   /// velocity scale, 1/(N s).
   double impulse_rate(Index stop, ConstVectorRef scale_v) const;
 
-  Vector mass_;      ///< diagonal of the mass matrix
-  Vector closed_;    ///< stiffness of closed stops, N/m
-  Vector jumps_;     ///< jump of the force of each stop at the middle of its gap, N
-  Vector residual_;  ///< residual force of regularised laws, N
-  Vector bends_;     ///< the penetrations up to which the force of a regularised law bends, m; 0: not at all
+  Vector mass_;          ///< diagonal of the mass matrix
+  Vector closed_;        ///< stiffness of closed stops, N/m
+  Vector jumps_;         ///< jump of the force of each stop at the middle of its gap, N
+  Vector residual_;      ///< residual force of regularised laws, N
+  Vector bends_;         ///< the penetrations up to which the force of a regularised law bends, m; 0: not at all
+  Vector least_, most_;  ///< the displacements of stops between which they stay on their side at the start of a step, m
+  Vector strayed_;       ///< 1 for those that a stage met beyond, if there are any
+  bool has_strayed_ = false;
   Vector w0_, w1_, v0_, v1_, a0_;
 };
 

@@ -46,6 +46,7 @@ void DormandPrince::do_start(time::State& state) {
 
 time::StepReport DormandPrince::do_step(const time::State& from, const time::Step& step, time::State& to) {
   const double h = step.h;
+  control_.begin(from);
   v_[0] = from.v;
   a_[0] = from.a;
   for (std::size_t i = 1; i < kStages; ++i) {
@@ -57,6 +58,8 @@ time::StepReport DormandPrince::do_step(const time::State& from, const time::Ste
       x_ += (h * kA[i][j]) * v_[j];
       v_[i] += (h * kA[i][j]) * a_[j];
     }
+    // The second stage has no weight, and the last one is the end of the step.
+    if (i > 1 && i + 1 < kStages) control_.look(x_);
     if (i + 2 < kStages)
       dynamics().acceleration(from.t, kTimes[i] * h, x_, v_[i], a_[i]);
     else

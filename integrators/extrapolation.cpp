@@ -30,8 +30,6 @@ Extrapolation::Extrapolation(dynamics::Dynamics& dynamics, const Goal& goal)
                LocalErrorControl::Steps::any) {
   for (std::size_t i = 0; i < kColumns; ++i) x_[i] = v_[i] = Vector::Zero(dynamics.size());
   a_ = Vector::Zero(dynamics.size());
-  stops_ = Vector::Zero(dynamics.stop_count());
-  sides_.assign(static_cast<std::size_t>(dynamics.stop_count()), 0.0);
 }
 
 void Extrapolation::do_start(time::State& state) {
@@ -50,7 +48,7 @@ void Extrapolation::midpoint(const time::State& from, const time::Step& step, in
       dynamics().acceleration(step.t_end, new_x_, new_v_, a_);
       break;
     }
-    bends_within_ = bends_within_ || differs(new_x_);
+    control_.look(new_x_);
     dynamics().acceleration(from.t, m * d, new_x_, new_v_, a_);
     next_x_ = old_x_ + 2.0 * d * new_v_;
     next_v_ = old_v_ + 2.0 * d * a_;
@@ -63,23 +61,8 @@ void Extrapolation::midpoint(const time::State& from, const time::Step& step, in
   v = 0.5 * (new_v_ + old_v_ + d * a_);
 }
 
-bool Extrapolation::differs(const Vector& x) {
-  if (sides_.empty()) return false;
-  const dynamics::ElasticStops& stops = dynamics().stops();
-  stops.displacement(x, stops_);
-  for (Index i = 0; i < stops_.size(); ++i)
-    if (stops.play_of(i).closed_side(stops_[i]) != sides_[static_cast<std::size_t>(i)]) return true;
-  return false;
-}
-
 time::StepReport Extrapolation::do_step(const time::State& from, const time::Step& step, time::State& to) {
-  bends_within_ = false;
-  if (!sides_.empty()) {
-    const dynamics::ElasticStops& stops = dynamics().stops();
-    stops.displacement(from.x, stops_);
-    for (Index i = 0; i < stops_.size(); ++i)
-      sides_[static_cast<std::size_t>(i)] = stops.play_of(i).closed_side(stops_[i]);
-  }
+  control_.begin(from);
   // x_[k] holds T_{j,k+1} of the last row j; a row is computed from its first column to its last.
   for (std::size_t j = 0; j < kColumns; ++j) {
     midpoint(from, step, kParts[j], to.x, to.v);
@@ -100,7 +83,7 @@ time::StepReport Extrapolation::do_step(const time::State& from, const time::Ste
   next_v_ = to.v - v_[kColumns - 2];
   to.a = from.a;
   time::StepReport report;
-  control_.judge(from, to, step.h, next_x_, next_v_, report, bends_within_);
+  control_.judge(from, to, step.h, next_x_, next_v_, report);
   if (report.error <= 1.0 && report.status == time::StepStatus::ok)
     dynamics().acceleration(step.t_end, to.x, to.v, to.a);
   return report;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "integrators/local_error.hpp"
 #include "integrators/quintic.hpp"
@@ -35,16 +34,11 @@ class Extrapolation final : public time::Integrator {
   time::Interpolant& interpolant() override { return quintic_; }
   /// The modified midpoint rule with `parts` parts of the step and Gragg's smoothing.
   void midpoint(const time::State& from, const time::Step& step, int parts, Vector& x, Vector& v);
-  /// True if a stop is open at x that is closed in `from`, or the other way round.
-  bool differs(const Vector& x);
 
   LocalErrorControl control_;
   QuinticInterpolant quintic_;
   std::array<Vector, kColumns> x_, v_;  ///< a row of the extrapolation tableau
   Vector old_x_, old_v_, new_x_, new_v_, a_, next_x_, next_v_;
-  Vector stops_;               ///< displacements of the stops
-  std::vector<double> sides_;  ///< on which they are closed at the start of the step; 0: open
-  bool bends_within_ = false;  ///< a stage of the step differs from its start
 };
 
 }  // namespace butee::integrators

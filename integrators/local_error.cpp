@@ -190,7 +190,7 @@ double LocalErrorControl::whole_error(const time::State& from, time::State& to, 
 }
 
 void LocalErrorControl::judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x,
-                              ConstVectorRef error_v, time::StepReport& report, bool bends_within) {
+                              ConstVectorRef error_v, time::StepReport& report) {
   const Index n = to.x.size();
   scale_x_ = scales_x(from);
   scale_v_ = scales_v(from);
@@ -222,7 +222,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     scales_.raise(work_, scale_x_);
     epsilon = relative_error(h, error_x, error_v, scale_x_, scale_v_);
   }
-  const Change change = change_of_contact(from, to, h, bends_within);
+  const Change change = change_of_contact(from, to, h);
   double charge = 0.0;
   double r = error_ratio(from, to, h, epsilon, change, scale_x_, charge);
   if (rounding_ && r > 1.0) {
@@ -252,12 +252,12 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   report.proposal = std::min(report.proposal, longest_);
 }
 
-LocalErrorControl::Change LocalErrorControl::change_of_contact(const time::State& from, const time::State& to, double h,
-                                                               bool bends_within) {
+LocalErrorControl::Change LocalErrorControl::change_of_contact(const time::State& from, const time::State& to,
+                                                               double h) {
   const double crossing = centre_.jump(from, to, h, scale_v_);
   Change change;
-  change.has_changed = bends_within || contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) ||
-                       slip_reverses(from, to) || h * crossing > ContactOnTheWay::kNegligibleImpulse * smooth_error(h);
+  change.has_changed = contact_.changed(from, to, h, scale_v_) || touches_anew(from, to) || slip_reverses(from, to) ||
+                       h * crossing > ContactOnTheWay::kNegligibleImpulse * smooth_error(h);
   if (as_a_whole_ || !change.has_changed) return change;
   change.least = kOfJump * h * std::max(contact_.jump(from, to, h, scale_v_), crossing);
   if (orders_.kink > 0.0)

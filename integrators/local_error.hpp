@@ -77,10 +77,13 @@ class LocalErrorControl {
   /// Fills the memory of the initial state, which has at least memory_size() entries.
   void start(time::State& state);
   /// Judges a step by the error estimates e_x and e_v. `to` holds its own acceleration or that of
-  /// `from`. Fills error and proposal of the report, and the memory of `to`. `bends_within`: a stage of the step met a
-  /// stop that is open at both ends, so that the estimate is not that of a smooth force.
+  /// `from`. Fills error and proposal of the report, and the memory of `to`.
   void judge(const time::State& from, time::State& to, double h, ConstVectorRef error_x, ConstVectorRef error_v,
-             time::StepReport& report, bool bends_within = false);
+             time::StepReport& report);
+  /// Begins a step and looks at one of its stages; for explicit methods, whose stages may meet a stop that is on the
+  /// same side at both ends.
+  void begin(const time::State& from) { contact_.begin(from); }
+  void look(ConstVectorRef x) { contact_.look(x); }
 
   /// True if the fastest motion passes more than kStiff rad in a step of this length and errors are measured as a
   /// whole, so that it need not be resolved.
@@ -128,7 +131,7 @@ class LocalErrorControl {
     bool has_changed = false;
     double least = 0.0;
   };
-  Change change_of_contact(const time::State& from, const time::State& to, double h, bool bends_within);
+  Change change_of_contact(const time::State& from, const time::State& to, double h);
   /// The error of a step over the one it may have, for an estimate epsilon, and the charge to the account.
   double error_ratio(const time::State& from, const time::State& to, double h, double epsilon, const Change& change,
                      const Vector& scale_x, double& charge);

@@ -110,6 +110,24 @@ TEST(ContactOnTheWay, HasChangedWhereABluntLawJumpsAtTheMiddle) {
   }
 }
 
+/// At x = 0.85 m both ends are open; a stage at 0.95 m met the stop of 100 N/m at 0.9 m, whose force then varies by
+/// 100 N/m times the speed.
+TEST(ContactOnTheWay, IsOneThatAStageMeets) {
+  SceneRun run(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"), {"contact[0].stiffness=100.0"});
+  integrators::ContactOnTheWay contact(run.dynamics(), 1e-3);
+  const time::State from = at(0.9), to = at(0.95);
+  const auto changed = [&] { return contact.changed(from, to, 0.05, kSpeed); };
+  contact.begin(from);
+  contact.look(Vector::Constant(1, 0.85));
+  EXPECT_FALSE(changed());
+  EXPECT_EQ(contact.kink(from, to, kSpeed), 0.0);
+  contact.look(Vector::Constant(1, 0.95));
+  EXPECT_TRUE(changed());
+  EXPECT_NEAR(contact.kink(from, to, kSpeed), 100.0 * from.v[0], 1e-9);
+  contact.begin(from);
+  EXPECT_FALSE(changed());
+}
+
 /// A motion of constant acceleration turns 1e-7 m on either side of the middle of the gap, where a blunt law jumps.
 TEST(ContactOnTheWay, WasMissedWhereAMotionTurnsJustBeyondTheMiddle) {
   SceneRun run(mass_at_a_stop("both", "type = \"rk4\"\ntime_step = 1e-3\n"),
