@@ -18,14 +18,10 @@ constexpr double kSmallest = 1e-4;
 constexpr double kStepsPerDoubling = 4.0;
 constexpr double kReserve = 3.0;
 constexpr double kMostDown = 9.0, kMostUp = 9.0;
-/// The error of short steps of a method that treats the linear part exactly may be that of fast modes in contact forces,
-/// of forces whose slope is infinite, or of unfinished iterations. It does not fall with a power of h, and relative to
-/// its bound it grows. Such a method therefore tries a step that is longer by kGrowth indices: after kSoon steps of one
-/// length, if the last try succeeded; otherwise after twice as many as before, up to kLongestWait; and at once if the
-/// step turns the fastest motion by less than kTiny rad and the error is below kSlack of its bound.
-constexpr double kGrowth = 2.0, kSoon = 8.0, kLongestWait = 256.0, kTiny = 0.1, kSlack = 0.5;
-/// Lengths of steps that differ by less than this part are the same.
-constexpr double kSameLength = 1e-6;
+/// The error of a very short step of a method that treats the linear part exactly is that of a force whose slope is
+/// infinite or of unfinished iterations, which does not fall with the power of h of a smooth motion: such steps grow by
+/// kGrowth indices if they turn the fastest motion by less than kTiny rad and their error is below kSlack of its bound.
+constexpr double kGrowth = 2.0, kTiny = 0.5, kSlack = 0.5;
 /// The error assigned to a step that missed a contact: the step is repeated, on the grid with about
 /// half its length.
 constexpr double kMissed = 8.0;
@@ -122,8 +118,6 @@ void LocalErrorControl::start(time::State& state) {
   state.memory[kAccount] = account_.advance();
   state.memory[kNormX] = norm(state.x);
   state.memory[kNormV] = norm(state.v);
-  state.memory[kLength] = state.memory[kSteady] = 0.0;
-  state.memory[kWait] = kSoon;
   scales_.raise(state.x, state.memory.segment(kScales, n));
   scales_.largest_of_kind(state.memory.segment(kScales, n), work_);
   work_ *= kStill * rate_;
@@ -206,7 +200,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   scale_v_ = scales_v(from);
   scales_.raise(to.x, scale_x_);
   scales_.raise(to.v, scale_v_);
-  to.memory.segment(kNormX, kScales - kNormX) = from.memory.segment(kNormX, kScales - kNormX);
+  to.memory.segment(kNormX, 2) = from.memory.segment(kNormX, 2);
   to.memory.segment(kScales, n) = scale_x_;
   to.memory.segment(kScales + n, n) = scale_v_;
   const double smooth = smooth_error(h);
@@ -259,27 +253,9 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const double order = change.has_changed && r > 1.0 ? kKinkOrder : power_ * orders_.method;
   const double next = change.has_changed && r <= 1.0 ? to.memory[kOld] : r;
   report.proposal = steps_ == Steps::any ? any_step(h, next, from.memory[kOld], order) : grid_step(h, next, order);
-  if (orders_.is_linear_part_exact) try_longer(from, to, h, r, report);
+  if (orders_.is_linear_part_exact && r <= kSlack && h * rate_ < kTiny)
+    report.proposal = std::max(report.proposal, longer_step(h, kGrowth));
   report.proposal = std::min(report.proposal, longest_);
-}
-
-void LocalErrorControl::try_longer(const time::State& from, time::State& to, double h, double r,
-                                   time::StepReport& report) const {
-  if (r > 1.0) return;
-  const double last = from.memory[kLength];
-  const bool has_grown = h > (1.0 + kSameLength) * last, is_steady = !has_grown && h > (1.0 - kSameLength) * last;
-  double wait = has_grown ? kSoon : from.memory[kWait], steady = is_steady ? from.memory[kSteady] + 1.0 : 0.0;
-  if (h * rate_ < kTiny && r <= kSlack) report.proposal = std::max(report.proposal, longer_step(h, kGrowth));
-  if (report.proposal > h) {
-    steady = 0.0;
-  } else if (steady >= wait) {
-    report.proposal = longer_step(h, kGrowth);
-    steady = 0.0;
-    wait = std::min(2.0 * wait, kLongestWait);
-  }
-  to.memory[kLength] = h;
-  to.memory[kSteady] = steady;
-  to.memory[kWait] = wait;
 }
 
 LocalErrorControl::Change LocalErrorControl::change_of_contact(const time::State& from, const time::State& to,

@@ -118,8 +118,7 @@ class LocalErrorControl {
     }
   };
   /// Indices in the memory.
-  static constexpr Index kOld = 0, kAccount = 1, kNormX = 2, kNormV = 3, kLength = 4, kSteady = 5, kWait = 6,
-                         kScales = 7;
+  static constexpr Index kOld = 0, kAccount = 1, kNormX = 2, kNormV = 3, kScales = 4;
 
   /// True if a contact with a nonlinear law begins or ends at an end of the step. There its force
   /// varies with a fractional power of time, but the estimate assumes a smooth function.
@@ -153,8 +152,6 @@ class LocalErrorControl {
                      double smooth);
   double any_step(double h, double r, double old, double order) const;
   double grid_step(double h, double r, double order) const;
-  /// Proposes a longer step now and then, beyond what the error allows; updates the memory of `to` to this end.
-  void try_longer(const time::State& from, time::State& to, double h, double r, time::StepReport& report) const;
   /// The step on the grid by this number of indices longer than h, rounded down.
   static double longer_step(double h, double indices);
 

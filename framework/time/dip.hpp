@@ -21,7 +21,7 @@ inline std::optional<Look> lowest_of(const std::array<Look, 3>& looks) {
   if (!(bend > 0.0)) return std::nullopt;
   const double slope = rise + bend * (second.t - first.t), way = -0.5 * slope / bend;
   const Look lowest{second.t + way, second.value + 0.5 * slope * way};
-  if (lowest.t <= first.t || lowest.t >= third.t || lowest.t == second.t) return std::nullopt;
+  if (!(lowest.t > first.t && lowest.t < third.t) || lowest.t == second.t) return std::nullopt;
   return lowest;
 }
 

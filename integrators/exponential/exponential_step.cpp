@@ -36,7 +36,7 @@ ExponentialStep::ExponentialStep(dynamics::Dynamics& dynamics, dynamics::ModalSy
     : modal_(modal),
       goal_(goal),
       contacts_(contact_forces(dynamics.stops())),
-      record_(dynamics, modal, contacts_, 2 * most),
+      record_(dynamics, modal, contacts_, 2 * most, goal_.outputs),
       bounds_(modal, dynamics.stops()),
       scales_(modal, dynamics.stops()),
       errors_(dynamics.stops(), goal_, bounds_, scales_, step_),

@@ -50,7 +50,7 @@ class ExponentialStep {
   double time_to_contact() const { return bounds_.gaps().time_to_contact(step_.from); }
   bool has_stops() const { return !contacts_.empty(); }
 
-  std::span<const double> breakpoints() const { return record_.breakpoints().inner(); }
+  std::span<const double> breakpoints() { return record_.inner(); }
   /// Interpolates within the macro step; does not change the state.
   void interpolate(std::span<const double> times, std::span<const Index> dofs, time::Interpolated out) {
     record_.interpolate(times, dofs, out);

@@ -19,11 +19,18 @@ ModalEnergy::ModalEnergy(dynamics::Dynamics& dynamics, const dynamics::ModalSyst
       next_paths_(paths_) {}
 
 void ModalEnergy::begin(const Breakpoint& point, std::span<const double> instants) {
-  last_ = point;
+  keep(point);
   instants_ = instants;
   work_ = dissipated_ = 0.0;
   told_.clear();
   find_paths(point, paths_);
+}
+
+void ModalEnergy::keep(const Breakpoint& point) {
+  last_t_ = point.t;
+  last_q_ = Column(point.q, modal_.size());
+  last_v_ = Column(point.v, modal_.size());
+  last_phases_.assign(point.phases.begin(), point.phases.end());
 }
 
 void ModalEnergy::find_paths(const Breakpoint& point, std::vector<Path>& paths) const {
@@ -42,7 +49,7 @@ void ModalEnergy::go_on(const Breakpoint& point, const double* w, bool is_last) 
   add_work(point);
   if (has_decay_) add_dissipation(point);
   paths_.swap(next_paths_);
-  last_ = point;
+  keep(point);
   bool is_due = is_last;
   for (; !instants_.empty() && instants_.front() <= point.t; instants_ = instants_.subspan(1)) is_due = true;
   if (!is_due) return;
@@ -54,7 +61,7 @@ void ModalEnergy::go_on(const Breakpoint& point, const double* w, bool is_last) 
 }
 
 void ModalEnergy::add_work(const Breakpoint& to) {
-  const double h = to.t - last_.t;
+  const double h = to.t - last_t_;
   auto from = paths_.begin(), end = next_paths_.begin();
   // Simpson's rule for f v with the values of both cubics in the middle.
   const auto add = [&](double f0, double f_middle, double f1) {
@@ -64,20 +71,21 @@ void ModalEnergy::add_work(const Breakpoint& to) {
   };
   for (std::size_t j = 0; j < modal_.harmonics().size(); ++j) {
     const double turn = 0.125 * h * modal_.harmonics()[j].angular_frequency;
-    const auto [c0, s0] = last_.phases[j];
+    const auto [c0, s0] = last_phases_[j];
     const auto [c1, s1] = to.phases[j];
     add(c0, 0.5 * (c0 + c1) - turn * (s0 - s1), c1);
     add(s0, 0.5 * (s0 + s1) + turn * (c0 - c1), s1);
   }
   for (const dynamics::ModalSystem::OtherLoad& load : modal_.other_loads()) {
-    const LoadParabola f(*load.in_time, last_.t, to.t);
+    const LoadParabola f(*load.in_time, last_t_, to.t);
     add(f.begin, f.middle, f.end);
   }
 }
 
 void ModalEnergy::add_dissipation(const Breakpoint& to) {
-  const double h = to.t - last_.t, r = 1.0 / h;
-  const Column q0(last_.q, modal_.size()), v0(last_.v, modal_.size()), q1(to.q, modal_.size()), v1(to.v, modal_.size());
+  const double h = to.t - last_t_, r = 1.0 / h;
+  const ArrayXd &q0 = last_q_, &v0 = last_v_;
+  const Column q1(to.q, modal_.size()), v1(to.v, modal_.size());
   // The integral of the squared slope of a cubic, as in the geometric stiffness of a beam.
   const auto rise = r * (q1 - q0);
   dissipated_ += h / 30.0 *

@@ -41,6 +41,8 @@ class ModalEnergy {
   struct Path {
     double u = 0.0, v = 0.0;
   };
+  /// Copies a breakpoint, whose arrays the next one may reuse.
+  void keep(const Breakpoint& point);
   /// Computes the paths of all loads at a breakpoint.
   void find_paths(const Breakpoint& point, std::vector<Path>& paths) const;
   void add_work(const Breakpoint& to);
@@ -50,7 +52,10 @@ class ModalEnergy {
   const dynamics::ModalSystem& modal_;
   Eigen::ArrayXd double_decay_;
   bool has_decay_;
-  Breakpoint last_{};
+  /// The last breakpoint.
+  double last_t_ = 0.0;
+  Eigen::ArrayXd last_q_, last_v_;
+  std::vector<Phase> last_phases_;
   std::vector<Path> paths_,
       next_paths_;  ///< two for each harmonic load (cosine and sine), then one for each other load
   double work_ = 0.0, dissipated_ = 0.0;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 
+#include <butee/core/text.hpp>
 #include <gtest/gtest.h>
 
 #include "stress/suite/long_runs.hpp"
@@ -222,7 +223,10 @@ TEST(Stress, ErrorsFollowTheTolerance) {
   int fitted = 0;
   for (const std::uint64_t seed : {4U, 13U, 19U})
     for (const Slope& slope : slopes(wide_scene(seed), chosen, 200000)) {
-      EXPECT_TRUE(slope.is_kept()) << slope.scene << ", " << slope.method << ": " << slope.value;
+      std::string points;
+      for (std::size_t i = 0; i < slope.errors.size(); ++i)
+        points += " " + to_short_text(slope.tolerances[i]) + ": " + to_short_text(slope.errors[i]);
+      EXPECT_TRUE(slope.is_kept()) << slope.scene << ", " << slope.method << ": " << slope.value << points;
       fitted += slope.is_fitted() ? 1 : 0;
     }
   EXPECT_GT(fitted, 12);

@@ -41,6 +41,14 @@ TEST(Dip, ThatEndsAboveZeroIsNone) {
   }
 }
 
+/// In a step of a few roundings of t the looks coincide in time, and divided differences are not numbers.
+TEST(Dip, OfLooksAtOneInstantIsNone) {
+  EXPECT_FALSE(time::lowest_of({{{1.0, 2.0}, {1.0, 1.0}, {1.0, 2.0}}}));
+  EXPECT_FALSE(time::lowest_of({{{1.0, 2.0}, {1.0, 1.0}, {1.5, 2.0}}}));
+  EXPECT_FALSE(time::lowest_of({{{0.5, 2.0}, {1.0, 1.0}, {1.0, 2.0}}}));
+  EXPECT_FALSE(time::lowest_of({{{1.0, 1.0}, {1.0, 1.0}, {2.0, 3.0}}}));
+}
+
 TEST(Dip, LiesAtTheLowestPointOfAParabola) {
   const auto parabola = [](double t) { return 3.0 * (t - 0.4) * (t - 0.4) + 2.0; };
   const auto lowest = time::lowest_of({{{0.0, parabola(0.0)}, {0.5, parabola(0.5)}, {1.25, parabola(1.25)}}});

@@ -4,6 +4,7 @@
 
 #include <butee/core/text.hpp>
 #include <butee/embed/structure.hpp>
+#include <butee/record/energy.hpp>
 #include <butee/record/history.hpp>
 #include <butee/record/peaks.hpp>
 #include <gtest/gtest.h>
@@ -324,6 +325,42 @@ TEST(PeaksOfDashpots, AreThoseOfTheClosedForm) {
       EXPECT_NEAR(peak["ball.contact_force"].get<double>(), force, 1e-7 * force) << method << ", c = " << c;
       EXPECT_NEAR(peak["ball.a"].get<double>(), force, 1e-6 * force) << method << ", c = " << c;
       EXPECT_NEAR(peak["ball.v"].get<double>(), 1.0, 1e-9) << method << ", c = " << c;
+    }
+  }
+}
+
+/// A stop in one plane, loads and motion in the other: the steps of exponential follow the stop, and its modes hide
+/// those of the other plane. Peaks, energies and breakpoints must follow all of them. `exact` follows every motion; the
+/// balance of energy is closed by definition.
+TEST(PeaksOfHiddenModes, AreThoseOfExact) {
+  const std::string beam =
+      "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7800.0\n[section.p]\nshape = \"tube\"\nouter_radius = "
+      "0.05\ninner_radius = 0.04\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = "
+      "\"p\"\nlength = 5.0\nelements = 4\nmotion = \"lateral\"\n[[support]]\nnodes = [\"b:first\", "
+      "\"b:last\"]\nfix = [\"uy\", \"uz\"]\n[[contact]]\ntype = \"stop\"\nnodes = \"b:middle\"\ngap = 2e-4\nlaw = "
+      "\"linear\"\nstiffness = 1e6\ndof = \"uz\"\n[damping]\nmass_proportional = 2.0\n[integrator]\nend_time = 0.25\n";
+  const std::string loaded =
+      "[[load]]\ntype = \"harmonic\"\nnode = \"b:1\"\ndof = \"uy\"\namplitude = 500.0\nangular_frequency = 133.0\n";
+  const std::string released = "[initial]\nvelocity = [{ nodes = \"b:middle\", dof = \"uy\", value = 0.1 }]\n";
+  for (const std::string& motion : {loaded, released}) {
+    std::map<std::string, double> expected;
+    for (const std::string method : {"exact", "exponential", "auto"}) {
+      SceneRun run(beam + motion, {"integrator.type=" + method});
+      model::OutputRequest request;
+      request.interval = 0.05;
+      request.probes = {{"m",
+                         run.model().nodes.select("b:middle").nodes.front(),
+                         {model::Quantity::uy, model::Quantity::uy_v, model::Quantity::uy_a},
+                         ""}};
+      record::HistoryRecorder history(request, 0.25, run.dynamics(), nullptr);
+      record::EnergyRecorder energy(run.dynamics());
+      run.simulation().add(history);
+      run.simulation().add(energy);
+      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+      EXPECT_NEAR(energy.balance_error(), 0.0, method == "exact" ? 1e-12 : 1e-4) << method;
+      if (expected.empty()) expected = history.peaks();
+      for (const auto& [column, peak] : expected)
+        EXPECT_NEAR(history.peaks().at(column), peak, 1e-4 * peak) << method << " " << column;
     }
   }
 }
