@@ -232,15 +232,15 @@ void CollocationOutputs::trace(const State& from, const State& to, double t, std
                                time::Interpolated out) {
   if (!holds(from, to) || !out.a.empty()) return interpolate(from, to, t, dofs, out);
   const double h = to.t - from.t, place = (t - from.t) / h;
-  if (!out.x.empty()) {
-    const auto [values, begin_slope, end_slope] = StepNodes::hermite(place);
-    for (std::size_t i = 0; i < dofs.size(); ++i)
-      out.x[i] = values.dot(traces_.displacement(dofs[i], *nodes_)) +
-                 h * (begin_slope * from.v[dofs[i]] + end_slope * to.v[dofs[i]]);
+  const auto [values, begin_slope, end_slope] = StepNodes::hermite(place);
+  const auto at = [&](const auto& of_nodes, double begin, double end) {
+    return values.dot(of_nodes) + h * (begin_slope * begin + end_slope * end);
+  };
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const Index dof = dofs[i];
+    if (!out.x.empty()) out.x[i] = at(traces_.displacement(dof, *nodes_), from.v[dof], to.v[dof]);
+    if (!out.v.empty()) out.v[i] = at(traces_.velocity(dof, *nodes_), from.a[dof], to.a[dof]);
   }
-  if (out.v.empty()) return;
-  const auto weights = StepNodes::lagrange(place);
-  for (std::size_t i = 0; i < dofs.size(); ++i) out.v[i] = weights.dot(traces_.velocity(dofs[i], *nodes_));
 }
 
 double CollocationOutputs::find_fastest(const State& from, const State& to, double slow, time::Detail detail) const {
