@@ -22,6 +22,10 @@ constexpr double kParabola = 2e-5;
 /// this.
 constexpr double kCritical = 1e-2;
 
+/// The closed form of an overdamped mode is too near to critical damping if (kappa/omega)^2 is below kCritical. Its
+/// particular solution for forces that vary loses digits if its slower root turns less than this in a step.
+constexpr double kLeastDecay = 1e-2;
+
 /// The number of terms needed if (omega + delta) t is at most x: beyond them x^k/k! is below
 /// rounding.
 int terms_of(double x) {
@@ -57,6 +61,10 @@ struct ModalMotion::Parts {
   void find(double part);
   void find_others(double tau);
   void find_other(Index mode, double tau);
+  /// Of an overdamped mode; false if the closed form would lose digits.
+  bool find_overdamped(Index mode, double tau);
+  /// Adds the steady-state responses at the instant of the last kept_at().
+  void add_kept(Index mode);
 
   const ArrayXd &omega_, &delta_;
   const std::vector<ModalHarmonic>& harmonics_;
@@ -262,8 +270,29 @@ void ModalMotion::Parts::find(double part) {
 void ModalMotion::Parts::find_others(double tau) {
   for (const Index i : resonant_) find_other(i, tau);
   for (const Index i : damped_)
-    if ((omega_[i] + delta_[i]) * tau > kernel::kSlow) find_other(i, tau);
+    if ((omega_[i] + delta_[i]) * tau > kernel::kSlow && !find_overdamped(i, tau)) find_other(i, tau);
   for (Index i = omega_.size(); i-- > 0 && omega_[i] * tau > kernel::kLargestAngle;) find_other(i, tau);
+}
+
+bool ModalMotion::Parts::find_overdamped(Index i, double tau) {
+  const double square = omega_[i] * omega_[i], kappa = std::sqrt(std::max(0.0, delta_[i] * delta_[i] - square));
+  if (square == 0.0 || kappa * kappa < kCritical * square) return false;
+  const double fast = -(delta_[i] + kappa), slow = square / fast;
+  if ((force_[1][i] != 0.0 || force_[2][i] != 0.0) && -slow * tau < kLeastDecay) return false;
+  const double led[] = {led_[0][i], led_[1][i], led_[2][i]}, q = q0_[i] - led[0], v = v0_[i] - led[1];
+  const double of_slow = 0.5 * (v - fast * q) / kappa * std::exp(slow * tau),
+               of_fast = 0.5 * (slow * q - v) / kappa * std::exp(fast * tau);
+  q_[i] = of_slow + of_fast + led[0] + tau * (led[1] + tau * led[2]);
+  v_[i] = slow * of_slow + fast * of_fast + led[1] + 2.0 * tau * led[2];
+  add_kept(i);
+  return true;
+}
+
+void ModalMotion::Parts::add_kept(Index i) {
+  for (const kernel::KeptUp& kept : kept_up_) {
+    q_[i] += kept.of_cosine * kept.cosine[i] + kept.of_sine * kept.sine[i];
+    v_[i] += kept.angular_frequency * (kept.of_cosine * kept.sine[i] - kept.of_sine * kept.cosine[i]);
+  }
 }
 
 void ModalMotion::Parts::find_other(Index i, double tau) {
@@ -289,15 +318,9 @@ void ModalMotion::Parts::find_other(Index i, double tau) {
     q += c * flow.harmonic_q(j, 0)[0] - s * flow.harmonic_q(j, 1)[0];
     v += c * flow.harmonic_v(j, 0)[0] - s * flow.harmonic_v(j, 1)[0];
   }
-  for (std::size_t j = 0; j < kept_.size(); ++j) {
-    if (is_parabola(harmonics_[j])) continue;
-    const Kept& kept = kept_[j];
-    const double angle = kept.angular_frequency * (t_ + tau), c = std::cos(angle), s = std::sin(angle);
-    q += c * kept.cosine[i] + s * kept.sine[i];
-    v += kept.angular_frequency * (c * kept.sine[i] - s * kept.cosine[i]);
-  }
   q_[i] = q;
   v_[i] = v;
+  add_kept(i);
 }
 
 }  // namespace butee::dynamics

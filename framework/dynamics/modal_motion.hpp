@@ -14,9 +14,9 @@ namespace butee::dynamics {
 ///
 /// with the Legendre polynomials P_k of the step. It is the motion that ModalPropagator gives at
 /// the end of a step, but without its tables: slow modes by a Taylor series, decaying oscillations
-/// by sine, cosine and exponential, the few others (overdamped and fast, in undamped resonance with
-/// a load, or with thousands of periods per step) by a ModalPropagator of their own. The error is
-/// at the level of rounding. Checked against ModalPropagator in tests/unit/modal_motion_test.cpp.
+/// by sine, cosine and exponential, overdamped modes by two exponentials, the few others (near to critical damping, in
+/// undamped resonance with a load, or with thousands of periods per step) by a ModalPropagator of their own. The error
+/// is at the level of rounding. Checked against ModalPropagator in tests/unit/modal_motion_test.cpp.
 class BUTEE_EXPORT ModalMotion {
  public:
   /// `modal` must outlive this object.

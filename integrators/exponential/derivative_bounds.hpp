@@ -2,6 +2,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "butee/time/integrator.hpp"
 #include "integrators/exponential/breakpoints.hpp"
@@ -14,8 +15,7 @@ namespace butee::integrators {
 class DerivativeBounds {
  public:
   /// Both must outlive it.
-  DerivativeBounds(const dynamics::ModalSystem& modal, const Breakpoints& breakpoints)
-      : modal_(modal), breakpoints_(breakpoints) {}
+  DerivativeBounds(const dynamics::ModalSystem& modal, const Breakpoints& breakpoints);
 
   /// Starts a new macro step.
   void begin() { known_ = kNone; }
@@ -24,13 +24,22 @@ class DerivativeBounds {
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  /// A mode whose free motion decays at two rates.
+  struct Overdamped {
+    Index mode;
+    double slow, fast;     ///< the roots, 1/s, negative
+    double of_fast = 0.0;  ///< the part of q that decays at the fast rate, at the last breakpoint
+  };
   /// Computes the bounds for the step that begins at a breakpoint.
   void find(std::size_t breakpoint);
+  /// The bounds of an overdamped mode: its steady state and the part of the slow rate; sets of_fast.
+  void find(Overdamped& mode, double t, double h, double q, double v);
 
   const dynamics::ModalSystem& modal_;
   const Breakpoints& breakpoints_;
   std::size_t known_ = kNone;         ///< the breakpoint for which of_ is valid
-  std::array<Eigen::ArrayXd, 7> of_;  ///< entry k bounds derivative k of each mode
+  std::array<Eigen::ArrayXd, 7> of_;  ///< entry k bounds derivative k of each mode, without of_fast
+  std::vector<Overdamped> overdamped_;
 };
 
 }  // namespace butee::integrators
