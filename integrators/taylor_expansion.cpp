@@ -45,7 +45,8 @@ TaylorExpander::TaylorExpander(dynamics::Dynamics& dynamics, int order, double t
       stop_force_(dynamics.stop_count()),
       stops_(dynamics.stop_count()),
       velocity_(dynamics.size()),
-      terms_(order + 1) {
+      terms_(order + 1),
+      held_(Vector::Zero(order + 1)) {
   if (dynamics.obstacles() != nullptr) obstacles_.emplace(dynamics, order);
   for (const model::FreeLoad& load : dynamics.system().loads)
     if (!load.in_time->taylor(0.0, 1.0, load_))
@@ -103,6 +104,8 @@ void TaylorExpander::recur(ContactBranches& branches, TaylorExpansion& to) {
     velocity_ = (static_cast<double>(k + 1) / h) * to.x.col(k + 1);
     if (obstacles_) obstacles_->add(k, to.x.col(k), velocity_, force_);
     dynamics_.solve_acceleration(to.x.col(k), velocity_, force_);
+    if (obstacles_ && dynamics_.obstacles()->has_rigid_friction())
+      held_[k + 2] = h * h / static_cast<double>(k + 1) * force_.lpNorm<Eigen::Infinity>();
     if (obstacles_) dynamics_.hold_sticks(k == 0 ? std::optional(to.begin) : std::nullopt, force_);
     to.x.col(k + 2) = (h * h / static_cast<double>((k + 1) * (k + 2))) * force_;
   }
@@ -113,6 +116,8 @@ double TaylorExpander::find_reach(const Eigen::MatrixXd& x) {
   // equally important.
   for (Index k = 0; k <= order_; ++k) terms_[k] = static_cast<double>(k) * x.col(k).lpNorm<Eigen::Infinity>();
   if (!terms_.allFinite() || !x.col(0).allFinite()) return 0.0;
+  // If all bodies stick, the terms are rounding of the forces that hold them, whose own series has to end as well.
+  terms_ = terms_.cwiseMax(held_);
   // The last terms are compared with the largest term within the reach; therefore the reach is
   // iterated from above.
   double reach = 1.0;

@@ -51,6 +51,7 @@ class TaylorExpander {
   std::vector<double> load_;
   Eigen::MatrixXd w_;
   Vector force_, stop_force_, stops_, velocity_, terms_;
+  Vector held_;  ///< terms of the velocity without rigid sticks, if there are any; otherwise 0
 };
 
 }  // namespace butee::integrators

@@ -120,7 +120,7 @@ std::string rows_in(const std::string& folder) {
 TEST(KilledSweep, ComputesLostRowsAgain) {
   const TemporaryFolder folder;
   folder.write("scene.toml", kScene);
-  folder.write("study.toml", sweep_of(40, 8000, "follow = \"up\"\n"));
+  folder.write("study.toml", sweep_of(40, 24000, "follow = \"up\"\n"));  // far longer than the time between savings
   const Names arguments = {"study", "study.toml", "-q", "--format", "csv", "-o"};
   const auto with = [&](const char* name) {
     Names all = arguments;
