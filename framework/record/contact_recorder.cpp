@@ -165,8 +165,9 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
       Watch& watch = watches_[i];
       if (!watch.is_support && !is_in_contact(now)) continue;
       ContactWear& wear = wear_[i];
-      const double slip = std::abs(now.slip_speed);
-      wear.work += weight * std::abs(now.normal) * slip;
+      // Bodies that a dashpot pulls together do not rub.
+      const double slip = now.normal >= 0.0 ? std::abs(now.slip_speed) : 0.0;
+      wear.work += weight * now.normal * slip;
       wear.touching += weight;
       wear.slip += weight * slip;
       wear.square += weight * now.normal * now.normal;

@@ -176,10 +176,10 @@ double ElementForces::sum_of_states(const Sum& of) const {
         sum += now.friction;
         break;
       case model::Quantity::contact_slip:
-        if (is_closed(i, now)) sum += now.slip_speed;
+        if (is_closed(i, now) && now.normal >= 0.0) sum += now.slip_speed;
         break;
       default:
-        sum += std::abs(now.normal * now.slip_speed);
+        sum += std::max(0.0, now.normal) * std::abs(now.slip_speed);
     }
   }
   return sum;
