@@ -1,6 +1,7 @@
 #include "gnuplot.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -86,6 +87,12 @@ std::string draw_into(const std::vector<std::string>& formats, const std::string
     text += plot + "\n";
   }
   return text + "set output\n";
+}
+
+std::string file_name(std::string text) {
+  for (char& c : text)
+    if (c == '/' || c == '\\' || std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '_';
+  return text;
 }
 
 void write_script(const std::string& folder, const std::string& name, const std::string& text) {

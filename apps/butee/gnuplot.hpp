@@ -35,6 +35,9 @@ inline constexpr double kFlat = 0.6;
 std::string draw_into(const std::vector<std::string>& formats, const std::string& name, const std::string& plot,
                       double shape = kFlat);
 
+/// A text as the name of a file in the present folder, on one line: without slashes and control characters.
+std::string file_name(std::string text);
+
 /// Writes `<folder>/<name>.gp`. Throws RunError on failure.
 void write_script(const std::string& folder, const std::string& name, const std::string& text);
 

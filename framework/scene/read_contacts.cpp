@@ -136,7 +136,18 @@ void SceneReader::read_contacts() {
 void SceneReader::read_contact(const Value& entry, const std::string& path) {
   const ContactKind kind = contact_kind(entry, path);
   if (entry.table() == nullptr) return;
-  const auto p = read_table(entry, path, kind.parameters(*entry.table()), kind.ignored(types_));
+  const std::vector<config::Parameter> parameters = kind.parameters(*entry.table());
+  const std::vector<std::string> keys = names_of(parameters), others = kind.ignored(types_);
+  for (const std::string& key : kind.law != nullptr ? names_of(kind.law->parameters) : std::vector<std::string>())
+    if (std::count(keys.begin(), keys.end(), key) > 1 || key == "type" || key == "law") {
+      const Value* law = entry.table()->find("law");
+      diagnostics_.error(
+          path + ".law", law != nullptr ? law->at : entry.at,
+          kind.law_name + " declares the parameter " + key +
+              ", a key that contacts have themselves or that it declares twice; its module must rename it");
+      return;
+    }
+  const auto p = read_table(entry, path, parameters, others);
   if (!p || kind.name.empty()) return;
   if (p->has("nodes") == p->has("between")) {
     diagnostics_.error(path, entry.at,

@@ -11,6 +11,8 @@
 namespace butee::test::space_plot_test {
 namespace {
 
+namespace fs = std::filesystem;
+
 bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -360,6 +362,26 @@ TEST(SpacePicture, DrawsStopsOnTheirSide) {
   const auto [below_tip, below_base] = drawn_stop("negative");
   EXPECT_GT(below_base, below_tip);
   EXPECT_LT(above_tip, below_tip);
+}
+
+/// The name of a folder is part of the names of pictures, and thus of their scripts: a line of it must not become a
+/// command.
+TEST(SpacePlot, TakesNoCommandsFromNamesOfFolders) {
+  const TemporaryFolder folder;
+  const std::string hostile = "r\nsystem \"touch made\"\n#";
+  folder.write("rotor.toml",
+               std::string(kRotor) + "[[contact]]\ntype = \"ring\"\nnodes = \"rotor\"\ngap = 1e-5\nstiffness = 1e6\n");
+  ASSERT_EQ(
+      run_program({"run", "rotor.toml", "-q", "--set", "output.impacts=true", "-o", hostile}, folder.path()).status, 0);
+  fs::copy(folder.file(hostile), folder.file("good"), fs::copy_options::recursive);
+  ASSERT_EQ(run_program({"plot", "good", hostile, "-o", "plots", "--format", "script"}, folder.path()).status, 0);
+  int scripts = 0;
+  for (const auto& file : fs::directory_iterator(folder.file("plots"))) {
+    EXPECT_FALSE(holds(file.path().filename().string(), "\n"));
+    EXPECT_FALSE(holds(read_file(file.path().string()), "\nsystem")) << file.path();
+    ++scripts;
+  }
+  EXPECT_GT(scripts, 3);
 }
 
 }  // namespace

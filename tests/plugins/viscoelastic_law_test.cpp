@@ -71,6 +71,35 @@ constexpr const char* kTight = "tolerance = 1e-10\n";
 const std::string kExplicit[] = {std::string("type = \"dopri5\"\n") + kTight,
                                  std::string("type = \"extrapolation8\"\n") + kTight, kTight};
 
+/// A law may not take keys of the contact for its own.
+TEST(LawParameters, ThatContactsHaveAreRefused) {
+  for (const std::string key : {"sides", "gap", "nodes", "law", "twice"}) {
+    plugin::Catalogue with;
+    plugin::ModuleTypes own;
+    own.laws.push_back(
+        {"taken",
+         "a law of this test",
+         {config::number(key, "1", "its own").or_else(1.0), config::number("twice", "1", "more").or_else(1.0)},
+         [](const config::Parameters&, config::Diagnostics&) -> std::unique_ptr<model::ContactLaw> {
+           return std::make_unique<OneWay>(0.0);
+         }});
+    with.add(BUTEE_TEST_PLUGINS);
+    with.add(std::move(own), "this test");
+    try {
+      scene::read_scene(config::parse_toml("schema = 1\n[[element]]\ntype = \"mass\"\nname = \"ball\"\nmass = "
+                                           "1.0\n[[contact]]\ntype = \"stop\"\nnodes = \"ball\"\ngap = 1e-3\nlaw = "
+                                           "\"taken\"\n[integrator]\nend_time = 0.2\n",
+                                           "scene.toml"),
+                        with);
+      FAIL() << key << " was taken";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("scene.toml:10: contact[0].law: taken declares the parameter " + key),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 /// e = 1 - 1.153449 b + 0.798267 b^2 + O(b^(5/2)) (Schwager and Poeschel 2008), with b = 3/2 A (k/m)^(2/5) v^(1/5).
 TEST(ViscoelasticLaw, HasTheRestitutionOfViscoelasticSpheres) {
   const double mass = 2.0, stiffness = 1e8;

@@ -96,7 +96,8 @@ std::vector<std::string> draw(const Request& request, const plugin::Catalogue& c
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw RunError(folder + ": cannot be created: " + error.message());
-  for (const Picture& picture : all) {
+  for (Picture& picture : all) {
+    picture.name = gnuplot::file_name(picture.name);
     const std::string path = (fs::path(folder) / picture.name).string();
     gnuplot::write_script(folder, picture.name,
                           picture.script(drawn_formats.empty() ? gnuplot::formats() : drawn_formats));
