@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
 #include <typeinfo>
 
+#include "butee/config/file_reference.hpp"
 #include "butee/config/override.hpp"
 #include "butee/config/toml.hpp"
 #include "butee/core/bytes.hpp"
@@ -20,6 +22,8 @@
 
 namespace butee::embed {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Throws LogicError unless `value` may be set.
 void check_number(double value, const char* name) {
@@ -47,6 +51,17 @@ void check_dof(Index dof, Index size) {
   if (dof < 0 || dof >= size)
     throw LogicError("the degree of freedom " + std::to_string(dof) + " does not exist; there are 0 to " +
                      std::to_string(size - 1));
+}
+
+/// The scene with the checksums of the files that it names, whose paths are taken from its own folder. A file that
+/// cannot be read is left to read_scene().
+std::string identity_of(const config::Document& document) {
+  const std::string folder = fs::path(config::path_beside(document, "scene")).parent_path().string();
+  try {
+    return config::write_toml(config::with_files_found_from(document, folder.empty() ? "." : folder));
+  } catch (const InputError&) {
+    return config::write_toml(*document.root.table());
+  }
 }
 
 }  // namespace
@@ -130,7 +145,7 @@ Structure Structure::from_document(config::Document document, const StructureOpt
   if (config::Table* table = integrator.table(); table != nullptr && table->find("end_time") == nullptr)
     (*table)["end_time"] = config::Value(1.0);
 
-  const std::string identity = config::write_toml(*document.root.table()) + join(options.forced, "\n");
+  const std::string identity = identity_of(document) + join(options.forced, "\n");
   auto parts = std::unique_ptr<Parts>(new Parts{
       scene::read_scene(std::move(document),
                         options.catalogue ? *options.catalogue : plugin::Catalogue::with_plugins(options.plugins),

@@ -9,6 +9,7 @@
 #include <butee/embed/structure.hpp>
 #include <gtest/gtest.h>
 
+#include "support/program.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::misuse_test {
@@ -130,6 +131,24 @@ TEST(Misuse, ASnapshotOfAnotherStructureIsRefused) {
   equal.advance_to(0.01);
   equal.restore(snapshot);
   EXPECT_EQ(equal.time(), 0.0);
+}
+
+/// Scenes with the same text beside files with other contents.
+TEST(Misuse, ASnapshotBesideAnotherFileIsRefused) {
+  const TemporaryFolder one, other, same;
+  const std::string loaded = scene(kAuto) + "[[load]]\ntype = \"table\"\nnode = \"n\"\nfile = \"load.csv\"\n";
+  for (const auto& [folder, force] : {std::pair(&one, "1.0"), std::pair(&other, "2.0"), std::pair(&same, "1.0")}) {
+    folder->write("scene.toml", loaded);
+    folder->write("load.csv", "t,f\n0,0\n1," + std::string(force) + "\n");
+  }
+  const auto structure_in = [](const TemporaryFolder& folder) {
+    return Structure::from_file(folder.file("scene.toml"), {.plugins = {BUTEE_TEST_PLUGINS}});
+  };
+  Structure first = structure_in(one), second = structure_in(other), third = structure_in(same);
+  first.advance_to(0.01);
+  EXPECT_THROW(second.restore(first.snapshot()), LogicError);
+  third.restore(first.snapshot());
+  EXPECT_EQ(third.time(), 0.01);
 }
 
 /// Peaks that record::Peaks does not follow, and peaks that are asked for too late, are refused and not there
