@@ -112,6 +112,7 @@ FolderLock ResultFolder::lock() const {
 void ResultFolder::check_is_ours() const {
   if (is_ours(path_)) return;
   std::error_code error;
+  if (!fs::exists(path_, error)) throw InputError(path_ + ": does not exist");
   const std::string foreign = foreign_part(path_, error);
   throw InputError(path_ + ": contains no results of butee from which a run could resume" +
                    (foreign.empty() ? "" : " (" + foreign + ")"));

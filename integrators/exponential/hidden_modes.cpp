@@ -49,8 +49,11 @@ int HiddenModes::parts(const State& from, const State& to, Through polynomial) c
   if (!(allowed > 0.0)) return 1;
   for (double parts = 1.0;;) {
     double error = 0.0;
-    for (const Mode& mode : modes_)
-      error += amplitude(mode) * std::min(1.0, std::pow(mode.rate * h / parts, power) / divisor);
+    for (const Mode& mode : modes_) {
+      const double turn = mode.rate * h / parts, square = turn * turn;
+      error +=
+          amplitude(mode) * std::min(1.0, square * square * (polynomial == Through::speeds ? 1.0 : square) / divisor);
+    }
     if (!(error > allowed)) return static_cast<int>(parts);
     if (parts >= kMostParts) return static_cast<int>(kMostParts);
     parts = std::clamp(std::ceil(parts * std::pow(error / allowed, 1.0 / power)), parts + 1.0, kMostParts);
