@@ -61,7 +61,7 @@ struct ModalMotion::Parts {
   void find(double part);
   void find_others(double tau);
   void find_other(Index mode, double tau);
-  /// Of an overdamped mode; false if the closed form would lose digits.
+  /// Finds an overdamped mode in closed form. Returns false where that would lose digits.
   bool find_overdamped(Index mode, double tau);
   /// Adds the steady-state responses at the instant of the last kept_at().
   void add_kept(Index mode);
