@@ -11,7 +11,8 @@ namespace {
 constexpr double kHidden = 0.05;
 /// Their error between breakpoints as a part of the error bound of outputs (chosen).
 constexpr double kPart = 0.05;
-constexpr double kMostParts = 16384.0;
+/// Far more than a step of any run needs; the number must fit into an int.
+constexpr double kMostParts = 16777216.0;
 
 }  // namespace
 

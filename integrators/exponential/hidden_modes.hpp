@@ -23,7 +23,7 @@ class HiddenModes {
     double t;
     const double *q, *v;
   };
-  /// The number of equal parts of a step on which such polynomials represent the hidden modes, up to a bound of 2^14.
+  /// The number of equal parts of a step on which such polynomials represent the hidden modes.
   int parts(const State& from, const State& to, Through polynomial) const;
 
  private:

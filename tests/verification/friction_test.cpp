@@ -143,53 +143,6 @@ TEST_P(FrictionMethods, ForcedMotionHasDenHartogsAmplitude) {
   }
 }
 
-/// A ball that slides fast along a plane and strikes it; its dashpot may pull before it leaves. Friction, wear and the
-/// path of the slip belong to the time in which it presses: with a nearly constant speed W the work is W times the
-/// tangential impulse over mu.
-TEST(Wear, IsThatOfThePressingForce) {
-  constexpr double kSpeed = 100.0, kCoefficient = 0.01;
-  SceneRun run(
-      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode "
-      "= \"m\"\ndof = \"uy\"\nstiffness = 1e-9\n[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = "
-      "\"uz\"\nstiffness = 1e-9\n[[contact]]\ntype = \"plane\"\nnodes = \"m\"\nnormal = [1.0, 0.0]\ngap = "
-      "1e-3\nstiffness = 1e4\ndamping = { type = \"kelvin_voigt\", coefficient = 60.0, pull = true }\nfriction = "
-      "{ coefficient = 0.01, slip_speed = 1e-3 }\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"uy\", value = "
-      "1.0 }, { nodes = \"m\", dof = \"uz\", value = 100.0 }]\n[integrator]\ntype = \"dopri5\"\ntolerance = "
-      "1e-9\nend_time = 0.1\n");
-  record::ContactRecorder recorder(run.dynamics());
-  run.simulation().add(recorder);
-  ASSERT_TRUE(run.run().completed);
-  ASSERT_EQ(recorder.impacts().size(), 1U);
-  const record::Impact impact = recorder.impacts().front();
-  const record::ContactWear& wear = recorder.wear().front();
-  const double impulse = std::abs(impact.tangential_impulse);
-  EXPECT_GT(impulse, 1e-3);
-  EXPECT_NEAR(wear.work, kSpeed * impulse / kCoefficient, 1e-3 * wear.work);
-  EXPECT_NEAR(wear.slip, impact.slip, 1e-12);
-  EXPECT_LT(wear.slip, 0.95 * kSpeed * wear.touching);  // it pulls for a part of the time
-}
-
-/// A load that never reaches the limit of a rigid stick: all terms of a Taylor series are rounding, which must not grow
-/// in long steps; `exact` moved the body by 0.06 m.
-TEST(RigidStick, StandsStillUnderAnOscillatingLoad) {
-  for (const char* method : {"exact", "dopri5", "extrapolation8"})
-    for (const char* stiffness : {"400.0", "50.0"}) {
-      SceneRun run(
-          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 0.3\n[[element]]\ntype = "
-          "\"spring\"\nnode = \"m\"\nstiffness = " +
-          std::string(stiffness) +
-          "\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = 30.0\nangular_frequency = "
-          "50.0\nphase = 1.0\n[[contact]]\ntype = \"friction\"\nnodes = \"m\"\nnormal_force = "
-          "100.0\nfriction = { coefficient = 0.5, stick = \"rigid\" }\n[integrator]\nend_time = 2.0\ntype = \"" +
-          method + "\"\n");
-      Peak peak(0);
-      run.simulation().add(peak);
-      ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
-      EXPECT_LT(peak.value, 1e-13) << method << " " << stiffness;
-      EXPECT_LT(run.simulation().state().v.norm(), 1e-12) << method << " " << stiffness;
-    }
-}
-
 INSTANTIATE_TEST_SUITE_P(Exact, FrictionMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8",
                                          "integrator.type=exact"));

@@ -1,0 +1,40 @@
+// Wear and the path of the slip in a contact whose dashpot pulls.
+#include <cmath>
+#include <string>
+
+#include <butee/record/contact_recorder.hpp>
+#include <gtest/gtest.h>
+
+#include "support/scene_run.hpp"
+
+namespace butee::test::wear_test {
+namespace {
+
+/// A ball that slides fast along a plane and strikes it; its dashpot may pull before it leaves. Friction, wear and the
+/// path of the slip belong to the time in which it presses: with a nearly constant speed W the work is W times the
+/// tangential impulse over mu.
+TEST(Wear, IsThatOfThePressingForce) {
+  constexpr double kSpeed = 100.0, kCoefficient = 0.01;
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode "
+      "= \"m\"\ndof = \"uy\"\nstiffness = 1e-9\n[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = "
+      "\"uz\"\nstiffness = 1e-9\n[[contact]]\ntype = \"plane\"\nnodes = \"m\"\nnormal = [1.0, 0.0]\ngap = "
+      "1e-3\nstiffness = 1e4\ndamping = { type = \"kelvin_voigt\", coefficient = 60.0, pull = true }\nfriction = "
+      "{ coefficient = 0.01, slip_speed = 1e-3 }\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"uy\", value = "
+      "1.0 }, { nodes = \"m\", dof = \"uz\", value = 100.0 }]\n[integrator]\ntype = \"dopri5\"\ntolerance = "
+      "1e-9\nend_time = 0.1\n");
+  record::ContactRecorder recorder(run.dynamics());
+  run.simulation().add(recorder);
+  ASSERT_TRUE(run.run().completed);
+  ASSERT_EQ(recorder.impacts().size(), 1U);
+  const record::Impact impact = recorder.impacts().front();
+  const record::ContactWear& wear = recorder.wear().front();
+  const double impulse = std::abs(impact.tangential_impulse);
+  EXPECT_GT(impulse, 1e-3);
+  EXPECT_NEAR(wear.work, kSpeed * impulse / kCoefficient, 1e-3 * wear.work);
+  EXPECT_NEAR(wear.slip, impact.slip, 1e-12);
+  EXPECT_LT(wear.slip, 0.95 * kSpeed * wear.touching);  // it pulls for a part of the time
+}
+
+}  // namespace
+}  // namespace butee::test::wear_test
