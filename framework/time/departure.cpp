@@ -13,8 +13,8 @@ namespace {
 
 /// The distance from the middle in gaps: too small for any effect but the sign of w.
 constexpr double kOffMiddle = 1e-100;
-/// A displacement that kOffMiddle gaps do not change is moved by a rounding error if the direction has a larger component
-/// along it.
+/// A displacement that kOffMiddle gaps do not change is moved by a rounding error if the direction has a larger
+/// component along it.
 constexpr double kMainPart = 0.5;
 /// The length of a step in 1/omega, short beside the periods of all loads.
 constexpr double kProbePart = 1e-6;
