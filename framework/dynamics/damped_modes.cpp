@@ -24,6 +24,9 @@ using Complex = std::complex<double>;
 constexpr double kUncoupled = 1e-12;
 /// |V| |V^-1| of a set of vectors above which it is not accepted as a basis.
 constexpr double kDefective = 1e6, kHopeless = 1e8;
+/// The same as DampedModes::kNudge for undamped rigid motion, whose speed it changes by half of this over the run. Its
+/// position and speed are separate parts of its own scale, so that no rounding limits it.
+constexpr double kRigidNudge = 1e-15;
 
 /// Connected parts of the numbers 0 ... n - 1, joined by entries (i, j).
 class Parts {
@@ -197,7 +200,8 @@ void DampedModes::find_basis(const NaturalMatrices& natural, double run_time, Bl
   };
   use_own_scale();
   if (solve(k, c, block)) return;
-  for (Index i = 0; i < b; ++i) k(i, i) += kNudge * static_cast<double>(i + 1) * largest[i];
+  const double nudge = b == 1 && c(0, 0) == 0.0 ? kRigidNudge : kNudge;
+  for (Index i = 0; i < b; ++i) k(i, i) += nudge * static_cast<double>(i + 1) * largest[i];
   use_own_scale();
   if (!solve(k, c, block) && !(block.inverse.allFinite() && block.inverse.norm() < kHopeless))
     throw InputError("integrator.type: the modes of this structure do not form a basis");

@@ -23,9 +23,10 @@ struct NaturalMatrices;
 ///
 /// The natural modes of M and the symmetric part of K that are coupled by C and the rest of K form
 /// blocks, each with its own eigenvalue problem. Rigid motion and critical damping have no basis of
-/// eigenvectors; their stiffness is changed by kNudge times the larger of omega^2 and
-/// 1/T^2, which changes the motion over the run time T by less than 1e-9 of itself. Checked against
-/// the matrix exponential in tests/verification/damped_modes_test.cpp.
+/// eigenvectors; their stiffness is changed by kNudge times the larger of omega^2 and 1/T^2 (1e-15
+/// times for rigid motion without damping), which changes the motion over the run time T by less
+/// than 1e-9 of itself. Checked against the matrix exponential in
+/// tests/verification/damped_modes_test.cpp.
 class BUTEE_EXPORT DampedModes {
  public:
   /// The largest number of DOFs; the matrices are full.

@@ -256,6 +256,8 @@ TEST(DampedModes, KeepRigidMotionApart) {
   const time::State &got = by_modes.simulation().state(), &wanted = by_series.simulation().state();
   EXPECT_LT((got.x - wanted.x).norm(), 1e-10 * wanted.x.norm());
   EXPECT_LT((got.v - wanted.v).norm(), 1e-10 * wanted.v.norm());
+  const Vector ones = Vector::Ones(run.dynamics().size());
+  EXPECT_NEAR(ones.dot(run.dynamics().system().mass * got.v), 2.3, 1e-13);
 }
 
 /// A critically damped mass has one eigenvector; its eigenvalues, moved apart by kNudge, condition the basis.
