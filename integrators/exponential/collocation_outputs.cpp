@@ -73,7 +73,7 @@ CollocationOutputs::CollocationOutputs(const dynamics::DampedModes& modes, const
       memory_begin_(memory_begin),
       fast_(modes, tolerance),
       traces_(modes, contacts),
-      fast_motion_(modes, loads.turning()) {
+      fast_motion_(modes, loads.harmonic()) {
   last_.z.setZero(2 * modes.count());
 }
 
@@ -129,7 +129,7 @@ void CollocationOutputs::move_to(const State& from, const State& to, double plac
   } else {
     fast = p;
   }
-  if (slow < fast) PlaceResponse(modes_, loads_.turning(), place, h, slow, fast).move(from.t, begin, forces, z);
+  if (slow < fast) PlaceResponse(modes_, loads_.harmonic(), place, h, slow, fast).move(from.t, begin, forces, z);
 }
 
 void CollocationOutputs::find_rate(double t, double place, const double* forces,
@@ -141,7 +141,7 @@ void CollocationOutputs::find_rate(double t, double place, const double* forces,
   rate.tail(p).array() = modes_.decay() * z.tail(p).array() + modes_.turn() * z.head(p).array();
   double power = 1.0;
   for (Index r = 0; r < kCount; ++r, power *= place) rate += power * polynomial.col(r);
-  loads_.add_turning(t, rate);
+  loads_.add_harmonic_rate(t, rate);
 }
 
 void CollocationOutputs::find(const State& from, const State& to, double t, Eigen::Ref<Eigen::VectorXd> z) {
@@ -215,10 +215,10 @@ void CollocationOutputs::interpolate_all(const State& from, const State& to, std
     last_.instant = std::numeric_limits<double>::quiet_NaN();
     return fill(out.a, modes_.velocity(), rates);
   }
-  const std::size_t loads = loads_.turning().size();
+  const std::size_t loads = loads_.harmonic().size();
   phases_.clear();
   for (const double t : times)
-    for (const TurningLoad& load : loads_.turning())
+    for (const HarmonicLoad& load : loads_.harmonic())
       phases_.push_back({std::cos(load.angular_frequency * t), std::sin(load.angular_frequency * t)});
   for (Index i = 0; i < rows; ++i) {
     const DofAcceleration acceleration(modes_, loads_, dofs[static_cast<std::size_t>(i)], forces);

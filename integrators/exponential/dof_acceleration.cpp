@@ -11,10 +11,8 @@ DofAcceleration::DofAcceleration(const dynamics::DampedModes& modes, const Modal
   row_.head(p).array() = re * modes.decay() + im * modes.turn();
   row_.tail(p).array() = im * modes.decay() - re * modes.turn();
   polynomial_.noalias() = shape.transpose() * Eigen::Map<const Eigen::MatrixXd>(polynomial, 2 * p, StepNodes::kCount);
-  for (const TurningLoad& load : loads.turning())
-    harmonics_.push_back(
-        {shape.dot(load.forth) + shape.dot(load.back), shape.tail(p).dot(load.forth.head(p) - load.back.head(p)) -
-                                                           shape.head(p).dot(load.forth.tail(p) - load.back.tail(p))});
+  for (const HarmonicLoad& load : loads.harmonic())
+    harmonics_.push_back({shape.dot(load.cosine), shape.dot(load.sine)});
 }
 
 double DofAcceleration::at(double place, const Eigen::Ref<const Eigen::VectorXd>& z,

@@ -27,23 +27,26 @@ bool FastMotion::begin(double t, double h, const double* z, const double* g, Ind
   free_.resize(rest, 1);
   free_.re.col(0) = Eigen::Map<const Eigen::ArrayXd>(z + first, rest) - polynomial_.re.col(0);
   free_.im.col(0) = Eigen::Map<const Eigen::ArrayXd>(z + p + first, rest) - polynomial_.im.col(0);
-  forth_.resize(rest, loads);
-  back_.resize(rest, loads);
+  cosine_.resize(rest, loads);
+  sine_.resize(rest, loads);
   for (Index j = 0; j < loads; ++j) {
-    const TurningLoad& load = loads_[static_cast<std::size_t>(j)];
-    for (const double sense : {1.0, -1.0}) {
-      // The coefficient of e^(i sense Omega t) over i sense Omega - lambda
-      const double frequency = sense * load.angular_frequency, c = std::cos(frequency * t), s = std::sin(frequency * t);
-      const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
-      Parts& response = sense > 0.0 ? forth_ : back_;
-      const auto of_re = force.segment(first, rest).array(), of_im = force.tail(rest).array();
-      const Eigen::ArrayXd away = decay.square() + (frequency - turn).square();
-      if ((away < (kResonant / h) * (kResonant / h)).any()) return false;
-      response.re.col(j) = ((frequency - turn) * of_im - decay * of_re) / away;
-      response.im.col(j) = -((frequency - turn) * of_re + decay * of_im) / away;
-      free_.re.col(0) -= c * response.re.col(j) - s * response.im.col(j);
-      free_.im.col(0) -= c * response.im.col(j) + s * response.re.col(j);
-    }
+    const HarmonicLoad& load = loads_[static_cast<std::size_t>(j)];
+    const double frequency = load.angular_frequency, c = std::cos(frequency * t), s = std::sin(frequency * t);
+    if ((decay.square() + (std::abs(frequency) - turn).square() < (kResonant / h) * (kResonant / h)).any())
+      return false;
+    const auto cr = load.cosine.segment(first, rest).array(), ci = load.cosine.tail(rest).array(),
+               sr = load.sine.segment(first, rest).array(), si = load.sine.tail(rest).array();
+    // -(lambda cosine + Omega sine)/D and (Omega cosine - lambda sine)/D, D = lambda^2 + Omega^2
+    const Eigen::ArrayXd dr = (frequency - turn) * (frequency + turn) + decay.square(), di = 2.0 * decay * turn,
+                         inverse = (dr.square() + di.square()).inverse(), on_dr = inverse * dr, on_di = inverse * di;
+    const auto divide = [&](const Eigen::ArrayXd& nr, const Eigen::ArrayXd& ni, Parts& out) {
+      out.re.col(j) = nr * on_dr + ni * on_di;
+      out.im.col(j) = ni * on_dr - nr * on_di;
+    };
+    divide(turn * ci - decay * cr - frequency * sr, -decay * ci - turn * cr - frequency * si, cosine_);
+    divide(frequency * cr - decay * sr + turn * si, frequency * ci - decay * si - turn * sr, sine_);
+    free_.re.col(0) -= c * cosine_.re.col(j) + s * sine_.re.col(j);
+    free_.im.col(0) -= c * cosine_.im.col(j) + s * sine_.im.col(j);
   }
   turned_.resize(rest, 1);
   sum_.resize(rest, 1);
@@ -62,11 +65,11 @@ void FastMotion::move(double place, Eigen::Ref<Eigen::VectorXd> z) {
     re += power * polynomial_.re.col(r);
     im += power * polynomial_.im.col(r);
   }
-  for (Index j = 0; j < forth_.re.cols(); ++j) {
+  for (Index j = 0; j < cosine_.re.cols(); ++j) {
     const double angle = loads_[static_cast<std::size_t>(j)].angular_frequency * (t_ + length), c = std::cos(angle),
                  s = std::sin(angle);
-    re += c * (forth_.re.col(j) + back_.re.col(j)) - s * (forth_.im.col(j) - back_.im.col(j));
-    im += c * (forth_.im.col(j) + back_.im.col(j)) + s * (forth_.re.col(j) - back_.re.col(j));
+    re += c * cosine_.re.col(j) + s * sine_.re.col(j);
+    im += c * cosine_.im.col(j) + s * sine_.im.col(j);
   }
   z.segment(first_, rest) = re.matrix();
   z.tail(rest) = im.matrix();

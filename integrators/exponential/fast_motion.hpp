@@ -17,7 +17,7 @@ class FastMotion {
   static constexpr double kLeast = 1.0;
 
   /// Both must outlive it.
-  FastMotion(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads)
+  FastMotion(const dynamics::DampedModes& modes, const std::vector<HarmonicLoad>& loads)
       : modes_(modes), loads_(loads) {}
 
   /// Sets the step of length h from t, for the modes from `first` on; arguments as for
@@ -40,11 +40,11 @@ class FastMotion {
   };
 
   const dynamics::DampedModes& modes_;
-  const std::vector<TurningLoad>& loads_;
+  const std::vector<HarmonicLoad>& loads_;
   double t_ = 0.0, h_ = 0.0;  ///< s
   Index first_ = 0;
   Parts free_, polynomial_;  ///< c; p_r
-  Parts forth_, back_;       ///< responses to e^(i Omega t), e^(-i Omega t)
+  Parts cosine_, sine_;      ///< the responses to harmonic loads are cosine cos(Omega t) + sine sin(Omega t)
   Parts turned_, sum_;       ///< at the position
 };
 

@@ -66,7 +66,7 @@ ModalCollocation::ModalCollocation(dynamics::Dynamics& dynamics, const Goal& goa
       tolerance_(goal.tolerance),
       rate_(ErrorAccount(goal).rate()),
       memory_begin_(LocalErrorControl::memory_size(dynamics.size())),
-      of_part_(modes_, loads_.turning()),
+      of_part_(modes_, loads_.harmonic()),
       outputs_(modes_, loads_, forces_.dofs().all(), goal.tolerance, memory_begin_) {
   std::vector<Index> all(static_cast<std::size_t>(dynamics.size()));
   std::iota(all.begin(), all.end(), Index{0});
@@ -98,7 +98,7 @@ const StepResponse& ModalCollocation::response(double h) {
     return responses_.front();
   }
   if (responses_.size() < kKept)
-    responses_.emplace_front(modes_, loads_.turning());
+    responses_.emplace_front(modes_, loads_.harmonic());
   else
     responses_.splice(responses_.begin(), responses_, std::prev(responses_.end()));
   responses_.front().set(h);
@@ -168,7 +168,7 @@ bool ModalCollocation::end_at(const State& from, State& to, StepReport& report) 
   const double h = to.t - from.t;
   forces_.end_at(h / (step_end_ - step_begin_), from.t, modal(from),
                  loads_.has_others() ? loads_.polynomial(from.t, h).data() : nullptr,
-                 PlaceResponse(modes_, loads_.turning(), 1.0, h));
+                 PlaceResponse(modes_, loads_.harmonic(), 1.0, h));
   are_nodes_known_ = false;
   accept(from, h, to);
   judge(from, to, h, report);

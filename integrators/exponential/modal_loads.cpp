@@ -24,36 +24,31 @@ ModalLoads::ModalLoads(const dynamics::DampedModes& modes, const model::System& 
   }
   polynomial_.setZero(2 * modes.count(), StepNodes::kCount);
   const Index p = modes.count();
-  for (const TurningLoad& load : turning_)
+  for (const HarmonicLoad& load : harmonic_)
     for (const double sense : {1.0, -1.0}) {
-      const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
+      // The coefficient of e^(i sense Omega t), (cosine - i sense sine)/2
+      const Eigen::ArrayXd re = 0.5 * (load.cosine.head(p) + sense * load.sine.tail(p)),
+                           im = 0.5 * (load.cosine.tail(p) - sense * load.sine.head(p));
       responses_.push_back(
-          {std::abs(load.angular_frequency), (force.head(p).array().square() + force.tail(p).array().square()).sqrt(),
+          {std::abs(load.angular_frequency), (re.square() + im.square()).sqrt(),
            (modes.decay().square() + (sense * load.angular_frequency - modes.turn()).square()).rsqrt()});
     }
 }
 
 void ModalLoads::add_harmonic(const model::Harmonic& harmonic, const Eigen::VectorXd& shape) {
-  const Index p = shape.size() / 2;
-  auto same = std::find_if(turning_.begin(), turning_.end(), [&](const TurningLoad& other) {
+  auto same = std::find_if(harmonic_.begin(), harmonic_.end(), [&](const HarmonicLoad& other) {
     return other.angular_frequency == harmonic.angular_frequency;
   });
-  if (same == turning_.end())
-    same =
-        turning_.insert(same, {harmonic.angular_frequency, Eigen::VectorXd::Zero(2 * p), Eigen::VectorXd::Zero(2 * p)});
-  const double c = 0.5 * harmonic.amplitude * std::cos(harmonic.phase),
-               s = 0.5 * harmonic.amplitude * std::sin(harmonic.phase);
-  const auto add = [&](Eigen::VectorXd& factor, double sine) {
-    factor.head(p) += c * shape.head(p) - sine * shape.tail(p);
-    factor.tail(p) += c * shape.tail(p) + sine * shape.head(p);
-  };
-  add(same->forth, s);
-  add(same->back, -s);
+  if (same == harmonic_.end())
+    same = harmonic_.insert(
+        same, {harmonic.angular_frequency, Eigen::VectorXd::Zero(shape.size()), Eigen::VectorXd::Zero(shape.size())});
+  same->cosine += harmonic.amplitude * std::cos(harmonic.phase) * shape;
+  same->sine -= harmonic.amplitude * std::sin(harmonic.phase) * shape;
 }
 
 double ModalLoads::highest_frequency() const {
   double highest = 0.0;
-  for (const TurningLoad& load : turning_) highest = std::max(highest, std::abs(load.angular_frequency));
+  for (const HarmonicLoad& load : harmonic_) highest = std::max(highest, std::abs(load.angular_frequency));
   return highest;
 }
 
@@ -80,12 +75,10 @@ const Eigen::MatrixXd& ModalLoads::polynomial(double t, double h) {
   return polynomial_;
 }
 
-void ModalLoads::add_turning(double t, Eigen::VectorXd& rate) const {
-  const Index p = rate.size() / 2;
-  for (const TurningLoad& load : turning_) {
+void ModalLoads::add_harmonic_rate(double t, Eigen::VectorXd& rate) const {
+  for (const HarmonicLoad& load : harmonic_) {
     const double c = std::cos(load.angular_frequency * t), s = std::sin(load.angular_frequency * t);
-    rate.head(p) += c * (load.forth.head(p) + load.back.head(p)) - s * (load.forth.tail(p) - load.back.tail(p));
-    rate.tail(p) += c * (load.forth.tail(p) + load.back.tail(p)) + s * (load.forth.head(p) - load.back.head(p));
+    rate += c * load.cosine + s * load.sine;
   }
 }
 

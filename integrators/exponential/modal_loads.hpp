@@ -12,7 +12,7 @@ class ModalLoads {
   /// Throws InputError for other loads, except those of VaryingForces. `modes` and `system` must outlive it.
   ModalLoads(const dynamics::DampedModes& modes, const model::System& system);
 
-  const std::vector<TurningLoad>& turning() const { return turning_; }
+  const std::vector<HarmonicLoad>& harmonic() const { return harmonic_; }
   /// The highest frequency of a harmonic load, rad/s; 0 without one.
   double highest_frequency() const;
   /// Bounds for a step of length h, m.
@@ -26,7 +26,7 @@ class ModalLoads {
   /// The coefficients of 1, s, ..., s^6 of the other loads over a step of length h from t, 2p x 7.
   const Eigen::MatrixXd& polynomial(double t, double h);
   /// Adds the harmonic loads at time t to dz/dt in `rate`.
-  void add_turning(double t, Eigen::VectorXd& rate) const;
+  void add_harmonic_rate(double t, Eigen::VectorXd& rate) const;
 
  private:
   struct Other {
@@ -42,7 +42,7 @@ class ModalLoads {
   };
 
   const dynamics::DampedModes& modes_;
-  std::vector<TurningLoad> turning_;
+  std::vector<HarmonicLoad> harmonic_;
   std::vector<Response> responses_;  ///< two for each turning load
   std::vector<Other> others_;
   Eigen::MatrixXd polynomial_;

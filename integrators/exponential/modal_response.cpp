@@ -2,20 +2,21 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 #include <type_traits>
+#include <utility>
+
+#include "integrators/exponential/harmonic_response.hpp"
 
 namespace butee::integrators {
 namespace {
 
-using Complex = std::complex<double>;
 using Series = ResponseSeries;
 
 constexpr int kPowers = Series::kPowers;
 
 }  // namespace
 
-PlaceResponse::PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place,
+PlaceResponse::PlaceResponse(const dynamics::DampedModes& modes, const std::vector<HarmonicLoad>& loads, double place,
                              double h, Index first, Index last)
     : first_(first), count_(modes.count()) {
   const Index rest = last - first;
@@ -24,7 +25,7 @@ PlaceResponse::PlaceResponse(const dynamics::DampedModes& modes, const std::vect
   const auto decay = modes.decay().segment(first, rest), turn = modes.turn().segment(first, rest);
   modes.turn_by(length, first, propagator_.col(0), propagator_.col(1));
   find_moments(decay, turn, modes.speed().segment(first, rest), place, h);
-  for (const TurningLoad& load : loads) add_harmonics(decay, turn, load, length);
+  for (const HarmonicLoad& load : loads) add_harmonics(decay, turn, load, length);
 }
 
 void PlaceResponse::find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstArrayRef speed, double place, double h) {
@@ -71,38 +72,33 @@ void PlaceResponse::find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstA
   }
 }
 
-void PlaceResponse::add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const TurningLoad& load, double length) {
+void PlaceResponse::add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const HarmonicLoad& load, double length) {
   const Index p = decay.size();
-  Harmonic& harmonic = harmonics_.emplace_back();
-  harmonic.angular_frequency = load.angular_frequency;
-  const double c = std::cos(load.angular_frequency * length), s = std::sin(load.angular_frequency * length);
-  for (const double sense : {1.0, -1.0}) {
-    const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
-    Eigen::VectorXd& out = sense > 0.0 ? harmonic.forth : harmonic.back;
-    out.resize(2 * p);
-    const double *const of_re = force.data() + first_, *const of_im = of_re + count_;
-    const double *const pr = propagator_.col(0).data(), *const pi = propagator_.col(1).data();
-    double *const out_re = out.data(), *const out_im = out_re + p;
-    // w = (i Omega - lambda) length: (e^(i Omega length) - e^(lambda length)) length/w
-    const auto w = [&](Index k) {
-      return Complex(-decay[k] * length, (sense * load.angular_frequency - turn[k]) * length);
+  harmonics_.push_back({load.angular_frequency, Eigen::VectorXd(2 * p), Eigen::VectorXd(2 * p)});
+  HarmonicLoad& response = harmonics_.back();
+  const double angle = load.angular_frequency * length, c = std::cos(angle), s = std::sin(angle);
+  const auto find = [&](Index k, auto size) {
+    constexpr int kSize = decltype(size)::value;
+    using Part = Eigen::Array<double, kSize, 1>;
+    const HarmonicAngle<Part> same{load.angular_frequency, Part::Constant(length), Part::Constant(angle),
+                                   Part::Constant(c), Part::Constant(s)};
+    const HarmonicResponse<Part> unit(same, decay.segment<kSize>(k), turn.segment<kSize>(k),
+                                      propagator_.col(0).segment<kSize>(k), propagator_.col(1).segment<kSize>(k));
+    const auto at = [&](const Eigen::VectorXd& all, Index begin) -> Part {
+      return all.segment<kSize>(begin + first_ + k).array();
     };
-    for (Index k = 0; k < p; ++k) {
-      const double wr = w(k).real(), wi = w(k).imag(), factor = length / (wr * wr + wi * wi), dr = c - pr[k],
-                   di = sense * s - pi[k], re = factor * (dr * wr + di * wi), im = factor * (di * wr - dr * wi);
-      out_re[k] = re * of_re[k] - im * of_im[k];
-      out_im[k] = re * of_im[k] + im * of_re[k];
-    }
-    // For small w this cancels; then e^(lambda length) length phi(w).
-    for (Index k = 0; k < p; ++k) {
-      if (std::norm(w(k)) > Series::kNearResonance) continue;
-      using One = Eigen::Array<double, 1, 1>;
-      const auto [sum_re, sum_im] = Series::phi(One(w(k).real()), One(w(k).imag()));
-      const Complex part = Complex(pr[k], pi[k]) * length * Complex(sum_re[0], sum_im[0]) * Complex(of_re[k], of_im[k]);
-      out[k] = part.real();
-      out[p + k] = part.imag();
-    }
-  }
+    const Part cr = at(load.cosine, 0), ci = at(load.cosine, count_), sr = at(load.sine, 0), si = at(load.sine, count_);
+    const auto put = [&](Eigen::VectorXd& out, const std::pair<Part, Part>& parts) {
+      out.segment<kSize>(k) = parts.first.matrix();
+      out.segment<kSize>(p + k) = parts.second.matrix();
+    };
+    put(response.cosine, unit.of(cr, ci, sr, si));
+    put(response.sine, unit.of(sr, si, Part(-cr), Part(-ci)));
+  };
+  constexpr Index kTogether = 8;
+  Index k = 0;
+  for (; k + kTogether <= p; k += kTogether) find(k, std::integral_constant<int, kTogether>());
+  for (; k < p; ++k) find(k, std::integral_constant<int, 1>());
 }
 
 void PlaceResponse::move(double t, const double* z, const double* g, Eigen::Ref<Eigen::VectorXd> out) const {
@@ -111,10 +107,10 @@ void PlaceResponse::move(double t, const double* z, const double* g, Eigen::Ref<
   auto re = out.segment(first_, rest), im = out.segment(count_ + first_, rest);
   re.array() = propagator_.col(0) * zr - propagator_.col(1) * zi;
   im.array() = propagator_.col(0) * zi + propagator_.col(1) * zr;
-  for (const Harmonic& load : harmonics_) {
+  for (const HarmonicLoad& load : harmonics_) {
     const double c = std::cos(load.angular_frequency * t), s = std::sin(load.angular_frequency * t);
-    re += c * (load.forth.head(rest) + load.back.head(rest)) - s * (load.forth.tail(rest) - load.back.tail(rest));
-    im += c * (load.forth.tail(rest) + load.back.tail(rest)) + s * (load.forth.head(rest) - load.back.head(rest));
+    re += c * load.cosine.head(rest) + s * load.sine.head(rest);
+    im += c * load.cosine.tail(rest) + s * load.sine.tail(rest);
   }
   if (g != nullptr) add_force(g, out);
 }

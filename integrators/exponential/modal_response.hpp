@@ -10,11 +10,10 @@
 
 namespace butee::integrators {
 
-/// A load amplitude cos(Omega t + phase) on all modes: the coefficients of e^(i Omega t) and e^(-i
-/// Omega t), 2p numbers each.
-struct TurningLoad {
+/// A load cosine cos(Omega t) + sine sin(Omega t) on all modes, 2p numbers each, or the response to it.
+struct HarmonicLoad {
   double angular_frequency;  ///< rad/s
-  Eigen::VectorXd forth, back;
+  Eigen::VectorXd cosine, sine;
 };
 
 /// The motion of damped modes at one position c h of a step of length h, without truncation error:
@@ -27,10 +26,10 @@ struct TurningLoad {
 class PlaceResponse {
  public:
   /// Handles all modes.
-  PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place, double h)
+  PlaceResponse(const dynamics::DampedModes& modes, const std::vector<HarmonicLoad>& loads, double place, double h)
       : PlaceResponse(modes, loads, place, h, 0, modes.count()) {}
   /// Handles the modes from `first` to `last` - 1; the member functions leave the others unchanged.
-  PlaceResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double place, double h,
+  PlaceResponse(const dynamics::DampedModes& modes, const std::vector<HarmonicLoad>& loads, double place, double h,
                 Index first, Index last);
 
   /// out := z at the position. `z` holds 2p numbers; `g` holds the coefficients of 1, s, ..., s^6
@@ -42,16 +41,12 @@ class PlaceResponse {
  private:
   using ConstArrayRef = Eigen::Ref<const Eigen::ArrayXd>;
   void find_moments(ConstArrayRef decay, ConstArrayRef turn, ConstArrayRef speed, double place, double h);
-  void add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const TurningLoad& load, double length);
+  void add_harmonics(ConstArrayRef decay, ConstArrayRef turn, const HarmonicLoad& load, double length);
 
   Index first_, count_;
-  Eigen::ArrayXXd propagator_;  ///< p x 2
-  Eigen::ArrayXXd moments_;     ///< p x 14: real and imaginary parts of each moment
-  struct Harmonic {
-    double angular_frequency;
-    Eigen::VectorXd forth, back;
-  };
-  std::vector<Harmonic> harmonics_;
+  Eigen::ArrayXXd propagator_;           ///< p x 2
+  Eigen::ArrayXXd moments_;              ///< p x 14: real and imaginary parts of each moment
+  std::vector<HarmonicLoad> harmonics_;  ///< the responses
 };
 
 }  // namespace butee::integrators

@@ -62,7 +62,7 @@ double NodeForces::unresolved(const State& from, const double* z, const ModalLoa
   // Where a load or its slope jumps, the forces of the step before are not those of this one, and a force that bends
   // while a stop is open moves light masses on the way between the nodes.
   Eigen::VectorXd rate = Eigen::Map<const Eigen::MatrixXd>(z + 2 * p, 2 * p, kCount).rowwise().sum();
-  loads.add_turning(from.t, rate);
+  loads.add_harmonic_rate(from.t, rate);
   rate.head(p).array() += modes_.decay() * re - modes_.turn() * im;
   rate.tail(p).array() += modes_.decay() * im + modes_.turn() * re;
   const bool turns = dofs_.acts_apart() || std::binary_search(discontinuities_.begin(), discontinuities_.end(), from.t);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "integrators/exponential/harmonic_response.hpp"
+
 namespace butee::integrators {
 namespace {
 
@@ -75,35 +77,22 @@ void StepResponse::find_moments(Index mode) {
   }
 }
 
-void StepResponse::find(const TurningLoad& load, Harmonic& harmonic) const {
+void StepResponse::find(const HarmonicLoad& load, Harmonic& harmonic) const {
   harmonic.angular_frequency = load.angular_frequency;
-  const Lane lengths = h_ * places_of_lanes(), c = (load.angular_frequency * lengths).cos(),
-             s = (load.angular_frequency * lengths).sin();
-  for (const double sense : {1.0, -1.0}) {
-    const Eigen::VectorXd& force = sense > 0.0 ? load.forth : load.back;
-    Lanes& out = sense > 0.0 ? harmonic.forth : harmonic.back;
-    out.resize(2 * count_, Lanes::ColsAtCompileTime);
-    for (Index k = 0; k < count_; ++k) {
-      // (e^(i Omega L) - e^(lambda L))/(i Omega - lambda)
-      const Lane pr = lane_of<8>(propagator_, k), pi = lane_of<8>(propagator_, count_ + k), dr = c - pr,
-                 di = sense * s - pi;
-      const double away_re = -modes_.decay()[k], away_im = sense * load.angular_frequency - modes_.turn()[k],
-                   square = away_re * away_re + away_im * away_im,
-                   inverse = 1.0 / std::max(square, std::numeric_limits<double>::min());
-      Lane re = inverse * (dr * away_re + di * away_im), im = inverse * (di * away_re - dr * away_im);
-      // For w = (i Omega - lambda) L near 0 this cancels; then e^(lambda L) L (e^w - 1)/w.
-      if (square * lengths[1] * lengths[1] <= Series::kNearResonance) {
-        const Lane wr = away_re * lengths, wi = away_im * lengths;
-        const auto [sr, si] = Series::phi(wr, wi);
-        const auto is_near = (square * lengths.square() <= Series::kNearResonance).eval();
-        re = is_near.select(lengths * (pr * sr - pi * si), re);
-        im = is_near.select(lengths * (pr * si + pi * sr), im);
-      }
-      const double of_re = force[k], of_im = force[count_ + k];
-      lane_of<8>(out, k) = re * of_re - im * of_im;
-      lane_of<8>(out, count_ + k) = re * of_im + im * of_re;
-    }
-    out.col(Lanes::ColsAtCompileTime - 1).setZero();
+  harmonic.cosine.resize(2 * count_, Lanes::ColsAtCompileTime);
+  harmonic.sine.resize(2 * count_, Lanes::ColsAtCompileTime);
+  const Lane lengths = h_ * places_of_lanes(), turned = load.angular_frequency * lengths;
+  const HarmonicAngle<Lane> angle{load.angular_frequency, lengths, turned, turned.cos(), turned.sin()};
+  for (Index k = 0; k < count_; ++k) {
+    const HarmonicResponse<Lane> unit(angle, Lane::Constant(modes_.decay()[k]), Lane::Constant(modes_.turn()[k]),
+                                      lane_of<8>(propagator_, k), lane_of<8>(propagator_, count_ + k));
+    const double cr = load.cosine[k], ci = load.cosine[count_ + k], sr = load.sine[k], si = load.sine[count_ + k];
+    const auto put = [&](Lanes& out, const std::pair<Lane, Lane>& parts) {
+      lane_of<8>(out, k) = parts.first;
+      lane_of<8>(out, count_ + k) = parts.second;
+    };
+    put(harmonic.cosine, unit.of(cr, ci, sr, si));
+    put(harmonic.sine, unit.of(sr, si, -cr, -ci));
   }
 }
 
@@ -116,12 +105,8 @@ void StepResponse::move(double t, const double* z, const double* g, Lanes& nodes
   }
   for (const Harmonic& load : harmonics_) {
     const double c = std::cos(load.angular_frequency * t), s = std::sin(load.angular_frequency * t);
-    for (Index k = 0; k < count_; ++k) {
-      const auto fr = lane_of<8>(load.forth, k), fi = lane_of<8>(load.forth, count_ + k), br = lane_of<8>(load.back, k),
-                 bi = lane_of<8>(load.back, count_ + k);
-      lane_of<8>(nodes, k) += c * (fr + br) - s * (fi - bi);
-      lane_of<8>(nodes, count_ + k) += c * (fi + bi) + s * (fr - br);
-    }
+    for (Index k = 0; k < 2 * count_; ++k)
+      lane_of<8>(nodes, k) += c * lane_of<8>(load.cosine, k) + s * lane_of<8>(load.sine, k);
   }
   if (g != nullptr) add_force(g, 1, 2 * count_, nodes);
 }

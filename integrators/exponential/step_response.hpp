@@ -11,9 +11,9 @@ namespace butee::integrators {
 class StepResponse {
  public:
   /// Both must outlive it. Begins without a step length.
-  StepResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads)
+  StepResponse(const dynamics::DampedModes& modes, const std::vector<HarmonicLoad>& loads)
       : modes_(modes), loads_(loads), count_(modes.count()) {}
-  StepResponse(const dynamics::DampedModes& modes, const std::vector<TurningLoad>& loads, double h)
+  StepResponse(const dynamics::DampedModes& modes, const std::vector<HarmonicLoad>& loads, double h)
       : StepResponse(modes, loads) {
     set(h);
   }
@@ -32,16 +32,16 @@ class StepResponse {
 
   struct Harmonic {
     double angular_frequency;
-    Lanes forth, back;
+    Lanes cosine, sine;
   };
 
   void find_moments(Index mode);
-  void find(const TurningLoad& load, Harmonic& harmonic) const;
+  void find(const HarmonicLoad& load, Harmonic& harmonic) const;
   /// The number for row k and power r is g[k * of_row + r * of_power].
   void add_force(const double* g, Index of_row, Index of_power, Lanes& nodes) const;
 
   const dynamics::DampedModes& modes_;
-  const std::vector<TurningLoad>& loads_;
+  const std::vector<HarmonicLoad>& loads_;
   double h_ = 0.0;
   Index count_;
   Eigen::ArrayXXd at_place_;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
+#include <vector>
 
 #include <Eigen/LU>
 #include <butee/core/error.hpp>
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "integrators/exponential/fast_motion.hpp"
+#include "integrators/exponential/harmonic_response.hpp"
 #include "support/scene_run.hpp"
 
 namespace butee::test::damped_modes_test {
@@ -188,22 +190,14 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
 
   // f on the first DOF: 3 - 2 s + 7 s^4 - s^6 over the step, and 5 cos(30 t + 0.4) from t = 0.2 on.
   const double coefficients[] = {3.0, -2.0, 0.0, 0.0, 7.0, 0.0, -1.0}, turn = 30.0, begin = 0.2;
-  integrators::TurningLoad load{turn, VectorXd(2 * p), VectorXd(2 * p)};
   const VectorXd shape = modes.input().col(0);
-  const auto turned = [&](double angle) {
-    VectorXd out(2 * p);
-    out.head(p) = 2.5 * (std::cos(angle) * shape.head(p) - std::sin(angle) * shape.tail(p));
-    out.tail(p) = 2.5 * (std::cos(angle) * shape.tail(p) + std::sin(angle) * shape.head(p));
-    return out;
-  };
-  load.forth = turned(0.4);
-  load.back = turned(-0.4);
+  const integrators::HarmonicLoad load{turn, 5.0 * std::cos(0.4) * shape, -5.0 * std::sin(0.4) * shape};
   MatrixXd g(2 * p, 7);
   for (Index r = 0; r < 7; ++r) g.col(r) = coefficients[r] * shape;
   for (const double h : {1e-5, 1e-3, 0.02, 0.4})
     for (const double place : {0.3, 1.0}) {
       VectorXd out(2 * p);
-      const std::vector<integrators::TurningLoad> loads = {load};
+      const std::vector<integrators::HarmonicLoad> loads = {load};
       integrators::PlaceResponse(modes, loads, place, h).move(begin, z.data(), g.data(), out);
       Index fast = 0;
       while (fast < p && modes.speed()[fast] * h < integrators::FastMotion::kLeast) ++fast;
@@ -234,6 +228,45 @@ TEST_P(DampedModesOf, GiveTheMotionOfTheMatrixExponential) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, DampedModesOf, testing::Values(kShaft, kBodies, kLight, kIndefinite));
+
+/// The responses of modes to harmonic loads against Simpson's rule in 80 bit, each part by its own size: rigid motion,
+/// a slow mode, decay, resonance, and lengths of all sizes.
+TEST(HarmonicResponse, IsAccurateInBothPartsOfSlowAndResonantModes) {
+  struct Case {
+    double decay, turn, frequency, length;
+  };
+  const std::vector<Case> cases = {{0.0, 3e-8, 10.0, 1e-4}, {0.0, 3e-8, 10.0, 0.09}, {0.0, 3e-8, 10.0, 0.11},
+                                   {0.0, 3e-8, 10.0, 2.0},  {0.0, 3e-8, -10.0, 2.0}, {0.0, 2.0, 30.0, 0.4},
+                                   {-50.0, 0.0, 30.0, 0.4}, {-0.1, 30.0, 30.0, 0.5}, {-0.1, 30.0, -30.0, 0.5},
+                                   {0.0, 30.0, 30.1, 0.02}, {-3.0, 40.0, 2.0, 0.3}};
+  for (const Case& one : cases) {
+    const long double a = one.decay, b = one.turn, omega = one.frequency, length = one.length;
+    constexpr int kParts = 20000;
+    std::array<long double, 4> wanted{}, sizes{};
+    for (int i = 0; i <= kParts; ++i) {
+      const long double tau = length * i / kParts, rest = length - tau, size = std::exp(a * rest),
+                        weight = length / (3.0L * kParts) * (i == 0 || i == kParts ? 1 : 2 + 2 * (i % 2)),
+                        re = size * std::cos(b * rest), im = size * std::sin(b * rest), c = std::cos(omega * tau),
+                        s = std::sin(omega * tau);
+      const std::array<long double, 4> terms = {re * c, im * c, re * s, im * s};
+      for (std::size_t k = 0; k < 4; ++k) {
+        wanted[k] += weight * terms[k];
+        sizes[k] += weight * std::abs(terms[k]);
+      }
+    }
+    using One = Eigen::Array<double, 1, 1>;
+    const double size = std::exp(one.decay * one.length), angle = one.turn * one.length;
+    const double turned = one.frequency * one.length;
+    const integrators::HarmonicAngle<One> load{one.frequency, One(one.length), One(turned), One(std::cos(turned)),
+                                               One(std::sin(turned))};
+    const integrators::HarmonicResponse<One> got(load, One(one.decay), One(one.turn), One(size * std::cos(angle)),
+                                                 One(size * std::sin(angle)));
+    const std::array<double, 4> parts = {got.cosine_re[0], got.cosine_im[0], got.sine_re[0], got.sine_im[0]};
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(parts[k], static_cast<double>(wanted[k]), 3e-14 * static_cast<double>(sizes[k]) + 1e-30)
+          << k << ": " << one.decay << " " << one.turn << " " << one.frequency << " " << one.length;
+  }
+}
 
 /// Dashpots between parts do not act on rigid motion. In coordinates of its own scale it conditions no basis, and a
 /// block of all modes is not joined to it by rounding.

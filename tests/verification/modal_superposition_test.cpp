@@ -79,7 +79,7 @@ TEST_P(ModalSuperpositionOf, GivesTheProductsWithTheFullMatrices) {
 TEST_P(ModalSuperpositionOf, MovesToTheNodesAsToEachPosition) {
   const Index p = modes_.count();
   const Lanes all = numbers(2 * p);
-  std::vector<integrators::TurningLoad> loads;
+  std::vector<integrators::HarmonicLoad> loads;
   for (const double frequency : {30.0, modes_.turn()[p / 2]}) loads.push_back({frequency, all.col(1), all.col(2)});
   const MatrixXd g = MatrixXd(all.leftCols(7)) / 7.0;
   Lanes polynomial = Lanes::Zero(2 * p, Lanes::ColsAtCompileTime);
