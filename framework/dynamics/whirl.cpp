@@ -168,8 +168,19 @@ WhirlMode Whirl::finished(Complex lambda, Eigen::VectorXcd shape) const {
   };
   Orbits of = orbits(DofKind::uy, DofKind::uz, 1.0);
   if (const Orbits tilt = orbits(DofKind::rz, DofKind::ry, -1.0); of.inertia < kOnlyTilts * tilt.inertia) of = tilt;
+  const auto inertia = [&](DofKind kind) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < free.size(); ++i)
+      if (const auto d = static_cast<Index>(i); free[i].kind == kind)
+        sum += system_.mass.coeff(d, d) * std::norm(mode.shape[d]);
+    return sum;
+  };
   // Torsion and motion along the shaft have no orbit but rounding.
-  if (of.inertia < kOnlyTilts * orbits(DofKind::rx, DofKind::ux, 1.0).inertia) return mode;
+  const double torsional = inertia(DofKind::rx), axial = inertia(DofKind::ux);
+  if (of.inertia < kOnlyTilts * (torsional + axial)) {
+    mode.motion = torsional > axial ? ModeMotion::torsional : ModeMotion::axial;
+    return mode;
+  }
   if (of.square > 0.0 && lambda.imag() > 0.0) mode.direction = of.area / of.square;
   if (std::abs(mode.direction) < kFlat) mode.direction = 0.0;
   mode.is_mixed = std::min(of.most, -of.least) > 1e-3 * std::max(of.most, -of.least);
@@ -252,7 +263,7 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
                                                   Index count) const {
   struct Crossing {
     double speed;
-    std::vector<double> directions;  ///< of the modes near the line, the closest first
+    std::vector<CriticalSpeed> near;  ///< of the modes near the line, the closest first
     Index change;
   };
   std::vector<Crossing> crossings;
@@ -279,7 +290,7 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
     if (near.front().damping_ratio() > kNoResonance) return;
     Crossing crossing{middle, {}, b.below - a.below};
     for (const WhirlMode& mode : near)
-      if (mode.damping_ratio() <= kNoResonance) crossing.directions.push_back(mode.direction);
+      if (mode.damping_ratio() <= kNoResonance) crossing.near.push_back({middle, mode.direction, mode.motion});
     crossings.push_back(std::move(crossing));
   };
   End before = end_at(from);
@@ -296,8 +307,8 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
     Index net = 0;
     for (; i < crossings.size() && crossings[i].speed - first.speed <= kOneCrossing * std::abs(first.speed); ++i)
       net += crossings[i].change;
-    const auto passed = std::min(static_cast<std::size_t>(std::abs(net)), first.directions.size());
-    for (std::size_t k = 0; k < passed; ++k) found.push_back({first.speed, first.directions[k]});
+    const auto passed = std::min(static_cast<std::size_t>(std::abs(net)), first.near.size());
+    found.insert(found.end(), first.near.begin(), first.near.begin() + static_cast<std::ptrdiff_t>(passed));
   }
   return found;
 }

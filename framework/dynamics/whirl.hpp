@@ -7,6 +7,9 @@
 
 namespace butee::dynamics {
 
+/// The displacements that hold a mode's kinetic energy; lateral unless nearly all of it is in the others.
+enum class ModeMotion { lateral, torsional, axial };
+
 /// A damped mode of a structure with turning parts: x(t) = Re(shape e^(lambda t)).
 struct BUTEE_EXPORT WhirlMode {
   std::complex<double> lambda;  ///< 1/s, rad/s; Im >= 0
@@ -15,6 +18,7 @@ struct BUTEE_EXPORT WhirlMode {
   /// opposite way); 0 without orbits. Of the turning axes, if the mode only tilts them.
   double direction = 0.0;
   bool is_mixed = false;  ///< some nodes whirl forward, others backward
+  ModeMotion motion = ModeMotion::lateral;
 
   double frequency() const { return lambda.imag(); }  ///< rad/s
   double damping_ratio() const;                       ///< -Re lambda / |lambda|
@@ -25,6 +29,7 @@ struct BUTEE_EXPORT WhirlMode {
 struct CriticalSpeed {
   double speed = 0.0;      ///< rad/s
   double direction = 0.0;  ///< of the mode, as in WhirlMode
+  ModeMotion motion = ModeMotion::lateral;
 };
 
 /// A speed at which a mode begins or ceases to grow.

@@ -190,6 +190,25 @@ TEST(PinnedShaft, IsMetByBothSensesOfWhirlAtOneCriticalSpeed) {
   }
 }
 
+/// A shaft of length l held at its first node also crosses the speed of rotation in torsion, at pi/2 sqrt(G/rho)/l, and
+/// along its axis, at pi/2 sqrt(E/rho)/l.
+TEST(PinnedShaft, NamesCriticalSpeedsOfTorsionAndAxialMotion) {
+  std::string shaft = steel("rayleigh", 16, 2.0, 0.02, "young_modulus = 2e11\ndensity = 7800.0\nshear_modulus = 8e10");
+  shaft.replace(shaft.find("lateral"), 7, "spatial");
+  SceneRun run(shaft + "[[support]]\nnodes = \"shaft:first\"\nfix = [\"ux\", \"uy\", \"uz\", \"rx\"]\n" +
+               "[[support]]\nnodes = \"shaft:last\"\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
+  const auto critical = dynamics::Whirl(run.model()).critical_speeds(0.0, 5000.0, 20, 1.0, 20);
+  std::vector<double> torsional, axial;
+  for (const dynamics::CriticalSpeed& one : critical)
+    if (one.motion != dynamics::ModeMotion::lateral)
+      (one.motion == dynamics::ModeMotion::torsional ? torsional : axial).push_back(one.speed);
+  ASSERT_EQ(torsional.size(), 1U);
+  ASSERT_EQ(axial.size(), 1U);
+  EXPECT_NEAR(torsional[0], 0.25 * pi * std::sqrt(8e10 / 7800.0), 1e-3 * torsional[0]);
+  EXPECT_NEAR(axial[0], 0.25 * pi * std::sqrt(2e11 / 7800.0), 1e-3 * axial[0]);
+  EXPECT_GT(critical.size(), 8U);
+}
+
 /// An overhung disc on a massless cantilever: (K11 - m w^2)(K22 - I_d w^2 + I_p W w) = K12^2; one element is
 /// exact.
 TEST(OverhungDisc, OneElementIsExact) {

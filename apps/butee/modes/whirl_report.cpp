@@ -24,11 +24,16 @@ double sense_at(const dynamics::Whirl& whirl, double speed) {
   return whirl.system().stiffness_is_symmetric ? 0.0 : 1.0;
 }
 
+const char* sense_of(double direction, dynamics::ModeMotion motion, double speed) {
+  if (motion == dynamics::ModeMotion::torsional) return "torsional";
+  if (motion == dynamics::ModeMotion::axial) return "axial";
+  if (std::abs(direction) < kPlanar || speed == 0.0) return "planar";
+  return direction * speed > 0.0 ? "forward" : "backward";
+}
+
 const char* sense_of(const dynamics::WhirlMode& mode, double speed) {
   if (mode.frequency() == 0.0) return "no oscillation";
-  if (mode.is_mixed) return "mixed";
-  if (std::abs(mode.direction) < kPlanar || speed == 0.0) return "planar";
-  return mode.direction * speed > 0.0 ? "forward" : "backward";
+  return mode.is_mixed ? "mixed" : sense_of(mode.direction, mode.motion, speed);
 }
 
 std::string rpm(double speed) {
@@ -90,10 +95,7 @@ void print(const Campbell& diagram) {
   if (diagram.critical.empty()) std::printf("  none\n");
   for (const dynamics::CriticalSpeed& critical : diagram.critical)
     std::printf("  %14s rad/s  %16s rev/min  %s\n", formatted("%.10g", critical.speed).c_str(),
-                rpm(critical.speed).c_str(),
-                std::abs(critical.direction) < kPlanar      ? "planar"
-                : critical.direction * critical.speed > 0.0 ? "forward"
-                                                            : "backward");
+                rpm(critical.speed).c_str(), sense_of(critical.direction, critical.motion, critical.speed));
   std::printf("\n  stability without contact\n\n");
   if (diagram.grows_at_first) std::printf("  unstable at %s rad/s\n", to_short_text(diagram.speeds.front()).c_str());
   for (const dynamics::StabilityBorder& border : diagram.borders)
@@ -119,7 +121,9 @@ Json to_json(const Campbell& diagram) {
   json["order"] = diagram.order;
   json["critical_speeds"] = Json::array();
   for (const dynamics::CriticalSpeed& critical : diagram.critical)
-    json["critical_speeds"].push_back({{"speed", critical.speed}, {"direction", critical.direction}});
+    json["critical_speeds"].push_back({{"speed", critical.speed},
+                                       {"direction", critical.direction},
+                                       {"whirl", sense_of(critical.direction, critical.motion, critical.speed)}});
   json["stability_borders"] = Json::array();
   for (const dynamics::StabilityBorder& border : diagram.borders)
     json["stability_borders"].push_back(
