@@ -30,6 +30,17 @@ bool answers_to(const IntegratorType& type, std::string_view name) {
                  "; remove one of the two");
 }
 
+template <class Type>
+void require_names(const std::string& kind, const Type& type, const std::string& path) {
+  if (type.name.empty()) throw RunError(path + ": registers a type of " + kind + " without a name");
+  std::set<std::string> names;
+  for (const config::Parameter& parameter : type.parameters)
+    if (parameter.name.empty() || !names.insert(parameter.name).second)
+      throw RunError(
+          path + ": the " + kind + " \"" + type.name + "\" declares " +
+          (parameter.name.empty() ? "a parameter without a name" : "the parameter \"" + parameter.name + "\" twice"));
+}
+
 /// The type of that name in the module, which is loaded now.
 template <class Type>
 Type loaded(const std::string& name, std::vector<Type> ModuleTypes::*list, const std::string& path) {
@@ -125,6 +136,7 @@ void Catalogue::add(ModuleTypes found, const std::string& path) {
   next.add_types("element", std::move(found.elements), &ModuleTypes::elements, path, next.types_.elements);
   next.add_types("format", std::move(found.formats), &ModuleTypes::formats, path, next.types_.formats);
   for (IntegratorType& type : found.integrators) {
+    require_names("integrator", type, path);
     std::vector<std::string> names = type.aliases;
     names.push_back(type.name);
     for (const std::string& name : names)
@@ -138,6 +150,7 @@ template <class Type>
 void Catalogue::add_types(const char* kind, std::vector<Type> found, std::vector<Type> ModuleTypes::*list,
                           const std::string& path, std::vector<Type>& to) {
   for (Type& type : found) {
+    require_names(kind, type, path);
     if (model::find_type(to, type.name) != nullptr) {
       const std::string taken = module_of(kind, type.name);
       refuse(kind, type.name, taken.empty() ? "butee itself" : taken, path);

@@ -107,6 +107,25 @@ TEST(Modules, ANameTakenTwiceIsRefusedWithBothFiles) {
   EXPECT_EQ(catalogue.integrators().size(), before);
 }
 
+TEST(Modules, TypesAndParametersNeedNamesOfTheirOwn) {
+  const auto complaint_about = [](const std::string& name, std::vector<config::Parameter> parameters) -> std::string {
+    plugin::ModuleTypes types;
+    types.laws.push_back({name, "", std::move(parameters), nullptr});
+    try {
+      plugin::Catalogue().add(std::move(types), "mine");
+    } catch (const RunError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const config::Parameter factor = config::number("factor", "", "a"), nameless = config::number("", "", "a");
+  EXPECT_EQ(complaint_about("soft", {factor}), "");
+  EXPECT_EQ(complaint_about("", {factor}), "mine: registers a type of law without a name");
+  EXPECT_EQ(complaint_about("soft", {factor, factor}),
+            "mine: the law \"soft\" declares the parameter \"factor\" twice");
+  EXPECT_EQ(complaint_about("soft", {nameless}), "mine: the law \"soft\" declares a parameter without a name");
+}
+
 TEST(Modules, AFolderOfModulesIsFoundByEnvironmentAndOption) {
   const TemporaryFolder folder;
   fs::create_directory(folder.file("more"));
