@@ -215,7 +215,8 @@ std::string Parameter::complaint(const Value& value) const {
     case Kind::matrix:
       return matrix_complaint(*this, value);
     case Kind::table:
-      return is_tables(value) ? "" : std::string("must be a table, not ") + value.kind();
+      if (is_tables(value)) return "";
+      return std::string("must be a table, not ") + value.kind() + (help.empty() ? "" : "; give " + help);
   }
   return "";
 }

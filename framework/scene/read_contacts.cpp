@@ -45,7 +45,8 @@ std::vector<config::Parameter> gap_parameters(const config::Table& entry) {
   const bool has_other = entry.find("gaps") != nullptr || entry.find("gaps_from") != nullptr;
   return {has_other ? gap.optional() : gap,
           config::numbers("gaps", "m", "the free play of each contact, instead of gap").optional(),
-          config::table("gaps_from", "a file with a column of gaps, instead of gap").optional()};
+          config::table("gaps_from", "a file with a column of gaps, instead of gap, such as { file = \"gaps.csv\" }")
+              .optional()};
 }
 
 std::vector<std::string> stop_dof_names() {
@@ -56,7 +57,7 @@ std::vector<std::string> stop_dof_names() {
 std::vector<config::Parameter> general_contact_parameters() {
   return {config::texts("nodes", "the nodes that meet the obstacle").optional(),
           config::texts("between", "two selectors: contacts on u_a - u_b, pair by pair").optional(),
-          config::table("friction", "Coulomb friction").optional(),
+          config::table("friction", "Coulomb friction, such as { coefficient = 0.2 }").optional(),
           text("frame", "for a contact with ground under [base]: it moves with the base, or stays in space")
               .one_of({"base", "space"})
               .or_else("base"),
@@ -81,7 +82,9 @@ struct SceneReader::ContactKind {
     };
     if (!is_support()) {
       add(gap_parameters(entry));
-      add({config::table("damping", "dissipation of the closed contact").optional()});
+      add({config::table("damping",
+                         "dissipation of the closed contact, such as { type = \"kelvin_voigt\", coefficient = 200.0 }")
+               .optional()});
     } else {
       add({number("normal_force", "N", "the force that presses the support").above(0)});
     }

@@ -43,8 +43,8 @@ void SceneReader::read_initial() {
   if (table == nullptr) return;
   const auto p = read_parameters(
       *table, "initial",
-      {config::table("displacement", "initial displacements").optional(),
-       config::table("velocity", "initial velocities").optional(),
+      {config::table("displacement", "initial displacements, such as { nodes = \"NODE\", value = 0.01 }").optional(),
+       config::table("velocity", "initial velocities, such as { nodes = \"NODE\", value = 0.5 }").optional(),
        config::text("from", "the result folder of the run from which this one starts, relative to the scene")
            .optional(),
        config::number("at", "s", "the instant of that run; default: its end").optional(),

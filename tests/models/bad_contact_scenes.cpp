@@ -89,6 +89,10 @@ std::vector<BadScene> bad_contact_scenes() {
          ""},
         {"schema = 1", "schema = 1\ncontact = [3] #!"}},
        {"contact[0] = 3: must be a table, not an integer"}},
+      {"a number for the damping of a contact",
+       {{"gap = 0.01", "gap = 0.01\ndamping = 200.0 #!"}},
+       {"contact[0].damping = 200.0: must be a table, not a number; give dissipation of the closed contact, such as { "
+        "type = \"kelvin_voigt\""}},
       {"unknown key of a contact",
        {{"gap = 0.01", "gap = 0.01\nside = \"both\" #!"}},
        {"contact[0].side = \"both\": unknown key (did you mean \"sides\"?)"}},
