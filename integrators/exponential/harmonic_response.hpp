@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -43,7 +43,7 @@ struct HarmonicResponse {
     const Part wr = decay * load.length, wi = turn * load.length,
                size = (wr.square() + wi.square()).max(load.angle.square());
     const auto is_small = (size <= kSmall * kSmall).eval();
-    if (is_small.any()) use_series(is_small, load, wr, wi);
+    if (is_small.any()) use_series(is_small, std::sqrt(is_small.select(size, 0.0).maxCoeff()), load, wr, wi);
     const auto is_near =
         (wr.square() + (wi - load.angle.abs()).square() <= ResponseSeries::kNearResonance && !is_small).eval();
     if (is_near.any()) use_resonance(is_near, load, wr, wi, pr, pi);
@@ -57,19 +57,20 @@ struct HarmonicResponse {
   }
 
  private:
-  /// Up to this |lambda L| and |Omega L| series are summed, whose terms fall below rounding at kTerms. Above it the
-  /// closed form loses a digit at most.
-  static constexpr double kSmall = 1.0;
-  static constexpr int kTerms = 20;
+  /// Up to this |lambda L| and |Omega L| series are summed, until the bound of their terms is below kRounding. Above it
+  /// the closed form loses two digits at most.
+  static constexpr double kSmall = 0.3, kRounding = 1e-17;
 
   using Mask = Eigen::Array<bool, Part::RowsAtCompileTime, 1>;
 
-  /// P = L sum_n S_n/(n + 1)!, Q = L Omega L sum_n S_n/(n + 2)!, S_n = sum_j (-(Omega L)^2)^j (lambda L)^(n - 2 j)
-  void use_series(const Mask& is_small, const HarmonicAngle<Part>& load, const Part& wr, const Part& wi) {
+  /// P = L sum_n S_n/(n + 1)!, Q = L Omega L sum_n S_n/(n + 2)!, S_n = sum_j (-(Omega L)^2)^j (lambda L)^(n - 2 j).
+  /// `largest` is the largest |lambda L| and |Omega L|.
+  void use_series(const Mask& is_small, double largest, const HarmonicAngle<Part>& load, const Part& wr,
+                  const Part& wi) {
     const Part square = -load.angle.square();
     Part sr = Part::Ones(), si = Part::Zero(), even = sr, pr = sr, pi = si, qr = 0.5 * sr, qi = si;
-    double factor = 1.0;  // 1/(n + 1)!
-    for (int n = 1; n < kTerms; ++n) {
+    double factor = 1.0, bound = 1.0;  // 1/(n + 1)!; largest^n/n!
+    for (int n = 1; bound > kRounding; ++n) {
       const Part re = sr * wr - si * wi;
       si = sr * wi + si * wr;
       sr = re;
@@ -78,6 +79,7 @@ struct HarmonicResponse {
         sr += even;
       }
       factor /= n + 1;
+      bound *= largest / n;
       pr += factor * sr;
       pi += factor * si;
       const double next = factor / (n + 2);
