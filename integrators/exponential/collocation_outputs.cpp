@@ -85,7 +85,6 @@ void CollocationOutputs::accept(double begin, double end, const Lanes& nodes) {
   last_.instant = std::numeric_limits<double>::quiet_NaN();
   batch_.times.clear();
   for (Breakpoints& breakpoints : breakpoints_) breakpoints.is_known = false;
-  has_fast_motion_.reset();
   slow_.reset();
 }
 
@@ -100,19 +99,27 @@ std::optional<Index> CollocationOutputs::node_at(const State& from, const State&
   return std::nullopt;
 }
 
+void CollocationOutputs::divide_modes(const State& from, const State& to) {
+  if (slow_) return;
+  const Index p = modes_.count();
+  const double h = to.t - from.t;
+  // Slow modes are interpolated by the polynomial through the nodes, with an error of
+  // StepNodes::kMiss (|lambda| h)^7 of their amplitude, unless harmonic loads are faster.
+  const double most = std::pow(kOutput * tolerance_ * least_growth(from, to) / StepNodes::kMiss, 1.0 / 7.0) / h;
+  Index slow = 0;
+  if (loads_.highest_frequency() <= most)
+    while (slow < p && modes_.speed()[slow] <= most) ++slow;
+  slow_ = fast_begin_ = slow;
+  while (fast_begin_ < p && modes_.speed()[fast_begin_] * h < FastMotion::kLeast) ++fast_begin_;
+  if (!fast_motion_.begin(from.t, h, modal(from), modal(to) + 2 * p, fast_begin_)) fast_begin_ = p;
+}
+
 void CollocationOutputs::move_to(const State& from, const State& to, double place, Eigen::Ref<Eigen::VectorXd> z) {
   const Index p = modes_.count();
   const double h = to.t - from.t;
   Index slow = 0;
   if (holds(from, to)) {
-    // Slow modes are interpolated by the polynomial through the nodes, with an error of
-    // StepNodes::kMiss (|lambda| h)^7 of their amplitude, unless harmonic loads are faster.
-    if (!slow_) {
-      const double most = std::pow(kOutput * tolerance_ * least_growth(from, to) / StepNodes::kMiss, 1.0 / 7.0) / h;
-      if (loads_.highest_frequency() <= most)
-        while (slow < p && modes_.speed()[slow] <= most) ++slow;
-      slow_ = slow;
-    }
+    divide_modes(from, to);
     slow = *slow_;
     const auto weights = StepNodes::lagrange(place);
     z.head(slow).noalias() = nodes_->topLeftCorner(slow, kCount) * weights;
@@ -120,15 +127,8 @@ void CollocationOutputs::move_to(const State& from, const State& to, double plac
   }
   if (slow == p) return;
   const double *const begin = modal(from), *const forces = modal(to) + 2 * p;
-  Index fast = slow;
-  if (holds(from, to)) {
-    while (fast < p && modes_.speed()[fast] * h < FastMotion::kLeast) ++fast;
-    if (!has_fast_motion_) has_fast_motion_ = fast_motion_.begin(from.t, h, begin, forces, fast);
-    if (!*has_fast_motion_) fast = p;
-    if (fast < p) fast_motion_.move(place, z);
-  } else {
-    fast = p;
-  }
+  const Index fast = holds(from, to) ? fast_begin_ : p;
+  if (fast < p) fast_motion_.move(place, z);
   if (slow < fast) PlaceResponse(modes_, loads_.harmonic(), place, h, slow, fast).move(from.t, begin, forces, z);
 }
 
@@ -243,24 +243,37 @@ void CollocationOutputs::trace(const State& from, const State& to, double t, std
   }
 }
 
-double CollocationOutputs::find_fastest(const State& from, const State& to, double slow, time::Detail detail) const {
+Eigen::ArrayXd CollocationOutputs::free_amplitudes(const State& from, const State& to) {
   const Index p = modes_.count();
+  Eigen::ArrayXd amplitudes = Eigen::ArrayXd::Zero(p);
+  if (holds(from, to)) {
+    divide_modes(from, to);
+    if (fast_begin_ < p) {
+      amplitudes.tail(p - fast_begin_) = fast_motion_.amplitudes();
+      return amplitudes;
+    }
+  }
   // |dz/dt|/|lambda| is the amplitude of a mode's rotation about its quasi-static response.
   Eigen::VectorXd rate;
-  Eigen::ArrayXd turning = Eigen::ArrayXd::Zero(p);
   for (const double place : {0.0, 1.0}) {
     const State& at = place > 0.0 ? to : from;
     find_rate(at.t, place, modal(to) + 2 * p, Eigen::Map<const Eigen::VectorXd>(modal(at), 2 * p), rate);
-    turning = turning.max((rate.head(p).array().square() + rate.tail(p).array().square()).sqrt());
+    amplitudes = amplitudes.max((rate.head(p).array().square() + rate.tail(p).array().square()).sqrt());
   }
   // Rigid motion does not turn.
-  return fast_.find(from, to, slow, (modes_.speed() > 0.0).select(turning / modes_.speed(), 0.0), detail);
+  return (modes_.speed() > 0.0).select(amplitudes / modes_.speed(), 0.0);
 }
 
-double CollocationOutputs::longest(const State& from, const State& to) const {
-  const double turns = kMostBreakpoints * kMostTurn, slow = turns / (kMostGrowth * (to.t - from.t));
-  if (std::max(fast_.highest(), loads_.highest_frequency()) <= slow) return std::numeric_limits<double>::infinity();
-  return turns / std::max(loads_.highest_frequency(), find_fastest(from, to, slow, time::Detail::accelerations));
+CollocationOutputs::Longest CollocationOutputs::longest(const State& from, const State& to) {
+  constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+  const double h = to.t - from.t, turns = kMostBreakpoints * kMostTurn, slow = turns / (kMostGrowth * h);
+  if (std::max(fast_.highest(), loads_.highest_frequency()) <= slow) return {kUnlimited, kUnlimited};
+  const Eigen::ArrayXd here = free_amplitudes(from, to), next = here * (h * modes_.decay()).min(0.0).exp();
+  const auto longest_for = [&](const Eigen::ArrayXd& amplitudes) {
+    const double fastest = fast_.find(from, to, slow, amplitudes, time::Detail::accelerations);
+    return turns / std::max(loads_.highest_frequency(), fastest);
+  };
+  return {longest_for(here), longest_for(next)};
 }
 
 std::span<const double> CollocationOutputs::breakpoints(const State& from, const State& to, time::Detail detail) {
@@ -270,7 +283,7 @@ std::span<const double> CollocationOutputs::breakpoints(const State& from, const
   const bool for_power = detail == time::Detail::power;
   const double h = to.t - from.t, slow = for_power ? kTurnOfPower * kPartsOfPower / h : kMostTurn / (kLongestPart * h);
   double fastest = std::max(slow, loads_.highest_frequency());
-  if (fast_.highest() > fastest) fastest = find_fastest(from, to, fastest, detail);
+  if (fast_.highest() > fastest) fastest = fast_.find(from, to, fastest, free_amplitudes(from, to), detail);
   if (for_power) {
     const int parts = static_cast<int>(std::ceil(fastest * h / kTurnOfPower));
     all.clear();

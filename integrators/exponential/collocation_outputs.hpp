@@ -79,9 +79,12 @@ class CollocationOutputs final : public time::Interpolant {
   /// The nodes of the step and, if modes or loads rotate fast between them, instants that limit the
   /// angle from one breakpoint to the next; for time::Detail::power equal parts.
   std::span<const double> breakpoints(const time::State& from, const time::State& to, time::Detail detail) override;
-  /// The longest step, s, whose number of breakpoints, with accelerations, stays within its limit,
-  /// if the fastest motion is as fast as in this step. For the next step, too.
-  double longest(const time::State& from, const time::State& to) const;
+  /// The longest steps, s, whose numbers of breakpoints, with accelerations, stay within their limit: from the start of
+  /// this step, and from its end, where fast motion has decayed.
+  struct Longest {
+    double here, next;
+  };
+  Longest longest(const time::State& from, const time::State& to);
 
   /// A polynomial of degree 6 has few extremes in a step: 16 instants and the search of dips between them detect its
   /// zeros.
@@ -99,8 +102,10 @@ class CollocationOutputs final : public time::Interpolant {
   /// dz/dt for given z and force polynomials.
   void find_rate(double t, double place, const double* forces, const Eigen::Ref<const Eigen::VectorXd>& z,
                  Eigen::VectorXd& rate) const;
-  /// FastModes::find() for the step.
-  double find_fastest(const time::State& from, const time::State& to, double slow, time::Detail detail) const;
+  /// Divides the modes for the step: those that the polynomial through the nodes gives, and those of fast_motion_.
+  void divide_modes(const time::State& from, const time::State& to);
+  /// The amplitudes of the fast modes' free motion at the start of the step, those of the others 0.
+  Eigen::ArrayXd free_amplitudes(const time::State& from, const time::State& to);
 
   const dynamics::DampedModes& modes_;
   const ModalLoads& loads_;
@@ -110,9 +115,10 @@ class CollocationOutputs final : public time::Interpolant {
   NodeTraces traces_;
   double begin_ = 0.0, end_ = -1.0;  ///< the current step, s
   const Lanes* nodes_ = nullptr;
-  FastMotion fast_motion_;               ///< of the current step
-  std::optional<bool> has_fast_motion_;  ///< whether it could be found; empty before the first request
-  std::optional<Index> slow_;            ///< the number of modes that the polynomial through the nodes gives
+  FastMotion fast_motion_;     ///< of the current step
+  std::optional<Index> slow_;  ///< the number of modes that the polynomial through the nodes gives; empty before the
+                               ///< first request
+  Index fast_begin_ = 0;       ///< the first mode of fast_motion_
   // The motion of the last request. Callers often request the same instant for one DOF after
   // another.
   struct Request {

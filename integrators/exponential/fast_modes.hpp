@@ -20,8 +20,8 @@ class FastModes {
   /// `slow` if there is none, 1/s. Breakpoints that are kMostTurn/|lambda| apart leave out faster
   /// modes, which move outputs of the step, and the quintic between breakpoints, by less than the
   /// tolerance, as far as `detail` requires. With time::Detail::power faster modes have less than
-  /// tolerance^2 of the energy. `turning` holds the largest |dz/dt|/|lambda| of each mode in the
-  /// step.
+  /// tolerance^2 of the energy. `turning` holds the amplitude of each mode beside its quasi-static
+  /// response.
   double find(const time::State& from, const time::State& to, double slow, const Eigen::ArrayXd& turning,
               time::Detail detail) const;
   /// Largest phase angle of the fastest motion between breakpoints, rad: the error of a quintic is

@@ -23,6 +23,8 @@ class FastMotion {
   /// Sets the step of length h from t, for the modes from `first` on; arguments as for
   /// PlaceResponse::move(). False if a load nearly resonates with one of the modes: digits would then cancel.
   bool begin(double t, double h, const double* z, const double* g, Index first);
+  /// |c| of these modes, at the start of the step.
+  Eigen::ArrayXd amplitudes() const { return (free_.re.col(0).square() + free_.im.col(0).square()).sqrt(); }
   /// Fills the entries of these modes in `z` (2p) with the motion at a position of the step.
   void move(double place, Eigen::Ref<Eigen::VectorXd> z);
 

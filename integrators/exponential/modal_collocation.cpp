@@ -150,8 +150,8 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   accept(from, h, to);
   judge(from, to, h, report);
   // This needs the scales of `to`, which judge() finds.
-  const double longest = outputs_.longest(from, to);
-  if (h > longest) return redo_with(longest);
+  const CollocationOutputs::Longest longest = outputs_.longest(from, to);
+  if (h > longest.here) return redo_with(longest.here);
   solved_end_ = to.t;
   if (report.error > 1.0) return report;
   const double inner = control_.is_still(to) ? 0.0 : forces_.inner_error(from, to) / (kInner * tolerance_);
@@ -160,7 +160,7 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
   if (coarse > 0.0 && !is_far) report.proposal = std::min(report.proposal, on_grid(h * by_resolution(coarse)));
   // A step shortened by a change of contact does not limit the next step.
   if (h < wanted) report.proposal = std::max(report.proposal, wanted);
-  report.proposal = std::min(report.proposal, on_grid(longest));
+  report.proposal = std::min(report.proposal, on_grid(longest.next));
   return report;
 }
 
