@@ -139,10 +139,7 @@ bool creeps(const FastestRates& rates) {
 /// True if `exponential` supports the scene with damped modes.
 bool suits_collocation(dynamics::Dynamics& dynamics, const FastestRates& rates) {
   const model::System& system = dynamics.system();
-  const bool is_coupled = !system.is_symmetric || !system.obstacles.empty() ||
-                          (system.size() > 1 && system.dashpots.size() > 0) || system.rotation != nullptr ||
-                          std::any_of(system.loads.begin(), system.loads.end(), VaryingForces::contains);
-  if (!is_coupled || creeps(rates)) return false;
+  if (!needs_collocation(system) || creeps(rates)) return false;
   // If the speed of turning parts varies, all their DOFs take part in the sweeps of each step; rodas4 is faster if
   // damping leaves its steps to the slow modes (apps/models/rotor.toml: 1.4 times).
   if (system.rotation != nullptr && rates.damping > rates.open) return false;

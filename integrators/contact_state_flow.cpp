@@ -17,6 +17,8 @@ using LongComplexMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dyna
 /// Damping couples modes if an off-diagonal entry exceeds this fraction of the largest entry.
 /// Rounding of proportional damping, which is given in doubles, stays below.
 constexpr long double kUncoupled = 1e-14L;
+/// Real parts of eigenvalues below this fraction of the largest eigenvalue are rounding.
+constexpr long double kGrowing = 1e-15L;
 /// A squared frequency phi^T K phi below this fraction of |phi|^T |K| |phi| is rounding of the entries of K, which are
 /// doubles: the motion is rigid.
 constexpr long double kRigid = 16.0L * std::numeric_limits<double>::epsilon();
@@ -64,6 +66,11 @@ LongMatrix closed_stiffness(const SmallSystem& system, const std::vector<bool>& 
   return sum;
 }
 
+[[noreturn]] void refuse_growth() {
+  throw RunError(
+      "piecewise: the motion of a contact state grows without its loads (negative damping); take exact or rodas4");
+}
+
 }  // namespace
 
 ContactStateFlow::ContactStateFlow(const SmallSystem& system, const std::vector<bool>& closed, double end_time)
@@ -104,11 +111,12 @@ ContactStateFlow::ContactStateFlow(const SmallSystem& system, const std::vector<
   LongMatrix modal = shapes.transpose() * damping * shapes;
   const long double least = kUncoupled * modal.cwiseAbs().maxCoeff();
   for (Index i = 0; i < n_; ++i)
-    if (modal(i, i) <= 0.1L * least) modal(i, i) = 0.0L;
+    if (std::abs(modal(i, i)) <= 0.1L * least) modal(i, i) = 0.0L;
   std::vector<Index> coupled;
   for (Index i = 0; i < n_; ++i) {
     bool is_alone = true;
     for (Index j = 0; j < n_; ++j) is_alone = is_alone && (j == i || std::abs(modal(i, j)) <= least);
+    if (is_alone && modal(i, i) < 0.0L) refuse_growth();
     if (is_alone)
       add_alone(shapes, squares, modal, i);
     else
@@ -185,6 +193,7 @@ void ContactStateFlow::add_coupled(const LongMatrix& shapes, const LongVector& s
     throw RunError(
         "piecewise: dashpots make two motions of a contact state nearly the same (critical damping), so that they are "
         "no basis; take exact or rodas4");
+  if (pairs->values.real().maxCoeff() > kGrowing * pairs->values.cwiseAbs().maxCoeff()) refuse_growth();
   const LongComplexMatrix &vectors = pairs->vectors, &inverse = pairs->inverse;
   const LongMatrix weighted = some.transpose() * system_.mass;
   const auto right_of = [&](Index m) -> Eigen::Matrix<LongComplex, Eigen::Dynamic, 1> {

@@ -26,7 +26,7 @@ kernel::Values chunk_of(const ArrayXd& all, Index begin) {
 
 double ModalPropagator::longest_series(const ArrayXd& omega, const ArrayXd& delta,
                                        const std::vector<ModalHarmonic>& all) {
-  double fastest = (omega + delta).maxCoeff();
+  double fastest = (omega + delta.abs()).maxCoeff();
   for (const ModalHarmonic& harmonic : all) fastest = std::max(fastest, harmonic.angular_frequency);
   return kShort / fastest;
 }

@@ -249,7 +249,8 @@ Eigen::ArrayXd CollocationOutputs::free_amplitudes(const State& from, const Stat
   if (holds(from, to)) {
     divide_modes(from, to);
     if (fast_begin_ < p) {
-      amplitudes.tail(p - fast_begin_) = fast_motion_.amplitudes();
+      amplitudes.tail(p - fast_begin_) =
+          fast_motion_.amplitudes() * ((to.t - from.t) * modes_.decay().tail(p - fast_begin_)).max(0.0).exp();
       return amplitudes;
     }
   }

@@ -104,7 +104,8 @@ class CollocationOutputs final : public time::Interpolant {
                  Eigen::VectorXd& rate) const;
   /// Divides the modes for the step: those that the polynomial through the nodes gives, and those of fast_motion_.
   void divide_modes(const time::State& from, const time::State& to);
-  /// The amplitudes of the fast modes' free motion at the start of the step, those of the others 0.
+  /// The largest amplitudes of the fast modes' free motion in the step, at its start unless they grow; those of the
+  /// others 0.
   Eigen::ArrayXd free_amplitudes(const time::State& from, const time::State& to);
 
   const dynamics::DampedModes& modes_;

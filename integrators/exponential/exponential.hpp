@@ -112,6 +112,10 @@ struct ToleranceBelowRounding : InputError {
   using InputError::InputError;
 };
 
+/// True if the system needs ModalCollocation: its modes are coupled or grow, contacts act in the plane or the speed of
+/// an unbalance varies.
+bool needs_collocation(const model::System& system);
+
 /// Throws InputError for tolerances below kSmallestWithStops and for scenes that ModalCollocation
 /// does not support, ToleranceBelowRounding for tolerances below its smallest_tolerance().
 std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options);

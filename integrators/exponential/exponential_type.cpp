@@ -27,20 +27,19 @@ std::string describe_basis(const dynamics::ModalSystem& modal, Index dofs) {
   return text + "; give more modes, or use another type, if this error is too large";
 }
 
-/// True if the modes are coupled, contacts act in the plane or the speed of an unbalance varies.
-bool is_coupled(const model::System& system) {
+}  // namespace
+
+bool needs_collocation(const model::System& system) {
   return !system.is_symmetric || system.rotation != nullptr || !system.obstacles.empty() ||
-         (system.size() > 1 && system.dashpots.size() > 0) ||
+         (system.dashpots.size() > 0 && (system.size() > 1 || system.dashpots.coeff(0, 0) < 0.0)) ||
          std::any_of(system.loads.begin(), system.loads.end(), VaryingForces::contains);
 }
-
-}  // namespace
 
 std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics, const ExponentialOptions& options) {
   if (dynamics.stop_count() > 0 && options.tolerance < kSmallestWithStops)
     throw InputError("integrator.tolerance: must be at least " + to_short_text(kSmallestWithStops) +
                      " for exponential with stops: below it the errors of many impacts exceed the error bound");
-  if (is_coupled(dynamics.system())) {
+  if (needs_collocation(dynamics.system())) {
     auto integrator =
         std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time}, options.most_coupled);
     const double smallest = integrator->smallest_tolerance();

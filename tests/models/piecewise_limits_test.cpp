@@ -43,6 +43,40 @@ TEST(Piecewise, RefusesOtherScenesBeforeTheFirstStep) {
             std::string::npos);
 }
 
+/// A bearing whose damping is negative along u: u = e^(t/4) sin(w t)/w from u' = 1 until it strikes, w^2 = 100 - 1/16.
+TEST(Piecewise, LeavesGrowingMotionToOtherMethods) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"bearing\"\nnode = "
+      "\"m\"\nstiffness = [[100.0, 0.0], [0.0, 144.0]]\ndamping = [[-0.5, 0.0], [0.0, 0.3]]\n[[contact]]\ntype = "
+      "\"stop\"\nnodes = \"m\"\ngap = 0.2\nstiffness = 400.0\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"u\", "
+      "value = 1.0 }]\n[integrator]\ntolerance = 1e-6\nend_time = 2.0\n";
+  try {
+    SceneRun run(scene, {"integrator.type=piecewise"});
+    FAIL() << "was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("negative damping"), std::string::npos) << error.what();
+  }
+  const double w = std::sqrt(100.0 - 0.0625);
+  for (const std::string method : {"auto", "exponential", "rodas4"}) {
+    SceneRun run(scene, {"integrator.type=" + method});
+    ASSERT_TRUE(run.run().completed) << method;
+    EXPECT_NEAR(run.simulation().state().x[run.dof("m")], std::exp(0.5) * std::sin(2.0 * w) / w, 1e-6) << method;
+  }
+  // One DOF that runs away without oscillation: x'' - 3 x' + x = 0.
+  const std::vector<std::string> alone = {"element[1].stiffness=[[1.0, 0.0], [0.0, 1.0]]",
+                                          "element[1].damping=[[-3.0, 0.0], [0.0, 0.0]]", "contact[0].gap=10.0",
+                                          "integrator.end_time=1.0"};
+  const double root = std::sqrt(1.25), u = std::exp(1.5) * std::sinh(root) / root;
+  for (const std::string method : {"auto", "exponential", "rodas4"}) {
+    std::vector<std::string> overrides = alone;
+    overrides.push_back("integrator.type=" + method);
+    SceneRun run(scene + "[[support]]\nnodes = \"m\"\nfix = [\"uz\"]\n", overrides);
+    ASSERT_EQ(run.dynamics().size(), 1);
+    ASSERT_TRUE(run.run().completed) << method;
+    EXPECT_NEAR(run.simulation().state().x[0], u, 1e-5 * u) << method;
+  }
+}
+
 /// x'' + omega^2 x = f cos(omega t) from rest is f t sin(omega t)/(2 omega). So close to resonance, the usual
 /// closed form of forced motion would lose all digits.
 TEST(Piecewise, FollowsResonance) {
