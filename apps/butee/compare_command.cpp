@@ -28,6 +28,8 @@ using namespace compare;
 constexpr double kFineEnough = 0.3;
 /// Assumed ratio of a run's time to that of the run before it; runs expected to exceed the time limit are skipped.
 constexpr double kGrowth = 2.0;
+/// Begins the outcome of a run that its method refused.
+constexpr const char* kRefused = "refused: ";
 
 /// The reference as an input of a row: its origin, and the bits of its values.
 std::string text_of(const Reference& reference) {
@@ -83,7 +85,15 @@ class Comparison {
       results.push_back(compare_scene(scene));
       write(results);
     }
-    if (interruption() == nullptr) return kDone;
+    const auto has_run = [](const SceneResult& result) {
+      return std::any_of(result.rows.begin(), result.rows.end(),
+                         [](const Row& row) { return !row.outcome.starts_with(kRefused); });
+    };
+    if (interruption() == nullptr) {
+      if (std::any_of(results.begin(), results.end(), has_run)) return kDone;
+      log::warning("no method could run; the reasons are in " + runs);
+      return kFailed;
+    }
     log::warning("interrupted; completed runs are in " + folder_ + "; the same command continues from there");
     return kFailed;
   }
@@ -153,9 +163,9 @@ class Comparison {
         row = run(scene, sweep, value, result);
       } catch (const InputError& error) {
         const bool is_first = value == sweep.values.front();
+        const std::string says = name_of(result.scene, sweep.method, sweep.knob, value) + ": " + error.what();
         // A method that the study names should suit its scenes; of all installed ones some do not.
-        if (is_first && !study_.sweeps.empty()) throw;
-        log::info(name_of(result.scene, sweep.method, sweep.knob, value) + ": " + error.what());
+        study_.sweeps.empty() ? log::info(says) : log::warning(says);
         // Later values are below the smallest one of the method for this scene.
         if (is_first) result.rows.push_back(refused(result.scene, sweep, value, error.what()));
         return;
@@ -180,7 +190,7 @@ class Comparison {
     row.method = sweep.method;
     row.knob = sweep.knob;
     row.value = value;
-    row.outcome = "refused: " + reason;
+    row.outcome = kRefused + reason;
     return row;
   }
 

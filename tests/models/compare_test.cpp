@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -239,7 +240,33 @@ TEST(Compare, EndsASweepWhereTheMethodRefusesTheTolerance) {
   EXPECT_EQ(rows_of(read_file(folder.file("study-compare/runs.csv"))).size(), 1U);
   // No run at all is an error.
   folder.write("study.toml", study("[1e-9]"));
-  EXPECT_EQ(run_program({"compare", "study.toml", "--fresh"}, folder.path()).status, 2);
+  const auto none = run_program({"compare", "study.toml", "--fresh"}, folder.path());
+  EXPECT_EQ(none.status, 1);
+  EXPECT_NE(none.errors.find("no method could run"), std::string::npos) << none.errors;
+  // Other methods go on beside one that refuses.
+  folder.write("study.toml", study("[1e-9]") +
+                                 "[[study.method]]\ntype = \"rodas4\"\nvalues = [1e-4]\nsweep = "
+                                 "\"tolerance\"\n");
+  EXPECT_EQ(run_program({"compare", "study.toml", "--fresh"}, folder.path()).status, 0);
+  const auto rows = rows_of(read_file(folder.file("study-compare/runs.csv")));
+  EXPECT_EQ(rows.size(), 2U);
+}
+
+TEST(Compare, RefusesEmptyLists) {
+  const TemporaryFolder folder;
+  folder.write("swing.toml", kSwing);
+  const std::string head = "schema = 1\n[study]\ntitle = \"empty\"\n", scenes = "scenes = [\"swing.toml\"]\n";
+  for (const auto& [study, key] : {std::pair(head + scenes + "targets = []\n", "study.targets = []: is empty"),
+                                   std::pair(head + "scenes = []\n", "study.scenes = []: is empty"),
+                                   std::pair(head + scenes +
+                                                 "[[study.method]]\ntype = \"rk4\"\nsweep = "
+                                                 "\"time_step\"\nvalues = []\n",
+                                             "study.method[0].values = []: is empty")}) {
+    folder.write("study.toml", study);
+    const auto outcome = run_program({"compare", "study.toml"}, folder.path());
+    EXPECT_EQ(outcome.status, 2) << study;
+    EXPECT_NE(outcome.errors.find(key), std::string::npos) << outcome.errors;
+  }
 }
 
 TEST(Trust, GoesOnWithoutATightenedRunThatTheMethodRefuses) {

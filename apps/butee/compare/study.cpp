@@ -69,6 +69,8 @@ Sweep read_sweep(const Value& table, const std::string& path, const plugin::Cata
   sweep.as_written = sweep.knob == "none";
   if (sweep.as_written) sweep.knob.clear();
   if (p->has("values")) sweep.values = p->numbers("values");
+  if (p->has("values") && sweep.values.empty())
+    p->complain(diagnostics, "values", "is empty; give at least one value, or remove the key");
   if (!sweep.values.empty() && sweep.knob.empty() && !sweep.as_written)
     p->complain(diagnostics, "sweep", "is missing: values require a key that takes them");
   if (const Value* with = table.table()->find("with"); with != nullptr && with->table() != nullptr)
@@ -97,6 +99,9 @@ Study read_study_file(const config::Document& document, const ModelArguments& ar
                       " scenes, and replaces end_time");
   }
   if (p->has("targets")) study.targets = p->numbers("targets");
+  if (study.scenes.empty()) p->complain(diagnostics, "scenes", "is empty; name at least one model file");
+  if (study.targets.empty())
+    p->complain(diagnostics, "targets", "is empty; give relative errors such as 1e-3, or remove the key");
   study.time_limit = p->number("time_limit");
   if (!p->text("reference").empty()) study.reference_file = beside(arguments.model, p->text("reference"));
   const plugin::Catalogue catalogue = plugin::Catalogue::with_plugins(arguments.plugins);
