@@ -141,6 +141,22 @@ double ContactOnTheWay::kink(const time::State& from, const time::State& to, Con
   return largest;
 }
 
+double ContactOnTheWay::longest_of_impact(const time::State& from, double h, ConstVectorRef scale_v) {
+  double longest = std::numeric_limits<double>::infinity();
+  if (contact_->size() == 0) return longest;
+  contact_->displacement(from.x, w0_);
+  contact_->displacement(from.v, v0_);
+  for (Index i = 0; i < w0_.size(); ++i) {
+    const model::FreePlay& play = contact_->play_of(i);
+    const double side = play.closed_side(w0_[i]), speed = side * v0_[i];
+    if (!(speed > 0.0) || side * w0_[i] - play.gap > kJustClosed * h * speed) continue;
+    for (const Index dof : {contact_->dof_a(i), contact_->dof_b(i)})
+      if (dof >= 0 && std::abs(from.v[dof]) > tolerance_ * scale_v[dof])
+        longest = std::min(longest, kMostTurn * std::sqrt(mass_[dof] / closed_[i]));
+  }
+  return longest;
+}
+
 bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to, double h, ConstVectorRef scale_v) {
   if (contact_->size() == 0) return false;
   contact_->displacement(from.v, v0_);

@@ -39,6 +39,15 @@ class ContactOnTheWay {
   /// 1/s^2. The
   /// estimate vanishes at some places of the change in the step where the error does not.
   double kink(const time::State& from, const time::State& to, ConstVectorRef scale_v);
+  /// The largest phase angle, rad, that the contact of a body may turn in the step that begins with it.
+  static constexpr double kMostTurn = 3.0;
+  /// The longest step, s, from a state in which stops have just closed that resolves how they turn their bodies;
+  /// infinite if none has. L-stable methods damp such a motion in one long step, in which their estimate shows little
+  /// of it. Speeds below the tolerance times S_v are ignored.
+  double longest_of_impact(const time::State& from, double h, ConstVectorRef scale_v);
+  /// The depth of a penetration that has just begun, as a fraction of that which its speed reaches in the step.
+  static constexpr double kJustClosed = 0.1;
+
   /// True if a stop is open at both ends of the step and was closed in between, or closed and was
   /// open in between, or passed such a jump and returned, according to the cubic through
   /// displacements and speeds at both ends. Penetrations below the tolerance times displacement or

@@ -98,6 +98,30 @@ bool LocalErrorControl::touches_anew(const time::State& from, const time::State&
   return false;
 }
 
+double LocalErrorControl::longest_of_impact(const time::State& from, double h, const Vector& scale_v) {
+  double longest = contact_.longest_of_impact(from, h, scale_v);
+  if (obstacles_ == nullptr) return longest;
+  work_ = from.x + h * from.v;
+  const auto has_just_closed = [&](Index i) {
+    if (!obstacles_->phase(i).touches()) return false;
+    const double depth = obstacles_->forces(i, from.t, work_, from.v).penetration;
+    return depth > 0.0 &&
+           obstacles_->forces(i, from.t, from.x, from.v).penetration < ContactOnTheWay::kJustClosed * depth;
+  };
+  bool has_any = false;
+  for (Index i = 0; i < obstacles_->size() && !has_any; ++i) has_any = has_just_closed(i);
+  if (!has_any) return longest;
+  const SparseMatrix& mass = dynamics_.system().mass;
+  for (const dynamics::Obstacles::Tangent& tangent : obstacles_->tangents(from.t, work_, from.v)) {
+    if (!has_just_closed(tangent.contact)) continue;
+    obstacles_->visit(tangent.contact, tangent.stiffness, [&](Index i, Index j, double value) {
+      if (i == j && value > 0.0 && std::abs(from.v[i]) > tolerance_ * scale_v[i])
+        longest = std::min(longest, ContactOnTheWay::kMostTurn * std::sqrt(mass.coeff(i, i) / value));
+    });
+  }
+  return longest;
+}
+
 bool LocalErrorControl::slip_reverses(const time::State& from, const time::State& to) const {
   if (obstacles_ == nullptr) return false;
   for (Index i = 0; i < obstacles_->size(); ++i) {
@@ -247,6 +271,12 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   if (r <= 1.0 && (is_unstable || contact_.was_missed(from, to, h, scale_v_))) {
     report.error = kMissed;
     report.proposal = steps_ == Steps::any ? 0.5 * h : grid_step(h, kMissed, orders_.estimate);
+    return;
+  }
+  if (const double longest = r <= 1.0 && !orders_.is_linear_part_exact ? longest_of_impact(from, h, scale_v_) : h;
+      h > longest) {
+    report.error = kMissed;
+    report.proposal = steps_ == Steps::any ? longest : longer_step(longest, 0.0);
     return;
   }
   report.error = r;

@@ -123,6 +123,8 @@ class LocalErrorControl {
   /// True if a contact with a nonlinear law begins or ends at an end of the step. There its force
   /// varies with a fractional power of time, but the estimate assumes a smooth function.
   bool touches_anew(const time::State& from, const time::State& to) const;
+  /// ContactOnTheWay::longest_of_impact() for all contacts.
+  double longest_of_impact(const time::State& from, double h, const Vector& scale_v);
   /// True if the slip of a contact with smooth friction reverses within a small part of the step, so that the friction
   /// jumps in it.
   bool slip_reverses(const time::State& from, const time::State& to) const;
@@ -156,7 +158,7 @@ class LocalErrorControl {
   static double longer_step(double h, double indices);
 
   const dynamics::Dynamics& dynamics_;
-  const dynamics::Obstacles* obstacles_;  ///< null if there are none
+  dynamics::Obstacles* obstacles_;  ///< null if there are none
   Proposed controller_;
   ContactOnTheWay contact_;
   CentreCrossing centre_;
