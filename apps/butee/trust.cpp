@@ -87,13 +87,16 @@ FollowedRun follow_or_throw(scene::Scene& session, double disturbance, Wanted wa
   return run;
 }
 
-/// Nothing if the method refuses the scene, for example a tolerance below its smallest one.
-std::optional<FollowedRun> follow_unless_refused(scene::Scene& session) {
+/// Nothing if the run fails, or if the method refuses the scene, for example a tolerance below its smallest one: the
+/// estimate then goes without this run.
+std::optional<FollowedRun> follow_if_possible(scene::Scene& session, double disturbance, Wanted wanted) {
   try {
-    return follow_or_throw(session, 0.0, kNumbers);
+    FollowedRun run = follow(session, disturbance, kInfinite, wanted);
+    if (run.completed) return run;
+    log::warning("a run for the accuracy estimate failed, which goes without it: " + run.message);
   } catch (const InputError&) {
-    return std::nullopt;
   }
+  return std::nullopt;
 }
 
 /// Performs the runs of a scene one after the other and evaluates them.
@@ -111,7 +114,7 @@ class Judgement {
     runs.run = run_.histories;
     std::string tightened;
     if (auto tight = tighten(session_, tightened)) {
-      const std::optional<FollowedRun> run = follow_unless_refused(*tight);
+      const std::optional<FollowedRun> run = follow_if_possible(*tight, 0.0, kNumbers);
       if (run) {
         runs.tightened = run->histories;
         add(*run);
@@ -137,9 +140,14 @@ class Judgement {
   void run_again() {
     other_ = run_other_family(session_, method_, tolerance_of(session_.integrator, method_).value_or(0.0), run_.size,
                               run_.work);
-    if (other_)
-      again_ = follow_or_throw(other_->again, kRounding * peak_of(run_), {});
-    else
+    if (other_) {
+      auto again = follow_if_possible(other_->again, kRounding * peak_of(run_), {});
+      if (again)
+        again_ = std::move(*again);
+      else
+        other_.reset();
+    }
+    if (!other_)
       log::warning(
           "no method of another family can run this scene at reasonable cost; --trust cannot detect systematic errors "
           "of the method");
@@ -149,7 +157,10 @@ class Judgement {
   static double disturbance(double noise) { return std::clamp(kAboveNoise * noise, kSmallest, kLargest); }
 
   record::Growth growth() {
-    const double own_size = disturbance(tolerance_of(session_.integrator, method_).value_or(0.0));
+    // Without error control the errors of steps are unknown.
+    const double unknown = scene::has_truncation(method_) ? kLargest : 0.0;
+    const std::optional<double> tolerance = tolerance_of(session_.integrator, method_);
+    const double own_size = disturbance(tolerance.value_or(unknown));
     const double other_size = other_ ? disturbance(other_->noise) : own_size;
     // Prefer the smaller disturbance; if both are equal, the cheaper run.
     const bool by_other =
@@ -157,16 +168,15 @@ class Judgement {
     scene::Scene& by = by_other ? other_->session : session_;
     const FollowedRun& run = by_other ? other_->run : run_;
     const double size = by_other ? other_size : own_size;
-    record::Growth growth = follow_disturbance(by, run, size);
+    record::Growth growth = follow_disturbance(by, run, size, !by_other && unknown > 0.0 && !tolerance);
     if (run.size > kLargeSystem) return growth;
     // Both signs: a start at the contact boundary continues differently on its two sides.
     const double start = size * peak_of(run);
+    if (!(start > 0.0)) return growth;
     for (const double sign : {1.0, -1.0})
-      if (start > 0.0)
-        growth.displaced =
-            std::max(growth.displaced,
-                     record::largest_difference(run.histories, follow_or_throw(by, sign * start, {}).histories) /
-                         (start * largest_perturbation(run.size)));
+      if (const auto displaced = follow_if_possible(by, sign * start, {}))
+        growth.displaced = std::max(growth.displaced, record::largest_difference(run.histories, displaced->histories) /
+                                                          (start * largest_perturbation(run.size)));
     return growth;
   }
 
@@ -177,7 +187,9 @@ class Judgement {
 
   void add_statistics(record::Trust& trust) {
     if (!trust.to_the_end)
-      for (const double sign : {1.0, -1.0}) add(follow_or_throw(session_, sign * kElsewhere * peak_of(run_), kNumbers));
+      for (const double sign : {1.0, -1.0})
+        if (const auto elsewhere = follow_if_possible(session_, sign * kElsewhere * peak_of(run_), kNumbers))
+          add(*elsewhere);
     const double factor = trust.to_the_end ? kAgreeing : kScattering;
     // Extremes are located only to a relative tolerance.
     const double rounding = std::max(record::StepPath::kGood, 1e-14 * std::min(1e6, trust.amplification));

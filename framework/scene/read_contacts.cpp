@@ -144,10 +144,9 @@ void SceneReader::read_contact(const Value& entry, const std::string& path) {
   for (const std::string& key : kind.law != nullptr ? names_of(kind.law->parameters) : std::vector<std::string>())
     if (std::count(keys.begin(), keys.end(), key) > 1 || key == "type" || key == "law") {
       const Value* law = entry.table()->find("law");
-      diagnostics_.error(
-          path + ".law", law != nullptr ? law->at : entry.at,
-          kind.law_name + " declares the parameter " + key +
-              ", a key that contacts have themselves or that it declares twice; its module must rename it");
+      diagnostics_.error(path + ".law", law != nullptr ? law->at : entry.at,
+                         kind.law_name + " declares the parameter " + key +
+                             ", a key that contacts have themselves; its module must rename it");
       return;
     }
   const auto p = read_table(entry, path, parameters, others);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <butee/core/error.hpp>
 #include <butee/core/log.hpp>
@@ -54,12 +55,25 @@ class Size {
   double omega_square_ = 0.0, elastic_square_ = 0.0, largest_ = 0.0;
 };
 
+/// Moves (x, v) from the present instant of a simulation to `end`; false if the run fails.
+bool advance(time::Simulation& simulation, Vector& x, Vector& v, double end) {
+  simulation.set_motion(x, v);
+  simulation.set_end_time(end);
+  const time::RunReport& report = simulation.run([] { return interruption() == nullptr; });
+  if (interruption() != nullptr) throw RunError("interrupted during the accuracy estimate");
+  x = simulation.state().x;
+  v = simulation.state().v;
+  return report.completed;
+}
+
 }  // namespace
 
-record::Growth follow_disturbance(scene::Scene& session, const FollowedRun& run, double size) {
+record::Growth follow_disturbance(scene::Scene& session, const FollowedRun& run, double size, bool repeats) {
   const log::WithoutWarnings quiet;
   scene::Assembly assembly(session);
   time::Simulation& simulation = assembly.simulation;
+  std::optional<scene::Assembly> repeated;
+  if (repeats) repeated.emplace(session);
   Size measure(assembly.dynamics, run);
   record::Growth growth;
   growth.omega = measure.omega();
@@ -75,13 +89,17 @@ record::Growth follow_disturbance(scene::Scene& session, const FollowedRun& run,
     const auto next = static_cast<std::size_t>(i + 1);
     x = run.x.col(i) + (wanted / now) * x;
     v = run.v.col(i) + (wanted / now) * v;
-    simulation.set_motion(x, v);
-    simulation.set_end_time(run.state_times[next]);
-    const time::RunReport& report = simulation.run([] { return interruption() == nullptr; });
-    if (interruption() != nullptr) throw RunError("interrupted during the accuracy estimate");
-    if (!report.completed) return {{}, {}, {}, 1.0, measure.omega()};
-    x = simulation.state().x - run.x.col(i + 1);
-    v = simulation.state().v - run.v.col(i + 1);
+    if (!advance(simulation, x, v, run.state_times[next])) return {{}, {}, {}, 1.0, measure.omega()};
+    if (repeats) {
+      Vector same_x = run.x.col(i), same_v = run.v.col(i);
+      if (!advance(repeated->simulation, same_x, same_v, run.state_times[next]))
+        return {{}, {}, {}, 1.0, measure.omega()};
+      x -= same_x;
+      v -= same_v;
+    } else {
+      x -= run.x.col(i + 1);
+      v -= run.v.col(i + 1);
+    }
     now = std::max(measure.of(x, v), kLost * wanted);
     const double before = log_size;
     log_size += std::log(now / wanted);
