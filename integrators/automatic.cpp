@@ -79,17 +79,20 @@ bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_
   return true;
 }
 
-/// True if a force that jumps in the middle of a gap exceeds what the tolerance allows for. Bodies that pass the middle
-/// hundreds of times, now and then just so, add up its errors (wide 75383, tests/stress/results.md).
-bool has_strong_jump(dynamics::Dynamics& dynamics, double tolerance) {
+/// The largest force that jumps in the middle of a gap, over stiffness times gap.
+double largest_jump(dynamics::Dynamics& dynamics) {
   const dynamics::ElasticStops& contact = dynamics.stops();
+  double largest = 0.0;
   for (Index i = 0; i < contact.size(); ++i) {
     const model::ContactLaw& law = contact.law_of(i);
-    if (!contact.play_of(i).has_both()) continue;
-    if (law.asymptotic_force() > tolerance * law.closed_stiffness() * std::abs(contact.play_of(i).gap)) return true;
+    if (const model::FreePlay& play = contact.play_of(i); play.has_both() && play.gap > 0.0)
+      largest = std::max(largest, law.asymptotic_force() / (law.closed_stiffness() * play.gap));
   }
-  return false;
+  return largest;
 }
+/// From this jump on a structure that rests in the middle of many stops leaves it to other sides with `exponential`
+/// (plugins/auto/README.md): lambda times gap is 20.
+constexpr double kBlunt = 0.005;
 
 /// Whether damped modes are worth their cost, beside a run by rodas4. All costs in s, to a factor of two, were measured
 /// on pipes of 136 to 560 DOFs in rings (plugins/auto/README.md); another machine changes all of them by about the same
@@ -169,7 +172,7 @@ class HighOrder {
 
   /// Null if it would take long, or refuses the scene.
   std::unique_ptr<time::Integrator> exact() const {
-    if (kOfExact * work_ > kMost || !has_simple_laws()) return nullptr;
+    if (kOfExact * work_ > kMost) return nullptr;
     try {
       return std::make_unique<Exact>(dynamics_, Exact::kOrder, Exact::kSeriesTolerance);
     } catch (const InputError&) {
@@ -184,13 +187,6 @@ class HighOrder {
   /// Chosen: at 1e-7 rodas4 and exact take about as long where the fastest modes hardly move.
   static constexpr double kTightest = 1e-7;
   static constexpr double kOfExact = 2e-7, kOfExtrapolation = 1e-6, kMost = 3.0;
-
-  /// Series of curved laws are short near the ends of a contact.
-  bool has_simple_laws() const {
-    for (Index i = 0; i < dynamics_.stop_count(); ++i)
-      if (!dynamics_.stops().law_of(i).is_silent_while_open()) return false;
-    return true;
-  }
 
   dynamics::Dynamics& dynamics_;
   Goal goal_;
@@ -267,9 +263,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
   if (is_too_tight) return {Method::rodas4, too_tight};
-  if (has_strong_jump(dynamics, tolerance)) {
-    const char* const jumps =
-        "the force of a stop in the middle of its gap is not small against tolerance times stiffness times gap";
+  if (largest_jump(dynamics) > std::max(tolerance, kBlunt)) {
+    const char* const jumps = "the force of a stop in the middle of its gap is not small against stiffness times gap";
     if (rates.damping > rates.open) return {Method::rodas4, jumps};
     return explicit_method(dynamics, tolerance, jumps);
   }
@@ -303,7 +298,11 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
   const HighOrder high(dynamics, {tolerance, end_time});
   const bool takes_steps = choice.method == Choice::Method::rodas4 || choice.method == Choice::Method::dopri5 ||
                            choice.method == Choice::Method::extrapolation8;
-  if (high.is_wanted() && takes_steps) {
+  // Steps of rodas4 that damping leaves to slow motion are long at any tolerance, unless it has to follow jumps.
+  const FastestRates rates = fastest_rates(dynamics);
+  const bool is_damped = choice.method == Choice::Method::rodas4 && (rates.damping > rates.open || creeps(rates)) &&
+                         largest_jump(dynamics) == 0.0;
+  if (high.is_wanted() && takes_steps && !is_damped) {
     if ((integrator = high.exact()) != nullptr)
       choice.method = Choice::Method::exact;
     else if (choice.method == Choice::Method::rodas4 && (integrator = high.extrapolation8()) != nullptr)

@@ -348,6 +348,20 @@ TEST(TrustRuns, AreTheRunOfTheResults) {
     }
 }
 
+/// Methods without error control restart with other steps at the instants between which disturbances are followed. That
+/// is no growth of the motion, even at 75 steps a period.
+TEST(TrustOfUncontrolledSteps, KnowsRegularMotion) {
+  const Scene regular = driven(40, 60, 2, Growth::none), wild = driven(60, 80, 2, Growth::exponential);
+  for (const std::string method : {"newmark", "newmark_modified", "rk4", "generalized_alpha"}) {
+    scene::Scene session = read_scene(regular.toml(), {"integrator.type=" + method, "integrator.time_step=1.4e-3"});
+    const record::Trust trust = app::find_trust(session);
+    EXPECT_FALSE(trust.chaotic) << method << ", rate " << trust.growth_rate;
+    EXPECT_LT(trust.amplification, 100.0) << method;
+  }
+  scene::Scene session = read_scene(wild.toml(), {"integrator.type=newmark", "integrator.time_step=1e-3"});
+  EXPECT_TRUE(app::find_trust(session).chaotic);
+}
+
 INSTANTIATE_TEST_SUITE_P(KnownScenes, Trust, testing::ValuesIn(all_scenes()),
                          [](const auto& one) { return one.param.name; });
 
