@@ -43,6 +43,8 @@ constexpr double kOfVelocity = 4.0 / 27.0;
 constexpr double kMostStiff = 0.5;
 /// Friction jumps in a step that changes the slip by more than this multiple of the slip speed of a smooth law.
 constexpr double kReversal = 2.0;
+/// Errors below kNearRounding may be rounding; those below kQuiet times their bound let the step grow at any rate.
+constexpr double kNearRounding = 1e-14, kQuiet = 1e-3;
 /// A structure rests, for example in a static position, as long as its velocities are below kStill times rate_ and the
 /// displacements: they are rounding, and so are errors below kStillError times these. A control of them would follow
 /// vibrations of rounding at the highest frequency.
@@ -253,14 +255,18 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
   const Change change = change_of_contact(from, to, h);
   double charge = 0.0;
   double r = error_ratio(from, to, h, epsilon, change, scale_x_, charge);
-  if (rounding_ && r > 1.0) {
+  const auto allow_rounding = [&](double bound) {
     level_x_ = scale_x_;
     level_v_ = scale_v_;
-    const double bound = change.has_changed ? ErrorAccount::kSpend * balance / orders_.contact_change : smooth;
     rounding_->raise(from, to, h, bound, level_x_, level_v_);
     epsilon = relative_error(h, error_x, error_v, level_x_, level_v_);
     r = error_ratio(from, to, h, epsilon, change, level_x_, charge);
-  }
+  };
+  if (rounding_ && r > 1.0)
+    allow_rounding(change.has_changed ? ErrorAccount::kSpend * balance / orders_.contact_change : smooth);
+  // Rounding does not fall with the step, and must not keep it short either.
+  if (rounding_ && !change.has_changed && r <= 1.0 && r > kQuiet && epsilon < kNearRounding)
+    allow_rounding(kQuiet * smooth);
   to.memory[kOld] = std::max(epsilon / smooth, kSmallest);
   to.memory[kAccount] = balance - charge;
   if (!std::isfinite(r)) {

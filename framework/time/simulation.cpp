@@ -20,8 +20,9 @@ namespace {
 
 /// Tolerance, as a fraction of a step, within which a fixed step is taken to divide end_time.
 constexpr double kDivides = 1e-9;
-/// An adaptive method fails if a rejected step is shorter than this fraction of end_time.
-constexpr double kSmallestStep = 1e-14;
+/// An adaptive method fails if a rejected step is shorter than this fraction of end_time, or than kSmallestOfInstant
+/// times the present instant, which such steps would hardly move. A force that jumps takes short steps at any instant.
+constexpr double kSmallestStep = 1e-20, kSmallestOfInstant = 4.0 * std::numeric_limits<double>::epsilon();
 /// No sensible control rejects one step this often; reduction factors close to 1 need many
 /// rejections.
 constexpr int kMostRejections = 5000;
@@ -221,8 +222,9 @@ bool Simulation::advance() {
       return !over_;
     }
     ++report_.rejected;
-    if (!(next_h_ > kSmallestStep * options_.end_time)) {
-      fail(step, "the step fell below its floor of " + to_short_text(kSmallestStep * options_.end_time) +
+    const double floor = std::max(kSmallestStep * options_.end_time, kSmallestOfInstant * state_.t);
+    if (!(next_h_ > floor)) {
+      fail(step, "the step fell below its floor of " + to_short_text(floor) +
                      " s: " + describe_failure(dynamics_, options_.limits, state_, step, result));
       return false;
     }
