@@ -17,6 +17,11 @@ namespace {
 constexpr double kNear = 0.9;
 /// Forces whose relative differences are below this are constant: the maximum between them differs by less.
 constexpr double kFlat = 1e-12;
+/// A slip below this part of that so far is rounding.
+constexpr double kNoSlip = 1e-13;
+/// The instant of a reversal, as a part of the interval, or of the speed. The slip of both directions changes by its
+/// square.
+constexpr double kNearReversal = 1e-5;
 
 /// The DOFs of these contacts.
 void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size_t>& contacts,
@@ -35,6 +40,25 @@ void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size
 /// that follows, force and stored energy are 0.
 bool is_in_contact(const dynamics::ContactForces& forces) {
   return forces.penetration > 0.0 && (forces.normal != 0.0 || forces.stored != 0.0);
+}
+
+/// The root between two instants a and b of a function that has values of opposite sign there, by regula falsi; the
+/// value at an end that stays is halved (Illinois). To kNearReversal of the interval or of the values.
+template <class Function>
+double root_between(double a, double at_a, double b, double at_b, const Function& function) {
+  const double shortest = kNearReversal * (b - a), least = kNearReversal * std::max(std::abs(at_a), std::abs(at_b));
+  double root = a;
+  for (int stays = 0; b - a > shortest;) {
+    root = a + (b - a) * at_a / (at_a - at_b);
+    const double value = function(root);
+    if (std::abs(value) <= least) return root;
+    const bool is_before = (value > 0.0) == (at_a > 0.0);
+    (is_before ? a : b) = root;
+    (is_before ? at_a : at_b) = value;
+    if (stays == (is_before ? 1 : -1)) (is_before ? at_b : at_a) *= 0.5;
+    stays = is_before ? 1 : -1;
+  }
+  return root;
 }
 
 }  // namespace
@@ -128,6 +152,7 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
   for (const std::size_t i : active_) {
     const Sampled begin{step.from.t, first[i].normal};
     watches_[i].last = {begin, begin};
+    watches_[i].slip_speed = first[i].slip_speed;
   }
   // Steps of methods that follow phases end at changes of phase; with other methods contacts may
   // touch and separate between breakpoints.
@@ -156,6 +181,31 @@ void ContactRecorder::take(const Forces& forces) {
 }
 
 void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, double end) {
+  std::size_t contact = 0;
+  const double reversal = find_reversal(step, begin, end, contact);
+  integrate_part(step, begin, reversal);
+  if (!(reversal < end)) return;
+  watches_[contact].slip_speed = 0.0;
+  integrate(step, reversal, end);
+}
+
+double ContactRecorder::find_reversal(const time::AcceptedStep& step, double begin, double end, std::size_t& contact) {
+  double first = end;
+  take(at(step, end));
+  for (const std::size_t i : active_) {
+    const Watch& watch = watches_[i];
+    const double from = watch.slip_speed, to = now_[i].slip_speed;
+    const bool counts = (std::abs(from) + std::abs(to)) * (end - begin) > kNoSlip * wear_[i].slip;
+    if (!(from * to < 0.0) || !counts || !(watch.is_support || watch.touches || is_in_contact(now_[i]))) continue;
+    const double t = root_between(begin, from, end, to, [&](double at_t) { return at(step, at_t)[i].slip_speed; });
+    if (!(t > begin && t < first)) continue;
+    first = t;
+    contact = i;
+  }
+  return first;
+}
+
+void ContactRecorder::integrate_part(const time::AcceptedStep& step, double begin, double end) {
   for (const auto& [t, weight] : gauss_points(begin, end)) {
     take(at(step, t));
     for (const std::size_t i : active_)
@@ -186,6 +236,7 @@ void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, do
   for (const std::size_t i : active_) {
     const dynamics::ContactForces now = now_[i];
     Watch& watch = watches_[i];
+    watch.slip_speed = now.slip_speed;
     if (watch.is_support) {
       wear_[i].dissipated -= now.stored - watch.stored;
       watch.stored = now.stored;

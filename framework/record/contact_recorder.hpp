@@ -21,7 +21,7 @@ struct ContactWear {
 
 /// Records the impacts and the wear of contacts in the plane, with dissipation or friction, on the
 /// method's dense output. Integrals by Gauss' rule with five points over each of kParts parts of a
-/// step; largest forces at these instants and at the maxima between them.
+/// step, divided further where a slip reverses; largest forces at these instants and at the maxima between them.
 class BUTEE_EXPORT ContactRecorder final : public time::Observer {
  public:
   /// `dynamics` must have obstacles and outlive this object.
@@ -48,6 +48,7 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
     bool is_stop = false;  ///< acts in one direction, on one side or on both
     Impact current{};
     double stored = 0.0;            ///< J, at the last instant
+    double slip_speed = 0.0;        ///< m/s, at the last end of a part; 0 where it reverses
     std::array<Sampled, 2> last{};  ///< the normal forces at the two previous instants; undefined if their t is equal
   };
   using Forces = std::vector<dynamics::ContactForces>;
@@ -61,6 +62,10 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   /// Calls integrate() for kParts equal parts.
   void in_parts(const time::AcceptedStep& step, double begin, double end);
   void integrate(const time::AcceptedStep& step, double begin, double end);
+  /// Part of a step in which no slip reverses.
+  void integrate_part(const time::AcceptedStep& step, double begin, double end);
+  /// The first instant in the part at which the slip of a contact reverses; `end` if there is none.
+  double find_reversal(const time::AcceptedStep& step, double begin, double end, std::size_t& contact);
   /// Records the normal force of a contact at an instant of a step, and the maximum around the
   /// previous instant.
   void take_force(const time::AcceptedStep& step, std::size_t contact, double t, double force);

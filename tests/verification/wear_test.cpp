@@ -1,5 +1,6 @@
 // Wear and the path of the slip in a contact whose dashpot pulls.
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <butee/record/contact_recorder.hpp>
@@ -34,6 +35,26 @@ TEST(Wear, IsThatOfThePressingForce) {
   EXPECT_NEAR(wear.work, kSpeed * impulse / kCoefficient, 1e-3 * wear.work);
   EXPECT_NEAR(wear.slip, impact.slip, 1e-12);
   EXPECT_LT(wear.slip, 0.95 * kSpeed * wear.touching);  // it pulls for a part of the time
+}
+
+/// A body on a spring and on the stick spring of a friction support, which stays below its limit: the support slides
+/// (as the stretch of its spring counts) by four amplitudes a period, with reversals within the steps.
+TEST(Wear, CountsBothDirectionsOfASlipThatReversesInAStep) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 3000.0\n[[contact]]\ntype = \"friction\"\nnodes = \"m\"\ndof = \"u\"\nnormal_force = "
+      "100.0\nfriction = { coefficient = 0.5, stick_stiffness = 1000.0 }\n[initial]\ndisplacement = [{ nodes = \"m\", "
+      "value = 0.01 }]\n[integrator]\ntolerance = 1e-6\nend_time = 1.0\n";
+  const double omega = std::sqrt(4000.0), amplitude = 0.0075, half_periods = std::floor(omega / std::numbers::pi),
+               slip = amplitude * (2.0 * half_periods + 1.0 - std::cos(omega - half_periods * std::numbers::pi));
+  for (const std::string method : {"exact", "exponential", "dopri5", "rodas4"}) {
+    SceneRun run(scene, {"integrator.type=" + method});
+    record::ContactRecorder recorder(run.dynamics());
+    run.simulation().add(recorder);
+    ASSERT_TRUE(run.run().completed) << method;
+    EXPECT_NEAR(recorder.wear()[0].slip, slip, 1e-6 * slip) << method;
+    EXPECT_NEAR(recorder.wear()[0].work, 100.0 * slip, 1e-4 * slip) << method;
+  }
 }
 
 }  // namespace
