@@ -173,7 +173,8 @@ bool ContactOnTheWay::was_missed(const time::State& from, const time::State& to,
     const double gap = play.gap, w0 = side * w0_[i], w1 = side * w1_[i];
     const double size = std::max({gap, std::abs(w0), std::abs(w1)});
     const auto depth_beyond = [&](double border) {
-      if (w0 >= border || w1 >= border) return 0.0;
+      // On the border itself a stop is open.
+      if (w0 > border || w1 > border) return 0.0;
       return peak(h, w0, side * v0_[i], side * a0_[i], w1, side * v1_[i]) - border;
     };
     const auto has_impulse = [&](double depth) {

@@ -114,6 +114,18 @@ bool is_tables(const Value& value) {
           std::all_of(array->begin(), array->end(), [](const Value& item) { return item.table() != nullptr; }));
 }
 
+std::string integer_complaint(const Parameter& parameter, const Value& value) {
+  if (std::holds_alternative<std::int64_t>(value.data)) return number_complaint(parameter, value);
+  const std::string complaint = std::string("must be an integer, not ") + value.kind();
+  const double* const number = std::get_if<double>(&value.data);
+  if (number == nullptr) return complaint;
+  constexpr double kMost = 1e15;
+  if (*number != std::floor(*number) || std::abs(*number) > kMost) return complaint;
+  const auto integer = static_cast<std::int64_t>(*number);
+  const std::string of_integer = number_complaint(parameter, Value(integer));
+  return of_integer.empty() ? complaint + "; write it as " + std::to_string(integer) : of_integer;
+}
+
 }  // namespace
 
 Parameter Parameter::at_least(double bound) const {
@@ -195,10 +207,7 @@ std::string Parameter::complaint(const Value& value) const {
     case Kind::number:
       return number_complaint(*this, value);
     case Kind::integer:
-      if (!std::holds_alternative<std::int64_t>(value.data))
-        return std::string("must be an integer, not ") + value.kind() +
-               (std::holds_alternative<double>(value.data) ? "; write it without a decimal point" : "");
-      return number_complaint(*this, value);
+      return integer_complaint(*this, value);
     case Kind::boolean:
       return std::holds_alternative<bool>(value.data) ? "" : std::string("must be true or false, not ") + value.kind();
     case Kind::text:

@@ -186,7 +186,9 @@ TEST(Parameter, ComplainsAboutKindBoundsAndChoices) {
   EXPECT_EQ(gap.at_most(2).complaint(Value(3.0)), "must be >= 0 and <= 2 (m)");
 
   const Parameter count = config::integer("count", "how many").at_least(1);
-  EXPECT_EQ(count.complaint(Value(1.0)), "must be an integer, not a number; write it without a decimal point");
+  EXPECT_EQ(count.complaint(Value(1.0)), "must be an integer, not a number; write it as 1");
+  EXPECT_EQ(count.complaint(Value(1.5)), "must be an integer, not a number");
+  EXPECT_EQ(count.at_most(5).complaint(Value(1e9)), "must be >= 1 and <= 5");
   EXPECT_EQ(count.complaint(Value(std::int64_t{0})), "must be >= 1");
 
   const Parameter side = config::text("sides", "the sides").one_of({"both", "positive", "negative"});

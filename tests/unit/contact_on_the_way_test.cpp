@@ -43,6 +43,12 @@ TEST(ContactOnTheWay, IsOneThatBothEndsOfAStepAreFreeOf) {
   EXPECT_FALSE(happened(0.2, 0.9, 1e-6));  // no turning point
   EXPECT_FALSE(happened(0.2, 1.3, 1e-6));  // the step ends in the stop, which every method detects
   EXPECT_TRUE(happened(1.0 + 3.141592653589793, 2.1 + 3.141592653589793, 1e-3));
+  // A step from the border itself into the stop and out of it.
+  SceneRun border(mass_at_a_stop("both", "type = \"exact\"\ntime_step = 1.0\n"),
+                  {"contact[0].gap=" + to_text(std::sin(1.0))});
+  integrators::ContactOnTheWay contact(border.dynamics(), 1e-3);
+  EXPECT_TRUE(contact.was_missed(at(1.0), at(2.2), 1.2, kSpeed));
+  EXPECT_FALSE(contact.was_missed(at(1.0), at(1.5), 0.5, kSpeed));
 }
 
 TEST(ContactOnTheWay, WeighsTheImpulseOfASmallPenetration) {
