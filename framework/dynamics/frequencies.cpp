@@ -137,10 +137,11 @@ void require_no_growth(double lowest, double highest) {
   // Rounding of the eigenvalues of stiff structures stays far below.
   constexpr double kNegative = 1e-11;
   if (lowest >= -kNegative * std::abs(highest)) return;
-  throw InputError("the stiffness has the negative eigenvalue " + to_short_text(lowest) +
-                   " 1/s2: the structure is unstable, its motion grows as e^(" + to_short_text(std::sqrt(-lowest)) +
-                   " t), and it has no natural frequency there; look for a negative stiffness in imported matrices or "
-                   "in an element of a module");
+  throw UnstableStiffness("the stiffness has the negative eigenvalue " + to_short_text(lowest) +
+                          " 1/s2: the structure is unstable, its motion grows as e^(" +
+                          to_short_text(std::sqrt(-lowest)) +
+                          " t), and it has no natural frequency there; look for a compression by "
+                          "preload, or a negative stiffness in imported matrices or in an element of a module");
 }
 
 double contact_frequency(const model::System& system, const ElasticStops& contact) {

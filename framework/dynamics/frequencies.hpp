@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "butee/core/error.hpp"
 #include "butee/dynamics/elastic_stops.hpp"
 
 namespace butee::dynamics {
@@ -19,7 +20,12 @@ enum class StopState { open, closed };
 /// Lanczos for large ones (relative accuracy about 1e-6); nothing if Lanczos did not converge.
 BUTEE_EXPORT std::optional<FrequencyRange> frequency_range(const model::System& system, StopState stops);
 
-/// Throws InputError if the lowest eigenvalue of K phi = omega^2 M phi, 1/s2, is negative by more than rounding
+/// The stiffness has a negative eigenvalue.
+struct UnstableStiffness : InputError {
+  using InputError::InputError;
+};
+
+/// Throws UnstableStiffness if the lowest eigenvalue of K phi = omega^2 M phi, 1/s2, is negative by more than rounding
 /// relative to the highest one: such motion grows and is no mode.
 BUTEE_EXPORT void require_no_growth(double lowest, double highest);
 

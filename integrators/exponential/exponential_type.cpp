@@ -3,6 +3,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/core/text.hpp"
+#include "butee/dynamics/frequencies.hpp"
 #include "integrators/exponential/exponential.hpp"
 #include "integrators/exponential/modal_collocation.hpp"
 #include "integrators/local_error.hpp"
@@ -27,6 +28,22 @@ std::string describe_basis(const dynamics::ModalSystem& modal, Index dofs) {
   return text + "; give more modes, or use another type, if this error is too large";
 }
 
+std::unique_ptr<time::Integrator> make_collocation(dynamics::Dynamics& dynamics, const ExponentialOptions& options) {
+  auto integrator =
+      std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time}, options.most_coupled);
+  const double smallest = integrator->smallest_tolerance();
+  if (options.tolerance >= smallest) return integrator;
+  const std::string cause =
+      ", since some modes are almost parallel, as for free or critically damped motion with dashpots, or far faster "
+      "than others";
+  throw ToleranceBelowRounding(
+      smallest > LocalErrorControl::kLargestTolerance
+          ? "integrator.type: exponential cannot run this scene: rounding exceeds the error bound of any tolerance" +
+                cause
+          : "integrator.tolerance: must be at least " + to_short_text(smallest) +
+                " for exponential here: below it rounding exceeds the error bound" + cause);
+}
+
 }  // namespace
 
 bool needs_collocation(const model::System& system) {
@@ -39,26 +56,16 @@ std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics,
   if (dynamics.stop_count() > 0 && options.tolerance < kSmallestWithStops)
     throw InputError("integrator.tolerance: must be at least " + to_short_text(kSmallestWithStops) +
                      " for exponential with stops: below it the errors of many impacts exceed the error bound");
-  if (needs_collocation(dynamics.system())) {
-    auto integrator =
-        std::make_unique<ModalCollocation>(dynamics, Goal{options.tolerance, options.run_time}, options.most_coupled);
-    const double smallest = integrator->smallest_tolerance();
-    if (options.tolerance >= smallest) return integrator;
-    const std::string cause =
-        ", since some modes are almost parallel, as for free or critically damped motion with dashpots, or far faster "
-        "than others";
-    throw ToleranceBelowRounding(
-        smallest > LocalErrorControl::kLargestTolerance
-            ? "integrator.type: exponential cannot run this scene: rounding exceeds the error bound of any tolerance" +
-                  cause
-            : "integrator.tolerance: must be at least " + to_short_text(smallest) +
-                  " for exponential here: below it rounding exceeds the error bound" + cause);
+  if (needs_collocation(dynamics.system())) return make_collocation(dynamics, options);
+  try {
+    if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
+    auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
+    const dynamics::ModalSystem& modal = dynamics.modal(options.modes);
+    if (!modal.is_complete()) integrator->set_choice(describe_basis(modal, dynamics.size()));
+    return integrator;
+  } catch (const dynamics::UnstableStiffness&) {  // damped modes may grow
+    return make_collocation(dynamics, options);
   }
-  if (SingleStep::can_take(dynamics)) return std::make_unique<Exponential<SingleStep>>(dynamics, options);
-  auto integrator = std::make_unique<Exponential<ExponentialStep>>(dynamics, options);
-  const dynamics::ModalSystem& modal = dynamics.modal(options.modes);
-  if (!modal.is_complete()) integrator->set_choice(describe_basis(modal, dynamics.size()));
-  return integrator;
 }
 
 time::IntegratorType exponential_type() {
