@@ -140,8 +140,32 @@ std::vector<Item> read_items(const Parameters& p, Diagnostics& diagnostics) {
   return items;
 }
 
-config::Document scene_beside(const config::Document& study) {
-  return config::load_toml(config::path_beside(study, *study.root.table()->find("scene")->text()));
+config::Document scene_beside(const config::Document& study, Diagnostics& diagnostics) {
+  const Value& scene = *study.root.table()->find("scene");
+  const std::string path = config::path_beside(study, *scene.text());
+  if (!std::filesystem::exists(path))
+    diagnostics.error("scene", scene, "does not exist; the path is relative to the study");
+  diagnostics.throw_if_any();
+  return config::load_toml(path);
+}
+
+/// Complains of keys of [[vary]] that lead to no place in the scene.
+void check_keys(const config::Document& study, const config::Document& scene, const std::vector<Axis>& axes,
+                Diagnostics& diagnostics) {
+  const config::Array& list = *study.root.table()->find("vary")->array();
+  for (std::size_t i = 0; i < axes.size() && i < list.size(); ++i) {
+    const std::string assignment = axes[i].key + "=0";
+    try {
+      config::Document copy = scene;
+      config::apply_override(copy, assignment);
+    } catch (const InputError& error) {
+      std::string reason = error.what();
+      if (const std::string prefix = "--set " + assignment + ": "; reason.starts_with(prefix))
+        reason.erase(0, prefix.size());
+      diagnostics.error("vary[" + std::to_string(i) + "].key", *list[i].table()->find("key"), reason);
+    }
+  }
+  diagnostics.throw_if_any();
 }
 
 config::Document with_overrides(config::Document scene, const Parameters& p, const StudyOptions& options,
@@ -298,7 +322,8 @@ Study study_of(const config::Document& document, const config::Document* known_s
     }
   };
   config::Document scene =
-      with_overrides(known_scene != nullptr ? *known_scene : scene_beside(document), *p, options, axes);
+      with_overrides(known_scene != nullptr ? *known_scene : scene_beside(document, diagnostics), *p, options, axes);
+  if (options.points.empty() && !axes.empty()) check_keys(document, scene, axes, diagnostics);
   Study study{document, std::move(scene), plugin::Catalogue::with_plugins(options.plugins), make_plan()};
   study.settle = p->integer("settle");
   if (p->has("periods")) study.periods = p->integer("periods");
