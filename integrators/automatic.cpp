@@ -79,14 +79,14 @@ bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_
   return true;
 }
 
-/// The largest force that jumps in the middle of a gap, over stiffness times gap.
+/// The largest force that jumps in the middle of a gap, over stiffness times gap; infinite without gap.
 double largest_jump(dynamics::Dynamics& dynamics) {
   const dynamics::ElasticStops& contact = dynamics.stops();
   double largest = 0.0;
   for (Index i = 0; i < contact.size(); ++i) {
     const model::ContactLaw& law = contact.law_of(i);
-    if (const model::FreePlay& play = contact.play_of(i); play.has_both() && play.gap > 0.0)
-      largest = std::max(largest, law.asymptotic_force() / (law.closed_stiffness() * play.gap));
+    if (contact.play_of(i).has_both() && law.asymptotic_force() > 0.0)
+      largest = std::max(largest, law.asymptotic_force() / (law.closed_stiffness() * std::abs(contact.play_of(i).gap)));
   }
   return largest;
 }
