@@ -18,6 +18,6 @@ namespace butee::time {
 /// moves the stop in it. Each step reaches the next mass of a chain; what no step reaches stays where
 /// it is until a load begins (Integrator::pass_discontinuity()).
 /// Checked in tests/verification/departure_test.cpp. Returns whether a contact has been moved.
-bool leave_middle(dynamics::Dynamics& dynamics, State& state);
+BUTEE_EXPORT bool leave_middle(dynamics::Dynamics& dynamics, State& state);
 
 }  // namespace butee::time

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "butee/dynamics/elastic_stops.hpp"
@@ -36,6 +37,10 @@ class ContactForce {
     return ContactStatus::changing;
   }
   Projection project(const ContactPath& path, ContactStatus status);
+  /// True if a stop with this displacement and gap, m, has just left the middle (time::leave_middle()).
+  static bool is_leaving(double w, double gap) { return w != 0.0 && std::abs(w) < kLeaving * std::abs(gap); }
+  /// The force of a stop at a displacement, N.
+  double force_at(double w) { return rest_at(w, 0.0); }
   /// Sets the allowed error of the force, N, if it persists for the whole run and if it persists
   /// for the characteristic time of the motion. Approximations of the rest with larger errors are
   /// not used, and more panels are taken. The first bound applies to one-sided stops, whose errors
@@ -74,6 +79,9 @@ class ContactForce {
   bool is_linear() const { return is_linear_; }
 
  private:
+  /// Stops nearer to the middle than this part of their gap have just left it.
+  static constexpr double kLeaving = 1e-50;
+
   void add_spring(const ContactPath& path, double begin, double end, double side, Projection& to) const;
   /// The rest of the law: its force minus the spring force on `side` (0: no spring), N.
   double rest_at(double w, double side);

@@ -67,7 +67,12 @@ void ContactIteration::choose_registers() {
 void ContactIteration::guess(ContactPropagator& flow) {
   for (const Index i : step_.iterated) {
     const double w = step_.from.w[i], side = gaps_.closed_side(i, w);
-    if (side == 0.0) continue;
+    if (side == 0.0) {
+      if (!ContactForce::is_leaving(w, gaps_.gaps()[i])) continue;
+      moments_[0][i] = contacts_[static_cast<std::size_t>(i)].force_at(w);
+      touch(i);
+      continue;
+    }
     const double stiffness = contacts_[static_cast<std::size_t>(i)].stiffness();
     const double at_start = stiffness * (side * gaps_.gaps()[i] - w),
                  half_rise = -0.5 * stiffness * paths_.start_speed()[i];

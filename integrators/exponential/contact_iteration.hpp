@@ -41,7 +41,8 @@ class ContactIteration {
   void begin();
   /// Fills near_registers_ and far_registers_.
   void choose_registers();
-  /// Initial guess: the forces of the stops that are closed at the start, for constant speed.
+  /// Initial guess: the forces of the stops that are closed at the start, for constant speed, and those of stops that
+  /// have just left the middle of their gap, since the motion without them may lead to the other side.
   void guess(dynamics::ContactPropagator& flow);
   /// One sweep; returns the largest change of a path over allowed_change(). `may_skip`: the force of a stop is kept if
   /// other stops moved its path so little that the force would not move it by unfinished_.

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "butee/core/error.hpp"
+#include "butee/time/departure.hpp"
 #include "integrators/exponential/contact_scales.hpp"
 #include "integrators/local_error.hpp"
 
@@ -155,10 +156,24 @@ StepReport Exponential<Step>::do_step(const State& from, const time::Step& step,
   put_extras(to, sizes_.save(), step_.scale(), step.t_end);
   modal_.to_physical(step_.q(), to.x);
   modal_.to_physical(step_.v(), to.v);
+  if constexpr (std::is_same_v<Step, ExponentialStep>)
+    if (step_.rests_in_middle() && std::binary_search(load_kinks_.begin(), load_kinks_.end(), to.t)) leave_middle(to);
   dynamics().acceleration(to.t, to.x, to.v, to.a);
   report.error = step_.has_stops() ? kMacroStep * ModalSystem::grid_step(sizes_.contact_index())
                                    : std::numeric_limits<double>::infinity();
   return report;
+}
+
+template <class Step>
+void Exponential<Step>::leave_middle(State& state) const {
+  if constexpr (std::is_same_v<Step, ExponentialStep>) {
+    const Vector before = state.x;
+    if (!time::leave_middle(dynamics(), state)) return;
+    Vector q(modal_.size());
+    modal_.to_modal(state.x - before, q);
+    state.memory.head(modal_.size()) += q;
+    step_.find_stops(state.memory.data());
+  }
 }
 
 template <class Step>
@@ -169,6 +184,10 @@ StepReport Exponential<Step>::follow(const State& from, double end, int most, do
   begin_memory_ = from.memory;
   step_.begin(from.t, from.memory.data(), {extras[1], extras[2]});
   sizes_.load({extras[0], extras[3], extras[4]});
+  if constexpr (std::is_same_v<Step, ExponentialStep>) {
+    // A load that begins drives it out of the middle.
+    if (step_.rests_in_middle()) end = std::min(end, next_load_discontinuity(from.t));
+  }
   StepReport report;
   report.inner_steps = 0;
   while (report.inner_steps < most && step_.t() < std::min(end, until)) {

@@ -83,6 +83,8 @@ class Exponential final : public time::Integrator, private time::Interpolant {
   /// Takes one step that ends at `end` at the latest; false if none fits or none succeeds.
   bool advance(double end, time::StepReport& report);
   double next_load_discontinuity(double t) const;
+  /// Lets stops that rest in the middle of their gap leave it with a load that begins now (time::leave_middle()).
+  void leave_middle(time::State& state) const;
   /// sqrt(k/m) of the stiffest closed stop, 1/s.
   double contact_frequency() const;
   int first_index() const;

@@ -53,9 +53,21 @@ void ExponentialStep::complete(double t, double* memory) const {
   if (!has_stops()) return;
   const Index n = modal_.size(), m = modal_.stop_count();
   double* stops = memory + 2 * n;
-  modal_.stop_shapes().displacement(memory, memory + n, stops, stops + m);
+  find_stops(memory);
   scales_.start(memory, memory + n, stops, stops + 2 * m);
   contact_error_.start(t, stops + 2 * m + scales_.memory_size());
+}
+
+void ExponentialStep::find_stops(double* memory) const {
+  const Index n = modal_.size();
+  modal_.stop_shapes().displacement(memory, memory + n, memory + 2 * n, memory + 2 * n + modal_.stop_count());
+}
+
+bool ExponentialStep::rests_in_middle() const {
+  if (!errors_.any()) return false;
+  for (Index i = 0; i < modal_.stop_count(); ++i)
+    if (step_.from.w[i] == 0.0 && errors_.force(i).jumps()) return true;
+  return false;
 }
 
 void ExponentialStep::begin(double t, const double* memory, ContactScale scale) {
@@ -73,7 +85,7 @@ void ExponentialStep::begin(double t, const double* memory, ContactScale scale) 
                                                    impulse * scale.speed / scale.characteristic_time());
     }
   record_.begin(t, step_.from);
-  residual_.begin();
+  residual_.begin(step_.from.w);
 }
 
 void ExponentialStep::save(double* memory) const {

@@ -25,6 +25,10 @@ class ExponentialStep {
     return 2 * modal_.size() + 2 * modal_.stop_count() + scales_.memory_size() + contact_error_.memory_size();
   }
   void complete(double t, double* memory) const;
+  /// True if a stop is exactly in the middle of its gap, where its force jumps.
+  bool rests_in_middle() const;
+  /// Fills the displacements and speeds of the stops from those of the modes.
+  void find_stops(double* memory) const;
   /// Begins a macro step from the state at t.
   void begin(double t, const double* memory, ContactScale scale);
   void save(double* memory) const;

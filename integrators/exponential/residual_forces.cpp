@@ -69,12 +69,21 @@ ResidualForces::ResidualForces(const dynamics::ModalSystem& modal, dynamics::Ela
     : modal_(modal), contact_(contact) {
   forces_.setZero(contact.size());
   next_forces_.setZero(contact.size());
+  leaving_.reserve(static_cast<std::size_t>(contact.size()));
   modal_force_.setZero(modal.size());
 }
 
-void ResidualForces::begin() {
+void ResidualForces::begin(const ArrayXd& w) {
+  const Index m = modal_.stop_count();
   forces_.setZero();
   modal_force_.setZero();
+  leaving_.clear();
+  for (Index i = 0; i < m; ++i)
+    if (ContactForce::is_leaving(w[i], contact_.play_of(i).gap)) leaving_.push_back(i);
+  if (leaving_.empty()) return;
+  contact_.force(w.head(m).matrix(), next_forces_);
+  for (const Index i : leaving_) forces_[i] = next_forces_[i];
+  modal_.stop_shapes().force(leaving_, forces_.data(), modal_force_.data());
 }
 
 bool ResidualForces::update(ContactPropagator& flow, const ResidualErrors& errors, TriedStep& step) {

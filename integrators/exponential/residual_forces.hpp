@@ -76,7 +76,9 @@ class ResidualForces {
   /// Both must outlive it.
   ResidualForces(const dynamics::ModalSystem& modal, dynamics::ElasticStops& contact);
 
-  void begin();  ///< sets the forces to zero at the start of a macro step
+  /// Sets the forces at the start of a macro step: to those at the displacements `w` of stops that have just left the
+  /// middle of their gap, since the motion without these forces may lead to the other side; else to zero.
+  void begin(const Eigen::ArrayXd& w);
   /// If the law at the middle of the step differs so much that a stop would move by more than the
   /// bound, replaces the forces by it and updates the end of the step. True if it did.
   bool update(dynamics::ContactPropagator& flow, const ResidualErrors& errors, TriedStep& step);
@@ -88,6 +90,7 @@ class ResidualForces {
   const dynamics::ModalSystem& modal_;
   dynamics::ElasticStops& contact_;
   Vector forces_, next_forces_;
+  std::vector<Index> leaving_;
   Eigen::ArrayXd modal_force_, old_modal_force_, w_middle_;
 };
 
