@@ -79,27 +79,12 @@ bool suits_piecewise(dynamics::Dynamics& dynamics, double tolerance, double end_
   return true;
 }
 
-/// The largest force that jumps in the middle of a gap, over stiffness times gap; infinite without gap.
-double largest_jump(dynamics::Dynamics& dynamics) {
+/// True if the force of a stop jumps in the middle of its gap.
+bool has_jump(dynamics::Dynamics& dynamics) {
   const dynamics::ElasticStops& contact = dynamics.stops();
-  double largest = 0.0;
-  for (Index i = 0; i < contact.size(); ++i) {
-    const model::ContactLaw& law = contact.law_of(i);
-    if (contact.play_of(i).has_both() && law.asymptotic_force() > 0.0)
-      largest = std::max(largest, law.asymptotic_force() / (law.closed_stiffness() * std::abs(contact.play_of(i).gap)));
-  }
-  return largest;
-}
-/// From this jump on a structure that rests in the middle of many stops leaves it to other sides with `exponential`
-/// (plugins/auto/README.md): lambda times gap is 20.
-constexpr double kBlunt = 0.005;
-
-/// True if `exponential` may leave the middle of a stop to another side: with large jumps, and where loads that begin
-/// or jump late find the structure at rest there, in the first step after which rounding decides
-/// (tests/verification/departure_test.cpp).
-bool has_strong_jump(dynamics::Dynamics& dynamics, double tolerance) {
-  const double jump = largest_jump(dynamics);
-  return jump > tolerance && (jump > kBlunt || !dynamics.load_discontinuities().empty());
+  for (Index i = 0; i < contact.size(); ++i)
+    if (contact.play_of(i).has_both() && contact.law_of(i).asymptotic_force() > 0.0) return true;
+  return false;
 }
 
 /// Whether damped modes are worth their cost, beside a run by rodas4. All costs in s, to a factor of two, were measured
@@ -271,11 +256,6 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
       return {Method::rodas4, "a load is neither harmonic nor made of straight lines or parabolas in time"};
   if (dynamics.stop_count() == 0) return {Method::exponential, "there are no stops, so that it is exact at any step"};
   if (is_too_tight) return {Method::rodas4, too_tight};
-  if (has_strong_jump(dynamics, tolerance)) {
-    const char* const jumps = "the force of a stop in the middle of its gap is not small against stiffness times gap";
-    if (rates.damping > rates.open) return {Method::rodas4, jumps};
-    return explicit_method(dynamics, tolerance, jumps);
-  }
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
     if (cost.rodas4 < cost.exponential)
@@ -301,15 +281,18 @@ std::unique_ptr<time::Integrator> make_automatic(dynamics::Dynamics& dynamics, d
                           ? Choice::Method::rodas4
                           : choose_for_obstacles(dynamics, fastest_rates(dynamics), tolerance).method;
       choice.why = reason;
+    } else if (!integrator->choice().empty()) {
+      choice.why = integrator->choice();
     }
   }
   const HighOrder high(dynamics, {tolerance, end_time});
   const bool takes_steps = choice.method == Choice::Method::rodas4 || choice.method == Choice::Method::dopri5 ||
                            choice.method == Choice::Method::extrapolation8;
-  // Steps of rodas4 that damping leaves to slow motion are long at any tolerance, unless it has to follow jumps.
+  // Where damping leaves the steps of rodas4 to slow motion they are long at any tolerance, unless the force of a stop
+  // jumps.
   const FastestRates rates = fastest_rates(dynamics);
-  const bool is_damped = choice.method == Choice::Method::rodas4 && (rates.damping > rates.open || creeps(rates)) &&
-                         largest_jump(dynamics) == 0.0;
+  const bool is_damped =
+      choice.method == Choice::Method::rodas4 && (rates.damping > rates.open || creeps(rates)) && !has_jump(dynamics);
   if (high.is_wanted() && takes_steps && !is_damped) {
     if ((integrator = high.exact()) != nullptr)
       choice.method = Choice::Method::exact;

@@ -68,7 +68,8 @@ LongMatrix closed_stiffness(const SmallSystem& system, const std::vector<bool>& 
 
 [[noreturn]] void refuse_growth() {
   throw RunError(
-      "piecewise: the motion of a contact state grows without its loads (negative damping); take exact or rodas4");
+      "piecewise: the motion of a contact state grows without its loads (negative damping); take exponential, exact or "
+      "rodas4");
 }
 
 }  // namespace
@@ -182,6 +183,7 @@ void ContactStateFlow::add_coupled(const LongMatrix& shapes, const LongVector& s
   LongVector scale(p);
   for (Index i = 0; i < p; ++i) {
     const Index mode = modes[static_cast<std::size_t>(i)];
+    if (squares[mode] <= 0.0L && damping(mode, mode) <= 0.0L) refuse_growth();
     scale[i] = squares[mode] > 0.0L ? std::sqrt(squares[mode]) : damping(mode, mode);
     some.col(i) = shapes.col(mode);
     motion(i, p + i) = scale[i];

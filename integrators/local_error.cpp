@@ -25,6 +25,8 @@ constexpr double kGrowth = 2.0, kTiny = 0.5, kSlack = 0.5;
 /// The error assigned to a step that missed a contact: the step is repeated, on the grid with about
 /// half its length.
 constexpr double kMissed = 8.0;
+/// Steps on the grid exceed a limit to which they are shortened by rounding.
+constexpr double kOnGrid = 1.0 + 1e-6;
 /// The part of the displacement reached within 1/omega to which errors are relative at a start from rest: velocities
 /// grow as t, displacements as t^2. The guaranteed error is relative to at least a thousandth of the largest of the
 /// run.
@@ -280,7 +282,7 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     return;
   }
   if (const double longest = r <= 1.0 && !orders_.is_linear_part_exact ? longest_of_impact(from, h, scale_v_) : h;
-      h > longest) {
+      h > kOnGrid * longest) {
     report.error = kMissed;
     report.proposal = steps_ == Steps::any ? longest : longer_step(longest, 0.0);
     return;

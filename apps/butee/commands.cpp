@@ -20,7 +20,8 @@ void add_model_arguments(CLI::App& command, ModelArguments& arguments) {
 
 void add_log_options(CLI::App& command, bool with_verbose) {
   auto* quiet = command.add_flag_callback(
-      "-q,--quiet", [] { log::set_level(log::Level::quiet); }, "print only warnings, errors and results that go into no file");
+      "-q,--quiet", [] { log::set_level(log::Level::quiet); },
+      "print only warnings, errors and results that go into no file");
   if (with_verbose)
     command
         .add_flag_callback(

@@ -164,8 +164,11 @@ class Comparison {
       } catch (const InputError& error) {
         const bool is_first = value == sweep.values.front();
         const std::string says = name_of(result.scene, sweep.method, sweep.knob, value) + ": " + error.what();
-        // A method that the study names should suit its scenes; of all installed ones some do not.
-        study_.sweeps.empty() ? log::info(says) : log::warning(says);
+        // Of all installed methods some do not suit a scene; one that the study names should.
+        if (study_.sweeps.empty())
+          log::info(says);
+        else
+          log::warning(says);
         // Later values are below the smallest one of the method for this scene.
         if (is_first) result.rows.push_back(refused(result.scene, sweep, value, error.what()));
         return;

@@ -93,7 +93,7 @@ std::optional<FollowedRun> follow_if_possible(scene::Scene& session, double dist
   try {
     FollowedRun run = follow(session, disturbance, kInfinite, wanted);
     if (run.completed) return run;
-    log::warning("a run for the accuracy estimate failed, which goes without it: " + run.message);
+    log::warning("the accuracy estimate goes without one of its runs, which failed: " + run.message);
   } catch (const InputError&) {
   }
   return std::nullopt;

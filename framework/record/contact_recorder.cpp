@@ -50,6 +50,7 @@ double root_between(double a, double at_a, double b, double at_b, const Function
   double root = a;
   for (int stays = 0; b - a > shortest;) {
     root = a + (b - a) * at_a / (at_a - at_b);
+    if (!(root > a && root < b)) return root;  // no instant lies between them
     const double value = function(root);
     if (std::abs(value) <= least) return root;
     const bool is_before = (value > 0.0) == (at_a > 0.0);

@@ -49,7 +49,8 @@ void SceneReader::read_base() {
 void SceneReader::read_base_entry(const Value& entry, const std::string& path, bool takes_nodes) {
   std::vector<config::Parameter> declared = {
       config::table("acceleration", "the acceleration of the supports, m/s2, with its direction").optional(),
-      config::table("displacement", "instead, their displacement, m, with its direction").optional(),
+      config::table("displacement", "the displacement of the supports, m, with its direction, instead of acceleration")
+          .optional(),
       config::number("initial_velocity", "m/s", "with acceleration, their velocity at t = 0").or_else(0.0)};
   if (takes_nodes)
     declared.push_back(config::texts("nodes", "the supports that move; default: all, with the ground").optional());

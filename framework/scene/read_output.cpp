@@ -80,7 +80,7 @@ class OutputReader {
              .at_most(1)
              .or_else(1e-2),
          config::texts("formats", "the file formats").optional(),
-         config::table("fields", "contents of the formats of fields").optional(),
+         config::table("fields", "the keys of the formats of fields").optional(),
          config::table("probe", "the recorded nodes: [[output.probe]]").optional()},
         diagnostics_);
     if (const Value* probes = table.table() != nullptr ? table.table()->find("probe") : nullptr)

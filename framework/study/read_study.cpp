@@ -62,7 +62,7 @@ class Reader {
                      config::text("scene", "the model file, beside the study"),
                      config::text("title", "the title of pictures").optional(),
                      config::table("vary", "[[vary]]: the keys that vary").optional(),
-                     config::table("study", "plan, periods and results").optional()},
+                     config::table("study", "the keys of the plan, the periods and the results").optional()},
                     diagnostics_);
   }
 

@@ -114,8 +114,9 @@ struct ToleranceBelowRounding : InputError {
   using InputError::InputError;
 };
 
-/// True if the system needs ModalCollocation: its modes are coupled or grow, contacts act in the plane or the speed of
-/// an unbalance varies.
+/// True if the system needs ModalCollocation whatever its stiffness: modes are coupled, the dashpot of a single DOF is
+/// negative, contacts act in the plane or the speed of an unbalance varies. Structures with a negative stiffness need
+/// it as well, which make_exponential() sees in their modes.
 bool needs_collocation(const model::System& system);
 
 /// Throws InputError for tolerances below kSmallestWithStops and for scenes that ModalCollocation

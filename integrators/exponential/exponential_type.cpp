@@ -63,8 +63,11 @@ std::unique_ptr<time::Integrator> make_exponential(dynamics::Dynamics& dynamics,
     const dynamics::ModalSystem& modal = dynamics.modal(options.modes);
     if (!modal.is_complete()) integrator->set_choice(describe_basis(modal, dynamics.size()));
     return integrator;
-  } catch (const dynamics::UnstableStiffness&) {  // damped modes may grow
-    return make_collocation(dynamics, options);
+  } catch (const dynamics::UnstableStiffness&) {
+    if (dynamics.size() > dynamics::DampedModes::kMost) throw;
+    auto integrator = make_collocation(dynamics, options);
+    integrator->set_choice("damped modes, since the stiffness has a negative eigenvalue");
+    return integrator;
   }
 }
 

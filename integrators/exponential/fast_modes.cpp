@@ -61,10 +61,10 @@ FastModes::Scales FastModes::scales(const State& from, const State& to) const {
           tolerance_ * from.a.cwiseAbs().cwiseMax(to.a.cwiseAbs())};
 }
 
-double FastModes::find(const State& from, const State& to, double slow, const Eigen::ArrayXd& turning,
+double FastModes::find(const State& from, const State& to, double slow, const Eigen::ArrayXd& amplitudes,
                        time::Detail detail) const {
   if (detail == time::Detail::power) {
-    const Eigen::ArrayXd energy = modes_.kinetic() * turning.square();
+    const Eigen::ArrayXd energy = modes_.kinetic() * amplitudes.square();
     double bound = tolerance_ * tolerance_ * energy.sum();
     for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k)
       if ((bound -= energy[k]) < 0.0) return modes_.speed()[k];
@@ -76,10 +76,10 @@ double FastModes::find(const State& from, const State& to, double slow, const Ei
   Eigen::ArrayXd x = Eigen::ArrayXd::Zero(scale.x.size()), v = x, a = x;
   for (Index k = modes_.count() - 1; k >= 0 && modes_.speed()[k] > slow; --k) {
     const double speed = modes_.speed()[k];
-    if ((turning[k] * shape_.col(k).array() <= rounding).all()) continue;
-    x += turning[k] * shape_.col(k).array();
-    v += turning[k] * speed_shape_.col(k).array();
-    a += turning[k] * speed * speed_shape_.col(k).array();
+    if ((amplitudes[k] * shape_.col(k).array() <= rounding).all()) continue;
+    x += amplitudes[k] * shape_.col(k).array();
+    v += amplitudes[k] * speed_shape_.col(k).array();
+    a += amplitudes[k] * speed * speed_shape_.col(k).array();
     if (detail == time::Detail::accelerations) {
       if ((x > scale.x).any() || (v > scale.v).any() || (a > scale.a).any()) return speed;
       continue;

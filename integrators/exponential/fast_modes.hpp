@@ -20,9 +20,8 @@ class FastModes {
   /// `slow` if there is none, 1/s. Breakpoints that are kMostTurn/|lambda| apart leave out faster
   /// modes, which move outputs of the step, and the quintic between breakpoints, by less than the
   /// tolerance, as far as `detail` requires. With time::Detail::power faster modes have less than
-  /// tolerance^2 of the energy. `turning` holds the amplitude of each mode beside its quasi-static
-  /// response.
-  double find(const time::State& from, const time::State& to, double slow, const Eigen::ArrayXd& turning,
+  /// tolerance^2 of the energy. `amplitudes` holds that of each mode beside its quasi-static response.
+  double find(const time::State& from, const time::State& to, double slow, const Eigen::ArrayXd& amplitudes,
               time::Detail detail) const;
   /// Largest phase angle of the fastest motion between breakpoints, rad: the error of a quintic is
   /// then 4e-4 of the motion and 6e-4 of its speed.

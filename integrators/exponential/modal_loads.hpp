@@ -43,7 +43,7 @@ class ModalLoads {
 
   const dynamics::DampedModes& modes_;
   std::vector<HarmonicLoad> harmonic_;
-  std::vector<Response> responses_;  ///< two for each turning load
+  std::vector<Response> responses_;  ///< two for each harmonic load
   std::vector<Other> others_;
   Eigen::MatrixXd polynomial_;
 };

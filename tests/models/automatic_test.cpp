@@ -38,8 +38,7 @@ TEST(Automatic, TakesWhatSuitsTheScene) {
   EXPECT_EQ(pulling("positive", "1e5", "1e-6").rfind("exponential", 0), 0U);
   EXPECT_EQ(pulling("both", "1e5", "1e-6").rfind("exponential", 0), 0U);
   EXPECT_EQ(pulling("both", "1e5", "1e-9").rfind("exact", 0), 0U);
-  EXPECT_EQ(pulling("both", "1e4", "1e-6").rfind("extrapolation8", 0), 0U);
-  EXPECT_EQ(pulling("both", "1e4", "0.02").rfind("exponential", 0), 0U);
+  EXPECT_EQ(pulling("both", "1e4", "1e-6").rfind("exponential", 0), 0U);
   // Computing the modes of 400 DOFs takes longer than integrating a few waves, but less than half a second of
   // impacts.
   EXPECT_EQ(choice(beam(200, kStops, "end_time = 1e-4\ntolerance = 1e-3\n"))

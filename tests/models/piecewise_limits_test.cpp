@@ -50,12 +50,16 @@ TEST(Piecewise, LeavesGrowingMotionToOtherMethods) {
       "\"m\"\nstiffness = [[100.0, 0.0], [0.0, 144.0]]\ndamping = [[-0.5, 0.0], [0.0, 0.3]]\n[[contact]]\ntype = "
       "\"stop\"\nnodes = \"m\"\ngap = 0.2\nstiffness = 400.0\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"u\", "
       "value = 1.0 }]\n[integrator]\ntolerance = 1e-6\nend_time = 2.0\n";
-  try {
-    SceneRun run(scene, {"integrator.type=piecewise"});
-    FAIL() << "was taken";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("negative damping"), std::string::npos) << error.what();
+  for (const char* damping : {"[[-0.5, 0.0], [0.0, 0.3]]", "[[-0.5, 0.4], [0.4, 0.3]]"}) {
+    try {
+      SceneRun run(scene, {"integrator.type=piecewise", std::string("element[1].damping=") + damping});
+      FAIL() << damping << " was taken";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("negative damping"), std::string::npos) << error.what();
+    }
   }
+  // Damping of one direction alone neither grows nor decays along the other one.
+  EXPECT_NO_THROW(SceneRun(scene, {"integrator.type=piecewise", "element[1].damping=[[0.1, 0.1], [0.1, 0.1]]"}));
   const double w = std::sqrt(100.0 - 0.0625);
   for (const std::string method : {"auto", "exponential", "rodas4"}) {
     SceneRun run(scene, {"integrator.type=" + method});

@@ -265,6 +265,27 @@ TEST(HarmonicResponse, IsAccurateInBothPartsOfSlowAndResonantModes) {
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(parts[k], static_cast<double>(wanted[k]), 3e-14 * static_cast<double>(sizes[k]) + 1e-30)
           << k << ": " << one.decay << " " << one.turn << " " << one.frequency << " " << one.length;
+    // Lanes of a step take series, resonance and closed form side by side.
+    using Lane = Eigen::Array<double, 8, 1>;
+    const Lane lengths = one.length * Lane{0.0, 1e-3, 1e-2, 0.1, 0.3, 0.5, 0.9, 1.0}, angles = one.frequency * lengths,
+               decays = (one.decay * lengths).exp();
+    const integrators::HarmonicAngle<Lane> loads{one.frequency, lengths, angles, angles.cos(), angles.sin()};
+    const integrators::HarmonicResponse<Lane> lanes(loads, Lane::Constant(one.decay), Lane::Constant(one.turn),
+                                                    decays * (one.turn * lengths).cos(),
+                                                    decays * (one.turn * lengths).sin());
+    for (Index lane = 0; lane < 8; ++lane) {
+      const auto at = [lane](const Lane& all) { return One(all[lane]); };
+      const integrators::HarmonicAngle<One> single{one.frequency, at(lengths), at(angles), at(loads.cosine),
+                                                   at(loads.sine)};
+      const integrators::HarmonicResponse<One> same(single, One(one.decay), One(one.turn),
+                                                    at(decays * (one.turn * lengths).cos()),
+                                                    at(decays * (one.turn * lengths).sin()));
+      const double size = lengths[lane];
+      EXPECT_NEAR(lanes.cosine_re[lane], same.cosine_re[0], 1e-15 * size);
+      EXPECT_NEAR(lanes.cosine_im[lane], same.cosine_im[0], 1e-15 * size);
+      EXPECT_NEAR(lanes.sine_re[lane], same.sine_re[0], 1e-15 * size);
+      EXPECT_NEAR(lanes.sine_im[lane], same.sine_im[0], 1e-15 * size);
+    }
   }
 }
 

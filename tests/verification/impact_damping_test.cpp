@@ -286,6 +286,17 @@ TEST(HardImpact, IsResolvedFromItsFirstStepOn) {
       }
 }
 
+/// The longest step of this impact lies just below the grid of steps, to which the steps of `rodas4` are rounded.
+TEST(HardImpact, ShortensStepsOnTheirGrid) {
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = "
+      "\"m\"\ngap = 0.1\nsides = \"negative\"\nstiffness = 9216.0001\ndamping = { type = \"kelvin_voigt\", coefficient "
+      "= 3.0 }\n[[load]]\ntype = \"constant\"\nnode = \"m\"\nvalue = -9.81\n[integrator]\ntype = \"rodas4\"\n"
+      "tolerance = 0.1\nend_time = 6.0\n");
+  const time::RunReport& report = run.run();
+  EXPECT_TRUE(report.completed) << report.message;
+}
+
 /// During the rebound the force tends to 0 long before the contact ends, and its sign is rounding.
 TEST_P(ImpactMethods, StrongDissipationIsOneImpact) {
   for (int i = 0; i < 8; ++i) {

@@ -57,5 +57,19 @@ TEST(Wear, CountsBothDirectionsOfASlipThatReversesInAStep) {
   }
 }
 
+/// A slip that reverses within the few instants that two doubles near t leave: the search for it ends.
+TEST(Wear, IsFoundWhereASlipReversesWithinInstants) {
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 100.0\n[[contact]]\ntype = \"friction\"\nnodes = \"m\"\nnormal_force = 1.0\nfriction = { "
+      "coefficient = 1e-16, slip_speed = 1.0 }\n[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = [0.0, "
+      "9.595778328944998, 9.595778328951715, 9.595778329040956, 10.595778328944998]\nvalues = [0.0, 0.0, 1.0, -2.0, "
+      "0.0]\n[integrator]\ntype = \"dopri5\"\ntolerance = 1e-6\nend_time = 10.0\n");
+  record::ContactRecorder recorder(run.dynamics());
+  run.simulation().add(recorder);
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_GT(recorder.wear()[0].slip, 0.0);
+}
+
 }  // namespace
 }  // namespace butee::test::wear_test
