@@ -176,28 +176,29 @@ void ContactRecorder::in_parts(const time::AcceptedStep& step, double begin, dou
   }
 }
 
-void ContactRecorder::take(const Forces& forces) {
-  now_.resize(forces.size());
-  for (const std::size_t i : active_) now_[i] = forces[i];
+void ContactRecorder::take(const Forces& forces, Forces& to) const {
+  to.resize(forces.size());
+  for (const std::size_t i : active_) to[i] = forces[i];
 }
 
 void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, double end) {
   std::size_t contact = 0;
   const double reversal = find_reversal(step, begin, end, contact);
+  if (!(reversal < end)) return integrate_part(step, begin, end);
+  take(at(step, reversal), ends_);
   integrate_part(step, begin, reversal);
-  if (!(reversal < end)) return;
   watches_[contact].slip_speed = 0.0;
   integrate(step, reversal, end);
 }
 
 double ContactRecorder::find_reversal(const time::AcceptedStep& step, double begin, double end, std::size_t& contact) {
   double first = end;
-  take(at(step, end));
+  take(at(step, end), ends_);
   for (const std::size_t i : active_) {
     const Watch& watch = watches_[i];
-    const double from = watch.slip_speed, to = now_[i].slip_speed;
+    const double from = watch.slip_speed, to = ends_[i].slip_speed;
     const bool counts = (std::abs(from) + std::abs(to)) * (end - begin) > kNoSlip * wear_[i].slip;
-    if (!(from * to < 0.0) || !counts || !(watch.is_support || watch.touches || is_in_contact(now_[i]))) continue;
+    if (!(from * to < 0.0) || !counts || !(watch.is_support || watch.touches || is_in_contact(ends_[i]))) continue;
     const double t = root_between(begin, from, end, to, [&](double at_t) { return at(step, at_t)[i].slip_speed; });
     if (!(t > begin && t < first)) continue;
     first = t;
@@ -208,7 +209,7 @@ double ContactRecorder::find_reversal(const time::AcceptedStep& step, double beg
 
 void ContactRecorder::integrate_part(const time::AcceptedStep& step, double begin, double end) {
   for (const auto& [t, weight] : gauss_points(begin, end)) {
-    take(at(step, t));
+    take(at(step, t), now_);
     for (const std::size_t i : active_)
       if (watches_[i].is_support || is_in_contact(now_[i])) take_force(step, i, t, now_[i].normal);
     for (const std::size_t i : active_) {
@@ -232,7 +233,7 @@ void ContactRecorder::integrate_part(const time::AcceptedStep& step, double begi
       impact.dissipated += taken;
     }
   }
-  take(at(step, end));
+  now_.swap(ends_);
   std::vector<std::size_t> changed;
   for (const std::size_t i : active_) {
     const dynamics::ContactForces now = now_[i];

@@ -57,14 +57,15 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   const Forces& at(const time::AcceptedStep& step, double t);
   /// Finds the contacts that may exert a force within a step; with given phases those that touch.
   void find_active(const time::State& from, const time::State& to);
-  /// Copies the forces of the contacts in active_ to now_.
-  void take(const Forces& forces);
+  /// Copies the forces of the contacts in active_.
+  void take(const Forces& forces, Forces& to) const;
   /// Calls integrate() for kParts equal parts.
   void in_parts(const time::AcceptedStep& step, double begin, double end);
   void integrate(const time::AcceptedStep& step, double begin, double end);
-  /// Part of a step in which no slip reverses.
+  /// A part of a step in which no slip reverses; ends_ holds the forces at its end.
   void integrate_part(const time::AcceptedStep& step, double begin, double end);
-  /// The first instant in the part at which the slip of a contact reverses; `end` if there is none.
+  /// The first instant in the part at which the slip of a contact reverses; `end` if there is none. Fills ends_ with
+  /// the forces at `end`.
   double find_reversal(const time::AcceptedStep& step, double begin, double end, std::size_t& contact);
   /// Records the normal force of a contact at an instant of a step, and the maximum around the
   /// previous instant.
@@ -75,7 +76,7 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   std::vector<Index> dofs_;
   std::vector<double> x_values_, v_values_;
   Vector x_, v_;
-  Forces forces_, now_;
+  Forces forces_, now_, ends_;
   std::vector<Watch> watches_;
   std::vector<std::size_t> active_;
   std::vector<ContactWear> wear_;
