@@ -127,7 +127,9 @@ Whirl::Whirl(const model::Model& model) : system_(assemble(model, model::Turning
   const auto pairs = linalg::dense_pairs(stiffness_, system_.mass);
   if (!pairs) throw RunError("the modes at rest could not be computed");
   shapes_ = pairs->vectors;
-  frequencies_ = pairs->values.cwiseMax(0.0).cwiseSqrt();
+  const double rounding = kRigid * kRigid * pairs->values.cwiseAbs().maxCoeff();
+  squares_ = (pairs->values.array() < 0.0 && pairs->values.array() > -rounding).select(0.0, pairs->values);
+  frequencies_ = squares_.cwiseAbs().cwiseSqrt();
   const auto in_modes = [&](const SparseMatrix& matrix) {
     return Eigen::MatrixXd(shapes_.transpose() * (or_zero(matrix, n) * shapes_));
   };
@@ -193,11 +195,12 @@ std::vector<WhirlMode> Whirl::modes(double speed, Index count) const {
 
 std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
   const Index n = size();
-  const Vector scale = frequencies_.cwiseMax(kRigid * std::max(frequencies_[n - 1], 1e-300));
+  const double highest = frequencies_.maxCoeff();
+  const Vector scale = frequencies_.cwiseMax(kRigid * std::max(highest, 1e-300));
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   motion.topRightCorner(n, n) = scale.asDiagonal();
   Eigen::MatrixXd stiffness = modal_skew_ + speed * modal_circulatory_;
-  stiffness.diagonal() += frequencies_.cwiseAbs2();
+  stiffness.diagonal() += squares_;
   motion.bottomLeftCorner(n, n) = -(scale.cwiseInverse().asDiagonal() * stiffness);
   motion.bottomRightCorner(n, n) =
       -(scale.cwiseInverse().asDiagonal() * (modal_damping_ + speed * modal_gyroscopic_) * scale.asDiagonal());
@@ -210,7 +213,7 @@ std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
   std::stable_sort(places.begin(), places.end(),
                    [&](Index a, Index b) { return std::abs(pairs.values[a]) < std::abs(pairs.values[b]); });
   places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
-  const double rigid = kRigid * frequencies_[n - 1];
+  const double rigid = kRigid * highest;
   // Rigid motion has two eigenvalues 0, which rounding separates; some leave 0 if the structure turns.
   Index rigid_left = 2 * (frequencies_.array() < rigid).count();
   std::vector<WhirlMode> modes;
@@ -314,7 +317,7 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
 }
 
 bool Whirl::grows(const WhirlMode& mode) const {
-  const double highest = is_dense() ? frequencies_[size() - 1] : 0.0;
+  const double highest = is_dense() ? frequencies_.maxCoeff() : 0.0;
   return mode.lambda.real() > kGrows * std::abs(mode.lambda) + kGrowsOfHighest * highest;
 }
 

@@ -82,6 +82,7 @@ class BUTEE_EXPORT Whirl {
 
   model::System system_;
   SparseMatrix damping_, stiffness_, skew_;  ///< C, the symmetric part of K and its skew part, at rest
+  Vector squares_;                           ///< eigenvalues of M and the symmetric part of K, for dense problems
   Vector frequencies_;                       ///< of M and the symmetric part of K, for dense problems
   Eigen::MatrixXd shapes_, modal_damping_, modal_skew_, modal_gyroscopic_, modal_circulatory_;
 };

@@ -17,6 +17,9 @@ namespace {
 constexpr double kNear = 0.9;
 /// Forces whose relative differences are below this are constant: the maximum between them differs by less.
 constexpr double kFlat = 1e-12;
+/// The distance from an end of a step, as a part of it, at which a larger force shows that the maximum lies within. The
+/// maximum is missed by its square at most.
+constexpr double kBeside = 1e-5;
 /// A slip below this part of that so far is rounding.
 constexpr double kNoSlip = 1e-13;
 /// The instant of a reversal, as a part of the interval, or of the speed. The slip of both directions changes by its
@@ -155,6 +158,9 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
     watches_[i].last = {begin, begin};
     watches_[i].slip_speed = first[i].slip_speed;
   }
+  for (const std::size_t i : active_)
+    if (watches_[i].is_support || watches_[i].touches)
+      take_beside(step, i, step.from.t, 1.0, watches_[i].last[1].value);
   // Steps of methods that follow phases end at changes of phase; with other methods contacts may
   // touch and separate between breakpoints.
   double begin = step.from.t;
@@ -245,7 +251,10 @@ void ContactRecorder::integrate_part(const time::AcceptedStep& step, double begi
       continue;
     }
     const bool touches = is_in_contact(now);
-    if (touches || watch.touches) take_force(step, i, end, now.normal);
+    if (touches || watch.touches) {
+      if (end == step.to.t) take_beside(step, i, end, -1.0, now.normal);
+      take_force(step, i, end, now.normal);
+    }
     const double gained = now.stored - watch.stored;
     wear_[i].dissipated -= gained;
     watch.current.dissipated -= gained;
@@ -270,6 +279,13 @@ void ContactRecorder::take_force(const time::AcceptedStep& step, std::size_t con
   wear_[contact].peak_force = std::max(wear_[contact].peak_force, largest);
   before = last;
   last = now;
+}
+
+void ContactRecorder::take_beside(const time::AcceptedStep& step, std::size_t contact, double t, double side,
+                                  double force) {
+  if (!(force > kNear * watches_[contact].current.peak_force)) return;
+  const double beside = t + side * kBeside * (step.to.t - step.from.t), value = at(step, beside)[contact].normal;
+  if (value > force) take_force(step, contact, beside, value);
 }
 
 void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact, double begin, double end) {

@@ -70,6 +70,8 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   /// Records the normal force of a contact at an instant of a step, and the maximum around the
   /// previous instant.
   void take_force(const time::AcceptedStep& step, std::size_t contact, double t, double force);
+  /// The same beside an end of the step, at instant t, if the force is larger there.
+  void take_beside(const time::AcceptedStep& step, std::size_t contact, double t, double side, double force);
   void change(const time::AcceptedStep& step, std::size_t contact, double begin, double end);
 
   dynamics::Dynamics& dynamics_;

@@ -95,7 +95,8 @@ EnergyRecorder::Power EnergyRecorder::power(double t, const Vector& x, const Vec
 
 void EnergyRecorder::start(const time::State& state) {
   now_ = energy_of(state, dynamics_, base_);
-  first_total_ = largest_ = now_.total();
+  first_total_ = now_.total();
+  largest_ = now_.size();
   first_stored_ = now_.in_obstacles;
   first_of_supports_ = now_.of_supports;
   work_ = dissipated_ = into_obstacles_ = 0.0;
@@ -128,7 +129,7 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
     now_ = {at.kinetic, at.strain, at.contact};
     work_ = work + at.work;
     dissipated_ = dissipated + at.dissipated;
-    largest_ = std::max(largest_, std::abs(now_.total()));
+    largest_ = std::max(largest_, now_.size());
     if (is_due(at.t)) write_row(at.t);
   }
   if (!told.empty()) return;
@@ -143,7 +144,7 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
   }
   add_piece(step, begin, step.to.t);
   now_ = energy_of(step.to, dynamics_, base_);
-  largest_ = std::max(largest_, std::abs(now_.total()));
+  largest_ = std::max(largest_, now_.size());
   if (is_due(step.to.t)) write_row(step.to.t);
 }
 

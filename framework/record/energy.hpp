@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "butee/model/base_energy.hpp"
 #include "butee/model/field_format.hpp"
 #include "butee/record/csv_writer.hpp"
@@ -17,6 +19,8 @@ struct Energy {
   double of_supports = 0.0;   ///< the part of `kinetic` and `strain` by moving supports
 
   double total() const { return kinetic + strain + contact; }
+  /// Of unstable structures kinetic and strain energy may cancel.
+  double size() const { return std::abs(kinetic) + std::abs(strain) + std::abs(contact); }
 };
 
 BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dynamics);

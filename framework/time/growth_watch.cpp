@@ -33,6 +33,9 @@ constexpr double kGoldenRatio = 0.6180339887498949;
 constexpr double kCoarse = 0.08;
 /// The error of one step at which a hundred steps are still accurate.
 constexpr double kFine = 1e-4;
+/// Strain energy below minus this part of the kinetic energy is that of a negative stiffness, which supplies energy to
+/// the motion without bound.
+constexpr double kFed = 0.01;
 /// A distance from a stop at a check, as a fraction of the gap, at which contact between two checks
 /// is assumed.
 constexpr double kNear = 0.1;
@@ -108,7 +111,9 @@ double GrowthWatch::energy(const State& state) {
   dynamics_.inertia_force(state.v, work_);
   double sum = 0.5 * state.v.dot(work_);
   dynamics_.elastic_force(state.x, work_);
-  sum += 0.5 * state.x.dot(work_);
+  const double strain = 0.5 * state.x.dot(work_);
+  is_fed_ = is_fed_ || strain < -kFed * sum;
+  sum += strain;
   if (dynamics_.obstacles() != nullptr) sum += dynamics_.obstacles()->energy(state.t, state.x, state.v);
   if (stops_.size() == 0) return sum;
   const dynamics::ElasticStops& contact = dynamics_.stops();
@@ -166,6 +171,7 @@ bool GrowthWatch::look(const State& from, const State& to, double h) {
   if (may_be_coarse_) note_coarseness(from, to, h);
   if (!is_watching_) return false;
   const double now = energy(to);
+  if (is_fed_) return is_watching_ = false;
   const double of_errors = limits_.keeps_tolerance ? kOfErrors * largest_energy_ : 0.0,
                before = std::max(last_energy_, of_errors);
   const double growth = now > before ? excess_over(explained(before, last_time_, to.t), now) : 0.0;

@@ -62,7 +62,8 @@ class BUTEE_EXPORT GrowthWatch {
   dynamics::Dynamics& dynamics_;
   MethodLimits limits_;
   bool has_fixed_steps_, may_be_coarse_, is_watching_;
-  double too_much_;  ///< logarithm of the excess factor that ends a run
+  bool is_fed_ = false;  ///< a negative stiffness supplies energy
+  double too_much_;      ///< logarithm of the excess factor that ends a run
   std::vector<double> discontinuities_;
   std::vector<double> load_norms_;  ///< sqrt(p.M^-1 p) of each load's pattern p; empty until first use
   Vector work_, zero_, stops_, stored_;

@@ -286,6 +286,26 @@ TEST(HardImpact, IsResolvedFromItsFirstStepOn) {
       }
 }
 
+/// The largest force of an impact that a step begins or ends close to, by Dormand and Prince's method of order 8
+/// (scipy, rtol = 1e-13, events).
+TEST(HardImpact, HasItsPeakAlsoBesideTheEndsOfSteps) {
+  const double wanted = 25886.1628696;
+  for (const std::string method : {"exponential", "dopri5", "rodas4", "extrapolation8"}) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = "
+        "\"m\"\ngap = 0.01\nsides = \"negative\"\nlaw = \"hertz\"\nstiffness = 1e10\ndamping = { type = "
+        "\"hunt_crossley\", factor = 0.02 }\n[[load]]\ntype = \"constant\"\nnode = \"m\"\nvalue = -9.81\n[initial]\n"
+        "displacement = [{ nodes = \"m\", value = -0.01 }]\nvelocity = [{ nodes = \"m\", value = -2.0 "
+        "}]\n[integrator]\n"
+        "tolerance = 1e-8\nend_time = 0.01\n",
+        {"integrator.type=" + method});
+    record::ContactRecorder recorder(run.dynamics());
+    run.simulation().add(recorder);
+    ASSERT_TRUE(run.run().completed) << method;
+    EXPECT_NEAR(recorder.impacts().front().peak_force, wanted, 1e-7 * wanted) << method;
+  }
+}
+
 /// The longest step of this impact lies just below the grid of steps, to which the steps of `rodas4` are rounded.
 TEST(HardImpact, ShortensStepsOnTheirGrid) {
   SceneRun run(

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include <butee/dynamics/static_position.hpp>
 #include <butee/dynamics/whirl.hpp>
 #include <butee/linalg/linear_solver.hpp>
+#include <butee/record/energy.hpp>
 #include <gtest/gtest.h>
 
 #include "rotors.hpp"
@@ -207,6 +209,33 @@ TEST(PinnedShaft, NamesCriticalSpeedsOfTorsionAndAxialMotion) {
   EXPECT_NEAR(torsional[0], 0.25 * pi * std::sqrt(8e10 / 7800.0), 1e-3 * torsional[0]);
   EXPECT_NEAR(axial[0], 0.25 * pi * std::sqrt(2e11 / 7800.0), 1e-3 * axial[0]);
   EXPECT_GT(critical.size(), 8U);
+}
+
+/// A bearing with a negative stiffness: u = (cosh 10 t - cos 5 t)/125 under cos 5 t. Every method follows it, its
+/// energy is balanced, and its modes are those of e^(10 t) and e^(-10 t).
+TEST(NegativeStiffness, GrowsAsItsModes) {
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"bearing\"\nnode = "
+      "\"m\"\nstiffness = [[-100.0, 0.0], [0.0, 400.0]]\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\ndof = \"uy\"\n"
+      "amplitude = 1.0\nangular_frequency = 5.0\n[integrator]\nend_time = 3.0\n";
+  const double wanted = (std::cosh(30.0) - std::cos(15.0)) / 125.0;
+  for (const std::string& method : {std::string("exponential"), std::string("extrapolation8"), std::string("dopri5"),
+                                    std::string("rodas4"), std::string("exact")}) {
+    SceneRun run(scene, {"integrator.type=" + method,
+                         method == "exact" ? "integrator.time_step=0.01" : "integrator.tolerance=1e-6"});
+    record::EnergyRecorder energy(run.dynamics());
+    run.simulation().add(energy);
+    const time::RunReport& report = run.run();
+    ASSERT_TRUE(report.completed) << method << ": " << report.message;
+    EXPECT_NEAR(run.simulation().state().x[run.dof("m")], wanted, 1e-5 * wanted) << method;
+    EXPECT_LT(std::abs(energy.balance_error()), 1e-5) << method;
+  }
+  SceneRun run(scene, {"integrator.type=exact"});
+  const auto modes = dynamics::Whirl(run.model()).modes(0.0, 4);
+  ASSERT_EQ(modes.size(), 3U);
+  EXPECT_NEAR(std::max(modes[0].lambda.real(), modes[1].lambda.real()), 10.0, 1e-12);
+  EXPECT_NEAR(std::min(modes[0].lambda.real(), modes[1].lambda.real()), -10.0, 1e-12);
+  EXPECT_NEAR(modes[2].frequency(), 20.0, 1e-12);
 }
 
 /// An overhung disc on a massless cantilever: (K11 - m w^2)(K22 - I_d w^2 + I_p W w) = K12^2; one element is
