@@ -164,7 +164,7 @@ class Comparison {
       } catch (const InputError& error) {
         const bool is_first = value == sweep.values.front();
         const std::string says = name_of(result.scene, sweep.method, sweep.knob, value) + ": " + error.what();
-        // Of all installed methods some do not suit a scene; one that the study names should.
+        // Some of all installed methods do not suit a scene; one that the study names should.
         if (study_.sweeps.empty())
           log::info(says);
         else

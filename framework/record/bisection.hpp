@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace butee::record {
 
 /// Halves an interval in time until no double lies within it, or 60 times, and returns its end: the first instant, s,
@@ -13,6 +16,26 @@ double bisect(double begin, double end, const IsBefore& is_before) {
     (is_before(middle) ? begin : end) = middle;
   }
   return end;
+}
+
+/// The root between two instants a and b of a function that has values of opposite sign there, by regula falsi; the
+/// value at an end that stays is halved (Illinois). To `part` of the interval or of the values.
+template <class Function>
+double root_between(double a, double at_a, double b, double at_b, double part, const Function& function) {
+  const double shortest = part * (b - a), least = part * std::max(std::abs(at_a), std::abs(at_b));
+  double root = a;
+  for (int stays = 0; b - a > shortest;) {
+    root = a + (b - a) * at_a / (at_a - at_b);
+    if (!(root > a && root < b)) return root;  // no instant lies between them
+    const double value = function(root);
+    if (std::abs(value) <= least) return root;
+    const bool is_before = (value > 0.0) == (at_a > 0.0);
+    (is_before ? a : b) = root;
+    (is_before ? at_a : at_b) = value;
+    if (stays == (is_before ? 1 : -1)) (is_before ? at_b : at_a) *= 0.5;
+    stays = is_before ? 1 : -1;
+  }
+  return root;
 }
 
 }  // namespace butee::record

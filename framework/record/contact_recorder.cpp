@@ -20,11 +20,11 @@ constexpr double kFlat = 1e-12;
 /// The distance from an end of a step, as a part of it, at which a larger force shows that the maximum lies within. The
 /// maximum is missed by its square at most.
 constexpr double kBeside = 1e-5;
-/// A slip below this part of that so far is rounding.
-constexpr double kNoSlip = 1e-13;
-/// The instant of a reversal, as a part of the interval, or of the speed. The slip of both directions changes by its
+/// The instant of a reversal, as a part of the interval or of the speed. The slip of both directions changes by its
 /// square.
 constexpr double kNearReversal = 1e-5;
+/// A slip below this part of that so far is rounding.
+constexpr double kNoSlip = 1e-13;
 
 /// The DOFs of these contacts.
 void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size_t>& contacts,
@@ -43,26 +43,6 @@ void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size
 /// that follows, force and stored energy are 0.
 bool is_in_contact(const dynamics::ContactForces& forces) {
   return forces.penetration > 0.0 && (forces.normal != 0.0 || forces.stored != 0.0);
-}
-
-/// The root between two instants a and b of a function that has values of opposite sign there, by regula falsi; the
-/// value at an end that stays is halved (Illinois). To kNearReversal of the interval or of the values.
-template <class Function>
-double root_between(double a, double at_a, double b, double at_b, const Function& function) {
-  const double shortest = kNearReversal * (b - a), least = kNearReversal * std::max(std::abs(at_a), std::abs(at_b));
-  double root = a;
-  for (int stays = 0; b - a > shortest;) {
-    root = a + (b - a) * at_a / (at_a - at_b);
-    if (!(root > a && root < b)) return root;  // no instant lies between them
-    const double value = function(root);
-    if (std::abs(value) <= least) return root;
-    const bool is_before = (value > 0.0) == (at_a > 0.0);
-    (is_before ? a : b) = root;
-    (is_before ? at_a : at_b) = value;
-    if (stays == (is_before ? 1 : -1)) (is_before ? at_b : at_a) *= 0.5;
-    stays = is_before ? 1 : -1;
-  }
-  return root;
 }
 
 }  // namespace
@@ -205,7 +185,8 @@ double ContactRecorder::find_reversal(const time::AcceptedStep& step, double beg
     const double from = watch.slip_speed, to = ends_[i].slip_speed;
     const bool counts = (std::abs(from) + std::abs(to)) * (end - begin) > kNoSlip * wear_[i].slip;
     if (!(from * to < 0.0) || !counts || !(watch.is_support || watch.touches || is_in_contact(ends_[i]))) continue;
-    const double t = root_between(begin, from, end, to, [&](double at_t) { return at(step, at_t)[i].slip_speed; });
+    const double t =
+        root_between(begin, from, end, to, kNearReversal, [&](double at_t) { return at(step, at_t)[i].slip_speed; });
     if (!(t > begin && t < first)) continue;
     first = t;
     contact = i;

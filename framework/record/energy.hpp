@@ -19,7 +19,7 @@ struct Energy {
   double of_supports = 0.0;   ///< the part of `kinetic` and `strain` by moving supports
 
   double total() const { return kinetic + strain + contact; }
-  /// Of unstable structures kinetic and strain energy may cancel.
+  /// The sum of magnitudes: kinetic and strain energy cancel in unstable structures.
   double size() const { return std::abs(kinetic) + std::abs(strain) + std::abs(contact); }
 };
 
