@@ -132,15 +132,13 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
   duration_ += h;
   find_active(step.from, step.to);
   if (active_.empty()) return;
-  const Forces& first = at(step, step.from.t);
+  take(at(step, step.from.t), now_);
   for (const std::size_t i : active_) {
-    const Sampled begin{step.from.t, first[i].normal};
+    const Sampled begin{step.from.t, now_[i].normal};
     watches_[i].last = {begin, begin};
-    watches_[i].slip_speed = first[i].slip_speed;
+    watches_[i].slip_speed = now_[i].slip_speed;
   }
-  for (const std::size_t i : active_)
-    if (watches_[i].is_support || watches_[i].touches)
-      take_beside(step, i, step.from.t, 1.0, watches_[i].last[1].value);
+  take_beside(step, step.from.t, 1.0, now_);
   // Steps of methods that follow phases end at changes of phase; with other methods contacts may
   // touch and separate between breakpoints.
   double begin = step.from.t;
@@ -221,6 +219,7 @@ void ContactRecorder::integrate_part(const time::AcceptedStep& step, double begi
     }
   }
   now_.swap(ends_);
+  if (end == step.to.t) take_beside(step, end, -1.0, now_);
   std::vector<std::size_t> changed;
   for (const std::size_t i : active_) {
     const dynamics::ContactForces now = now_[i];
@@ -232,10 +231,7 @@ void ContactRecorder::integrate_part(const time::AcceptedStep& step, double begi
       continue;
     }
     const bool touches = is_in_contact(now);
-    if (touches || watch.touches) {
-      if (end == step.to.t) take_beside(step, i, end, -1.0, now.normal);
-      take_force(step, i, end, now.normal);
-    }
+    if (touches || watch.touches) take_force(step, i, end, now.normal);
     const double gained = now.stored - watch.stored;
     wear_[i].dissipated -= gained;
     watch.current.dissipated -= gained;
@@ -262,11 +258,17 @@ void ContactRecorder::take_force(const time::AcceptedStep& step, std::size_t con
   last = now;
 }
 
-void ContactRecorder::take_beside(const time::AcceptedStep& step, std::size_t contact, double t, double side,
-                                  double force) {
-  if (!(force > kNear * watches_[contact].current.peak_force)) return;
-  const double beside = t + side * kBeside * (step.to.t - step.from.t), value = at(step, beside)[contact].normal;
-  if (value > force) take_force(step, contact, beside, value);
+void ContactRecorder::take_beside(const time::AcceptedStep& step, double t, double side, const Forces& there) {
+  const auto is_near_peak = [&](std::size_t i) {
+    const Watch& watch = watches_[i];
+    return (watch.is_support || watch.touches || is_in_contact(there[i])) &&
+           there[i].normal > kNear * watch.current.peak_force;
+  };
+  if (std::none_of(active_.begin(), active_.end(), is_near_peak)) return;
+  const double beside = t + side * kBeside * (step.to.t - step.from.t);
+  take(at(step, beside), beside_);
+  for (const std::size_t i : active_)
+    if (is_near_peak(i) && beside_[i].normal > there[i].normal) take_force(step, i, beside, beside_[i].normal);
 }
 
 void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact, double begin, double end) {

@@ -70,15 +70,16 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   /// Records the normal force of a contact at an instant of a step, and the maximum around the
   /// previous instant.
   void take_force(const time::AcceptedStep& step, std::size_t contact, double t, double force);
-  /// The same beside an end of the step, at instant t, if the force is larger there.
-  void take_beside(const time::AcceptedStep& step, std::size_t contact, double t, double side, double force);
+  /// The same a little beside an end of the step, at instant t, where the forces are `there`, of contacts whose force
+  /// is larger beside it.
+  void take_beside(const time::AcceptedStep& step, double t, double side, const Forces& there);
   void change(const time::AcceptedStep& step, std::size_t contact, double begin, double end);
 
   dynamics::Dynamics& dynamics_;
   std::vector<Index> dofs_;
   std::vector<double> x_values_, v_values_;
   Vector x_, v_;
-  Forces forces_, now_, ends_;
+  Forces forces_, now_, ends_, beside_;
   std::vector<Watch> watches_;
   std::vector<std::size_t> active_;
   std::vector<ContactWear> wear_;

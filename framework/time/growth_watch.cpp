@@ -94,6 +94,7 @@ void GrowthWatch::save(ByteWriter& to) const {
         largest_x_, coarseness_, coarse_step_, longest_step_, contact_frequency_})
     to.put(number);
   to.put(is_met_);
+  to.put(is_fed_);
 }
 
 void GrowthWatch::restore(ByteReader& from) {
@@ -105,6 +106,7 @@ void GrowthWatch::restore(ByteReader& from) {
         &largest_energy_, &largest_x_, &coarseness_, &coarse_step_, &longest_step_, &contact_frequency_})
     from.take(*number);
   from.take(is_met_);
+  from.take(is_fed_);
 }
 
 double GrowthWatch::energy(const State& state) {
