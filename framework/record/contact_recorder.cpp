@@ -261,14 +261,15 @@ void ContactRecorder::take_force(const time::AcceptedStep& step, std::size_t con
 void ContactRecorder::take_beside(const time::AcceptedStep& step, double t, double side, const Forces& there) {
   const auto is_near_peak = [&](std::size_t i) {
     const Watch& watch = watches_[i];
-    return (watch.is_support || watch.touches || is_in_contact(there[i])) &&
+    return !watch.is_support && (watch.touches || is_in_contact(there[i])) &&
            there[i].normal > kNear * watch.current.peak_force;
   };
   if (std::none_of(active_.begin(), active_.end(), is_near_peak)) return;
   const double beside = t + side * kBeside * (step.to.t - step.from.t);
   take(at(step, beside), beside_);
   for (const std::size_t i : active_)
-    if (is_near_peak(i) && beside_[i].normal > there[i].normal) take_force(step, i, beside, beside_[i].normal);
+    if (is_near_peak(i) && beside_[i].normal - there[i].normal > kFlat * beside_[i].normal)
+      take_force(step, i, beside, beside_[i].normal);
 }
 
 void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact, double begin, double end) {
