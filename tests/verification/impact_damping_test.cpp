@@ -280,8 +280,9 @@ TEST(HardImpact, IsResolvedFromItsFirstStepOn) {
         ASSERT_GT(recorder.impacts().size(), 3U) << where;
         for (const record::Impact& impact : recorder.impacts()) {
           EXPECT_LT(impact.peak_force, 1.1 * speed * std::sqrt(k) + c * speed) << where << " at " << impact.t_in;
-          if (std::abs(impact.impact_speed) > 0.1 * speed && impact.t_out)
+          if (std::abs(impact.impact_speed) > 0.1 * speed && impact.t_out) {
             EXPECT_LT(*impact.t_out - impact.t_in, 6.0 / std::sqrt(k)) << where << " at " << impact.t_in;
+          }
         }
       }
 }
