@@ -63,11 +63,11 @@ TEST(HarmonicResponse, IsAccurateInBothPartsOfSlowAndResonantModes) {
       const integrators::HarmonicResponse<One> same(single, One(one.decay), One(one.turn),
                                                     at(decays * (one.turn * lengths).cos()),
                                                     at(decays * (one.turn * lengths).sin()));
-      const double size = lengths[lane];
-      EXPECT_NEAR(lanes.cosine_re[lane], same.cosine_re[0], 1e-15 * size);
-      EXPECT_NEAR(lanes.cosine_im[lane], same.cosine_im[0], 1e-15 * size);
-      EXPECT_NEAR(lanes.sine_re[lane], same.sine_re[0], 1e-15 * size);
-      EXPECT_NEAR(lanes.sine_im[lane], same.sine_im[0], 1e-15 * size);
+      const double most = 1e-15 * lengths[lane];
+      EXPECT_NEAR(lanes.cosine_re[lane], same.cosine_re[0], most);
+      EXPECT_NEAR(lanes.cosine_im[lane], same.cosine_im[0], most);
+      EXPECT_NEAR(lanes.sine_re[lane], same.sine_re[0], most);
+      EXPECT_NEAR(lanes.sine_im[lane], same.sine_im[0], most);
     }
   }
 }
