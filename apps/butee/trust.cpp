@@ -145,12 +145,12 @@ class Judgement {
       if (again)
         again_ = std::move(*again);
       else
-        other_.reset();
-    }
-    if (!other_)
+        other_.reset();  // follow_if_possible() has told why
+    } else {
       log::warning(
           "no method of another family can run this scene at reasonable cost; --trust cannot detect systematic errors "
           "of the method");
+    }
   }
 
   /// The size of disturbances to follow with a method whose error in a step is `noise`.

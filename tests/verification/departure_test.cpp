@@ -73,6 +73,24 @@ INSTANTIATE_TEST_SUITE_P(Methods, Departure,
                                          "discrete_gradient_adaptive", "central_differences_adaptive"),
                          [](const auto& one) { return std::string(one.param); });
 
+/// Stops at all nodes of a beam at rest: the force of each acts from the start on the side to which the load drives it,
+/// while the motion without these forces alternates from node to node.
+TEST(Departure, OfManyStopsIsToTheSideOfTheFirstMotion) {
+  const std::string beam =
+      "schema = 1\n[material.steel]\nyoung_modulus = 2.1e11\ndensity = 7850.0\npoisson_ratio = 0.3\n[section.pipe]\n"
+      "shape = \"tube\"\nouter_radius = 0.02\ninner_radius = 0.015\n[[element]]\ntype = \"beam\"\nname = \"b\"\n"
+      "material = \"steel\"\nsection = \"pipe\"\nlength = 2.0\nelements = 20\n[[support]]\nnodes = [\"b:first\", "
+      "\"b:last\"]\nfix = [\"u\"]\n[[contact]]\ntype = \"stop\"\nnodes = \"b:all\"\ngap = 0.003\nlaw = \"arctan\"\n"
+      "stiffness = 1e5\nregularization = 1e3\n[[load]]\ntype = \"harmonic\"\nnode = \"b:10\"\namplitude = 100.0\n"
+      "angular_frequency = 30.0\n[integrator]\nend_time = 1e-3\n";
+  SceneRun exact(beam, {"integrator.type=exact"}),
+      exponential(beam, {"integrator.type=exponential", "integrator.tolerance=1e-6"});
+  ASSERT_TRUE(exact.run().completed);
+  ASSERT_TRUE(exponential.run().completed);
+  const Vector &wanted = exact.simulation().state().x, &got = exponential.simulation().state().x;
+  EXPECT_LT((got - wanted).norm(), 1e-5 * wanted.norm());
+}
+
 class FixedSteps : public testing::TestWithParam<const char*> {};
 
 TEST_P(FixedSteps, LeaveWithTheLoadAndTheResidualForce) {
