@@ -64,9 +64,13 @@ bool DisplacementBounds::find_carried(const Eigen::ArrayXd& start_speed, const d
   gaps_.bound_displacements(step.from.w, path.end, kBump * (start_speed.abs() + path.speed.abs()) + beyond_cubic_,
                             path_bounds_);
   const std::size_t before = step.carried.size();
-  for (Index i = 0; i < modal_.stop_count(); ++i)
-    if (path_bounds_[i] > gaps_.gaps()[i] && !std::binary_search(step.iterated.begin(), step.iterated.end(), i))
+  auto iterated = step.iterated.begin();
+  for (Index i = 0; i < modal_.stop_count(); ++i) {
+    if (iterated != step.iterated.end() && *iterated == i)
+      ++iterated;
+    else if (path_bounds_[i] > gaps_.gaps()[i])
       step.carried.push_back(i);
+  }
   return step.carried.size() > before;
 }
 

@@ -22,6 +22,7 @@ ContactIteration::ContactIteration(const dynamics::ModalSystem& modal, const Ste
   for (ArrayXd* array : {&noted_.end, &noted_.speed, &noted_.middle, &moments_[0], &moments_[1], &moments_[2]})
     array->setZero(gaps.gaps().size());
   for (ArrayXd& sum : sums_) sum.setZero(modal.size());
+  allowed_.setZero(gaps.gaps().size());
   touched_.reserve(contacts.size());
   is_touched_.assign(contacts.size(), false);
 }
@@ -89,9 +90,7 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
   for (const Index i : step_.iterated) {
     ContactForce& contact = contacts_[static_cast<std::size_t>(i)];
     if (contact.is_linear() && !is_touched(i) && paths_.excess()[i] <= 0.0) continue;
-    if (may_skip && is_touched(i) &&
-        moved_since(flow, i) <= kContraction * unfinished_ * allowed_change(flow, i, displacement))
-      continue;
+    if (may_skip && is_touched(i) && missing_force(flow, i) <= kContraction * unfinished_ * allowed_[i]) continue;
     const ContactPath path = paths_.of(i);
     const ContactStatus status = contact.status(path);
     const ForceMoments old = {moments_[0][i], moments_[1][i], moments_[2][i]};
@@ -116,17 +115,17 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
     // For a spring the linear equations already hold on the path with the new force.
     if (was_spring && is_spring(i)) note_path(i);
     // At a start from rest the scale is the displacement due to the force itself.
-    if (moved > 0.0)
-      change =
-          std::max(change, moved / allowed_change(flow, i, std::max(displacement, std::abs(paths_.motion().end[i]))));
+    const double allowed = allow(flow, i, std::max(displacement, std::abs(paths_.motion().end[i])));
+    if (moved > 0.0) change = std::max(change, moved / allowed);
   }
   return change;
 }
 
-double ContactIteration::allowed_change(ContactPropagator& flow, Index stop, double displacement) const {
+double ContactIteration::allow(ContactPropagator& flow, Index stop, double displacement) {
   const ContactScale scale = scales_.of(stop, paths_.reached(stop), displacement);
-  return std::max(integrators::allowed_change(goal_.middle, influence_.stiff(flow, stop), flow.h(), scale),
-                  kRoundingChange / unfinished_ * displacement);
+  allowed_[stop] = std::max(allowed_change(goal_.middle, influence_.stiff(flow, stop), flow.h(), scale),
+                            kRoundingChange / unfinished_ * displacement);
+  return allowed_[stop];
 }
 
 bool ContactIteration::is_spring(Index stop) const {
@@ -142,12 +141,13 @@ void ContactIteration::note_path(Index stop) {
   noted_.middle[stop] = now.middle[stop];
 }
 
-double ContactIteration::moved_since(ContactPropagator& flow, Index stop) const {
+double ContactIteration::missing_force(ContactPropagator& flow, Index stop) const {
   const dynamics::StopMotion& now = paths_.motion();
   const double path = std::abs(now.end[stop] - noted_.end[stop]) +
                       kBump * std::abs(now.speed[stop] - noted_.speed[stop]) +
                       std::abs(now.middle[stop] - noted_.middle[stop]);
-  return path * (1.0 + std::abs(influence_.stiff(flow, stop)));
+  const double stiff = std::abs(influence_.stiff(flow, stop));
+  return path * (contacts_[static_cast<std::size_t>(stop)].is_linear() ? stiff : 1.0 + stiff);
 }
 
 void ContactIteration::touch(Index stop) {

@@ -47,13 +47,14 @@ class ContactIteration {
   /// One sweep; returns the largest change of a path over allowed_change(). `may_skip`: the force of a stop is kept if
   /// other stops moved its path so little that the force would not move it by unfinished_.
   double sweep(dynamics::ContactPropagator& flow, double displacement, bool may_skip);
-  double allowed_change(dynamics::ContactPropagator& flow, Index stop, double displacement) const;
+  /// Updates allowed_ of a stop and returns it, m.
+  double allow(dynamics::ContactPropagator& flow, Index stop, double displacement);
   bool is_spring(Index stop) const;
   /// Stores the path of a stop for which its force was computed.
   void note_path(Index stop);
-  /// The distance of the path of a stop from the stored one, m, including the resulting change of h
-  /// times its speed for a stiff stop.
-  double moved_since(dynamics::ContactPropagator& flow, Index stop) const;
+  /// The change of the path of a stop since it was stored, m, times sigma for the change of its force; a residual force
+  /// may change faster than the spring force: times 1 + sigma.
+  double missing_force(dynamics::ContactPropagator& flow, Index stop) const;
   void touch(Index stop);
   /// Adds `more` to the force of a stop; returns the largest change of a path, m.
   double add_force(dynamics::ContactPropagator& flow, Index stop, const ForceMoments& more);
@@ -69,6 +70,7 @@ class ContactIteration {
   dynamics::StopMotion noted_;  ///< the paths stored by note_path()
   std::vector<Index> near_registers_, far_registers_;  ///< vector registers with iterated stops, and all others
   std::array<Eigen::ArrayXd, 3> moments_, sums_;
+  Eigen::ArrayXd allowed_;  ///< allowed_change() of the stops whose forces have been computed, m
   std::vector<Index> touched_;
   std::vector<bool> is_touched_;
   double unfinished_ = 1.0;  ///< unfinished_change()

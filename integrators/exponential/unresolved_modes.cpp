@@ -20,6 +20,7 @@ UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::Mo
       squares_(modal.frequencies().square()),
       closed_(ArrayXd::Zero(modal.stop_count())) {
   if (is_possible_) speeds_ = now_ = of_kind_ = Vector::Zero(modal.shapes().rows());
+  parts_.setZero(modal.size());
 }
 
 void UnresolvedModes::start(double t, double* memory) const {
@@ -65,13 +66,9 @@ void UnresolvedModes::save(double* memory) const {
   Eigen::Map<ArrayXd>(memory + 1 + speeds_.size(), closed_.size()) = closed_;
 }
 
-double UnresolvedModes::error(double h) const {
-  double sum = 0.0;
-  for (Index i = 0; i < rates_.size(); ++i) {
-    const double part = rates_[i] * unreceived_part(squares_[i] * h * h);
-    sum += part * part;
-  }
-  return h * std::sqrt(sum);
+double UnresolvedModes::error(double h) {
+  for (Index i = 0; i < rates_.size(); ++i) parts_[i] = rates_[i] * unreceived_part(squares_[i] * h * h);
+  return h * parts_.matrix().norm();
 }
 
 void UnresolvedModes::find_rates(double t, const ModalState& state, const double* was_closed) {

@@ -45,7 +45,7 @@ class UnresolvedModes {
   /// A stop stays closed.
   bool any() const { return any_; }
   /// The error of a step of length h, relative to the largest velocity so far of the component that it affects most.
-  double error(double h) const;
+  double error(double h);
   /// The largest error() of a step to t.
   double allowed(double t) const { return ErrorAccount::kSpend / kMacroStep * (account_.rate() * t - spent_); }
   void charge(double h) {
@@ -70,7 +70,7 @@ class UnresolvedModes {
   Vector of_kind_;         ///< the largest of these velocities for the kind of each DOF
   Eigen::ArrayXd closed_;  ///< the side on which each stop was closed at the start of the macro step; 0: open
   Eigen::ArrayXd rates_;   ///< error of each mode per second if it does not feel the stops at all, 1/s
-  Eigen::ArrayXd acceleration_, rise_;
+  Eigen::ArrayXd acceleration_, rise_, parts_;
 };
 
 }  // namespace butee::integrators

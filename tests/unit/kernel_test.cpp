@@ -242,6 +242,14 @@ TEST_F(Kernels, WhatForcesDoToStops) {
     }
     flow.add_forces(stop, force, registers, together);
     const double allowed = kRounding * largest;
+    // Forces without a third moment, added at once and one by one.
+    dynamics::StopMotion ramps = at_rest(), ramps_apart = at_rest();
+    flow.add_forces(stop, {force[0], force[1], ArrayXd::Zero(kStops)}, registers, ramps);
+    for (const Index i : stop) flow.add_force(i, {force[0][i], force[1][i], 0.0}, 0.3, registers, ramps_apart);
+    EXPECT_LE((ramps.end - ramps_apart.end).abs().maxCoeff(), allowed);
+    EXPECT_LE((ramps.speed - ramps_apart.speed).abs().maxCoeff(), allowed);
+    EXPECT_LE((ramps.middle - ramps_apart.middle).abs().maxCoeff(), allowed);
+    EXPECT_GT(ramps.end.abs().maxCoeff(), 0.0);
     for (const dynamics::StopMotion& motion : {together, apart}) {
       EXPECT_LE((motion.end - expected.end).abs().maxCoeff(), allowed);
       EXPECT_LE((motion.speed - expected.speed).abs().maxCoeff(), allowed);

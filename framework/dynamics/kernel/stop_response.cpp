@@ -1,6 +1,7 @@
 #include "butee/dynamics/kernel/stop_response.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 
 #include "butee/linalg/kernel/dense.hpp"
 
@@ -27,14 +28,13 @@ struct Response {
 
   HWY_INLINE Response() : end(hn::Zero(Tag())), speed(end), middle(end) {}
 
-  HWY_INLINE void add(const StopForce& stop, Index begin) {
-    const double* column = stop.columns.values + begin;
-    for (const double force : stop.force) {
-      const Register factor = hn::Set(Tag(), force);
-      for (Register* sum : {&end, &speed, &middle}) {
-        *sum = hn::MulAdd(hn::LoadU(Tag(), column), factor, *sum);
-        column += stop.columns.rows;
-      }
+  /// Adds the response to moment k of a force.
+  HWY_INLINE void add(const StopForce& stop, std::size_t k, Index begin) {
+    const double* column = stop.columns.values + static_cast<Index>(3 * k) * stop.columns.rows + begin;
+    const Register factor = hn::Set(Tag(), stop.force[k]);
+    for (Register* sum : {&end, &speed, &middle}) {
+      *sum = hn::MulAdd(hn::LoadU(Tag(), column), factor, *sum);
+      column += stop.columns.rows;
     }
   }
 
@@ -49,30 +49,38 @@ struct Response {
 };
 
 double add_force(const StopForce& stop, double speed_weight, std::span<const Index> chunks, const Motion& motion) {
-  Register largest = hn::Zero(Tag()), all = hn::Zero(Tag());
+  Register largest = hn::Zero(Tag());
   const Register weight = hn::Set(Tag(), speed_weight);
   for (const Index chunk : chunks)
     for (Index begin = chunk; begin < chunk + kChunk; begin += kWidth) {
       Response response;
-      response.add(stop, begin);
+      for (std::size_t k = 0; k < 3; ++k) response.add(stop, k, begin);
       response.add_to(motion, begin);
       const Register change =
           hn::MulAdd(weight, hn::Abs(response.speed), hn::Add(hn::Abs(response.end), hn::Abs(response.middle)));
       largest = hn::Max(largest, change);
-      all = hn::Add(all, change);
     }
-  // A NaN may be lost in comparisons; the sum reveals it.
-  const double sum = hn::GetLane(hn::SumOfLanes(Tag(), all));
-  return std::isfinite(sum) ? hn::GetLane(hn::MaxOfLanes(Tag(), largest)) : sum;
+  // A NaN may be lost in comparisons; the force reveals it.
+  return hn::GetLane(hn::MaxOfLanes(Tag(), largest)) + 0.0 * (stop.force[0] + stop.force[1] + stop.force[2]);
+}
+
+/// Adds the responses to the first moments of the forces.
+template <std::size_t kMoments>
+void add_moments(std::span<const StopForce> stops, std::span<const Index> chunks, const Motion& motion) {
+  for (const Index chunk : chunks)
+    for (Index begin = chunk; begin < chunk + kChunk; begin += kWidth) {
+      // Separate sums, so that no addition waits for the one before.
+      std::array<Response, kMoments> responses;
+      for (const StopForce& stop : stops)
+        for (std::size_t k = 0; k < kMoments; ++k) responses[k].add(stop, k, begin);
+      for (const Response& response : responses) response.add_to(motion, begin);
+    }
 }
 
 void add_forces(std::span<const StopForce> stops, std::span<const Index> chunks, const Motion& motion) {
-  for (const Index chunk : chunks)
-    for (Index begin = chunk; begin < chunk + kChunk; begin += kWidth) {
-      Response response;
-      for (const StopForce& stop : stops) response.add(stop, begin);
-      response.add_to(motion, begin);
-    }
+  const bool is_ramp =
+      std::all_of(stops.begin(), stops.end(), [](const StopForce& stop) { return stop.force[2] == 0.0; });
+  is_ramp ? add_moments<2>(stops, chunks, motion) : add_moments<3>(stops, chunks, motion);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct StopForce {
 struct StopResponse {
   /// Adds the response to one force for the stops of these chunks; a chunk is named by its first
   /// stop. Returns the largest |end| + speed_weight |speed| + |middle| of the response, not finite
-  /// if one of them is not.
+  /// if the force is not.
   double (*add_force)(const StopForce&, double speed_weight, std::span<const Index> chunks, const Motion&);
   /// Adds the responses to all of these forces.
   void (*add_forces)(std::span<const StopForce>, std::span<const Index> chunks, const Motion&);
