@@ -24,7 +24,7 @@ ContactIteration::ContactIteration(const dynamics::ModalSystem& modal, const Ste
   for (ArrayXd& sum : sums_) sum.setZero(modal.size());
   allowed_.setZero(gaps.gaps().size());
   touched_.reserve(contacts.size());
-  is_touched_.assign(contacts.size(), false);
+  is_touched_.assign(contacts.size(), 0);
 }
 
 std::optional<double> ContactIteration::solve(ContactPropagator& flow) {
@@ -48,7 +48,7 @@ std::optional<double> ContactIteration::solve(ContactPropagator& flow) {
 void ContactIteration::begin() {
   paths_.begin(modal_.stop_shapes());
   for (ArrayXd& moment : moments_) moment.setZero();
-  for (const Index i : touched_) is_touched_[static_cast<std::size_t>(i)] = false;
+  for (const Index i : touched_) is_touched_[static_cast<std::size_t>(i)] = 0;
   touched_.clear();
   choose_registers();
 }
@@ -152,7 +152,7 @@ double ContactIteration::missing_force(ContactPropagator& flow, Index stop) cons
 
 void ContactIteration::touch(Index stop) {
   if (!is_touched(stop)) touched_.push_back(stop);
-  is_touched_[static_cast<std::size_t>(stop)] = true;
+  is_touched_[static_cast<std::size_t>(stop)] = 1;
 }
 
 double ContactIteration::add_force(ContactPropagator& flow, Index stop, const ForceMoments& more) {

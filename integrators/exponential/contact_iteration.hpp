@@ -32,7 +32,7 @@ class ContactIteration {
   const ContactInfluence& influence() const { return influence_; }
   /// The stops that exert a force in the step.
   const std::vector<Index>& touched() const { return touched_; }
-  bool is_touched(Index stop) const { return is_touched_[static_cast<std::size_t>(stop)]; }
+  bool is_touched(Index stop) const { return is_touched_[static_cast<std::size_t>(stop)] != 0; }
   /// Moment k of the forces: for each stop, N, and summed as modal forces.
   const Eigen::ArrayXd& moments(std::size_t k) const { return moments_[k]; }
   const Eigen::ArrayXd& modal_moments(std::size_t k) const { return sums_[k]; }
@@ -72,7 +72,7 @@ class ContactIteration {
   std::array<Eigen::ArrayXd, 3> moments_, sums_;
   Eigen::ArrayXd allowed_;  ///< allowed_change() of the stops whose forces have been computed, m
   std::vector<Index> touched_;
-  std::vector<bool> is_touched_;
+  std::vector<char> is_touched_;
   double unfinished_ = 1.0;  ///< unfinished_change()
 };
 

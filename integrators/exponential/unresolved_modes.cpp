@@ -20,7 +20,7 @@ UnresolvedModes::UnresolvedModes(const model::System& system, const dynamics::Mo
       squares_(modal.frequencies().square()),
       closed_(ArrayXd::Zero(modal.stop_count())) {
   if (is_possible_) speeds_ = now_ = of_kind_ = Vector::Zero(modal.shapes().rows());
-  parts_.setZero(modal.size());
+  unreceived_.setZero(modal.size());
 }
 
 void UnresolvedModes::start(double t, double* memory) const {
@@ -67,8 +67,11 @@ void UnresolvedModes::save(double* memory) const {
 }
 
 double UnresolvedModes::error(double h) {
-  for (Index i = 0; i < rates_.size(); ++i) parts_[i] = rates_[i] * unreceived_part(squares_[i] * h * h);
-  return h * parts_.matrix().norm();
+  if (h != unreceived_h_) {
+    unreceived_ = squares_.unaryExpr([h](double square) { return unreceived_part(square * h * h); });
+    unreceived_h_ = h;
+  }
+  return h * (rates_ * unreceived_).matrix().norm();
 }
 
 void UnresolvedModes::find_rates(double t, const ModalState& state, const double* was_closed) {

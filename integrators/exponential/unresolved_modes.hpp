@@ -70,7 +70,9 @@ class UnresolvedModes {
   Vector of_kind_;         ///< the largest of these velocities for the kind of each DOF
   Eigen::ArrayXd closed_;  ///< the side on which each stop was closed at the start of the macro step; 0: open
   Eigen::ArrayXd rates_;   ///< error of each mode per second if it does not feel the stops at all, 1/s
-  Eigen::ArrayXd acceleration_, rise_, parts_;
+  Eigen::ArrayXd acceleration_, rise_;
+  Eigen::ArrayXd unreceived_;   ///< unreceived_part() of each mode for steps of unreceived_h_
+  double unreceived_h_ = 0.0;   ///< s
 };
 
 }  // namespace butee::integrators
