@@ -39,12 +39,13 @@ Breakpoints::Breakpoints(const dynamics::ModalSystem& modal, std::size_t most) :
   has_phases_.assign(most + 1, false);
   phases_.resize((most + 1) * modal.harmonics().size());
   forces_.resize(most + 1);
-  for (StepForces& forces : forces_) {
-    forces.constant.setZero(modal.stop_count());
-    forces.touched.reserve(static_cast<std::size_t>(modal.stop_count()));
-    forces.paths.setZero(dynamics::ContactPropagator::padded(modal.stop_count()), StepForces::kColumns);
-    for (Vector& moment : forces.moments) moment.setZero(room);
-  }
+}
+
+void Breakpoints::make_room(StepForces& forces) const {
+  forces.constant.setZero(modal_.stop_count());
+  forces.touched.reserve(static_cast<std::size_t>(modal_.stop_count()));
+  forces.paths.setZero(dynamics::ContactPropagator::padded(modal_.stop_count()), StepForces::kColumns);
+  for (Vector& moment : forces.moments) moment.setZero(dynamics::ModalMotion::padded(modal_.size()));
 }
 
 std::size_t Breakpoints::add(double t, const double* q, const double* v, const double* w) {

@@ -46,7 +46,10 @@ class Breakpoints {
 
   /// The forces of the step that begins at breakpoint k, to be filled after the breakpoint was
   /// added.
-  StepForces& forces(std::size_t k) { return forces_[k]; }
+  StepForces& forces(std::size_t k) {
+    if (forces_[k].moments.front().size() == 0) make_room(forces_[k]);
+    return forces_[k];
+  }
   const StepForces& forces(std::size_t k) const { return forces_[k]; }
 
   std::size_t capacity() const { return forces_.size(); }
@@ -65,6 +68,8 @@ class Breakpoints {
   auto w(std::size_t k) const { return w_.col(static_cast<Index>(k)); }
 
  private:
+  void make_room(StepForces& forces) const;
+
   const dynamics::ModalSystem& modal_;
   std::vector<double> times_;
   Eigen::MatrixXd q_, v_, w_;  ///< one column per breakpoint

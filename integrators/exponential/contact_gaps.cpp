@@ -58,19 +58,27 @@ void DisplacementBounds::update(const TriedStep& step) {
   for (const Index i : step.carried) bounds_[i] = kNoGap;
 }
 
+// Without branches: which stops are near changes from step to step.
+void DisplacementBounds::find_near(std::vector<Index>& stops) const {
+  stops.resize(static_cast<std::size_t>(modal_.stop_count()));
+  std::size_t count = 0;
+  for (Index i = 0; i < modal_.stop_count(); ++i) {
+    stops[count] = i;
+    count += is_near(i) ? 1 : 0;
+  }
+  stops.resize(count);
+}
+
 bool DisplacementBounds::find_carried(const Eigen::ArrayXd& start_speed, const dynamics::StopMotion& path,
                                       TriedStep& step) {
   if (static_cast<Index>(step.iterated.size()) == modal_.stop_count()) return false;
   gaps_.bound_displacements(step.from.w, path.end, kBump * (start_speed.abs() + path.speed.abs()) + beyond_cubic_,
                             path_bounds_);
+  for (const Index i : step.iterated) path_bounds_[i] = -kNoGap;
+  if (!((path_bounds_ - gaps_.gaps()).maxCoeff() > 0.0)) return false;
   const std::size_t before = step.carried.size();
-  auto iterated = step.iterated.begin();
-  for (Index i = 0; i < modal_.stop_count(); ++i) {
-    if (iterated != step.iterated.end() && *iterated == i)
-      ++iterated;
-    else if (path_bounds_[i] > gaps_.gaps()[i])
-      step.carried.push_back(i);
-  }
+  for (Index i = 0; i < modal_.stop_count(); ++i)
+    if (path_bounds_[i] > gaps_.gaps()[i]) step.carried.push_back(i);
   return step.carried.size() > before;
 }
 

@@ -72,6 +72,8 @@ class DisplacementBounds {
   const Eigen::ArrayXd& all() const { return bounds_; }
   /// The stop may come so near its gap that its force is not constant.
   bool is_near(Index stop) const { return bounds_[stop] > gaps_.limits()[stop]; }
+  /// Fills `stops` with all that are near, in order.
+  void find_near(std::vector<Index>& stops) const;
   /// The part of the Hermite interpolation error due to loads, m.
   double of_loads() const { return of_loads_; }
 

@@ -40,7 +40,9 @@ std::optional<double> ContactIteration::solve(ContactPropagator& flow) {
     if (!std::isfinite(change)) return std::nullopt;
     const double next = i > 0 ? change * std::min(1.0, change / last) : change;
     last = change;
-    if (next <= unfinished_) return displacement();
+    if (next > unfinished_) continue;
+    paths_.find_bounds();
+    return displacement();
   }
   return std::nullopt;
 }
@@ -56,12 +58,12 @@ void ContactIteration::begin() {
 void ContactIteration::choose_registers() {
   near_registers_.clear();
   far_registers_.clear();
-  std::size_t next = 0;
+  auto next = step_.iterated.begin();
   for (Index begin = 0, end = 0; begin < gaps_.gaps().size(); begin = end) {
     end = ContactPropagator::next_register(begin);
-    const std::size_t first = next;
-    while (next < step_.iterated.size() && step_.iterated[next] < end) ++next;
-    (next > first ? near_registers_ : far_registers_).push_back(begin);
+    const auto first = next;
+    while (next != step_.iterated.end() && *next < end) ++next;
+    (next != first ? near_registers_ : far_registers_).push_back(begin);
   }
 }
 
@@ -85,14 +87,13 @@ void ContactIteration::guess(ContactPropagator& flow) {
 }
 
 double ContactIteration::sweep(ContactPropagator& flow, double displacement, bool may_skip) {
-  paths_.find_bounds();
   double change = 0.0;
   for (const Index i : step_.iterated) {
     ContactForce& contact = contacts_[static_cast<std::size_t>(i)];
-    if (contact.is_linear() && !is_touched(i) && paths_.excess()[i] <= 0.0) continue;
     if (may_skip && is_touched(i) && missing_force(flow, i) <= kContraction * unfinished_ * allowed_[i]) continue;
     const ContactPath path = paths_.of(i);
     const ContactStatus status = contact.status(path);
+    if (status == ContactStatus::open && contact.is_linear() && !is_touched(i)) continue;
     const ForceMoments old = {moments_[0][i], moments_[1][i], moments_[2][i]};
     const ContactInfluence::Known& known = influence_.of(flow, i);
     const ContactNewton& newton = influence_.newton(i);

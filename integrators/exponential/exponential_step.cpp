@@ -166,16 +166,15 @@ void ExponentialStep::choose_stops(ContactPropagator& flow) {
   bounds_.find(flow, step_);
   step_.constant.clear();
   if (has_residual) errors_.find_constant(flow, step_);
-  bool any_near = false;
-  for (Index i = 0; i < modal_.stop_count(); ++i) {
-    const bool is_near = bounds_.is_near(i);
-    any_near = any_near || is_near;
-    if (is_near || (has_residual && (step_.is_crossing(i) || !errors_.is_constant(flow, i))))
-      step_.iterated.push_back(i);
-    else if (has_residual)
-      step_.constant.push_back(i);
+  bounds_.find_near(step_.iterated);
+  step_.is_near = !step_.iterated.empty();
+  if (has_residual) {
+    step_.iterated.clear();
+    for (Index i = 0; i < modal_.stop_count(); ++i) {
+      const bool is_iterated = bounds_.is_near(i) || step_.is_crossing(i) || !errors_.is_constant(flow, i);
+      (is_iterated ? step_.iterated : step_.constant).push_back(i);
+    }
   }
-  step_.is_near = any_near;
   while (has_residual && residual_.update(flow, errors_, step_) && choose_more_stops(flow)) {
   }
 }
