@@ -1,7 +1,6 @@
 #include "butee/dynamics/kernel/stop_response.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "butee/linalg/kernel/dense.hpp"
 
@@ -70,7 +69,7 @@ void add_moments(std::span<const StopForce> stops, std::span<const Index> chunks
   for (const Index chunk : chunks)
     for (Index begin = chunk; begin < chunk + kChunk; begin += kWidth) {
       // Separate sums, so that no addition waits for the one before.
-      std::array<Response, kMoments> responses;
+      Response responses[kMoments];
       for (const StopForce& stop : stops)
         for (std::size_t k = 0; k < kMoments; ++k) responses[k].add(stop, k, begin);
       for (const Response& response : responses) response.add_to(motion, begin);
