@@ -25,6 +25,7 @@ ContactIteration::ContactIteration(const dynamics::ModalSystem& modal, const Ste
   allowed_.setZero(gaps.gaps().size());
   touched_.reserve(contacts.size());
   is_touched_.assign(contacts.size(), 0);
+  is_spring_noted_.assign(contacts.size(), 0);
 }
 
 std::optional<double> ContactIteration::solve(ContactPropagator& flow) {
@@ -98,7 +99,7 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
     const ContactInfluence::Known& known = influence_.of(flow, i);
     const ContactNewton& newton = influence_.newton(i);
     const bool was_spring = contact.is_spring(path, status);
-    note_path(i);
+    note_path(i, false);
     ForceMoments projected, more;
     if (was_spring) {
       projected = contact.of_spring(path);
@@ -114,7 +115,7 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
     const double moved = stays ? 0.0 : add_force(flow, i, more);
     if (!std::isfinite(moved)) return moved;
     // For a spring the linear equations already hold on the path with the new force.
-    if (was_spring && is_spring(i)) note_path(i);
+    if (was_spring && is_spring(i)) note_path(i, true);
     // At a start from rest the scale is the displacement due to the force itself.
     const double allowed = allow(flow, i, std::max(displacement, std::abs(paths_.motion().end[i])));
     if (moved > 0.0) change = std::max(change, moved / allowed);
@@ -135,7 +136,8 @@ bool ContactIteration::is_spring(Index stop) const {
   return contact.is_spring(path, contact.status(path));
 }
 
-void ContactIteration::note_path(Index stop) {
+void ContactIteration::note_path(Index stop, bool is_spring) {
+  is_spring_noted_[static_cast<std::size_t>(stop)] = is_spring ? 1 : 0;
   const dynamics::StopMotion& now = paths_.motion();
   noted_.end[stop] = now.end[stop];
   noted_.speed[stop] = now.speed[stop];
@@ -148,7 +150,8 @@ double ContactIteration::missing_force(ContactPropagator& flow, Index stop) cons
                       kBump * std::abs(now.speed[stop] - noted_.speed[stop]) +
                       std::abs(now.middle[stop] - noted_.middle[stop]);
   const double stiff = std::abs(influence_.stiff(flow, stop));
-  return path * (contacts_[static_cast<std::size_t>(stop)].is_linear() ? stiff : 1.0 + stiff);
+  const auto i = static_cast<std::size_t>(stop);
+  return path * (contacts_[i].is_linear() || (is_spring_noted_[i] != 0 && is_spring(stop)) ? stiff : 1.0 + stiff);
 }
 
 void ContactIteration::touch(Index stop) {

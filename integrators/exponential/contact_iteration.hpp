@@ -50,10 +50,10 @@ class ContactIteration {
   /// Updates allowed_ of a stop and returns it, m.
   double allow(dynamics::ContactPropagator& flow, Index stop, double displacement);
   bool is_spring(Index stop) const;
-  /// Stores the path of a stop for which its force was computed.
-  void note_path(Index stop);
-  /// The change of the path of a stop since it was stored, m, times sigma for the change of its force; a residual force
-  /// may change faster than the spring force: times 1 + sigma.
+  /// Stores the path of a stop for which its force was computed, and whether it is a spring there.
+  void note_path(Index stop, bool is_spring);
+  /// The change of the path of a stop since it was stored, m, times sigma for the change of its force. Beside the bends
+  /// of its law the residual force may change faster than the spring force: times 1 + sigma.
   double missing_force(dynamics::ContactPropagator& flow, Index stop) const;
   void touch(Index stop);
   /// Adds `more` to the force of a stop; returns the largest change of a path, m.
@@ -72,7 +72,7 @@ class ContactIteration {
   std::array<Eigen::ArrayXd, 3> moments_, sums_;
   Eigen::ArrayXd allowed_;  ///< allowed_change() of the stops whose forces have been computed, m
   std::vector<Index> touched_;
-  std::vector<char> is_touched_;
+  std::vector<char> is_touched_, is_spring_noted_;
   double unfinished_ = 1.0;  ///< unfinished_change()
 };
 
