@@ -73,7 +73,7 @@ std::optional<ContactSearch::Event> ContactSearch::first(const DenseOutput& moti
   const int samples = switches_.sticks().empty() ? looks : std::max(looks, samples_of_loads(dynamics_.system(), h));
   double last = from.t;
   // A dip between samples is detected by a lowest value.
-  looks_.assign(watched_.size(), {});
+  functions_.assign(watched_.size(), {});
   std::array<Obstacles::Switch, Obstacles::kMostSwitches> present;
   // Two samples close to each end detect a dip between the end and its neighbour.
   for (int k = -1; k <= samples + 1; ++k) {
@@ -96,10 +96,12 @@ std::optional<ContactSearch::Event> ContactSearch::first(const DenseOutput& moti
       const std::size_t count = found.size();
       std::copy(found.begin(), found.end(), present.begin());
       for (std::size_t which = 0; which < count; ++which) {
-        auto& [first, second] = looks_[w][which];
+        auto& [first, second, is_returning] = functions_[w][which];
         const Look now{t, present[which].value};
-        // At its start a step may be leaving the event at which the last one ended.
-        if (now.value < 0.0 && k >= 0) {
+        is_returning = now.value < 0.0 && (k == -1 || (is_returning && now.value >= second.value));
+        if (is_returning) {
+          // no change
+        } else if (now.value < 0.0) {
           take(refine(motion, {t, i, which}, last, now.value));
         } else if (k >= 1 && second.value >= 0.0 && second.value <= now.value &&
                    first.value - second.value > kRounding * second.value) {

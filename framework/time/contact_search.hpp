@@ -13,7 +13,8 @@ namespace butee::time {
 ///
 /// A change is detected if a switching function has the opposite sign at one of kSamples instants
 /// within the step, or at the lowest point of a dip between three of them. Shorter phases are not
-/// detected.
+/// detected. A function that is below zero at the start and rises leaves the change at which the last
+/// step ended, which is located to a precision only.
 class ContactSearch {
  public:
   /// The first instant sampled in a step, as a fraction of it.
@@ -55,8 +56,12 @@ class ContactSearch {
   dynamics::Obstacles& obstacles_;
   ContactSwitches& switches_;
   ContactSwitches::Sample now_, work_;
-  /// Values of every switching function of the watched contacts at the last two instants.
-  std::vector<std::array<std::array<Look, 2>, dynamics::Obstacles::kMostSwitches>> looks_;
+  /// A switching function of a watched contact.
+  struct Watched {
+    Look before, last;          ///< at the last two instants
+    bool is_returning = false;  ///< below zero since the start of the step, and rising
+  };
+  std::vector<std::array<Watched, dynamics::Obstacles::kMostSwitches>> functions_;
   std::vector<Index> watched_, watched_dofs_, own_dofs_;
 };
 

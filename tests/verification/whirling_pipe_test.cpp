@@ -64,6 +64,23 @@ TEST(WhirlingPipe, TakesNotMoreStepsAtALooserTolerance) {
   EXPECT_LT(tight, 1000);
 }
 
+/// One ring opens, and the ring on the other side of the middle closes 1e-10 s later. The first is still closed by the
+/// precision of its instant (1e-12 m) at the start of the short step between both, and leaves.
+TEST(WhirlingPipe, TakesNoTinyStepsBetweenChangesOfTwoRings) {
+  const std::string toml = TurningPipe{"string", "lateral", "35.0", 10, "0.01", "0.01", "3.0"}.scene(R"(
+[damping]
+mass_proportional = 0.03
+[integrator]
+type = "exponential"
+tolerance = 1e-3
+end_time = 16.0
+)");
+  SceneRun run(toml, {"rotation.speed=10.0", "contact[0].friction.coefficient=0.0"});
+  const time::RunReport& report = run.run();
+  ASSERT_TRUE(report.completed) << report.message;
+  EXPECT_LT(report.steps + report.rejected, 10000);
+}
+
 /// The phases of the contacts with which steps begin.
 class Phases final : public time::Observer {
  public:
