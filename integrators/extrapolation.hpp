@@ -24,7 +24,11 @@ class Extrapolation final : public time::Integrator {
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State&) const override { return control_.first_step(); }
   /// It lands on outputs since the steps are long and interpolation has a lower order than the steps.
-  time::Traits traits() const override { return {.follows_contact_phases = true, .lands_on_outputs = true}; }
+  time::Traits traits() const override {
+    return {.follows_contact_phases = true,
+            .lands_on_outputs = true,
+            .velocity_uncertainty = control_.velocity_uncertainty()};
+  }
 
  private:
   static constexpr std::size_t kColumns = 4;

@@ -100,6 +100,9 @@ class LocalErrorControl {
     return state.memory.segment(kScales + state.x.size(), state.x.size());
   }
 
+  /// Traits::velocity_uncertainty; chosen: the force of a dashpot at that rate is a tenth of the tolerance.
+  double velocity_uncertainty() const { return 0.1 * tolerance_; }
+
   /// A step in which the fastest motion passes more than this phase angle, rad, is stiff: the error of the solution
   /// falls no faster than the estimate there (order reduction).
   static constexpr double kStiff = 6.0;

@@ -58,7 +58,9 @@ class Rodas4 final : public time::Integrator {
 
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State&) const override { return control_.first_step(); }
-  time::Traits traits() const override { return {.follows_contact_phases = true}; }
+  time::Traits traits() const override {
+    return {.follows_contact_phases = true, .velocity_uncertainty = control_.velocity_uncertainty()};
+  }
 
  private:
   static constexpr std::size_t kStages = Rodas4Output::kStages;

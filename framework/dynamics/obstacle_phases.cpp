@@ -164,7 +164,7 @@ std::size_t Obstacles::switches(Index i, double t, ConstVectorRef x, ConstVector
   const Kinematics now = kinematics(i, t, x, v);
   const Rounding uncertainty{
       rounding.displacement + kRoundingOfTerms * terms_of_penetration(contact.form, now.motion.d),
-      rounding.velocity + kRoundingOfTerms * now.motion.v.lpNorm<1>()};
+      rounding.velocity + kRoundingOfTerms * now.motion.v.lpNorm<1>(), rounding.of_speed};
   if (contact.group->shape != nullptr) add_normal_switches(contact, phase, now, uncertainty, list);
   if (phase.normal == NormalPhase::released || phase.normal == NormalPhase::pulling) return list.size();
   add_slip_switches(i, phase, t, now, a, held, uncertainty, list);
@@ -194,6 +194,9 @@ void Obstacles::add_normal_switches(const Contact& contact, const ContactPhase& 
     list.add(sign * (1.0 + change) + (sign > 0.0 ? -kNoFactor : 2.0 * kNoFactor),
              group.damping.coefficient * uncertainty.velocity + kRoundingOfTerms * (1.0 + std::abs(change)), to);
   };
+  // In a steady whirl the rate stays near 0, and errors of the motion change its sign again and again. The force of the
+  // dashpot is continuous there.
+  const double of_rate = std::max(uncertainty.velocity, uncertainty.of_speed * now.motion.v.norm());
   if (phase.normal != NormalPhase::apart) list.add(g, uncertainty.displacement, NormalPhase::apart);
   switch (phase.normal) {
     case NormalPhase::apart:
@@ -210,7 +213,7 @@ void Obstacles::add_normal_switches(const Contact& contact, const ContactPhase& 
       break;
     case NormalPhase::pressed:
       if (tells_rebound(group))
-        list.add(rate, uncertainty.velocity, NormalPhase::receding);
+        list.add(rate, of_rate, NormalPhase::receding);
       else if (group.damping.kind == ImpactDamping::Kind::hunt_crossley)
         add_factor(1.0, NormalPhase::released);
       else if (is_of_law)
@@ -224,7 +227,7 @@ void Obstacles::add_normal_switches(const Contact& contact, const ContactPhase& 
       add_force(-1.0, phase.normal, NormalPhase::pressed);
       break;
     case NormalPhase::receding:
-      list.add(-rate, uncertainty.velocity, NormalPhase::pressed);
+      list.add(-rate, of_rate, NormalPhase::pressed);
       if (is_of_law) add_share(1.0, phase.normal, NormalPhase::released);
       break;
   }

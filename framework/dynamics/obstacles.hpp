@@ -119,9 +119,10 @@ class BUTEE_EXPORT Obstacles {
     double value;
     ContactPhase to;
   };
-  /// Uncertainty by rounding of the displacement, m, and velocity, m/s, at a contact.
+  /// Uncertainty by rounding of the displacement, m, and velocity, m/s, at a contact; `of_speed` is that of its rate of
+  /// penetration by errors of the motion, as a fraction of the speed of the contact.
   struct Rounding {
-    double displacement = 0.0, velocity = 0.0;
+    double displacement = 0.0, velocity = 0.0, of_speed = 0.0;
   };
   /// The switching functions of the phase of contact i. They are 0 where their sign is rounding. `held` is the
   /// tangential force that holds a rigid stick, N; `a` is read only if switches_by_acceleration(i). Returns their

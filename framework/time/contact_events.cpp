@@ -50,10 +50,10 @@ double overload(std::span<const Obstacles::Switch> switches) {
 
 }  // namespace
 
-ContactEvents::ContactEvents(dynamics::Dynamics& dynamics)
+ContactEvents::ContactEvents(dynamics::Dynamics& dynamics, double velocity_uncertainty)
     : dynamics_(dynamics),
       obstacles_(*dynamics.obstacles()),
-      switches_(dynamics),
+      switches_(dynamics, velocity_uncertainty),
       search_(dynamics, switches_),
       now_(switches_.room()),
       work_(switches_.room()) {

@@ -17,8 +17,8 @@ class BUTEE_EXPORT ContactEvents {
  public:
   static constexpr Index kEntries = dynamics::Obstacles::kStateSize + 1;
 
-  /// `dynamics` must have obstacles and outlive this object.
-  explicit ContactEvents(dynamics::Dynamics& dynamics);
+  /// `dynamics` must have obstacles and outlive this object. `velocity_uncertainty`: see Traits.
+  ContactEvents(dynamics::Dynamics& dynamics, double velocity_uncertainty);
 
   /// Writes the phases that follow from the motion at this instant into state.contact; a follows.
   /// `memory`, if not empty, is that of an earlier run of the same contacts (contact_memory); stick

@@ -12,8 +12,11 @@ constexpr double kRoundingOfModes = 4e-15;
 
 }  // namespace
 
-ContactSwitches::ContactSwitches(dynamics::Dynamics& dynamics)
-    : dynamics_(dynamics), obstacles_(*dynamics.obstacles()), all_(static_cast<std::size_t>(dynamics.size())) {
+ContactSwitches::ContactSwitches(dynamics::Dynamics& dynamics, double velocity_uncertainty)
+    : dynamics_(dynamics),
+      obstacles_(*dynamics.obstacles()),
+      all_(static_cast<std::size_t>(dynamics.size())),
+      velocity_uncertainty_(velocity_uncertainty) {
   std::iota(all_.begin(), all_.end(), Index{0});
   values_x_.resize(all_.size());
   values_v_ = values_x_;
@@ -90,8 +93,9 @@ std::span<const ContactSwitches::Switch> ContactSwitches::of(Index contact, cons
   if (const auto place = std::find(sticks_.begin(), sticks_.end(), contact); place != sticks_.end())
     held = -at.held[place - sticks_.begin()];
   const double share = rounding_shares_[static_cast<std::size_t>(contact)];
-  const std::size_t count = obstacles_.switches(contact, at.t, at.x, at.v, at.a, held,
-                                                {share * whole_.displacement, share * whole_.velocity}, found_);
+  const std::size_t count =
+      obstacles_.switches(contact, at.t, at.x, at.v, at.a, held,
+                          {share * whole_.displacement, share * whole_.velocity, velocity_uncertainty_}, found_);
   return {found_.data(), count};
 }
 

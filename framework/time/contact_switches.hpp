@@ -15,8 +15,8 @@ class ContactSwitches {
  public:
   using Switch = dynamics::Obstacles::Switch;
 
-  /// `dynamics` must have obstacles and outlive this object.
-  explicit ContactSwitches(dynamics::Dynamics& dynamics);
+  /// `dynamics` must have obstacles and outlive this object. `velocity_uncertainty`: see Traits.
+  ContactSwitches(dynamics::Dynamics& dynamics, double velocity_uncertainty);
 
   /// A motion at an instant.
   struct Sample {
@@ -54,6 +54,7 @@ class ContactSwitches {
   std::array<Switch, dynamics::Obstacles::kMostSwitches> found_{};
   bool needs_velocities_ = false, needs_accelerations_ = false;
   Vector root_mass_;
+  double velocity_uncertainty_;
   /// The motion of the structure in the norm of the diagonal of M, m sqrt(kg) and m sqrt(kg)/s.
   dynamics::Obstacles::Rounding whole_;
   std::vector<double> rounding_shares_;  ///< uncertainty of the motion at each contact per unit of `whole_`, 1/sqrt(kg)

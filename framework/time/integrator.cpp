@@ -35,7 +35,7 @@ void Integrator::start(State& state, ConstVectorRef contact_memory) {
 
 void Integrator::complete(State& state, ConstVectorRef contact_memory) {
   if (dynamics_.obstacles() != nullptr && traits().follows_contact_phases) {
-    if (!events_) events_ = std::make_unique<ContactEvents>(dynamics_);
+    if (!events_) events_ = std::make_unique<ContactEvents>(dynamics_, traits().velocity_uncertainty);
     events_->start(state, contact_memory);
   } else {
     if (dynamics_.obstacles() != nullptr) dynamics_.obstacles()->follow_live();

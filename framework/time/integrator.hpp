@@ -37,6 +37,9 @@ struct Traits {
   /// The largest stable h omega, if the parameters make it smaller than the limit that the
   /// IntegratorType declares.
   double stability_limit = std::numeric_limits<double>::infinity();
+  /// The uncertainty of velocities within a step, as a fraction of the speed of a contact, for methods that follow
+  /// phases. A rate of penetration below it does not tell approach from rebound.
+  double velocity_uncertainty = 0.0;
 };
 
 /// A time integration method: advances a State over a Step.

@@ -33,7 +33,9 @@ class ModalCollocation final : public time::Integrator {
   const time::StepController* controller() const override { return &control_.controller(); }
   double first_step(const time::State& state) const override;
   time::Traits traits() const override {
-    return {.follows_contact_phases = true, .event_precision = std::min(1e-7, 1e-4 * tolerance_)};
+    return {.follows_contact_phases = true,
+            .event_precision = std::min(1e-7, 1e-4 * tolerance_),
+            .velocity_uncertainty = control_.velocity_uncertainty()};
   }
 
  private:
