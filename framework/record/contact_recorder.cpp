@@ -23,7 +23,7 @@ constexpr double kBeside = 1e-5;
 /// The instant of a reversal, as a part of the interval or of the speed. The slip of both directions changes by its
 /// square.
 constexpr double kNearReversal = 1e-5;
-/// A slip below this part of that so far is rounding.
+/// A slip below this part of that so far, or of the displacements of the structure, is rounding.
 constexpr double kNoSlip = 1e-13;
 
 /// The DOFs of these contacts.
@@ -166,22 +166,28 @@ void ContactRecorder::take(const Forces& forces, Forces& to) const {
 }
 
 void ContactRecorder::integrate(const time::AcceptedStep& step, double begin, double end) {
-  std::size_t contact = 0;
-  const double reversal = find_reversal(step, begin, end, contact);
-  if (!(reversal < end)) return integrate_part(step, begin, end);
-  take(at(step, reversal), ends_);
-  integrate_part(step, begin, reversal);
-  watches_[contact].slip_speed = 0.0;
-  integrate(step, reversal, end);
+  // Each contact reverses once at most.
+  for (const std::size_t i : active_) watches_[i].has_reversed = false;
+  while (true) {
+    std::size_t contact = 0;
+    const double reversal = find_reversal(step, begin, end, contact);
+    if (!(reversal < end)) return integrate_part(step, begin, end);
+    take(at(step, reversal), ends_);
+    integrate_part(step, begin, reversal);
+    watches_[contact].has_reversed = true;
+    begin = reversal;
+  }
 }
 
 double ContactRecorder::find_reversal(const time::AcceptedStep& step, double begin, double end, std::size_t& contact) {
   double first = end;
   take(at(step, end), ends_);
+  const double place = step.to.x.lpNorm<Eigen::Infinity>();
   for (const std::size_t i : active_) {
     const Watch& watch = watches_[i];
+    if (watch.has_reversed) continue;
     const double from = watch.slip_speed, to = ends_[i].slip_speed;
-    const bool counts = (std::abs(from) + std::abs(to)) * (end - begin) > kNoSlip * wear_[i].slip;
+    const bool counts = (std::abs(from) + std::abs(to)) * (end - begin) > kNoSlip * std::max(wear_[i].slip, place);
     if (!(from * to < 0.0) || !counts || !(watch.is_support || watch.touches || is_in_contact(ends_[i]))) continue;
     const double t =
         root_between(begin, from, end, to, kNearReversal, [&](double at_t) { return at(step, at_t)[i].slip_speed; });
@@ -288,7 +294,11 @@ void ContactRecorder::change(const time::AcceptedStep& step, std::size_t contact
   if (watch.touches) {
     impact.t_in = end;
     impact.t_out.reset();
-    impact.impact_speed = at(step, end)[contact].rate;
+    // A dashpot may press hardest as the contact closes.
+    const dynamics::ContactForces first = at(step, end)[contact];
+    impact.impact_speed = first.rate;
+    impact.peak_force = std::max(impact.peak_force, first.normal);
+    wear_[contact].peak_force = std::max(wear_[contact].peak_force, first.normal);
   }
   active_ = active;
   if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);

@@ -48,7 +48,8 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
     bool is_stop = false;  ///< acts in one direction, on one side or on both
     Impact current{};
     double stored = 0.0;            ///< J, at the last instant
-    double slip_speed = 0.0;        ///< m/s, at the last end of a part; 0 where it reverses
+    double slip_speed = 0.0;        ///< m/s, at the last end of a part
+    bool has_reversed = false;      ///< its slip, in the part under integration
     std::array<Sampled, 2> last{};  ///< the normal forces at the two previous instants; undefined if their t is equal
   };
   using Forces = std::vector<dynamics::ContactForces>;

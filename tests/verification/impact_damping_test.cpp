@@ -341,5 +341,43 @@ TEST_P(ImpactMethods, StrongDissipationIsOneImpact) {
 INSTANTIATE_TEST_SUITE_P(Adaptive, ImpactMethods,
                          testing::Values("integrator.type=dopri5", "integrator.type=extrapolation8"));
 
+/// A rotor that whirls steadily on its ring. The rate of penetration stays near 0, and errors of the motion change its
+/// sign; they once cut every step.
+TEST(ImpactDamping, TakesNoTinyStepsInASteadyWhirl) {
+  const std::string toml =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"rotor\"\nmass = 0.125\n[[element]]\ntype = \"spring\"\nnode "
+      "= "
+      "\"rotor\"\ndof = \"uy\"\nstiffness = 2.3e4\ndamping = 13.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"rotor\"\ndof = \"uz\"\nstiffness = 2.3e4\ndamping = 13.0\n[rotation]\nspeed = 435.0\n[[load]]\ntype = "
+      "\"unbalance\"\nnode = \"rotor\"\nmoment = 6.6e-4\n[[contact]]\ntype = \"ring\"\nnodes = \"rotor\"\ngap = "
+      "2.3e-3\nstiffness = 1.15e6\nlaw = \"hertz\"\nradius = 0.04\ndamping = { type = \"jankowski\", restitution = "
+      "0.74, mass = 0.114 }\nfriction = { coefficient = 0.28, slip_speed = 0.02, smoothing = \"tanh\" "
+      "}\n[integrator]\ntype = \"exponential\"\ntolerance = 1e-5\nend_time = 2.0\n";
+  for (const auto& [method, most] : {std::pair{"exponential", 2000}, {"dopri5", 20000}, {"extrapolation8", 10000}}) {
+    SceneRun run(toml, {std::string("integrator.type=") + method});
+    const time::RunReport& report = run.run();
+    ASSERT_TRUE(report.completed) << report.message;
+    EXPECT_LT(report.steps + report.rejected, most) << method;
+  }
+}
+
+/// A light mass on a strong dashpot: the force is largest as the contact closes, c v.
+TEST(ImpactDamping, PressesHardestAsTheContactCloses) {
+  for (const char* method : {"piecewise", "exact"}) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1e-5\n[[element]]\ntype = \"spring\"\nnode = "
+        "\"m\"\nstiffness = 1e-3\n[[contact]]\ntype = \"stop\"\nnodes = \"m\"\ngap = 0.05\nsides = "
+        "\"positive\"\nstiffness = 1e6\ndamping = { type = \"kelvin_voigt\", coefficient = 30, pull = false "
+        "}\n[initial]\nvelocity = [{ nodes = \"m\", dof = \"u\", value = 1.0 }]\n[integrator]\ntype = \"" +
+        std::string(method) + "\"\nend_time = 0.3\n");
+    record::ContactRecorder recorder(run.dynamics());
+    run.simulation().add(recorder);
+    ASSERT_TRUE(run.run().completed) << method;
+    const double peak = 30.0 * std::sqrt(0.75);
+    EXPECT_NEAR(recorder.impacts().at(0).peak_force, peak, 1e-8 * peak) << method;
+    EXPECT_NEAR(recorder.wear()[0].peak_force, peak, 1e-8 * peak) << method;
+  }
+}
+
 }  // namespace
 }  // namespace butee::test::impact_damping_test

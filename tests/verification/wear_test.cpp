@@ -71,5 +71,22 @@ TEST(Wear, IsFoundWhereASlipReversesWithinInstants) {
   EXPECT_GT(recorder.wear()[0].slip, 0.0);
 }
 
+/// Pipes at rest on rings, whose slip is rounding of both signs: the search for reversals once never ended.
+TEST(Wear, IsFoundOnAPipeThatRestsOnItsRings) {
+  SceneRun run(
+      "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7850.0\n[section.p]\nshape = \"tube\"\nouter_radius = "
+      "0.05\ninner_radius = 0.03\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmotion = \"lateral\"\nmaterial = "
+      "\"s\"\nsection = \"p\"\nlength = 20.0\nelements = 6\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = "
+      "[\"uy\", \"uz\"]\n[[contact]]\ntype = \"ring\"\nnodes = \"b:1..5\"\ngap = 0.005\nstiffness = 2e4\nfriction = { "
+      "coefficient = 0.3, slip_speed = 0.02 }\n[[load]]\ntype = \"harmonic\"\nnode = \"b:2\"\ndof = \"uz\"\namplitude "
+      "= "
+      "4.0\nangular_frequency = 300.0\n[damping]\nmass_proportional = 1.0\n[gravity]\nacceleration = [0.0, -9.81, "
+      "0.0]\nstatic = true\n[integrator]\ntype = \"exponential\"\nend_time = 0.2\n");
+  record::ContactRecorder recorder(run.dynamics());
+  run.simulation().add(recorder);
+  ASSERT_TRUE(run.run().completed);
+  for (const record::ContactWear& wear : recorder.wear()) EXPECT_GT(wear.slip, 0.0);
+}
+
 }  // namespace
 }  // namespace butee::test::wear_test
