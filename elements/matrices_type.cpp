@@ -186,6 +186,13 @@ class Maker {
     }
     std::vector<NodalDof> dofs;
     const auto kinds = p_.texts("dofs");
+    for (const std::string& kind : kinds)
+      if (!dof_named(kind)) {
+        p_.complain(
+            context_.diagnostics(), "dofs",
+            "names \"" + printable(kind) + "\", which is not a degree of freedom; give ux, uy, uz, rx, ry or rz");
+        return std::nullopt;
+      }
     for (std::size_t i = 0; i < kinds.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
         if (dof_named(kinds[i]) == dof_named(kinds[k])) {

@@ -33,7 +33,11 @@ void SceneReader::read_base() {
     }
   }
   if (given == nullptr && has_still_stops)
-    diagnostics_.error("contact", root_.at, "frame = \"space\" requires a moving base: give [base], or remove frame");
+    for (const auto& [entry, path] : entries("contact"))
+      if (const Value* frame = entry->table()->find("frame");
+          frame != nullptr && frame->text() != nullptr && *frame->text() == "space")
+        diagnostics_.error(path + ".frame = \"space\"", frame->at,
+                           "requires a moving base: give [base], or remove frame");
   if (model_.bases.empty() || lacks_elements_ || diagnostics_.error_count() > 0) return;
   const auto is_of_some = [](const BaseMotion& base) { return !base.nodes.empty(); };
   const auto some = std::count_if(model_.bases.begin(), model_.bases.end(), is_of_some);

@@ -35,7 +35,7 @@ const std::vector<ItemKind>& item_kinds() {
       {Kind::end, "end", "value at the end"},
       {Kind::section, "section", "value at the end of each period (Poincare section)"},
       {Kind::frequency, "frequency", "frequency of the largest line of the spectrum, Hz"},
-      {Kind::impacts, "impacts", "closings of stops"},
+      {Kind::impacts, "impacts", "closings of stops; impacts.csv also has contacts that are closed at the start"},
       {Kind::wear, "wear", "wear work of all contacts, the integral of |F_n w| (Archard), J"},
       {Kind::lyapunov, "lyapunov", "largest Lyapunov exponent: growth of a small disturbance, 1/s"},
       {Kind::trust, "trust", "time up to which the run is accurate (butee run --trust), s: several runs"}};

@@ -9,6 +9,9 @@ std::vector<BadScene> bad_contact_scenes() {
   const std::string nodes = "nodes = \"rotor\"\ngap";
   const auto between = [&](const std::string& selectors) { return Edit{nodes, "between = " + selectors + " #!\ngap"}; };
   return {
+      {"a contact in space without a base",
+       {{"regularization = 7.0e7", "regularization = 7.0e7\nframe = \"space\" #!"}},
+       {"contact[0].frame = \"space\"", "requires a moving base"}},
       {"supports of a shaft with gyroscopic effects that move, beside stops in space",
        {{"length = 4.0", "length = 4.0\nmotion = \"lateral\"\ntheory = \"rayleigh\""},
         {"regularization = 7.0e7", "regularization = 7.0e7\nframe = \"space\""},

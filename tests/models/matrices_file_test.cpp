@@ -61,6 +61,8 @@ TEST_F(MatricesFile, MistakesAreSaidWithTheirLine) {
 TEST_F(MatricesFile, RowsThatDoNotFitAreSaid) {
   refused(files_ + "dofs = [\"u\", \"theta\", \"uz\"]", "names 3 degrees of freedom of each node, and mass has 2 rows");
   refused(files_ + "dofs = [\"u\", \"uy\"]", "names uy twice");
+  refused(files_ + "dofs = [\"uy\", \"q\"]",
+          "element[1].dofs = [\"uy\", \"q\"]: names \"q\", which is not a degree of freedom");
   refused(files_ + "dofs = \"u\"\nnodes = [\"two:0\", \"ball\", \"two:1\"]", "names 3 rows with the nodes");
   refused(files_ + "dofs = \"u\"\nnodes = [\"two:0\", \"bal\"]",
           "there is no node or beam \"bal\" (did you mean \"ball\"?)");

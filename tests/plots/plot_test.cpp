@@ -131,6 +131,39 @@ TEST_F(Plot, PutsSeveralRunsIntoOnePicture) {
   EXPECT_EQ(rows_of(text, "curve1"), 401U);
 }
 
+/// Values that differ in their last digits only, for which gnuplot would be given an empty range.
+TEST_F(Plot, DrawsAConstantCurve) {
+  folder_.write("rest.toml", R"(schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 100.0
+[[load]]
+type = "constant"
+node = "m"
+value = 1e6
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+static = true
+[integrator]
+end_time = 1.0
+[[output.probe]]
+label = "p"
+node = "m"
+quantities = ["u"]
+)");
+  ASSERT_EQ(run_program({"run", "rest.toml", "-q"}, folder_.path()).status, 0);
+  const Outcome outcome = plot({"rest-results", "--format", "script", "--kind", "displacement"});
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const std::string text = read_file(folder_.file("rest-results/plots/displacement.gp")), key = "set yrange [";
+  const std::size_t begin = text.find(key) + key.size(), middle = text.find(':', begin), end = text.find(']', middle);
+  EXPECT_LT(std::stod(text.substr(begin, middle - begin)), std::stod(text.substr(middle + 1, end - middle - 1)));
+}
+
 TEST_F(Plot, LeavesOutALineCutShort) {
   std::string history = read_file(folder_.file("swing-results/history.csv"));
   folder_.write("swing-results/history.csv", history.substr(0, history.size() - 30));

@@ -23,6 +23,8 @@ constexpr const char* kMarkStyle = "dt 2 lw 1 lc rgb '#555555'";
 
 constexpr double kMargin = 0.05;      ///< margin of an axis beyond its data, as a fraction of their range
 constexpr double kSmallest = 1e-300;  ///< smallest length of an axis
+/// Values that differ by less than this part of the largest count as constant; numbers have seven digits.
+constexpr double kConstant = 1e-6;
 
 std::string number(double value) {
   return short_number(value, 7);
@@ -39,7 +41,8 @@ struct Extent {
   /// fraction of that extent.
   std::string range(std::optional<double> begin, std::optional<double> end, double margin, const Scale& scale) const {
     if (most < least) return "[*:*]";
-    const double room = most > least ? margin * (most - least) : 0.5 * std::max(std::abs(most), kSmallest);
+    const double room =
+        most - least > kConstant * largest() ? margin * (most - least) : 0.5 * std::max(largest(), kSmallest);
     return "[" + number(begin.value_or(least - room) * scale.factor) + ":" +
            number(end.value_or(most + room) * scale.factor) + "]";
   }
