@@ -166,6 +166,12 @@ TEST(Automatic, TakesExplicitMethodsWhereFastModesMove) {
   EXPECT_TRUE(begins(choice(support("1e-1")), "exponential")) << choice(support("1e-1"));
   EXPECT_TRUE(begins(choice(jankowski), "exponential")) << choice(jankowski);
   EXPECT_TRUE(begins(choice(jankowski, "", 2), "dopri5")) << choice(jankowski, "", 2);
+  SceneRun rotor(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\ndof = \"uy\"\nstiffness = 1e4\n[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = \"uz\"\nstiffness = "
+      "1e4\n[[contact]]\nnodes = \"m\"\ntype = \"ring\"" +
+      jankowski.substr(jankowski.find('\n')) + "[integrator]\nend_time = 0.05\n");
+  EXPECT_TRUE(begins(rotor.integrator().choice(), "exponential")) << rotor.integrator().choice();
   EXPECT_TRUE(begins(choice(pulling), "extrapolation8")) << choice(pulling);
   EXPECT_TRUE(begins(choice(pulling, damped), "rodas4")) << choice(pulling, damped);
 }
