@@ -101,7 +101,7 @@ only those that an element uses. Supports, loads, springs, stops, initial values
              shaft, which makes it unstable above a threshold
 
   [gravity] acceleration = [0.0, -9.81, 0.0]; static = true starts at rest in the static position under all loads at
-             t = 0, with stops and without friction
+             t = 0 (the inertia forces of an accelerated [base] included), with stops and without friction
   [base] acceleration = { direction = [0, 1, 0], type = "table", file = "quake.csv" }: the acceleration of all supports and
              of the ground (m/s2), from initial_velocity (0) on; or displacement = {...} (m), a smooth curve through a
              table; the length of direction does not matter. u is relative to the base, u_abs, v_abs, a_abs (ux_abs,
