@@ -132,11 +132,14 @@ bool creeps(const FastestRates& rates) {
   return rates.friction > kCreeps * rates.open;
 }
 
-/// True if a body may move around within a contact.
-bool has_ring(dynamics::Dynamics& dynamics) {
-  const dynamics::Obstacles& obstacles = *dynamics.obstacles();
-  for (Index i = 0; i < obstacles.size(); ++i)
-    if (obstacles.group_of(i).shape != nullptr && obstacles.group_of(i).directions.size() == 2) return true;
+/// True if a body may move around within a contact: a ring.
+bool has_ring(const dynamics::Obstacles& obstacles) {
+  using Form = model::ContactShape::Form;
+  for (Index i = 0; i < obstacles.size(); ++i) {
+    const model::ObstacleGroup& group = obstacles.group_of(i);
+    if (group.shape == nullptr || group.directions.size() != 2) continue;
+    if (const Form form = group.shape->form(); form.kind == Form::Kind::circle && form.sense > 0.0) return true;
+  }
   return false;
 }
 
@@ -247,12 +250,13 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   const FastestRates rates = fastest_rates(dynamics);
   const bool is_singular = dynamics.obstacles() != nullptr && dynamics::has_infinite_slope(*dynamics.obstacles());
   // Where a slope is infinite, collocation takes more steps than explicit methods if there is no fast motion beside it.
-  // In a ring a rotor may whirl on and on: there explicit methods take up to 20 times as long, and otherwise down to
-  // half the time (plugins/auto/README.md).
-  if (is_singular && n <= kFewAtTight && !has_ring(dynamics)) return choose_for_obstacles(dynamics, rates, tolerance);
+  // In a ring a rotor may whirl on and on, which takes explicit methods far longer (plugins/auto/README.md).
+  if (is_singular && n <= kFewAtTight && !has_ring(*dynamics.obstacles()))
+    return choose_for_obstacles(dynamics, rates, tolerance);
   const bool is_too_tight = dynamics.stop_count() > 0 && tolerance < kSmallestWithStops;
   const char* const too_tight = "the tolerance is below the smallest one of exponential with stops";
   if (suits_collocation(dynamics, rates) && DampedModesBudget(dynamics, tolerance, end_time).suffices()) {
+    if (is_too_tight && is_singular) return choose_for_obstacles(dynamics, rates, tolerance);
     if (is_too_tight) return {Method::rodas4, too_tight};
     return {Method::exponential, "the linear part is exact in its damped modes, and only contacts are approximated"};
   }

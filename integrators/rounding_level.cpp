@@ -12,7 +12,7 @@ constexpr double kRoundingOfMotion = 1e-14;
 /// Errors of a step below this part of a component, or of what the forces on it cause in the step, are rounding.
 constexpr double kRoundingOfStep = 1e-15;
 /// In steps below this part of 1/rate errors of that size are rounding, not the growth at a limit of stability.
-constexpr double kShort = 0.1;
+constexpr double kShortStep = 0.1;
 
 /// sums_i += factor sum_j |A_ij| y_j
 void add_magnitudes(const SparseMatrix& matrix, double factor, ConstVectorRef y, Vector& sums) {
@@ -38,7 +38,7 @@ void RoundingLevel::raise(const time::State& from, const time::State& to, double
                           Vector& scale_v) {
   const double of_x = of_motion_ * root_mass_.cwiseProduct(scale_x).norm(),
                of_v = of_motion_ * root_mass_.cwiseProduct(scale_v).norm();
-  if (h * rate_ < kShort) {
+  if (h * rate_ < kShortStep) {
     sum_forces(from, to);
     // force_ := the accelerations; a mass matrix that couples DOFs spreads their rounding.
     if (is_lumped_)

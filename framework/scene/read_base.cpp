@@ -34,7 +34,7 @@ void SceneReader::read_base() {
   }
   if (given == nullptr && has_still_stops)
     for (const auto& [entry, path] : entries("contact"))
-      if (const Value* frame = entry->table()->find("frame");
+      if (const Value* frame = entry->table() != nullptr ? entry->table()->find("frame") : nullptr;
           frame != nullptr && frame->text() != nullptr && *frame->text() == "space")
         diagnostics_.error(path + ".frame = \"space\"", frame->at,
                            "requires a moving base: give [base], or remove frame");

@@ -15,6 +15,9 @@ constexpr int kBisections = 60;
 constexpr double kFinest = 1e-15;
 /// The part of a step over which a difference gives the rate of a switching function.
 constexpr double kDifference = 1e-3;
+/// A function below zero that has not fallen by more than this factor between two samples counts as rising: it may
+/// rise by less than rounding.
+constexpr double kNoFall = 1.001;
 /// Relative decrease towards the lowest sample of a dip that rounding does not cause.
 constexpr double kRounding = 1e-9;
 
@@ -98,7 +101,7 @@ std::optional<ContactSearch::Event> ContactSearch::first(const DenseOutput& moti
       for (std::size_t which = 0; which < count; ++which) {
         auto& [first, second, is_returning] = functions_[w][which];
         const Look now{t, present[which].value};
-        is_returning = now.value < 0.0 && (k == -1 || (is_returning && now.value >= second.value));
+        is_returning = now.value < 0.0 && (k == -1 || (is_returning && now.value >= kNoFall * second.value));
         if (is_returning) {
           // no change
         } else if (now.value < 0.0) {

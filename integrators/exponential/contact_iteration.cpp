@@ -91,7 +91,7 @@ double ContactIteration::sweep(ContactPropagator& flow, double displacement, boo
   double change = 0.0;
   for (const Index i : step_.iterated) {
     ContactForce& contact = contacts_[static_cast<std::size_t>(i)];
-    if (may_skip && is_touched(i) && missing_force(flow, i) <= kContraction * unfinished_ * allowed_[i]) continue;
+    if (may_skip && is_touched(i) && keeps_force(flow, i)) continue;
     const ContactPath path = paths_.of(i);
     const ContactStatus status = contact.status(path);
     if (status == ContactStatus::open && contact.is_linear() && !is_touched(i)) continue;
@@ -144,14 +144,17 @@ void ContactIteration::note_path(Index stop, bool is_spring) {
   noted_.middle[stop] = now.middle[stop];
 }
 
-double ContactIteration::missing_force(ContactPropagator& flow, Index stop) const {
+bool ContactIteration::keeps_force(ContactPropagator& flow, Index stop) const {
   const dynamics::StopMotion& now = paths_.motion();
-  const double path = std::abs(now.end[stop] - noted_.end[stop]) +
-                      kBump * std::abs(now.speed[stop] - noted_.speed[stop]) +
-                      std::abs(now.middle[stop] - noted_.middle[stop]);
-  const double stiff = std::abs(influence_.stiff(flow, stop));
+  const double end = std::abs(now.end[stop] - noted_.end[stop]), speed = std::abs(now.speed[stop] - noted_.speed[stop]),
+               middle = std::abs(now.middle[stop] - noted_.middle[stop]), path = end + kBump * speed + middle;
+  const double stiff = std::abs(influence_.stiff(flow, stop)), allowed = allowed_[stop];
   const auto i = static_cast<std::size_t>(stop);
-  return path * (contacts_[i].is_linear() || (is_spring_noted_[i] != 0 && is_spring(stop)) ? stiff : 1.0 + stiff);
+  if (contacts_[i].is_linear() || (is_spring_noted_[i] != 0 && is_spring(stop))) {
+    const double missing = stiff * (kMissingByEnd * end + kMissingBySpeed * speed + kMissingByMiddle * middle);
+    return missing <= unfinished_ * allowed && path <= kOfForce * allowed;
+  }
+  return path * (1.0 + stiff) <= kContraction * unfinished_ * allowed;
 }
 
 void ContactIteration::touch(Index stop) {

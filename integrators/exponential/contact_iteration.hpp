@@ -52,9 +52,10 @@ class ContactIteration {
   bool is_spring(Index stop) const;
   /// Stores the path of a stop for which its force was computed, and whether it is a spring there.
   void note_path(Index stop, bool is_spring);
-  /// The change of the path of a stop since it was stored, m, times sigma for the change of its force. Beside the bends
-  /// of its law the residual force may change faster than the spring force: times 1 + sigma.
-  double missing_force(dynamics::ContactPropagator& flow, Index stop) const;
+  /// True if the path of a stop has changed so little since its force was found that the missing force would not move
+  /// it by unfinished_, and is below the tolerance. Beside the bends of its law the residual force may change faster
+  /// than the spring force.
+  bool keeps_force(dynamics::ContactPropagator& flow, Index stop) const;
   void touch(Index stop);
   /// Adds `more` to the force of a stop; returns the largest change of a path, m.
   double add_force(dynamics::ContactPropagator& flow, Index stop, const ForceMoments& more);

@@ -62,6 +62,12 @@ inline constexpr double kRoundingChange = 1e-15;
 /// Without Newton's method a sweep changes the path of a stop by sigma/kContraction of the last change: for a free
 /// mass (plugins/exponential/constants.py).
 inline constexpr double kContraction = 25.9;
+/// sigma times these is how far the force moves a path whose end, h times the speed there, or middle changes by 1, the
+/// other two staying: for a free mass (plugins/exponential/constants.py).
+inline constexpr double kMissingByEnd = 0.0602, kMissingBySpeed = 0.00419, kMissingByMiddle = 0.389;
+/// The change of a path, as a fraction of allowed_change(), at which the force of a stop is found anew in any case, so
+/// that the recorded force is that of the path.
+inline constexpr double kOfForce = 0.25;
 /// The iteration ends if the next sweep is expected to change the paths by less than this, as a fraction of
 /// allowed_change(): what is left has the same sign in all steps of a long contact, and adds up.
 inline double unfinished_change(const StepGoal& goal, double h) {

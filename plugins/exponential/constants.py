@@ -247,6 +247,10 @@ def contraction():
     values = np.linalg.eigvals(powers @ QUARTIC @ coupling_of_free_mass())
     note("   a free mass: radius, 1/radius", np.abs(values).max(), 1 / np.abs(values).max())
     print("      eigenvalues " + " ".join(f"{x:.5f}" for x in values))
+    # The path moved by the force of changes of end, h speed and middle, measured by |end| + 4/27 |h speed| + |middle|.
+    moved = np.array([1.0, 4.0 / 27.0, 1.0]) @ np.abs(coupling_of_free_mass() @ powers @ QUARTIC)
+    for name, by_one in zip(("kMissingByEnd", "kMissingBySpeed", "kMissingByMiddle"), moved):
+        compare(name + ": change of the path", constant(name), by_one, ">=", 1.01)
 
 
 def sweeps():
@@ -426,7 +430,7 @@ def residual_force():
 
 def series():
     print("\nTaylor series of the propagators")
-    terms, longest = constant("kTerms", 20), constant("kShort", 1.0)
+    terms, longest = in_code(r"inline constexpr int kTerms = (\d+);"), constant("kShort", 1.0)
     # y_{k+2} = -(2 delta h (k+1) y_{k+1} + (omega h)^2 y_k)/((k+1)(k+2)) with (omega + delta) h = kShort
     worst = 0.0
     for share in np.linspace(0.0, 1.0, 21):

@@ -172,6 +172,12 @@ TEST(Automatic, TakesExplicitMethodsWhereFastModesMove) {
       "1e4\n[[contact]]\nnodes = \"m\"\ntype = \"ring\"" +
       jankowski.substr(jankowski.find('\n')) + "[integrator]\nend_time = 0.05\n");
   EXPECT_TRUE(begins(rotor.integrator().choice(), "exponential")) << rotor.integrator().choice();
+  SceneRun on_plane(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\ndof = \"uy\"\nstiffness = 1e4\n[[element]]\ntype = \"spring\"\nnode = \"m\"\ndof = \"uz\"\nstiffness = "
+      "1e4\n[[contact]]\nnodes = \"m\"\ntype = \"plane\"\nnormal = [1.0, 0.0]" +
+      jankowski.substr(jankowski.find('\n')) + "[integrator]\nend_time = 0.05\n");
+  EXPECT_TRUE(begins(on_plane.integrator().choice(), "dopri5")) << on_plane.integrator().choice();
   EXPECT_TRUE(begins(choice(pulling), "extrapolation8")) << choice(pulling);
   EXPECT_TRUE(begins(choice(pulling, damped), "rodas4")) << choice(pulling, damped);
 }

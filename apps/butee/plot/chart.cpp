@@ -41,8 +41,9 @@ struct Extent {
   /// fraction of that extent.
   std::string range(std::optional<double> begin, std::optional<double> end, double margin, const Scale& scale) const {
     if (most < least) return "[*:*]";
-    const double room =
-        most - least > kConstant * largest() ? margin * (most - least) : 0.5 * std::max(largest(), kSmallest);
+    const double room = most - least > (margin > 0.0 ? kConstant * largest() : 0.0)
+                            ? margin * (most - least)
+                            : 0.5 * std::max(largest(), kSmallest);
     return "[" + number(begin.value_or(least - room) * scale.factor) + ":" +
            number(end.value_or(most + room) * scale.factor) + "]";
   }
