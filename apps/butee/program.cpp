@@ -20,6 +20,14 @@ constexpr const char* kExamples =
     "  butee run beam.toml         beam-results/history.csv and summary.json\n"
     "\n`butee help TOPIC` explains scenes, methods, results; `butee help` lists the topics.";
 
+/// Refuses empty names of files and folders, as from a variable of the shell that is not set.
+void refuse_empty_names(CLI::App& command) {
+  const CLI::Validator named(
+      [](const std::string& name) { return name.empty() ? std::string("must not be empty") : std::string(); }, "");
+  for (const char* option : {"--output", "--picture"})
+    if (CLI::Option* const found = command.get_option_no_throw(option)) found->check(named);
+}
+
 }  // namespace
 
 int parse_and_run(int argc, char** argv) {
@@ -37,7 +45,10 @@ int parse_and_run(int argc, char** argv) {
       add_completion_command(program)};
 
   std::vector<std::string> known;
-  for (const Command& command : commands) known.push_back(command.app->get_name());
+  for (const Command& command : commands) {
+    known.push_back(command.app->get_name());
+    refuse_empty_names(*command.app);
+  }
   if (argc > 1 && argv[1][0] != '-' && std::find(known.begin(), known.end(), argv[1]) == known.end())
     throw InputError("butee " + std::string(argv[1]) + ": there is no such command" + suggestion(argv[1], known) +
                      "; known: " + join(known));

@@ -35,6 +35,8 @@ TEST(BadUsage, OfTheCommandLine) {
   expect_refusal({"run", kFile, "--repeat", "0"}, folder, {"--repeat"});
   expect_refusal({"run", kFile, "--progress", "sometimes"}, folder, {"--progress", "auto"});
   expect_refusal({"run", kFile, "-q", "-v"}, folder, {"-q", "-v"});
+  expect_refusal({"run", kFile, "-o", ""}, folder, {"--output", "must not be empty"});
+  expect_refusal({"check", kFile, "--picture", ""}, folder, {"--picture", "must not be empty"});
   expect_refusal({"run", kFile, "--plugin", "nowhere.so"}, folder, {"nowhere.so: there is no such module"});
   expect_refusal({"new-plugin", "rk4"}, folder, {"NAME = \"rk4\": is the name of another integrator"});
   expect_refusal({"new-plugin", "ring", "--kind", "contact"}, folder, {"\"ring\": is the name of another contact"});
