@@ -46,7 +46,7 @@ bool tells_rebound(const model::ObstacleGroup& group) {
 
 }  // namespace
 
-/// The switching functions of a phase; one within its uncertainty by rounding counts as 0.
+/// The switching functions of a phase; one within its uncertainty counts as 0.
 class Obstacles::SwitchList {
  public:
   SwitchList(const ContactPhase& phase, std::array<Switch, kMostSwitches>& out) : phase_(phase), out_(out) {}

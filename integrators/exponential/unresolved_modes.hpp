@@ -71,8 +71,8 @@ class UnresolvedModes {
   Eigen::ArrayXd closed_;  ///< the side on which each stop was closed at the start of the macro step; 0: open
   Eigen::ArrayXd rates_;   ///< error of each mode per second if it does not feel the stops at all, 1/s
   Eigen::ArrayXd acceleration_, rise_;
-  Eigen::ArrayXd unreceived_;   ///< unreceived_part() of each mode for steps of unreceived_h_
-  double unreceived_h_ = 0.0;   ///< s
+  Eigen::ArrayXd unreceived_;  ///< unreceived_part() of each mode for steps of unreceived_h_
+  double unreceived_h_ = 0.0;  ///< s
 };
 
 }  // namespace butee::integrators

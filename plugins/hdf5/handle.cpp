@@ -50,7 +50,8 @@ void check(herr_t status, const std::string& what) {
 }
 
 void be_silent() {
-  // At the exit of the program the library would close files again that a full disk has kept open, and crash.
+  // At the exit of the program the library would close files again that a full disk has kept open, and crash. A host
+  // that uses HDF5 itself has to close its files.
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

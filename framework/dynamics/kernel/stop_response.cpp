@@ -79,7 +79,10 @@ void add_moments(std::span<const StopForce> stops, std::span<const Index> chunks
 void add_forces(std::span<const StopForce> stops, std::span<const Index> chunks, const Motion& motion) {
   const bool is_ramp =
       std::all_of(stops.begin(), stops.end(), [](const StopForce& stop) { return stop.force[2] == 0.0; });
-  is_ramp ? add_moments<2>(stops, chunks, motion) : add_moments<3>(stops, chunks, motion);
+  if (is_ramp)
+    add_moments<2>(stops, chunks, motion);
+  else
+    add_moments<3>(stops, chunks, motion);
 }
 
 }  // namespace
