@@ -114,7 +114,7 @@ TEST_F(ProbesInFields, OfAFailedRunAreWhole) {
 
 TEST_F(ProbesInFields, AreReadUnderWayAndAfterAKill) {
   folder_.write("scene.toml", scene("interval = 1.0e-4\nformats = [\"csv\", \"hdf5\"]"));
-  Process process({"run", "scene.toml", "-q", "--set", "integrator.end_time=1e4"}, folder_.path());
+  Process process({"run", "scene.toml", "-q", "--set", "integrator.end_time=1e3"}, folder_.path());
   const std::string h5 = "scene-results/fields.h5", csv = "scene-results/history.csv";
   const auto has_rows = [&] {
     return fs::exists(folder_.file(csv)) && fs::file_size(folder_.file(csv)) > 300000 && fs::exists(folder_.file(h5)) &&

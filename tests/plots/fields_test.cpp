@@ -267,7 +267,7 @@ TEST(Fields, OfAKilledRunAreWhole) {
   for (int run = 0; run < kRuns; ++run) {
     const std::string results = "killed" + std::to_string(run), xdmf = folder.file(results + "/fields.xdmf");
     Process process(
-        {"run", "scene.toml", "-q", "-o", results, "--set", "integrator.end_time=1e4", "--set", "output.interval=1e-4"},
+        {"run", "scene.toml", "-q", "-o", results, "--set", "integrator.end_time=1e3", "--set", "output.interval=1e-4"},
         folder.path());
     while ((!fs::exists(xdmf) || fs::file_size(xdmf) < kSomeRecords) && !process.ends_within(1ms)) continue;
     process.ends_within(7ms * run);
