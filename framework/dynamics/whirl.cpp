@@ -3,6 +3,7 @@
 #include <Spectra/GenEigsSolver.h>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "butee/core/error.hpp"
@@ -25,15 +26,9 @@ constexpr double kOnlyTilts = 1e-6;
 constexpr double kRigid = 1e-7;
 /// Frequencies below this fraction of |lambda| are rounding of two close real eigenvalues.
 constexpr double kOverdamped = 1e-6;
-/// Modes with this damping ratio or more have no critical speed.
-constexpr double kNoResonance = 0.99;
-/// Relative tolerance of speeds, and of those at which stability changes.
-constexpr double kSameSpeed = 1e-13, kSameBorder = 1e-8;
+constexpr const char* kNotFound = "the whirling modes could not be computed";
 /// Growth rates below these fractions of |lambda| and of the highest frequency are rounding.
 constexpr double kGrows = 1e-9, kGrowsOfHighest = 1e-14;
-/// Crossings closer to each other than this, relative to the speed, belong to one mode or several
-/// equal ones.
-constexpr double kOneCrossing = 1e-8;
 
 /// A shift that allows rigid motion, rad/s: a thousandth of the lowest frequency of a DOF alone, above the rounding of
 /// the highest. DOFs without stiffness do not count.
@@ -193,10 +188,9 @@ std::vector<WhirlMode> Whirl::modes(double speed, Index count) const {
   return is_dense() ? dense_modes(speed, count) : lowest_modes(speed, count);
 }
 
-std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
+Eigen::MatrixXd Whirl::modal_motion(double speed) const {
   const Index n = size();
-  const double highest = frequencies_.maxCoeff();
-  const Vector scale = frequencies_.cwiseMax(kRigid * std::max(highest, 1e-300));
+  const Vector scale = frequencies_.cwiseMax(kRigid * std::max(frequencies_.maxCoeff(), 1e-300));
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   motion.topRightCorner(n, n) = scale.asDiagonal();
   Eigen::MatrixXd stiffness = modal_skew_ + speed * modal_circulatory_;
@@ -204,23 +198,31 @@ std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
   motion.bottomLeftCorner(n, n) = -(scale.cwiseInverse().asDiagonal() * stiffness);
   motion.bottomRightCorner(n, n) =
       -(scale.cwiseInverse().asDiagonal() * (modal_damping_ + speed * modal_gyroscopic_) * scale.asDiagonal());
-  const auto found = linalg::general_pairs(motion);
-  if (!found) throw RunError("the whirling modes could not be computed");
-  const linalg::ComplexPairs& pairs = *found;
-  std::vector<Index> places;
-  for (Index i = 0; i < 2 * n; ++i)
-    if (pairs.values[i].imag() >= 0.0) places.push_back(i);
-  std::stable_sort(places.begin(), places.end(),
-                   [&](Index a, Index b) { return std::abs(pairs.values[a]) < std::abs(pairs.values[b]); });
-  places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
-  const double rigid = kRigid * highest;
+  return motion;
+}
+
+std::vector<Whirl::Eigenvalue> Whirl::in_order(const Eigen::VectorXcd& values) const {
+  std::vector<Eigenvalue> ordered;
+  for (Index i = 0; i < values.size(); ++i)
+    if (values[i].imag() >= 0.0) ordered.push_back({values[i], i});
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const Eigenvalue& a, const Eigenvalue& b) { return std::abs(a.lambda) < std::abs(b.lambda); });
+  const double rigid = kRigid * frequencies_.maxCoeff();
   // Rigid motion has two eigenvalues 0, which rounding separates; some leave 0 if the structure turns.
   Index rigid_left = 2 * (frequencies_.array() < rigid).count();
+  for (Eigenvalue& one : ordered)
+    if (std::abs(one.lambda) < rigid && rigid_left-- > 0) one.lambda = 0.0;
+  return ordered;
+}
+
+std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
+  const auto pairs = linalg::general_pairs(modal_motion(speed));
+  if (!pairs) throw RunError(kNotFound);
+  std::vector<Eigenvalue> chosen = in_order(pairs->values);
+  chosen.resize(std::min(chosen.size(), static_cast<std::size_t>(count)));
   std::vector<WhirlMode> modes;
-  for (const Index i : places) {
-    const bool is_rigid = std::abs(pairs.values[i]) < rigid && rigid_left-- > 0;
-    modes.push_back(finished(is_rigid ? Complex(0.0) : pairs.values[i], shapes_ * pairs.vectors.col(i).head(n)));
-  }
+  for (const auto& [lambda, place] : chosen)
+    modes.push_back(finished(lambda, shapes_ * pairs->vectors.col(place).head(size())));
   sort(modes);
   return modes;
 }
@@ -234,7 +236,7 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
   Spectra::GenEigsSolver<ShiftInverted> solver(operation, wanted, std::min(2 * wanted + 20, 2 * n));
   solver.init();
   if (solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-12) < wanted / 2)
-    throw RunError("the whirling modes could not be computed: Arnoldi's method did not converge");
+    throw RunError(std::string(kNotFound) + ": Arnoldi's method did not converge");
   std::vector<WhirlMode> modes;
   for (Index i = 0; i < solver.eigenvalues().size(); ++i) {
     const Complex lambda = operation.shift() + 1.0 / solver.eigenvalues()[i];
@@ -247,111 +249,39 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
   return modes;
 }
 
-Index Whirl::modes_below(double speed, double order, Index count) const {
-  const double bound = order * std::abs(speed);
-  if (is_dense()) {
-    // Modes above the bound are counted, since modes near critical damping appear and disappear at
-    // frequency 0.
-    const auto all = modes(speed, 2 * size());
-    return -std::count_if(all.begin(), all.end(), [&](const WhirlMode& mode) {
-      return mode.frequency() > std::max(bound, kOverdamped * std::abs(mode.lambda));
-    });
+std::vector<double> Whirl::oscillations(double speed, Index count) const {
+  std::vector<double> frequencies;
+  if (!is_dense()) {
+    for (const WhirlMode& mode : lowest_modes(speed, count))
+      if (mode.frequency() > 0.0) frequencies.push_back(mode.frequency());
+    return frequencies;
   }
-  const auto found = modes(speed, count);
-  return std::count_if(found.begin(), found.end(),
-                       [&](const WhirlMode& mode) { return mode.frequency() > 0.0 && mode.frequency() < bound; });
+  for (const Complex lambda : eigenvalues(speed, 2 * size()))
+    if (lambda.imag() > kOverdamped * std::abs(lambda)) frequencies.push_back(lambda.imag());
+  std::sort(frequencies.begin(), frequencies.end(), std::greater<>());
+  return frequencies;
 }
 
-std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index steps, double order,
-                                                  Index count) const {
-  struct Crossing {
-    double speed;
-    std::vector<CriticalSpeed> near;  ///< of the modes near the line, the closest first
-    Index change;
-  };
-  std::vector<Crossing> crossings;
-  struct End {
-    double speed;
-    Index below;
-  };
-  const auto end_at = [&](double speed) { return End{speed, modes_below(speed, order, count)}; };
-  const auto search = [&](auto& self, End a, End b) -> void {
-    if (a.below == b.below) return;
-    const double middle = 0.5 * (a.speed + b.speed);
-    if (b.speed - a.speed > kSameSpeed * std::abs(b.speed) && middle > a.speed && middle < b.speed) {
-      const End between = end_at(middle);
-      self(self, a, between);
-      self(self, between, b);
-      return;
-    }
-    auto near = modes(b.speed, is_dense() ? 2 * size() : count);
-    std::stable_sort(near.begin(), near.end(), [&](const auto& p, const auto& q) {
-      return std::abs(p.frequency() - order * b.speed) < std::abs(q.frequency() - order * b.speed);
-    });
-    // A nearly critically damped mode has no resonance, whether its frequency crosses the speed or
-    // its oscillation ends.
-    if (near.front().damping_ratio() > kNoResonance) return;
-    Crossing crossing{middle, {}, b.below - a.below};
-    for (const WhirlMode& mode : near)
-      if (mode.damping_ratio() <= kNoResonance) crossing.near.push_back({middle, mode.direction, mode.motion});
-    crossings.push_back(std::move(crossing));
-  };
-  End before = end_at(from);
-  for (Index i = 1; i <= steps; ++i) {
-    const End next = end_at(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
-    search(search, before, next);
-    before = next;
+std::vector<Complex> Whirl::eigenvalues(double speed, Index count) const {
+  std::vector<Complex> values;
+  if (!is_dense()) {
+    for (const WhirlMode& mode : lowest_modes(speed, count)) values.push_back(mode.lambda);
+    return values;
   }
-  // If two modes coincide, rounding moves them back and forth across the line: the net number of
-  // crossings counts.
-  std::vector<CriticalSpeed> found;
-  for (std::size_t i = 0; i < crossings.size();) {
-    const Crossing& first = crossings[i];
-    Index net = 0;
-    for (; i < crossings.size() && crossings[i].speed - first.speed <= kOneCrossing * std::abs(first.speed); ++i)
-      net += crossings[i].change;
-    const auto passed = std::min(static_cast<std::size_t>(std::abs(net)), first.near.size());
-    found.insert(found.end(), first.near.begin(), first.near.begin() + static_cast<std::ptrdiff_t>(passed));
-  }
-  return found;
+  const auto found = linalg::eigenvalues(modal_motion(speed));
+  if (!found) throw RunError(kNotFound);
+  for (const auto& [lambda, place] : in_order(*found)) values.push_back(lambda);
+  values.resize(std::min(values.size(), static_cast<std::size_t>(count)));
+  return values;
+}
+
+double Whirl::growth(Complex lambda) const {
+  const double highest = is_dense() ? frequencies_.maxCoeff() : 0.0;
+  return lambda.real() - kGrows * std::abs(lambda) - kGrowsOfHighest * highest;
 }
 
 bool Whirl::grows(const WhirlMode& mode) const {
-  const double highest = is_dense() ? frequencies_.maxCoeff() : 0.0;
-  return mode.lambda.real() > kGrows * std::abs(mode.lambda) + kGrowsOfHighest * highest;
-}
-
-std::vector<StabilityBorder> Whirl::stability_borders(const std::vector<double>& speeds,
-                                                      const std::vector<std::vector<WhirlMode>>& at,
-                                                      Index count) const {
-  struct End {
-    double speed;
-    std::vector<WhirlMode> growing;  ///< the slowest growth first
-  };
-  const auto end_of = [&](double speed, const std::vector<WhirlMode>& all) {
-    End end{speed, {}};
-    for (const WhirlMode& mode : all)
-      if (grows(mode)) end.growing.push_back(mode);
-    std::stable_sort(end.growing.begin(), end.growing.end(),
-                     [](const auto& p, const auto& q) { return p.lambda.real() < q.lambda.real(); });
-    return end;
-  };
-  std::vector<StabilityBorder> found;
-  const auto search = [&](auto& self, const End& a, const End& b) -> void {
-    if (a.growing.size() == b.growing.size()) return;
-    const double middle = 0.5 * (a.speed + b.speed);
-    if (b.speed - a.speed > kSameBorder * std::abs(b.speed) && middle > a.speed && middle < b.speed) {
-      const End between = end_of(middle, modes(middle, count));
-      self(self, a, between);
-      self(self, between, b);
-      return;
-    }
-    const bool begins = b.growing.size() > a.growing.size();
-    found.push_back({middle, begins, (begins ? b : a).growing.front()});
-  };
-  for (std::size_t i = 1; i < speeds.size(); ++i)
-    search(search, end_of(speeds[i - 1], at[i - 1]), end_of(speeds[i], at[i]));
-  return found;
+  return growth(mode.lambda) > 0.0;
 }
 
 }  // namespace butee::dynamics

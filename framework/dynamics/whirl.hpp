@@ -64,20 +64,35 @@ class BUTEE_EXPORT Whirl {
 
   /// The critical speeds of `order` in [from, to], rad/s, ascending, to rounding: speeds at which
   /// the frequency of a mode equals order times the speed, found on a grid of `steps` intervals and
-  /// by bisection. `count` modes are examined.
+  /// by secants within them. All modes are examined if the problem is dense, else `count`.
   std::vector<CriticalSpeed> critical_speeds(double from, double to, Index steps, double order, Index count) const;
 
   /// The speeds, rad/s, ascending, at which a mode begins or ceases to grow, to 1e-8: between neighbours of `speeds`
-  /// (ascending), whose first `count` modes are `at`, by bisection.
+  /// (ascending), whose first `count` modes are `at`, by secants.
   std::vector<StabilityBorder> stability_borders(const std::vector<double>& speeds,
                                                  const std::vector<std::vector<WhirlMode>>& at, Index count) const;
   /// True if the mode grows by more than rounding.
   bool grows(const WhirlMode& mode) const;
 
  private:
+  struct Eigenvalue {
+    std::complex<double> lambda;
+    Index place;  ///< of its vector
+  };
+
   std::vector<WhirlMode> dense_modes(double speed, Index count) const;
   std::vector<WhirlMode> lowest_modes(double speed, Index count) const;
-  Index modes_below(double speed, double order, Index count) const;
+  /// The matrix of the first-order form in the modes at rest.
+  Eigen::MatrixXd modal_motion(double speed) const;
+  /// Those of `values` with Im >= 0, the smallest first; rigid motion has exactly 0.
+  std::vector<Eigenvalue> in_order(const Eigen::VectorXcd& values) const;
+  /// The frequencies of modes that oscillate, rad/s: if the problem is dense, of all of them, descending, since modes
+  /// near critical damping appear and disappear at frequency 0; else of the lowest `count` modes, ascending.
+  std::vector<double> oscillations(double speed, Index count) const;
+  /// The eigenvalues of the modes of lowest |lambda|.
+  std::vector<std::complex<double>> eigenvalues(double speed, Index count) const;
+  /// Re lambda less what may be rounding.
+  double growth(std::complex<double> lambda) const;
   WhirlMode finished(std::complex<double> lambda, Eigen::VectorXcd shape) const;
 
   model::System system_;

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "butee/dynamics/whirl.hpp"
+
+// The searches along the speed: critical speeds and borders of stability.
+
+namespace butee::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Modes with this damping ratio or more have no critical speed.
+constexpr double kNoResonance = 0.99;
+/// Relative tolerance of speeds, and of those at which stability changes.
+constexpr double kSameSpeed = 1e-13, kSameBorder = 1e-8;
+/// Crossings closer to each other than this, relative to the speed, belong to one mode or several
+/// equal ones.
+constexpr double kOneCrossing = 1e-8;
+/// Secants converge in 5 to 8; more mean that the frequency jumps.
+constexpr int kMostSecants = 40;
+
+/// Margins of modes at a speed, descending, from a border that each of them passes at other speeds: those with a
+/// positive one are counted.
+struct Tally {
+  double speed;
+  std::vector<double> margins;
+  double missing;  ///< the margin of further modes, < 0
+
+  Index count() const {
+    return std::find_if(margins.begin(), margins.end(), [](double margin) { return !(margin > 0.0); }) -
+           margins.begin();
+  }
+  double margin(Index k) const { return k < std::ssize(margins) ? margins[static_cast<std::size_t>(k)] : missing; }
+};
+
+/// Finds the speeds at which counts change.
+class Search {
+ public:
+  using At = std::function<Tally(double)>;
+  /// Takes a change between two close speeds.
+  using Add = std::function<void(const Tally&, const Tally&)>;
+
+  Search(At at, Add add, double tolerance) : at_(std::move(at)), add_(std::move(add)), tolerance_(tolerance) {}
+
+  void between(const Tally& a, const Tally& b) const { find(a, b, false); }
+
+ private:
+  /// Secants find one change; if rounding moves it, the interval is halved.
+  void find(const Tally& a, const Tally& b, bool halves) const {
+    if (a.count() == b.count()) return;
+    const double same = tolerance_ * std::abs(b.speed), middle = 0.5 * (a.speed + b.speed);
+    if (b.speed - a.speed <= same || middle <= a.speed || middle >= b.speed) return add_(a, b);
+    if (halves || b.speed - a.speed <= 4.0 * same) {
+      const Tally between = at_(middle);
+      find(a, between, true);
+      find(between, b, true);
+      return;
+    }
+    const double change = change_between(a, b);
+    const Tally before = at_(std::max(a.speed, change - 0.45 * same)),
+                after = at_(std::min(b.speed, change + 0.45 * same));
+    const bool is_found = before.count() != after.count();
+    find(a, before, !is_found);
+    find(before, after, true);
+    find(after, b, !is_found);
+  }
+
+  double change_between(const Tally& a, const Tally& b) const {
+    const Index k = std::min(a.count(), b.count());
+    double low = a.speed, high = b.speed, last = low, next = high, at_last = a.margin(k), at_next = b.margin(k);
+    const bool is_positive_below = at_last > 0.0;
+    for (int i = 0; i < kMostSecants && at_next != 0.0; ++i) {
+      double speed = next - at_next * (next - last) / (at_next - at_last);
+      if (!(speed > low && speed < high)) speed = 0.5 * (low + high);
+      if (std::abs(speed - next) <= 0.1 * tolerance_ * std::abs(speed)) return speed;
+      last = std::exchange(next, speed);
+      at_last = std::exchange(at_next, at_(speed).margin(k));
+      ((at_next > 0.0) == is_positive_below ? low : high) = next;
+    }
+    return next;
+  }
+
+  At at_;
+  Add add_;
+  double tolerance_;
+};
+
+}  // namespace
+
+std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index steps, double order,
+                                                  Index count) const {
+  struct Crossing {
+    double speed;
+    std::vector<CriticalSpeed> near;  ///< of the modes near the line, the closest first
+    Index change;
+  };
+  std::vector<Crossing> crossings;
+  const auto add = [&](const Tally& a, const Tally& b) {
+    const double middle = 0.5 * (a.speed + b.speed);
+    auto near = modes(b.speed, is_dense() ? 2 * size() : count);
+    std::stable_sort(near.begin(), near.end(), [&](const auto& p, const auto& q) {
+      return std::abs(p.frequency() - order * b.speed) < std::abs(q.frequency() - order * b.speed);
+    });
+    // A nearly critically damped mode has no resonance, whether its frequency crosses the speed or
+    // its oscillation ends.
+    if (near.front().damping_ratio() > kNoResonance) return;
+    Crossing crossing{middle, {}, b.count() - a.count()};
+    for (const WhirlMode& mode : near)
+      if (mode.damping_ratio() <= kNoResonance) crossing.near.push_back({middle, mode.direction, mode.motion});
+    crossings.push_back(std::move(crossing));
+  };
+  // Counted are the frequencies above the line order times speed or, if only the lowest are known, those below it.
+  const double sign = is_dense() ? 1.0 : -1.0;
+  const auto at = [&](double speed) {
+    const double line = order * std::abs(speed);
+    Tally tally{speed, oscillations(speed, count), -line};
+    for (double& value : tally.margins) value = sign * (value - line);
+    return tally;
+  };
+  const Search search(at, add, kSameSpeed);
+  Tally before = at(from);
+  for (Index i = 1; i <= steps; ++i) {
+    Tally next = at(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
+    search.between(before, next);
+    before = std::move(next);
+  }
+  // If two modes coincide, rounding moves them back and forth across the line: the net number of
+  // crossings counts.
+  std::vector<CriticalSpeed> found;
+  for (std::size_t i = 0; i < crossings.size();) {
+    const Crossing& first = crossings[i];
+    Index net = 0;
+    for (; i < crossings.size() && crossings[i].speed - first.speed <= kOneCrossing * std::abs(first.speed); ++i)
+      net += crossings[i].change;
+    const auto passed = std::min(static_cast<std::size_t>(std::abs(net)), first.near.size());
+    found.insert(found.end(), first.near.begin(), first.near.begin() + static_cast<std::ptrdiff_t>(passed));
+  }
+  return found;
+}
+
+std::vector<StabilityBorder> Whirl::stability_borders(const std::vector<double>& speeds,
+                                                      const std::vector<std::vector<WhirlMode>>& at,
+                                                      Index count) const {
+  const auto tally_of = [&](double speed, const std::vector<Complex>& values) {
+    Tally tally{speed, {}, -std::numeric_limits<double>::infinity()};
+    for (const Complex lambda : values) tally.margins.push_back(growth(lambda));
+    std::sort(tally.margins.begin(), tally.margins.end(), std::greater<>());
+    return tally;
+  };
+  std::vector<StabilityBorder> found;
+  const auto add = [&](const Tally& a, const Tally& b) {
+    const bool begins = b.count() > a.count();
+    std::vector<WhirlMode> growing = modes(begins ? b.speed : a.speed, count);
+    std::erase_if(growing, [&](const WhirlMode& mode) { return !grows(mode); });
+    const auto slowest = std::min_element(
+        growing.begin(), growing.end(), [](const auto& p, const auto& q) { return p.lambda.real() < q.lambda.real(); });
+    if (slowest != growing.end()) found.push_back({0.5 * (a.speed + b.speed), begins, *slowest});
+  };
+  const Search search([&](double speed) { return tally_of(speed, eigenvalues(speed, count)); }, add, kSameBorder);
+  const auto known = [&](std::size_t i) {
+    std::vector<Complex> values;
+    for (const WhirlMode& mode : at[i]) values.push_back(mode.lambda);
+    return tally_of(speeds[i], values);
+  };
+  for (std::size_t i = 1; i < speeds.size(); ++i) search.between(known(i - 1), known(i));
+  return found;
+}
+
+}  // namespace butee::dynamics
