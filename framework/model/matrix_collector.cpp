@@ -56,6 +56,12 @@ void MatrixCollector::check(std::span<const NodalDof> dofs, const ElementMatrice
       throw InputError("an element on " + dofs_.name(dofs.front()) + " adds a matrix of " +
                        std::to_string(matrix->rows()) + " x " + std::to_string(matrix->cols()) + " for " +
                        std::to_string(n) + " DOFs");
+  for (const Eigen::MatrixXd* matrix : given)
+    if (!matrix->allFinite())
+      throw InputError(
+          "an element on " + dofs_.name(dofs.front()) +
+          " adds a matrix with entries that are not finite: check its lengths, section and material, in SI "
+          "units");
   for (Index i = 0; i < n; ++i) {
     if (dofs_.exists(dofs[static_cast<std::size_t>(i)])) continue;
     // A lumped mass has inertia along all axes and claims only those that other elements use.

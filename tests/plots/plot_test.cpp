@@ -171,6 +171,19 @@ TEST_F(Plot, LeavesOutALineCutShort) {
   EXPECT_EQ(rows_of(script("displacement"), "curve0"), 400U);
 }
 
+TEST_F(Plot, NamesTheFirstOfTheRowsThatItCannotRead) {
+  std::string history = read_file(folder_.file("swing-results/history.csv"));
+  std::size_t begin = 0;
+  for (int line = 1; line < 20; ++line) begin = history.find('\n', begin) + 1;
+  history.replace(begin, history.find('\n', begin) - begin, "0.18,none\n0.185");
+  folder_.write("swing-results/history.csv", history);
+  const Outcome outcome = plot({"swing-results", "--format=script", "--kind=displacement"});
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  expect_in(outcome.errors,
+            "swing-results/history.csv:20: is not a row of 5 numbers; left out of the pictures with 1 more");
+  EXPECT_EQ(rows_of(script("displacement"), "curve0"), 400U);
+}
+
 TEST_F(Plot, RefusesWhatIsNotThere) {
   const auto refused = [&](std::vector<std::string> arguments, const std::string& part) {
     const Outcome outcome = plot(std::move(arguments));

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <butee/core/error.hpp>
+#include <butee/core/log.hpp>
 #include <butee/study/table.hpp>
 
 namespace butee::app::plot {
@@ -41,11 +42,21 @@ Table read_table(const std::string& path, Window window) {
   if (table.names.empty() || table.names.front() != "t") throw InputError(path + ": its first column is not t");
   table.columns.resize(table.names.size());
   std::vector<double> row(table.names.size());
+  std::int64_t number = 1, broken = 0, first_broken = 0;
   while (std::getline(file, line)) {
     if (file.eof()) break;  // incomplete last line
-    if (!parse(line, row) || row.front() < window.from || row.front() > window.to) continue;
+    ++number;
+    if (!parse(line, row)) {
+      if (++broken == 1) first_broken = number;
+      continue;
+    }
+    if (row.front() < window.from || row.front() > window.to) continue;
     for (std::size_t i = 0; i < row.size(); ++i) table.columns[i].push_back(row[i]);
   }
+  if (broken > 0)
+    log::warning(path + ":" + std::to_string(first_broken) + ": is not a row of " + std::to_string(row.size()) +
+                 " numbers; left out of the pictures" +
+                 (broken > 1 ? " with " + std::to_string(broken - 1) + " more" : ""));
   return table;
 }
 
