@@ -117,16 +117,13 @@ void Simulation::start() {
   integrator_.start(state_, contact_memory_);
   const double own = next_h_ == 0.0 || traits_.lands_on_outputs ? integrator_.first_step(state_) : 0.0;
   if (next_h_ == 0.0 || std::isinf(own)) next_h_ = own;
-  require(next_h_ != 0.0, "a method without a first step of its own has a time_step");
   for (Observer* observer : observers_) observer->start(state_);
   growth_.start(state_);
   if (!state_.a.allFinite())
     fail({next_h_, 0.0}, describe_start(dynamics_, state_));
   else if (!(next_h_ > 0.0))
-    fail(
-        {next_h_, 0.0},
-        "the first step could not be chosen: norms of the initial motion exceed the range of numbers; check the masses "
-        "and stiffnesses, in SI units");
+    fail({next_h_, 0.0},
+         "the method found no first step; give time_step, and check the masses and stiffnesses, in SI units");
 }
 
 void Simulation::set_end_time(double end_time) {
