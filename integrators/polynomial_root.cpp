@@ -1,6 +1,8 @@
 #include "integrators/polynomial_root.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace butee::integrators {
 namespace {
@@ -8,12 +10,15 @@ namespace {
 /// Sign changes that intervals of 2^-50 do not separate count as a touch, not as a crossing.
 constexpr std::size_t kDeepest = 50;
 constexpr int kBisections = 60;
+/// Values below this part of the largest coefficient are rounding.
+constexpr double kRoundingOfCoefficients = 4.0 * std::numeric_limits<double>::epsilon();
 
-int sign_changes(const std::vector<double>& values) {
+/// Values of at most `rounding` count as 0.
+int sign_changes(const std::vector<double>& values, double rounding) {
   int changes = 0;
   double last = 0.0;
   for (const double value : values) {
-    if (value == 0.0) continue;
+    if (!(std::abs(value) > rounding)) continue;
     if (last != 0.0 && std::signbit(last) != std::signbit(value)) ++changes;
     last = value;
   }
@@ -40,17 +45,25 @@ std::optional<double> PolynomialRoot::first(std::span<const double> coefficients
   if (begin == coefficients.size()) return std::nullopt;
   polynomial_.assign(coefficients.begin() + static_cast<std::ptrdiff_t>(begin), coefficients.end());
   polynomial_.resize(size_, 0.0);
+  double largest = 0.0;
   for (std::size_t j = 0; j < size_; ++j) {
     double sum = 0.0;
     for (std::size_t k = 0; k <= j; ++k) sum += binomial_ratio_[j * size_ + k] * polynomial_[k];
     bernstein_[0][j] = sum;
+    largest = std::max(largest, std::abs(sum));
   }
+  rounding_ = kRoundingOfCoefficients * largest;
+  starts_positive_ = polynomial_[0] > 0.0;
   return search(0, 0.0, 1.0);
 }
 
 std::optional<double> PolynomialRoot::search(std::size_t depth, double begin, double end) {
   std::vector<double>& here = bernstein_[depth];
-  const int changes = sign_changes(here);
+  // The sign before `begin` is that of the start: if it differs from the one after it, the root is there.
+  const auto after =
+      std::find_if(here.begin(), here.end(), [this](double value) { return std::abs(value) > rounding_; });
+  if (after != here.end() && (*after > 0.0) != starts_positive_) return begin;
+  const int changes = sign_changes(here, rounding_);
   if (changes == 0) return std::nullopt;
   if (changes == 1) return refine(begin, end);
   if (depth == kDeepest) return std::nullopt;
@@ -67,10 +80,9 @@ std::optional<double> PolynomialRoot::search(std::size_t depth, double begin, do
 }
 
 double PolynomialRoot::refine(double begin, double end) const {
-  const bool begins_positive = begin == 0.0 ? polynomial_[0] > 0.0 : value(begin) > 0.0;
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (begin + end);
-    ((value(middle) > 0.0) == begins_positive ? begin : end) = middle;
+    ((value(middle) > 0.0) == starts_positive_ ? begin : end) = middle;
   }
   return end;
 }

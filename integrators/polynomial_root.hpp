@@ -6,7 +6,8 @@
 
 namespace butee::integrators {
 
-/// Finds the first sign change of a polynomial in (0, 1]; no sign change can be missed.
+/// Finds the first sign change of a polynomial in (0, 1). None is missed, except two that rounding does not
+/// separate.
 ///
 /// The polynomial is written in Bernstein form, whose coefficients bound it. Without a sign change
 /// among the coefficients there is no root; with one sign change there is exactly one root;
@@ -28,6 +29,8 @@ class PolynomialRoot {
   std::vector<double> binomial_ratio_;  ///< C(j, k)/C(d, k), row j, column k
   std::size_t size_;
   std::vector<double> polynomial_;
+  bool starts_positive_ = true;
+  double rounding_ = 0.0;                       ///< of coefficients in Bernstein form
   std::vector<std::vector<double>> bernstein_;  ///< coefficients for each depth of subdivision
 };
 

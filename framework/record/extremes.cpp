@@ -1,5 +1,7 @@
 #include "butee/record/extremes.hpp"
 
+#include "butee/time/derivative_rounding.hpp"
+
 namespace butee::record {
 namespace {
 
@@ -160,8 +162,6 @@ double StepPath::departure(std::size_t order, const Point& from, const Point& to
 }
 
 double StepPath::rounding(std::size_t order, const Point& from, const Point& to) const {
-  // The largest coefficients of the derivatives of the quintic, and of sums of both ends.
-  constexpr std::array<double, 3> kFactor = {0.0, 8.0, 32.0};
   if (order == 0) return 0.0;
   double displacement = 0.0, speed = 0.0;
   for (const Index dof : dofs_) {
@@ -169,8 +169,7 @@ double StepPath::rounding(std::size_t order, const Point& from, const Point& to)
     displacement += std::max(std::abs(step_.from.x[dof]), std::abs(step_.to.x[dof]));
     speed += std::max(std::abs(step_.from.v[dof]), std::abs(step_.to.v[dof]));
   }
-  const double h = to.t - from.t, by_x = (displacement + speed * std::abs(to.t)) / h;
-  return std::numeric_limits<double>::epsilon() * kFactor[order] * (order == 1 ? by_x : (by_x + speed) / h);
+  return time::derivative_rounding(static_cast<int>(order), displacement, speed, to.t, to.t - from.t);
 }
 
 double StepPath::good_of(std::size_t order, const Range& range, double bound) const {

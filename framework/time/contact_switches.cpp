@@ -3,12 +3,20 @@
 #include <algorithm>
 #include <numeric>
 
+#include "butee/time/derivative_rounding.hpp"
+
 namespace butee::time {
 namespace {
 
 /// The uncertainty of displacements and velocities relative to those of the whole structure in the norm of the diagonal
 /// of M, since sums over modes cancel to about this (chosen: 18 eps).
 constexpr double kRoundingOfModes = 4e-15;
+
+/// Replaces a derivative of the displacement within a step by the line through both ends if it changes less over the
+/// step than the rounding of an interpolant.
+double without_rounding(double interpolated, double from, double to, double place, double rounding) {
+  return std::abs(to - from) < rounding ? from + place * (to - from) : interpolated;
+}
 
 }  // namespace
 
@@ -78,11 +86,20 @@ void ContactSwitches::interpolate(const DenseOutput& motion, double t, const std
     const std::vector<Index>& used = sticks_.empty() ? dofs : all_;
     const std::span<double> x(values_x_.data(), used.size()), v(values_v_.data(), needs_velocities_ ? used.size() : 0);
     motion.trace(t, used, {x, v, {}});
+    const std::span<double> a(values_a_.data(), needs_accelerations_ ? used.size() : 0);
+    if (!a.empty()) motion.interpolate(t, used, {{}, {}, a});
+    const State& from = motion.from();
+    const double h = to.t - from.t, place = (t - from.t) / h;
     for (std::size_t k = 0; k < used.size(); ++k) at.x[used[k]] = x[k];
-    for (std::size_t k = 0; k < v.size(); ++k) at.v[used[k]] = v[k];
-    if (needs_accelerations_) {
-      motion.interpolate(t, used, {{}, {}, {values_a_.data(), used.size()}});
-      for (std::size_t k = 0; k < used.size(); ++k) at.a[used[k]] = values_a_[k];
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const Index dof = used[k];
+      const double displacement = std::max(std::abs(from.x[dof]), std::abs(to.x[dof])),
+                   speed = std::max(std::abs(from.v[dof]), std::abs(to.v[dof]));
+      const auto settle = [&](int order, double value, double begin, double end) {
+        return without_rounding(value, begin, end, place, derivative_rounding(order, displacement, speed, to.t, h));
+      };
+      at.v[dof] = settle(1, v[k], from.v[dof], to.v[dof]);
+      if (!a.empty()) at.a[dof] = settle(2, a[k], from.a[dof], to.a[dof]);
     }
   }
   if (!sticks_.empty()) hold(at);

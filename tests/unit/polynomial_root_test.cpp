@@ -46,5 +46,24 @@ TEST(PolynomialRoot, LeavesOutTheRootAtTheStart) {
   EXPECT_NEAR(*root, 0.25, 1e-14);
 }
 
+/// (1 - 2 s) ((s - c)^2 + e): the only root lies where intervals are halved, and the other factor has none.
+TEST(PolynomialRoot, FindsARootWhereIntervalsAreHalved) {
+  PolynomialRoot finder(12);
+  for (int i = 0; i <= 20; ++i)
+    for (const double e : {1e-4, 1e-3, 1e-2, 0.1, 1.0})
+      for (const double scale : {1.0, -1.0}) {
+        const double c = 0.05 * i, q = scale * (c * c + e);
+        const auto root =
+            finder.first(std::vector<double>{q, -2.0 * q - 2.0 * scale * c, scale * (1.0 + 4.0 * c), -2.0 * scale});
+        ASSERT_TRUE(root) << c << ' ' << e;
+        EXPECT_NEAR(*root, 0.5, 1e-12) << c << ' ' << e;
+      }
+  // A double root there is a touch.
+  EXPECT_FALSE(finder.first(polynomial({0.5, 0.5, 1.5}, 1.0)));
+  const auto later = finder.first(polynomial({0.5, 0.5, 0.75}, 1.0));
+  ASSERT_TRUE(later);
+  EXPECT_NEAR(*later, 0.75, 1e-12);
+}
+
 }  // namespace
 }  // namespace butee::integrators::polynomial_root_test

@@ -137,6 +137,36 @@ TEST_P(Bouncing, PeriodAndDepthAreThoseOfTheClosedForm) {
   for (std::size_t i = 0; i <= kBounces; ++i) EXPECT_NEAR(lowest.x[i], d + sag + amplitude, kDepthError * d);
 }
 
+/// A mass thrown at a stop against a constant force closes it at t = 1/2, where `exact` halves its interval.
+TEST(Bouncing, BeginsWhereAnIntervalIsHalved) {
+  SceneRun scene(R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "ball"
+mass = 1.0
+[[contact]]
+type = "stop"
+nodes = "ball"
+gap = 0.375
+sides = "positive"
+stiffness = 1e6
+[[load]]
+type = "constant"
+node = "ball"
+value = -2.0
+[initial]
+velocity = [{ nodes = "ball", value = 1.25 }]
+[integrator]
+type = "exact"
+end_time = 1.0
+)");
+  ASSERT_TRUE(scene.run().completed);
+  // Closed at 0.25 m/s, it leaves at that speed after 2 atan(v w/2)/w, under the force -2 N with w = 1000 rad/s.
+  const double flight = 0.5 - 2.0 * std::atan(125.0) / 1000.0;
+  EXPECT_NEAR(scene.simulation().state().x[scene.dof("ball")], 0.375 - 0.25 * flight - flight * flight, 1e-12);
+}
+
 INSTANTIATE_TEST_SUITE_P(methods, Bouncing, testing::Values("rk4", "newmark"),
                          [](const auto& instance) { return std::string(instance.param); });
 
