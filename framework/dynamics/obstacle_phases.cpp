@@ -109,10 +109,10 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
     phase.anchor = path(i, t, now, phase.angle);
     // If slip begins with contact the force is still 0: the phase depends on whether the spring
     // force or the limit grows faster.
-    // A contact that has just closed may be at a penetration of 0 or below, by rounding or by the
-    // uncertainty of the located instant.
+    // A contact that has just closed, and is set to, may be at a penetration a little below or above 0, by rounding or
+    // by the uncertainty of the located instant.
     const ContactPhase& set = phases_[static_cast<std::size_t>(i)];
-    const bool has_closed = set.touches() && !phase.touches() && now.rate > 0.0;
+    const bool has_closed = set.touches() && now.rate > 0.0;
     const NormalPhase normal_phase = has_closed ? set.normal : phase.normal;
     const double depth = has_closed ? 0.0 : now.approach.penetration;
     const Normal pressing = normal(at(i), normal_phase, depth, now.rate);

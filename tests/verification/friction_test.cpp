@@ -405,6 +405,55 @@ TEST(StickSpring, TakesHoldAtClosingWhateverRoundingSays) {
     }
 }
 
+/// A mass between springs strikes a plane whose law has no stiffness at first: the stick spring takes hold after 1e-11
+/// s of slip, when hardly any force is there. It then holds the tangential motion: m w'' + d w' + (k + k_t) w = k_t
+/// w_0, where w_0 leaves no force at closing. Steps between closing and stick are so short that derivatives of the
+/// dense output are rounding.
+TEST(StickSpring, TakesHoldSoonAfterASoftClosing) {
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 16.0
+[[element]]
+type = "spring"
+node = "m"
+dof = "uz"
+stiffness = 8.0e4
+[[contact]]
+type = "plane"
+normal = [1.0, 0.0]
+nodes = "m"
+gap = 2.0e-4
+law = "hertz"
+stiffness = 8.8e7
+exponent = 1.2
+friction = { coefficient = 0.43, stick_stiffness = 4.86e6, stick_damping = 58.0 }
+[initial]
+velocity = [{ nodes = "m", dof = "uy", value = 0.125 }, { nodes = "m", dof = "uz", value = -0.005 }]
+[integrator]
+end_time = 0.0018
+)";
+  constexpr double kClosing = 2e-4 / 0.125, kHeld = 0.0018 - kClosing;
+  const double open = std::sqrt(8e4 / 16.0), w = -0.005 / open * std::sin(open * kClosing),
+               rate = -0.005 * std::cos(open * kClosing), anchor = w + 58.0 * rate / 4.86e6,
+               rest = 4.86e6 * anchor / (8e4 + 4.86e6), decay = 58.0 / 32.0,
+               turn = std::sqrt((8e4 + 4.86e6) / 16.0 - decay * decay), q = w - rest;
+  const double held =
+      std::exp(-decay * kHeld) * (rate * std::cos(turn * kHeld) -
+                                  (decay * rate + (decay * decay + turn * turn) * q) / turn * std::sin(turn * kHeld));
+  for (const char* method : {"dopri5", "rodas4", "extrapolation8", "exponential"})
+    for (int i = 0; i <= 12; ++i) {
+      const double tolerance = std::pow(10.0, -6.0 - 0.25 * i);
+      SceneRun run(scene, {std::string("integrator.type=") + method,
+                           "integrator.tolerance=" + std::to_string(1e12 * tolerance) + "e-12"});
+      ASSERT_TRUE(run.run().completed) << method;
+      EXPECT_NEAR(run.simulation().state().v[run.dof("m", DofKind::uz)], held, 50.0 * tolerance * 0.005)
+          << method << ' ' << tolerance;
+    }
+}
+
 /// The forces of rigid sticks that hold the same motion are not determined.
 TEST(RigidFriction, RefusesSupportsThatHoldTheSameMotion) {
   const std::string again =
