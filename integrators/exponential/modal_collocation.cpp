@@ -134,11 +134,11 @@ StepReport ModalCollocation::do_step(const State& from, const time::Step& step, 
       report.status = StepStatus::not_finite;
       return report;
     }
-    if (dynamics().stop_count() == 0 || cut == kMostCuts) break;
+    if (!forces_.has_borders() || cut == kMostCuts) break;
     // The forces behind a change shift its computed position, so that a shortened step may end
     // before the change.
     const double beyond = cut > 0 ? std::min(1.0 + kBeyond, wanted / h) : 1.0,
-                 change = forces_.first_contact_change(beyond);
+                 change = forces_.first_contact_change(from.t, h, beyond);
     if (change >= beyond || std::abs(change - 1.0) <= std::min(kCoarsestCut, kCut * tolerance_) ||
         !(from.t + change * h > from.t))
       break;

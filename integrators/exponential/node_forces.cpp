@@ -48,6 +48,10 @@ NodeForces::NodeForces(dynamics::Dynamics& dynamics, const dynamics::DampedModes
       scales_(dynamics.system()),
       discontinuities_(dynamics.load_discontinuities()) {
   instant_.x = instant_.v = instant_.force = Vector::Zero(dynamics.size());
+  if (const dynamics::Obstacles* obstacles = dynamics.obstacles())
+    for (Index i = 0; i < obstacles->size(); ++i)
+      if (const auto& law = obstacles->group_of(i).law; law != nullptr && StopBorders::inner_border(*law) > 0.0)
+        inner_borders_.emplace_back(i, StopBorders::inner_border(*law));
   const Index p = modes.count();
   free_ = nodes_ = polynomial_ = missed_ = Lanes::Zero(2 * p, Lanes::ColsAtCompileTime);
   end_ = error_ = Vector::Zero(2 * p);
@@ -316,11 +320,30 @@ StepNodes::Row NodeForces::displacement_of(Index stop) const {
   return motion;
 }
 
-double NodeForces::first_contact_change(double last) const {
+double NodeForces::first_contact_change(double t, double h, double last) {
   double first = last;
   for (Index i = 0; i < dynamics_.stops().size(); ++i)
     first = borders_.first_crossing(i, displacement_of(i) * StepNodes::with_middle(), first);
+  for (const auto& [contact, border] : inner_borders_)
+    if (dynamics_.obstacles()->phase(contact).touches())
+      first = StepNodes::first_crossing(penetration_of(contact, t, h) * StepNodes::with_middle(), border, first);
   return first;
+}
+
+StepNodes::Row NodeForces::penetration_of(Index obstacle, double t, double h) {
+  const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
+  StepNodes::Row penetration;
+  for (Index node = 0; node < kCount; ++node) {
+    for (const auto& side : {obstacles.ends_of(obstacle).a, obstacles.ends_of(obstacle).b})
+      for (const Index dof : side) {
+        if (dof < 0) continue;
+        instant_.x[dof] = moved_(active_.place(dof), node);
+        if (need_velocity_) instant_.v[dof] = moved_velocity_(active_.place(dof), node);
+      }
+    const double now = t + StepNodes::kPlaces[static_cast<std::size_t>(node)] * h;
+    penetration[node] = obstacles.forces(obstacle, now, instant_.x, instant_.v).penetration;
+  }
+  return penetration;
 }
 
 }  // namespace butee::integrators

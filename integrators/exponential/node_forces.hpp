@@ -59,9 +59,11 @@ class NodeForces {
   /// The largest error of a contact's velocity within the step found last, which ends with `to`, relative to the scale
   /// of that velocity early in the step. At the end of the step the error is far smaller.
   double inner_error(const time::State& from, const time::State& to) const;
-  /// The fraction of the step after which a stop crosses one of its borders; `last`, which may slightly exceed 1, if
-  /// none does.
-  double first_contact_change(double last) const;
+  /// True if steps end where contacts cross borders that are no changes of their phase.
+  bool has_borders() const { return dynamics_.stops().size() > 0 || !inner_borders_.empty(); }
+  /// The fraction of the step of length h from t after which a contact crosses one of these borders; `last`, which may
+  /// slightly exceed 1, if none does.
+  double first_contact_change(double t, double h, double last);
 
  private:
   using AtNodes = Eigen::Matrix<double, Eigen::Dynamic, StepNodes::kCount>;
@@ -75,6 +77,8 @@ class NodeForces {
   void keep_sides(const Vector& x, Vector& force) const;
   /// The displacement of a stop at the nodes.
   StepNodes::Row displacement_of(Index stop) const;
+  /// At the nodes of the step of length h from t, m.
+  StepNodes::Row penetration_of(Index obstacle, double t, double h);
   /// The weights of forces in the norm of the acceleration: their effects on the relative speeds.
   void find_weights(const time::State& from);
   /// Computes the forces at one node, and at all nodes except the start.
@@ -101,6 +105,7 @@ class NodeForces {
   ContactDofs dofs_;
   bool need_velocity_;
   StopBorders borders_;
+  std::vector<std::pair<Index, double>> inner_borders_;  ///< of obstacles: StopBorders::inner_border(), m
   ForceErrors errors_;
   std::vector<double> sides_;  ///< of borders_.jumping() in the step
   ActiveDofs active_;

@@ -1,6 +1,7 @@
 #include "integrators/exponential/stop_borders.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "butee/core/error.hpp"
 
@@ -15,6 +16,11 @@ constexpr double kAtJump = 1e-3;
 
 }  // namespace
 
+double StopBorders::inner_border(const model::ContactLaw& law) {
+  const double width = law.transition_width();
+  return law.is_silent_while_open() && std::isfinite(width) ? width : 0.0;
+}
+
 StopBorders::StopBorders(dynamics::ElasticStops& stops) : stops_(stops) {
   for (Index i = 0; i < stops.size(); ++i) {
     const model::ContactLaw& law = stops.law_of(i);
@@ -24,12 +30,13 @@ StopBorders::StopBorders(dynamics::ElasticStops& stops) : stops_(stops) {
       throw InputError(
           "integrator.type: the law of a stop acts while the stop is open and does not give the width of its "
           "transition, which exponential requires for coupled modes");
-    const double width = is_silent ? 0.0 : kBeside * law.transition_width();
+    const double width = is_silent ? inner_border(law) : kBeside * law.transition_width();
     std::vector<double>& borders = borders_.emplace_back();
-    for (const double border : {play.upper(), play.lower()}) {
+    for (const auto& [border, outwards] : {std::pair{play.upper(), 1.0}, std::pair{play.lower(), -1.0}}) {
       if (!std::isfinite(border)) continue;
       borders.push_back(border);
-      if (width > 0.0) borders.insert(borders.end(), {border - width, border + width});
+      if (width > 0.0) borders.push_back(border + outwards * width);
+      if (width > 0.0 && !is_silent) borders.push_back(border - outwards * width);
     }
     if (is_silent || !play.has_both()) continue;
     borders.push_back(0.0);

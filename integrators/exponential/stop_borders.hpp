@@ -10,7 +10,8 @@ namespace butee::integrators {
 /// The displacements w at which the force of an elastic stop is not smooth, or bends within a small distance. Steps of
 /// collocation end there, since a bend between two nodes would not be seen.
 ///
-/// A stop without a force while open has a border where it closes, on each side. A law that is smooth at g = 0, such as
+/// A stop without a force while open has a border where it closes, on each side, and one where its law is linear from,
+/// if it gives the width of its transition. A law that is smooth at g = 0, such as
 /// `arctan`, has two more, beside its transition. If it exerts a force while open, the force of a stop on both sides
 /// jumps at w = 0, from the law of one side to that of the other. Derivation: plugins/exponential/COLLOCATION.md,
 /// section 3.
@@ -21,6 +22,9 @@ class StopBorders {
   /// Throws InputError for a law that acts while the stop is open and does not give the width of its transition.
   /// `stops` must outlive it.
   explicit StopBorders(dynamics::ElasticStops& stops);
+
+  /// The penetration, m, from which a law without a force while open is linear; 0 if it does not tell.
+  static double inner_border(const model::ContactLaw& law);
 
   /// The position of the first border that the displacement of a stop crosses before `last`, or `last`; the
   /// displacement is given by its polynomial over a step. See StepNodes::first_crossing().
