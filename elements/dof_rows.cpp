@@ -11,8 +11,6 @@ using model::NodeId;
 
 namespace {
 
-constexpr NodeId kMostNodes = 5'000'000;
-
 std::optional<NodeId> number_in(std::string_view text) {
   const auto number = whole_number<NodeId>(text);
   return number.value_or(-1) < 0 ? std::nullopt : number;

@@ -9,6 +9,9 @@
 
 namespace butee::elements {
 
+/// Own nodes of an element are numbered below this.
+inline constexpr model::NodeId kMostNodes = 5'000'000;
+
 /// A row of the matrices: the selector of its node, or the index among the element's own nodes
 /// (else -1).
 struct DofRow {

@@ -79,8 +79,14 @@ model::ElementType::Nodes own_nodes(const Parameters& p, Diagnostics& diagnostic
         }))
       return std::nullopt;
   } else if (p.has("nodes")) {
-    for (const std::string& selector : p.texts("nodes"))
-      count = std::max(count, largest_own(selector, own_name(p)) + 1);
+    for (const std::string& selector : p.texts("nodes")) {
+      const NodeId own = largest_own(selector, own_name(p));
+      if (own >= kMostNodes) {
+        p.complain(diagnostics, "nodes", "own nodes are numbered below " + std::to_string(kMostNodes));
+        return std::nullopt;
+      }
+      count = std::max(count, own + 1);
+    }
   } else {
     const auto mass = read_matrix(p, "mass", diagnostics);
     if (!mass) return std::nullopt;

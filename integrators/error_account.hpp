@@ -9,7 +9,8 @@
 
 namespace butee::integrators {
 
-/// The tolerance, and the length of the run that it applies to, s.
+/// The tolerance, and the time up to which it is kept, s. A run that begins later keeps it with the same rate of
+/// error, on the safe side.
 struct Goal {
   double tolerance;
   double run_time;

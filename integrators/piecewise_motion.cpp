@@ -195,6 +195,7 @@ void PiecewiseMotion::load_piece(std::size_t piece) {
   std::copy_n(begin_x_.begin() + static_cast<std::ptrdiff_t>(piece * n), n, x_.begin());
   std::copy_n(begin_v_.begin() + static_cast<std::ptrdiff_t>(piece * n), n, v_.begin());
   std::copy_n(begin_status_.begin() + static_cast<std::ptrdiff_t>(piece * m), m, status_.begin());
+  loaded_ = kNoPiece;
   begin_piece(begins_[piece]);
   loaded_ = piece;
 }

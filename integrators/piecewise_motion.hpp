@@ -85,7 +85,8 @@ class PiecewiseMotion final : public time::Interpolant {
   std::int64_t uses_ = 0, states_made_ = 0;
   ContactStateFlow::Piece piece_;
   const ContactStateFlow* flow_ = nullptr;  ///< of piece_
-  std::size_t loaded_ = static_cast<std::size_t>(-1);
+  static constexpr auto kNoPiece = static_cast<std::size_t>(-1);
+  std::size_t loaded_ = kNoPiece;
   std::vector<StopStatus> status_;
   FirstChange::Changed changed_;  ///< the stop that changed at the end of the last piece
   std::vector<bool> closed_;

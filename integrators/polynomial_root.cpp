@@ -13,13 +13,13 @@ constexpr int kBisections = 60;
 /// Values below this part of the largest coefficient are rounding.
 constexpr double kRoundingOfCoefficients = 4.0 * std::numeric_limits<double>::epsilon();
 
-/// Values of at most `rounding` count as 0.
-int sign_changes(const std::vector<double>& values, double rounding) {
+/// Those of `before` and the values; values of at most `rounding` count as 0.
+int sign_changes(double before, const std::vector<double>& values, double rounding) {
   int changes = 0;
-  double last = 0.0;
+  double last = before;
   for (const double value : values) {
     if (!(std::abs(value) > rounding)) continue;
-    if (last != 0.0 && std::signbit(last) != std::signbit(value)) ++changes;
+    if (std::signbit(last) != std::signbit(value)) ++changes;
     last = value;
   }
   return changes;
@@ -53,17 +53,17 @@ std::optional<double> PolynomialRoot::first(std::span<const double> coefficients
     largest = std::max(largest, std::abs(sum));
   }
   rounding_ = kRoundingOfCoefficients * largest;
-  starts_positive_ = polynomial_[0] > 0.0;
+  start_ = polynomial_[0];
   return search(0, 0.0, 1.0);
 }
 
 std::optional<double> PolynomialRoot::search(std::size_t depth, double begin, double end) {
   std::vector<double>& here = bernstein_[depth];
-  // The sign before `begin` is that of the start: if it differs from the one after it, the root is there.
+  // The sign before `begin` is that of the start.
+  const int changes = sign_changes(start_, here, rounding_);
   const auto after =
       std::find_if(here.begin(), here.end(), [this](double value) { return std::abs(value) > rounding_; });
-  if (after != here.end() && (*after > 0.0) != starts_positive_) return begin;
-  const int changes = sign_changes(here, rounding_);
+  if (begin > 0.0 && after != here.end() && std::signbit(*after) != std::signbit(start_)) return begin;
   if (changes == 0) return std::nullopt;
   if (changes == 1) return refine(begin, end);
   if (depth == kDeepest) return std::nullopt;
@@ -82,7 +82,7 @@ std::optional<double> PolynomialRoot::search(std::size_t depth, double begin, do
 double PolynomialRoot::refine(double begin, double end) const {
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (begin + end);
-    ((value(middle) > 0.0) == starts_positive_ ? begin : end) = middle;
+    ((value(middle) > 0.0) == (start_ > 0.0) ? begin : end) = middle;
   }
   return end;
 }

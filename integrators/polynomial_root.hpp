@@ -29,7 +29,7 @@ class PolynomialRoot {
   std::vector<double> binomial_ratio_;  ///< C(j, k)/C(d, k), row j, column k
   std::size_t size_;
   std::vector<double> polynomial_;
-  bool starts_positive_ = true;
+  double start_ = 0.0;                          ///< a number of the sign that the polynomial has at the start
   double rounding_ = 0.0;                       ///< of coefficients in Bernstein form
   std::vector<std::vector<double>> bernstein_;  ///< coefficients for each depth of subdivision
 };

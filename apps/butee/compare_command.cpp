@@ -137,7 +137,8 @@ class Comparison {
               (reference.method.empty() ? "" : ", uncertainty " + to_short_text(reference.uncertainty)) +
               (reference.parted ? ", trusted to t = " + to_short_text(reference.horizon) + " s" : ""));
     for (std::size_t i = 0; i < reference.values.size(); ++i)
-      if (std::all_of(reference.values[i].begin(), reference.values[i].end(), [](double y) { return y == 0.0; }))
+      if (!reference.values[i].empty() &&
+          std::all_of(reference.values[i].begin(), reference.values[i].end(), [](double y) { return y == 0.0; }))
         log::warning(result.scene + ": " + scene.question.columns[i] +
                      " is zero throughout the reference: there is no relative error of it, and a run that differs "
                      "has an infinite one");

@@ -176,11 +176,13 @@ Command add_modes_command(CLI::App& program) {
   app->add_option("--speed", arguments->speed,
                   "damped modes at this speed of rotation, rad/s; 0: at rest, in any scene")
       ->type_name("OMEGA");
-  app->add_option("--campbell", arguments->campbell, "whirling modes at N + 1 speeds (rad/s), and critical speeds")
-      ->expected(3)
-      ->type_name("FROM TO N");
+  CLI::Option* const campbell =
+      app->add_option("--campbell", arguments->campbell, "whirling modes at N + 1 speeds (rad/s), and critical speeds")
+          ->expected(3)
+          ->type_name("FROM TO N");
   app->add_option("--order", arguments->order, "order of critical speeds: oscillations per revolution; default 1")
       ->check(CLI::Range(1e-3, 1e3))
+      ->needs(campbell)
       ->type_name("X");
   add_log_options(*app, false);
   return {app, [arguments] { return modes_command(*arguments); }};

@@ -92,7 +92,10 @@ int new_plugin_command(const NewPluginArguments& arguments) {
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
     throw InputError(folder.string() + ": exists already; choose another folder with -o, or remove it");
   const fs::path source = shared_folder("template");
-  fs::create_directories(folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw InputError(folder.string() + ": cannot be made: " + error.message() + "; choose another folder with -o");
   write_files(source, folder, arguments);
   write_files(source / arguments.kind, folder, arguments);
   std::printf("%s: a module with the %s \"%s\". Next:\n\n", folder.c_str(), arguments.kind.c_str(),

@@ -39,6 +39,10 @@ std::vector<std::string> methods_of(const plugin::Catalogue& catalogue, const st
 int stability_command(const StabilityArguments& arguments) {
   if (arguments.method.empty() && !arguments.request.settings.empty())
     throw InputError("--set requires a METHOD: parameters belong to one method");
+  for (const std::string& setting : arguments.request.settings)
+    for (const char* determined : {"time_step", "end_time"})
+      if (setting.starts_with(std::string(determined) + "="))
+        throw InputError("--set " + setting + ": stability is found at every step; remove it");
   const auto catalogue = plugin::Catalogue::with_plugins(arguments.plugins);
   const auto methods = methods_of(catalogue, arguments.method);
   const record::ResultFolder folder(!arguments.folder.empty()
@@ -71,11 +75,12 @@ Command add_stability_command(CLI::App& program) {
   app->add_option("--set", arguments->request.settings, "a parameter of the method: rho_inf=0.5")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app->add_option("--damping", arguments->request.ratios, "damping ratios, separated by commas")
+  app->add_option("--damping", arguments->request.ratios, "damping ratios, separated by commas; default 0, 0.05, 0.5")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("RATIO");
-  app->add_option("--stops", arguments->request.stop_ratios, "stiffnesses k_c/k of a closed stop, separated by commas")
+  app->add_option("--stops", arguments->request.stop_ratios,
+                  "stiffnesses k_c/k of a closed stop, separated by commas; default 0.01, 0.1 ... 1e4")
       ->delimiter(',')
       ->check(CLI::Range(1e-12, 1e12))
       ->type_name("RATIO");

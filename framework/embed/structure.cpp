@@ -73,12 +73,17 @@ struct Structure::Parts {
   std::map<Index, NodalForce*> forces{};  ///< by DOF; owned by the model's loads
   std::optional<scene::Assembly> assembly{};
   std::vector<std::unique_ptr<record::Peaks>> peaks{};
+  bool is_advancing = false;
 
   std::vector<model::NodalDof> select(const std::string& selector, DofKind kind) const;
   void add_forces(const std::string& selector, std::vector<std::pair<model::NodalDof, NodalForce*>>& made);
   NodalForce& force_on(Index dof);
   /// Throws InputError if record::Peaks cannot follow the quantity.
   void check_peak(const std::string& node_name, model::NodeId node, model::Quantity quantity);
+  /// Throws LogicError if the call comes from a function that advance_to() or advance_step() calls.
+  void check_idle(const char* call) const {
+    if (is_advancing) throw LogicError(std::string(call) + "() is called within a step; call it after advance_to()");
+  }
   /// Changes `origin` by an observer or by what it follows, so that snapshots without it are refused.
   void mark(const std::string& what) { origin = 31 * origin + std::hash<std::string>{}(what); }
 };
@@ -188,11 +193,27 @@ std::vector<Index> Structure::dofs(const std::string& selector, DofKind kind) co
   return free;
 }
 
+/// Refuses further calls that change the state until it is destroyed.
+class Structure::Advance {
+ public:
+  Advance(Parts& parts, const char* call) : parts_(parts) {
+    parts.check_idle(call);
+    parts.is_advancing = true;
+  }
+  Advance(const Advance&) = delete;
+  Advance& operator=(const Advance&) = delete;
+  ~Advance() { parts_.is_advancing = false; }
+
+ private:
+  Parts& parts_;
+};
+
 void Structure::advance_to(double t) {
   advance_to(t, nullptr);
 }
 
 bool Structure::advance_to(double t, const std::function<bool()>& goes_on) {
+  const Advance advance(*parts_, "advance_to");
   time::Simulation& simulation = parts_->assembly->simulation;
   simulation.start();
   check_time(t, time(), true, "advance_to");
@@ -206,6 +227,7 @@ bool Structure::advance_to(double t, const std::function<bool()>& goes_on) {
 }
 
 double Structure::advance_step(double limit) {
+  const Advance advance(*parts_, "advance_step");
   time::Simulation& simulation = parts_->assembly->simulation;
   simulation.start();
   check_time(limit, time(), false, "advance_step");
@@ -236,6 +258,7 @@ double Structure::acceleration(Index dof) const {
 }
 
 void Structure::set_motion(ConstVectorRef displacements, ConstVectorRef velocities) {
+  parts_->check_idle("set_motion");
   check_numbers(displacements, "a displacement", size());
   check_numbers(velocities, "a velocity", size());
   parts_->assembly->simulation.set_motion(displacements, velocities);
@@ -289,6 +312,9 @@ double Structure::contact_force(Index dof) const {
 
 double Structure::quantity(const std::string& name, const std::string& node, const std::string& element) const {
   const model::Quantity quantity = model::quantity_of(name);
+  if (const auto source = source_of(quantity);
+      !element.empty() && source != model::Source::section && source != model::Source::springs)
+    throw InputError(element + ": " + name + " is not the force of an element; give no element");
   const auto nodes = parts_->select(node, DofKind::u);
   if (nodes.size() != 1)
     throw InputError(node + ": names " + std::to_string(nodes.size()) + " nodes; exactly one is required");
@@ -308,6 +334,7 @@ Structure::Snapshot Structure::snapshot() const {
 }
 
 void Structure::restore(const Snapshot& snapshot) {
+  parts_->check_idle("restore");
   if (snapshot.origin != parts_->origin)
     throw LogicError("the snapshot is of another structure: its scene, options or observers differ");
   parts_->assembly->simulation.restore(snapshot.run);

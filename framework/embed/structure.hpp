@@ -68,7 +68,8 @@ class BUTEE_EXPORT Structure {
   /// changes the situation.
   void advance_to(double t);
   /// The same; asks after every step whether to continue; true if it reached `t`. Another call
-  /// continues from the point where it stopped.
+  /// continues from the point where it stopped. Throws LogicError if advance_to(), advance_step(), set_motion() or
+  /// restore() is called within a step, as by `goes_on`.
   bool advance_to(double t, const std::function<bool()>& goes_on);
   /// Takes one step of the method's own length, not beyond `limit`, and returns the new time.
   double advance_step(double limit);
@@ -130,6 +131,7 @@ class BUTEE_EXPORT Structure {
 
  private:
   struct Parts;
+  class Advance;
   void set_line(Index dof, const NodalForce::Line& line);
   explicit Structure(std::unique_ptr<Parts> parts);
 

@@ -19,12 +19,15 @@ double bisect(double begin, double end, const IsBefore& is_before) {
 }
 
 /// The root between two instants a and b of a function that has values of opposite sign there, by regula falsi; the
-/// value at an end that stays is halved (Illinois). To `part` of the interval or of the values.
+/// value at an end that stays is halved (Illinois). To `part` of the interval or of the values, or after 60
+/// evaluations.
 template <class Function>
 double root_between(double a, double at_a, double b, double at_b, double part, const Function& function) {
   const double shortest = part * (b - a), least = part * std::max(std::abs(at_a), std::abs(at_b));
+  constexpr int kMostEvaluations = 60;
   double root = a;
-  for (int stays = 0; b - a > shortest;) {
+  int stays = 0;
+  for (int i = 0; i < kMostEvaluations && b - a > shortest; ++i) {
     root = a + (b - a) * at_a / (at_a - at_b);
     if (!(root > a && root < b)) return root;  // no instant lies between them
     const double value = function(root);

@@ -27,7 +27,7 @@ struct Checkpoint {
 
 /// Converts to bytes with a mark, the versions of the format and of the program, and a checksum.
 BUTEE_EXPORT std::vector<std::byte> to_bytes(const Checkpoint& checkpoint);
-/// Throws RunError if the bytes are damaged or of another version.
+/// Throws RunError if the bytes are damaged, InputError if they are of another version.
 BUTEE_EXPORT Checkpoint to_checkpoint(std::span<const std::byte> bytes);
 
 /// The checkpoints of a result folder: the newest and the one before it. If writing one is

@@ -35,8 +35,6 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   /// In the order of t_in, including those still closed.
   std::vector<Impact> impacts() const;
   const std::vector<ContactWear>& wear() const { return wear_; }
-  /// The duration recorded so far, s.
-  double duration() const { return duration_; }
   static std::vector<std::string> wear_columns();
   std::string wear_line(const ContactWear& wear) const;
 

@@ -95,7 +95,7 @@ void Run::attach_observers(const record::ResultFolder* folder, const record::Che
   if (folder != nullptr && !output.fields.formats.empty()) add_fields(*folder);
   states_.emplace(output.states, assembly_.dynamics);
   if (!output.states.empty()) simulation.add(*states_);
-  if (folder != nullptr && output.checkpoint > 0)
+  if (folder != nullptr && writer_ && output.checkpoint > 0)
     simulation.add(checkpointer_.emplace(scene_, assembly_, *folder, *writer_));
   if (checkpointer_ && energy_writer_) checkpointer_->also_sync(*energy_writer_);
   if (from != nullptr) simulation.restore(from->snapshot);

@@ -50,8 +50,8 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
   for (const Item& item : items)
     if ((item.kind == Kind::max || item.kind == Kind::min) && !is_followed(item))
       throw InputError("study.collect: \"" + item.text +
-                       "\": max and min take displacements and contact forces in the frame of the solution; take peak, "
-                       "the largest |value|");
+                       "\": max and min take displacements, velocities and accelerations in the frame of the solution; "
+                       "take peak, the largest |value|");
 
   for (const Item& item : items)
     if (item.kind == Kind::wear && dynamics.obstacles() == nullptr)

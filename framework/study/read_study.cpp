@@ -149,37 +149,65 @@ config::Document scene_beside(const config::Document& study, Diagnostics& diagno
   return config::load_toml(path);
 }
 
-/// Complains of keys of [[vary]] that lead to no place in the scene.
+/// Applies an override; returns the reason why that is not possible, or "".
+std::string why_not_applied(const std::string& assignment, config::Document& scene) {
+  try {
+    config::apply_override(scene, assignment);
+    return "";
+  } catch (const InputError& error) {
+    std::string reason = error.what();
+    if (const std::string prefix = "--set " + assignment + ": "; reason.starts_with(prefix))
+      reason.erase(0, prefix.size());
+    return reason;
+  }
+}
+
+/// The key that the number of periods determines.
+constexpr const char* kEndTime = "integrator.end_time";
+
+/// The reason why an override would be used in no run, or "".
+std::string why_unused(const std::string& key, bool has_periods, const std::vector<Axis>& axes) {
+  if (std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.key == key; }))
+    return "the study varies " + key +
+           ", so that this value would be used in no run; remove it, or the key from what varies";
+  if (has_periods && key == kEndTime)
+    return "settle and periods determine the end of every run, so that this value would not be used; remove it or "
+           "periods";
+  return "";
+}
+
+/// Complains of keys of [[vary]] that lead to no place in the scene, or that no run would use.
 void check_keys(const config::Document& study, const config::Document& scene, const std::vector<Axis>& axes,
-                Diagnostics& diagnostics) {
+                bool has_periods, Diagnostics& diagnostics) {
   const config::Array& list = *study.root.table()->find("vary")->array();
   for (std::size_t i = 0; i < axes.size() && i < list.size(); ++i) {
-    const std::string assignment = axes[i].key + "=0";
-    try {
-      config::Document copy = scene;
-      config::apply_override(copy, assignment);
-    } catch (const InputError& error) {
-      std::string reason = error.what();
-      if (const std::string prefix = "--set " + assignment + ": "; reason.starts_with(prefix))
-        reason.erase(0, prefix.size());
-      diagnostics.error("vary[" + std::to_string(i) + "].key", *list[i].table()->find("key"), reason);
-    }
+    config::Document copy = scene;
+    std::string problem = why_unused(axes[i].key, has_periods, {});
+    if (problem.empty()) problem = why_not_applied(axes[i].key + "=0", copy);
+    if (!problem.empty())
+      diagnostics.error("vary[" + std::to_string(i) + "].key", *list[i].table()->find("key"), problem);
   }
   diagnostics.throw_if_any();
 }
 
+/// The scene with the overrides of the study and of the command.
 config::Document with_overrides(config::Document scene, const Parameters& p, const StudyOptions& options,
-                                const std::vector<Axis>& axes) {
-  const auto apply = [&](const std::string& assignment, const std::string& source) {
-    const std::string key = assignment.substr(0, assignment.find('='));
-    if (std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.key == key; }))
-      throw InputError(source + " \"" + assignment + "\": the study varies " + key +
-                       ", so that this value would be used in no run; remove it, or the key from what varies");
-    config::apply_override(scene, assignment);
+                                const std::vector<Axis>& axes, Diagnostics& diagnostics) {
+  const auto unused = [&](const std::string& assignment) {
+    return why_unused(assignment.substr(0, assignment.find('=')), p.has("periods"), axes);
   };
   if (p.has("set"))
-    for (const std::string& assignment : p.texts("set")) apply(assignment, "study.set");
-  for (const std::string& assignment : options.overrides) apply(assignment, "--set");
+    for (const std::string& assignment : p.texts("set")) {
+      std::string problem = unused(assignment);
+      if (problem.empty()) problem = why_not_applied(assignment, scene);
+      if (!problem.empty()) p.complain(diagnostics, "set", "\"" + assignment + "\": " + problem);
+    }
+  diagnostics.throw_if_any();
+  for (const std::string& assignment : options.overrides) {
+    if (const std::string problem = unused(assignment); !problem.empty())
+      throw InputError("--set \"" + assignment + "\": " + problem);
+    config::apply_override(scene, assignment);
+  }
   return scene;
 }
 
@@ -321,9 +349,9 @@ Study study_of(const config::Document& document, const config::Document* known_s
       throw InputError(document.sources.front() + ": " + error.what());
     }
   };
-  config::Document scene =
-      with_overrides(known_scene != nullptr ? *known_scene : scene_beside(document, diagnostics), *p, options, axes);
-  if (options.points.empty() && !axes.empty()) check_keys(document, scene, axes, diagnostics);
+  config::Document scene = with_overrides(known_scene != nullptr ? *known_scene : scene_beside(document, diagnostics),
+                                          *p, options, axes, diagnostics);
+  if (options.points.empty() && !axes.empty()) check_keys(document, scene, axes, p->has("periods"), diagnostics);
   Study study{document, std::move(scene), plugin::Catalogue::with_plugins(options.plugins), make_plan()};
   study.settle = p->integer("settle");
   if (p->has("periods")) study.periods = p->integer("periods");

@@ -35,7 +35,7 @@ struct Study {
 BUTEE_EXPORT std::vector<config::Parameter> study_parameters();
 BUTEE_EXPORT std::vector<config::Parameter> vary_parameters();
 
-/// True for a document accepted by `butee study`: it has `scene`.
+/// True for a document accepted by `butee study`: it has `scene` or `vary`.
 BUTEE_EXPORT bool is_study(const config::Document& document);
 
 struct StudyOptions {

@@ -173,7 +173,7 @@ bool GrowthWatch::look(const State& from, const State& to, double h) {
   if (may_be_coarse_) note_coarseness(from, to, h);
   if (!is_watching_) return false;
   const double now = energy(to);
-  if (is_fed_) return is_watching_ = false;
+  if (is_fed_) return false;
   const double of_errors = limits_.keeps_tolerance ? kOfErrors * largest_energy_ : 0.0,
                before = std::max(last_energy_, of_errors);
   const double growth = now > before ? excess_over(explained(before, last_time_, to.t), now) : 0.0;

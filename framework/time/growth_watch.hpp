@@ -21,8 +21,8 @@ namespace butee::time {
 /// or an energy that much above the bound since the start, is taken for an instability (a larger
 /// factor for explicit methods that control displacements alone). For methods that keep a tolerance, energy below a
 /// hundredth of the largest one so far may be errors, and its growth is not counted. Unconditionally stable methods
-/// are watched only if there are stops. With fixed steps the watch also records how coarse they
-/// are. Checked in tests/unit/growth_watch_test.cpp.
+/// are watched only if there are stops. For methods whose steps follow no tolerance the watch also records how coarse
+/// they are. Checked in tests/unit/growth_watch_test.cpp.
 class BUTEE_EXPORT GrowthWatch {
  public:
   /// `dynamics` must outlive this object.

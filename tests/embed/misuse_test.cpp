@@ -112,6 +112,33 @@ TEST(Misuse, IsRefusedAndChangesNothing) {
   EXPECT_TRUE(used.state().v == spared.state().v);
 }
 
+/// Whatever the function that advance_to() asks after each step calls, the time that it was to reach is reached.
+TEST(Misuse, OfTheFunctionThatIsAskedIsRefused) {
+  Structure used = structure(scene("type = \"dopri5\"\ntolerance = 1e-6\n"));
+  const Structure::Snapshot snapshot = used.snapshot();
+  const std::vector<std::function<void()>> calls = {[&] { used.restore(snapshot); }, [&] { used.advance_to(1.0); },
+                                                    [&] { used.advance_step(1.0); },
+                                                    [&] { used.set_motion(Vector::Zero(2), Vector::Zero(2)); }};
+  double end = 0.0;
+  for (const auto& call : calls) {
+    int refused = 0;
+    const bool has_reached = used.advance_to(end += 0.05, [&] {
+      try {
+        call();
+      } catch (const LogicError&) {
+        ++refused;
+      }
+      return true;
+    });
+    EXPECT_TRUE(has_reached);
+    EXPECT_EQ(used.time(), end);
+    EXPECT_GT(refused, 0);
+  }
+  used.restore(snapshot);
+  EXPECT_EQ(used.time(), 0.0);
+  EXPECT_THROW(used.quantity("u", "m", "n"), InputError);
+}
+
 TEST(Misuse, ASnapshotOfAnotherStructureIsRefused) {
   const Structure::Snapshot snapshot = structure(scene(kAuto)).snapshot();
   Structure heavier = structure(scene(kAuto, "2.5"));

@@ -173,14 +173,19 @@ TEST(Compare, TellsOfAColumnThatIsZeroAndMeasuresTheOthers) {
   const TemporaryFolder folder;
   std::string scene = kSwing;
   scene.replace(scene.find("[\"u\"]"), 5, "[\"u\", \"contact_force\"]");
-  folder.write("swing.toml", scene);
+  // A body at rest beside it differs between the two computations of the reference by their perturbation.
+  scene.insert(scene.find("[[element]]"),
+               "[[element]]\ntype = \"mass\"\nname = \"rest\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+               "\"rest\"\nstiffness = 1.0\n");
+  folder.write("swing.toml", scene + "\n[[output.probe]]\nlabel = \"rest\"\nnode = \"rest\"\nquantities = [\"u\"]\n");
   std::string study = kStudy;
-  study.replace(study.find("targets"), 0, "quantity = [\"ball.u\", \"ball.contact_force\"]\n");
+  study.replace(study.find("targets"), 0, "quantity = [\"ball.u\", \"ball.contact_force\", \"rest.u\"]\n");
   folder.write("study.toml", study);
   const Outcome outcome = run_program({"compare", "study.toml", "-o", "out"}, folder.path());
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   EXPECT_NE(outcome.errors.find("ball.contact_force is zero throughout the reference"), std::string::npos)
       << outcome.errors;
+  EXPECT_NE(outcome.errors.find("rest.u is zero throughout the reference"), std::string::npos) << outcome.errors;
   const auto rows = rows_of(read_file(folder.file("out/runs.csv")));
   EXPECT_NEAR(error_in(rows.at("rk4,time_step,0.0625")), runge_kutta_error(0.0625, 2), 1e-12);
 }

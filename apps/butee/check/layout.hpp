@@ -62,7 +62,7 @@ struct Layout {
   std::vector<Body> bodies;
   std::vector<SupportMark> supports;
   std::vector<StopMark> stops;
-  std::vector<std::string> stop_labels;  ///< "gap 0.01 m, linear, 1e6 N/m", one for each [[contact]]
+  std::vector<std::string> stop_labels;  ///< "gap 0.01 m, 1e+06 N/m, linear", one for each group of contacts
   std::vector<LoadMark> loads;
   std::vector<SpringMark> springs;
   std::vector<MassMark> masses;

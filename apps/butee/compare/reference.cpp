@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <sstream>
 
 #include <butee/core/error.hpp>
@@ -18,6 +19,8 @@ namespace {
 
 /// Two reference solutions have diverged once they differ by this fraction of the peak.
 constexpr double kParted = 1e-3;
+/// The scale of a column is at least this fraction of the largest peak of its quantity (chosen, as for error control).
+constexpr double kOfOthers = 1e-3;
 /// Longest time for a reference solution, s.
 constexpr double kTimeLimit = 600.0;
 constexpr double kSameRow = 1e-9;
@@ -49,19 +52,30 @@ Values compute(const config::Document& scene, const plugin::Catalogue& catalogue
   return std::move(answer.values);
 }
 
-/// The number of leading instants at which both solutions agree in every column.
-std::size_t agreement(const Values& a, const Values& b) {
+/// The quantity of a column "LABEL.QUANTITY".
+std::string kind_of_column(const std::string& column) {
+  return column.substr(column.rfind('.') + 1);
+}
+
+/// The number of leading instants at which both solutions agree in every column, relative to its peak or, if that is
+/// much larger, to the peaks of others of the same quantity: what is at rest differs by their rounding.
+std::size_t agreement(const Values& a, const Values& b, const std::vector<std::string>& columns) {
+  std::map<std::string, double> peaks;
+  for (std::size_t column = 0; column < a.size(); ++column) {
+    double& peak = peaks[kind_of_column(columns[column])];
+    peak = std::max(peak, largest_of(a[column]));
+  }
   std::size_t agreed = a.front().size();
   for (std::size_t column = 0; column < a.size(); ++column) {
-    const double peak = largest_of(a[column]);
+    const double scale = std::max(largest_of(a[column]), kOfOthers * peaks[kind_of_column(columns[column])]);
     for (std::size_t i = 0; i < agreed; ++i)
-      if (std::abs(a[column][i] - b[column][i]) > kParted * peak) agreed = i;
+      if (std::abs(a[column][i] - b[column][i]) > kParted * scale) agreed = i;
   }
   return agreed;
 }
 
 void compare_both(const Values& other, const Question& question, Reference& reference) {
-  const std::size_t agreed = agreement(reference.values, other);
+  const std::size_t agreed = agreement(reference.values, other, question.columns);
   reference.parted = agreed < question.times.size();
   reference.horizon = agreed > 0 ? question.times[agreed - 1] : 0.0;
   for (auto& column : reference.values) column.resize(agreed);
