@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 
 #include <gtest/gtest.h>
 
@@ -88,12 +89,21 @@ TEST_F(Package, HasExamplesThatRun) {
   EXPECT_EQ(has("gfortran"), fs::exists(folder.file("examples/build/coupled_beam")));
 }
 
-/// The documents keep their folders, so that links between them lead somewhere.
-TEST_F(Package, HasTheDocuments) {
+/// The documents keep their folders, so that links between them, and to pictures, lead somewhere.
+TEST_F(Package, HasDocumentsWhoseLinksLeadSomewhere) {
   const fs::path documents = package() + "/share/doc/butee";
   for (const char* name : {"README.md", "CHANGELOG.md", "apps/tutorial.md", "plugins/tutorial.md",
                            "framework/embed/README.md", "plugins/exponential/THEORY.md"})
     EXPECT_TRUE(fs::is_regular_file(documents / name)) << name;
+  const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  int links = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(documents)) {
+    if (entry.path().extension() != ".md") continue;
+    const std::string text = read_file(entry.path().string());
+    for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at, ++links)
+      EXPECT_TRUE(fs::exists(entry.path().parent_path() / (*at)[1].str())) << entry.path() << ": " << (*at)[1];
+  }
+  EXPECT_GT(links, 100);
 }
 
 TEST_F(Package, IsFoundByPkgConfig) {
