@@ -1,6 +1,7 @@
 #include "commands.hpp"
 
 #include <butee/core/log.hpp>
+#include <butee/core/text.hpp>
 
 namespace butee::app {
 
@@ -8,6 +9,15 @@ void add_plugin_option(CLI::App& command, std::vector<std::string>& plugins) {
   command.add_option("--plugin", plugins, "an additional module, or a folder of modules")
       ->type_name("FILE|DIR")
       ->allow_extra_args(false);
+}
+
+CLI::Validator between(double lower, double upper) {
+  const auto check = [lower, upper](const std::string& text) -> std::string {
+    double value = 0.0;
+    if (CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper) return "";
+    return text + ": must be a number from " + to_short_text(lower) + " to " + to_short_text(upper);
+  };
+  return {check, "FLOAT in [" + to_short_text(lower) + " - " + to_short_text(upper) + "]"};
 }
 
 void add_model_arguments(CLI::App& command, ModelArguments& arguments) {

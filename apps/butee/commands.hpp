@@ -26,6 +26,9 @@ void add_plugin_option(CLI::App& command, std::vector<std::string>& plugins);
 /// Adds -q, and -v if `with_verbose`. They set the log level as soon as they are parsed.
 void add_log_options(CLI::App& command, bool with_verbose);
 
+/// Checks that a number lies between two bounds; messages show these with few digits, as CLI::Range does not.
+CLI::Validator between(double lower, double upper);
+
 Command add_run_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);

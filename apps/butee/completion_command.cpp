@@ -9,9 +9,12 @@
 namespace butee::app {
 namespace {
 
-std::vector<std::string> names_of(const plugin::Catalogue& catalogue) {
-  std::vector<std::string> names;
-  for (const auto& entry : catalogue.integrators()) names.push_back(entry.declaration.name);
+std::vector<completion::Subjects> subjects() {
+  const auto catalogue = plugin::Catalogue::with_plugins();
+  std::vector<std::string> methods, kinds;
+  for (const auto& entry : catalogue.integrators()) methods.push_back(entry.declaration.name);
+  for (const init::Kind& kind : init::kinds()) kinds.emplace_back(kind.name);
+  std::vector<std::string> names = methods;
   const auto add = [&](const auto& types) {
     for (const auto& type : types) names.push_back(type.name);
   };
@@ -20,13 +23,11 @@ std::vector<std::string> names_of(const plugin::Catalogue& catalogue) {
   add(catalogue.types().laws);
   add(catalogue.types().contacts);
   add(catalogue.types().loads);
-  return names;
+  return {{"plugins", std::move(names)}, {"stability", std::move(methods)}, {"init", std::move(kinds)}};
 }
 
 int completion_command(const CLI::App& program, const std::string& shell) {
-  std::vector<std::string> kinds;
-  for (const init::Kind& kind : init::kinds()) kinds.emplace_back(kind.name);
-  const auto verbs = completion::verbs_of(program, names_of(plugin::Catalogue::with_plugins()), kinds);
+  const auto verbs = completion::verbs_of(program, subjects());
   std::string text = shell == "bash"  ? completion::bash(verbs)
                      : shell == "zsh" ? completion::zsh(verbs)
                                       : completion::fish(verbs);

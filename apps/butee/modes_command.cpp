@@ -181,7 +181,7 @@ Command add_modes_command(CLI::App& program) {
           ->expected(3)
           ->type_name("FROM TO N");
   app->add_option("--order", arguments->order, "order of critical speeds: oscillations per revolution; default 1")
-      ->check(CLI::Range(1e-3, 1e3))
+      ->check(between(1e-3, 1e3))
       ->needs(campbell)
       ->type_name("X");
   add_log_options(*app, false);

@@ -77,12 +77,12 @@ Command add_stability_command(CLI::App& program) {
       ->allow_extra_args(false);
   app->add_option("--damping", arguments->request.ratios, "damping ratios, separated by commas; default 0, 0.05, 0.5")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(between(0.0, 1e6))
       ->type_name("RATIO");
   app->add_option("--stops", arguments->request.stop_ratios,
                   "stiffnesses k_c/k of a closed stop, separated by commas; default 0.01, 0.1 ... 1e4")
       ->delimiter(',')
-      ->check(CLI::Range(1e-12, 1e12))
+      ->check(between(1e-12, 1e12))
       ->type_name("RATIO");
   app->add_option("-o,--output", arguments->folder, "the folder for the results; default <method>-stability")
       ->type_name("DIR");

@@ -75,7 +75,8 @@ FreeObstacles reduce(const ObstacleGroup& group, const DofTable& dofs, const Nod
       continue;
     }
     free.ends.push_back(ends);
-    free.names.push_back(nodes.name(group.a[i]) + (group.b.empty() ? "" : "|" + nodes.name(group.b[i])));
+    std::string& name = free.names.emplace_back(nodes.name(group.a[i]));
+    if (!group.b.empty()) name.append("|").append(nodes.name(group.b[i]));
   }
   return free;
 }

@@ -26,8 +26,11 @@ void check_finite(const Vector& numbers) {
     throw py::value_error("a force has to be a finite number of at most 1e100");
 }
 
+/// A read-only copy.
 py::array_t<double> array_of(const Vector& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  py::array_t<double> array(static_cast<py::ssize_t>(values.size()), values.data());
+  make_read_only(array);
+  return array;
 }
 
 void advance_to(Part& part, double t) {
@@ -67,10 +70,9 @@ void set_lines(Part& part, const Array& from, const Array& to, double until) {
 
 py::array_t<double> forces(Part& part) {
   const auto locked = part.use();
-  py::array_t<double> array(static_cast<py::ssize_t>(part.forced_dofs().size()));
-  for (std::size_t i = 0; i < part.forced_dofs().size(); ++i)
-    array.mutable_at(static_cast<py::ssize_t>(i)) = locked->force(part.forced_dofs()[i]);
-  return array;
+  Vector values(static_cast<Index>(part.forced_dofs().size()));
+  for (Index i = 0; i < values.size(); ++i) values[i] = locked->force(part.forced_dofs()[static_cast<std::size_t>(i)]);
+  return array_of(values);
 }
 
 void set_motion(Part& part, const Array& x, const Array& v) {

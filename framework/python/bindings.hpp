@@ -26,10 +26,15 @@ inline void seal(const pybind11::handle& type) {
   reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new = nullptr;
 }
 
+/// Makes numpy refuse assignments to the elements of an array, which would change nothing but the array.
+inline void make_read_only(const pybind11::array& array) {
+  pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+}
+
 /// A read-only array view of `values` without a copy; `owner` keeps them alive.
 inline pybind11::array view(const std::vector<double>& values, pybind11::handle owner) {
   pybind11::array_t<double> array(static_cast<pybind11::ssize_t>(values.size()), values.data(), owner);
-  pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  make_read_only(array);
   return array;
 }
 

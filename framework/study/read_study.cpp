@@ -149,14 +149,17 @@ config::Document scene_beside(const config::Document& study, Diagnostics& diagno
   return config::load_toml(path);
 }
 
-/// Applies an override; returns the reason why that is not possible, or "".
+/// The origins of values of the scene, in messages.
+constexpr const char *kOfSet = "study.set", *kOfAxis = "value of the study";
+
+/// Applies an override of [study] set; returns the reason why that is not possible, or "".
 std::string why_not_applied(const std::string& assignment, config::Document& scene) {
   try {
-    config::apply_override(scene, assignment);
+    config::apply_override(scene, assignment, kOfSet);
     return "";
   } catch (const InputError& error) {
     std::string reason = error.what();
-    if (const std::string prefix = "--set " + assignment + ": "; reason.starts_with(prefix))
+    if (const std::string prefix = std::string(kOfSet) + " " + assignment + ": "; reason.starts_with(prefix))
       reason.erase(0, prefix.size());
     return reason;
   }
@@ -265,8 +268,10 @@ bool is_study(const config::Document& document) {
 config::Document scene_at(const Study& study, const std::vector<Value>& values) {
   config::Document scene = study.scene;
   for (std::size_t i = 0; i < values.size(); ++i)
-    config::apply_override(scene, study.plan.axes()[i].key + "=" +
-                                      config::to_toml(as_in_scene(study.scene, study.plan.axes()[i], values[i])));
+    config::apply_override(
+        scene,
+        study.plan.axes()[i].key + "=" + config::to_toml(as_in_scene(study.scene, study.plan.axes()[i], values[i])),
+        kOfAxis);
   // The study determines the end of its runs; until it is known, any end after the first step will
   // do.
   Table* integrator = (*scene.root.table())["integrator"].table();

@@ -116,6 +116,7 @@ TEST(Misuse, IsRefusedAndChangesNothing) {
 TEST(Misuse, OfTheFunctionThatIsAskedIsRefused) {
   Structure used = structure(scene("type = \"dopri5\"\ntolerance = 1e-6\n"));
   const Structure::Snapshot snapshot = used.snapshot();
+  used.set_force(0, 30.0);
   const std::vector<std::function<void()>> calls = {[&] { used.restore(snapshot); }, [&] { used.advance_to(1.0); },
                                                     [&] { used.advance_step(1.0); },
                                                     [&] { used.set_motion(Vector::Zero(2), Vector::Zero(2)); }};

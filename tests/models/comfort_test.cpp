@@ -184,6 +184,7 @@ TEST(Completion, OfBashKnowsCommandsOptionsValuesAndScenes) {
   EXPECT_TRUE(holds(completed("plugins newmark_a"), "newmark_adaptive"));
   EXPECT_TRUE(holds(completed("init osc"), "oscillator"));
   EXPECT_TRUE(holds(completed("completion z"), "zsh"));
+  EXPECT_TRUE(holds(completed("stability rk"), "rk4"));
 }
 
 TEST(Completion, OfOtherShellsIsValidAndWhole) {

@@ -91,6 +91,7 @@ stiffness = 1000.0
   EXPECT_TRUE(has_disc) << criticals.dump();
   for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--speed", "nan"},
                                                 {"--speed", "inf"},
+                                                {"--order", "2"},
                                                 {"--campbell", "0", "inf", "4"},
                                                 {"--campbell", "0", "nan", "4"},
                                                 {"--campbell", "5", "2", "4"},

@@ -65,6 +65,8 @@ TEST(StabilityCommand, RefusesWhatItCannotDo) {
            {{"stability", "newmrk"}, "did you mean \"newmark\""},
            {{"stability", "newmark", "--set", "beta=7"}, "beta"},
            {{"stability", "newmark", "--set", "rho_inf=0.5"}, "rho_inf"},
+           {{"stability", "newmark", "--set", "time_step=1"}, "stability is found at every step"},
+           {{"stability", "newmark", "--stops", "0"}, "must be a number from 1e-12 to 1e+12"},
            {{"stability", "--set", "beta=0.3"}, "METHOD"},
            {{"stability", "newmark", "--damping", "-1"}, "damping"}}) {
     const Outcome outcome = run_program(arguments, folder.path());

@@ -73,6 +73,9 @@ def test_names_that_are_taken_or_wrong():
             butee.load("python_wrong")(function)
     with pytest.raises((TypeError, ValueError)):
         butee.load("python_wrong")(lambda t, key="text": 0.0)
+    for decorator in (butee.load, butee.law):
+        with pytest.raises(TypeError, match="NAME"):
+            decorator(cosine)
 
 
 def test_a_function_lives_as_long_as_its_scene():

@@ -51,10 +51,14 @@ def test_forces_of_contacts_with_dissipation(rotor):
     assert np.isclose(part.contact_force(0), -1.0e6 - 6.0e4, rtol=1e-12)
 
 
-def test_arrays_are_copies(part):
+def test_arrays_are_copies_that_cannot_be_changed(part):
+    part.forces = [2.0e5]
+    for array in (part.x, part.v, part.a, part.forces):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
     x = part.x
-    x[0] = 7.0
-    assert part.x[0] == 0.0
+    part.advance_to(1.0e-3)
+    assert x[0] == 0.0 and part.x[0] != 0.0 and part.forces[0] == 2.0e5
 
 
 @pytest.mark.parametrize("model", ["beam1", "beam4"])

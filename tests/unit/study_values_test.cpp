@@ -50,7 +50,7 @@ TEST(StudyValues, AreNotSetBesides) {
             std::string::npos);
   EXPECT_NE(refusal_of("set = [\"element[0].length=3\"]\n", {}).find("\"element[0].length=3\": the study varies"),
             std::string::npos);
-  const auto has_line = refusal_of("set = [\"element[0].lengt=3\"]\n", {});
+  const auto has_line = refusal_of("set = [\"element[9].length=3\"]\n", {});
   EXPECT_NE(has_line.find(": study.set = "), std::string::npos) << has_line;
   EXPECT_EQ(has_line.find("--set"), std::string::npos) << has_line;
   EXPECT_NE(refusal_of("period = 1.0\nperiods = 3\nset = [\"integrator.end_time=3\"]\n", {})

@@ -26,10 +26,14 @@ struct Verb {
   Values argument;
 };
 
-/// The commands as shell completion needs them. `names` may follow `plugins`, `kinds`
-/// may follow `init`.
-std::vector<Verb> verbs_of(const CLI::App& program, const std::vector<std::string>& names,
-                           const std::vector<std::string>& kinds);
+/// The words that a command takes as its argument.
+struct Subjects {
+  std::string command;
+  std::vector<std::string> words;
+};
+
+/// The commands as shell completion needs them. `help` takes topics and commands, others the words given here.
+std::vector<Verb> verbs_of(const CLI::App& program, const std::vector<Subjects>& given);
 
 std::string bash(const std::vector<Verb>& verbs);
 std::string zsh(const std::vector<Verb>& verbs);

@@ -28,8 +28,7 @@ Values values_of(const CLI::Option& option) {
 
 }  // namespace
 
-std::vector<Verb> verbs_of(const CLI::App& program, const std::vector<std::string>& names,
-                           const std::vector<std::string>& kinds) {
+std::vector<Verb> verbs_of(const CLI::App& program, const std::vector<Subjects>& given) {
   std::vector<Verb> verbs;
   std::vector<std::string> subjects;
   for (const help::Topic& topic : help::topics()) subjects.push_back(topic.name);
@@ -55,8 +54,8 @@ std::vector<Verb> verbs_of(const CLI::App& program, const std::vector<std::strin
   }
   for (Verb& verb : verbs) {
     if (verb.name == "help") verb.argument = {Values::Kind::words, subjects};
-    if (verb.name == "plugins") verb.argument = {Values::Kind::words, names};
-    if (verb.name == "init") verb.argument = {Values::Kind::words, kinds};
+    for (const Subjects& one : given)
+      if (verb.name == one.command) verb.argument = {Values::Kind::words, one.words};
   }
   return verbs;
 }

@@ -32,6 +32,9 @@ def law(name: str, *, tangent: Optional[Callable[..., float]] = None,
     True
     """
 
+    if not isinstance(name, str):
+        raise TypeError("the decorator needs the name of the law: @butee.law(\"NAME\")")
+
     def register(force: Callable[..., float]) -> Callable[..., float]:
         parameters = declared(name, force, "the penetration")
         for other in (tangent, energy):

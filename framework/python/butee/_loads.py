@@ -32,6 +32,9 @@ def load(name: str) -> Callable[[Callable[..., float]], Callable[..., float]]:
     that process.
     """
 
+    if not isinstance(name, str):
+        raise TypeError("the decorator needs the name of the load: @butee.load(\"NAME\")")
+
     def register(function: Callable[..., float]) -> Callable[..., float]:
         parameters = declared(name, function, "the time")
         _butee.register_load(name, function, parameters, inspect.getdoc(function) or "a function in Python")

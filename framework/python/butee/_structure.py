@@ -75,17 +75,17 @@ class Structure:
 
     @property
     def x(self) -> np.ndarray:
-        """The displacements, a copy, (n,), m and rad."""
+        """The displacements, a read-only copy, (n,), m and rad; ``set_motion`` changes them."""
         return self._core.x()
 
     @property
     def v(self) -> np.ndarray:
-        """The velocities, a copy, (n,)."""
+        """The velocities, a read-only copy, (n,)."""
         return self._core.v()
 
     @property
     def a(self) -> np.ndarray:
-        """The accelerations, a copy, (n,)."""
+        """The accelerations, a read-only copy, (n,)."""
         return self._core.a()
 
     def displacement(self, dof: int) -> float:
@@ -108,7 +108,8 @@ class Structure:
 
     @property
     def forces(self) -> np.ndarray:
-        """The forces on ``forced_dofs`` at the present instant, (forced,), N and N m. Values that are set remain constant from now on."""
+        """The forces on ``forced_dofs`` at the present instant, (forced,), N and N m. Values that are set remain constant from
+        now on; to change one of them, assign all, or use ``set_force``."""
         return self._core.forces()
 
     @forces.setter
