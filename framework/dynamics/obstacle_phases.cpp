@@ -109,8 +109,8 @@ ContactPhase Obstacles::phase_at(Index i, double t, ConstVectorRef x, ConstVecto
     phase.anchor = path(i, t, now, phase.angle);
     // If slip begins with contact the force is still 0: the phase depends on whether the spring
     // force or the limit grows faster.
-    // A contact that has just closed, and is set to, may be at a penetration a little below or above 0, by rounding or
-    // by the uncertainty of the located instant.
+    // Where a contact has just closed, its phase is already set to closed. The penetration is 0 there, up to rounding
+    // and the uncertainty of the located instant, which must not decide.
     const ContactPhase& set = phases_[static_cast<std::size_t>(i)];
     const bool has_closed = set.touches() && now.rate > 0.0;
     const NormalPhase normal_phase = has_closed ? set.normal : phase.normal;

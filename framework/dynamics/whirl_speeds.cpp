@@ -20,15 +20,15 @@ constexpr double kSameSpeed = 1e-13, kSameBorder = 1e-8;
 /// Crossings closer to each other than this, relative to the speed, belong to one mode or several
 /// equal ones.
 constexpr double kOneCrossing = 1e-8;
-/// Secants converge in 5 to 8; more mean that the frequency jumps.
+/// More secants are not needed unless the frequency jumps (chosen).
 constexpr int kMostSecants = 40;
 
-/// Margins of modes at a speed, descending, from a border that each of them passes at other speeds: those with a
-/// positive one are counted.
+/// The modes at a speed, each with its margin from a limit: its frequency above the excitation's, or its growth rate.
+/// Modes with a positive margin are counted; a critical speed or a border of stability changes their number.
 struct Tally {
   double speed;
-  std::vector<double> margins;
-  double missing;  ///< the margin of further modes, < 0
+  std::vector<double> margins;  ///< descending
+  double missing;               ///< the margin of further modes, < 0
 
   Index count() const {
     return std::find_if(margins.begin(), margins.end(), [](double margin) { return !(margin > 0.0); }) -

@@ -10,10 +10,10 @@ namespace butee::integrators {
 /// The displacements w at which the force of an elastic stop is not smooth, or bends within a small distance. Steps of
 /// collocation end there, since a bend between two nodes would not be seen.
 ///
-/// A stop without a force while open has a border where it closes, on each side, and one where its law is linear from,
-/// if it gives the width of its transition. A law that is smooth at g = 0, such as
-/// `arctan`, has two more, beside its transition. If it exerts a force while open, the force of a stop on both sides
-/// jumps at w = 0, from the law of one side to that of the other. Derivation: plugins/exponential/COLLOCATION.md,
+/// A stop without a force while open has a border on each side where it closes, and a second one at the penetration
+/// from which its law is linear, if the law gives the width of its transition. A law that is smooth at g = 0, such as
+/// `arctan`, has two more borders, beside its transition. If it exerts a force while open, the force of a stop on both
+/// sides jumps at w = 0, from the law of one side to that of the other. Derivation: plugins/exponential/COLLOCATION.md,
 /// section 3.
 class StopBorders {
  public:

@@ -112,7 +112,8 @@ TEST(Misuse, IsRefusedAndChangesNothing) {
   EXPECT_TRUE(used.state().v == spared.state().v);
 }
 
-/// Whatever the function that advance_to() asks after each step calls, the time that it was to reach is reached.
+/// advance_to() calls a function after each step. That function must not change the state; if it tries to, advance_to()
+/// still reaches its time.
 TEST(Misuse, OfTheFunctionThatIsAskedIsRefused) {
   Structure used = structure(scene("type = \"dopri5\"\ntolerance = 1e-6\n"));
   const Structure::Snapshot snapshot = used.snapshot();

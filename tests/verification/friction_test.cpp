@@ -405,6 +405,37 @@ TEST(StickSpring, TakesHoldAtClosingWhateverRoundingSays) {
     }
 }
 
+/// A free mass closes a soft contact (F = K g^1.2) at speed v with slip s. At first the limit grows more slowly than
+/// the spring force k s t, and it slips until t_1, where mu dF/dt = k s; the spring then holds k s (t - t_1/6). The
+/// static limit exceeds the spring force much earlier, so that a contact taken for closed at a penetration of rounding
+/// would stick at once.
+TEST(StickSpring, SlipsFirstAtASoftClosingWhateverRoundingSays) {
+  constexpr double kNormalSpeed = 0.1, kSlip = 0.01, kStick = 100.0, kLaw = 660.0, kFriction = 0.2, kLater = 1e-3;
+  const double slips = std::pow(kStick * kSlip / (kFriction * kLaw * 1.2 * std::pow(kNormalSpeed, 1.2)), 5.0),
+               wanted = kStick * kSlip * (kLater - slips / 6.0);
+  for (int i = 0; i < 20; ++i)
+    for (const char* method : {"dopri5", "exponential", "rodas4", "extrapolation8"}) {
+      const double gap = 5.1e-4 + 4.7e-5 * i, closing = gap / kNormalSpeed;
+      SceneRun run(
+          "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"bearing\"\n"
+          "node = \"a\"\nstiffness = [[1e-3, 0.0], [0.0, 1e-3]]\n[[contact]]\ntype = \"plane\"\nnodes = \"a\"\n"
+          "law = \"hertz\"\nstiffness = 660.0\nexponent = 1.2\nnormal = [1.0, 0.0]\nfriction = { coefficient = 0.2, "
+          "static_coefficient = 2.0, stick_stiffness = 100.0 }\ngap = " +
+              std::to_string(gap) +
+              "\n[initial]\nvelocity = [{ nodes = \"a\", dof = \"uy\", value = 0.1 }, { nodes = \"a\", dof = \"uz\", "
+              "value = 0.01 }]\n[integrator]\ntolerance = 1e-7\nend_time = " +
+              std::to_string(closing + 2.0 * kLater) + "\n",
+          {std::string("integrator.type=") + method});
+      record::Probes probe(
+          {{"a", run.model().nodes.select("a").nodes.front(), {model::Quantity::contact_friction}, ""}},
+          run.dynamics());
+      Sampled sampled(probe, closing + kLater);
+      run.simulation().add(sampled);
+      ASSERT_TRUE(run.run().completed) << method << run.simulation().report().message;
+      EXPECT_NEAR(std::abs(sampled.values[0]), wanted, 3e-4 * wanted) << method << ' ' << gap;
+    }
+}
+
 /// A mass between springs strikes a plane whose law has no stiffness at first: the stick spring takes hold after 1e-11
 /// s of slip, when hardly any force is there. It then holds the tangential motion: m w'' + d w' + (k + k_t) w = k_t
 /// w_0, where w_0 leaves no force at closing. Steps between closing and stick are so short that derivatives of the
