@@ -20,6 +20,10 @@ constexpr std::size_t kMostAtOnce = 6;
 constexpr std::size_t kHopeless = 1000;
 /// The turn between two breakpoints, rad.
 constexpr double kTurn = 1.5;
+/// A step ends where the motion has turned so far, rad: outputs examine every breakpoint, and a run can be interrupted
+/// between steps.
+constexpr double kMostTurn = 1e4;
+/// In a step of kMostTurn there are fewer, unless faster motion that was below 1e-9 of the rest comes out of its decay.
 constexpr std::size_t kMostBreakpoints = 100000;
 
 }  // namespace
@@ -87,6 +91,7 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
   for (std::size_t i = 0; i < status_.size(); ++i)
     status_[i] = static_cast<StopStatus>(from.memory[static_cast<Index>(i)]);
   double t = from.t;
+  double turn = kMostTurn;   // that is left, rad
   std::size_t at_once = 0;   // changes at the present instant
   double uncertainty = 0.0;  // the largest of theirs, m
   changed_ = {static_cast<Index>(from.memory[system_.stop_count()]), from.memory[system_.stop_count() + 1]};
@@ -99,8 +104,8 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
       break;
     }
     const ContactStateFlow& flow = *flow_;
-    const double landing = std::min(step.t_end, next_discontinuity(t)), rest = landing - t,
-                 until = std::min(rest, flow.longest());
+    const double landing = std::min(step.t_end, next_discontinuity(t)), rest = landing - t, rate = flow.rate(piece_),
+                 until = std::min({rest, flow.longest(), turn / rate});
     const std::int64_t looks = first_change_.looks();
     const bool chatters = at_once > kMostAtOnce * (status_.size() + 1);
     const auto found = first_change_.find(flow, piece_, status_, until, changed_,
@@ -126,7 +131,9 @@ void PiecewiseMotion::follow(const time::State& from, const time::Step& step) {
     }
     if (found.change) status_[static_cast<std::size_t>(found.change->stop)] = found.change->to;
     t = t_next;
-    if (has_passed && (t >= step.t_end || begins_.size() == kMostPieces || step.single)) break;
+    turn -= rate * found.s;
+    const bool is_full = begins_.size() == kMostPieces || turn < kTurn;
+    if (has_passed && (t >= step.t_end || is_full || step.single)) break;
     if (found.s == 0.0) continue;  // x_ and v_ are exact
     for (std::size_t i = 0; i < x_.size(); ++i) {
       const Jet jet = flow.dof(piece_, static_cast<Index>(i));

@@ -21,7 +21,7 @@ class PiecewiseMotion final : public time::Interpolant {
   void write_status(const time::State& at, VectorRef memory) const;
   Index memory_size() const { return system_.stop_count() + 2; }
 
-  /// Follows the motion from a state to the end of the step, or until kMostPieces pieces are full.
+  /// Follows the motion from a state to the end of the step, kMostPieces pieces or a turn of kMostTurn.
   void follow(const time::State& from, const time::Step& step);
   /// The end of what follow() followed, s, its motion and status there.
   void write_end(time::State& to) const;

@@ -11,7 +11,7 @@
 namespace butee::record {
 namespace {
 
-/// The error bound of the work in a long piece (Interpolation::other), relative to the largest
+/// The estimated error of the work by the coarser rule in a piece (Interpolation::other), relative to the largest
 /// energy.
 constexpr double kGoodWork = 1e-12;
 constexpr int kMostHalvingsOfWork = 12;
@@ -182,30 +182,28 @@ EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& ste
   return power(t, middle_x_, middle_);
 }
 
-EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, double begin, double end, double* layer) {
-  const auto points = gauss_points(begin, end);
-  constexpr auto kPoints = static_cast<Index>(std::tuple_size_v<decltype(gauss_points(0.0, 0.0))>);
-  std::array<double, kPoints> instants{};
-  std::transform(points.begin(), points.end(), instants.begin(), [](const QuadraturePoint& point) { return point.t; });
+template <class Points>
+void EnergyRecorder::find_powers(const time::AcceptedStep& step, const Points& points) {
+  constexpr auto kPoints = static_cast<Index>(std::tuple_size_v<Points>);
+  std::array<double, std::tuple_size_v<Points>> instants{};
+  std::transform(points.begin(), points.end(), instants.begin(), [](const auto& point) { return point.t; });
   const auto span = [](auto& matrix) { return std::span(matrix.data(), static_cast<std::size_t>(matrix.size())); };
   v_at_.resize(dynamics_.size(), kPoints);
   if (needs_x_) x_at_.resize(dynamics_.size(), kPoints);
   step.motion.interpolate(instants, all_, {needs_x_ ? span(x_at_) : std::span<double>{}, span(v_at_), {}});
-  Power sum{};
-  Power continued{};  // the polynomial through the points, continued to `begin`
+  powers_.clear();
   for (Index k = 0; k < kPoints; ++k) {
-    const QuadraturePoint& point = points[static_cast<std::size_t>(k)];
     middle_ = v_at_.col(k);
     if (needs_x_) middle_x_ = x_at_.col(k);
-    const Power now = power(point.t, middle_x_, middle_);
-    sum += point.weight * now;
-    if (layer != nullptr) continued += lagrange_at(begin, points, static_cast<std::size_t>(k)) * now;
+    powers_.push_back(power(instants[static_cast<std::size_t>(k)], middle_x_, middle_));
   }
-  if (layer != nullptr) {
-    const Power first = power(begin, step.from.x, step.from.v);
-    *layer = (points.front().t - begin) *
-             std::max(std::abs(first.of_damping - continued.of_damping), std::abs(first.of_loads - continued.of_loads));
-  }
+}
+
+EnergyRecorder::Power EnergyRecorder::gauss(const time::AcceptedStep& step, double begin, double end) {
+  const auto points = gauss_points(begin, end);
+  find_powers(step, points);
+  Power sum{};
+  for (std::size_t k = 0; k < points.size(); ++k) sum += points[k].weight * powers_[k];
   return sum;
 }
 
@@ -215,28 +213,35 @@ void EnergyRecorder::add(const Power& done) {
   into_obstacles_ += done.of_contacts;
 }
 
-void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings) {
-  const double middle = 0.5 * (begin + end);
-  double layer = 0.0;
-  // Fast decays begin with a step.
-  const Power first = gauss(step, begin, middle, begin == step.from.t ? &layer : nullptr),
-              second = gauss(step, middle, end);
-  const double miss = std::max(std::abs(first.of_loads + second.of_loads - whole.of_loads),
-                               std::abs(first.of_damping + second.of_damping - whole.of_damping));
-  // For a start from rest the piece itself is the only reference.
-  const double size = std::max(largest_, std::abs(whole.of_loads) + std::abs(whole.of_damping));
-  if ((miss > kGoodWork * size && halvings < kMostHalvingsOfWork) ||
-      (layer > kGoodLayer * size && halvings < kMostHalvingsOfLayer)) {
-    add_halved(step, begin, middle, first, halvings + 1);
-    add_halved(step, middle, end, second, halvings + 1);
-    return;
+void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, double end, int halvings) {
+  const auto points = kronrod_points(begin, end);
+  find_powers(step, points);
+  Power sum{}, coarse{}, continued{};  // the last: the polynomial through the points, continued to `begin`
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    sum += points[k].weight * powers_[k];
+    coarse += points[k].coarse_weight * powers_[k];
   }
-  add(first + second);
+  const double miss = std::max(std::abs(sum.of_loads - coarse.of_loads), std::abs(sum.of_damping - coarse.of_damping));
+  // The energy that a fast decay may hide before the first point. Fast decays begin with a step.
+  double layer = 0.0;
+  if (begin == step.from.t) {
+    for (std::size_t k = 0; k < points.size(); ++k) continued += lagrange_at(begin, points, k) * powers_[k];
+    const Power first = power(begin, step.from.x, step.from.v);
+    layer = (points.front().t - begin) *
+            std::max(std::abs(first.of_damping - continued.of_damping), std::abs(first.of_loads - continued.of_loads));
+  }
+  // For a start from rest the piece itself is the only reference.
+  const double size = std::max(largest_, std::abs(sum.of_loads) + std::abs(sum.of_damping));
+  const bool is_good = (miss <= kGoodWork * size || halvings >= kMostHalvingsOfWork) &&
+                       (layer <= kGoodLayer * size || halvings >= kMostHalvingsOfLayer);
+  if (is_good) return add(sum);
+  const double middle = 0.5 * (begin + end);
+  add_halved(step, begin, middle, halvings + 1);
+  add_halved(step, middle, end, halvings + 1);
 }
 
 void EnergyRecorder::add_piece(const time::AcceptedStep& step, double begin, double end) {
-  if (step.motion.interpolation() == time::Interpolation::other)
-    return add_halved(step, begin, end, gauss(step, begin, end), 0);
+  if (step.motion.interpolation() == time::Interpolation::other) return add_halved(step, begin, end, 0);
   if (uses_gauss(step)) return add(gauss(step, begin, end));
   const double h = end - begin;
   const Power middle = power_within(step, 0.5 * (begin + end)), last = power_within(step, end);

@@ -37,8 +37,8 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 /// interpolant: fourth order, so that the balance shows the method's error and not the quadrature
 /// error. Except with Interpolation::cubic, pieces also end at the instants of rows. Gauss' rule with five points is
 /// used with obstacles, whose forces may jump, and with Interpolation::near_quintic. With Interpolation::other pieces
-/// may be long; they are halved until Gauss' rule gives the same work and dissipation over the whole and over both
-/// halves. The balance error is (change + dissipated - work) / largest energy.
+/// are halved until Kronrod's rule with 15 points and Gauss' rule with seven of them agree. The balance error is
+/// (change + dissipated - work) / largest energy.
 class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
  public:
   /// `dynamics` must outlive this object. A `writer` gets a row at the start, at each of `times` and at the last step;
@@ -85,11 +85,12 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   Power power(double t, const Vector& x, const Vector& v);
   Power power_within(const time::AcceptedStep& step, double t);
   void add(const Power& done);
-  /// `layer`: if not null, set to the energy that a fast decay from `begin` on, the start of the step, may hide before
-  /// the first point, J.
-  Power gauss(const time::AcceptedStep& step, double begin, double end, double* layer = nullptr);
-  /// `whole` is the result of gauss() for the interval.
-  void add_halved(const time::AcceptedStep& step, double begin, double end, Power whole, int halvings);
+  /// Sets powers_ to those at the points of a quadrature rule.
+  template <class Points>
+  void find_powers(const time::AcceptedStep& step, const Points& points);
+  Power gauss(const time::AcceptedStep& step, double begin, double end);
+  /// Adds the work of an interval by Kronrod's rule, or of its halves unless Gauss' rule within it agrees.
+  void add_halved(const time::AcceptedStep& step, double begin, double end, int halvings);
   /// Adds the work between two instants with no breakpoint between them.
   void add_piece(const time::AcceptedStep& step, double begin, double end);
   bool uses_gauss(const time::AcceptedStep& step) const;
@@ -106,6 +107,7 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   bool needs_x_;
   Vector middle_, middle_x_, force_;
   Eigen::MatrixXd x_at_, v_at_;  ///< at the points of a quadrature rule, one column each
+  std::vector<Power> powers_;    ///< at these points
   std::vector<double> due_;      ///< instants for which a row is not yet written
   std::vector<double> ends_;     ///< of the pieces of a step
   Power last_{};

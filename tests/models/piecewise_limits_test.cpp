@@ -101,6 +101,18 @@ TEST(Piecewise, FollowsResonance) {
   }
 }
 
+/// A damped mass under a load: each of 25 000 turns has its part in the work.
+TEST(Piecewise, ResolvesAsManyTurnsAsARunHas) {
+  SceneRun run(
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"m\"\nstiffness = 1e6\ndamping = 0.02\n[[load]]\ntype = \"harmonic\"\nnode = \"m\"\namplitude = "
+      "1.0\nangular_frequency = 999.98\n[integrator]\ntype = \"piecewise\"\nend_time = 160.0\n");
+  record::EnergyRecorder energy(run.dynamics());
+  run.simulation().add(energy);
+  ASSERT_TRUE(run.run().completed);
+  EXPECT_NEAR(energy.balance_error(), 0.0, 1e-9);
+}
+
 /// A free mass under a constant force strikes a stop; damping is so small that m g/c is a million times its
 /// path.
 TEST(Piecewise, FallsFreelyWithNextToNoDamping) {
