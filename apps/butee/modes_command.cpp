@@ -75,7 +75,8 @@ int whirl_command(const ModesArguments& arguments) {
   scene::Scene session = open_session(arguments.model);
   if (!arguments.closed.empty()) throw InputError("--closed cannot be combined with --speed or --campbell");
   let_turn(session.model, arguments.campbell.empty() && arguments.speed == 0.0);
-  const dynamics::Whirl whirl(session.model);
+  const dynamics::Whirl whirl(session.model,
+                              arguments.campbell.empty() ? dynamics::Whirl::kDense : dynamics::Whirl::kDenseSearch);
   const Index count = std::min(arguments.count > 0 ? arguments.count : kDefaultCount, 2 * whirl.size());
   if (arguments.speed && !std::isfinite(*arguments.speed))
     throw InputError("--speed: " + to_text(*arguments.speed) + " is no speed of rotation; give rad/s");

@@ -24,6 +24,8 @@ constexpr double kOnlyTilts = 1e-6;
 /// Fraction of the highest frequency below which a mode at rest counts as rigid motion: rounding of
 /// dense eigenvalues.
 constexpr double kRigid = 1e-7;
+/// Eigenvalues that differ by less than this fraction are equal: rounding of the lowest in fine meshes.
+constexpr double kEqual = 1e-9;
 /// Frequencies below this fraction of |lambda| are rounding of two close real eigenvalues.
 constexpr double kOverdamped = 1e-6;
 constexpr const char* kNotFound = "the whirling modes could not be computed";
@@ -91,6 +93,16 @@ void sort(std::vector<WhirlMode>& modes) {
   });
 }
 
+/// Modes of one eigenvalue have no shape of their own, and no sense of whirl: any sum of them is a mode.
+void name_equal(std::vector<WhirlMode>& modes) {
+  const auto is_equal = [](const WhirlMode& a, const WhirlMode& b) {
+    return a.motion == b.motion && std::abs(a.lambda - b.lambda) <= kEqual * std::abs(a.lambda);
+  };
+  for (std::size_t i = 1; i < modes.size(); ++i)
+    if (is_equal(modes[i - 1], modes[i]))
+      for (WhirlMode* mode : {&modes[i - 1], &modes[i]}) mode->direction = 0.0, mode->is_mixed = false;
+}
+
 SparseMatrix or_zero(const SparseMatrix& matrix, Index n) {
   return matrix.size() > 0 ? matrix : SparseMatrix(n, n);
 }
@@ -106,7 +118,18 @@ double WhirlMode::logarithmic_decrement() const {
   return 2.0 * std::numbers::pi * -lambda.real() / lambda.imag();
 }
 
-Whirl::Whirl(const model::Model& model) : system_(assemble(model, model::TurningParts::apart)) {
+void keep_lowest(std::vector<WhirlMode>& modes, Index count) {
+  if (std::ssize(modes) <= count) return;
+  std::vector<double> sizes;
+  for (const WhirlMode& mode : modes) sizes.push_back(std::abs(mode.lambda));
+  std::nth_element(sizes.begin(), sizes.begin() + count - 1, sizes.end());
+  const double largest = sizes[static_cast<std::size_t>(count - 1)];
+  std::erase_if(modes, [&](const WhirlMode& mode) { return std::abs(mode.lambda) > largest; });
+  modes.resize(static_cast<std::size_t>(count));
+}
+
+Whirl::Whirl(const model::Model& model, Index dense)
+    : system_(assemble(model, model::TurningParts::apart)), dense_(system_.damping.is_modal() ? kDense : dense) {
   const Index n = size();
   const SparseMatrix transposed = system_.stiffness.transpose();
   stiffness_ = 0.5 * (system_.stiffness + transposed);
@@ -185,7 +208,33 @@ WhirlMode Whirl::finished(Complex lambda, Eigen::VectorXcd shape) const {
 }
 
 std::vector<WhirlMode> Whirl::modes(double speed, Index count) const {
-  return is_dense() ? dense_modes(speed, count) : lowest_modes(speed, count);
+  return modes_at(speed, count).lowest;
+}
+
+ModesAtSpeed Whirl::modes_at(double speed, Index count) const {
+  ModesAtSpeed at;
+  if (is_dense()) {
+    at = dense_modes(speed, count);
+  } else {
+    at = {speed, lowest_modes(speed, count), {}};
+    for (const WhirlMode& mode : at.lowest) at.eigenvalues.push_back(mode.lambda);
+  }
+  sort(at.lowest);
+  name_equal(at.lowest);
+  return at;
+}
+
+Index Whirl::count_to(double reach, double from, double to, Index count) const {
+  const Index most = std::max(count, std::min(kMostLowest, size()));
+  for (Index wanted = count;; wanted = std::min(2 * wanted, most)) {
+    bool reaches = true;
+    for (const double speed : {from, to}) {
+      double highest = 0.0;
+      for (const Complex lambda : eigenvalues(speed, wanted)) highest = std::max(highest, std::abs(lambda));
+      reaches = reaches && highest > reach;
+    }
+    if (reaches || wanted >= most) return wanted;
+  }
 }
 
 Eigen::MatrixXd Whirl::modal_motion(double speed) const {
@@ -215,16 +264,16 @@ std::vector<Whirl::Eigenvalue> Whirl::in_order(const Eigen::VectorXcd& values) c
   return ordered;
 }
 
-std::vector<WhirlMode> Whirl::dense_modes(double speed, Index count) const {
+ModesAtSpeed Whirl::dense_modes(double speed, Index count) const {
   const auto pairs = linalg::general_pairs(modal_motion(speed));
   if (!pairs) throw RunError(kNotFound);
-  std::vector<Eigenvalue> chosen = in_order(pairs->values);
-  chosen.resize(std::min(chosen.size(), static_cast<std::size_t>(count)));
-  std::vector<WhirlMode> modes;
-  for (const auto& [lambda, place] : chosen)
-    modes.push_back(finished(lambda, shapes_ * pairs->vectors.col(place).head(size())));
-  sort(modes);
-  return modes;
+  ModesAtSpeed at{speed, {}, {}};
+  for (const auto& [lambda, place] : in_order(pairs->values)) {
+    at.eigenvalues.push_back(lambda);
+    if (std::ssize(at.lowest) < count)
+      at.lowest.push_back(finished(lambda, shapes_ * pairs->vectors.col(place).head(size())));
+  }
+  return at;
 }
 
 std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
@@ -245,7 +294,6 @@ std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
   std::stable_sort(modes.begin(), modes.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.lambda) < std::abs(b.lambda); });
   modes.resize(std::min(modes.size(), static_cast<std::size_t>(count)));
-  sort(modes);
   return modes;
 }
 
@@ -254,6 +302,7 @@ std::vector<double> Whirl::oscillations(double speed, Index count) const {
   if (!is_dense()) {
     for (const WhirlMode& mode : lowest_modes(speed, count))
       if (mode.frequency() > 0.0) frequencies.push_back(mode.frequency());
+    std::sort(frequencies.begin(), frequencies.end());
     return frequencies;
   }
   for (const Complex lambda : eigenvalues(speed, 2 * size()))
@@ -278,10 +327,6 @@ std::vector<Complex> Whirl::eigenvalues(double speed, Index count) const {
 double Whirl::growth(Complex lambda) const {
   const double highest = is_dense() ? frequencies_.maxCoeff() : 0.0;
   return lambda.real() - kGrows * std::abs(lambda) - kGrowsOfHighest * highest;
-}
-
-bool Whirl::grows(const WhirlMode& mode) const {
-  return growth(mode.lambda) > 0.0;
 }
 
 }  // namespace butee::dynamics

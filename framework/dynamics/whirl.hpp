@@ -25,6 +25,9 @@ struct BUTEE_EXPORT WhirlMode {
   double logarithmic_decrement() const;               ///< 2 pi (-Re lambda) / Im lambda; infinite without oscillation
 };
 
+/// Keeps the `count` modes of lowest |lambda|, in their order.
+BUTEE_EXPORT void keep_lowest(std::vector<WhirlMode>& modes, Index count);
+
 /// Critical speed: a mode has `order` periods in each turn of the shaft.
 struct CriticalSpeed {
   double speed = 0.0;      ///< rad/s
@@ -39,40 +42,56 @@ struct StabilityBorder {
   WhirlMode mode;      ///< on the side where it grows
 };
 
+/// The modes at a speed of a Campbell diagram.
+struct ModesAtSpeed {
+  double speed = 0.0;             ///< rad/s
+  std::vector<WhirlMode> lowest;  ///< as of Whirl::modes()
+  std::vector<std::complex<double>>
+      eigenvalues;  ///< with Im >= 0: of all modes if the problem is dense, else of `lowest`
+};
+
 /// The eigenvalue problem (lambda^2 M + lambda (C + Omega G) + K + Omega W) x = 0 of a model at any speed Omega.
 ///
-/// Up to kDense free DOFs all modes are found densely, in the modes of M and K at rest, which keeps
-/// the low ones exact to rounding of the highest frequency; for more DOFs the lowest modes are
+/// Up to a number of free DOFs (kDense unless stated) all modes are found densely, in the modes of M and K at rest,
+/// which keeps the low ones exact to rounding of the highest frequency; for more DOFs the lowest modes are
 /// found by Arnoldi's method (Spectra) on the inverse, factorized by KLU. Checked against closed
 /// forms and published rotors in tests/verification/rotor_test.cpp.
 class BUTEE_EXPORT Whirl {
  public:
   static constexpr Index kDense = 400;
+  /// For searches along the speed, which take hundreds of eigenvalue problems: some 20 s (chosen).
+  static constexpr Index kDenseSearch = 160;
 
-  /// `model` must outlive this object. Throws InputError if it has modal damping and is too large
-  /// for dense matrices.
-  explicit Whirl(const model::Model& model);
+  /// `model` must outlive this object; `dense` <= kDense. Modal damping is dense up to kDense DOFs in any case; throws
+  /// InputError for more.
+  explicit Whirl(const model::Model& model, Index dense = kDense);
 
   Index size() const { return system_.size(); }
   const model::System& system() const { return system_; }  ///< at rest, with G and W separate
-  bool is_dense() const { return size() <= kDense; }
+  bool is_dense() const { return size() <= dense_; }
 
   /// The `count` modes of lowest |lambda| at a speed, rad/s, in ascending frequency; modes without
   /// oscillation, overdamped or rigid, come first. Throws RunError if the iteration did not
   /// converge.
   std::vector<WhirlMode> modes(double speed, Index count) const;
+  ModesAtSpeed modes_at(double speed, Index count) const;
+
+  /// The number of lowest modes that includes all with |lambda| of up to `reach`, rad/s, at both speeds, but at most
+  /// kMostLowest; `count` or more.
+  static constexpr Index kMostLowest = 160;
+  Index count_to(double reach, double from, double to, Index count) const;
 
   /// The critical speeds of `order` in [from, to], rad/s, ascending, to rounding: speeds at which
   /// the frequency of a mode equals order times the speed, found on a grid of `steps` intervals and
   /// by secants within them. All modes are examined if the problem is dense, else `count`.
   std::vector<CriticalSpeed> critical_speeds(double from, double to, Index steps, double order, Index count) const;
 
-  /// The speeds, rad/s, ascending, at which a mode begins or ceases to grow, to 1e-8: between neighbours of `speeds`
-  /// (ascending), whose first `count` modes are `at`, by secants.
-  std::vector<StabilityBorder> stability_borders(const std::vector<double>& speeds,
-                                                 const std::vector<std::vector<WhirlMode>>& at, Index count) const;
-  /// True if the mode grows by more than rounding.
-  bool grows(const WhirlMode& mode) const;
+  /// The speeds, rad/s, ascending, at which a mode begins or ceases to grow, to 1e-8: between neighbours of `grid`
+  /// (ascending speeds), by secants. All modes are examined if the problem is dense, else the `count` lowest, which
+  /// those of `grid` have to be.
+  std::vector<StabilityBorder> stability_borders(const std::vector<ModesAtSpeed>& grid, Index count) const;
+  /// True if motion e^(lambda t) grows by more than rounding.
+  bool grows(std::complex<double> lambda) const { return growth(lambda) > 0.0; }
 
  private:
   struct Eigenvalue {
@@ -80,7 +99,7 @@ class BUTEE_EXPORT Whirl {
     Index place;  ///< of its vector
   };
 
-  std::vector<WhirlMode> dense_modes(double speed, Index count) const;
+  ModesAtSpeed dense_modes(double speed, Index count) const;
   std::vector<WhirlMode> lowest_modes(double speed, Index count) const;
   /// The matrix of the first-order form in the modes at rest.
   Eigen::MatrixXd modal_motion(double speed) const;
@@ -91,11 +110,14 @@ class BUTEE_EXPORT Whirl {
   std::vector<double> oscillations(double speed, Index count) const;
   /// The eigenvalues of the modes of lowest |lambda|.
   std::vector<std::complex<double>> eigenvalues(double speed, Index count) const;
+  /// The speed near `side`, where `mode` grows, at which its Re lambda is zero.
+  double border_near(double side, const WhirlMode& mode, Index count) const;
   /// Re lambda less what may be rounding.
   double growth(std::complex<double> lambda) const;
   WhirlMode finished(std::complex<double> lambda, Eigen::VectorXcd shape) const;
 
   model::System system_;
+  Index dense_;                              ///< the largest number of DOFs for dense matrices
   SparseMatrix damping_, stiffness_, skew_;  ///< C, the symmetric part of K and its skew part, at rest
   Vector squares_;                           ///< eigenvalues of M and the symmetric part of K, for dense problems
   Vector frequencies_;                       ///< of M and the symmetric part of K, for dense problems

@@ -20,6 +20,9 @@ constexpr double kSameSpeed = 1e-13, kSameBorder = 1e-8;
 /// Crossings closer to each other than this, relative to the speed, belong to one mode or several
 /// equal ones.
 constexpr double kOneCrossing = 1e-8;
+/// Growth is counted above a rounding level, and ends at zero: the distance of the two speeds by which the slope of the
+/// growth rate is measured, and the largest shift, relative to the speed (chosen).
+constexpr double kAside = 1e-4, kLargestShift = 1e-2;
 /// More secants are not needed unless the frequency jumps (chosen).
 constexpr int kMostSecants = 40;
 
@@ -142,9 +145,20 @@ std::vector<CriticalSpeed> Whirl::critical_speeds(double from, double to, Index 
   return found;
 }
 
-std::vector<StabilityBorder> Whirl::stability_borders(const std::vector<double>& speeds,
-                                                      const std::vector<std::vector<WhirlMode>>& at,
-                                                      Index count) const {
+double Whirl::border_near(double side, const WhirlMode& mode, Index count) const {
+  const auto rate_at = [&](double speed) {
+    const std::vector<Complex> all = eigenvalues(speed, count);
+    return std::min_element(all.begin(), all.end(),
+                            [&](Complex a, Complex b) { return std::abs(a - mode.lambda) < std::abs(b - mode.lambda); })
+        ->real();
+  };
+  const double aside = kAside * std::abs(side), slope = (rate_at(side + aside) - rate_at(side - aside)) / (2.0 * aside);
+  const double shift = mode.lambda.real() / slope;
+  return std::abs(shift) <= kLargestShift * std::abs(side) ? side - shift : side;
+}
+
+std::vector<StabilityBorder> Whirl::stability_borders(const std::vector<ModesAtSpeed>& grid, Index count) const {
+  const Index all = is_dense() ? 2 * size() : count;
   const auto tally_of = [&](double speed, const std::vector<Complex>& values) {
     Tally tally{speed, {}, -std::numeric_limits<double>::infinity()};
     for (const Complex lambda : values) tally.margins.push_back(growth(lambda));
@@ -154,19 +168,16 @@ std::vector<StabilityBorder> Whirl::stability_borders(const std::vector<double>&
   std::vector<StabilityBorder> found;
   const auto add = [&](const Tally& a, const Tally& b) {
     const bool begins = b.count() > a.count();
-    std::vector<WhirlMode> growing = modes(begins ? b.speed : a.speed, count);
-    std::erase_if(growing, [&](const WhirlMode& mode) { return !grows(mode); });
+    const double side = begins ? b.speed : a.speed;
+    std::vector<WhirlMode> growing = modes(side, all);
+    std::erase_if(growing, [&](const WhirlMode& mode) { return !grows(mode.lambda); });
     const auto slowest = std::min_element(
         growing.begin(), growing.end(), [](const auto& p, const auto& q) { return p.lambda.real() < q.lambda.real(); });
-    if (slowest != growing.end()) found.push_back({0.5 * (a.speed + b.speed), begins, *slowest});
+    if (slowest != growing.end()) found.push_back({border_near(side, *slowest, all), begins, *slowest});
   };
-  const Search search([&](double speed) { return tally_of(speed, eigenvalues(speed, count)); }, add, kSameBorder);
-  const auto known = [&](std::size_t i) {
-    std::vector<Complex> values;
-    for (const WhirlMode& mode : at[i]) values.push_back(mode.lambda);
-    return tally_of(speeds[i], values);
-  };
-  for (std::size_t i = 1; i < speeds.size(); ++i) search.between(known(i - 1), known(i));
+  const Search search([&](double speed) { return tally_of(speed, eigenvalues(speed, all)); }, add, kSameBorder);
+  for (std::size_t i = 1; i < grid.size(); ++i)
+    search.between(tally_of(grid[i - 1].speed, grid[i - 1].eigenvalues), tally_of(grid[i].speed, grid[i].eigenvalues));
   return found;
 }
 

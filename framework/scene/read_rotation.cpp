@@ -118,7 +118,10 @@ void SceneReader::choose_turning(const Parameters& p) {
           const Value* type = one.find("type");
           return type != nullptr && type->text() != nullptr && *type->text() == "unbalance" && !one.find("speed");
         });
-  if (!any && !lacks_elements_ && parts.empty())
+  if (any || lacks_elements_ || !parts.empty()) return;
+  if (p.has("parts") && !able.empty())
+    p.complain(diagnostics_, "parts", "names nothing, so that nothing turns; these can turn: " + join(able));
+  else
     diagnostics_.error("rotation", p.at(),
                        "turns nothing: the scene has no disc and no beam along x with motion = \"lateral\" or "
                        "\"spatial\"");

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <Eigen/LU>
+#include <butee/core/text.hpp>
 #include <butee/dynamics/frequencies.hpp>
 #include <butee/dynamics/static_position.hpp>
 #include <butee/dynamics/whirl.hpp>
@@ -211,6 +212,56 @@ TEST(PinnedShaft, NamesCriticalSpeedsOfTorsionAndAxialMotion) {
   EXPECT_GT(critical.size(), 8U);
 }
 
+/// Masses on bearings of their own, each stable up to w (1 + c_e/c_i) with c_e outside and c_i turning: all borders are
+/// found, whatever the number of lowest modes that are asked for, and where damping is light too.
+TEST(StabilityBorders, AreThoseOfAllModes) {
+  constexpr double kOutside = 0.02, kTurning = 0.02, kMass = 2.0;
+  std::vector<double> truth;
+  std::string scene = "schema = 1\n";
+  for (int i = 0; i < 6; ++i) {
+    const double w = 100.0 + 30.0 * i;
+    truth.push_back(w * (1.0 + kOutside / kTurning));
+    const std::string name = "m" + std::to_string(i), k = to_text(kMass * w * w);
+    const auto bearing_of = [&](const std::string& stiffness, double c, const char* more) {
+      scene += "[[element]]\ntype = \"bearing\"\nnode = \"" + name + "\"\nstiffness = [[" + stiffness + ", 0], [0, " +
+               stiffness + "]]\ndamping = [[" + to_text(c) + ", 0], [0, " + to_text(c) + "]]\n" + more;
+    };
+    scene += "[[element]]\ntype = \"mass\"\nname = \"" + name + "\"\nmass = " + to_text(kMass) + "\n";
+    bearing_of(k, kOutside, "");
+    bearing_of("0", kTurning, "rotating = true\n");
+  }
+  SceneRun run(scene + "[rotation]\nspeed = 10.0\n[integrator]\ntype = \"rodas4\"\nend_time = 1.0\n");
+  const dynamics::Whirl whirl(run.model());
+  std::vector<dynamics::ModesAtSpeed> grid;
+  for (const double speed : {0.0, 250.0, 700.0}) grid.push_back(whirl.modes_at(speed, 2));
+  const auto borders = whirl.stability_borders(grid, 2);
+  ASSERT_EQ(borders.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_NEAR(borders[i].speed, truth[i], 1e-8 * truth[i]);
+    EXPECT_NEAR(borders[i].mode.frequency(), 100.0 + 30.0 * static_cast<double>(i), 1e-4);
+    EXPECT_TRUE(borders[i].begins);
+  }
+}
+
+/// Without gyroscopic moments and cross terms both planes have the same frequencies: their modes have no sense, nor
+/// have those by Arnoldi's method. The lowest ones that reach the highest speed are examined.
+TEST(StabilityBorders, NameNoSenseOfEqualModes) {
+  SceneRun run(steel("euler", 105, 4.0, 0.02, "young_modulus = 2e11\ndensity = 7800.0\npoisson_ratio = 0.3") +
+               "[[support]]\nnodes = [\"shaft:first\", \"shaft:last\"]\nfix = [\"uy\", \"uz\"]\n" + turning(1.0));
+  const dynamics::Whirl whirl(run.model());
+  ASSERT_FALSE(whirl.is_dense());
+  const Index count = whirl.count_to(3000.0, 0.0, 3000.0, 10);
+  const auto modes = whirl.modes(100.0, count);
+  ASSERT_GE(modes.size(), 20U);
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(modes[i].direction, 0.0) << i;
+    // (k pi/l)^2 sqrt(E I/(rho A))
+    const double k = static_cast<double>(i / 2 + 1) * pi / 4.0;
+    EXPECT_NEAR(modes[i].frequency(), k * k * std::sqrt(2e11 / 7800.0) * 0.01, 1e-5 * modes[i].frequency()) << i;
+  }
+  EXPECT_EQ(whirl.critical_speeds(0.0, 3000.0, 30, 1.0, count).size(), 18U);
+}
+
 /// A bearing with a negative stiffness: u = (cosh 10 t - cos 5 t)/125 under cos 5 t. Every method follows it, its
 /// energy is balanced, and its modes are those of e^(10 t) and e^(-10 t).
 TEST(NegativeStiffness, GrowsAsItsModes) {
@@ -287,7 +338,7 @@ end_time = 1.0
   EXPECT_LT(std::abs(growth(threshold)), 1e-12 * 100.0);
   EXPECT_GT(growth(1.001 * threshold), 0.0);
   EXPECT_LT(growth(0.999 * threshold), 0.0);
-  const auto borders = whirl.stability_borders({0.0, 400.0}, {whirl.modes(0.0, 4), whirl.modes(400.0, 4)}, 4);
+  const auto borders = whirl.stability_borders({whirl.modes_at(0.0, 4), whirl.modes_at(400.0, 4)}, 4);
   ASSERT_EQ(borders.size(), 1U);
   EXPECT_NEAR(borders[0].speed, threshold, 1e-7 * threshold);
   EXPECT_TRUE(borders[0].begins);

@@ -60,16 +60,25 @@ WhirlAnalysis whirl_at(const dynamics::Whirl& whirl, const std::string& title, d
 
 Campbell campbell(const dynamics::Whirl& whirl, const std::string& title, double from, double to, Index steps,
                   double order, Index count) {
-  Campbell diagram{title, order, {}, {}, {}, {}, false};
+  Campbell diagram{title, order, {}, {}, {}, {}, false, 0};
+  // Damping that turns with the shaft lets modes grow whose frequency is below the speed.
+  const Index examined =
+      whirl.is_dense() ? count
+                       : whirl.count_to(std::max(order, 1.0) * std::max(std::abs(from), std::abs(to)), from, to, count);
+  if (!whirl.is_dense()) diagram.examined = examined;
+  std::vector<dynamics::ModesAtSpeed> grid;
   for (Index i = 0; i <= steps; ++i) {
     diagram.speeds.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(steps));
-    diagram.modes.push_back(whirl.modes(diagram.speeds.back(), count));
+    grid.push_back(whirl.modes_at(diagram.speeds.back(), examined));
   }
-  diagram.critical = whirl.critical_speeds(from, to, steps, order, count);
-  diagram.borders = whirl.stability_borders(diagram.speeds, diagram.modes, count);
-  const auto& first = diagram.modes.front();
-  diagram.grows_at_first =
-      std::any_of(first.begin(), first.end(), [&](const dynamics::WhirlMode& mode) { return whirl.grows(mode); });
+  diagram.critical = whirl.critical_speeds(from, to, steps, order, examined);
+  diagram.borders = whirl.stability_borders(grid, examined);
+  const auto& first = grid.front().eigenvalues;
+  diagram.grows_at_first = std::any_of(first.begin(), first.end(), [&](auto lambda) { return whirl.grows(lambda); });
+  for (dynamics::ModesAtSpeed& at : grid) {
+    dynamics::keep_lowest(at.lowest, count);
+    diagram.modes.push_back(std::move(at.lowest));
+  }
   return diagram;
 }
 
@@ -90,13 +99,15 @@ void print(const WhirlAnalysis& analysis) {
 
 void print(const Campbell& diagram) {
   if (!diagram.title.empty()) std::printf("%s\n", printable(diagram.title).c_str());
-  std::printf("  critical speeds of order %s between %s and %s rad/s\n\n", to_short_text(diagram.order).c_str(),
-              to_short_text(diagram.speeds.front()).c_str(), to_short_text(diagram.speeds.back()).c_str());
+  const std::string among = diagram.examined > 0 ? " (the " + std::to_string(diagram.examined) + " lowest modes)" : "";
+  std::printf("  critical speeds of order %s between %s and %s rad/s%s\n\n", to_short_text(diagram.order).c_str(),
+              to_short_text(diagram.speeds.front()).c_str(), to_short_text(diagram.speeds.back()).c_str(),
+              among.c_str());
   if (diagram.critical.empty()) std::printf("  none\n");
   for (const dynamics::CriticalSpeed& critical : diagram.critical)
     std::printf("  %14s rad/s  %16s rev/min  %s\n", formatted("%.10g", critical.speed).c_str(),
                 rpm(critical.speed).c_str(), sense_of(critical.direction, critical.motion, critical.speed));
-  std::printf("\n  stability without contact\n\n");
+  std::printf("\n  stability without contact%s\n\n", among.c_str());
   if (diagram.grows_at_first) std::printf("  unstable at %s rad/s\n", to_short_text(diagram.speeds.front()).c_str());
   for (const dynamics::StabilityBorder& border : diagram.borders)
     std::printf("  %14s rad/s  %16s rev/min  a mode of %s rad/s (%s) %s\n", formatted("%.8g", border.speed).c_str(),
@@ -119,6 +130,7 @@ Json to_json(const Campbell& diagram) {
   Json json;
   json["title"] = diagram.title;
   json["order"] = diagram.order;
+  if (diagram.examined > 0) json["examined_modes"] = diagram.examined;
   json["critical_speeds"] = Json::array();
   for (const dynamics::CriticalSpeed& critical : diagram.critical)
     json["critical_speeds"].push_back({{"speed", critical.speed},

@@ -28,6 +28,7 @@ struct Campbell {
   std::vector<dynamics::CriticalSpeed> critical;
   std::vector<dynamics::StabilityBorder> borders;
   bool grows_at_first = false;  ///< a mode grows at the first speed
+  Index examined = 0;           ///< the number of lowest modes that were examined; 0: all
 };
 
 /// Oscillating modes at a speed, rad/s.
