@@ -83,6 +83,21 @@ Finding check_curvature(const Subject& subject) {
   return {true, "the normal turns by the curvature at 64 places"};
 }
 
+/// form(), by which friction with a stick spring measures its path and which some methods expand.
+Finding check_form(const Subject& subject) {
+  using Kind = ContactShape::Form::Kind;
+  const auto shape = make_shape(subject);
+  const ContactShape::Form form = shape->form();
+  if (form.kind == Kind::other) return {true, "neither a line nor a circle: no friction with a stick spring"};
+  for (const Vector2d& d : places()) {
+    const double expected = form.kind == Kind::line ? form.place.dot(d) - form.distance
+                                                    : form.sense * ((d - form.place).norm() - form.distance);
+    if (const double g = shape->at(d).penetration; !(std::abs(g - expected) <= 1e-12 * (1.0 + std::abs(g))))
+      return {false, "at d = " + text(d) + " m g is " + to_text(g) + " m, form() gives " + to_text(expected)};
+  }
+  return {true, form.kind == Kind::line ? "a line" : "a circle"};
+}
+
 /// A mass moves inside the obstacle without dissipation: it must regain the energy that it gave to the
 /// obstacle.
 Finding check_energy(const Subject& subject) {
@@ -112,6 +127,7 @@ Finding check_energy(const Subject& subject) {
 std::vector<Check> contact_checks() {
   return {{"normal", "the normal is the slope of the penetration, and has length 1", check_normal},
           {"curvature", "the curvature is the rotation of the normal along the tangent", check_curvature},
+          {"form", "form(), if it is a line or a circle, gives the penetration", check_form},
           {"energy", "an elastic obstacle returns the energy it absorbed", check_energy}};
 }
 

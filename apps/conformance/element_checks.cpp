@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <butee/core/text.hpp>
@@ -25,11 +27,36 @@ std::string scene(const Subject& subject) {
   return text;
 }
 
+/// The matrices of one element alone.
+class Alone final : public model::MatrixSink {
+ public:
+  void add(std::span<const model::NodalDof> dofs, const model::ElementMatrices& matrices) override {
+    std::vector<Index> places;
+    for (const model::NodalDof& dof : dofs) {
+      const auto found = std::find_if(dofs_.begin(), dofs_.end(), [&](const model::NodalDof& known) {
+        return known.node == dof.node && known.kind == dof.kind;
+      });
+      places.push_back(found - dofs_.begin());
+      if (found == dofs_.end()) dofs_.push_back(dof);
+    }
+    const auto n = static_cast<Index>(dofs_.size());
+    for (Eigen::MatrixXd* matrix : {&mass, &damping, &stiffness})
+      matrix->conservativeResizeLike(Eigen::MatrixXd::Zero(n, n));
+    mass(places, places) += matrices.mass;
+    damping(places, places) += matrices.damping;
+    stiffness(places, places) += matrices.stiffness;
+  }
+
+  Eigen::MatrixXd mass{}, damping{}, stiffness{};
+
+ private:
+  std::vector<model::NodalDof> dofs_;
+};
+
 /// Stiffness and damping need not be symmetric, for example those of a bearing; only the symmetric part is
 /// checked for definiteness.
-std::string complaint(const std::string& name, const SparseMatrix& sparse, bool may_be_skew = true) {
-  if (sparse.size() == 0) return "";
-  Eigen::MatrixXd matrix(sparse);
+std::string complaint(const std::string& name, Eigen::MatrixXd matrix, bool may_be_skew = true) {
+  if (matrix.size() == 0) return "";
   if (!matrix.allFinite()) return name + " is not finite";
   // Tolerances for asymmetry of summed contributions, and for the zero eigenvalues of a semi-definite matrix.
   constexpr double kRounding = 1e-12;
@@ -48,9 +75,15 @@ std::string complaint(const std::string& name, const SparseMatrix& sparse, bool 
 Finding check_matrices(const Subject& subject) {
   Bench bench(subject.catalogue, scene(subject) + integrator_table("rk4", "", 1e-6, 1e-3));
   const model::System& system = bench.system();
+  // Beside a heavy structure the element's own part could be lost.
+  Alone alone;
+  system.model->elements.back()->assemble(alone);
   for (const auto& found :
-       {complaint("the mass matrix", system.mass, false), complaint("the stiffness matrix", system.stiffness),
-        complaint("the damping matrix", system.dashpots)})
+       {complaint("its mass matrix", alone.mass, false), complaint("its stiffness matrix", alone.stiffness),
+        complaint("its damping matrix", alone.damping),
+        complaint("the mass matrix", Eigen::MatrixXd(system.mass), false),
+        complaint("the stiffness matrix", Eigen::MatrixXd(system.stiffness)),
+        complaint("the damping matrix", Eigen::MatrixXd(system.dashpots))})
     if (!found.empty()) return {false, found};
   return {true, std::string(system.is_symmetric ? "symmetric" : "not symmetric") + " and not negative, " +
                     std::to_string(system.size()) + " free DOFs"};

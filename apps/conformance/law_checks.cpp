@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -103,7 +104,14 @@ Finding check_bounds(const Subject& subject) {
 
 Finding check_series(const Subject& subject) {
   const auto law = make_law(subject);
-  if (law->is_piecewise_linear()) return {true, "piecewise linear"};
+  if (law->is_piecewise_linear()) {
+    for (const double g : penetrations())
+      if (const double expected = law->closed_stiffness() * std::max(g, 0.0);
+          !(std::abs(force(*law, g) - expected) <= 1e-12 * expected))
+        return {false, "is_piecewise_linear() is true; at g = " + to_short_text(g) + " m F is " +
+                           to_text(force(*law, g)) + " N, k_c max(g, 0) is " + to_text(expected)};
+    return {true, "F = k_c max(g, 0)"};
+  }
   const auto series = law->force_series();
   if (series == nullptr) return {true, "none, so that the method `exact` does not take it"};
   for (const double g : {1e-6, 1e-4, 1e-2}) {

@@ -25,7 +25,7 @@ class BUTEE_EXPORT ContactShape {
   virtual ~ContactShape() = default;
   virtual Approach at(const Eigen::Vector2d& d) const = 0;
 
-  /// Properties needed by methods that expand the motion in series.
+  /// Properties needed by methods that expand the motion in series, and by friction with a stick spring.
   struct Form {
     enum class Kind { line, circle, other } kind = Kind::other;
     Eigen::Vector2d place = {0.0, 0.0};  ///< the normal of a line, or the centre of a circle (m)

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "butee/core/error.hpp"
 #include "butee/core/log.hpp"
@@ -65,6 +67,56 @@ void load_when_made(Type& type, std::vector<Type> ModuleTypes::*list, const std:
     };
   if constexpr (std::is_same_v<Type, model::FieldFormat>)
     type.open = [name, list, path](const std::string& folder) { return loaded(name, list, path).open(folder); };
+}
+
+/// Calls what a module made; its exceptions become errors that name it.
+template <class Call>
+auto named_on_failure(const std::string& what, const Call& call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const InputError&) {
+    throw;
+  } catch (const RunError&) {
+    throw;
+  } catch (const LogicError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw RunError(what + " failed: " + error.what());
+  } catch (...) {
+    throw RunError(what + " failed: it threw an exception that is not a std::exception");
+  }
+}
+
+std::size_t errors_in(const config::Diagnostics& diagnostics) {
+  return diagnostics.error_count();
+}
+std::size_t errors_in(model::ElementContext& context) {
+  return context.diagnostics().error_count();
+}
+std::size_t errors_in(const model::FieldLayout&) {
+  return 0;
+}
+
+/// Makes the factories of a type throw RunError with the module's name for exceptions of other kinds, and for a result
+/// that is missing although they reported no error.
+template <class Type>
+void check_factories(Type& type, const std::string& kind, const std::string& path) {
+  const std::string what = path + ": making the " + kind + " \"" + type.name + "\"";
+  type.make = [make = std::move(type.make), what](const auto& first, auto&&... others) {
+    auto& last = std::get<sizeof...(others) - 1>(std::tie(others...));
+    const std::size_t before = errors_in(last);
+    auto made = named_on_failure(what, [&] { return make(first, std::forward<decltype(others)>(others)...); });
+    if (made == nullptr && errors_in(last) == before) throw RunError(what + " gave nothing, and reported no error");
+    return made;
+  };
+  if constexpr (std::is_same_v<Type, model::ElementType>) {
+    if (!type.nodes) throw RunError(path + ": the element \"" + type.name + "\" has no function `nodes`");
+    type.nodes = [nodes = std::move(type.nodes), what](const config::Parameters& p, config::Diagnostics& diagnostics) {
+      return named_on_failure(what, [&] { return nodes(p, diagnostics); });
+    };
+  }
 }
 
 }  // namespace
@@ -157,6 +209,7 @@ void Catalogue::add_types(const char* kind, std::vector<Type> found, std::vector
     }
     modules_[{kind, type.name}] = path;
     if (!type.make) load_when_made(type, list, path);
+    check_factories(type, kind, path);
     to.push_back(std::move(type));
   }
 }

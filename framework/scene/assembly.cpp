@@ -65,6 +65,9 @@ std::unique_ptr<time::Integrator> make_integrator(Scene& scene, dynamics::Dynami
   } catch (const std::exception& error) {
     throw RunError(scene.catalogue.find(choice.name)->module + ": making the method \"" + choice.name +
                    "\" failed: " + error.what());
+  } catch (...) {
+    throw RunError(scene.catalogue.find(choice.name)->module + ": making the method \"" + choice.name +
+                   "\" failed: it threw an exception that is not a std::exception");
   }
   if (made == nullptr)
     throw RunError(scene.catalogue.find(choice.name)->module + ": made no method for \"" + choice.name + "\"");

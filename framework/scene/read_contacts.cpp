@@ -276,6 +276,10 @@ bool SceneReader::check_stick(const Parameters& p, Friction::Rule rule, const Co
     why = "stick = \"rigid\" needs a straight obstacle, such as a plane; take stick_stiffness or slip_speed";
   else if (rule == Friction::Rule::spring && form.kind == Kind::circle && form.distance == 0.0)
     why = "a stick spring is stretched along the circumference of the gap, which is 0 here; take slip_speed";
+  else if (rule == Friction::Rule::spring && form.kind == Kind::other)
+    why =
+        "a stick spring needs an obstacle whose ContactShape::form() is a line or a circle, along which it is "
+        "stretched; take slip_speed";
   if (why != nullptr) p.complain(diagnostics_, "friction", why);
   return why == nullptr;
 }

@@ -59,6 +59,44 @@ TEST(FaultyModules, AMethodThatCannotBeMadeLeavesNothing) {
   }
 }
 
+/// Without the stop that its law belongs to, the mass would pass it.
+TEST(FaultyModules, OneThatMakesNoLawOrWriterFailsTheRun) {
+  for (const Case& one : {Case{"no_law", "failing_factories.so: making the law \"no_law\" gave nothing"},
+                          Case{"law_with_an_error", "making the law \"law_with_an_error\" failed: no licence"},
+                          Case{"law_with_a_number", "failed: it threw an exception that is not a std::exception"}}) {
+    SCOPED_TRACE(one.method);
+    const TemporaryFolder folder;
+    folder.write("scene.toml", scene_with("rk4") + "[[contact]]\ntype = \"stop\"\nnodes = \"a\"\ngap = 1.5\nlaw = \"" +
+                                   one.method + "\"\n");
+    const Outcome outcome = run_program({"run", "scene.toml", "--plugin", broken("failing_factories")}, folder.path());
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.errors.find(one.says), std::string::npos) << outcome.errors;
+    EXPECT_EQ(folder.entries(), std::vector<std::string>{"scene.toml"});
+  }
+  const TemporaryFolder folder;
+  folder.write("scene.toml", scene_with("rk4") + "formats = [\"no_writer\"]\n");
+  const Outcome outcome = run_program({"run", "scene.toml", "--plugin", broken("failing_factories")}, folder.path());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.errors.find("making the format \"no_writer\" gave nothing"), std::string::npos) << outcome.errors;
+}
+
+/// A stick spring is stretched along a line or a circle; along a curve of unknown form the force would be wrong.
+TEST(Modules, ShapesOfUnknownFormTakeNoStickSprings) {
+  const TemporaryFolder folder;
+  const std::string scene =
+      "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"a\"\nmass = 1.0\n[[element]]\ntype = \"spring\"\nnode = "
+      "\"a\"\ndof = \"uy\"\nstiffness = 400.0\n[[element]]\ntype = \"spring\"\nnode = \"a\"\ndof = \"uz\"\nstiffness = "
+      "300.0\n[[contact]]\ntype = "
+      "\"curved\"\nnodes = \"a\"\ngap = 0.01\nstiffness = 1e4\nfriction = { coefficient = 0.3, ";
+  const std::string end = " }\n[integrator]\ntype = \"dopri5\"\nend_time = 0.01\n";
+  folder.write("spring.toml", scene + "stick_stiffness = 1e5" + end);
+  folder.write("smooth.toml", scene + "slip_speed = 1e-3" + end);
+  const Outcome refused = run_program({"run", "spring.toml", "--plugin", broken("failing_factories")}, folder.path());
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.errors.find("form() is a line or a circle"), std::string::npos) << refused.errors;
+  EXPECT_EQ(run_program({"run", "smooth.toml", "--plugin", broken("failing_factories")}, folder.path()).status, 0);
+}
+
 /// Such a crash cannot be caught, but the last line of output names the module.
 TEST(FaultyModules, OneThatCrashesWhileItIsLoadedIsNamed) {
   for (const char* name : {"static_crash", "static_throw"}) {

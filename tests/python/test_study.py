@@ -127,7 +127,7 @@ def test_a_law_in_python_is_a_law(name, keys, law):
                                         ("linear", {"stiffness": 1e6}), ("harmonic", {"amplitude": 3.0, "angular_frequency": 7.0})])
 def test_conformance_of_laws_and_loads(name, keys):
     findings = butee.conformance(name, **keys)
-    assert len(findings) == (5 if name == "harmonic" else 6) and all(finding.passed for finding in findings), findings
+    assert len(findings) == 6 and all(finding.passed for finding in findings), findings
 
 
 def test_conformance_finds_what_is_wrong():
