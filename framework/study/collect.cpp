@@ -49,13 +49,13 @@ Collector::Collector(const std::vector<Item>& items, const scene::Scene& scene, 
   };
   for (const Item& item : items)
     if ((item.kind == Kind::max || item.kind == Kind::min) && !is_followed(item))
-      throw InputError("study.collect: \"" + item.text +
-                       "\": max and min take displacements, velocities and accelerations in the frame of the solution; "
-                       "take peak, the largest |value|");
+      throw refused(item,
+                    "max and min take displacements, velocities and accelerations in the frame of the solution; take "
+                    "peak, the largest |value|");
 
   for (const Item& item : items)
     if (item.kind == Kind::wear && dynamics.obstacles() == nullptr)
-      throw InputError("study.collect: \"wear\": no contact of the scene has friction; add friction, or remove it");
+      throw refused(item, "no contact of the scene has friction; add friction, or remove it");
 
   if (const auto chosen =
           chosen_by([&](const Item& i) { return i.kind == Kind::peak && is_followed(i) && !is_of_obstacle(i); });

@@ -18,6 +18,7 @@ struct Item {
   std::string text;   ///< as written
   std::string probe;  ///< label of a probe, or selector of one node; "" if the kind has none
   model::Quantity quantity = model::Quantity::u;
+  std::string place = "study.collect";  ///< "study.toml:7: study.collect"
 
   bool needs_period() const { return kind == Kind::section || kind == Kind::lyapunov; }
 };
@@ -32,6 +33,9 @@ BUTEE_EXPORT const std::vector<ItemKind>& item_kinds();
 
 /// Reads "KIND LABEL.QUANTITY" or "KIND". Throws InputError without the key.
 BUTEE_EXPORT Item read_item(const std::string& text);
+
+/// The error of an item that a scene does not allow.
+InputError refused(const Item& item, const std::string& complaint);
 
 /// The column of an item; a section has `periods` entries.
 BUTEE_EXPORT Column column_of(const Item& item, std::int64_t periods);

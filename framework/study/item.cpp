@@ -99,6 +99,10 @@ Column column_of(const Item& item, std::int64_t periods) {
   return column;
 }
 
+InputError refused(const Item& item, const std::string& complaint) {
+  return InputError(item.place + ": \"" + item.text + "\": " + complaint);
+}
+
 model::ProbeRequest probe_of(const Item& item, const scene::Scene& scene) {
   model::ProbeRequest probe{item.probe, 0, {item.quantity}, {}};
   std::vector<std::string> labels;
@@ -113,14 +117,14 @@ model::ProbeRequest probe_of(const Item& item, const scene::Scene& scene) {
   if (!is_label) {
     const model::Selection selection = scene.model.nodes.select(item.probe);
     if (selection.nodes.size() != 1)
-      throw InputError("study.collect: \"" + item.text + "\": \"" + item.probe + "\" is neither the label of a probe" +
-                       suggestion(item.probe, labels) + " nor one node" +
-                       (selection.nodes.empty() ? "" : ", but " + std::to_string(selection.nodes.size())) +
-                       "; probes: " + join(labels) + "; nodes: " + join(scene.model.nodes.group_names()));
+      throw refused(item, "\"" + item.probe + "\" is neither the label of a probe" + suggestion(item.probe, labels) +
+                              " nor one node" +
+                              (selection.nodes.empty() ? "" : ", but " + std::to_string(selection.nodes.size())) +
+                              "; probes: " + join(labels) + "; nodes: " + join(scene.model.nodes.group_names()));
     probe.node = selection.nodes.front();
   }
   const std::string problem = why_not(item.quantity, scene.model, number_dofs(scene.model), probe.node, probe.element);
-  if (!problem.empty()) throw InputError("study.collect: \"" + item.text + "\": " + problem);
+  if (!problem.empty()) throw refused(item, problem);
   return probe;
 }
 

@@ -131,6 +131,7 @@ std::vector<Item> read_items(const Parameters& p, Diagnostics& diagnostics) {
   for (const std::string& text : p.texts("collect")) {
     try {
       items.push_back(read_item(text));
+      items.back().place = describe(diagnostics.document(), p.value("collect").at) + ": " + p.key("collect");
       if (!known.insert(text).second) p.complain(diagnostics, "collect", "names \"" + text + "\" twice");
     } catch (const InputError& error) {
       p.complain(diagnostics, "collect", error.what());
@@ -351,7 +352,8 @@ Study study_of(const config::Document& document, const config::Document* known_s
     try {
       return Plan(std::move(axes), kind, p->has("count") ? p->integer("count") : 0, seed, reader.follow());
     } catch (const InputError& error) {
-      throw InputError(document.sources.front() + ": " + error.what());
+      const std::string place = p->given("plan") ? describe(document, p->value("plan").at) : document.sources.front();
+      throw InputError(place + ": " + error.what());
     }
   };
   config::Document scene = with_overrides(known_scene != nullptr ? *known_scene : scene_beside(document, diagnostics),
