@@ -30,6 +30,7 @@ bool is_general(const std::vector<model::NodeId>& nodes, dynamics::Dynamics& dyn
 FieldRecorder::FieldRecorder(const model::OutputRequest& output, double end_time, dynamics::Dynamics& dynamics,
                              std::vector<std::unique_ptr<model::FieldWriter>> writers)
     : dynamics_(dynamics),
+      accelerations_(dynamics),
       times_(output.fields.interval ? output.fields.interval : output.interval, output.every, end_time),
       quantities_(output.fields.quantities),
       writers_(std::move(writers)) {
@@ -206,10 +207,11 @@ void FieldRecorder::fill(double t, const time::Interpolated& samples) {
 }
 
 void FieldRecorder::fill(const time::State& state) {
+  const Vector& a = needs_a_ ? accelerations_.of(state) : state.a;
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
     x_[i] = state.x[dofs_[i]];
     if (needs_v_) v_[i] = state.v[dofs_[i]];
-    if (needs_a_) a_[i] = state.a[dofs_[i]];
+    if (needs_a_) a_[i] = a[dofs_[i]];
   }
   fill(state.t, time::Interpolated{x_, v_, a_});
 }

@@ -5,6 +5,7 @@
 
 #include "butee/model/field_format.hpp"
 #include "butee/model/output_request.hpp"
+#include "butee/record/accelerations.hpp"
 #include "butee/record/contacts_on.hpp"
 #include "butee/record/output_times.hpp"
 
@@ -59,6 +60,7 @@ class BUTEE_EXPORT FieldRecorder final : public time::Observer {
   void write(double t);
 
   dynamics::Dynamics& dynamics_;
+  Accelerations accelerations_;
   OutputTimes times_;
   std::vector<model::Quantity> quantities_;
   std::vector<std::unique_ptr<model::FieldWriter>> writers_;

@@ -23,7 +23,8 @@ void interpolate(const time::AcceptedStep& step, std::span<const double> times, 
 
 }  // namespace
 
-Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics) : dynamics_(dynamics) {
+Probes::Probes(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamics& dynamics)
+    : dynamics_(dynamics), accelerations_(dynamics) {
   const model::DofTable& table = dynamics.system().dofs;
   for (const model::ProbeRequest& request : requests)
     for (const model::Quantity quantity : request.quantities) {
@@ -103,10 +104,11 @@ void Probes::make_room(std::size_t instants) {
 }
 
 void Probes::copy(const time::State& state, std::size_t instant) {
+  const Vector& a = needs_a_ ? accelerations_.of(state) : state.a;
   for (std::size_t i = 0, place = instant * dofs_.size(); i < dofs_.size(); ++i, ++place) {
     x_[place] = state.x[dofs_[i]];
     if (needs_v_) v_[place] = state.v[dofs_[i]];
-    if (needs_a_) a_[place] = state.a[dofs_[i]];
+    if (needs_a_) a_[place] = a[dofs_[i]];
   }
 }
 

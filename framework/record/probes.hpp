@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "butee/model/base_motion.hpp"
+#include "butee/record/accelerations.hpp"
 #include "butee/record/element_forces.hpp"
 #include "butee/time/simulation.hpp"
 
@@ -75,6 +76,7 @@ class BUTEE_EXPORT Probes {
   void evaluate_forces(double t, ConstVectorRef x, ConstVectorRef v, std::size_t instant);
 
   dynamics::Dynamics& dynamics_;
+  Accelerations accelerations_;
   std::vector<std::string> columns_;
   std::vector<Column> sources_;
   std::vector<ProbedStop> stops_;
