@@ -81,7 +81,7 @@ LocalErrorControl::LocalErrorControl(dynamics::Dynamics& dynamics, const Goal& g
   first_step_ = rates.open > 0.0 ? 0.1 / rates.open : 1e-6 * std::min(1.0, goal.run_time);
   omega_ = rates.closed;
   rate_ = fastest_ = rates.any();
-  if (!as_a_whole_) rounding_.emplace(dynamics, goal.tolerance, rate_);
+  if (!as_a_whole_) rounding_.emplace(dynamics, goal.tolerance, rate_, std::isinf(orders.stability));
   for (const model::FreeLoad& load : system.loads)
     if (const auto harmonic = load.in_time->harmonic(); harmonic && harmonic->angular_frequency > 0.0) {
       first_step_ = std::min(first_step_, 0.1 / harmonic->angular_frequency);
@@ -264,7 +264,8 @@ void LocalErrorControl::judge(const time::State& from, time::State& to, double h
     epsilon = relative_error(h, error_x, error_v, level_x_, level_v_);
     r = error_ratio(from, to, h, epsilon, change, level_x_, charge);
   };
-  if (rounding_ && r > 1.0)
+  // Nor does the account pay for rounding.
+  if (rounding_ && (r > 1.0 || (!change.has_changed && epsilon > smooth)))
     allow_rounding(change.has_changed ? ErrorAccount::kSpend * balance / orders_.contact_change : smooth);
   // Rounding does not fall with the step, and must not keep it short either.
   if (rounding_ && !change.has_changed && r <= 1.0 && r > kQuiet && epsilon < kNearRounding)

@@ -1,5 +1,6 @@
 #include "integrators/rounding_level.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -11,7 +12,8 @@ namespace {
 constexpr double kRoundingOfMotion = 1e-14;
 /// Errors of a step below this part of a component, or of what the forces on it cause in the step, are rounding.
 constexpr double kRoundingOfStep = 1e-15;
-/// In steps below this part of 1/rate errors of that size are rounding, not the growth at a limit of stability.
+/// With explicit methods, errors of that size are rounding in steps below this part of 1/rate; in longer ones they may
+/// be the growth at a limit of stability.
 constexpr double kShortStep = 0.1;
 
 /// sums_i += factor sum_j |A_ij| y_j
@@ -24,10 +26,11 @@ void add_magnitudes(const SparseMatrix& matrix, double factor, ConstVectorRef y,
 
 }  // namespace
 
-RoundingLevel::RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate)
+RoundingLevel::RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate, bool is_stable)
     : dynamics_(dynamics),
       of_motion_(kRoundingOfMotion / tolerance),
       rate_(rate),
+      is_stable_(is_stable),
       is_lumped_(dynamics.system().mass.nonZeros() == dynamics.size()),
       root_mass_(dynamics.system().mass.diagonal().cwiseSqrt()),
       stop_stiffness_(dynamics.stops().closed_stiffness()),
@@ -38,7 +41,9 @@ void RoundingLevel::raise(const time::State& from, const time::State& to, double
                           Vector& scale_v) {
   const double of_x = of_motion_ * root_mass_.cwiseProduct(scale_x).norm(),
                of_v = of_motion_ * root_mass_.cwiseProduct(scale_v).norm();
-  if (h * rate_ < kShortStep) {
+  if (is_stable_ || h * rate_ < kShortStep) {
+    // In longer steps of an implicit method the elastic forces that follow take up those of rounding.
+    const double time = rate_ > 0.0 ? std::min(h, 1.0 / rate_) : h;
     sum_forces(from, to);
     // force_ := the accelerations; a mass matrix that couples DOFs spreads their rounding.
     if (is_lumped_)
@@ -46,8 +51,8 @@ void RoundingLevel::raise(const time::State& from, const time::State& to, double
     else
       force_ = root_mass_.cwiseInverse() * force_.cwiseQuotient(root_mass_).norm();
     const double part = kRoundingOfStep / bound;
-    scale_x = scale_x.cwiseMax(part * (scale_x + h * scale_v + (h * h) * force_));
-    scale_v = scale_v.cwiseMax(part * (scale_v + h * force_));
+    scale_x = scale_x.cwiseMax(part * (scale_x + h * scale_v + (time * time) * force_));
+    scale_v = scale_v.cwiseMax(part * (scale_v + time * force_));
   }
   scale_x = scale_x.cwiseMax(of_x * root_mass_.cwiseInverse());
   scale_v = scale_v.cwiseMax(of_v * root_mass_.cwiseInverse());

@@ -9,8 +9,9 @@ namespace butee::integrators {
 /// move by the rounding of others only, and those of forces in balance. integrators/error-control.md, "Rounding".
 class RoundingLevel {
  public:
-  /// `dynamics` must outlive it. `rate`: the highest rate of a DOF with all stops closed, 1/s.
-  RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate);
+  /// `dynamics` must outlive it. `rate`: the highest rate of a DOF with all stops closed, 1/s. `is_stable`: the method
+  /// has no limit of stability.
+  RoundingLevel(dynamics::Dynamics& dynamics, double tolerance, double rate, bool is_stable);
 
   /// Raises the scales of displacements and velocities so that an error of rounding in the step from `from` to `to` of
   /// length h, s, is at most the fraction `bound` of them, in any component.
@@ -25,6 +26,7 @@ class RoundingLevel {
   dynamics::Dynamics& dynamics_;
   double of_motion_;  ///< rounding of the motion as a whole over the tolerance
   double rate_;
+  bool is_stable_;
   bool is_lumped_;    ///< M is diagonal
   Vector root_mass_;  ///< of the diagonal of M, kg^(1/2) or kg^(1/2) m
   Vector stop_stiffness_;

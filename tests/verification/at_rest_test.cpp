@@ -191,6 +191,61 @@ TEST(AtRest, ABeamInItsStaticPositionUnderALoadThatGrows) {
   }
 }
 
+/// A shaft in its static position in rings begins to rub: the rounding of the forces in balance is larger than the
+/// errors that the still small velocities allow, and neither keeps the steps short nor uses up the error account. 769
+/// steps (7019 when it did).
+TEST(AtRest, RubbingBeginsFromAStaticPosition) {
+  SceneRun run(R"(
+schema = 1
+[material.s]
+young_modulus = 2e11
+poisson_ratio = 0.3
+density = 7800.0
+[section.p]
+shape = "circle"
+radius = 0.02
+[[element]]
+type = "beam"
+name = "b"
+motion = "lateral"
+theory = "rayleigh"
+material = "s"
+section = "p"
+length = 4.0
+elements = 60
+[[support]]
+nodes = ["b:first", "b:last"]
+fix = ["uy", "uz"]
+[rotation]
+speed = { type = "ramp", from = 20.0, to = 80.0, end = 0.15 }
+[damping]
+mass_proportional = 1.0
+rotating_stiffness_proportional = 2e-5
+[gravity]
+acceleration = [0, -9.81, 0]
+static = true
+[[load]]
+type = "unbalance"
+node = "b:20"
+moment = 0.05
+[[contact]]
+type = "ring"
+nodes = "b:all"
+gap = 9e-3
+stiffness = 2e5
+damping = { type = "hunt_crossley", factor = 0.3 }
+friction = { coefficient = 0.2, slip_speed = 0.02 }
+radius = 0.02
+[integrator]
+type = "rodas4"
+tolerance = 1e-5
+end_time = 0.02
+)");
+  const auto& report = run.run();
+  EXPECT_TRUE(report.completed) << report.message;
+  EXPECT_LT(report.steps, 1500);
+}
+
 /// A body that only a stop or a plane below it holds: it rests at gap + m g/k. What nothing holds is refused.
 TEST(AtRest, ABodyThatOnlyAContactHolds) {
   const auto scene = [](const std::string& contact) {
