@@ -112,6 +112,9 @@ void Structure::Parts::add_forces(const std::string& selector,
 }
 
 void Structure::Parts::check_peak(const std::string& node_name, model::NodeId node, model::Quantity quantity) {
+  const std::string problem =
+      model::is_element_force(quantity) ? "" : model::why_not(quantity, scene.model, assembly->system.dofs, node, "");
+  if (!problem.empty()) throw InputError(node_name + ": " + problem);
   const bool is_of_obstacle = model::is_contact_force(quantity) && assembly->dynamics.obstacles() != nullptr;
   const bool has_base = record::Probes::has_base_share(assembly->system.model, assembly->system.dofs, node, quantity);
   if (!model::is_element_force(quantity) && !is_of_obstacle && !has_base) return;
@@ -293,6 +296,8 @@ void Structure::set_force(Index dof, double from, double to, double until) {
 
 void Structure::set_line(Index dof, const NodalForce::Line& line) {
   NodalForce& force = parts_->force_on(dof);
+  if (parts_->assembly->simulation.is_observed())
+    throw LogicError("set_force() is called by an observer; call it between steps, for example in goes_on");
   const bool jump = force.value(time()) != line.value;
   force.line = line;
   parts_->assembly->simulation.loads_changed(jump);

@@ -21,9 +21,9 @@ Vector checked_numbers(const Array& array, Index size, const char* name) {
 }
 
 /// Checks all numbers before the first is set.
-void check_finite(const Vector& numbers) {
+void check_finite(const Vector& numbers, const std::string& name = "a force") {
   if (!(numbers.array().abs() <= embed::Structure::kLargestNumber).all())
-    throw py::value_error("a force has to be a finite number of at most 1e100");
+    throw py::value_error(name + " has to be a finite number of at most 1e100");
 }
 
 /// A read-only copy.
@@ -65,6 +65,8 @@ void set_lines(Part& part, const Array& from, const Array& to, double until) {
   const auto locked = part.use();
   check_finite(begin);
   check_finite(end);
+  // All or nothing: Structure::set_force() would refuse such a slope after it has set the forces before.
+  if (const double h = until - locked->time(); h > 0.0) check_finite((end - begin) / h, "the slope of a force");
   for (Index i = 0; i < n; ++i) locked->set_force(dofs[static_cast<std::size_t>(i)], begin[i], end[i], until);
 }
 

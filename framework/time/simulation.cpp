@@ -7,6 +7,7 @@
 #include <limits>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "butee/core/error.hpp"
 #include "butee/core/subnormals.hpp"
@@ -23,6 +24,8 @@ constexpr double kDivides = 1e-9;
 /// An adaptive method fails if a rejected step is shorter than this fraction of end_time, or than kSmallestOfInstant
 /// times the present instant, which such steps would hardly move. A force that jumps takes short steps at any instant.
 constexpr double kSmallestStep = 1e-20, kSmallestOfInstant = 4.0 * std::numeric_limits<double>::epsilon();
+/// A step that is longer than so many units in the last place of an instant may lose a part of one (on_grid()).
+constexpr double kUnitsOfStep = 1024.0;
 /// No sensible control rejects one step this often; reduction factors close to 1 need many
 /// rejections.
 constexpr int kMostRejections = 5000;
@@ -40,6 +43,16 @@ using Clock = std::chrono::steady_clock;
 MethodLimits narrowed(MethodLimits limits, const Integrator& integrator) {
   limits.stability = std::min(limits.stability, integrator.traits().stability_limit);
   return limits;
+}
+
+/// A step from t that is not longer than `h` and ends at an instant t + h without rounding, as the ones of the same
+/// length after it do until `end`. The rounding of equal steps has one sign, and its sum would be a drift of t.
+double on_grid(double t, double h, double end) {
+  for (const double latest : {std::max(end, t + h), t + h}) {
+    const double unit = std::nextafter(latest, std::numeric_limits<double>::infinity()) - latest;
+    if (h > kUnitsOfStep * unit) return std::floor(h / unit) * unit;
+  }
+  return h;
 }
 
 }  // namespace
@@ -178,6 +191,7 @@ bool Simulation::advance() {
   std::optional<FlushedSubnormals> flushed;
   if (state_.x.size() > kLarge) flushed.emplace();
   for (int rejections = 0; rejections <= kMostRejections; ++rejections) {
+    if (controller_ != nullptr) next_h_ = on_grid(state_.t, next_h_, options_.end_time);
     Step step = propose();
     if (rejections == 0) integrator_.settle(state_, step.h);
     if (const double longest = controller_ != nullptr ? std::min(longest_, integrator_.longest_step(state_)) : step.h;
@@ -238,16 +252,26 @@ bool Simulation::advance() {
 }
 
 void Simulation::accept(const Step& step, const StepReport& result) {
-  ++accepted_;
-  report_.steps += result.inner_steps;
   if (const double next = next_discontinuity(next_.t);
       next_.t >= dynamics::just_before(next) && dynamics_.loads_jump(next))
     next_.t = next;
-  report_.t_end = next_.t;
   const double h = (next_.t < step.t_end ? next_.t - state_.t : step.h) / result.inner_steps;
   const AcceptedStep accepted{state_, next_, h, integrator_.dense_output(state_, next_),
                               traits_.event_precision * (next_.t - state_.t)};
-  for (Observer* observer : observers_) observer->step(accepted);
+  const double before = std::exchange(report_.t_end, next_.t);
+  ++accepted_;
+  report_.steps += result.inner_steps;
+  is_observed_ = true;
+  try {
+    for (Observer* observer : observers_) observer->step(accepted);
+  } catch (...) {  // the step is taken again
+    is_observed_ = false;
+    report_.t_end = before;
+    --accepted_;
+    report_.steps -= result.inner_steps;
+    throw;
+  }
+  is_observed_ = false;
   std::swap(state_, next_);
   if (std::binary_search(discontinuities_.begin(), discontinuities_.end(), state_.t))
     integrator_.pass_discontinuity(state_, dynamics_.loads_jump(state_.t));

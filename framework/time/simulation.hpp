@@ -104,6 +104,8 @@ class BUTEE_EXPORT Simulation {
   /// necessary.
   void start();
 
+  /// True while observers are called with a step, whose end is not yet the state.
+  bool is_observed() const { return is_observed_; }
   /// Takes steps until end_time or a failure.
   const RunReport& run();
   /// The same; asks after every accepted step except the last whether to continue. A stopped run is
@@ -171,6 +173,7 @@ class BUTEE_EXPORT Simulation {
   double longest_ = std::numeric_limits<double>::infinity();  ///< s, of a step that the method chooses
   bool watched_ = false;                                      ///< an observer watches every step
   bool started_ = false, over_ = false;
+  bool is_observed_ = false;  ///< observers are called with a step
 };
 
 }  // namespace butee::time

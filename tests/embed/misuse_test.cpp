@@ -112,6 +112,43 @@ TEST(Misuse, IsRefusedAndChangesNothing) {
   EXPECT_TRUE(used.state().v == spared.state().v);
 }
 
+/// An observer is called with a step whose end is not yet the state: forces may change between steps only. A step at
+/// which an observer throws is taken again, and counted once.
+TEST(Misuse, OfAnObserverIsRefused) {
+  class Calling final : public time::Observer {
+   public:
+    explicit Calling(std::function<void()> call) : call_(std::move(call)) {}
+    void step(const time::AcceptedStep&) override { call_(); }
+
+   private:
+    std::function<void()> call_;
+  };
+  Structure used = structure(scene("type = \"rk4\"\ntime_step = 1e-3\n")),
+            spared = structure(scene("type = \"rk4\"\ntime_step = 1e-3\n"));
+  int refused = 0, calls = 0;
+  Calling changing([&] {
+    try {
+      used.set_force(0, 100.0);
+    } catch (const LogicError&) {
+      ++refused;
+    }
+  });
+  Calling throwing([&] {
+    if (++calls == 3) throw RunError("no more");
+  });
+  used.observe(changing);
+  used.observe(throwing);
+  EXPECT_THROW(used.advance_to(0.1), RunError);
+  EXPECT_EQ(used.report().steps, 2);
+  used.advance_to(0.1);
+  spared.advance_to(0.1);
+  EXPECT_EQ(refused, 101);
+  EXPECT_EQ(used.report().steps, 100);
+  EXPECT_EQ(used.force(0), 0.0);
+  EXPECT_TRUE(used.state().x == spared.state().x);
+  EXPECT_THROW(used.follow_peaks("m", {model::Quantity::uz}), InputError);
+}
+
 /// advance_to() calls a function after each step. That function must not change the state; if it tries to, advance_to()
 /// still reaches its time.
 TEST(Misuse, OfTheFunctionThatIsAskedIsRefused) {
