@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include <butee/dynamics/whirl.hpp>
 #include <butee/linalg/linear_solver.hpp>
 #include <butee/record/energy.hpp>
+#include <butee/record/probes.hpp>
 #include <gtest/gtest.h>
 
 #include "rotors.hpp"
@@ -260,6 +262,43 @@ TEST(StabilityBorders, NameNoSenseOfEqualModes) {
     EXPECT_NEAR(modes[i].frequency(), k * k * std::sqrt(2e11 / 7800.0) * 0.01, 1e-5 * modes[i].frequency()) << i;
   }
   EXPECT_EQ(whirl.critical_speeds(0.0, 3000.0, 30, 1.0, count).size(), 18U);
+}
+
+/// Where a run-up ends, the tangential force of an unbalance jumps. The acceleration in that row satisfies the equation
+/// of motion after the jump, with every method, as reactions and section forces do.
+TEST(RunUp, HasTheAccelerationsAfterItInTheRowOfItsEnd) {
+  class Row final : public time::Observer {
+   public:
+    Row(SceneRun& run, double t)
+        : probes_({{"d",
+                    run.model().nodes.select("d").nodes.front(),
+                    {model::Quantity::uy, model::Quantity::uy_v, model::Quantity::uy_a},
+                    ""}},
+                  run.dynamics()),
+          t_(t) {}
+    void step(const time::AcceptedStep& step) override {
+      if (step.from.t < t_ && t_ <= step.to.t) probes_.evaluate(step, t_, values);
+    }
+    std::array<double, 3> values{};
+
+   private:
+    record::Probes probes_;
+    double t_;
+  };
+  for (const char* method : {"exponential", "rodas4", "dopri5", "exact", "rk4"}) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"disc\"\nname = \"d\"\nmass = 2.0\ndiametral_inertia = 0.01\npolar_inertia = "
+        "0.02\n[[element]]\ntype = \"bearing\"\nnode = \"d\"\nstiffness = [[2e4, 0], [0, 2e4]]\ndamping = [[20.0, 0], "
+        "[0, 20.0]]\n[[load]]\ntype = \"unbalance\"\nnode = \"d\"\nmoment = 1e-3\n[rotation]\nspeed = { type = "
+        "\"ramp\", from = 100.0, to = 500.0, end = 0.05 }\n[integrator]\ntime_step = 1e-4\nend_time = 0.06\n",
+        {std::string("integrator.type=") + method});
+    Row row(run, 0.05);
+    run.simulation().add(row);
+    ASSERT_TRUE(run.run().completed) << method;
+    // It has turned by 15 rad.
+    const auto [x, v, a] = row.values;
+    EXPECT_NEAR(2.0 * a, 1e-3 * 500.0 * 500.0 * std::cos(15.0) - 2e4 * x - 20.0 * v, 1e-9 * 250.0) << method;
+  }
 }
 
 /// A bearing with a negative stiffness: u = (cosh 10 t - cos 5 t)/125 under cos 5 t. Every method follows it, its
