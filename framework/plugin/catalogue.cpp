@@ -1,6 +1,7 @@
 #include "butee/plugin/catalogue.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <new>
@@ -10,6 +11,7 @@
 
 #include "butee/core/error.hpp"
 #include "butee/core/log.hpp"
+#include "butee/core/text.hpp"
 #include "butee/plugin/builtin.hpp"
 #include "butee/plugin/module.hpp"
 
@@ -109,6 +111,9 @@ void check_factories(Type& type, const std::string& kind, const std::string& pat
     const std::size_t before = errors_in(last);
     auto made = named_on_failure(what, [&] { return make(first, std::forward<decltype(others)>(others)...); });
     if (made == nullptr && errors_in(last) == before) throw RunError(what + " gave nothing, and reported no error");
+    if constexpr (std::is_same_v<Type, model::LawType>)
+      if (made != nullptr && !(made->closed_stiffness() > 0.0 && std::isfinite(made->closed_stiffness())))
+        throw RunError(what + " gave one with a closed_stiffness() of " + to_text(made->closed_stiffness()) + " N/m");
     return made;
   };
   if constexpr (std::is_same_v<Type, model::ElementType>) {

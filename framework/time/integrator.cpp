@@ -83,6 +83,8 @@ StepReport Integrator::step(const State& from, const Step& step, State& to) {
     events_->follow(from);
   }
   StepReport report = do_step(from, step, to);
+  for (const Vector* vector : {&to.x, &to.v, &to.a})
+    require(vector->size() == from.x.size(), "a step leaves the sizes of x, v and a as they are");
   if (events_ && report.status == StepStatus::ok && is_finite(to)) end_at_event(from, step, to, report);
   require(to.t > from.t && to.t <= step.t_end, "a step ends where it was to end, or earlier");
   if (report.status == StepStatus::ok && !is_finite(to)) report.status = StepStatus::not_finite;

@@ -31,7 +31,8 @@ struct Case {
 TEST(FaultyModules, AMethodThatBreaksInAStepFailsTheRun) {
   for (const Case& one :
        {Case{"throws_in_step", "the oracle is out"}, Case{"gives_nan", "no longer finite"},
-        Case{"goes_back", "a step ends where it was to end"}, Case{"throws_a_number", "not a std::exception"}}) {
+        Case{"goes_back", "a step ends where it was to end"}, Case{"throws_a_number", "not a std::exception"},
+        Case{"loses_a_vector", "a step leaves the sizes"}}) {
     SCOPED_TRACE(one.method);
     const TemporaryFolder folder;
     folder.write("scene.toml", scene_with(one.method));

@@ -7,7 +7,7 @@ namespace {
 
 using butee::time::IntegratorType;
 
-enum class Fault { exception, not_a_number, wrong_time, no_exception };
+enum class Fault { exception, not_a_number, wrong_time, no_exception, wrong_size };
 
 /// A method that fails after five steps.
 class Failing final : public butee::time::Integrator {
@@ -25,6 +25,7 @@ class Failing final : public butee::time::Integrator {
     if (fault_ == Fault::no_exception) throw 42;
     if (fault_ == Fault::not_a_number) to.v[0] = std::numeric_limits<double>::quiet_NaN();
     if (fault_ == Fault::wrong_time) to.t = from.t - 1.0;
+    if (fault_ == Fault::wrong_size) to.v.resize(0);
     return {};
   }
 
@@ -49,6 +50,7 @@ BUTEE_PLUGIN(registrar) {
   registrar.add(failing("throws_a_number", Fault::no_exception));
   registrar.add(failing("gives_nan", Fault::not_a_number));
   registrar.add(failing("goes_back", Fault::wrong_time));
+  registrar.add(failing("loses_a_vector", Fault::wrong_size));
   IntegratorType type;
   type.name = "throws_in_make";
   type.make = [](const butee::config::Parameters&,
