@@ -19,7 +19,8 @@
 namespace butee::time {
 namespace {
 
-/// Tolerance, as a fraction of a step, within which a fixed step is taken to divide end_time.
+/// Tolerance, as a fraction of a step, within which steps of one length divide the time to end_time, or to another
+/// instant at which a step has to end.
 constexpr double kDivides = 1e-9;
 /// An adaptive method fails if a rejected step is shorter than this fraction of end_time, or than kSmallestOfInstant
 /// times the present instant, which such steps would hardly move. A force that jumps takes short steps at any instant.
@@ -82,7 +83,7 @@ Step Simulation::propose() const {
   if (controller_ != nullptr) {
     double landing = std::min(next_discontinuity(state_.t), end);
     if (traits_.lands_on_outputs) landing = std::min(landing, next_landing());
-    if (state_.t + next_h_ >= landing) {
+    if (state_.t + (1.0 + kDivides) * next_h_ >= landing) {
       // All stages of a step that ends at a jump of the loads belong before it.
       const double before = dynamics::just_before(landing);
       if (before > state_.t && landing == next_discontinuity(state_.t) && dynamics_.loads_jump(landing))
