@@ -49,8 +49,8 @@ class ShiftInverted {
  public:
   using Scalar = double;
 
-  ShiftInverted(const SparseMatrix& mass, SparseMatrix damping, const SparseMatrix& stiffness, double shift)
-      : mass_(mass), damping_(std::move(damping)), shift_(shift), factor_(shifted(stiffness), counters_) {
+  ShiftInverted(const SparseMatrix& mass, const SparseMatrix& damping, const SparseMatrix& stiffness, double shift)
+      : mass_(mass), damping_(damping), shift_(shift), factor_(shifted(stiffness), counters_) {
     if (!factor_.factorize(shifted(stiffness)))
       throw RunError("the modes could not be computed: the matrices are singular to rounding");
   }
@@ -278,9 +278,9 @@ ModesAtSpeed Whirl::dense_modes(double speed, Index count) const {
 
 std::vector<WhirlMode> Whirl::lowest_modes(double speed, Index count) const {
   const Index n = size();
-  SparseMatrix damping = damping_ + speed * or_zero(system_.gyroscopic, n);
+  const SparseMatrix damping = damping_ + speed * or_zero(system_.gyroscopic, n);
   const SparseMatrix stiffness = system_.stiffness + speed * or_zero(system_.circulatory, n);
-  ShiftInverted operation(system_.mass, std::move(damping), stiffness, shift_of(system_));
+  ShiftInverted operation(system_.mass, damping, stiffness, shift_of(system_));
   const Index wanted = std::min(2 * count + 4, 2 * n - 2);
   Spectra::GenEigsSolver<ShiftInverted> solver(operation, wanted, std::min(2 * wanted + 20, 2 * n));
   solver.init();

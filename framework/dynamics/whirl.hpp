@@ -46,8 +46,8 @@ struct StabilityBorder {
 struct ModesAtSpeed {
   double speed = 0.0;             ///< rad/s
   std::vector<WhirlMode> lowest;  ///< as of Whirl::modes()
-  std::vector<std::complex<double>>
-      eigenvalues;  ///< with Im >= 0: of all modes if the problem is dense, else of `lowest`
+  /// Those with Im >= 0, of all modes if the problem is dense, else of `lowest`.
+  std::vector<std::complex<double>> eigenvalues;
 };
 
 /// The eigenvalue problem (lambda^2 M + lambda (C + Omega G) + K + Omega W) x = 0 of a model at any speed Omega.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "butee/dynamics/dynamics.hpp"
@@ -13,12 +14,12 @@ namespace butee::record {
 class Accelerations {
  public:
   /// `dynamics` must outlive this object.
-  explicit Accelerations(dynamics::Dynamics& dynamics)
-      : dynamics_(dynamics), discontinuities_(dynamics.load_discontinuities()) {}
+  explicit Accelerations(dynamics::Dynamics& dynamics) : dynamics_(dynamics) {}
 
   /// Valid until the next call.
   const Vector& of(const time::State& state) {
-    if (!std::binary_search(discontinuities_.begin(), discontinuities_.end(), state.t) ||
+    if (!discontinuities_) discontinuities_ = dynamics_.load_discontinuities();
+    if (!std::binary_search(discontinuities_->begin(), discontinuities_->end(), state.t) ||
         !dynamics_.loads_jump(state.t))
       return state.a;
     after_.resize(state.x.size());
@@ -28,7 +29,7 @@ class Accelerations {
 
  private:
   dynamics::Dynamics& dynamics_;
-  std::vector<double> discontinuities_;  ///< of the loads, s
+  std::optional<std::vector<double>> discontinuities_;  ///< of the loads, s; found when they are needed
   Vector after_;
 };
 
