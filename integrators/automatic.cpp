@@ -99,6 +99,7 @@ class DampedModesBudget {
   bool suffices() const {
     return size_ <= kQuick || (size_ <= dynamics::DampedModes::kMost && kOfNatural * cube(size_) < most_);
   }
+  bool covers(double cost) const { return cost < most_; }
   /// The largest number of coupled modes whose damped modes it covers.
   Index most_coupled() const {
     return static_cast<Index>(
@@ -272,7 +273,8 @@ Choice choose(dynamics::Dynamics& dynamics, double tolerance, double end_time) {
   if (is_too_tight) return {Method::rodas4, too_tight};
   if (n > kSmall) {
     const Cost cost = estimate(dynamics, tolerance, end_time);
-    if (cost.rodas4 < cost.exponential)
+    // The estimate for rodas4 is that of motion without fast modes, which a pulse or an impact may set in motion.
+    if (cost.rodas4 < cost.exponential && !DampedModesBudget(dynamics, tolerance, end_time).covers(cost.exponential))
       return {Method::rodas4, "the modes of " + size + " would take longer to compute than this short run"};
   }
   return {Method::exponential, "all modes of " + size + " are used; only the stops are approximated"};

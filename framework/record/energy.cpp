@@ -157,10 +157,15 @@ const std::vector<double>& EnergyRecorder::ends_of_pieces(const time::AcceptedSt
   const auto found = step.motion.breakpoints(uses_gauss(step) ? time::Detail::power : time::Detail::velocities);
   ends_.assign(found.begin(), found.end());
   if (!uses_gauss(step) && step.motion.interpolation() == time::Interpolation::cubic) return ends_;
-  const auto middle = static_cast<std::ptrdiff_t>(ends_.size());
   for (const double t : due_)
-    if (t > step.from.t && t < step.to.t && !std::binary_search(found.begin(), found.end(), t)) ends_.push_back(t);
-  std::inplace_merge(ends_.begin(), ends_.begin() + middle, ends_.end());
+    if (t > step.from.t && t < step.to.t) ends_.push_back(t);
+  if (step.motion.interpolation() == time::Interpolation::other) {
+    if (!discontinuities_) discontinuities_ = dynamics_.load_discontinuities();
+    ends_.insert(ends_.end(), std::upper_bound(discontinuities_->begin(), discontinuities_->end(), step.from.t),
+                 std::lower_bound(discontinuities_->begin(), discontinuities_->end(), step.to.t));
+  }
+  std::sort(ends_.begin(), ends_.end());
+  ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
   return ends_;
 }
 
@@ -232,10 +237,11 @@ void EnergyRecorder::add_halved(const time::AcceptedStep& step, double begin, do
   }
   // For a start from rest the piece itself is the only reference.
   const double size = std::max(largest_, std::abs(sum.of_loads) + std::abs(sum.of_damping));
-  const bool is_good = (miss <= kGoodWork * size || halvings >= kMostHalvingsOfWork) &&
-                       (layer <= kGoodLayer * size || halvings >= kMostHalvingsOfLayer);
-  if (is_good) return add(sum);
+  const bool is_coarse = (miss > kGoodWork * size && halvings < kMostHalvingsOfWork) ||
+                         (layer > kGoodLayer * size && halvings < kMostHalvingsOfLayer);
   const double middle = 0.5 * (begin + end);
+  // Steps may end within rounding of an instant; there the points coincide.
+  if (!is_coarse || !(begin < middle && middle < end)) return add(sum);
   add_halved(step, begin, middle, halvings + 1);
   add_halved(step, middle, end, halvings + 1);
 }

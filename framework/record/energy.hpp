@@ -35,7 +35,8 @@ BUTEE_EXPORT Energy energy_of(const time::State& state, dynamics::Dynamics& dyna
 /// Unless the method provides them (DenseOutput::energies), they are integrated by Simpson's rule
 /// from breakpoint to breakpoint of every accepted step, with the midpoint from the method's own
 /// interpolant: fourth order, so that the balance shows the method's error and not the quadrature
-/// error. Except with Interpolation::cubic, pieces also end at the instants of rows. Gauss' rule with five points is
+/// error. Except with Interpolation::cubic, pieces also end at the instants of rows, and
+/// with Interpolation::other at discontinuities of the loads. Gauss' rule with five points is
 /// used with obstacles, whose forces may jump, and with Interpolation::near_quintic. With Interpolation::other pieces
 /// are halved until Kronrod's rule with 15 points and Gauss' rule with seven of them agree. The balance error is
 /// (change + dissipated - work) / largest energy.
@@ -106,10 +107,11 @@ class BUTEE_EXPORT EnergyRecorder final : public time::Observer {
   bool has_drive_;  ///< K is not symmetric
   bool needs_x_;
   Vector middle_, middle_x_, force_;
-  Eigen::MatrixXd x_at_, v_at_;  ///< at the points of a quadrature rule, one column each
-  std::vector<Power> powers_;    ///< at these points
-  std::vector<double> due_;      ///< instants for which a row is not yet written
-  std::vector<double> ends_;     ///< of the pieces of a step
+  Eigen::MatrixXd x_at_, v_at_;                         ///< at the points of a quadrature rule, one column each
+  std::vector<Power> powers_;                           ///< at these points
+  std::vector<double> due_;                             ///< instants for which a row is not yet written
+  std::vector<double> ends_;                            ///< of the pieces of a step
+  std::optional<std::vector<double>> discontinuities_;  ///< of the loads, s; found when they are needed
   Power last_{};
   std::vector<dynamics::ContactForces> contacts_;
   CsvWriter* writer_;

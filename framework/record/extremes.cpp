@@ -149,7 +149,7 @@ std::pair<double, double> StepPath::enclose(std::size_t order, const Point& from
 }
 
 double StepPath::departure(std::size_t order, const Point& from, const Point& to) const {
-  if (kind_ != time::Interpolation::other) return 0.0;
+  if (kind_ != time::Interpolation::other && !(kind_ == time::Interpolation::near_quintic && order == 1)) return 0.0;
   double sum = 0.0;
   for (const Index dof : dofs_) {
     if (dof < 0) continue;
@@ -188,12 +188,14 @@ void StepPath::search(std::size_t order, const Point& from, const Point& to, Ran
 void StepPath::halve(std::size_t order, const Point& from, const Point& to, int& samples, Range& range) const {
   const double h = to.t - from.t, middle = from.t + 0.5 * h;
   if (!(middle > from.t && middle < to.t)) return;
-  const double rounded = rounding(order, from, to), departs = departure(order, from, to);
+  const double rounded = rounding(order, from, to), margin = margin_of(order, range);
+  double departs = departure(order, from, to);
+  if (departs <= margin) departs = 0.0;  // the margin allows for it
   const auto [least, greatest] = enclose(order, from, to, departs);
   const double good = std::max(good_of(order, range, std::max(std::abs(least), std::abs(greatest))), rounded);
   Range target = range;
-  target.greatest -= margin_of(order, range);
-  target.least += margin_of(order, range);
+  target.greatest -= margin;
+  target.least += margin;
   if (!(greatest > target.greatest + good) && !(least < target.least - good)) return;
   if (!(departs > good)) {
     Range beyond = target;

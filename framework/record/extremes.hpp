@@ -40,11 +40,11 @@ struct Range {
 /// Between two points with no breakpoint between them the dense output is a polynomial through
 /// both. For Interpolation::other it is near to the quintic, within DenseOutput::departure(). For
 /// Interpolation::near_quintic extremes of v are searched wherever the quintic comes within kMargin
-/// of the largest so far. All values are those of the dense output itself. The hull of the
-/// Bernstein coefficients shows whether any value in between exceeds a range by more than kGood of
-/// it, or by more than kGood of its distance from a border: at a stop that is stiff the penetration
-/// is a small part of the displacement. If so, halves are examined: halves of the polynomial, or of the interval while
-/// the dense output departs from the polynomial by more than that. The search in an interval stops after kMostSamples,
+/// of the largest so far, or within DenseOutput::departure() if that is larger. All values are those of the dense
+/// output itself. The hull of the Bernstein coefficients shows whether any value in between exceeds a range by more
+/// than kGood of it, or by more than kGood of its distance from a border: at a stop that is stiff the penetration is a
+/// small part of the displacement. If so, halves are examined: halves of the polynomial, or of the interval while the
+/// dense output departs from the polynomial by more than that. The search in an interval stops after kMostSamples,
 /// which is too few only if a step spans hundreds of periods. In very short steps the polynomial's derivatives are
 /// differences of rounded displacements; values between the ends then count only if they exceed the range by more than
 /// rounding. Checked in tests/verification/peaks_test.cpp.
@@ -82,7 +82,8 @@ class BUTEE_EXPORT StepPath {
   void extend(std::size_t order, const Point& from, const Point& to, Range& range) const {
     range.take(to.t, to.of[order]);
     const auto [least, greatest] = bounds_within(order, from, to);
-    const double margin = margin_of(order, range);
+    double margin = margin_of(order, range);
+    if (margin > 0.0) margin = std::max(margin, departure(order, from, to));
     if (kind_ == time::Interpolation::other || least < range.least + margin || greatest > range.greatest - margin)
       search(order, from, to, range);
   }

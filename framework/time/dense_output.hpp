@@ -25,7 +25,7 @@ struct EnergyAt {
 enum class Interpolation {
   cubic,         ///< x: cubic through x and v at both ends; v: cubic through v and a; a: linear
   quintic,       ///< x: quintic through x, v and a at both ends, or the cubic through x and v; v and a its derivatives
-  near_quintic,  ///< close to that quintic: v differs by at most 1/200 of its largest value
+  near_quintic,  ///< close to that quintic in x; in v within departure(), or by 1/200 of its largest value if that is 0
   other          ///< any smooth motion; departure() bounds it
 };
 
@@ -72,8 +72,8 @@ class BUTEE_EXPORT Interpolant {
   /// empty. Valid until the next call.
   virtual std::span<const EnergyAt> energies(const State& from, const State& to, std::span<const double> instants);
 
-  /// For Interpolation::other only: for each DOF, bounds on how far x, v and a depart from the
-  /// quintic through x, v and a at both instants, and its derivatives, between two instants with no
+  /// For Interpolation::other, and for v of Interpolation::near_quintic: for each DOF, bounds on how far x, v and a
+  /// depart from the quintic through x, v and a at both instants, and its derivatives, between two instants with no
   /// breakpoint between them.
   virtual void departure(const State& from, const State& to, double begin, double end, std::span<const Index> dofs,
                          Interpolated out);

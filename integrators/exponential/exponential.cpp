@@ -267,9 +267,7 @@ std::span<const time::EnergyAt> Exponential<Step>::energies(const State& from, c
 template <class Step>
 void Exponential<Step>::departure(const State& from, const State& to, double begin, double end,
                                   std::span<const Index> dofs, time::Interpolated out) {
-  if constexpr (std::is_same_v<Step, ExponentialStep>) {
-    if (!step_.has_stops()) recall(from, to).departure(begin, end, dofs, out);
-  }
+  if constexpr (std::is_same_v<Step, ExponentialStep>) recall(from, to).departure(begin, end, dofs, out);
 }
 
 template <class Step>

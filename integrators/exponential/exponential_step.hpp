@@ -64,7 +64,7 @@ class ExponentialStep {
   std::span<const time::EnergyAt> energies(std::span<const double> instants) {
     return has_stops() ? record_.energies(instants) : std::span<const time::EnergyAt>();
   }
-  /// Without stops: time::Interpolant::departure()
+  /// time::Interpolant::departure(); with stops only that of velocities.
   void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
     record_.departure(begin, end, dofs, out);
   }

@@ -12,7 +12,8 @@ MacroStep::MacroStep(dynamics::Dynamics& dynamics, const dynamics::ModalSystem& 
       output_(dynamics, modal, breakpoints_, motion_),
       energy_(dynamics, modal),
       bounds_(modal, breakpoints_),
-      hidden_(dynamics, modal, tolerance) {
+      hidden_(dynamics, modal, tolerance),
+      fast_(modal) {
   w_middle_.setZero(dynamics::ContactPropagator::padded(modal.stop_count()));
 }
 
@@ -38,6 +39,14 @@ std::span<const double> MacroStep::inner() {
       if (const double t = from.t + (to.t - from.t) / parts * j; t > from.t && t < to.t) inner_.push_back(t);
   }
   return inner_;
+}
+
+void MacroStep::departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
+  if (modal_.stop_count() == 0) return bounds_.departure(begin, end, dofs, out);
+  if (out.v.empty()) return;
+  const std::size_t k = breakpoints_.before(begin);
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    out.v[i] = fast_.departure(dofs[i], end - begin, breakpoints_.v(k), breakpoints_.v(k + 1));
 }
 
 std::span<const time::EnergyAt> MacroStep::energies(std::span<const double> instants) {

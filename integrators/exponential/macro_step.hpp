@@ -1,6 +1,7 @@
 #pragma once
 
 #include "integrators/exponential/derivative_bounds.hpp"
+#include "integrators/exponential/fast_velocities.hpp"
 #include "integrators/exponential/hidden_modes.hpp"
 #include "integrators/exponential/modal_energy.hpp"
 #include "integrators/exponential/modal_output.hpp"
@@ -31,10 +32,8 @@ class MacroStep {
   }
   /// time::Interpolant::energies()
   std::span<const time::EnergyAt> energies(std::span<const double> instants);
-  /// Without stops: time::Interpolant::departure()
-  void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out) {
-    bounds_.departure(begin, end, dofs, out);
-  }
+  /// time::Interpolant::departure(); with stops only that of velocities.
+  void departure(double begin, double end, std::span<const Index> dofs, time::Interpolated out);
 
  private:
   HiddenModes::State state(std::size_t k) const { return {breakpoints_.time(k), breakpoints_.q(k), breakpoints_.v(k)}; }
@@ -46,6 +45,7 @@ class MacroStep {
   ModalEnergy energy_;
   DerivativeBounds bounds_;
   HiddenModes hidden_;
+  FastVelocities fast_;
   std::vector<double> inner_;
   Eigen::ArrayXd w_middle_;
 };

@@ -88,5 +88,20 @@ TEST(Energies, AreThoseAtTheOutputsWithinLongSteps) {
   }
 }
 
+/// A row within rounding of a kink of a load makes a step of one unit in the last place, over which no quadrature can
+/// be refined.
+TEST(Energies, PassARowBesideAKinkOfALoad) {
+  SceneRun run(mass_on_spring("4.0",
+                              "damping = 0.1\n[[load]]\ntype = \"table\"\nnode = \"m\"\ntimes = [0.0, 0.35, "
+                              "1.0]\nvalues = [0.0, 1.0, -1.0]\n"),
+               {"integrator.type=exponential", "integrator.end_time=1.0"});
+  Sampler row(0, {std::nextafter(0.35, 1.0)});
+  record::EnergyRecorder energy(run.dynamics());
+  run.simulation().add(row);
+  run.simulation().add(energy);
+  ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
+  EXPECT_NEAR(energy.balance_error(), 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace butee::test::dissipated_energy_test

@@ -84,7 +84,7 @@ the method's own dense output, found to 1e-10 of it (the sum of several stops on
 that of the run. For normal_force, friction_force, slip, wear_power and motion under [base] in the other frame (u_abs,
 v_abs, a_abs; with frame = "space" u, v, a instead) it is searched from samples of that output. For forces of elements
 (M, V, stresses, spring forces, reactions) it is the largest |value| of the rows. Beside stops `exponential` may miss
-peaks of v and a between rows in modes that turn by several radians in a step (by 1e-3 of v in init free-flight).
+peaks of accelerations between rows in modes that turn by several radians in a step, and of velocities by 5e-3.
 If a node has one stop that does not pull, the largest peak_force of impacts.csv, the largest force of compression, is
 the peak of contact_force, which is the force along u or, if no contact acts along u, along the DOF of the first
 contact; contact_ux ... contact_rz are those along each DOF.
