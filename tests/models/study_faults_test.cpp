@@ -280,7 +280,8 @@ TEST(BadStudies, AreRefusedWithKeyAndRemedy) {
   expect_bad(study_of("[[vary]]\nkey = \"contact[0].gap\"\nfrom = 1\nto = 2\ncount = 1000000000000\n", kCollect),
              "vary[0].count");
   expect_bad(study_of(kVary, "periods = 2\ncollect = [\"peek m.u\"]\n"), "did you mean \"peak\"");
-  expect_bad(study_of(kVary, "periods = 2\ncollect = [\"peak n.u\"]\n"), "\"n\" is neither the label of a probe");
+  expect_bad(study_of(kVary, "periods = 2\ncollect = [\"peak n.u\"]\n"),
+             ": study.collect: \"peak n.u\": \"n\" is neither the label of a probe");
   expect_bad(study_of(kVary, "collect = [\"section m.u\"]\n"), "study.periods: missing");
   expect_bad(study_of(kVary, std::string(kCollect) + "follow = \"sideways\"\n"), "study.follow");
   expect_bad(study_of(kVary, std::string(kCollect) + "plan = \"sobol\"\n"), "study.count: missing");
