@@ -30,6 +30,9 @@ PointTable read_points(const std::string& text) {
     std::vector<std::string> cells = cells_of(line);
     for (std::string& cell : cells) cell = trimmed(cell);
     if (table.names.empty()) {
+      if (cells.size() == 1 && line.find(';') != std::string::npos)
+        throw InputError("line " + std::to_string(number) + " separates names by semicolons; use commas, and points in "
+                         "numbers");
       table.names = std::move(cells);
       continue;
     }

@@ -147,7 +147,12 @@ config::Document scene_beside(const config::Document& study, Diagnostics& diagno
   if (!std::filesystem::exists(path))
     diagnostics.error("scene", scene, "does not exist; the path is relative to the study");
   diagnostics.throw_if_any();
-  return config::load_toml(path);
+  config::Document found = config::load_toml(path);
+  if (is_study(found)) {
+    diagnostics.error("scene", scene, "is a study, not a scene; name the model that it varies");
+    diagnostics.throw_if_any();
+  }
+  return found;
 }
 
 /// The origins of values of the scene, in messages.

@@ -48,7 +48,8 @@ class Answering {
 
   void read() {
     std::int64_t number = 0;
-    for (std::string line; goes_on() && stream_.next(line);) {
+    const auto is_wanted = [this] { return goes_on(); };
+    for (std::string line; goes_on() && stream_.next(line, is_wanted);) {
       if (line.empty() || line.front() == '#') continue;
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] {

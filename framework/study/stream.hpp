@@ -10,11 +10,13 @@ namespace butee::study {
 /// Points that arrive one by one, for example from another program, and rows that are returned in
 /// the order of the points.
 struct Stream {
-  std::function<bool(std::string& line)> next;           ///< a line of CSV; false at the end. Called by the calling
-                                                         ///< thread
-  std::function<void(const std::string& line)> respond;  ///< a row as CSV, or the header. Called by any thread, one at
-                                                         ///< a time
-  std::function<bool()> goes_on;                         ///< called after steps, by all threads; may be empty
+  /// A line of CSV; false at the end, or if `is_wanted`, called about ten times a second while it
+  /// waits, is false. Called by the calling thread.
+  std::function<bool(std::string& line, const std::function<bool()>& is_wanted)> next;
+  /// A row as CSV, or the header. Called by any thread, one at a time.
+  std::function<void(const std::string& line)> respond;
+  /// Called after steps, by all threads; may be empty.
+  std::function<bool()> goes_on;
 };
 
 /// The columns of a study whose points arrive as texts: rows contain the values as given.

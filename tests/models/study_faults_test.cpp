@@ -292,6 +292,8 @@ TEST(BadStudies, AreRefusedWithKeyAndRemedy) {
              "scene = \"nowhere.toml\": does not exist; the path is relative to the study");
   expect_bad(study_of("[[vary]]\nkey = \"load[7].amplitude\"\nvalues = [1.0, 2.0]\n", kCollect),
              "study.toml:4: vary[0].key = \"load[7].amplitude\": there is no load[7]");
+  expect_bad("schema = 1\nscene = \"study.toml\"\n[study]\ncollect = [\"impacts\"]\n",
+             "study.toml:2: scene = \"study.toml\": is a study, not a scene");
   expect_bad(study_of(kVary, kCollect), "--shard 3/2", {"--shard", "3/2"});
   expect_bad(study_of(kVary, kCollect), "--points", {"--points", "-"});
   expect_bad(study_of(kVary, kCollect), "scene.toml: is a file, not a folder", {"-o", "scene.toml"});

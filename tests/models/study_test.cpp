@@ -234,6 +234,10 @@ TEST_F(StudyProgram, TakesPointsWithAByteOrderMarkAndRefusesAmbiguousOnes) {
   outcome = answers("-");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.errors.find("names contact[0].gap twice"), std::string::npos) << outcome.errors;
+  folder_.write("points.csv", "contact[0].gap;load[0].amplitude\n0,5;0,3\n");
+  outcome = answers("-");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.errors.find("line 1 separates names by semicolons"), std::string::npos) << outcome.errors;
 }
 
 TEST_F(StudyProgram, FailedPointsAreRowsWithTheirReason) {

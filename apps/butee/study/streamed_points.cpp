@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <poll.h>
 #include <unistd.h>
@@ -20,17 +21,17 @@
 namespace butee::app::studies {
 namespace {
 
-/// Lines of a file descriptor. Waits for the next one until the program is interrupted.
+/// Lines of a file descriptor. Waits for the next one for as long as it is wanted.
 class Lines {
  public:
   explicit Lines(int file) : file_(file) {}
-  bool next(std::string& line) {
+  bool next(std::string& line, const std::function<bool()>& is_wanted) {
     constexpr int kMilliseconds = 100;
     std::size_t end = 0;
     while ((end = text_.find('\n')) == std::string::npos) {
       pollfd waiting{file_, POLLIN, 0};
       while (poll(&waiting, 1, kMilliseconds) <= 0)
-        if (interruption() != nullptr) return false;
+        if (!is_wanted()) return false;
       char part[4096];
       const ssize_t got = read(file_, part, sizeof(part));
       if (got < 0 && errno == EINTR) continue;
@@ -63,14 +64,15 @@ int answer_points(const StreamedPoints& request) {
   }
   Lines lines(file);
   std::string header, first;
-  const auto next = [&](std::string& line) {
-    while (lines.next(line)) {
+  const auto next = [&](std::string& line, const std::function<bool()>& is_wanted) {
+    while (lines.next(line, is_wanted)) {
       while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
       if (!line.empty() && line.front() != '#') return true;
     }
     return false;
   };
-  if (!next(header) || !next(first))
+  const auto always = [] { return true; };
+  if (!next(header, always) || !next(first, always))
     throw InputError("--points " + request.points +
                      ": holds no points: a line with the keys, then a line for each point");
   study::Study study = study::load_study(
@@ -85,9 +87,10 @@ int answer_points(const StreamedPoints& request) {
   }
   std::ostream& out = request.results == "-" ? std::cout : to;
   watch_for_interruption();
+  const auto goes_on = [] { return interruption() == nullptr; };
   bool has_first = true;
-  const auto next_point = [&](std::string& line) {
-    if (!has_first) return next(line);
+  const auto next_point = [&](std::string& line, const std::function<bool()>& is_wanted) {
+    if (!has_first) return next(line, is_wanted);
     has_first = false;
     line = first;
     return true;
@@ -98,9 +101,8 @@ int answer_points(const StreamedPoints& request) {
     out << line << '\n' << std::flush;
     if (!out) throw RunError("--results " + request.results + ": cannot be written");
   };
-  const std::int64_t failed =
-      study::answer(study, layout, request.threads > 0 ? request.threads : study::processor_count(),
-                    {next_point, respond, [] { return interruption() == nullptr; }});
+  const std::int64_t failed = study::answer(
+      study, layout, request.threads > 0 ? request.threads : study::processor_count(), {next_point, respond, goes_on});
   if (interruption() == nullptr) {
     if (failed > 0)
       log::warning(std::to_string(failed) + " of " + std::to_string(answered) +
