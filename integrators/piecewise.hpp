@@ -32,9 +32,6 @@ class Piecewise final : public time::Integrator {
     return motion_.derivative_by_loads(from, to);
   }
 
-  /// Contact states whose modes were computed, those given up included.
-  std::int64_t states_made() const { return motion_.states_made(); }
-
  private:
   /// Accepts every step and proposes the longest possible next step.
   class Controller final : public time::StepController {

@@ -156,7 +156,6 @@ const ContactStateFlow& PiecewiseMotion::flow() {
   auto found = std::find_if(states_.begin(), states_.end(), is_it);
   if (found == states_.end()) {
     auto made = std::make_unique<ContactStateFlow>(system_, closed_, end_time_);
-    ++states_made_;
     if (states_.size() < kMostStates)
       found = states_.insert(states_.end(), State{});
     else

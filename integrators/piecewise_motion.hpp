@@ -44,8 +44,6 @@ class PiecewiseMotion final : public time::Interpolant {
   Eigen::MatrixXd derivative(const time::State& from, const time::State& to);
   Vector derivative_by_loads(const time::State& from, const time::State& to);
 
-  std::int64_t states_made() const { return states_made_; }
-
  private:
   /// So many states are kept; the one not used for the longest time goes.
   static constexpr std::size_t kMostStates = 128;
@@ -82,7 +80,7 @@ class PiecewiseMotion final : public time::Interpolant {
   std::vector<double> discontinuities_;  ///< of the loads
   std::vector<State> states_;
   std::size_t current_ = 0;
-  std::int64_t uses_ = 0, states_made_ = 0;
+  std::int64_t uses_ = 0;
   ContactStateFlow::Piece piece_;
   const ContactStateFlow* flow_ = nullptr;  ///< of piece_
   static constexpr auto kNoPiece = static_cast<std::size_t>(-1);

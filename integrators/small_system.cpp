@@ -93,7 +93,7 @@ void SmallSystem::add_loads(const model::System& system) {
   for (const model::FreeLoad& load : system.loads) {
     const auto harmonic = load.in_time->harmonic();
     if (!harmonic || harmonic->angular_frequency == 0.0) {
-      others_.push_back({&load});
+      others_.push_back(&load);
       continue;
     }
     const auto found = std::find(frequencies.begin(), frequencies.end(), harmonic->angular_frequency);
@@ -115,12 +115,12 @@ void SmallSystem::add_loads(const model::System& system) {
 }
 
 bool SmallSystem::add_polynomials(double t, Eigen::MatrixXd& force) const {
-  for (const OtherLoad& other : others_) {
+  for (const model::FreeLoad* load : others_) {
     std::array<double, 3> coefficients{};
-    other.load->in_time->taylor(t, 1.0, coefficients);
-    for (std::size_t i = 0; i < other.load->dofs.size(); ++i)
+    load->in_time->taylor(t, 1.0, coefficients);
+    for (std::size_t i = 0; i < load->dofs.size(); ++i)
       for (Index k = 0; k < 3; ++k)
-        force(other.load->dofs[i], k) += other.load->weights[i] * coefficients[static_cast<std::size_t>(k)];
+        force(load->dofs[i], k) += load->weights[i] * coefficients[static_cast<std::size_t>(k)];
   }
   return !others_.empty();
 }

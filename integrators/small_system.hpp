@@ -49,10 +49,7 @@ class SmallSystem {
   void add_loads(const model::System& system);
   void add_stops(dynamics::Dynamics& dynamics);
 
-  struct OtherLoad {
-    const model::FreeLoad* load;
-  };
-  std::vector<OtherLoad> others_;
+  std::vector<const model::FreeLoad*> others_;  ///< loads that are no harmonics
 };
 
 }  // namespace butee::integrators

@@ -117,6 +117,7 @@ class OutputReader {
     if (!p.has("states")) return;
     request.states = p.numbers("states");
     std::sort(request.states.begin(), request.states.end());
+    request.states.erase(std::unique(request.states.begin(), request.states.end()), request.states.end());
     for (const double t : request.states)
       if (complete_ && (t < begin_ || t > end_time_))
         return p.complain(diagnostics_, "states",

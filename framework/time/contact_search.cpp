@@ -79,10 +79,11 @@ std::optional<ContactSearch::Event> ContactSearch::first(const DenseOutput& moti
   functions_.assign(watched_.size(), {});
   std::array<Obstacles::Switch, Obstacles::kMostSwitches> present;
   // Two samples close to each end detect a dip between the end and its neighbour.
+  const double ahead = std::min(kAhead, 0.5 / samples) * h;
   for (int k = -1; k <= samples + 1; ++k) {
     const double t = k == -1            ? from.t
-                     : k == 0           ? from.t + kAhead * h
-                     : k == samples     ? to.t - kAhead * h
+                     : k == 0           ? from.t + ahead
+                     : k == samples     ? to.t - ahead
                      : k == samples + 1 ? to.t
                                         : from.t + h * k / samples;
     if (k == -1)
