@@ -12,6 +12,9 @@ using time::StepStatus;
 
 namespace {
 
+/// A residual below this part of the sum of the magnitudes of the forces is their rounding.
+constexpr double kRounding = 1e-15;
+
 double square_of(ConstVectorRef y, Index begin, Index count) {
   return count == 1 ? y[begin] * y[begin] : y.segment(begin, count).squaredNorm();
 }
@@ -42,7 +45,8 @@ StepReport StageSolver::solve(double t, double velocity_factor, double displacem
       report.status = StepStatus::not_finite;
       return report;
     }
-    const bool is_balanced = balance.residual() <= options_.residual_tolerance * scale;
+    const bool is_balanced = balance.residual() <= options_.residual_tolerance * scale ||
+                             (!first && is_rounding(x, v, a, balance.residual()));
     if (is_balanced && (first || displacement_factor * last.correction <= options_.increment_tolerance * last.x))
       return report;
     if (report.newton_iterations == options_.max_iterations) break;
@@ -59,6 +63,27 @@ StepReport StageSolver::solve(double t, double velocity_factor, double displacem
   report.kept_failure = options_.keep_failures;
   report.status = options_.keep_failures ? StepStatus::ok : StepStatus::newton_failed;
   return report;
+}
+
+bool StageSolver::is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double residual) const {
+  const model::System& system = dynamics_.system();
+  const model::Damping& damping = system.damping;
+  Vector sizes = load_.cwiseAbs();
+  sizes += system.mass.cwiseAbs() * (a.cwiseAbs() + damping.mass_proportional * v.cwiseAbs());
+  sizes += system.stiffness.cwiseAbs() * (x.cwiseAbs() + damping.stiffness_proportional * v.cwiseAbs());
+  if (system.dashpots.nonZeros() > 0) sizes += system.dashpots.cwiseAbs() * v.cwiseAbs();
+  const dynamics::ElasticStops& stops = dynamics_.stops();
+  const Vector closed = stops.closed_stiffness();
+  for (Index i = 0; i < stops.size(); ++i) {
+    if (stop_force_[i] == 0.0) continue;
+    const Index ends[] = {stops.dof_a(i), stops.dof_b(i)};
+    double displacement = 0.0;
+    for (const Index dof : ends)
+      if (dof >= 0) displacement += std::abs(x[dof]);
+    for (const Index dof : ends)
+      if (dof >= 0) sizes[dof] += closed[i] * displacement;
+  }
+  return residual <= kRounding * sizes.norm();
 }
 
 StageSolver::Change StageSolver::add_correction(double velocity_factor, double displacement_factor, VectorRef x,

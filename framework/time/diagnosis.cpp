@@ -206,8 +206,8 @@ std::string describe_failure(dynamics::Dynamics& dynamics, const MethodLimits& l
              " solves" +
              (report.worst_dof >= 0 ? "; the residual is largest in " + dynamics.dof_name(report.worst_dof) : "") +
              ". Use a time_step of " + to_short_text(0.25 * step.h) +
-             " s or less, more max_iterations, looser tolerances, or on_newton_failure = \"keep\"; or a method without "
-             "Newton's iteration, such as auto";
+             " s or less; with newmark more max_iterations, looser tolerances, or on_newton_failure = \"keep\"; or a "
+             "method without Newton's iteration, such as auto";
     case StepStatus::singular:
       return singular(dynamics, step);
     case StepStatus::ok:
