@@ -1,5 +1,8 @@
 #include "butee/record/peaks.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "butee/model/element_choice.hpp"
 #include "butee/record/contacts_on.hpp"
 #include "butee/record/probes.hpp"
@@ -10,15 +13,30 @@ namespace {
 /// In one piece, for the sum of several stops.
 constexpr int kMostHalvingsOfSum = 4000;
 
-/// The largest |force| of a stop whose displacement is between `least` and `greatest`. With two
+using Bounds = std::pair<double, double>;
+
+/// The bounds of the force of a stop whose displacement is between `least` and `greatest`. With two
 /// sides the force also jumps at the middle if the law has a force at open stops.
-double largest_force(dynamics::ElasticStops& contact, Index stop, double least, double greatest) {
-  const auto size_at = [&](double w) { return std::abs(contact.force_of(stop, w)); };
-  double largest = std::max(size_at(least), size_at(greatest));
+Bounds force_bounds(dynamics::ElasticStops& contact, Index stop, double least, double greatest) {
+  Bounds bounds = std::minmax({contact.force_of(stop, least), contact.force_of(stop, greatest)});
   if (contact.play_of(stop).has_both() && least < 0.0 && greatest > 0.0 &&
       contact.law_of(stop).asymptotic_force() > 0.0)
-    largest = std::max(largest, size_at(std::numeric_limits<double>::min()));
-  return largest;
+    for (const double w : {std::numeric_limits<double>::min(), -std::numeric_limits<double>::min()})
+      bounds = {std::min(bounds.first, contact.force_of(stop, w)), std::max(bounds.second, contact.force_of(stop, w))};
+  return bounds;
+}
+
+/// The bounds of the rate of the force of a piecewise linear stop, N/s, for a displacement and a speed within bounds.
+Bounds rate_bounds(const model::FreePlay& play, double stiffness, const Bounds& displacement, const Bounds& speed) {
+  const double side = play.closed_side(displacement.first), other_side = play.closed_side(displacement.second);
+  if (side == 0.0 && other_side == 0.0) return {0.0, 0.0};
+  const Bounds closed{-stiffness * speed.second, -stiffness * speed.first};
+  if (side == other_side) return closed;
+  return {std::min(0.0, closed.first), std::max(0.0, closed.second)};
+}
+
+double largest_of(const Bounds& bounds) {
+  return std::max(-bounds.first, bounds.second);
 }
 
 }  // namespace
@@ -29,9 +47,12 @@ Peaks::Peaks(const std::vector<model::ProbeRequest>& requests, dynamics::Dynamic
       const Index dof = Probes::dof_of(quantity, request.node, dynamics);
       Column column{
           request.label + "." + name_of(quantity), kNone, static_cast<std::size_t>(order_of(quantity)), {}, 0.0};
-      if (is_contact_force(quantity))
+      if (is_contact_force(quantity)) {
         column.stops = stops_on(quantity, request.node);
-      else if (dof >= 0)
+        column.is_piecewise_linear = std::all_of(column.stops.begin(), column.stops.end(), [&](const Stop& stop) {
+          return dynamics.stops().law_of(stop.index).is_piecewise_linear();
+        });
+      } else if (dof >= 0)
         column.track = follow(dof, model::DofTable::kFixed, column.order);
       columns_.push_back(std::move(column));
     }
@@ -56,7 +77,7 @@ std::vector<Peaks::Stop> Peaks::stops_on(model::Quantity quantity, model::NodeId
     const Index a = contact.dof_a(i), b = contact.dof_b(i);
     // The speed resolves penetrations that are small beside the displacement.
     tracks_.add(a, b, 1);
-    stops.push_back({i, follow(a, b, 0), sign});
+    stops.push_back({i, follow(a, b, 0), sign, contact.closed_stiffness()[i]});
     tracks_.resolve(stops.back().track, contact.play_of(i));
   }
   return stops;
@@ -93,28 +114,60 @@ void Peaks::step(const time::AcceptedStep& step) {
           begin_.push_back(tracks_.from(stop.track));
           end_.push_back(tracks_.to(stop.track));
         }
-        int halvings = 0;
         column.largest = std::max(column.largest, sum_at(column, end_));
-        follow_sum(step, column, begin_, end_, halvings);
+        follow_sum(step, column);
       }
   });
 }
 
-void Peaks::follow_sum(const time::AcceptedStep& step, Column& column, const std::vector<Point>& from,
-                       const std::vector<Point>& to, int& halvings) {
-  double bound = 0.0;
-  for (std::size_t i = 0; i < column.stops.size(); ++i) {
-    const auto [least, greatest] = tracks_.path(step, column.stops[i].track).enclose(0, from[i], to[i]);
-    bound += largest_force(dynamics_.stops(), column.stops[i].index, least, greatest);
+void Peaks::follow_sum(const time::AcceptedStep& step, Column& column) {
+  struct Interval {
+    double bound;
+    std::vector<Point> from, to;
+  };
+  const auto exceeds = [&](double bound) { return bound > (1.0 + kGoodSum) * column.largest; };
+  const double first = bound_of_sum(step, column, begin_, end_);
+  if (!exceeds(first)) return;
+  const auto is_lower = [](const Interval& a, const Interval& b) { return a.bound < b.bound; };
+  std::vector<Interval> heap = {{first, begin_, end_}};
+  for (int halvings = 0; !heap.empty() && exceeds(heap.front().bound) && halvings < kMostHalvingsOfSum; ++halvings) {
+    std::pop_heap(heap.begin(), heap.end(), is_lower);
+    const Interval whole = std::move(heap.back());
+    heap.pop_back();
+    const double t = 0.5 * (whole.from.front().t + whole.to.front().t);
+    if (!(t > whole.from.front().t && t < whole.to.front().t)) continue;
+    std::vector<Point> middle;
+    for (const Stop& stop : column.stops) middle.push_back(tracks_.path(step, stop.track).at(t));
+    column.largest = std::max(column.largest, sum_at(column, middle));
+    for (Interval half : {Interval{0.0, whole.from, middle}, Interval{0.0, middle, whole.to}}) {
+      half.bound = bound_of_sum(step, column, half.from, half.to);
+      if (!exceeds(half.bound)) continue;
+      heap.push_back(std::move(half));
+      std::push_heap(heap.begin(), heap.end(), is_lower);
+    }
   }
-  const double t = 0.5 * (from.front().t + to.front().t);
-  if (!(bound > (1.0 + kGoodSum) * column.largest) || halvings == kMostHalvingsOfSum || !(t > from.front().t)) return;
-  ++halvings;
-  std::vector<Point> middle;
-  for (const Stop& stop : column.stops) middle.push_back(tracks_.path(step, stop.track).at(t));
-  column.largest = std::max(column.largest, sum_at(column, middle));
-  follow_sum(step, column, from, middle, halvings);
-  follow_sum(step, column, middle, to, halvings);
+}
+
+double Peaks::bound_of_sum(const time::AcceptedStep& step, const Column& column, const std::vector<Point>& from,
+                           const std::vector<Point>& to) const {
+  dynamics::ElasticStops& stops = dynamics_.stops();
+  Bounds force{0.0, 0.0}, rate{0.0, 0.0};
+  const auto add = [](const Bounds& part, double sign, Bounds& sum) {
+    sum.first += sign > 0.0 ? part.first : -part.second;
+    sum.second += sign > 0.0 ? part.second : -part.first;
+  };
+  for (std::size_t i = 0; i < column.stops.size(); ++i) {
+    const Stop& stop = column.stops[i];
+    const StepPath path = tracks_.path(step, stop.track);
+    const Bounds displacement = path.enclose(0, from[i], to[i]);
+    add(force_bounds(stops, stop.index, displacement.first, displacement.second), stop.sign, force);
+    if (column.is_piecewise_linear)
+      add(rate_bounds(stops.play_of(stop.index), stop.stiffness, displacement, path.enclose(1, from[i], to[i])),
+          stop.sign, rate);
+  }
+  if (!column.is_piecewise_linear) return largest_of(force);
+  const double half = 0.5 * (to.front().t - from.front().t);
+  return std::min(largest_of(force), std::max(sum_at(column, from), sum_at(column, to)) + half * largest_of(rate));
 }
 
 double Peaks::sum_at(const Column& column, const std::vector<Point>& points) const {
@@ -129,7 +182,7 @@ double Peaks::value_of(const Column& column) const {
   if (column.stops.size() != 1) return column.largest;
   const Stop& stop = column.stops.front();
   const Range& range = followed_[stop.track].ranges[0];
-  return range.is_empty() ? 0.0 : largest_force(dynamics_.stops(), stop.index, range.least, range.greatest);
+  return range.is_empty() ? 0.0 : largest_of(force_bounds(dynamics_.stops(), stop.index, range.least, range.greatest));
 }
 
 std::map<std::string, double> Peaks::largest() const {

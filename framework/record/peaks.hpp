@@ -15,8 +15,9 @@ namespace butee::record {
 ///
 /// Displacements, velocities and accelerations are recorded as ranges (StepPath). The force of a
 /// single stop on a node is largest where its displacement is. The sum of several is bounded over
-/// an interval by the sum of their largest values; if that exceeds the peak by more than kGoodSum
-/// of it, the interval is halved.
+/// an interval by the sum of their bounds and, for piecewise linear stops, by its values at the ends
+/// and its rate; while that exceeds the peak by more than kGoodSum of it, the interval of the
+/// largest bound is halved.
 class BUTEE_EXPORT Peaks final : public time::Observer {
  public:
   static constexpr double kGoodSum = 1e-6;
@@ -43,23 +44,26 @@ class BUTEE_EXPORT Peaks final : public time::Observer {
     Index index;
     std::size_t track;
     double sign;
+    double stiffness;  ///< when closed, N/m
   };
   /// Derivative `order` of a track, or the sum of `stops`; 0 if there is neither.
   struct Column {
     std::string name;
     std::size_t track, order;
     std::vector<Stop> stops;
-    double largest;  ///< so far, for the sum of several stops
+    double largest;                    ///< so far, for the sum of several stops
+    bool is_piecewise_linear = false;  ///< all stops are
   };
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   std::size_t follow(Index a, Index b, std::size_t order);
   std::vector<Stop> stops_on(model::Quantity quantity, model::NodeId node);
-  /// Updates the column with the sum of several stop forces between two instants, given a point of
-  /// each stop.
-  void follow_sum(const time::AcceptedStep& step, Column& column, const std::vector<Point>& from,
-                  const std::vector<Point>& to, int& halvings);
+  /// Updates the column with the sum of several stop forces between begin_ and end_.
+  void follow_sum(const time::AcceptedStep& step, Column& column);
+  /// An upper bound of the sum's magnitude between two instants, given a point of each stop.
+  double bound_of_sum(const time::AcceptedStep& step, const Column& column, const std::vector<Point>& from,
+                      const std::vector<Point>& to) const;
   double sum_at(const Column& column, const std::vector<Point>& points) const;
   double value_of(const Column& column) const;
 

@@ -267,6 +267,69 @@ stiffness = 80.0
   EXPECT_NEAR(summary["peak"]["ball.contact_force"].get<double>(), fine, 3e-6 * fine);
 }
 
+/// A mass between the ground and another mass on top of it: the forces of its stops have opposite senses, and their sum
+/// is its own inertia and weight.
+TEST(PeaksOfSums, OfOppositeForcesAreInertiaAndWeight) {
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "lower"
+mass = 2.0
+[[element]]
+type = "mass"
+name = "upper"
+mass = 1.5
+[[contact]]
+type = "stop"
+nodes = "lower"
+sides = "negative"
+gap = 0.0
+law = "linear"
+stiffness = 2.0e6
+[[contact]]
+type = "stop"
+between = ["upper", "lower"]
+sides = "negative"
+gap = 0.0
+law = "linear"
+stiffness = 9.0e6
+[[load]]
+node = "upper"
+type = "harmonic"
+amplitude = 10.0
+angular_frequency = 60.0
+[gravity]
+acceleration = [0.0, -9.81, 0.0]
+static = true
+[integrator]
+tolerance = 1e-9
+end_time = 0.05
+[output]
+interval = 1e-5
+[[output.probe]]
+label = "lower"
+node = "lower"
+quantities = ["contact_force", "a"]
+)";
+  for (const std::string method : {"exact", "piecewise", "dopri5"}) {
+    TemporaryFolder folder;
+    folder.write("scene.toml", scene);
+    ASSERT_EQ(
+        run_program({"run", "scene.toml", "-q", "-o", "results", "--set", "integrator.type=" + method}, folder.path())
+            .status,
+        0);
+    const CsvTable history(folder.file("results/history.csv"));
+    double expected = 0.0;
+    for (const double acceleration : history.column("lower.a"))
+      expected = std::max(expected, std::abs(2.0 * (acceleration + 9.81)));
+    const double peak = Json::parse(read_file(folder.file("results/summary.json")))["peak"]["lower.contact_force"];
+    EXPECT_NEAR(peak, expected, 3e-6 * expected) << method;
+    EXPECT_GT(expected, 1.003 * 2.0 * 9.81);
+    EXPECT_GE(peak, largest(history.column("lower.contact_force")));
+  }
+}
+
 /// contact_force belongs to the DOF of the stops; contact_uy and contact_uz tell directions apart.
 TEST(PeaksOfContacts, AreThoseOfStopsAlongAnyDof) {
   const std::string scene = R"(
