@@ -161,7 +161,7 @@ ContactForces Obstacles::forces(Index i, double t, ConstVectorRef x, ConstVector
   if (group.shape != nullptr) {
     result.force -= result.normal * now.approach.normal;
     result.stored = group.law->energy(now.approach.penetration) - contact.rest_energy;
-    if (phase.normal == NormalPhase::released) result.stored = 0.0;
+    result.is_released = phase.normal == NormalPhase::released;
   }
   if (group.friction.rule == Friction::Rule::spring) {
     const double stretched = phase.slip == SlipPhase::stick ? path(i, t, now, phase.angle) - phase.anchor

@@ -49,6 +49,7 @@ struct ContactForces {
   double slip_speed = 0.0;             ///< w, m/s
   double surface = 0.0;                ///< the part of w that is not motion of the nodes, m/s
   double stored = 0.0;                 ///< J, elastic energy in the normal law and a stick spring
+  bool is_released = false;            ///< ContactPhase::Normal::released: no force although g > 0
   Eigen::Vector2d force = {0.0, 0.0};  ///< on node a along its directions, N
 
   /// The forces along Obstacles::Coordinates.

@@ -39,10 +39,10 @@ void find_dofs(const dynamics::Obstacles& obstacles, const std::vector<std::size
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
 }
 
-/// A contact with a dashpot that must not pull ends where its force vanishes, before the bodies separate: in the phase
-/// that follows, force and stored energy are 0.
+/// A contact with a dashpot that must not pull ends where its force vanishes, before the bodies separate. Its stored
+/// energy is dissipated from there on, as the penetration decreases without a force.
 bool is_in_contact(const dynamics::ContactForces& forces) {
-  return forces.penetration > 0.0 && (forces.normal != 0.0 || forces.stored != 0.0);
+  return forces.penetration > 0.0 && !forces.is_released;
 }
 
 }  // namespace
@@ -128,6 +128,7 @@ void ContactRecorder::find_active(const time::State& from, const time::State& to
 }
 
 void ContactRecorder::step(const time::AcceptedStep& step) {
+  ended_.reach(step.to.t);
   const double h = step.to.t - step.from.t;
   duration_ += h;
   find_active(step.from, step.to);
@@ -240,7 +241,10 @@ void ContactRecorder::integrate_part(const time::AcceptedStep& step, double begi
     if (touches || watch.touches) take_force(step, i, end, now.normal);
     const double gained = now.stored - watch.stored;
     wear_[i].dissipated -= gained;
-    watch.current.dissipated -= gained;
+    if (touches || watch.touches)
+      watch.current.dissipated -= gained;
+    else if (gained != 0.0)
+      ended_.add_dissipated(i, -gained);
     watch.stored = now.stored;
     if (touches != watch.touches) changed.push_back(i);
   }

@@ -41,8 +41,7 @@ void take_impact(Impact& impact, ByteReader& from) {
     from.take(*number);
 }
 
-void ImpactList::append(std::vector<Impact>& all, const Impact& impact) {
-  const double end = impact.t_out.value_or(impact.t_in);
+void ImpactList::append(std::vector<Impact>& all, const Impact& impact, double end) {
   // An impact that begins outwards is the rest of the one before, whose force vanished for a moment by rounding.
   const bool is_rest = impact.impact_speed <= 0.0;
   for (auto last = all.rbegin(); last != all.rend(); ++last) {
@@ -62,14 +61,21 @@ void ImpactList::append(std::vector<Impact>& all, const Impact& impact) {
   all.push_back(impact);
 }
 
+void ImpactList::add_dissipated(std::size_t contact, double energy) {
+  const auto last =
+      std::find_if(ended_.rbegin(), ended_.rend(), [&](const Impact& impact) { return impact.contact == contact; });
+  if (last != ended_.rend()) last->dissipated += energy;
+}
+
 std::vector<Impact> ImpactList::with(const std::vector<Impact>& lasting) const {
   std::vector<Impact> all = ended_;
-  for (const Impact& impact : lasting) append(all, impact);
+  for (const Impact& impact : lasting) append(all, impact, std::max(impact.t_in, reached_));
   std::stable_sort(all.begin(), all.end(), [](const Impact& a, const Impact& b) { return a.t_in < b.t_in; });
   return all;
 }
 
 void ImpactList::save(ByteWriter& to) const {
+  to.put(reached_);
   to.put(std::uint64_t{ended_.size()});
   for (const Impact& impact : ended_) {
     to.put(impact.node);
@@ -78,6 +84,7 @@ void ImpactList::save(ByteWriter& to) const {
 }
 
 void ImpactList::restore(ByteReader& from) {
+  from.take(reached_);
   ended_.assign(from.count(kImpactBytes), {});
   for (Impact& impact : ended_) {
     from.take(impact.node);
@@ -127,6 +134,7 @@ void ImpactRecorder::start(const time::State& state) {
 }
 
 void ImpactRecorder::step(const time::AcceptedStep& step) {
+  ended_.reach(step.to.t);
   tracks_.visit(step, [&] {
     for (Watch& watch : watches_)
       follow(watch, tracks_.path(step, watch.track), tracks_.from(watch.track), tracks_.to(watch.track));

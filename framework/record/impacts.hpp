@@ -35,8 +35,12 @@ void take_impact(Impact& impact, ByteReader& from);
 class BUTEE_EXPORT ImpactList {
  public:
   void clear() { ended_.clear(); }
+  /// The motion up to t, s, has been recorded: `lasting` impacts have lasted until then.
+  void reach(double t) { reached_ = t; }
   /// `impact` has ended, after all others of its stop.
-  void add(const Impact& impact) { append(ended_, impact); }
+  void add(const Impact& impact) { append(ended_, impact, *impact.t_out); }
+  /// Energy, J, that the last impact of a contact dissipated after its end, if there was one.
+  void add_dissipated(std::size_t contact, double energy);
   /// With `lasting` impacts, in the order of t_in.
   std::vector<Impact> with(const std::vector<Impact>& lasting) const;
 
@@ -44,9 +48,11 @@ class BUTEE_EXPORT ImpactList {
   void restore(ByteReader& from);
 
  private:
-  static void append(std::vector<Impact>& all, const Impact& impact);
+  /// `end`: that of the impact, or until when it has lasted, s.
+  static void append(std::vector<Impact>& all, const Impact& impact, double end);
 
   std::vector<Impact> ended_;  ///< by t_out
+  double reached_ = 0.0;
 };
 
 /// Records every closing of a stop on the method's dense output: instants by root finding, the

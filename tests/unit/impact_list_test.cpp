@@ -42,6 +42,7 @@ TEST(ImpactList, KeepsShortFlightsAndOtherStopsApart) {
 TEST(ImpactList, JoinsWhatLasts) {
   ImpactList list;
   list.add(impact(0, 1.0, 1.01, 5.0));
+  list.reach(1.02);
   const std::vector<Impact> all =
       list.with({impact(0, 1.01 + 1e-15, std::nullopt, 7.0), impact(1, 0.5, std::nullopt, 1.0)});
   ASSERT_EQ(all.size(), 2U);
@@ -49,6 +50,17 @@ TEST(ImpactList, JoinsWhatLasts) {
   EXPECT_EQ(all[1].contact, 0U);
   EXPECT_FALSE(all[1].t_out);
   EXPECT_EQ(all[1].peak_force, 7.0);
+}
+
+/// The first piece is as short as the gap after it; what follows lasts.
+TEST(ImpactList, JoinsAPieceOfRoundingWithWhatLasts) {
+  ImpactList list;
+  list.add(impact(0, 1.0, 1.0 + 2e-16, 5.0));
+  list.reach(1.01);
+  const std::vector<Impact> all = list.with({impact(0, 1.0 + 4e-16, std::nullopt, 7.0)});
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].t_in, 1.0);
+  EXPECT_FALSE(all[0].t_out);
 }
 
 }  // namespace

@@ -1,10 +1,13 @@
 // Dissipative impacts compared with closed forms of the restitution and of the largest penetration.
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <butee/core/error.hpp>
 #include <butee/core/text.hpp>
 #include <butee/record/contact_recorder.hpp>
+#include <butee/record/energy.hpp>
 #include <butee/record/history.hpp>
 #include <gtest/gtest.h>
 
@@ -358,6 +361,56 @@ TEST(ImpactDamping, TakesNoTinyStepsInASteadyWhirl) {
     const time::RunReport& report = run.run();
     ASSERT_TRUE(report.completed) << report.message;
     EXPECT_LT(report.steps + report.rejected, most) << method;
+  }
+}
+
+/// A constant force presses a mass out of a deep start in a stop by Hunt and Crossley, which is released and pressed
+/// again. While released it dissipates what it stored. The reference integrates k g d g'^2, or k g |g'| without a
+/// force, by rk4 with 2e5 steps.
+TEST(HuntAndCrossley, DissipatesWhileItIsReleased) {
+  constexpr double kStiffness = 4e5, kFactor = 6.0, kGap = 1e-3, kPush = 100.0, kEnd = 0.02;
+  constexpr int kSteps = 200000;
+  using Three = std::array<double, 3>;
+  const auto derivative = [](const Three& y) {
+    const double g = y[0] - kGap, elastic = g > 0.0 ? kStiffness * g : 0.0,
+                 force = std::max(0.0, elastic * (1.0 + kFactor * y[1]));
+    return Three{y[1], kPush - force, (force - elastic) * y[1]};
+  };
+  Three y{2e-3, -0.2, 0.0};
+  for (int i = 0; i < kSteps; ++i) {
+    const double h = kEnd / kSteps;
+    const auto at = [&](const Three& slope, double part) {
+      return Three{y[0] + part * h * slope[0], y[1] + part * h * slope[1], y[2] + part * h * slope[2]};
+    };
+    const Three k1 = derivative(y), k2 = derivative(at(k1, 0.5)), k3 = derivative(at(k2, 0.5)),
+                k4 = derivative(at(k3, 1.0));
+    for (std::size_t j = 0; j < 3; ++j) y[j] += h / 6.0 * (k1[j] + 2.0 * k2[j] + 2.0 * k3[j] + k4[j]);
+  }
+  for (const char* method : {"exact", "exponential", "dopri5", "rodas4"}) {
+    SceneRun run(
+        "schema = 1\n[[element]]\ntype = \"mass\"\nname = \"m\"\nmass = 1.0\n[[contact]]\ntype = \"stop\"\nnodes = "
+        "\"m\"\ngap = 1e-3\nsides = \"positive\"\nstiffness = 4e5\ndamping = { type = \"hunt_crossley\", factor = 6.0 "
+        "}\n[[load]]\ntype = \"constant\"\nnode = \"m\"\nvalue = 100.0\n[initial]\ndisplacement = [{ nodes = \"m\", "
+        "value = 2e-3 }]\nvelocity = [{ nodes = \"m\", value = -0.2 }]\n[integrator]\ntolerance = 1e-9\nend_time = "
+        "0.02\n",
+        {std::string("integrator.type=") + method});
+    record::ContactRecorder contacts(run.dynamics());
+    record::EnergyRecorder energy(run.dynamics(), nullptr, std::nullopt);
+    run.simulation().add(contacts);
+    run.simulation().add(energy);
+    double before = 0.0;
+    run.simulation().start();
+    while (run.simulation().advance()) {
+      EXPECT_GE(energy.dissipated(), before - 1e-9) << method;
+      before = energy.dissipated();
+    }
+    ASSERT_TRUE(run.simulation().report().completed) << method;
+    EXPECT_NEAR(run.simulation().state().x[0], y[0], 1e-8) << method;
+    EXPECT_NEAR(energy.dissipated(), y[2], 1e-6) << method;
+    EXPECT_NEAR(energy.balance_error(), 0.0, 1e-6) << method;
+    EXPECT_NEAR(contacts.wear()[0].dissipated, y[2], 1e-6) << method;
+    ASSERT_FALSE(contacts.impacts().empty());
+    for (const record::Impact& impact : contacts.impacts()) EXPECT_GT(impact.dissipated, 0.0) << method;
   }
 }
 
