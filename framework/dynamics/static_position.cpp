@@ -12,8 +12,10 @@
 namespace butee::dynamics {
 namespace {
 
-constexpr int kMostIterations = 200, kMostHalvings = 40;
+constexpr int kMostIterations = 200, kMostHalvings = 40, kMostDoublings = 40;
 constexpr double kConverged = 1e-12;
+/// The weakest support of bodies that nothing holds, as a part of the stiffness of contacts.
+constexpr double kWeakest = 1e-6;
 /// A point along a step is accepted if the forces do at most this part of their work at its start.
 constexpr double kSufficient = 0.5;
 /// Rounding of the residual, as a part of the sum of the sizes of its terms.
@@ -99,9 +101,8 @@ class Equilibrium {
     return sum;
   }
 
-  /// A diagonal stiffness that is small beside those of the contacts.
-  SparseMatrix weak_support() const {
-    constexpr double kWeak = 1e-6;
+  /// A diagonal stiffness, `part` of those of the contacts.
+  SparseMatrix support(double part) const {
     double stiffest = 0.0;
     if (dynamics_.stop_count() > 0) stiffest = dynamics_.stops().closed_stiffness().maxCoeff();
     if (const Obstacles* obstacles = dynamics_.obstacles())
@@ -109,7 +110,7 @@ class Equilibrium {
     const Vector mass = dynamics_.system().mass.diagonal();
     SparseMatrix support(mass.size(), mass.size());
     support.setIdentity();
-    support.diagonal() = kWeak * stiffest / mass.maxCoeff() * mass;
+    support.diagonal() = part * stiffest / mass.maxCoeff() * mass;
     return support;
   }
 
@@ -145,30 +146,44 @@ Vector static_position(Dynamics& dynamics, double t, const Vector& start) {
     Vector step = r;
     bool solved = solver.factorize(tangent);
     if (solved) solver.solve(step);
-    // Bodies that nothing holds yet: a weak support gives a long step along their loads, and the search along it ends
-    // where a contact holds them.
+    // Bodies that nothing holds yet, or that buckle: a weak support gives a long step along their loads, and the search
+    // along it ends where a contact holds them.
     const bool falls = !solved || !step.allFinite();
-    if (falls) {
-      const SparseMatrix held = tangent + equilibrium.weak_support();
+    solved = !falls;
+    for (double part = kWeakest; !solved && part <= 1.0; part *= 10.0) {
+      const SparseMatrix held = tangent + equilibrium.support(part);
       step = r;
       solved = solver.factorize(held);
       if (solved) solver.solve(step);
+      solved = solved && step.allFinite();
     }
     const auto not_held = [&] {
       return InputError("gravity.static: the scene has no static position: nothing holds " +
                         describe_softest_motion(tangent, system.dofs) +
-                        ", or a preload buckles it; add a support or a spring there, or start without static = true");
+                        ", or a preload buckles it; add a support or a spring there, give a start near it by [initial] "
+                        "displacement, or start without static = true");
     };
-    if (!solved || !step.allFinite()) throw not_held();
+    if (!solved) throw not_held();
     // Along the step the forces do work r.step; where it vanishes, a convex energy is at its lowest.
     const double work = r.dot(step);
-    double low = 0.0, high = 1.0, part = 1.0, next = size;
+    double low = 0.0, high = 1.0, next = size;
     Vector moved = x;
-    bool is_better = false;
-    for (int k = 0; k < kMostHalvings && !is_better; ++k, part = 0.5 * (low + high)) {
+    const auto work_at = [&](double part) {
       moved = x + part * step;
       next = equilibrium.residual(moved, next_r);
-      const double rest = next_r.dot(step);
+      return next_r.dot(step);
+    };
+    if (falls) {
+      for (int k = 0; k < kMostDoublings && work_at(high) * work > 0.0; ++k) {
+        low = high;
+        high *= 2.0;
+      }
+      if (work_at(high) * work > 0.0) throw not_held();
+    }
+    bool is_better = false;
+    double part = high;
+    for (int k = 0; k < kMostHalvings && !is_better; ++k, part = 0.5 * (low + high)) {
+      const double rest = work_at(part);
       is_better = next < size || std::abs(rest) <= kSufficient * std::abs(work);
       (rest * work > 0.0 ? low : high) = part;
     }

@@ -155,5 +155,23 @@ TEST(Gravity, IsRefusedWhereThereIsNone) {
   EXPECT_NE(says(loose).find("nothing holds"), std::string::npos);
 }
 
+/// A preload of 1.5 times the critical one buckles the beam under its weight; it rests on its stops, also if the search
+/// for that position begins with the straight beam.
+TEST(BuckledBeam, RestsOnItsStops) {
+  const std::string beam =
+      "schema = 1\n[material.s]\nyoung_modulus = 2e11\ndensity = 7800.0\n[section.r]\nshape = \"rectangle\"\nwidth = "
+      "0.02\nheight = 0.02\n[[element]]\ntype = \"beam\"\nname = \"b\"\nmaterial = \"s\"\nsection = \"r\"\nlength = "
+      "1.0\nelements = 16\npreload = -39478.4176\n[[support]]\nnodes = [\"b:first\", \"b:last\"]\nfix = "
+      "[\"u\"]\n[gravity]\nacceleration = [0.0, -9.81, 0.0]\nstatic = true\n[integrator]\nend_time = 0.2\n";
+  const std::string scene =
+      beam + "[[contact]]\ntype = \"stop\"\nnodes = \"b:4..12\"\ngap = 0.005\nlaw = \"linear\"\nstiffness = 1e7\n";
+  SceneRun straight(scene);
+  SceneRun near(scene + "[initial]\ndisplacement = [{ nodes = \"b:4..12\", value = -0.0051 }]\n");
+  const Vector &found = straight.system().initial_displacement, &expected = near.system().initial_displacement;
+  EXPECT_LT(found[straight.dof("b:8")], -0.005);
+  EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_THROW(SceneRun{beam}, InputError);
+}
+
 }  // namespace
 }  // namespace butee::test::preload_test
