@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -42,8 +43,9 @@ void print(const record::Summary& summary, const scene::Scene& session, const st
   std::printf("  set-up %s s, integration %s s\n", to_short_text(summary.setup_seconds).c_str(),
               to_short_text(report.wall_seconds).c_str());
   for (const auto& [column, value] : summary.peaks)
-    std::printf("  largest |%s| = %s\n", column.c_str(), to_short_text(value).c_str());
-  if (summary.followed)
+    std::printf("  largest |%s| = %s\n", column.c_str(),
+                std::isfinite(value) ? to_short_text(value).c_str() : "beyond the range of numbers");
+  if (summary.followed && std::isfinite(summary.followed->balance_error))
     std::printf("  energy balance error %s\n", to_short_text(summary.followed->balance_error).c_str());
   if (summary.trust) std::fputs(record::describe(*summary.trust).c_str(), stdout);
   std::printf("  results in %s\n", folder.c_str());

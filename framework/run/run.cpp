@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <new>
 #include <numbers>
@@ -158,6 +159,7 @@ void Run::summarize() {
   summary_.energy = record::energy_of(assembly_.simulation.state(), assembly_.dynamics);
   if (energy_) summary_.followed = {energy_->work(), energy_->dissipated(), energy_->balance_error()};
   look_at_slips();
+  look_at_balance();
   look_at_loads();
   look_at_stability();
   look_at_rows();
@@ -174,6 +176,17 @@ void Run::look_at_loads() {
   const auto& options = scene_.integrator.options;
   const std::string complaint = complaint_of_loads(assembly_.system, options.time_step, options.end_time);
   if (!complaint.empty()) summary_.report.warnings.push_back(complaint);
+}
+
+void Run::look_at_balance() {
+  constexpr double kOutOfBalance = 1e-2;  // of the largest energy (chosen)
+  if (!summary_.followed || !summary_.report.completed) return;
+  const double error = summary_.followed->balance_error;
+  if (std::abs(error) > kOutOfBalance)
+    summary_.report.warnings.push_back(
+        "the energy balance is wrong by " + to_short_text(std::abs(error)) +
+        " times the largest energy, and so are the work and the dissipated energy: steps of " + scene_.integrator.name +
+        " do not resolve all motion with power. Take shorter steps, or a method with error control, such as auto");
 }
 
 void Run::look_at_stability() {

@@ -65,6 +65,7 @@ class BUTEE_EXPORT Run {
   /// Warns if the tolerance does not resolve the sense of friction.
   void look_at_slips();
   /// Warns of loads that change faster than fixed steps.
+  void look_at_balance();
   void look_at_loads();
   /// Warns if fixed steps of a small system were longer than the critical one.
   void look_at_stability();

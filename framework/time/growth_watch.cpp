@@ -216,7 +216,10 @@ std::string GrowthWatch::describe(const State& state, double h) const {
               ? to_short_text(last_energy_) + " J, at least " + to_short_text(std::exp(excess_)) +
                     " times the energy possible with these loads"
               : "a value beyond the range of numbers") +
-         ". It moves fastest in " + fastest_dof(dynamics_, state) + ". " + describe_remedy(dynamics_, limits_, h);
+         ". It moves fastest in " + fastest_dof(dynamics_, state) + ". " +
+         (limits_.keeps_tolerance && !std::isfinite(last_energy_)
+              ? "Loads or the initial motion are too large: check their units"
+              : describe_remedy(dynamics_, limits_, h));
 }
 
 void GrowthWatch::note_coarseness(const State& from, const State& to, double h) {
