@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <random>
+#include <thread>
 
 #include <butee/core/text.hpp>
 #include <butee/version.hpp>
@@ -175,6 +176,18 @@ TEST_F(Checkpointed, ASignalEndsARunAfterItsStep) {
     EXPECT_TRUE(fs::exists(folder_.file("broken/checkpoint.bin")));
     EXPECT_TRUE(fs::exists(folder_.file("broken/impacts.csv")));
   }
+}
+
+/// `timeout` signals the program and then its group: twice within microseconds.
+TEST_F(Checkpointed, TwoSignalsAtOnceAreOne) {
+  folder_.write("scene.toml", scene_of(kMethod, 100.0, 50));
+  Process process({"run", "scene.toml", "-o", "broken", "-q"}, folder_.path());
+  while (!fs::exists(folder_.file("broken/checkpoint-before.bin")) && !process.ends_within(1ms)) continue;
+  process.send(SIGTERM);
+  std::this_thread::sleep_for(20us);
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 1);
+  EXPECT_EQ(summary()["status"], "failed");
 }
 
 /// The results of another version are kept as they are.
