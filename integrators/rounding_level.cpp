@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "integrators/magnitudes.hpp"
+
 namespace butee::integrators {
 namespace {
 
@@ -15,14 +17,6 @@ constexpr double kRoundingOfStep = 1e-15;
 /// With explicit methods, errors of that size are rounding in steps below this part of 1/rate; in longer ones they may
 /// be the growth at a limit of stability.
 constexpr double kShortStep = 0.1;
-
-/// sums_i += factor sum_j |A_ij| y_j
-void add_magnitudes(const SparseMatrix& matrix, double factor, ConstVectorRef y, Vector& sums) {
-  if (factor == 0.0) return;
-  for (Index j = 0; j < matrix.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry)
-      sums[entry.row()] += factor * std::abs(entry.value()) * y[j];
-}
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <butee/core/blocks.hpp>
 #include <butee/core/zeros.hpp>
 
+#include "integrators/magnitudes.hpp"
+
 namespace butee::integrators {
 
 using time::StepReport;
@@ -25,6 +27,8 @@ StageSolver::StageSolver(dynamics::Dynamics& dynamics, NewtonOptions options) : 
   load_ = zeros(dynamics.size());
   residual_ = zeros(dynamics.size());
   stop_displacement_ = stop_force_ = stop_tangent_ = Vector::Zero(dynamics.stop_count());
+  stop_stiffness_ = dynamics.stops().closed_stiffness();
+  magnitudes_ = zeros(dynamics.size());
 }
 
 StepReport StageSolver::solve(double t, double velocity_factor, double displacement_factor, VectorRef x, VectorRef v,
@@ -45,10 +49,10 @@ StepReport StageSolver::solve(double t, double velocity_factor, double displacem
       report.status = StepStatus::not_finite;
       return report;
     }
-    const bool is_balanced = balance.residual() <= options_.residual_tolerance * scale ||
-                             (!first && is_rounding(x, v, a, balance.residual()));
-    if (is_balanced && (first || displacement_factor * last.correction <= options_.increment_tolerance * last.x))
-      return report;
+    if (first || displacement_factor * last.correction <= options_.increment_tolerance * last.x) {
+      const double residual = balance.residual();
+      if (residual <= options_.residual_tolerance * scale || (!first && is_rounding(x, v, a, residual))) return report;
+    }
     if (report.newton_iterations == options_.max_iterations) break;
     if (!first && has_stops) contact(stop_displacement_, true, stop_force_, stop_tangent_);
     if (!effective.solve(stop_tangent_, residual_)) {
@@ -65,15 +69,16 @@ StepReport StageSolver::solve(double t, double velocity_factor, double displacem
   return report;
 }
 
-bool StageSolver::is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double residual) const {
+bool StageSolver::is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double residual) {
   const model::System& system = dynamics_.system();
   const model::Damping& damping = system.damping;
-  Vector sizes = load_.cwiseAbs();
-  sizes += system.mass.cwiseAbs() * (a.cwiseAbs() + damping.mass_proportional * v.cwiseAbs());
-  sizes += system.stiffness.cwiseAbs() * (x.cwiseAbs() + damping.stiffness_proportional * v.cwiseAbs());
-  if (system.dashpots.nonZeros() > 0) sizes += system.dashpots.cwiseAbs() * v.cwiseAbs();
+  magnitudes_ = load_.cwiseAbs();
+  add_magnitudes(system.mass, 1.0, a, magnitudes_);
+  add_magnitudes(system.mass, damping.mass_proportional, v, magnitudes_);
+  add_magnitudes(system.stiffness, 1.0, x, magnitudes_);
+  add_magnitudes(system.stiffness, damping.stiffness_proportional, v, magnitudes_);
+  add_magnitudes(system.dashpots, 1.0, v, magnitudes_);
   const dynamics::ElasticStops& stops = dynamics_.stops();
-  const Vector closed = stops.closed_stiffness();
   for (Index i = 0; i < stops.size(); ++i) {
     if (stop_force_[i] == 0.0) continue;
     const Index ends[] = {stops.dof_a(i), stops.dof_b(i)};
@@ -81,9 +86,9 @@ bool StageSolver::is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef
     for (const Index dof : ends)
       if (dof >= 0) displacement += std::abs(x[dof]);
     for (const Index dof : ends)
-      if (dof >= 0) sizes[dof] += closed[i] * displacement;
+      if (dof >= 0) magnitudes_[dof] += stop_stiffness_[i] * displacement;
   }
-  return residual <= kRounding * sizes.norm();
+  return residual <= kRounding * magnitudes_.norm();
 }
 
 StageSolver::Change StageSolver::add_correction(double velocity_factor, double displacement_factor, VectorRef x,

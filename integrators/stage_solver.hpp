@@ -45,13 +45,14 @@ class StageSolver {
   /// Adds the solution in residual_ to a, and to v and x with their factors.
   Change add_correction(double velocity_factor, double displacement_factor, VectorRef x, VectorRef v, VectorRef a);
   /// Whether a residual is but rounding of the forces in balance.
-  bool is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double residual) const;
+  bool is_rounding(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, double residual);
   linalg::ForceBalance evaluate_residual(ConstVectorRef x, ConstVectorRef v, ConstVectorRef a, bool with_tangent);
 
   dynamics::Dynamics& dynamics_;
   NewtonOptions options_;
   Vector load_, residual_;
-  Vector stop_displacement_, stop_force_, stop_tangent_;
+  Vector stop_displacement_, stop_force_, stop_tangent_, stop_stiffness_;
+  Vector magnitudes_;
 };
 
 }  // namespace butee::integrators

@@ -43,22 +43,25 @@ TEST(StreamedPoints, EndIfRowsCannotBeWrittenWhileTheSenderWaits) {
                "collect = [\"peak m.u\"]\n");
   const study::Study study = study::load_study(folder.file("study.toml"));
   for (const int threads : {1, 3}) {
+    using Clock = std::chrono::steady_clock;
     int given = 0;
-    bool was_told = false;
+    std::atomic<bool> is_waiting = false, was_told = false;
+    const auto wait_for = [](const auto& condition) {
+      for (const auto limit = Clock::now() + std::chrono::seconds(20); Clock::now() < limit && !condition();)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
     const auto next = [&](std::string& line, const std::function<bool()>& is_wanted) {
       line = "0.5";
       if (given++ == 0) return true;
-      using Clock = std::chrono::steady_clock;
-      for (const auto limit = Clock::now() + std::chrono::seconds(20); Clock::now() < limit && !was_told;) {
-        was_told = !is_wanted();
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      }
+      is_waiting = true;
+      wait_for([&] { return was_told = !is_wanted(); });
       return false;
     };
     std::atomic<int> written = 0;
     const auto respond = [&](const std::string& row) {
       if (written++ == 0) return;  // the header
       EXPECT_NE(row.find(",completed,"), std::string::npos) << row;
+      wait_for([&] { return is_waiting.load(); });
       throw RunError("the results cannot be written");
     };
     EXPECT_THROW(study::answer(study, streamed_layout(study), threads, {next, respond, {}}), RunError);
