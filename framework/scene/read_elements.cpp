@@ -120,7 +120,7 @@ std::optional<SceneReader::PendingElement> SceneReader::read_element(const Value
   const auto coordinates = type.nodes(*parameters, diagnostics_);
   const bool named = parameters->has("name");
   if (named && !is_plain_name(parameters->text("name")))
-    parameters->complain(diagnostics_, "name", "a name is made of letters, digits, _ and -");
+    parameters->complain(diagnostics_, "name", "must be made of A to Z, a to z, digits, _ and -");
   if (!named && coordinates)
     diagnostics_.error(path + ".name", entry.at, "missing; give the name by which its nodes are selected");
   const auto same_name = [&](const auto& other) { return named && other == parameters->text("name"); };

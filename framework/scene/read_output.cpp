@@ -132,24 +132,30 @@ class OutputReader {
     for (std::size_t i = 0; i < list.array()->size(); ++i) {
       const auto p = read_parameters(
           (*list.array())[i], "output.probe[" + std::to_string(i) + "]",
-          {config::text("label", "the name of its columns"), config::text("node", "the node"),
+          {config::text("label", "the name of its columns; default: the node, with - instead of :").optional(),
+           config::text("node", "the node"),
            config::texts("quantities", "the recorded quantities").one_of(model::probe_quantities()),
            config::text("element", "the beam or spring whose forces are recorded, if the node has several").optional()},
           diagnostics_);
       if (!p) continue;
-      const std::string& label = p->text("label");
-      if (!is_plain_name(label)) p->complain(diagnostics_, "label", "is made of letters, digits, _ and -");
-      if (!labels_.insert(label).second)
-        p->complain(diagnostics_, "label", "is taken by another probe; labels are unique");
+      const std::string label = p->has("label") ? p->text("label") : label_of(p->text("node"));
+      if (p->has("label") && !is_plain_name(label))
+        p->complain(diagnostics_, "label", "must be made of A to Z, a to z, digits, _ and -");
+      if (!labels_.insert(label).second) {
+        if (p->has("label"))
+          p->complain(diagnostics_, "label", "is taken by another probe; labels are unique");
+        else
+          p->complain(diagnostics_, "node", "has another probe of that name; give this one a label");
+      }
       if (p->texts("quantities").empty()) p->complain(diagnostics_, "quantities", "must name at least one quantity");
-      read_probe_node(*p, request);
+      read_probe_node(*p, label, request);
     }
   }
 
-  void read_probe_node(const Parameters& p, model::OutputRequest& request) {
+  void read_probe_node(const Parameters& p, const std::string& label, model::OutputRequest& request) {
     const auto node = read_node(model_.nodes, p, "node", diagnostics_);
     if (!node) return;
-    model::ProbeRequest probe{p.text("label"), *node, {}, p.has("element") ? p.text("element") : ""};
+    model::ProbeRequest probe{label, *node, {}, p.has("element") ? p.text("element") : ""};
     if (complete_ && !dofs_) dofs_ = number_dofs(model_);
     for (const std::string& name : p.texts("quantities")) {
       const model::Quantity quantity = model::quantity_of(name);

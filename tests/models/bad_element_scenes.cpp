@@ -83,7 +83,7 @@ std::vector<BadScene> bad_element_scenes() {
        {"element[2].name = \"rotor\": is taken by another element; names are unique"}},
       {"name of bad characters",
        {{"name = \"bearing\"", "name = \"the bearing\" #!"}},
-       {"element[2].name = \"the bearing\": a name is made of letters, digits, _ and -"}},
+       {"element[2].name = \"the bearing\": must be made of A to Z, a to z, digits, _ and -"}},
       {"a billion billion elements",
        {{"elements = 4", "elements = 1000000000000 #!"}},
        {"element[0].elements = 1000000000000: must be >= 1 and <= 5e+06"}},

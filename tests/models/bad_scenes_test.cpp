@@ -197,7 +197,7 @@ TEST(GoodScenes, NearTheBorderAreAccepted) {
     EXPECT_EQ(join(messages_of(edited(scene.edits), scene.overrides), "\n"), "");
     ++scenes;
   }
-  EXPECT_EQ(scenes, 34U);
+  EXPECT_EQ(scenes, 35U);
 }
 
 }  // namespace

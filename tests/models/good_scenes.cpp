@@ -85,6 +85,7 @@ std::vector<GoodScene> good_scenes() {
       {"probe of one quantity on a fixed node",
        {{"node = \"string:middle\"", "node = \"string:first\""},
         {"quantities = [\"u\", \"v\"]", "quantities = \"contact_force\""}}},
+      {"a probe named after its node", {{"label = \"mid\"", ""}}},
       {"overrides of all kinds",
        {},
        {"integrator.type=NMM1", "contact[0].gap=0", "output.probe[0].label=\"a-b_1\"", "initial.velocity=[]",

@@ -250,7 +250,7 @@ std::string output_text(const plugin::Catalogue&) {
   fields           {nodes, quantities, interval} of such fields, if not all of them are needed
 
   [[output.probe]]
-  label        the name of its columns: label.u, label.v, ...
+  label        the name of its columns, label.u, label.v, ...                      (the node: string-middle)
   node         a selector of one node
   element      for section and spring forces: the beam or spring, if the node has several; "string:17" is the element
                of `string` between its nodes 17 and 18
