@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/SparseCholesky>
@@ -10,6 +11,7 @@
 #include "butee/core/memory.hpp"
 #include "butee/core/text.hpp"
 #include "butee/dynamics/elastic_stops.hpp"
+#include "butee/dynamics/slow_modes.hpp"
 #include "butee/linalg/dense_pairs.hpp"
 #include "butee/linalg/lanczos.hpp"
 
@@ -25,8 +27,10 @@ constexpr int kLanczosVectors = 30;
 constexpr int kLanczosRestarts = 200;
 /// Tolerance of mode shapes, which enter the damping matrix directly.
 constexpr double kShapeTolerance = 1e-12;
-/// An eigenvalue below this fraction of the highest is rounding: some hundred units of it.
-constexpr double kRigid = 1e-13;
+/// Eigenvalues below this fraction of the highest are not counted: they may be rounding.
+constexpr double kCountable = 1e-13;
+/// A mode is rigid motion if its eigenvalue is below this part of the sum of the magnitudes in phi^T K phi.
+constexpr double kRigid = 16.0 * std::numeric_limits<double>::epsilon();
 /// The position between two eigenvalues at which they are counted, relative to the larger.
 constexpr double kCountedBelow = 1e-6;
 
@@ -82,15 +86,38 @@ Index count_below(const SparseMatrix& stiffness, const SparseMatrix& mass, doubl
 /// Lanczos may miss one of several equal eigenvalues; counts them to check.
 bool is_complete(const SparseMatrix& stiffness, const SparseMatrix& mass, const Vector& values, double highest) {
   const double last = values[values.size() - 1];
-  if (last <= kRigid * highest) return true;
+  if (last <= kCountable * highest) return true;
   const double limit = (1.0 - kCountedBelow) * last;
   return count_below(stiffness, mass, limit) == (values.array() < limit).count();
 }
 
-Modes modes_of(const linalg::Pairs& pairs, double highest) {
-  if (pairs.values.size() > 0) require_no_growth(pairs.values[0], highest);
-  const Vector values = (pairs.values.array() > kRigid * highest).select(pairs.values, 0.0);
-  return {values.cwiseSqrt(), pairs.vectors};
+/// The eigenvalues have the rounding of the highest one. Those of modes far below it are found again in the span of
+/// their shapes, which has the rounding of the entries of K, and so on for modes far below the highest of these. False
+/// if the eigenvalues were not found.
+bool refine_soft_modes(const SparseMatrix& stiffness, double highest, linalg::Pairs& pairs) {
+  for (Index soft = count_soft(pairs.values, highest); soft > 0; soft = count_soft(pairs.values.head(soft), highest)) {
+    const auto turned =
+        linalg::dense_pairs(soft_stiffness(soft, std::numeric_limits<double>::infinity(), stiffness, pairs.vectors));
+    if (!turned) return false;
+    pairs.values.head(soft) = turned->values;
+    pairs.vectors.leftCols(soft) *= turned->vectors;
+    highest = pairs.values[soft - 1];
+    if (!(highest > 0.0)) break;
+  }
+  return true;
+}
+
+std::optional<Modes> modes_of(const SparseMatrix& stiffness, linalg::Pairs pairs, double highest) {
+  const Index soft = count_soft(pairs.values, highest);
+  if (!refine_soft_modes(stiffness, highest, pairs)) return std::nullopt;
+  const Eigen::MatrixXd sizes = pairs.vectors.leftCols(soft).cwiseAbs(), forces = stiffness.cwiseAbs() * sizes;
+  for (Index i = 0; i < soft; ++i) {
+    double& value = pairs.values[i];
+    const double rounding = kRigid * sizes.col(i).dot(forces.col(i));
+    if (value < -rounding) require_no_growth(value, 0.0);
+    if (value <= rounding) value = 0.0;
+  }
+  return Modes{pairs.values.cwiseSqrt(), std::move(pairs.vectors)};
 }
 
 /// The solvers read only one half of a matrix.
@@ -102,7 +129,9 @@ SparseMatrix even_stiffness(const model::System& system) {
 std::optional<Modes> dense_modes(const SparseMatrix& stiffness, const SparseMatrix& mass, Index count) {
   const auto pairs = linalg::dense_pairs(stiffness, mass);
   if (!pairs) return std::nullopt;
-  return modes_of({pairs->values.head(count), pairs->vectors.leftCols(count)}, pairs->values.maxCoeff());
+  auto modes = modes_of(stiffness, *pairs, pairs->values.maxCoeff());
+  if (modes && count < stiffness.rows()) modes = Modes{modes->frequencies.head(count), modes->shapes.leftCols(count)};
+  return modes;
 }
 
 /// Adds S^T block(group) S for each obstacle.
@@ -237,7 +266,7 @@ std::optional<Modes> lowest_modes(const model::System& system, Index count) {
   if (!highest) return std::nullopt;
   const auto pairs = lowest_pairs(stiffness, system.mass, *highest, count, kShapeTolerance);
   if (!pairs || !is_complete(stiffness, system.mass, pairs->values, *highest)) return std::nullopt;
-  return modes_of(*pairs, *highest);
+  return modes_of(stiffness, *pairs, *highest);
 }
 
 }  // namespace butee::dynamics

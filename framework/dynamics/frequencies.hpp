@@ -40,8 +40,8 @@ struct Modes {
 /// modes; otherwise Lanczos with a count of the eigenvalues below the last one. Nothing if Lanczos
 /// did not converge or missed a mode.
 ///
-/// If omega_i is below 3e-7 of the highest frequency, rounding cannot distinguish it from rigid
-/// motion: it is set to zero. Of a stiffness that is not symmetric the symmetric part counts. Throws InputError as
+/// omega_i^2 is accurate to rounding of the entries of K; if that cannot distinguish it from rigid motion, omega_i is
+/// zero. Of a stiffness that is not symmetric the symmetric part counts. Throws InputError as
 /// require_no_growth().
 BUTEE_EXPORT std::optional<Modes> lowest_modes(const model::System& system, Index count);
 

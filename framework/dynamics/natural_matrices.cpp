@@ -56,7 +56,7 @@ NaturalMatrices natural_matrices(Dynamics& dynamics, double speed, double run_ti
     stiffness.noalias() = shapes.transpose() * (odd * shapes);
     clear_rounding(odd.cwiseAbs(), shapes, stiffness);
   }
-  const Index soft = std::max(rigid, count_soft(natural->values));
+  const Index soft = std::max(rigid, count_soft(natural->values, natural->values[n - 1]));
   stiffness.topLeftCorner(soft, soft) += soft_stiffness(soft, run_time, even, shapes);
   // Values below 0 are rounding, or those of a structure that is unstable without damping and bearings.
   const double rounding = kRoundingOfSquares * std::abs(natural->values[n - 1]);

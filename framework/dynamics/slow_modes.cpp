@@ -40,9 +40,9 @@ bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen
   return true;
 }
 
-Index count_soft(const Vector& squares) {
+Index count_soft(ConstVectorRef squares, double highest) {
   constexpr double kSoft = 1e-6;
-  return std::upper_bound(squares.begin(), squares.end(), kSoft * squares[squares.size() - 1]) - squares.begin();
+  return std::upper_bound(squares.begin(), squares.end(), kSoft * highest) - squares.begin();
 }
 
 Eigen::MatrixXd soft_stiffness(Index count, double run_time, const SparseMatrix& stiffness,

@@ -20,9 +20,9 @@ Index count_rigid(const Vector& squares, double run_time);
 /// it does not act within `run_time` seconds. False if nothing couples the shapes.
 bool separate_rigid(Index count, double run_time, Eigen::MatrixXd& shapes, Eigen::MatrixXd& damping);
 
-/// The number of modes whose omega^2 the rounding of the eigenvalues beside the highest one leaves with less than nine
-/// digits.
-Index count_soft(const Vector& squares);
+/// The number of modes whose omega^2 the rounding of the eigenvalues beside the `highest` one leaves with less than
+/// nine digits.
+Index count_soft(ConstVectorRef squares, double highest);
 
 /// S^T K S of the first `count` shapes S, those of rigid and soft motion, to rounding of the entries of K. The
 /// eigenvalues and shapes alone have the rounding of the highest eigenvalue, which would turn shapes of similar
