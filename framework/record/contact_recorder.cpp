@@ -113,15 +113,19 @@ const ContactRecorder::Forces& ContactRecorder::at(const time::AcceptedStep& ste
   return forces_;
 }
 
-void ContactRecorder::find_active(const time::State& from, const time::State& to) {
+void ContactRecorder::find_active(const time::AcceptedStep& step) {
   const dynamics::Obstacles& obstacles = *dynamics_.obstacles();
+  const time::State &from = step.from, &to = step.to;
+  // A step of several parts may go anywhere between slow ends.
+  const bool may_touch_any = obstacles.is_live() && step.motion.trace_parts() > 1;
   active_.clear();
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     const auto contact = static_cast<Index>(i);
-    const bool can_touch = obstacles.is_live()
-                               ? obstacles.may_touch(contact, obstacles.motion(contact, from.x, from.v),
-                                                     obstacles.motion(contact, to.x, to.v), to.t - from.t)
-                               : obstacles.phase(contact).normal != dynamics::ContactPhase::Normal::apart;
+    const bool can_touch =
+        may_touch_any ||
+        (obstacles.is_live() ? obstacles.may_touch(contact, obstacles.motion(contact, from.x, from.v),
+                                                   obstacles.motion(contact, to.x, to.v), to.t - from.t)
+                             : obstacles.phase(contact).normal != dynamics::ContactPhase::Normal::apart);
     if (can_touch || watches_[i].is_support || watches_[i].touches) active_.push_back(i);
   }
   if (!obstacles.has_rigid_friction()) find_dofs(obstacles, active_, dofs_);
@@ -131,7 +135,7 @@ void ContactRecorder::step(const time::AcceptedStep& step) {
   ended_.reach(step.to.t);
   const double h = step.to.t - step.from.t;
   duration_ += h;
-  find_active(step.from, step.to);
+  find_active(step);
   if (active_.empty()) return;
   take(at(step, step.from.t), now_);
   for (const std::size_t i : active_) {

@@ -55,7 +55,7 @@ class BUTEE_EXPORT ContactRecorder final : public time::Observer {
   /// The forces of the contacts in active_ at an instant of a step; other entries are outdated.
   const Forces& at(const time::AcceptedStep& step, double t);
   /// Finds the contacts that may exert a force within a step; with given phases those that touch.
-  void find_active(const time::State& from, const time::State& to);
+  void find_active(const time::AcceptedStep& step);
   /// Copies the forces of the contacts in active_.
   void take(const Forces& forces, Forces& to) const;
   /// Calls integrate() for kParts equal parts.

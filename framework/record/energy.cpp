@@ -149,8 +149,10 @@ void EnergyRecorder::step(const time::AcceptedStep& step) {
 }
 
 bool EnergyRecorder::uses_gauss(const time::AcceptedStep& step) const {
-  // Contact forces may jump at the ends of pieces; steps of near_quintic motion span many pieces.
-  return dynamics_.obstacles() != nullptr || step.motion.interpolation() == time::Interpolation::near_quintic;
+  // Contact forces may jump at the ends of pieces. The power of v C v along a quintic is of degree 8.
+  const time::Interpolation kind = step.motion.interpolation();
+  return dynamics_.obstacles() != nullptr || kind == time::Interpolation::quintic ||
+         kind == time::Interpolation::near_quintic;
 }
 
 const std::vector<double>& EnergyRecorder::ends_of_pieces(const time::AcceptedStep& step) {
@@ -178,6 +180,7 @@ void EnergyRecorder::look_within(const time::AcceptedStep& step, double t) {
   state.x = std::move(x);
   state.v = std::move(v);
   now_ = energy_of(state, dynamics_, base_);
+  largest_ = std::max(largest_, now_.size());
 }
 
 EnergyRecorder::Power EnergyRecorder::power_within(const time::AcceptedStep& step, double t) {

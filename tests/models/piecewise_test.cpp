@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <butee/record/contact_recorder.hpp>
+#include <gtest/gtest.h>
 
 #include "models/piecewise_scenes.hpp"
 #include "support/scene_run.hpp"
@@ -237,6 +237,52 @@ end_time = 0.017
   EXPECT_TRUE(report.completed) << report.message;
   const time::State& state = run.simulation().state();
   EXPECT_LT(std::abs(state.x[run.dof("b:1")]), 1e-12 * state.x.lpNorm<Eigen::Infinity>());
+}
+
+/// Steps of piecewise may span a run at whose ends the body is slow and far from its stop.
+TEST(Piecewise, RecordsTheImpactsOfALongStep) {
+  const std::string scene = R"(
+schema = 1
+[[element]]
+type = "mass"
+name = "m"
+mass = 1.0
+[[element]]
+type = "spring"
+node = "m"
+stiffness = 1000.0
+damping = 6.0
+[[load]]
+type = "table"
+node = "m"
+times = [0.0, 0.05, 0.1]
+values = [0.0, 20.0, 0.0]
+[[contact]]
+type = "stop"
+nodes = "m"
+gap = 5e-3
+law = "linear"
+stiffness = 1e6
+damping = { type = "kelvin_voigt", coefficient = 200.0 }
+[integrator]
+end_time = 3.0
+)";
+  const auto impacts = [&](const std::string& method) {
+    SceneRun run(scene, {"integrator.type=" + method});
+    record::ContactRecorder recorder(run.dynamics());
+    run.simulation().add(recorder);
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    return recorder.impacts();
+  };
+  const std::vector<record::Impact> found = impacts("piecewise"), expected = impacts("exact");
+  ASSERT_EQ(expected.size(), 2U);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i].t_in, expected[i].t_in, 1e-11);
+    EXPECT_NEAR(found[i].t_out.value(), expected[i].t_out.value(), 1e-11);
+    EXPECT_NEAR(found[i].peak_force, expected[i].peak_force, 1e-6 * expected[i].peak_force);
+    EXPECT_NEAR(found[i].dissipated, expected[i].dissipated, 1e-7 * expected[i].dissipated);
+  }
 }
 
 }  // namespace

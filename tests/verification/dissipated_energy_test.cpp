@@ -1,5 +1,7 @@
 // The energy that dashpots take, where it is lost within a small part of a step or beside rigid motion.
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include <butee/record/energy.hpp>
 #include <gtest/gtest.h>
@@ -102,6 +104,30 @@ TEST(Energies, PassARowBesideAKinkOfALoad) {
   run.simulation().add(energy);
   ASSERT_TRUE(run.run().completed) << run.simulation().report().message;
   EXPECT_NEAR(energy.balance_error(), 0.0, 1e-9);
+}
+
+/// Long steps of a method of high order: the energies between rows far apart are as accurate as the motion.
+TEST(Dissipated, EnergyOfLongSmoothStepsDoesNotDependOnTheRows) {
+  const std::string scene =
+      mass_on_spring("579.0",
+                     "[[element]]\ntype = \"spring\"\nnode = \"m\"\nstiffness = 0.0\ndamping = 18.6\n[[load]]\nnode = "
+                     "\"m\"\ntype = \"table\"\ntimes = [0.0, 0.03, 0.06, 0.2, 0.22]\nvalues = [0.0, 30.0, 0.0, 0.0, "
+                     "-30.0]\n[output]\ninterval = 0.3\n");
+  const auto followed = [&](const std::string& method) {
+    SceneRun run(scene, {"integrator.type=" + method, "integrator.tolerance=1e-9", "integrator.end_time=0.6"});
+    record::EnergyRecorder energy(run.dynamics(), nullptr, std::nullopt);
+    run.simulation().add(energy);
+    EXPECT_TRUE(run.run().completed) << run.simulation().report().message;
+    return std::array{energy.work(), energy.dissipated(), energy.balance_error()};
+  };
+  const auto expected = followed("exact");
+  EXPECT_NEAR(expected[2], 0.0, 1e-12);
+  for (const std::string method : {"extrapolation8", "dopri5", "rodas4"}) {
+    const auto found = followed(method);
+    EXPECT_NEAR(found[0], expected[0], 1e-7 * expected[0]) << method;
+    EXPECT_NEAR(found[1], expected[1], 1e-7 * expected[1]) << method;
+    EXPECT_NEAR(found[2], 0.0, 1e-7) << method;
+  }
 }
 
 /// Newmark's velocity of an unresolved mode changes its sign at every step; the energies between steps are then wrong.
